@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pairs of odd places that a lightest perfect matching may use, and the shortest paths between
- * them. Internal to lp/.
+/* Finds candidate pairs of odd places for a minimum-weight perfect matching, and the lengths of
+ * paths between them. All pairs would be too many, and a minimum matching hardly ever has a pair of
+ * distant places; pricing (moat.c) finds any other pair that is needed.
  *
- * For every odd place the nearest others by a truncated Dijkstra search; every two whose cells of
- * the Voronoi diagram touch (an edge between the cells gives the path); and the edges of a spanning
- * tree of these, so that all can be paired.
+ * Candidates are, for every odd place, the nearest other ones, by a Dijkstra search that stops
+ * early; every two odd places whose cells of the Voronoi diagram touch, as an edge between the
+ * cells closes a path; and pairs along a minimum spanning tree of these, so that a perfect matching
+ * of candidates exists.
  *
- * Example: odd places at 0, 1, 5 and 6 of a line are candidates (0, 1), (1, 5) and (5, 6); (0, 6)
- * is not, and pricing (lp/matching/moat.c) shows that it is not needed. */
+ * Example: of odd places at 0, 1, 5 and 6 on a line the Voronoi diagram gives the candidates (0,
+ * 1), (1, 5) and (5, 6). (0, 6) is none of them, and pricing shows that the pair is not needed. */
 #include "lp/matching/blossom_parts.h"
 #include "graph/disjoint.h"
 
@@ -18,6 +20,7 @@
 
 thr_status thr_pairs_add(thr_pairs *pairs, int i, int j, int64_t weight, thr_err *err)
 {
+  /* Grow both arrays to the same capacity. */
   if (pairs->count == pairs->capacity) {
     int capacity = pairs->capacity;
     thr_status st = thr_grow(&pairs->end, pairs->count, &capacity, sizeof *pairs->end, err);
@@ -27,6 +30,7 @@ thr_status thr_pairs_add(thr_pairs *pairs, int i, int j, int64_t weight, thr_err
     pairs->weight = grown;
     pairs->capacity = capacity;
   }
+
   pairs->end[pairs->count][0] = i < j ? i : j;
   pairs->end[pairs->count][1] = i < j ? j : i;
   pairs->weight[pairs->count++] = weight;
@@ -40,12 +44,13 @@ void thr_pairs_destroy(thr_pairs *pairs)
   *pairs = (thr_pairs){0};
 }
 
+/* A candidate, or an edge of the graph whose nodes are the odd places. */
 typedef struct {
   int end[2];
   int64_t weight;
 } pair;
 
-/* Stable, by one of the two ends. start[n_odd + 1] is scratch space. */
+/* Sorts pairs by one of their ends, stably (a counting sort). start[n_odd + 1] is scratch space. */
 static void sort_by_end(const pair *from, pair *to, int n, int side, int *start, int n_odd)
 {
   memset(start, 0, ((size_t)n_odd + 1) * sizeof *start);
@@ -61,21 +66,27 @@ thr_status thr_pairs_tidy(thr_pairs *pairs, int from, int n_odd, thr_err *err)
 {
   thr_scratch own = {0};
   int n = pairs->count - from;
-  pair *a = thr_scratch_array(&own, (size_t)n, sizeof *a),
-       *b = thr_scratch_array(&own, (size_t)n, sizeof *b);
+  pair *sorted = thr_scratch_array(&own, (size_t)n, sizeof *sorted),
+       *by_second = thr_scratch_array(&own, (size_t)n, sizeof *by_second);
   int *start = thr_scratch_array(&own, (size_t)n_odd + 1, sizeof *start);
   thr_status st = thr_scratch_check(&own, err);
   if (st) goto done;
+
+  /* Sort by the second end, then stably by the first one. */
   for (int k = 0; k < n; k++)
-    a[k] = (pair){{pairs->end[from + k][0], pairs->end[from + k][1]}, pairs->weight[from + k]};
-  sort_by_end(a, b, n, 1, start, n_odd);
-  sort_by_end(b, a, n, 0, start, n_odd);
+    sorted[k] = (pair){{pairs->end[from + k][0], pairs->end[from + k][1]}, pairs->weight[from + k]};
+  sort_by_end(sorted, by_second, n, 1, start, n_odd);
+  sort_by_end(by_second, sorted, n, 0, start, n_odd);
+
+  /* Keep the lightest of each run of pairs with the same ends. */
   pairs->count = from;
   for (int k = 0; k < n; k++) {
     int last = pairs->count - 1;
-    if (last >= from && pairs->end[last][0] == a[k].end[0] && pairs->end[last][1] == a[k].end[1]) {
-      if (a[k].weight < pairs->weight[last]) pairs->weight[last] = a[k].weight;
-    } else if ((st = thr_pairs_add(pairs, a[k].end[0], a[k].end[1], a[k].weight, err))) {
+    if (last >= from && pairs->end[last][0] == sorted[k].end[0] &&
+        pairs->end[last][1] == sorted[k].end[1]) {
+      if (sorted[k].weight < pairs->weight[last]) pairs->weight[last] = sorted[k].weight;
+    } else if ((st = thr_pairs_add(pairs, sorted[k].end[0], sorted[k].end[1], sorted[k].weight,
+                                   err))) {
       break;
     }
   }
@@ -84,7 +95,7 @@ done:
   return st;
 }
 
-/* ---- the diagram ---- */
+/* ---- the Voronoi diagram ---- */
 
 thr_status thr_flood_run(const thr_network *net, const int64_t *start, int64_t floor,
                          thr_flood *flood, thr_err *err)
@@ -95,6 +106,8 @@ thr_status thr_flood_run(const thr_network *net, const int64_t *start, int64_t f
                        .root = thr_calloc(n, sizeof *flood->root),
                        .order = thr_calloc(n, sizeof *flood->order)};
   thr_status st = flood->depth && flood->root && flood->order ? THR_OK : thr_nomem(err);
+
+  /* Odd places begin at their own depths, all others at the floor. */
   for (size_t v = 0; v < n && !st; v++) {
     flood->depth[v] = floor;
     flood->root[v] = -1;
@@ -104,10 +117,14 @@ thr_status thr_flood_run(const thr_network *net, const int64_t *start, int64_t f
     flood->root[net->odd[i]] = i;
     if (start[i] > floor) st = thr_queue_push(&queue, (thr_queued){start[i], net->odd[i]}, err);
   }
+
+  /* Dijkstra's method, greatest depth first. */
   while (queue.count && !st) {
     thr_queued at = thr_queue_pop(&queue);
     if (at.key != flood->depth[at.place]) continue; /* reached deeper since */
     flood->order[flood->n_reached++] = at.place;
+
+    /* Depths are in halves of a weight. */
     for (int k = net->first[at.place]; k < net->first[at.place + 1] && !st; k++) {
       const thr_arc *arc = &net->arc[k];
       int64_t depth = at.key - 2 * arc->weight;
@@ -117,6 +134,7 @@ thr_status thr_flood_run(const thr_network *net, const int64_t *start, int64_t f
       st = thr_queue_push(&queue, (thr_queued){depth, arc->head}, err);
     }
   }
+
   free(queue.entry);
   if (st) thr_flood_destroy(flood);
   return st;
@@ -130,24 +148,28 @@ void thr_flood_destroy(thr_flood *flood)
   *flood = (thr_flood){0};
 }
 
-/* ---- the nearest ---- */
+/* ---- the nearest odd places ---- */
 
 enum {
-  NEAREST = 13,      /* others that a search looks for; those as far as the last come along .. */
-  NEAREST_MOST = 20, /* .. up to so many */
-  SETTLED_MOST = 96 /* places that it settles: where odd places are rare, the diagram does better */
+  NEAREST = 13,      /* odd places that a search looks for; others at the same distance as the
+                        last one are taken, too .. */
+  NEAREST_MOST = 20, /* .. up to this number */
+  SETTLED_MOST = 96  /* places that a search settles: where odd places are rare, the Voronoi
+                        diagram does better */
 };
 
+/* Searches from one odd place after the other. Keys of the queue are negative distances, because
+ * the queue hands out the greatest key first. */
 typedef struct {
   const thr_network *net;
-  int64_t *near; /* [n_places] minus the way there, of those touched by this search */
-  int *touched;  /* [n_places] touched[v] == search: near[v] is of this search */
+  int64_t *near; /* [n_places] minus the distance, valid where touched[v] is this search */
+  int *touched;  /* [n_places] number of the last search that came to the place */
   thr_queue queue;
   thr_pairs pairs;
   int *first; /* [n_odd + 1] pairs found from odd place i: first[i] .. first[i + 1] - 1 */
 } near_search;
 
-/* Has the search from i found j? */
+/* Says whether the search from i has found j. */
 static bool found_from(const near_search *s, int i, int j)
 {
   for (int k = s->first[i]; k < s->first[i + 1]; k++)
@@ -155,6 +177,7 @@ static bool found_from(const near_search *s, int i, int j)
   return false;
 }
 
+/* Relaxes the arcs of a place. */
 static thr_status relax(near_search *s, int search, thr_queued at, thr_err *err)
 {
   const thr_network *net = s->net;
@@ -170,36 +193,48 @@ static thr_status relax(near_search *s, int search, thr_queued at, thr_err *err)
   return st;
 }
 
-/* Pairs of odd place i with those near it that have not found it themselves. */
+/* Searches from odd place i, and adds its pairs with the nearest odd places, except for those
+ * whose own search has found i. reach[i] becomes the distance of the last one in halves of a
+ * weight, or INT64_MAX if there are few. */
 static thr_status find_near(near_search *s, int i, int64_t *reach, thr_err *err)
 {
   const thr_network *net = s->net;
   int found = 0, settled = 0;
   int64_t last = 0;
+  /* Begin at the odd place, as search number i + 1. */
   s->queue.count = 0;
   s->touched[net->odd[i]] = i + 1;
   s->near[net->odd[i]] = 0;
   thr_status st = relax(s, i + 1, (thr_queued){0, net->odd[i]}, err);
+
+  /* Settle places by distance, until enough odd places are found. */
   while (s->queue.count && !st) {
     thr_queued at = thr_queue_pop(&s->queue);
     int j = net->number[at.place];
+    /* A place that was reached on a shorter path since is skipped. */
     if (at.key != s->near[at.place]) continue;
+
     if (settled++ == SETTLED_MOST || (found >= NEAREST && (at.key < last || found == NEAREST_MOST)))
       break;
+
+    /* An odd place: add the pair unless the search from there has. */
     if (j >= 0) {
       found++;
       last = at.key;
       if (j > i || !found_from(s, j, i)) st = thr_pairs_add(&s->pairs, i, j, -at.key, err);
     }
+
+    /* No path goes on over a hub, which has too many arcs. */
     if (!st && net->first[at.place + 1] - net->first[at.place] < THR_HUB_DEGREE)
       st = relax(s, i + 1, at, err);
   }
+
   s->first[i + 1] = s->pairs.count;
   reach[i] = found < NEAREST ? INT64_MAX : -2 * last;
   return st;
 }
 
-/* Adds those pairs of `more` that no search has found. */
+/* Adds the pairs of more that no search has found. */
 static thr_status add_rest(near_search *s, const thr_pairs *more, thr_err *err)
 {
   thr_status st = THR_OK;
@@ -211,7 +246,8 @@ static thr_status add_rest(near_search *s, const thr_pairs *more, thr_err *err)
   return st;
 }
 
-/* The pairs of `more`, and those of odd places with those near them, once each. */
+/* Collects the pairs of more and the pairs of near places, once each. THR_ELIMIT: pairs is to be
+ * destroyed. */
 static thr_status merge_near(const thr_network *net, const thr_limits *limits,
                              const thr_pairs *more, thr_pairs *pairs, int64_t *reach, thr_err *err)
 {
@@ -221,12 +257,14 @@ static thr_status merge_near(const thr_network *net, const thr_limits *limits,
                    .touched = thr_calloc((size_t)net->n_places, sizeof *s.touched),
                    .first = thr_calloc((size_t)net->n_odd + 1, sizeof *s.first)};
   thr_status st = s.near && s.touched && s.first ? THR_OK : thr_nomem(err);
+
   for (int i = 0; i < net->n_odd && !st; i++) {
     bool stop = i % SEARCHES_BETWEEN_LIMITS == 0 && thr_limits_stop(limits);
     st = stop ? thr_fail(err, THR_ELIMIT, "stopped early, before all pairs were found")
               : find_near(&s, i, reach, err);
   }
   if (!st) st = add_rest(&s, more, err);
+
   free(s.near);
   free(s.touched);
   free(s.first);
@@ -235,25 +273,30 @@ static thr_status merge_near(const thr_network *net, const thr_limits *limits,
   return st;
 }
 
-/* ---- neighbours in the diagram, and a tree ---- */
+/* ---- neighbours in the diagram, and pairs along a tree ---- */
 
+/* Adds a pair for every arc between the Voronoi cells of two odd places: the path over this arc. */
 static thr_status add_neighbours(const thr_network *net, thr_pairs *pairs, thr_err *err)
 {
   thr_flood flood = {0};
   int64_t *start = thr_calloc((size_t)net->n_odd, sizeof *start);
   thr_status st = start ? thr_flood_run(net, start, INT64_MIN, &flood, err) : thr_nomem(err);
+
+  /* Depths are twice the distance from the odd place, negative. */
   for (int v = 0; v < net->n_places && !st; v++)
     for (int k = net->first[v]; k < net->first[v + 1] && !st; k++) {
-      int w = net->arc[k].head;
-      if (v < w && flood.root[v] != flood.root[w])
-        st = thr_pairs_add(pairs, flood.root[v], flood.root[w],
-                           net->arc[k].weight - flood.depth[v] / 2 - flood.depth[w] / 2, err);
+      int other = net->arc[k].head;
+      if (v < other && flood.root[v] != flood.root[other])
+        st = thr_pairs_add(pairs, flood.root[v], flood.root[other],
+                           net->arc[k].weight - flood.depth[v] / 2 - flood.depth[other] / 2, err);
     }
+
   free(start);
   thr_flood_destroy(&flood);
   return st ? st : thr_pairs_tidy(pairs, 0, net->n_odd, err);
 }
 
+/* Orders pairs by weight, then by their ends. */
 static int by_weight(const void *pa, const void *pb)
 {
   const pair *a = pa, *b = pb;
@@ -262,65 +305,79 @@ static int by_weight(const void *pa, const void *pb)
   return (a->end[1] > b->end[1]) - (a->end[1] < b->end[1]);
 }
 
-/* Each odd place: edges of the tree there, their xor (of a leaf it is the only one), and who is
- * carried here unpaired from how far. */
+/* An odd place as a node of the tree. across is the xor of the tree edges there, which at a leaf is
+ * the only one. */
 typedef struct {
-  int degree, across, guest;
-  int64_t way;
+  int degree, across;
+  int guest;   /* odd place that is not paired yet and has been carried to this node, or -1 */
+  int64_t way; /* from the guest to this node */
 } tree_node;
 
-/* From the leaves inwards: what comes unpaired to a place is paired with what waits there. */
+/* Pairs the places of a tree from the leaves inwards: the place that is carried to a node
+ * without a partner is paired with the one that waits at the node. */
 static thr_status pair_up(const pair *edge, tree_node *node, int *stack, int n, thr_pairs *pairs,
                           thr_err *err)
 {
   int top = 0;
   thr_status st = THR_OK;
+  /* Start with the leaves; stack has room for all nodes. */
   for (int v = 0; v < n; v++)
     if (node[v].degree == 1) stack[top++] = v;
   while (top && !st) {
     int v = stack[--top];
-    if (node[v].degree == 0) continue; /* the last of the tree */
-    const pair *e = &edge[node[v].across];
-    int w = e->end[0] == v ? e->end[1] : e->end[0];
-    int64_t way = node[v].way + e->weight;
-    node[w].across ^= node[v].across;
-    if (--node[w].degree == 1) stack[top++] = w;
+
+    if (node[v].degree == 0) continue; /* the last node of the tree */
+    const pair *leaf_edge = &edge[node[v].across];
+    /* Take the edge of the leaf out of the tree. */
+    int inner = leaf_edge->end[0] == v ? leaf_edge->end[1] : leaf_edge->end[0];
+
+    int64_t way = node[v].way + leaf_edge->weight;
+    node[inner].across ^= node[v].across;
+    if (--node[inner].degree == 1) stack[top++] = inner;
+
+    /* Carry the guest along this edge, and pair it if another one waits. */
     if (node[v].guest < 0) continue;
-    if (node[w].guest >= 0) {
-      st = thr_pairs_add(pairs, node[v].guest, node[w].guest, way + node[w].way, err);
-      node[w].guest = -1;
+    if (node[inner].guest >= 0) {
+      st = thr_pairs_add(pairs, node[v].guest, node[inner].guest, way + node[inner].way, err);
+      node[inner].guest = -1;
     } else {
-      node[w].guest = node[v].guest;
-      node[w].way = way;
+      node[inner].guest = node[v].guest;
+      node[inner].way = way;
     }
   }
   return st;
 }
 
-/* Adds the pairs along a lightest spanning tree of the pairs that are there. */
+/* Adds the pairs along a minimum spanning tree of the pairs that there are. */
 static thr_status add_fallback(thr_pairs *pairs, int n_odd, thr_err *err)
 {
   thr_scratch own = {0};
-  size_t n = (size_t)n_odd, m = (size_t)pairs->count;
-  pair *edge = thr_scratch_array(&own, m, sizeof *edge);
+
+  size_t n = (size_t)n_odd, n_pairs = (size_t)pairs->count;
+  pair *edge = thr_scratch_array(&own, n_pairs, sizeof *edge);
   tree_node *node = thr_scratch_array(&own, n, sizeof *node);
   int *parent = thr_scratch_array(&own, n, sizeof *parent);
   thr_status st = thr_scratch_check(&own, err);
   if (st) goto done;
-  for (size_t k = 0; k < m; k++)
+
+  /* Sort the pairs by weight. */
+  for (size_t k = 0; k < n_pairs; k++)
     edge[k] = (pair){{pairs->end[k][0], pairs->end[k][1]}, pairs->weight[k]};
-  qsort(edge, m, sizeof *edge, by_weight);
+  qsort(edge, n_pairs, sizeof *edge, by_weight);
+
+  /* Build the tree (Kruskal); every place is its own guest at first. */
   for (int i = 0; i < n_odd; i++)
     parent[i] = node[i].guest = i;
-  for (size_t k = 0; k < m; k++) {
+  for (size_t k = 0; k < n_pairs; k++) {
     if (!thr_disjoint_join(parent, edge[k].end[0], edge[k].end[1])) continue;
-    for (int s = 0; s < 2; s++) {
-      node[edge[k].end[s]].degree++;
-      node[edge[k].end[s]].across ^= (int)k;
+    for (int side = 0; side < 2; side++) {
+      node[edge[k].end[side]].degree++;
+      node[edge[k].end[side]].across ^= (int)k;
     }
   }
-  st = pair_up(edge, node, parent, n_odd, pairs,
-               err); /* parent has served and is as long as the stack */
+
+  /* The disjoint sets have served, and their array is as long as the stack must be. */
+  st = pair_up(edge, node, parent, n_odd, pairs, err);
 done:
   thr_scratch_free(&own);
   return st;
@@ -335,6 +392,8 @@ thr_status thr_candidates_find(const thr_network *net, const thr_limits *limits,
   if (!st) st = add_fallback(&wide, net->n_odd, err);
   if (!st) st = merge_near(net, limits, &wide, pairs, reach, err);
   if (st) thr_pairs_destroy(pairs);
+
+  /* Stopped: the pairs found so far still contain a perfect matching. */
   if (st == THR_ELIMIT)
     *pairs = wide;
   else

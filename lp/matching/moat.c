@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Minimum T-join by matching: the odd nodes are paired along shortest paths, and the duals of the
- * matching are moats round them (Edmonds & Johnson 1973; pricing: M. Groetschel & O. Holland,
- * "Solving matching problems with linear programming", Math. Prog. 33, 1985). The engine for large
- * frameworks; lp/tjoin/tjoin.h is the other one.
+/* Computes a minimum T-join by matching: pairs the odd nodes along shortest paths (Edmonds &
+ * Johnson 1973). This is the engine for large frameworks; the other one is lp/tjoin/tjoin.c.
  *
- * Length of the join = sum over odd sets S of the width of the moat round S, where over every edge
- * the widths of the moats that it crosses add up to no more than its weight. A pair that was left
- * out is needed only if it is closer than the moats of its two places are wide in sum.
+ * Only near pairs are matched at first (candidates.c). The duals of the matching are moats round
+ * odd places and round blossoms. Growing all moats at once (a flood) shows whether a pair that was
+ * left out is closer than its moats are wide in sum; such pairs are added, and the matching is
+ * computed again, until there are none (pricing: M. Groetschel & O. Holland, "Solving matching
+ * problems with linear programming", Math. Prog. 33, 1985). Then the widths of the moats that an
+ * edge crosses add up to no more than its weight, and the sum of all widths is the length of the
+ * join: the moats are the odd cuts that prove the minimum.
  *
  * Example: a path of edges 2, 3, 2 with all four nodes odd: moats of width 1 round each node lie
- * within both edges of 2, and the join is these two edges, 4 long.
- *
- * Rounds of matching and pricing until the moats overload no edge; then the join and its cuts. */
+ * within both edges of 2, and the join is these two edges, 4 long. */
 #include "lp/matching/blossom_parts.h"
 
 #include <assert.h>
@@ -21,160 +21,197 @@
 typedef struct {
   const thr_limits *limits;
   thr_network net;
-  thr_pairs pairs;
+  thr_pairs pairs; /* candidates */
   thr_hubs hubs;
   uint64_t random;
   thr_matching matching;
-  int matched; /* pairs that it knows */
+  int matched; /* number of pairs that the matching knows */
   thr_nest nest;
   thr_flood flood;
-  bool *raised;   /* [n_odd] had a negative dual */
+  bool *raised;   /* [n_odd] did the place have a negative dual? */
   int64_t *start; /* [n_odd] depths of the odd places */
-} solver;
+} moat_solver;
 
-static void solver_destroy(solver *s)
+/* Releases everything that the solver owns. */
+static void solver_destroy(moat_solver *solver)
 {
-  thr_network_destroy(&s->net);
-  thr_pairs_destroy(&s->pairs);
-  thr_hubs_destroy(&s->hubs);
-  thr_matching_destroy(&s->matching);
-  thr_nest_destroy(&s->nest);
-  thr_flood_destroy(&s->flood);
-  free(s->raised);
-  free(s->start);
+  thr_network_destroy(&solver->net);
+  thr_pairs_destroy(&solver->pairs);
+  thr_hubs_destroy(&solver->hubs);
+  thr_matching_destroy(&solver->matching);
+  thr_nest_destroy(&solver->nest);
+  thr_flood_destroy(&solver->flood);
+  free(solver->raised);
+  free(solver->start);
 }
 
-static thr_status solver_init(solver *s, const thr_tjoin_problem *tjoin_problem, thr_err *err)
+/* Builds the network and finds the first candidates. */
+static thr_status solver_init(moat_solver *solver, const thr_tjoin_problem *tjoin_problem,
+                              thr_err *err)
 {
-  thr_status st = thr_network_init(&s->net, tjoin_problem, err);
+  thr_status st = thr_network_init(&solver->net, tjoin_problem, err);
   if (st) return st;
-  s->raised = thr_calloc((size_t)s->net.n_odd, sizeof *s->raised);
-  s->start = thr_calloc((size_t)s->net.n_odd, sizeof *s->start);
-  if (!s->raised || !s->start) return thr_nomem(err);
-  if (s->net.n_odd == 0) return THR_OK;
-  st = thr_candidates_find(&s->net, s->limits, &s->pairs, s->start, err);
-  if (!st) st = thr_hubs_find(&s->net, &s->hubs, err);
-  return st ? st : thr_hubs_pairs(&s->hubs, s->start, &s->random, &s->pairs, err);
+  solver->raised = thr_calloc((size_t)solver->net.n_odd, sizeof *solver->raised);
+  solver->start = thr_calloc((size_t)solver->net.n_odd, sizeof *solver->start);
+  if (!solver->raised || !solver->start) return thr_nomem(err);
+
+  if (solver->net.n_odd == 0) return THR_OK;
+
+  /* start serves as the reach of the candidates here. */
+  st = thr_candidates_find(&solver->net, solver->limits, &solver->pairs, solver->start, err);
+  if (!st) st = thr_hubs_find(&solver->net, &solver->hubs, err);
+  return st ? st
+            : thr_hubs_pairs(&solver->hubs, solver->start, &solver->random, &solver->pairs, err);
 }
 
 /* ---- pricing ---- */
 
-/* Some new pairs are taken in faster than all are matched anew; many, above all between equals, are
- * not. */
-static thr_status match(solver *s, thr_err *err)
+/* Computes the matching of all candidates. A few new pairs are taken into the old matching,
+ * which is faster; with many, above all of equal weight, a new matching is. */
+static thr_status match(moat_solver *solver, thr_err *err)
 {
   enum { ODD_PER_NEW_PAIR = 20 };
-  thr_matching_problem matching_problem = {s->net.n_odd, s->pairs.count,
-                                           (const int(*)[2])s->pairs.end, s->pairs.weight};
-  int added = s->pairs.count - s->matched;
-  s->matched = s->pairs.count;
-  if (added <= s->net.n_odd / ODD_PER_NEW_PAIR)
-    return thr_matching_again(&matching_problem, s->limits, &s->matching, err);
-  thr_matching_destroy(&s->matching);
-  return thr_matching_solve(&matching_problem, s->limits, &s->matching, err);
+  thr_matching_problem matching_problem = {solver->net.n_odd, solver->pairs.count,
+                                           (const int(*)[2])solver->pairs.end,
+                                           solver->pairs.weight};
+
+  int added = solver->pairs.count - solver->matched;
+  solver->matched = solver->pairs.count;
+  if (added <= solver->net.n_odd / ODD_PER_NEW_PAIR)
+    return thr_matching_again(&matching_problem, solver->limits, &solver->matching, err);
+
+  thr_matching_destroy(&solver->matching);
+  return thr_matching_solve(&matching_problem, solver->limits, &solver->matching, err);
 }
 
-/* The moats of the nest, as far as they reach. */
-static thr_status flood(solver *s, thr_err *err)
+/* Grows the moats of the nest from all odd places at once. */
+static thr_status flood_moats(moat_solver *solver, thr_err *err)
 {
-  thr_flood_destroy(&s->flood);
-  thr_nest_depths(&s->nest, s->start);
-  return thr_flood_run(&s->net, s->start, 0, &s->flood, err);
+  thr_flood_destroy(&solver->flood);
+  thr_nest_depths(&solver->nest, solver->start);
+  return thr_flood_run(&solver->net, solver->start, 0, &solver->flood, err);
 }
 
-static int64_t way_from_root(const solver *s, int v)
+/* Returns the length of the path along which the flood came to place v from its root. */
+static int64_t way_from_root(const moat_solver *solver, int v)
 {
-  return (s->start[s->flood.root[v]] - s->flood.depth[v]) / 2;
+  return (solver->start[solver->flood.root[v]] - solver->flood.depth[v]) / 2;
 }
 
-/* A pair whose duals are too large for its weight. Where a negative dual was raised on the way,
- * they may be so only since then; but then they are too large for one of the pairs with the mate of
- * i or j, over i or j. */
-static thr_status add_violated(solver *s, int i, int j, int64_t weight, thr_err *err)
+/* Adds a pair whose duals are too large for its weight. If the dual of i or j was negative and
+ * has been raised at the cost of other moats, the pair may be violated only since then; but in
+ * this case a pair with the mate of i or j, on the path over i or j, is violated by the duals
+ * themselves, so that these pairs are added, too. */
+static thr_status add_violated(moat_solver *solver, int i, int j, int64_t weight, thr_err *err)
 {
-  const thr_matching *m = &s->matching;
-  int other[2] = {s->raised[i] ? m->mate[i] : i, s->raised[j] ? m->mate[j] : j};
-  int64_t more[2] = {other[0] == i ? 0 : s->pairs.weight[m->mate_edge[i]],
-                     other[1] == j ? 0 : s->pairs.weight[m->mate_edge[j]]};
-  thr_status st = thr_pairs_add(&s->pairs, i, j, weight, err);
+  /* Extend the path at an end that was raised to the mate of this end. */
+  const thr_matching *matching = &solver->matching;
+  int other[2] = {solver->raised[i] ? matching->mate[i] : i,
+                  solver->raised[j] ? matching->mate[j] : j};
+  int64_t more[2] = {other[0] == i ? 0 : solver->pairs.weight[matching->mate_edge[i]],
+                     other[1] == j ? 0 : solver->pairs.weight[matching->mate_edge[j]]};
+
+  thr_status st = thr_pairs_add(&solver->pairs, i, j, weight, err);
+
+  /* Add the pairs of extended paths with two different ends. */
   if (!st && more[0] && other[0] != j)
-    st = thr_pairs_add(&s->pairs, other[0], j, weight + more[0], err);
+    st = thr_pairs_add(&solver->pairs, other[0], j, weight + more[0], err);
   if (!st && more[1] && other[1] != i)
-    st = thr_pairs_add(&s->pairs, i, other[1], weight + more[1], err);
+    st = thr_pairs_add(&solver->pairs, i, other[1], weight + more[1], err);
   if (!st && more[0] && more[1] && other[0] != other[1])
-    st = thr_pairs_add(&s->pairs, other[0], other[1], weight + more[0] + more[1], err);
+    st = thr_pairs_add(&solver->pairs, other[0], other[1], weight + more[0] + more[1], err);
   return st;
 }
 
-/* Where two moats that hold different odd places overlap along an arc, their roots are too near
- * each other. */
-static thr_status price_arc(solver *s, int v, const thr_arc *arc, thr_err *err)
+/* Prices one arc: where moats that hold different odd places overlap along the arc, the roots of
+ * its ends are closer to each other than their moats allow. */
+static thr_status price_arc(moat_solver *solver, int v, const thr_arc *arc, thr_err *err)
 {
-  const thr_flood *f = &s->flood;
-  int w = arc->head, i = f->root[v], j = f->root[w];
+  const thr_flood *flood = &solver->flood;
+  int w = arc->head, i = flood->root[v], j = flood->root[w];
+  /* Each arc within two different moats is looked at once. */
   if (w < v || i < 0 || j < 0 || i == j) return THR_OK;
-  int64_t a = f->depth[v], b = f->depth[w];
-  if (a + b <= 2 * arc->weight) return THR_OK;
-  int64_t shared = thr_nest_shared_depth(&s->nest, i, j);
-  if (a <= shared || b <= shared || a + b - 2 * shared <= 2 * arc->weight) return THR_OK;
-  return add_violated(s, i, j, way_from_root(s, v) + arc->weight + way_from_root(s, w), err);
+
+  int64_t depth_v = flood->depth[v], depth_w = flood->depth[w];
+  if (depth_v + depth_w <= 2 * arc->weight) return THR_OK;
+
+  /* Only the moats outside of the sets that hold both roots count. */
+  int64_t shared = thr_nest_shared_depth(&solver->nest, i, j);
+  if (depth_v <= shared || depth_w <= shared || depth_v + depth_w - 2 * shared <= 2 * arc->weight)
+    return THR_OK;
+
+  return add_violated(solver, i, j,
+                      way_from_root(solver, v) + arc->weight + way_from_root(solver, w), err);
 }
 
-/* Adds pairs that the duals violate. None found: no pair of odd places is violated. */
-static thr_status price(solver *s, thr_err *err)
+/* Adds the pairs that the duals violate. If none is added, no pair of odd places is violated. */
+static thr_status price(moat_solver *solver, thr_err *err)
 {
-  const thr_network *net = &s->net;
-  int before = s->pairs.count;
+  const thr_network *net = &solver->net;
+  /* An odd place inside the moat of another one is too close to it. */
+  int before = solver->pairs.count;
   thr_status st = THR_OK;
   for (int i = 0; i < net->n_odd && !st; i++) {
     int v = net->odd[i];
-    if (s->flood.root[v] != i) st = add_violated(s, s->flood.root[v], i, way_from_root(s, v), err);
+    if (solver->flood.root[v] != i)
+      st = add_violated(solver, solver->flood.root[v], i, way_from_root(solver, v), err);
   }
+
+  /* So are two odd places whose moats overlap along an arc. */
   for (int v = 0; v < net->n_places && !st; v++)
     for (int k = net->first[v]; k < net->first[v + 1] && !st; k++)
-      st = price_arc(s, v, &net->arc[k], err);
-  if (!st && s->pairs.count > before)
-    st = thr_hubs_pairs(&s->hubs, s->start, &s->random, &s->pairs, err);
-  return st ? st : thr_pairs_tidy(&s->pairs, before, net->n_odd, err);
+      st = price_arc(solver, v, &net->arc[k], err);
+
+  /* Where pairs are missing, pairs over hubs may be, too. */
+  if (!st && solver->pairs.count > before)
+    st = thr_hubs_pairs(&solver->hubs, solver->start, &solver->random, &solver->pairs, err);
+
+  return st ? st : thr_pairs_tidy(&solver->pairs, before, net->n_odd, err);
 }
 
-enum {
-  ROUNDS_MOST = 1000
-}; /* a few are needed; without end they would be only if pricing were wrong */
+/* A few rounds are needed; without end there would be more only if pricing were wrong. */
+enum { ROUNDS_MOST = 1000 };
 
-static thr_status solve_rounds(solver *s, thr_err *err)
+/* Matches and prices until no pair is added. */
+static thr_status solve_rounds(moat_solver *solver, thr_err *err)
 {
   thr_status st = THR_OK;
-  for (int before = -1, round = 0; before < s->pairs.count && !st; round++) {
-    before = s->pairs.count;
+  for (int before = -1, round = 0; before < solver->pairs.count && !st; round++) {
+    before = solver->pairs.count;
     if (round == ROUNDS_MOST)
       return thr_fail(err, THR_ESOLVER, "pricing does not end; please report this framework");
-    if ((st = match(s, err))) return st;
-    thr_nest_destroy(&s->nest);
-    st = thr_nest_init(&s->nest, s->net.n_odd, &s->matching, s->raised, err);
-    if (!st) st = flood(s, err);
-    if (!st) st = price(s, err);
-    if (!st && s->limits->progress)
-      s->limits->progress(s->limits->user, "matching", (double)s->matching.weight, 0);
+
+    if ((st = match(solver, err))) return st;
+
+    /* Lay the duals out as moats, and price. */
+    thr_nest_destroy(&solver->nest);
+    st = thr_nest_init(&solver->nest, solver->net.n_odd, &solver->matching, solver->raised, err);
+    if (!st) st = flood_moats(solver, err);
+    if (!st) st = price(solver, err);
+
+    if (!st && solver->limits->progress)
+      solver->limits->progress(solver->limits->user, "matching", (double)solver->matching.weight,
+                               0);
   }
   return st;
 }
 
 /* ---- the join ---- */
 
-/* Search for a shortest way between two mates through the flood: outwards from both, to where the
- * moats meet. On it every edge is loaded with its whole weight. */
+/* The search for a shortest path between two mates through the flood: outwards from both of them,
+ * to where their moats meet. Every edge of the path is loaded with its whole weight. */
 typedef struct {
   const thr_network *net;
-  const thr_flood *f;
-  int *reached;     /* [n_places] last search that came here from the first mate, */
-  int *reached_too; /* or from the second */
-  int *came;        /* [n_places] arc by which it came */
-  int *came_too;
-  int *stack;
+  const thr_flood *flood;
+  int *reached;     /* [n_places] number of the last search that came here from the first mate */
+  int *reached_too; /* [n_places] or from the second one */
+  int *came;        /* [n_places] arc by which the search from the first mate came */
+  int *came_too;    /* [n_places] and from the second one */
+  int *stack;       /* [n_places] places to be followed */
   bool *in_join;
-} way_search;
+} path_search;
 
+/* Returns the place that an arc leaves. */
 static int tail_of(const thr_network *net, int arc)
 {
   const int *end = net->p->edge[net->arc[arc].edge];
@@ -182,97 +219,113 @@ static int tail_of(const thr_network *net, int arc)
   return net->place[end[0]] == head ? net->place[end[1]] : net->place[end[0]];
 }
 
-static void toggle_back(way_search *s, const int *came, int from, int to)
+/* Adds the path of a search, from a place back to its mate, to the join (edges twice are none). */
+static void toggle_back(path_search *ways, const int *came, int from, int to)
 {
-  for (int v = from; v != to; v = tail_of(s->net, came[v]))
-    s->in_join[s->net->arc[came[v]].edge] ^= true;
+  for (int v = from; v != to; v = tail_of(ways->net, came[v]))
+    ways->in_join[ways->net->arc[came[v]].edge] ^= true;
 }
 
-/* Marks what lies outwards of a mate, down to the depth that both share. */
-static void reach_first(way_search *s, int search, int from, int64_t shared)
+/* Marks the places outwards of the first mate, down to the depth that both mates share. */
+static void reach_first(path_search *ways, int search, int from, int64_t shared)
 {
-  const thr_network *net = s->net;
+  const thr_network *net = ways->net;
   int top = 0;
-  s->reached[from] = search;
-  s->stack[top++] = from;
+  ways->reached[from] = search;
+  ways->stack[top++] = from;
+  /* Follow arcs along which the depth falls by just the weight of the arc. */
   while (top) {
-    int v = s->stack[--top];
-    if (s->f->depth[v] <= shared) continue;
+    int v = ways->stack[--top];
+    if (ways->flood->depth[v] <= shared) continue;
     for (int k = net->first[v]; k < net->first[v + 1]; k++) {
-      int w = net->arc[k].head;
-      int64_t depth = s->f->depth[v] - 2 * net->arc[k].weight;
-      if (depth < shared || depth != s->f->depth[w] || s->reached[w] == search) continue;
-      s->reached[w] = search;
-      s->came[w] = k;
-      s->stack[top++] = w;
+      int other = net->arc[k].head;
+      int64_t depth = ways->flood->depth[v] - 2 * net->arc[k].weight;
+      if (depth < shared || depth != ways->flood->depth[other] || ways->reached[other] == search)
+        continue;
+      ways->reached[other] = search;
+      ways->came[other] = k;
+      ways->stack[top++] = other;
     }
   }
 }
 
-/* Puts a shortest way between mates i and k into the join; false if the flood does not hold one. */
-static bool join_mates(way_search *s, int search, int i, int k, int64_t shared)
+/* Puts a shortest path between mates i and k into the join; false if the flood does not hold
+ * one. */
+static bool join_mates(path_search *ways, int search, int i, int k, int64_t shared)
 {
-  const thr_network *net = s->net;
-  const int64_t *depth = s->f->depth;
+  const thr_network *net = ways->net;
+  const int64_t *depth = ways->flood->depth;
   int first = net->odd[i], second = net->odd[k], top = 0;
-  reach_first(s, search, first, shared);
-  s->reached_too[second] = search;
-  s->stack[top++] = second;
+  reach_first(ways, search, first, shared);
+  /* Search outwards from the second mate, until the first one's places are met. */
+  ways->reached_too[second] = search;
+  ways->stack[top++] = second;
   while (top) {
-    int v = s->stack[--top];
-    if (s->reached[v] == search) { /* they meet at a node */
-      toggle_back(s, s->came, v, first);
-      toggle_back(s, s->came_too, v, second);
+    int v = ways->stack[--top];
+    /* The searches meet at a place. */
+    if (ways->reached[v] == search) {
+      toggle_back(ways, ways->came, v, first);
+      toggle_back(ways, ways->came_too, v, second);
       return true;
     }
+
     if (depth[v] <= shared) continue;
-    for (int a = net->first[v]; a < net->first[v + 1]; a++) {
-      int w = net->arc[a].head;
-      int64_t out = depth[v] - 2 * net->arc[a].weight;
-      if (s->reached[w] == search && depth[w] > shared &&
-          out == 2 * shared - depth[w]) { /* they meet within an edge */
-        toggle_back(s, s->came, w, first);
-        toggle_back(s, s->came_too, v, second);
-        s->in_join[net->arc[a].edge] ^= true;
+    for (int arc = net->first[v]; arc < net->first[v + 1]; arc++) {
+      int other = net->arc[arc].head;
+      int64_t out = depth[v] - 2 * net->arc[arc].weight;
+
+      /* The searches meet within an edge, where both moats end at the shared depth. */
+      if (ways->reached[other] == search && depth[other] > shared &&
+          out == 2 * shared - depth[other]) {
+        toggle_back(ways, ways->came, other, first);
+        toggle_back(ways, ways->came_too, v, second);
+        ways->in_join[net->arc[arc].edge] ^= true;
         return true;
       }
-      if (out < shared || out != depth[w] || s->reached_too[w] == search) continue;
-      s->reached_too[w] = search;
-      s->came_too[w] = a;
-      s->stack[top++] = w;
+
+      if (out < shared || out != depth[other] || ways->reached_too[other] == search) continue;
+      ways->reached_too[other] = search;
+      ways->came_too[other] = arc;
+      ways->stack[top++] = other;
     }
   }
   return false;
 }
 
-static thr_status join_all(const solver *s, bool *in_join, thr_err *err)
+/* Puts the paths between all mates into the join. */
+static thr_status join_all(const moat_solver *solver, bool *in_join, thr_err *err)
 {
-  size_t n = (size_t)s->net.n_places;
-  way_search w = {.net = &s->net, .f = &s->flood, .in_join = in_join};
-  w.reached = thr_calloc(n, sizeof *w.reached);
-  w.reached_too = thr_calloc(n, sizeof *w.reached_too);
-  w.came = thr_calloc(n, sizeof *w.came);
-  w.came_too = thr_calloc(n, sizeof *w.came_too);
-  w.stack = thr_calloc(n, sizeof *w.stack);
-  thr_status st =
-      w.reached && w.reached_too && w.came && w.came_too && w.stack ? THR_OK : thr_nomem(err);
-  for (int i = 0; i < s->net.n_odd && !st; i++) {
-    int k = s->matching.mate[i];
+  size_t n = (size_t)solver->net.n_places;
+  path_search ways = {.net = &solver->net, .flood = &solver->flood, .in_join = in_join};
+  ways.reached = thr_calloc(n, sizeof *ways.reached);
+  ways.reached_too = thr_calloc(n, sizeof *ways.reached_too);
+  ways.came = thr_calloc(n, sizeof *ways.came);
+  ways.came_too = thr_calloc(n, sizeof *ways.came_too);
+  ways.stack = thr_calloc(n, sizeof *ways.stack);
+  thr_status st = ways.reached && ways.reached_too && ways.came && ways.came_too && ways.stack
+                      ? THR_OK
+                      : thr_nomem(err);
+
+  /* Each pair once. The places outside of the sets that hold both mates are of no interest. */
+  for (int i = 0; i < solver->net.n_odd && !st; i++) {
+    int k = solver->matching.mate[i];
     if (k < i) continue;
-    if (!join_mates(&w, i + 1, i, k, thr_nest_shared_depth(&s->nest, i, k)))
+    if (!join_mates(&ways, i + 1, i, k, thr_nest_shared_depth(&solver->nest, i, k)))
       st = thr_fail(err, THR_ESOLVER,
                     "matched odd nodes have no way of the weight that their moats say");
   }
-  free(w.reached);
-  free(w.reached_too);
-  free(w.came);
-  free(w.came_too);
-  free(w.stack);
+
+  free(ways.reached);
+  free(ways.reached_too);
+  free(ways.came);
+  free(ways.came_too);
+  free(ways.stack);
   return st;
 }
 
 /* ---- results ---- */
 
+/* Computes the weight of the join. */
 static void weigh(const thr_tjoin_problem *tjoin_problem, thr_tjoin *out)
 {
   out->length = 0;
@@ -280,38 +333,48 @@ static void weigh(const thr_tjoin_problem *tjoin_problem, thr_tjoin *out)
     if (out->in_join[e]) out->length += tjoin_problem->weight[e];
 }
 
-static thr_status take_result(solver *s, thr_tjoin *out, thr_err *err)
+/* Hands out the join and the moats as cuts. */
+static thr_status take_result(moat_solver *solver, thr_tjoin *out, thr_err *err)
 {
-  thr_status st = join_all(s, out->in_join, err);
-  if (!st) st = thr_network_mend(&s->net, false, out->in_join, err);
-  if (!st && s->net.n_odd)
-    st = thr_nest_cuts(&s->nest, &s->net, &s->flood, &out->cut, &out->n_cuts, &out->sum, err);
+  /* Paths in the network, then edges of weight 0 for the parity within its places. */
+  thr_status st = join_all(solver, out->in_join, err);
+  if (!st) st = thr_network_mend(&solver->net, false, out->in_join, err);
+  if (!st && solver->net.n_odd)
+    st = thr_nest_cuts(&solver->nest, &solver->net, &solver->flood, &out->cut, &out->n_cuts,
+                       &out->sum, err);
   if (st) return st;
-  weigh(s->net.p, out);
+
+  weigh(solver->net.p, out);
   assert(out->sum == out->length * THR_DUAL_DENOMINATOR);
   out->optimal = true;
   return THR_OK;
 }
 
-/* Stopped: the join of a lightest spanning tree, and balls as wide as half the way to the nearest
- * other odd place (the candidates know that). */
-static thr_status take_quick_result(solver *s, thr_tjoin *out, thr_err *err)
+/* Hands out, when the limits stop the solver, the join of a minimum spanning tree, and balls
+ * half as wide as the way to the nearest other odd place, which the candidates know. */
+static thr_status take_quick_result(moat_solver *solver, thr_tjoin *out, thr_err *err)
 {
-  for (int i = 0; i < s->net.n_odd; i++)
-    s->start[i] = INT64_MAX;
-  for (int k = 0; k < s->pairs.count; k++)
+  /* In halves of a weight, half of the lightest pair at each place is its weight. */
+  for (int i = 0; i < solver->net.n_odd; i++)
+    solver->start[i] = INT64_MAX;
+  for (int k = 0; k < solver->pairs.count; k++)
     for (int side = 0; side < 2; side++) {
-      int64_t *least = &s->start[s->pairs.end[k][side]];
-      if (s->pairs.weight[k] < *least) *least = s->pairs.weight[k];
+      int64_t *least = &solver->start[solver->pairs.end[k][side]];
+      if (solver->pairs.weight[k] < *least) *least = solver->pairs.weight[k];
     }
-  thr_nest_destroy(&s->nest);
-  thr_status st = thr_nest_of_balls(&s->nest, s->net.n_odd, s->start, err);
-  if (!st) st = flood(s, err);
+
+  /* The balls as cuts. */
+  thr_nest_destroy(&solver->nest);
+  thr_status st = thr_nest_of_balls(&solver->nest, solver->net.n_odd, solver->start, err);
+  if (!st) st = flood_moats(solver, err);
   if (!st)
-    st = thr_nest_cuts(&s->nest, &s->net, &s->flood, &out->cut, &out->n_cuts, &out->sum, err);
-  if (!st) st = thr_network_mend(&s->net, true, out->in_join, err);
+    st = thr_nest_cuts(&solver->nest, &solver->net, &solver->flood, &out->cut, &out->n_cuts,
+                       &out->sum, err);
+
+  if (!st) st = thr_network_mend(&solver->net, true, out->in_join, err);
   if (st) return st;
-  weigh(s->net.p, out);
+
+  weigh(solver->net.p, out);
   out->optimal = out->sum > (out->length - 1) * THR_DUAL_DENOMINATOR;
   return THR_OK;
 }
@@ -321,15 +384,18 @@ thr_status thr_moat_fits(const thr_tjoin_problem *tjoin_problem, bool *fits, thr
   double sum = 0, most = (double)THR_MOAT_WEIGHTS_MOST;
   thr_status st = THR_OK;
   *fits = true;
+  /* If all weights together are small enough, no tree need be built. */
   for (int e = 0; e < tjoin_problem->n_edges; e++) {
     sum += (double)tjoin_problem->weight[e];
     *fits &= tjoin_problem->weight[e] <= THR_MOAT_WEIGHTS_MOST;
   }
+
   if (*fits && sum > most) st = thr_network_tree_weight(tjoin_problem, &sum, err);
   *fits &= sum <= most;
   return st;
 }
 
+/* Fails with a text if the weights do not fit. */
 static thr_status check_weights(const thr_tjoin_problem *tjoin_problem, thr_err *err)
 {
   bool fits;
@@ -341,23 +407,26 @@ static thr_status check_weights(const thr_tjoin_problem *tjoin_problem, thr_err 
 thr_status thr_moat_solve(const thr_tjoin_problem *tjoin_problem, const thr_limits *limits,
                           thr_tjoin *out, thr_err *err)
 {
-  solver s = {.limits = limits};
+  moat_solver solver = {.limits = limits};
   thr_err stopped = {0};
   *out = (thr_tjoin){0};
   thr_status st = check_weights(tjoin_problem, err), limit = THR_OK;
   if (!st && !(out->in_join = thr_calloc((size_t)tjoin_problem->n_edges, sizeof *out->in_join)))
     st = thr_nomem(err);
-  if (!st) st = solver_init(&s, tjoin_problem, &stopped);
-  if (!st && s.net.n_odd) st = solve_rounds(&s, &stopped);
+
+  if (!st) st = solver_init(&solver, tjoin_problem, &stopped);
+  if (!st && solver.net.n_odd) st = solve_rounds(&solver, &stopped);
   if (!st) {
-    st = take_result(&s, out, err);
+    st = take_result(&solver, out, err);
   } else if (st == THR_ELIMIT) {
+    /* Stopped: the bound of the quick result may meet its join all the same. */
     limit = st;
-    st = take_quick_result(&s, out, err);
+    st = take_quick_result(&solver, out, err);
   } else {
     thr_fail(err, st, "%s", stopped.text);
   }
-  solver_destroy(&s);
+
+  solver_destroy(&solver);
   if (st) thr_tjoin_destroy(out);
   return st ? st : limit && !out->optimal ? thr_fail(err, limit, "%s", stopped.text) : THR_OK;
 }
