@@ -44,6 +44,7 @@ int64_t thr_blossom_due(thr_matching_state *matching_state)
   if (!matching_state->filled) return matching_state->end_time;
   int k = __builtin_ctzll(matching_state->filled);
   blossom_bucket *bucket = &matching_state->bucket[k];
+
   /* Move the clock to the least time, unless the search ends before. */
   if (k) {
     int64_t least = bucket->event[0].time;

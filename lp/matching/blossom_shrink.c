@@ -1,10 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Blossoms made of odd cycles, and opened again. */
+/* Shrinks odd cycles of tight edges to blossoms, and opens blossoms again.
+ *
+ * The children of a blossom form a cycle by `next`, and `link` is the dart to the next one. The
+ * nodes of a blossom are one list, put together of the children's lists, and one disjoint set
+ * (union by size), so that opening a blossom moves only the nodes of its smaller children.
+ *
+ * Example: a tree has the root r, inner nodes c and d entered from r, and their mates a and b,
+ * which are outer. When the edge ab becomes tight, the cycle r, c, a, b, d is shrunk to one outer
+ * blossom. */
 #include "lp/matching/blossom_parts.h"
 
 /* ---- making ---- */
 
-/* The outer blossom above an outer one in the tree, or -1. */
+/* Returns the outer blossom above an outer one in its tree, or -1 for the root. */
 static int above(thr_matching_state *matching_state, int b)
 {
   if (matching_state->b[b].match < 0) return -1;
@@ -12,10 +20,11 @@ static int above(thr_matching_state *matching_state, int b)
   return top_of_node(matching_state, matching_state->tail[matching_state->b[inner].entry]);
 }
 
-/* The lowest outer blossom on both paths to the root. In turns, so that it takes no longer than the
- * cycle it closes. */
+/* Returns the lowest outer blossom on both paths to the root. The two paths are followed in
+ * turns, so that the search takes no longer than the cycle that is closed. */
 static int lowest_common(thr_matching_state *matching_state, int a, int b)
 {
+  /* A new stamp makes all old marks void. */
   matching_state->stamp++;
   for (;;) {
     if (a >= 0) {
@@ -23,31 +32,41 @@ static int lowest_common(thr_matching_state *matching_state, int a, int b)
       matching_state->b[a].mark = matching_state->stamp;
       a = above(matching_state, a);
     }
+
+    /* Swap the paths. */
     int other = a;
     a = b;
     b = other;
   }
 }
 
-/* Takes a blossom out of its tree and puts it before next in a cycle; its nodes are as those of
- * outer ones from now on. */
-static void link_child(thr_matching_state *matching_state, int c, int next, int link)
+/* Takes a blossom out of its tree and puts it before `next` in a cycle. Its nodes are stored as
+ * those of outer blossoms from now on, as the new blossom is outer. */
+static void link_child(thr_matching_state *matching_state, int b, int next, int link)
 {
-  blossom *x = &matching_state->b[c];
-  blossom_label was = x->label;
-  thr_blossom_leave(matching_state, c);
-  for (int v = x->first; was == INNER; v = matching_state->node[v].next) {
-    matching_state->node[v].moat += x->offset - matching_state->time;
-    if (v == x->last) break;
+  /* Leaving the tree makes dual and offset those of now. */
+  blossom *child = &matching_state->b[b];
+  blossom_label was = child->label;
+  thr_blossom_leave(matching_state, b);
+
+  /* Moats of inner nodes are rewritten relative to the time; those of outer nodes are so
+   * already. */
+  for (int v = child->first; was == INNER; v = matching_state->node[v].next) {
+    matching_state->node[v].moat += child->offset - matching_state->time;
+    if (v == child->last) break;
   }
-  x->label = was;
-  x->next = next;
-  x->link = link;
+
+  /* The label is kept for those who look out from formerly inner children. */
+  child->label = was;
+  child->next = next;
+  child->link = link;
 }
 
-/* Links the cycle: from common down to the tail of dart, over it, and up from its head. */
+/* Links the cycle that a dart closes: from the common blossom down to the tail of the dart, over
+ * the dart, and from its head up to the common blossom. */
 static void link_cycle(thr_matching_state *matching_state, int dart, int common)
 {
+  /* Up from the tail, an outer and an inner blossom at a time; the cycle runs the other way. */
   int next = top_of_node(matching_state, matching_state->tail[dart ^ 1]), link = dart;
   for (int b = top_of_node(matching_state, matching_state->tail[dart]);;) {
     link_child(matching_state, b, next, link);
@@ -58,6 +77,8 @@ static void link_cycle(thr_matching_state *matching_state, int dart, int common)
     link = matching_state->b[inner].entry;
     b = top_of_node(matching_state, matching_state->tail[link]);
   }
+
+  /* Up from the head, in the direction of the cycle. */
   for (int b = top_of_node(matching_state, matching_state->tail[dart ^ 1]); b != common;) {
     int inner = top_of_node(matching_state, matching_state->tail[matching_state->b[b].match ^ 1]),
         up = matching_state->b[inner].entry ^ 1;
@@ -72,29 +93,37 @@ int thr_blossom_shrink(thr_matching_state *matching_state, int dart)
   int common =
       lowest_common(matching_state, top_of_node(matching_state, matching_state->tail[dart]),
                     top_of_node(matching_state, matching_state->tail[dart ^ 1]));
-  int b = matching_state->spare[--matching_state->n_spare], c = common, largest = common;
+  int b = matching_state->spare[--matching_state->n_spare], at = common, largest = common;
+
   link_cycle(matching_state, dart, common);
+
+  /* The new blossom is matched as the common one, which is the base of the cycle. */
   matching_state->b[b] = (blossom){.match = matching_state->b[common].match,
                                    .parent = -1,
                                    .child = common,
                                    .first = matching_state->b[common].first};
+
+  /* Adopt the children, and put their lists of nodes together. */
   do {
-    blossom *x = &matching_state->b[c];
-    x->parent = b;
-    matching_state->b[b].last = x->last;
-    matching_state->b[b].size += x->size;
-    if (x->size > matching_state->b[largest].size) largest = c;
-    c = x->next;
-    matching_state->node[x->last].next = matching_state->b[c].first;
-  } while (c != common);
+    blossom *child = &matching_state->b[at];
+    child->parent = b;
+    matching_state->b[b].last = child->last;
+    matching_state->b[b].size += child->size;
+    if (child->size > matching_state->b[largest].size) largest = at;
+    at = child->next;
+    matching_state->node[child->last].next = matching_state->b[at].first;
+  } while (at != common);
+
+  /* Unite the disjoint sets, the root of the largest child on top. */
   do {
-    matching_state->node[matching_state->b[c].root].up = matching_state->b[largest].root;
-    c = matching_state->b[c].next;
-  } while (c != common);
+    matching_state->node[matching_state->b[at].root].up = matching_state->b[largest].root;
+    at = matching_state->b[at].next;
+  } while (at != common);
   matching_state->b[b].root = matching_state->b[largest].root;
   matching_state->node[matching_state->b[b].root].up = ~b;
-  matching_state->b[b].offset =
-      matching_state->time; /* its nodes are as those of outer blossoms already */
+
+  /* The nodes are stored as those of an outer blossom already: with this offset none is changed. */
+  matching_state->b[b].offset = matching_state->time;
   thr_blossom_make_outer(matching_state, b, matching_state->b[common].tree);
   return b;
 }
@@ -103,46 +132,56 @@ int thr_blossom_shrink(thr_matching_state *matching_state, int dart)
 
 void thr_blossom_match_children(thr_matching_state *matching_state, int base)
 {
-  for (int c = matching_state->b[base].next; c != base;) {
-    int link = matching_state->b[c].link, mate = matching_state->b[c].next;
-    matching_state->b[c].match = link;
+  /* An odd number of children: after the base each child is matched with the next one. */
+  for (int child = matching_state->b[base].next; child != base;) {
+    int link = matching_state->b[child].link, mate = matching_state->b[child].next;
+    matching_state->b[child].match = link;
     matching_state->b[mate].match = link ^ 1;
-    c = matching_state->b[mate].next;
+    child = matching_state->b[mate].next;
   }
 }
 
 void thr_blossom_open(thr_matching_state *matching_state, int b)
 {
-  int c = matching_state->b[b].child, match = matching_state->b[b].match;
+  int at = matching_state->b[b].child, match = matching_state->b[b].match;
+
+  /* Make every child a top blossom and a disjoint set of its own. */
   do {
-    blossom *x = &matching_state->b[c];
-    for (int v = x->first; x->root != matching_state->b[b].root;
-         v = matching_state->node[v].next) { /* all but the largest child */
-      matching_state->node[v].up = x->root;
-      if (v == x->last) break;
+    blossom *child = &matching_state->b[at];
+    /* The nodes of the child with b's root, the largest, point there already. */
+    for (int v = child->first; child->root != matching_state->b[b].root;
+         v = matching_state->node[v].next) {
+      matching_state->node[v].up = child->root;
+      if (v == child->last) break;
     }
-    matching_state->node[x->root].up = ~c;
-    x->parent = -1;
-    x->label = FREE;
-    x->offset = matching_state->b[b].offset;
-    c = x->next;
-  } while (c != matching_state->b[b].child);
-  int base = match < 0 ? c : top_of_node(matching_state, matching_state->tail[match]);
+
+    matching_state->node[child->root].up = ~at;
+    child->parent = -1;
+    child->label = FREE;
+    child->offset = matching_state->b[b].offset;
+    at = child->next;
+  } while (at != matching_state->b[b].child);
+
+  /* The child that the matched dart leaves keeps the dart; the others are matched in pairs. If b
+   * is exposed, so is its first child. */
+  int base = match < 0 ? at : top_of_node(matching_state, matching_state->tail[match]);
   matching_state->b[base].match = match;
   thr_blossom_match_children(matching_state, base);
+
+  /* Give the blossom back. */
   matching_state->b[b] = (blossom){.child = -1};
   matching_state->spare[matching_state->n_spare++] = b;
 }
 
-/* Turns the cycle round. */
+/* Turns the direction of a cycle round. */
 static void reverse_cycle(thr_matching_state *matching_state, int start)
 {
   int b = start, next = matching_state->b[b].next, link = matching_state->b[b].link;
   do {
-    blossom *x = &matching_state->b[next];
-    int after = x->next, over = x->link;
-    x->next = b;
-    x->link = link ^ 1;
+    blossom *passed = &matching_state->b[next];
+    int after = passed->next, over = passed->link;
+    passed->next = b;
+    passed->link = link ^ 1;
     b = next;
     next = after;
     link = over;
@@ -153,21 +192,29 @@ void thr_blossom_expand(thr_matching_state *matching_state, int b)
 {
   int entry = matching_state->b[b].entry, match = matching_state->b[b].match,
       tree = matching_state->b[b].tree;
+
+  /* b is inner, with dual 0. The tree enters at the child `in`, and the child `base` is matched. */
   thr_blossom_leave(matching_state, b);
   thr_blossom_open(matching_state, b);
   int base = top_of_node(matching_state, matching_state->tail[match]),
       in = top_of_node(matching_state, matching_state->tail[entry ^ 1]);
-  /* the tree goes round the side where its alternation fits, the children on the other side are
-   * free */
+
+  /* The tree runs from `in` to base along the side of the cycle where `in` is matched with the next
+   * child. The children on the other side are free. */
   if (in != base && matching_state->b[in].match != matching_state->b[in].link)
     reverse_cycle(matching_state, in);
-  for (int c = matching_state->b[base].next; c != in; c = matching_state->b[c].next)
-    thr_blossom_look_back(matching_state, c);
-  for (int c = in, dart = entry;;) { /* the list of the tree takes the place of the cycle's */
-    int outer = matching_state->b[c].next;
-    thr_blossom_make_inner(matching_state, c, tree, dart);
-    if (c == base) break;
-    c = matching_state->b[outer].next;
+
+  /* Free children may be met by other outer blossoms. */
+  for (int child = matching_state->b[base].next; child != in; child = matching_state->b[child].next)
+    thr_blossom_look_back(matching_state, child);
+
+  /* Children from `in` to base are inner and outer in turns. The list of the tree overwrites the
+   * links of the cycle, so that these are read first. */
+  for (int child = in, dart = entry;;) {
+    int outer = matching_state->b[child].next;
+    thr_blossom_make_inner(matching_state, child, tree, dart);
+    if (child == base) break;
+    child = matching_state->b[outer].next;
     dart = matching_state->b[outer].link;
     thr_blossom_make_outer(matching_state, outer, tree);
     thr_blossom_look_out(matching_state, outer, outer);

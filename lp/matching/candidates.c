@@ -201,6 +201,7 @@ static thr_status find_near(near_search *s, int i, int64_t *reach, thr_err *err)
   const thr_network *net = s->net;
   int found = 0, settled = 0;
   int64_t last = 0;
+
   /* Begin at the odd place, as search number i + 1. */
   s->queue.count = 0;
   s->touched[net->odd[i]] = i + 1;
@@ -211,6 +212,7 @@ static thr_status find_near(near_search *s, int i, int64_t *reach, thr_err *err)
   while (s->queue.count && !st) {
     thr_queued at = thr_queue_pop(&s->queue);
     int j = net->number[at.place];
+
     /* A place that was reached on a shorter path since is skipped. */
     if (at.key != s->near[at.place]) continue;
 
@@ -320,6 +322,7 @@ static thr_status pair_up(const pair *edge, tree_node *node, int *stack, int n, 
 {
   int top = 0;
   thr_status st = THR_OK;
+
   /* Start with the leaves; stack has room for all nodes. */
   for (int v = 0; v < n; v++)
     if (node[v].degree == 1) stack[top++] = v;
@@ -328,6 +331,7 @@ static thr_status pair_up(const pair *edge, tree_node *node, int *stack, int n, 
 
     if (node[v].degree == 0) continue; /* the last node of the tree */
     const pair *leaf_edge = &edge[node[v].across];
+
     /* Take the edge of the leaf out of the tree. */
     int inner = leaf_edge->end[0] == v ? leaf_edge->end[1] : leaf_edge->end[0];
 

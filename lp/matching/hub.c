@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finds hubs, places with very many arcs, and candidate pairs of odd places over hubs.
  *
- * All odd places near a hub can be paired over the hub, which are too many pairs to list. Listed
- * are the pairs along random circuits through these places. Such circuits make an
- * expander; further ones are drawn while pricing finds violated pairs (blossom_parts.h, thr_hubs).
+ * All odd places near a hub can be paired over the hub, which makes too many pairs to list. Listed
+ * are the pairs along random circuits through these places, which are an expander; further circuits
+ * are drawn while pricing finds violated pairs (blossom_parts.h, thr_hubs).
  *
  * Example: four places a, b, c, d near a hub give the pairs ab, bc, cd, da in one circuit, of six.
  */
@@ -87,6 +87,7 @@ thr_status thr_hubs_pairs(const thr_hubs *hubs, const int64_t *reach, uint64_t *
   thr_status st = list ? THR_OK : thr_nomem(err);
   for (int k = 0; k < hubs->count && !st; k++) {
     const int64_t *way = &hubs->way[k * hubs->n_odd];
+
     /* List the odd places whose moats reach the hub. */
     int n = 0;
     for (int i = 0; i < hubs->n_odd; i++)

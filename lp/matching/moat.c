@@ -129,6 +129,7 @@ static thr_status price_arc(moat_solver *solver, int v, const thr_arc *arc, thr_
 {
   const thr_flood *flood = &solver->flood;
   int w = arc->head, i = flood->root[v], j = flood->root[w];
+
   /* Each arc within two different moats is looked at once. */
   if (w < v || i < 0 || j < 0 || i == j) return THR_OK;
 
@@ -148,6 +149,7 @@ static thr_status price_arc(moat_solver *solver, int v, const thr_arc *arc, thr_
 static thr_status price(moat_solver *solver, thr_err *err)
 {
   const thr_network *net = &solver->net;
+
   /* An odd place inside the moat of another one is too close to it. */
   int before = solver->pairs.count;
   thr_status st = THR_OK;
@@ -219,53 +221,56 @@ static int tail_of(const thr_network *net, int arc)
   return net->place[end[0]] == head ? net->place[end[1]] : net->place[end[0]];
 }
 
-/* Adds the path of a search, from a place back to its mate, to the join (edges twice are none). */
-static void toggle_back(path_search *ways, const int *came, int from, int to)
+/* Adds the path of a search, from a place back to its mate, to the join (an edge that two paths
+ * use drops out). */
+static void toggle_back(path_search *paths, const int *came, int from, int to)
 {
-  for (int v = from; v != to; v = tail_of(ways->net, came[v]))
-    ways->in_join[ways->net->arc[came[v]].edge] ^= true;
+  for (int v = from; v != to; v = tail_of(paths->net, came[v]))
+    paths->in_join[paths->net->arc[came[v]].edge] ^= true;
 }
 
 /* Marks the places outwards of the first mate, down to the depth that both mates share. */
-static void reach_first(path_search *ways, int search, int from, int64_t shared)
+static void reach_first(path_search *paths, int search, int from, int64_t shared)
 {
-  const thr_network *net = ways->net;
+  const thr_network *net = paths->net;
   int top = 0;
-  ways->reached[from] = search;
-  ways->stack[top++] = from;
+  paths->reached[from] = search;
+  paths->stack[top++] = from;
+
   /* Follow arcs along which the depth falls by just the weight of the arc. */
   while (top) {
-    int v = ways->stack[--top];
-    if (ways->flood->depth[v] <= shared) continue;
+    int v = paths->stack[--top];
+    if (paths->flood->depth[v] <= shared) continue;
     for (int k = net->first[v]; k < net->first[v + 1]; k++) {
       int other = net->arc[k].head;
-      int64_t depth = ways->flood->depth[v] - 2 * net->arc[k].weight;
-      if (depth < shared || depth != ways->flood->depth[other] || ways->reached[other] == search)
+      int64_t depth = paths->flood->depth[v] - 2 * net->arc[k].weight;
+      if (depth < shared || depth != paths->flood->depth[other] || paths->reached[other] == search)
         continue;
-      ways->reached[other] = search;
-      ways->came[other] = k;
-      ways->stack[top++] = other;
+      paths->reached[other] = search;
+      paths->came[other] = k;
+      paths->stack[top++] = other;
     }
   }
 }
 
 /* Puts a shortest path between mates i and k into the join; false if the flood does not hold
  * one. */
-static bool join_mates(path_search *ways, int search, int i, int k, int64_t shared)
+static bool join_mates(path_search *paths, int search, int i, int k, int64_t shared)
 {
-  const thr_network *net = ways->net;
-  const int64_t *depth = ways->flood->depth;
+  const thr_network *net = paths->net;
+  const int64_t *depth = paths->flood->depth;
   int first = net->odd[i], second = net->odd[k], top = 0;
-  reach_first(ways, search, first, shared);
+  reach_first(paths, search, first, shared);
+
   /* Search outwards from the second mate, until the first one's places are met. */
-  ways->reached_too[second] = search;
-  ways->stack[top++] = second;
+  paths->reached_too[second] = search;
+  paths->stack[top++] = second;
   while (top) {
-    int v = ways->stack[--top];
+    int v = paths->stack[--top];
     /* The searches meet at a place. */
-    if (ways->reached[v] == search) {
-      toggle_back(ways, ways->came, v, first);
-      toggle_back(ways, ways->came_too, v, second);
+    if (paths->reached[v] == search) {
+      toggle_back(paths, paths->came, v, first);
+      toggle_back(paths, paths->came_too, v, second);
       return true;
     }
 
@@ -275,18 +280,18 @@ static bool join_mates(path_search *ways, int search, int i, int k, int64_t shar
       int64_t out = depth[v] - 2 * net->arc[arc].weight;
 
       /* The searches meet within an edge, where both moats end at the shared depth. */
-      if (ways->reached[other] == search && depth[other] > shared &&
+      if (paths->reached[other] == search && depth[other] > shared &&
           out == 2 * shared - depth[other]) {
-        toggle_back(ways, ways->came, other, first);
-        toggle_back(ways, ways->came_too, v, second);
-        ways->in_join[net->arc[arc].edge] ^= true;
+        toggle_back(paths, paths->came, other, first);
+        toggle_back(paths, paths->came_too, v, second);
+        paths->in_join[net->arc[arc].edge] ^= true;
         return true;
       }
 
-      if (out < shared || out != depth[other] || ways->reached_too[other] == search) continue;
-      ways->reached_too[other] = search;
-      ways->came_too[other] = arc;
-      ways->stack[top++] = other;
+      if (out < shared || out != depth[other] || paths->reached_too[other] == search) continue;
+      paths->reached_too[other] = search;
+      paths->came_too[other] = arc;
+      paths->stack[top++] = other;
     }
   }
   return false;
@@ -296,13 +301,13 @@ static bool join_mates(path_search *ways, int search, int i, int k, int64_t shar
 static thr_status join_all(const moat_solver *solver, bool *in_join, thr_err *err)
 {
   size_t n = (size_t)solver->net.n_places;
-  path_search ways = {.net = &solver->net, .flood = &solver->flood, .in_join = in_join};
-  ways.reached = thr_calloc(n, sizeof *ways.reached);
-  ways.reached_too = thr_calloc(n, sizeof *ways.reached_too);
-  ways.came = thr_calloc(n, sizeof *ways.came);
-  ways.came_too = thr_calloc(n, sizeof *ways.came_too);
-  ways.stack = thr_calloc(n, sizeof *ways.stack);
-  thr_status st = ways.reached && ways.reached_too && ways.came && ways.came_too && ways.stack
+  path_search paths = {.net = &solver->net, .flood = &solver->flood, .in_join = in_join};
+  paths.reached = thr_calloc(n, sizeof *paths.reached);
+  paths.reached_too = thr_calloc(n, sizeof *paths.reached_too);
+  paths.came = thr_calloc(n, sizeof *paths.came);
+  paths.came_too = thr_calloc(n, sizeof *paths.came_too);
+  paths.stack = thr_calloc(n, sizeof *paths.stack);
+  thr_status st = paths.reached && paths.reached_too && paths.came && paths.came_too && paths.stack
                       ? THR_OK
                       : thr_nomem(err);
 
@@ -310,16 +315,16 @@ static thr_status join_all(const moat_solver *solver, bool *in_join, thr_err *er
   for (int i = 0; i < solver->net.n_odd && !st; i++) {
     int k = solver->matching.mate[i];
     if (k < i) continue;
-    if (!join_mates(&ways, i + 1, i, k, thr_nest_shared_depth(&solver->nest, i, k)))
+    if (!join_mates(&paths, i + 1, i, k, thr_nest_shared_depth(&solver->nest, i, k)))
       st = thr_fail(err, THR_ESOLVER,
                     "matched odd nodes have no way of the weight that their moats say");
   }
 
-  free(ways.reached);
-  free(ways.reached_too);
-  free(ways.came);
-  free(ways.came_too);
-  free(ways.stack);
+  free(paths.reached);
+  free(paths.reached_too);
+  free(paths.came);
+  free(paths.came_too);
+  free(paths.stack);
   return st;
 }
 
@@ -384,6 +389,7 @@ thr_status thr_moat_fits(const thr_tjoin_problem *tjoin_problem, bool *fits, thr
   double sum = 0, most = (double)THR_MOAT_WEIGHTS_MOST;
   thr_status st = THR_OK;
   *fits = true;
+
   /* If all weights together are small enough, no tree need be built. */
   for (int e = 0; e < tjoin_problem->n_edges; e++) {
     sum += (double)tjoin_problem->weight[e];

@@ -1,19 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The duals of a matching as nested moats: every odd place, and every blossom, is a set with a moat
- * of some width round it. Internal to lp/.
+/* Lays the duals of a matching out as nested moats, and turns the moats into odd cuts of the
+ * problem. Every odd place and every blossom is a set with a moat round it, whose width is the
+ * dual.
  *
- * The depth of a place is the sum of the widths of the moats round it; two places can be paired at
- * no loss if their depths add up to their distance. A negative width of a single place is taken
- * from the moats round the place and its mate, which leaves every such sum as it is.
+ * The depth of a place is the sum of the widths of the moats that it lies inside of. Two places are
+ * matched at no loss if their depths outside of the sets that hold both add up to their distance.
+ * The dual of a single place may be negative, but the width of a moat may not: what is missing is
+ * taken from the moats between the place and its mate, which leaves the sum of these two as it is.
  *
- * Example: three odd places at distance 2 from each other in a blossom have width 1 each, and the
- * moat of the blossom comes on top of that. */
+ * Example: three odd places at distance 2 from each other in a blossom have moats of width 1 each,
+ * and the moat of the blossom lies around all three. */
 #include "lp/matching/blossom_parts.h"
 #include "graph/sort.h"
 
 #include <stdlib.h>
 #include <string.h>
 
+/* Allocates a nest of the odd places and the blossoms. */
 static thr_status allocate(thr_nest *nest, int n_odd, int n_blossoms, thr_err *err)
 {
   size_t n = (size_t)n_odd + (size_t)n_blossoms;
@@ -23,6 +26,7 @@ static thr_status allocate(thr_nest *nest, int n_odd, int n_blossoms, thr_err *e
   nest->level = thr_scratch_array(&nest->own, n, sizeof *nest->level);
   nest->width = thr_scratch_array(&nest->own, n, sizeof *nest->width);
   nest->outer = thr_scratch_array(&nest->own, n, sizeof *nest->outer);
+
   thr_status st = thr_scratch_check(&nest->own, err);
   if (st) thr_nest_destroy(nest);
   return st;
@@ -34,30 +38,40 @@ void thr_nest_destroy(thr_nest *nest)
   *nest = (thr_nest){0};
 }
 
-/* Levels and jumps: a set jumps as far as its parent's jump if that jump and the one after are as
- * long as each other, else to its parent (E. W. Myers, "An applicative random-access stack", Inf.
- * Proc. Letters 17, 1983). */
+/* Computes the levels, and jumps that make searches outwards logarithmic: a set jumps as far as
+ * the jump of its parent and the next jump from there lead, if these two are equally long, else
+ * to its parent (E. W. Myers, "An applicative random-access stack", Inf. Proc. Letters 17,
+ * 1983). */
 static void link_up(thr_nest *nest)
 {
+  /* Parents come after their children, so that the parent of a set is done before the set. */
   for (int s = nest->n_sets - 1; s >= 0; s--) {
     int up = nest->parent[s], far = up < 0 ? -1 : nest->jump[up],
         farther = far < 0 ? -1 : nest->jump[far];
+
     nest->jump[s] = up;
     nest->level[s] = up < 0 ? 0 : nest->level[up] + 1;
+
+    /* Two jumps of the same length make one. */
     if (farther >= 0 &&
         nest->level[up] - nest->level[far] == nest->level[far] - nest->level[farther])
       nest->jump[s] = farther;
   }
 }
 
-/* Innermost common set of a and b, or -1. */
+/* Returns the innermost set that holds both a and b, or -1. */
 static int common_set(const thr_nest *nest, int a, int b)
 {
   const int *level = nest->level, *jump = nest->jump;
   int low = level[a] > level[b] ? a : b, high = low == a ? b : a;
+
+  /* Climb from the deeper set to the level of the other one. */
   while (level[low] > level[high])
     low = jump[low] >= 0 && level[jump[low]] >= level[high] ? jump[low] : nest->parent[low];
-  while (low != high) { /* at equal levels jumps are equally long */
+
+  /* Climb together. At equal levels jumps are equally long: jump unless both end in one set, which
+   * need not be the innermost. */
+  while (low != high) {
     bool far = jump[low] != jump[high];
     low = far ? jump[low] : nest->parent[low];
     high = far ? jump[high] : nest->parent[high];
@@ -65,6 +79,7 @@ static int common_set(const thr_nest *nest, int a, int b)
   return low;
 }
 
+/* Takes as much of the missing width as there is from the moat of a set. */
 static void take(thr_nest *nest, int set, int64_t *missing)
 {
   int64_t part = nest->width[set] < *missing ? nest->width[set] : *missing;
@@ -73,21 +88,27 @@ static void take(thr_nest *nest, int set, int64_t *missing)
   *missing -= part;
 }
 
-/* The sets around i that do not hold its mate k, then those of k. chain[n_sets] is scratch space.
- */
+/* Raises the negative width of odd place i to 0, at the cost of the moats between i and its mate
+ * k: those round i that do not hold k, from the inside outwards, then those round k that do not
+ * hold i, from the outside inwards. chain[n_sets] is scratch space. */
 static void raise_width(thr_nest *nest, int i, int k, int *chain)
 {
   int64_t missing = -nest->width[i];
   int common = common_set(nest, i, k), n = 0;
   nest->width[i] = 0;
+
+  /* The moats round i. */
   for (int s = nest->parent[i]; s != common && missing; s = nest->parent[s])
     take(nest, s, &missing);
+
+  /* The moats round k, of which the inner ones are listed first and served last. */
   for (int s = k; s != common; s = nest->parent[s])
     chain[n++] = s;
   while (n && missing)
     take(nest, chain[--n], &missing);
 }
 
+/* Computes the depth just outside of every moat, parents first. */
 static void find_depths(thr_nest *nest)
 {
   for (int s = nest->n_sets - 1; s >= 0; s--) {
@@ -101,21 +122,27 @@ thr_status thr_nest_init(thr_nest *nest, int n_odd, const thr_matching *matching
 {
   thr_status st = allocate(nest, n_odd, matching->n_blossoms, err);
   if (st) return st;
+
   int *chain = thr_calloc((size_t)nest->n_sets, sizeof *chain);
   if (!chain) {
     thr_nest_destroy(nest);
     return thr_nomem(err);
   }
+
+  /* The sets are the odd places, then the blossoms. */
   for (int s = 0; s < nest->n_sets; s++) {
     int up = s < n_odd ? matching->node_blossom[s] : matching->blossom_parent[s - n_odd];
     nest->parent[s] = up < 0 ? -1 : n_odd + up;
     nest->width[s] = s < n_odd ? matching->dual[s] : matching->blossom_dual[s - n_odd];
   }
   link_up(nest);
+
+  /* No place may have a negative width. */
   for (int i = 0; i < n_odd; i++) {
     raised[i] = nest->width[i] < 0;
     if (raised[i]) raise_width(nest, i, matching->mate[i], chain);
   }
+
   free(chain);
   find_depths(nest);
   return THR_OK;
@@ -127,6 +154,8 @@ thr_status thr_nest_of_balls(thr_nest *nest, int n_odd, const int64_t *width, th
   if (st) return st;
   memcpy(nest->width, width, (size_t)n_odd * sizeof *width);
   for (int i = 0; i < n_odd; i++)
+
+    /* A ball lies in no other set. */
     nest->parent[i] = nest->jump[i] = -1;
   return THR_OK;
 }
@@ -145,48 +174,57 @@ void thr_nest_depths(const thr_nest *nest, int64_t *start)
 
 /* ---- cuts ---- */
 
+/* The moats on their way to cuts. Sets are visited children first; the cuts inside a set that have
+ * no parent yet wait in a list for the next cut around them. */
 typedef struct {
   const thr_nest *nest;
   const thr_network *net;
-  const thr_flood *f;
+  const thr_flood *flood;
   thr_scratch own;   /* all arrays but the cuts */
   int *set;          /* [n_places] in whose moat a place lies */
   int *first, *list; /* places of set s, deepest first: list[first[s] .. first[s + 1] - 1] */
-  int *first_node; /* [n_places + 1] nodes of place v: node[first_node[v] .. first_node[v + 1] - 1]
-                    */
-  int *node;       /* [p->n_nodes] */
-  int *open;       /* [n_sets] last of the cuts that still wait for the one around them, or -1 */
-  int *last_open;  /* [n_sets] end of that list */
-  int *waiting;    /* [cuts] the next in it, or -1 */
+  int *first_node;   /* [n_places + 1] nodes of place v: node[first_node[v] ..
+                        first_node[v + 1] - 1] */
+  int *node;         /* [p->n_nodes] */
+  int *open;         /* [n_sets] first of the cuts inside that wait for a parent, or -1 */
+  int *last_open;    /* [n_sets] last of them */
+  int *waiting;      /* [cuts] the next one in the list, or -1 */
   thr_cut *cut;
   int n_cuts, capacity;
   int64_t sum;
-} cutter;
+} moat_cutter;
 
-static thr_status cutter_init(cutter *c, thr_err *err)
+/* Allocates for all places, sets and cuts. */
+static thr_status cutter_init(moat_cutter *cutter, thr_err *err)
 {
-  const thr_network *net = c->net;
-  size_t n = (size_t)net->n_places, sets = (size_t)c->nest->n_sets, nodes = (size_t)net->p->n_nodes;
-  c->set = thr_scratch_array(&c->own, n, sizeof *c->set);
-  c->first = thr_scratch_array(&c->own, sets + 2, sizeof *c->first);
-  c->list = thr_scratch_array(&c->own, (size_t)c->f->n_reached, sizeof *c->list);
-  c->first_node = thr_scratch_array(&c->own, n + 2, sizeof *c->first_node);
-  c->node = thr_scratch_array(&c->own, nodes, sizeof *c->node);
-  c->open = thr_scratch_array(&c->own, sets, sizeof *c->open);
-  c->last_open = thr_scratch_array(&c->own, sets, sizeof *c->last_open);
-  size_t most =
-      (size_t)c->f->n_reached + sets; /* each cut is the first of a set or ends above a place */
-  c->capacity = (int)most;
-  c->cut = thr_calloc(most, sizeof *c->cut);
-  c->waiting = thr_scratch_array(&c->own, most, sizeof *c->waiting);
-  if (!c->cut) return thr_nomem(err);
-  thr_status st = thr_scratch_check(&c->own, err);
+  const thr_network *net = cutter->net;
+  size_t n = (size_t)net->n_places, sets = (size_t)cutter->nest->n_sets,
+         nodes = (size_t)net->p->n_nodes;
+  cutter->set = thr_scratch_array(&cutter->own, n, sizeof *cutter->set);
+  cutter->first = thr_scratch_array(&cutter->own, sets + 2, sizeof *cutter->first);
+  cutter->list =
+      thr_scratch_array(&cutter->own, (size_t)cutter->flood->n_reached, sizeof *cutter->list);
+  cutter->first_node = thr_scratch_array(&cutter->own, n + 2, sizeof *cutter->first_node);
+  cutter->node = thr_scratch_array(&cutter->own, nodes, sizeof *cutter->node);
+  cutter->open = thr_scratch_array(&cutter->own, sets, sizeof *cutter->open);
+  cutter->last_open = thr_scratch_array(&cutter->own, sets, sizeof *cutter->last_open);
+
+  /* Each cut is the outermost of its set or ends at the depth of a place. */
+  size_t most = (size_t)cutter->flood->n_reached + sets;
+  cutter->capacity = (int)most;
+  cutter->cut = thr_calloc(most, sizeof *cutter->cut);
+  cutter->waiting = thr_scratch_array(&cutter->own, most, sizeof *cutter->waiting);
+  if (!cutter->cut) return thr_nomem(err);
+  thr_status st = thr_scratch_check(&cutter->own, err);
   if (st) return st;
-  memset(c->open, -1, sets * sizeof *c->open);
+
+  /* No cut waits. */
+  memset(cutter->open, -1, sets * sizeof *cutter->open);
   return THR_OK;
 }
 
-/* The set of odd place i's in whose moat, or at whose inner edge, depth > 0 lies. O(log n_sets). */
+/* Returns the set round odd place i in whose moat, or at whose inner edge, depth > 0 lies. O(log
+ * n_sets). */
 static int set_at(const thr_nest *nest, int i, int64_t depth)
 {
   int s = i;
@@ -197,96 +235,125 @@ static int set_at(const thr_nest *nest, int i, int64_t depth)
   return s;
 }
 
-/* Places by set, in the order in which the flood came; nodes by place, ascending. */
-static void sort_places(cutter *c)
+/* Sorts the places by set, in the order in which the flood came, and the nodes by place,
+ * ascending. */
+static void sort_places(moat_cutter *cutter)
 {
-  const thr_flood *flood = c->f;
+  /* Find the set of every place, and count. */
+  const thr_flood *flood = cutter->flood;
   for (int k = 0; k < flood->n_reached; k++) {
     int v = flood->order[k];
-    c->set[v] = set_at(c->nest, flood->root[v], flood->depth[v]);
-    c->first[c->set[v] + 2]++;
+    cutter->set[v] = set_at(cutter->nest, flood->root[v], flood->depth[v]);
+    cutter->first[cutter->set[v] + 2]++;
   }
-  for (int s = 1; s <= c->nest->n_sets; s++)
-    c->first[s + 1] += c->first[s];
+  for (int s = 1; s <= cutter->nest->n_sets; s++)
+    cutter->first[s + 1] += cutter->first[s];
+
+  /* Deepest first within a set, as the flood came. */
   for (int k = 0; k < flood->n_reached; k++)
-    c->list[c->first[c->set[flood->order[k]] + 1]++] = flood->order[k];
-  for (int v = 0; v < c->net->p->n_nodes; v++)
-    c->first_node[c->net->place[v] + 2]++;
-  for (int v = 1; v <= c->net->n_places; v++)
-    c->first_node[v + 1] += c->first_node[v];
-  for (int v = 0; v < c->net->p->n_nodes; v++)
-    c->node[c->first_node[c->net->place[v] + 1]++] = v;
+    cutter->list[cutter->first[cutter->set[flood->order[k]] + 1]++] = flood->order[k];
+
+  /* The nodes of every place. */
+  for (int v = 0; v < cutter->net->p->n_nodes; v++)
+    cutter->first_node[cutter->net->place[v] + 2]++;
+  for (int v = 1; v <= cutter->net->n_places; v++)
+    cutter->first_node[v + 1] += cutter->first_node[v];
+  for (int v = 0; v < cutter->net->p->n_nodes; v++)
+    cutter->node[cutter->first_node[cutter->net->place[v] + 1]++] = v;
 }
 
-/* A cut of set s: the places list[from .. end - 1] and all that waits inside. */
-static thr_status add_cut(cutter *c, int s, int from, int end, int64_t width, thr_err *err)
+/* Adds a cut of set s: the places list[from .. end - 1] and all cuts that wait inside of the
+ * set. */
+static thr_status add_cut(moat_cutter *cutter, int s, int from, int end, int64_t width,
+                          thr_err *err)
 {
-  int n = 0, k = c->n_cuts;
+  int n = 0, k = cutter->n_cuts;
+
+  /* Count the nodes and allocate. */
   for (int i = from; i < end; i++)
-    n += c->first_node[c->list[i] + 1] - c->first_node[c->list[i]];
-  thr_cut *cut = &c->cut[k];
+    n += cutter->first_node[cutter->list[i] + 1] - cutter->first_node[cutter->list[i]];
+  thr_cut *cut = &cutter->cut[k];
   *cut = (thr_cut){.parent = -1,
                    .node = thr_calloc((size_t)n, sizeof *cut->node),
                    .value = width * (THR_DUAL_DENOMINATOR / 2)};
   if (!cut->node) return thr_nomem(err);
-  c->n_cuts++;
-  c->sum += cut->value;
+
+  cutter->n_cuts++;
+  cutter->sum += cut->value;
+
+  /* Copy the nodes. */
   for (int i = from; i < end; i++)
-    for (int j = c->first_node[c->list[i]]; j < c->first_node[c->list[i] + 1]; j++)
-      cut->node[cut->n_nodes++] = c->node[j];
+    for (int j = cutter->first_node[cutter->list[i]]; j < cutter->first_node[cutter->list[i] + 1];
+         j++)
+      cut->node[cut->n_nodes++] = cutter->node[j];
   thr_sort_ints(cut->node, (size_t)n);
-  for (int inside = c->open[s]; inside >= 0; inside = c->waiting[inside])
-    c->cut[inside].parent = k;
-  c->open[s] = c->last_open[s] = k;
-  c->waiting[k] = -1;
+
+  /* The cuts inside get their parent, and now the new cut waits. */
+  for (int inside = cutter->open[s]; inside >= 0; inside = cutter->waiting[inside])
+    cutter->cut[inside].parent = k;
+  cutter->open[s] = cutter->last_open[s] = k;
+  cutter->waiting[k] = -1;
   return THR_OK;
 }
 
-/* The moat of a set: one cut from each depth at which places come in to the next. */
-static thr_status cut_moat(cutter *c, int s, thr_err *err)
+/* Cuts the moat of a set at every depth where places come in: from each such depth to the next,
+ * the cut is the places reached so far. */
+static thr_status cut_moat(moat_cutter *cutter, int s, thr_err *err)
 {
-  const thr_nest *nest = c->nest;
+  const thr_nest *nest = cutter->nest;
   int64_t bottom = nest->outer[s], depth = bottom + nest->width[s];
   thr_status st = THR_OK;
-  for (int from = c->first[s], end = from; depth > bottom && !st; from = end) {
-    while (end < c->first[s + 1] && c->f->depth[c->list[end]] == depth)
+  for (int from = cutter->first[s], end = from; depth > bottom && !st; from = end) {
+    /* Take the places at this depth. */
+    while (end < cutter->first[s + 1] && cutter->flood->depth[cutter->list[end]] == depth)
       end++;
-    int64_t next = end < c->first[s + 1] ? c->f->depth[c->list[end]] : bottom;
-    st = add_cut(c, s, from, end, depth - next, err);
+
+    /* The cut goes down to the next depth with a place, or to the outer edge of the moat. */
+    int64_t next = end < cutter->first[s + 1] ? cutter->flood->depth[cutter->list[end]] : bottom;
+    st = add_cut(cutter, s, from, end, depth - next, err);
     depth = next;
   }
   return st;
 }
 
-/* What waits inside set s waits inside its parent. */
-static void hand_on(cutter *c, int s)
+/* Passes the cuts that wait inside set s on to the parent of s. */
+static void hand_on(moat_cutter *cutter, int s)
 {
-  int up = c->nest->parent[s];
-  if (up < 0 || c->open[s] < 0) return;
-  c->waiting[c->last_open[s]] = c->open[up];
-  if (c->open[up] < 0) c->last_open[up] = c->last_open[s];
-  c->open[up] = c->open[s];
+  int up = cutter->nest->parent[s];
+  if (up < 0 || cutter->open[s] < 0) return;
+
+  /* Put the list in front of the parent's. */
+  cutter->waiting[cutter->last_open[s]] = cutter->open[up];
+  if (cutter->open[up] < 0) cutter->last_open[up] = cutter->last_open[s];
+  cutter->open[up] = cutter->open[s];
 }
 
 thr_status thr_nest_cuts(const thr_nest *nest, const thr_network *net, const thr_flood *flood,
                          thr_cut **cut, int *n_cuts, int64_t *sum, thr_err *err)
 {
-  cutter c = {.nest = nest, .net = net, .f = flood};
-  thr_status st = cutter_init(&c, err);
-  if (!st) sort_places(&c);
+  moat_cutter cutter = {.nest = nest, .net = net, .flood = flood};
+  thr_status st = cutter_init(&cutter, err);
+
+  if (!st) sort_places(&cutter);
+
+  /* Children come before their parents, so that a cut is there before the one around it. */
   for (int s = 0; s < nest->n_sets && !st; s++) {
-    st = cut_moat(&c, s, err);
-    hand_on(&c, s);
+    st = cut_moat(&cutter, s, err);
+    hand_on(&cutter, s);
   }
-  thr_scratch_free(&c.own);
+
+  thr_scratch_free(&cutter.own);
+
+  /* On failure nothing stays allocated. */
   if (st) {
-    for (int k = 0; k < c.n_cuts; k++)
-      free(c.cut[k].node);
-    free(c.cut);
-    c = (cutter){0};
+    for (int k = 0; k < cutter.n_cuts; k++)
+      free(cutter.cut[k].node);
+    free(cutter.cut);
+    cutter = (moat_cutter){0};
   }
-  *cut = c.cut;
-  *n_cuts = c.n_cuts;
-  *sum = c.sum;
+
+  *cut = cutter.cut;
+  *n_cuts = cutter.n_cuts;
+  *sum = cutter.sum;
   return st;
 }

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A T-join problem made ready for shortest paths: adjacency in one block, edges of weight 0
- * contracted. Internal to lp/.
+/* Prepares a T-join problem for shortest paths: contracts edges of weight 0, and stores the arcs of
+ * every contracted node, called a place, in one block. Repairs the parities of joins, and provides
+ * the queue for Dijkstra's method.
  *
- * A contracted place is odd if it holds an odd number of odd nodes; joins of the contracted graph
- * and of the whole one have the same weight.
+ * A place is odd if it holds an odd number of odd nodes. A T-join of the contracted graph becomes
+ * one of the whole graph by edges of weight 0, so that the minima are the same.
  *
  * Example: in a triangle with weights 0, 3 and 4 the ends of the first edge become one place, with
  * two arcs of weight 3 and 4 to the third node. */
@@ -13,21 +14,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Numbers the places by their lowest node. */
+/* Contracts the edges of weight 0, and numbers the places by their lowest nodes. */
 static void number_places(thr_network *net, int *parent)
 {
   const thr_tjoin_problem *tjoin_problem = net->p;
+
+  /* Join the ends of edges of weight 0. */
   for (int v = 0; v < tjoin_problem->n_nodes; v++)
     parent[v] = v;
   for (int e = 0; e < tjoin_problem->n_edges; e++)
     if (tjoin_problem->weight[e] == 0)
       thr_disjoint_join(parent, tjoin_problem->edge[e][0], tjoin_problem->edge[e][1]);
+
+  /* The root of a place is its lowest node, which has its number before the others ask. */
   for (int v = 0; v < tjoin_problem->n_nodes; v++) {
-    int root = thr_disjoint_find(parent, v); /* the lowest */
+    int root = thr_disjoint_find(parent, v);
     net->place[v] = root == v ? net->n_places++ : net->place[root];
   }
 }
 
+/* Computes the places of an edge's ends; says whether they are two. */
 static bool between_places(const thr_network *net, int e, int place[2])
 {
   place[0] = net->place[net->p->edge[e][0]];
@@ -35,12 +41,16 @@ static bool between_places(const thr_network *net, int e, int place[2])
   return place[0] != place[1];
 }
 
+/* Stores the arcs of both directions by place. */
 static thr_status fill_arcs(thr_network *net, thr_err *err)
 {
   const thr_tjoin_problem *tjoin_problem = net->p;
   int at[2];
+
   net->first = thr_scratch_array(&net->own, (size_t)net->n_places + 2, sizeof *net->first);
   if (!net->first) return thr_nomem(err);
+
+  /* Count the arcs of every place, two places further on for the counting sort. */
   for (int e = 0; e < tjoin_problem->n_edges; e++) {
     if (!between_places(net, e, at)) continue;
     net->first[at[0] + 2]++;
@@ -49,6 +59,8 @@ static thr_status fill_arcs(thr_network *net, thr_err *err)
   }
   for (int v = 1; v <= net->n_places; v++)
     net->first[v + 1] += net->first[v];
+
+  /* Fill the block; first[v + 1] moves to the end of the arcs of v. */
   net->arc = thr_scratch_array(&net->own, (size_t)net->n_arcs, sizeof *net->arc);
   if (!net->arc) return thr_nomem(err);
   for (int e = 0; e < tjoin_problem->n_edges; e++) {
@@ -59,14 +71,19 @@ static thr_status fill_arcs(thr_network *net, thr_err *err)
   return THR_OK;
 }
 
+/* Lists the odd places in ascending order. */
 static thr_status list_odd(thr_network *net, thr_err *err)
 {
   net->number = thr_scratch_array(&net->own, (size_t)net->n_places, sizeof *net->number);
   net->odd = thr_scratch_array(&net->own, (size_t)net->n_places, sizeof *net->odd);
   thr_status st = thr_scratch_check(&net->own, err);
   if (st) return st;
+
+  /* A place has the parity of the number of its odd nodes. */
   for (int v = 0; v < net->p->n_nodes; v++)
     net->number[net->place[v]] ^= net->p->odd[v];
+
+  /* Replace the parities by positions in the list. */
   for (int v = 0; v < net->n_places; v++) {
     bool odd = net->number[v];
     net->number[v] = odd ? net->n_odd : -1;
@@ -80,10 +97,12 @@ thr_status thr_network_init(thr_network *net, const thr_tjoin_problem *tjoin_pro
   *net = (thr_network){.p = tjoin_problem};
   int *parent = thr_scratch_array(&net->own, (size_t)tjoin_problem->n_nodes, sizeof *parent);
   net->place = thr_scratch_array(&net->own, (size_t)tjoin_problem->n_nodes, sizeof *net->place);
+
   thr_status st = thr_scratch_check(&net->own, err);
   if (!st) number_places(net, parent);
   if (!st) st = fill_arcs(net, err);
   if (!st) st = list_odd(net, err);
+
   if (st) thr_network_destroy(net);
   return st;
 }
@@ -96,46 +115,52 @@ void thr_network_destroy(thr_network *net)
 
 /* ---- mending a join ---- */
 
-/* A forest as its edges at each node, taken from the leaves inwards: a node with the wrong parity
- * passes that on. */
+/* A forest, as the edges at every node, that is taken apart from the leaves inwards. */
 typedef struct {
   int *degree, *stack; /* [n_nodes] */
-  int *across; /* [n_nodes] xor of the forest's edges at a node: of a leaf it is the only one */
-  bool *wrong; /* [n_nodes] parity of the join is not that of T */
-} forest;
+  int *across; /* [n_nodes] xor of the forest's edges at a node, which at a leaf is the only one */
+  bool *wrong; /* [n_nodes] does the parity of the join differ from that of T? */
+} parity_forest;
 
+/* An edge to be sorted. */
 typedef struct {
   int64_t weight;
   int edge;
-} weighed;
+} weighed_edge;
 
+/* Orders edges by weight, then by number. */
 static int by_weight(const void *pa, const void *pb)
 {
-  const weighed *a = pa, *b = pb;
+  const weighed_edge *a = pa, *b = pb;
   if (a->weight != b->weight) return a->weight < b->weight ? -1 : 1;
   return (a->edge > b->edge) - (a->edge < b->edge);
 }
 
-/* A lightest spanning forest, of all edges or of those of weight 0. *edge is allocated, *n of them.
- */
+/* Finds a minimum spanning forest, of all edges or only of those of weight 0 (Kruskal). *edge
+ * receives an allocated list of *n edges. */
 static thr_status find_forest(const thr_tjoin_problem *tjoin_problem, bool any_weight, int **edge,
                               int *n, thr_err *err)
 {
   int *parent = thr_calloc((size_t)tjoin_problem->n_nodes, sizeof *parent), count = 0;
-  weighed *list = thr_calloc((size_t)tjoin_problem->n_edges, sizeof *list);
+  weighed_edge *list = thr_calloc((size_t)tjoin_problem->n_edges, sizeof *list);
   *n = 0;
   *edge = thr_calloc((size_t)tjoin_problem->n_nodes, sizeof **edge);
   thr_status st = parent && list && *edge ? THR_OK : thr_nomem(err);
+
+  /* List the edges that may be used, the lightest first. */
   for (int v = 0; v < tjoin_problem->n_nodes && !st; v++)
     parent[v] = v;
   for (int e = 0; e < tjoin_problem->n_edges && !st; e++)
     if (any_weight || tjoin_problem->weight[e] == 0)
-      list[count++] = (weighed){tjoin_problem->weight[e], e};
+      list[count++] = (weighed_edge){tjoin_problem->weight[e], e};
   if (!st) qsort(list, (size_t)count, sizeof *list, by_weight);
+
+  /* Take each edge that closes no circuit. */
   for (int k = 0; k < count && !st; k++) {
     const int *end = tjoin_problem->edge[list[k].edge];
     if (thr_disjoint_join(parent, end[0], end[1])) (*edge)[(*n)++] = list[k].edge;
   }
+
   free(parent);
   free(list);
   return st;
@@ -145,73 +170,100 @@ thr_status thr_network_tree_weight(const thr_tjoin_problem *tjoin_problem, doubl
                                    thr_err *err)
 {
   int *edge, n;
+
   *weight = 0;
   thr_status st = find_forest(tjoin_problem, true, &edge, &n, err);
+
   for (int k = 0; k < n && !st; k++)
     *weight += (double)tjoin_problem->weight[edge[k]];
+
   free(edge);
   return st;
 }
 
-static void stand(const thr_tjoin_problem *tjoin_problem, const bool *in_join, const int *edge,
-                  int n, forest *f)
+/* Computes the wrong parities of a join, and the edges of a forest at every node. */
+static void forest_init(const thr_tjoin_problem *tjoin_problem, const bool *in_join,
+                        const int *edge, int n, parity_forest *forest)
 {
-  memcpy(f->wrong, tjoin_problem->odd, (size_t)tjoin_problem->n_nodes * sizeof *f->wrong);
+  memcpy(forest->wrong, tjoin_problem->odd, (size_t)tjoin_problem->n_nodes * sizeof *forest->wrong);
+
+  /* A node is wrong if it is odd and has an even degree in the join, or the other way round. */
   for (int e = 0; e < tjoin_problem->n_edges; e++)
     if (in_join[e])
-      f->wrong[tjoin_problem->edge[e][0]] ^= true, f->wrong[tjoin_problem->edge[e][1]] ^= true;
+      forest->wrong[tjoin_problem->edge[e][0]] ^= true,
+          forest->wrong[tjoin_problem->edge[e][1]] ^= true;
+
+  /* The xor of the edges is enough to find the last one at a node. */
   for (int k = 0; k < n; k++)
     for (int i = 0; i < 2; i++) {
       int v = tjoin_problem->edge[edge[k]][i];
-      f->degree[v]++;
-      f->across[v] ^= edge[k];
+      forest->degree[v]++;
+      forest->across[v] ^= edge[k];
     }
 }
 
-static void pass_on(const thr_tjoin_problem *tjoin_problem, bool *in_join, forest *f)
+/* Repairs the parities of a join: a leaf of the forest with the wrong parity changes the edge
+ * that is left there, and passes the wrong parity on to the other end. */
+static void repair_parities(const thr_tjoin_problem *tjoin_problem, bool *in_join,
+                            parity_forest *forest)
 {
   int top = 0;
+
+  /* Start with the leaves. */
   for (int v = 0; v < tjoin_problem->n_nodes; v++)
-    if (f->degree[v] == 1) f->stack[top++] = v;
+    if (forest->degree[v] == 1) forest->stack[top++] = v;
+
   while (top) {
-    int v = f->stack[--top], e = f->across[v];
-    if (f->degree[v] == 0) continue; /* the last of its tree */
-    int w = tjoin_problem->edge[e][0] == v ? tjoin_problem->edge[e][1] : tjoin_problem->edge[e][0];
-    in_join[e] ^= f->wrong[v];
-    f->wrong[w] ^= f->wrong[v];
-    f->across[w] ^= e;
-    if (--f->degree[w] == 1) f->stack[top++] = w;
+    int v = forest->stack[--top], e = forest->across[v];
+    if (forest->degree[v] == 0) continue; /* the last node of its tree */
+
+    int inner =
+        tjoin_problem->edge[e][0] == v ? tjoin_problem->edge[e][1] : tjoin_problem->edge[e][0];
+
+    /* Change the edge if the leaf is wrong, and take the leaf off. */
+    in_join[e] ^= forest->wrong[v];
+    forest->wrong[inner] ^= forest->wrong[v];
+    forest->across[inner] ^= e;
+    if (--forest->degree[inner] == 1) forest->stack[top++] = inner;
   }
 }
 
 thr_status thr_network_mend(const thr_network *net, bool any_weight, bool *in_join, thr_err *err)
 {
   size_t n = (size_t)net->p->n_nodes;
+
+  /* Without edges of weight 0 every place is one node, whose parity is right already. */
   if (!any_weight && net->n_places == net->p->n_nodes) return THR_OK;
+
   thr_scratch own = {0};
-  forest f = {.degree = thr_scratch_array(&own, n, sizeof *f.degree)};
-  f.stack = thr_scratch_array(&own, n, sizeof *f.stack);
-  f.across = thr_scratch_array(&own, n, sizeof *f.across);
-  f.wrong = thr_scratch_array(&own, n, sizeof *f.wrong);
+  parity_forest forest = {.degree = thr_scratch_array(&own, n, sizeof *forest.degree)};
+  forest.stack = thr_scratch_array(&own, n, sizeof *forest.stack);
+  forest.across = thr_scratch_array(&own, n, sizeof *forest.across);
+  forest.wrong = thr_scratch_array(&own, n, sizeof *forest.wrong);
   int *edge = NULL, n_edges = 0;
+
   thr_status st = thr_scratch_check(&own, err);
   if (!st) st = find_forest(net->p, any_weight, &edge, &n_edges, err);
   if (!st) {
-    stand(net->p, in_join, edge, n_edges, &f);
-    pass_on(net->p, in_join, &f);
+    forest_init(net->p, in_join, edge, n_edges, &forest);
+    repair_parities(net->p, in_join, &forest);
   }
+
   free(edge);
   thr_scratch_free(&own);
   return st;
 }
 
-/* ---- queue ---- */
+/* ---- a queue for Dijkstra's method ---- */
 
 thr_status thr_queue_push(thr_queue *q, thr_queued in, thr_err *err)
 {
+  /* Grow the heap. */
   thr_status st =
       q->count < q->capacity ? THR_OK : thr_grow(&q->entry, q->count, &q->capacity, sizeof in, err);
   if (st) return st;
+
+  /* Move smaller ancestors down until there is a place for the new entry. */
   int at = q->count++;
   for (int above; at > 0 && q->entry[above = (at - 1) / 4].key < in.key; at = above)
     q->entry[at] = q->entry[above];
@@ -223,14 +275,17 @@ thr_queued thr_queue_pop(thr_queue *q)
 {
   thr_queued top = q->entry[0], last = q->entry[--q->count];
   int at = 0;
+
+  /* Fill the hole at the top with the greatest of four children, until the last entry fits. */
   for (int child = 1; child < q->count; child = 4 * at + 1) {
     int most = child, end = child + 4 < q->count ? child + 4 : q->count;
-    for (int c = child + 1; c < end; c++)
-      if (q->entry[c].key > q->entry[most].key) most = c;
+    for (int other = child + 1; other < end; other++)
+      if (q->entry[other].key > q->entry[most].key) most = other;
     if (q->entry[most].key <= last.key) break;
     q->entry[at] = q->entry[most];
     at = most;
   }
+
   q->entry[at] = last;
   return top;
 }

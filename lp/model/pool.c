@@ -176,6 +176,7 @@ thr_status thr_pool_add(thr_pool *p, thr_row row, thr_err *err)
   row.member = NULL;
 
   thr_status st = thr_grow(&p->row, p->count, &p->capacity, sizeof *p->row, err);
+
   /* Copy the members and the draft. */
   if (!st && member && !(row.member = thr_calloc((size_t)row.n_members, sizeof *member)))
     st = thr_nomem(err);
@@ -184,6 +185,7 @@ thr_status thr_pool_add(thr_pool *p, thr_row row, thr_err *err)
   if (!st) st = fill_row(p, &row, err);
 
   if (!st) st = remember(p, row.name, err);
+
   /* On failure the pool is as before, without the draft. */
   if (st)
     row_destroy(&row);

@@ -97,6 +97,7 @@ static thr_status solve(thr_search *s, const thr_search_calls *calls, const thr_
   s->bare = false;
 
   if (!st) st = thr_search_load(s, err);
+
   /* Solve with all rows. */
   if (!st && s->outcome == THR_LP_OPTIMAL)
     st = calls->solve ? calls->solve(calls->user, limits, &s->outcome, err)
@@ -163,6 +164,7 @@ thr_status thr_search_rounds(thr_search *s, const thr_search_calls *calls, const
 {
   for (int round = 1, added = 1; added > 0; round++) {
     s->whole = s->enough = false;
+
     /* Solve, and let the caller look at the point. */
     thr_status st = solve(s, calls, limits, err);
     if (!st) st = calls->look(calls->user, err);

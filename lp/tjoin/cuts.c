@@ -148,6 +148,7 @@ static void adopt(thr_cuts *cuts, cut_nesting *nesting, int to)
 {
   thr_cut *cut = &cuts->cut[to];
   int kept = 0;
+
   /* Count the own nodes that lie in each of the trees. */
   for (int j = 0; j < cut->n_nodes; j++) {
     int inner = nesting->outer[cut->node[j]];

@@ -87,6 +87,7 @@ static thr_status find_components(price_search *search, thr_err *err)
 static thr_status search_init(price_search *search, thr_err *err)
 {
   const thr_tjoin_problem *tjoin_problem = &search->problem->graph;
+
   /* Count the edges and allocate. */
   search->hub = tjoin_problem->n_nodes;
   search->n_edges = tjoin_problem->n_edges;
@@ -233,6 +234,7 @@ static thr_status close_in(price_search *search, const priced_join **same, thr_e
   for (int round = 0; few->n_ends < search->problem->n_ends && few->price - many->price > 1;
        round++) {
     priced_join candidate;
+
     /* Solve at a price inside the interval. */
     thr_status st = solve_at(search, next_price(search, round), &candidate, err);
     if (st) {
@@ -501,6 +503,7 @@ static thr_status run(price_search *search, thr_endjoin *out, thr_err *err)
   thr_err stopped = {0};
   const priced_join *same = NULL;
   bool last = false;
+
   /* If ends cost nothing and there are not too many of them, nothing has to be searched for. */
   thr_status st = solve_at(search, 0, &search->many, &stopped), limit = st;
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", stopped.text);

@@ -182,6 +182,7 @@ static void push(node_queue *queue, reached_node entry)
 static reached_node pop(node_queue *queue)
 {
   reached_node top = queue->heap[0], last = queue->heap[--queue->count];
+
   /* Fill the hole at the top with smaller children until there is a place for the last entry. */
   int i = 0;
   for (int child; (child = 2 * i + 1) < queue->count; i = child) {
@@ -368,13 +369,13 @@ done:
 
 /* One component of the support, with edges of x >= 1 contracted, and its Gomory-Hu tree. */
 typedef struct {
-  int n, m;         /* nodes and edges */
-  int (*edge)[2];   /* [m] */
-  double *capacity; /* [m] the x of an edge */
-  int (*tree)[2];   /* [n - 1] edges of the Gomory-Hu tree */
-  double *flow;     /* [n - 1] capacity of the minimum cut between their ends */
+  int n_nodes, n_edges;
+  int (*edge)[2];   /* [n_edges] */
+  double *capacity; /* [n_edges] the x of an edge */
+  int (*tree)[2];   /* [n_nodes - 1] edges of the Gomory-Hu tree */
+  double *flow;     /* [n_nodes - 1] capacity of the minimum cut between their ends */
   int *parent;      /* disjoint sets over the tree without one edge */
-  bool *side;       /* [n] */
+  bool *side;       /* [n_nodes] */
   thr_scratch own;  /* the arrays */
 } contracted_support;
 
@@ -404,9 +405,9 @@ static thr_status add_side(const thr_oddcut_graph *graph, const contracted_suppo
                            thr_pool *pool, thr_err *err)
 {
   /* Join the ends of all other tree edges. */
-  for (int v = 0; v < support->n; v++)
+  for (int v = 0; v < support->n_nodes; v++)
     support->parent[v] = v;
-  for (int k = 0; k < support->n - 1; k++)
+  for (int k = 0; k < support->n_nodes - 1; k++)
     if (k != i) thr_disjoint_join(support->parent, support->tree[k][0], support->tree[k][1]);
 
   /* Collect the nodes on the side of tree[i][0]. */
@@ -446,22 +447,22 @@ static thr_status separate_component(const thr_oddcut_graph *graph, const double
 
   /* List the edges between contracted nodes, each once, with x as capacity. */
   st = support_init(&support, ids, degrees, err);
-  support.n = ids;
+  support.n_nodes = ids;
   for (int i = 0; i < n && !st; i++)
     for (int k = graph->first[node[i]]; k < graph->first[node[i] + 1]; k++) {
       int e = graph->incident[k], other = other_end(tjoin_problem, e, node[i]);
       if (other < node[i] || x[e] <= tolerance || contracted_of[node[i]] == contracted_of[other])
         continue;
-      support.edge[support.m][0] = contracted_of[node[i]];
-      support.edge[support.m][1] = contracted_of[other];
-      support.capacity[support.m++] = x[e];
+      support.edge[support.n_edges][0] = contracted_of[node[i]];
+      support.edge[support.n_edges][1] = contracted_of[other];
+      support.capacity[support.n_edges++] = x[e];
     }
 
   /* A Gomory-Hu tree holds a minimum cut for every pair of nodes, and a minimum odd cut. */
   if (!st)
-    st = thr_cut_tree(support.n, support.m, (const int(*)[2])support.edge, support.capacity,
-                      support.tree, support.flow, err);
-  for (int i = 0; i < support.n - 1 && !st; i++)
+    st = thr_cut_tree(support.n_nodes, support.n_edges, (const int(*)[2])support.edge,
+                      support.capacity, support.tree, support.flow, err);
+  for (int i = 0; i < support.n_nodes - 1 && !st; i++)
     if (support.flow[i] < 1 - tolerance)
       st = add_side(graph, &support, i, node, contracted_of, n, list, pool, err);
 
@@ -524,6 +525,7 @@ thr_status thr_oddcuts_moats(void *oddcuts, int *added, thr_err *err)
   const int n = sizeof odd->threshold / sizeof *odd->threshold, first = odd->pool->count;
 
   thr_status st = THR_OK;
+
   /* Each further threshold leaves fewer edges in the support. The first one that gives rows is
    * enough. */
   for (int i = 0; i < n && odd->threshold[i] > 0 && !st && odd->pool->count == first; i++) {

@@ -123,6 +123,7 @@ static void spanning_tree(tjoin_solver *solver)
 {
   const thr_tjoin_problem *tjoin_problem = solver->problem;
   int first_leaf = tjoin_problem->n_nodes - tjoin_problem->n_leaves;
+
   /* Sort the edges by key. */
   for (int e = 0; e < tjoin_problem->n_edges; e++) {
     solver->order[e] = e;
@@ -238,6 +239,7 @@ static int64_t integer_dual(tjoin_solver *solver, const double *dual, bool greed
 {
   const thr_tjoin_problem *tjoin_problem = solver->problem;
   const thr_pool *pool = &solver->search.pool;
+
   /* Round the multipliers down, and compute the slack that they leave on every edge. */
   for (int e = 0; e < tjoin_problem->n_edges; e++)
     solver->slack[e] = (wide)tjoin_problem->weight[e] * THR_DUAL_DENOMINATOR;
@@ -275,6 +277,7 @@ static thr_status store_cuts(tjoin_solver *solver, int64_t sum, thr_err *err)
 {
   const thr_pool *pool = &solver->search.pool;
   thr_tjoin *best = &solver->best;
+
   /* Release the cuts of the bound before. */
   for (int i = 0; i < best->n_cuts; i++)
     free(best->cut[i].node);
