@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Computes a minimum-weight perfect matching in a sparse graph, with its proof, by Edmonds'
- * primal-dual method (J. Edmonds, "Maximum matching and a polyhedron with 0,1-vertices", J. Res.
- * NBS 69B, 1965). All alternating trees grow at the same time, on a half-integral start (D.
- * Applegate & W. Cook, "Solving large-scale matching problems", DIMACS 12, 1993; V. Kolmogorov,
- * "Blossom V", Math. Prog. Comp. 1, 2009). All numbers are 64-bit integers, so that the result is
- * exact.
+ * primal-dual method. All alternating trees grow at the same time, on a half-integral start. All
+ * numbers are 64-bit integers, so that the result is exact. (J. Edmonds, "Maximum matching and a
+ * polyhedron with 0,1-vertices", J. Res. NBS 69B, 1965; D. Applegate & W. Cook, "Solving
+ * large-scale matching problems", DIMACS 12, 1993; V. Kolmogorov, "Blossom V", Math. Prog. Comp. 1,
+ * 2009.)
  *
  * The least sum of w(e) over perfect matchings is the greatest sum of y(v) plus the sum of z(B)
  * over odd sets B with z(B) >= 0, where for every edge uv: y(u) + y(v) + the sum of z(B) over all B

@@ -170,25 +170,25 @@ typedef struct {
 } near_search;
 
 /* Says whether the search from i has found j. */
-static bool found_from(const near_search *s, int i, int j)
+static bool found_from(const near_search *search, int i, int j)
 {
-  for (int k = s->first[i]; k < s->first[i + 1]; k++)
-    if (s->pairs.end[k][0] == j || s->pairs.end[k][1] == j) return true;
+  for (int k = search->first[i]; k < search->first[i + 1]; k++)
+    if (search->pairs.end[k][0] == j || search->pairs.end[k][1] == j) return true;
   return false;
 }
 
 /* Relaxes the arcs of a place. */
-static thr_status relax(near_search *s, int search, thr_queued at, thr_err *err)
+static thr_status relax(near_search *search, int number, thr_queued at, thr_err *err)
 {
-  const thr_network *net = s->net;
+  const thr_network *net = search->net;
   thr_status st = THR_OK;
   for (int k = net->first[at.place]; k < net->first[at.place + 1] && !st; k++) {
     const thr_arc *arc = &net->arc[k];
     int64_t near = at.key - arc->weight;
-    if (s->touched[arc->head] == search && near <= s->near[arc->head]) continue;
-    s->touched[arc->head] = search;
-    s->near[arc->head] = near;
-    st = thr_queue_push(&s->queue, (thr_queued){near, arc->head}, err);
+    if (search->touched[arc->head] == number && near <= search->near[arc->head]) continue;
+    search->touched[arc->head] = number;
+    search->near[arc->head] = near;
+    st = thr_queue_push(&search->queue, (thr_queued){near, arc->head}, err);
   }
   return st;
 }
@@ -196,26 +196,28 @@ static thr_status relax(near_search *s, int search, thr_queued at, thr_err *err)
 /* Searches from odd place i, and adds its pairs with the nearest odd places, except for those
  * whose own search has found i. reach[i] becomes the distance of the last one in halves of a
  * weight, or INT64_MAX if there are few. */
-static thr_status find_near(near_search *s, int i, int64_t *reach, thr_err *err)
+static thr_status find_near(near_search *search, int i, int64_t *reach, thr_err *err)
 {
-  const thr_network *net = s->net;
+  const thr_network *net = search->net;
   int found = 0, settled = 0;
   int64_t last = 0;
 
   /* Begin at the odd place, as search number i + 1. */
-  s->queue.count = 0;
-  s->touched[net->odd[i]] = i + 1;
-  s->near[net->odd[i]] = 0;
-  thr_status st = relax(s, i + 1, (thr_queued){0, net->odd[i]}, err);
+  search->queue.count = 0;
+  search->touched[net->odd[i]] = i + 1;
+  search->near[net->odd[i]] = 0;
+  thr_status st = relax(search, i + 1, (thr_queued){0, net->odd[i]}, err);
 
   /* Settle places by distance, until enough odd places are found. */
-  while (s->queue.count && !st) {
-    thr_queued at = thr_queue_pop(&s->queue);
+  while (search->queue.count && !st) {
+    thr_queued at = thr_queue_pop(&search->queue);
     int j = net->number[at.place];
 
     /* A place that was reached on a shorter path since is skipped. */
-    if (at.key != s->near[at.place]) continue;
+    if (at.key != search->near[at.place]) continue;
 
+    /* Stop after SETTLED_MOST places, or behind the NEAREST odd places and others as far as the
+     * last one. */
     if (settled++ == SETTLED_MOST || (found >= NEAREST && (at.key < last || found == NEAREST_MOST)))
       break;
 
@@ -223,27 +225,28 @@ static thr_status find_near(near_search *s, int i, int64_t *reach, thr_err *err)
     if (j >= 0) {
       found++;
       last = at.key;
-      if (j > i || !found_from(s, j, i)) st = thr_pairs_add(&s->pairs, i, j, -at.key, err);
+      if (j > i || !found_from(search, j, i))
+        st = thr_pairs_add(&search->pairs, i, j, -at.key, err);
     }
 
     /* No path goes on over a hub, which has too many arcs. */
     if (!st && net->first[at.place + 1] - net->first[at.place] < THR_HUB_DEGREE)
-      st = relax(s, i + 1, at, err);
+      st = relax(search, i + 1, at, err);
   }
 
-  s->first[i + 1] = s->pairs.count;
+  search->first[i + 1] = search->pairs.count;
   reach[i] = found < NEAREST ? INT64_MAX : -2 * last;
   return st;
 }
 
 /* Adds the pairs of more that no search has found. */
-static thr_status add_rest(near_search *s, const thr_pairs *more, thr_err *err)
+static thr_status add_rest(near_search *search, const thr_pairs *more, thr_err *err)
 {
   thr_status st = THR_OK;
   for (int k = 0; k < more->count && !st; k++) {
     int i = more->end[k][0], j = more->end[k][1];
-    if (!found_from(s, i, j) && !found_from(s, j, i))
-      st = thr_pairs_add(&s->pairs, i, j, more->weight[k], err);
+    if (!found_from(search, i, j) && !found_from(search, j, i))
+      st = thr_pairs_add(&search->pairs, i, j, more->weight[k], err);
   }
   return st;
 }
@@ -254,24 +257,24 @@ static thr_status merge_near(const thr_network *net, const thr_limits *limits,
                              const thr_pairs *more, thr_pairs *pairs, int64_t *reach, thr_err *err)
 {
   enum { SEARCHES_BETWEEN_LIMITS = 1 << 10 };
-  near_search s = {.net = net,
-                   .near = thr_calloc((size_t)net->n_places, sizeof *s.near),
-                   .touched = thr_calloc((size_t)net->n_places, sizeof *s.touched),
-                   .first = thr_calloc((size_t)net->n_odd + 1, sizeof *s.first)};
-  thr_status st = s.near && s.touched && s.first ? THR_OK : thr_nomem(err);
+  near_search search = {.net = net,
+                        .near = thr_calloc((size_t)net->n_places, sizeof *search.near),
+                        .touched = thr_calloc((size_t)net->n_places, sizeof *search.touched),
+                        .first = thr_calloc((size_t)net->n_odd + 1, sizeof *search.first)};
+  thr_status st = search.near && search.touched && search.first ? THR_OK : thr_nomem(err);
 
   for (int i = 0; i < net->n_odd && !st; i++) {
     bool stop = i % SEARCHES_BETWEEN_LIMITS == 0 && thr_limits_stop(limits);
     st = stop ? thr_fail(err, THR_ELIMIT, "stopped early, before all pairs were found")
-              : find_near(&s, i, reach, err);
+              : find_near(&search, i, reach, err);
   }
-  if (!st) st = add_rest(&s, more, err);
+  if (!st) st = add_rest(&search, more, err);
 
-  free(s.near);
-  free(s.touched);
-  free(s.first);
-  free(s.queue.entry);
-  *pairs = s.pairs;
+  free(search.near);
+  free(search.touched);
+  free(search.first);
+  free(search.queue.entry);
+  *pairs = search.pairs;
   return st;
 }
 

@@ -5,8 +5,7 @@
  * are the pairs along random circuits through these places, which are an expander; further circuits
  * are drawn while pricing finds violated pairs (blossom_parts.h, thr_hubs).
  *
- * Example: four places a, b, c, d near a hub give the pairs ab, bc, cd, da in one circuit, of six.
- */
+ * Example: four places a, b, c, d near a hub give ab, bc, cd, da in one circuit, of six pairs. */
 #include "graph/random.h"
 #include "lp/matching/blossom_parts.h"
 

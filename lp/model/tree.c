@@ -5,9 +5,9 @@
  * A node of the tree is a set of solutions: those that keep the decisions x[column] <= value or
  * x[column] >= value + 1 on the way from the root to the node. The caller's function computes a
  * lower bound on these solutions, by a linear programme, a matching or an ascent, and chooses the
- * column to branch on. A node whose bound reaches the value of the incumbent is closed, and nothing
- * below it is solved. At any time the least open bound <= optimum <= incumbent, and when all nodes
- * are closed the incumbent is the optimum.
+ * column to branch on. A node whose bound reaches tree.enough, the value of the incumbent or a
+ * little less, is closed, and nothing below it is solved. The optimum is at least the least open
+ * bound or tree.enough, and when all nodes are closed no solution is below tree.enough.
  *
  * Symmetries: where all images of a decision under the symmetries of the solutions have the same
  * optimum, the first child decides for all images at once (orbital branching: Ostrowski, Linderoth,
