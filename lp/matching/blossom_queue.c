@@ -40,7 +40,6 @@ void thr_blossom_push(thr_matching_state *matching_state, int64_t time, int dart
 
 int64_t thr_blossom_due(thr_matching_state *matching_state)
 {
-
   if (!matching_state->filled) return matching_state->end_time;
   int k = __builtin_ctzll(matching_state->filled);
   blossom_bucket *bucket = &matching_state->bucket[k];

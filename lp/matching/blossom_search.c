@@ -19,7 +19,6 @@ __extension__ typedef __int128 wide;
  * which means that there is no perfect matching, or beyond 64 bits, and if the limits say stop. */
 static thr_status pass_time(thr_matching_state *matching_state, int64_t time)
 {
-
   if (matching_state->status) return matching_state->status;
 
   /* The total of all duals grows by the number of trees per unit of time. */
@@ -155,11 +154,11 @@ static void join_trees(thr_matching_state *matching_state, int from, int to, int
  * children. */
 static void shrink(thr_matching_state *matching_state, int dart)
 {
-  int b = thr_blossom_shrink(matching_state, dart), c = matching_state->b[b].child;
+  int b = thr_blossom_shrink(matching_state, dart), child = matching_state->b[b].child;
   do {
-    if (matching_state->b[c].label == INNER) thr_blossom_look_out(matching_state, c, b);
-    c = matching_state->b[c].next;
-  } while (c != matching_state->b[b].child);
+    if (matching_state->b[child].label == INNER) thr_blossom_look_out(matching_state, child, b);
+    child = matching_state->b[child].next;
+  } while (child != matching_state->b[b].child);
 }
 
 /* Returns the gap between the moats at the ends of a dart from an outer blossom to the free or

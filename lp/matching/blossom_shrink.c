@@ -148,6 +148,7 @@ void thr_blossom_open(thr_matching_state *matching_state, int b)
   /* Make every child a top blossom and a disjoint set of its own. */
   do {
     blossom *child = &matching_state->b[at];
+
     /* The nodes of the child with b's root, the largest, point there already. */
     for (int v = child->first; child->root != matching_state->b[b].root;
          v = matching_state->node[v].next) {

@@ -28,7 +28,6 @@ static thr_status halve_lightest(thr_matching_state *matching_state)
   for (int v = 0; v < matching_state->n_nodes; v++) {
     int64_t least = INT64_MAX;
     for (int k = matching_state->first_arc[v]; k < matching_state->first_arc[v + 1]; k++)
-
       if (matching_state->arc[k].weight < least) least = matching_state->arc[k].weight;
 
     if (least == INT64_MAX) return thr_blossom_infeasible(matching_state);
@@ -169,15 +168,14 @@ static void lower(thr_matching_state *matching_state, int b, int64_t amount)
     matching_state->b[top_of_node(matching_state, matching_state->tail[lowered->match ^ 1])].match =
         -1;
   lowered->match = -1;
-  lowered->dual -= amount;
 
+  lowered->dual -= amount;
   lowered->offset -= amount;
   matching_state->total -= amount;
 }
 
 thr_status thr_blossom_make_room(thr_matching_state *matching_state, int edge)
 {
-
   int u = matching_state->p->edge[edge][0], v = matching_state->p->edge[edge][1];
   int64_t excess = load_between(matching_state, u, v) - 2 * matching_state->p->weight[edge];
 

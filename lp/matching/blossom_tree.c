@@ -27,25 +27,25 @@ static void enlist(thr_matching_state *matching_state, int b, int tree)
 
 void thr_blossom_settle(thr_matching_state *matching_state, int b)
 {
-  blossom *left = &matching_state->b[b];
-  int64_t change = left->label == OUTER ? matching_state->time : -matching_state->time;
+  blossom *leaving = &matching_state->b[b];
+  int64_t change = leaving->label == OUTER ? matching_state->time : -matching_state->time;
 
-  left->dual += change;
-  left->offset += change;
-  left->label = FREE;
+  leaving->dual += change;
+  leaving->offset += change;
+  leaving->label = FREE;
 }
 
 void thr_blossom_leave(thr_matching_state *matching_state, int b)
 {
-  const blossom *left = &matching_state->b[b];
+  const blossom *leaving = &matching_state->b[b];
 
   /* Take the blossom out of the list of the tree. */
   thr_blossom_settle(matching_state, b);
-  if (left->after >= 0) matching_state->b[left->after].before = left->before;
-  if (left->before >= 0)
-    matching_state->b[left->before].after = left->after;
+  if (leaving->after >= 0) matching_state->b[leaving->after].before = leaving->before;
+  if (leaving->before >= 0)
+    matching_state->b[leaving->before].after = leaving->after;
   else
-    matching_state->tree[left->tree] = left->after;
+    matching_state->tree[leaving->tree] = leaving->after;
 }
 
 void thr_blossom_make_outer(thr_matching_state *matching_state, int b, int tree)
@@ -95,7 +95,7 @@ static void foresee_end(thr_matching_state *matching_state, int64_t time, int da
 void thr_blossom_look_out(thr_matching_state *matching_state, int b, int top)
 {
   for (int u = matching_state->b[b].first;; u = matching_state->node[u].next) {
-    /* Moats of outer nodes are stored without the time. */
+    /* Moats of outer nodes are stored less the time. */
     int64_t moat = matching_state->node[u].moat + matching_state->time;
     for (int k = matching_state->first_arc[u]; k < matching_state->first_arc[u + 1]; k++) {
       const blossom_arc *arc = &matching_state->arc[k];

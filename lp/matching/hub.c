@@ -24,7 +24,6 @@ static int choose(const thr_network *net, int hub[HUBS_MOST])
 {
   int n = 0;
   for (int v = 0; v < net->n_places; v++) {
-
     if (degree(net, v) < THR_HUB_DEGREE) continue;
 
     /* Insert into the sorted list, whose last one drops out when the list is full. */

@@ -93,7 +93,7 @@ static thr_status flood_moats(moat_solver *solver, thr_err *err)
 }
 
 /* Returns the length of the path along which the flood came to place v from its root. */
-static int64_t way_from_root(const moat_solver *solver, int v)
+static int64_t length_from_root(const moat_solver *solver, int v)
 {
   return (solver->start[solver->flood.root[v]] - solver->flood.depth[v]) / 2;
 }
@@ -130,7 +130,7 @@ static thr_status price_arc(moat_solver *solver, int v, const thr_arc *arc, thr_
   const thr_flood *flood = &solver->flood;
   int w = arc->head, i = flood->root[v], j = flood->root[w];
 
-  /* Each arc within two different moats is looked at once. */
+  /* An arc between two different moats is looked at in one direction only. */
   if (w < v || i < 0 || j < 0 || i == j) return THR_OK;
 
   int64_t depth_v = flood->depth[v], depth_w = flood->depth[w];
@@ -142,7 +142,7 @@ static thr_status price_arc(moat_solver *solver, int v, const thr_arc *arc, thr_
     return THR_OK;
 
   return add_violated(solver, i, j,
-                      way_from_root(solver, v) + arc->weight + way_from_root(solver, w), err);
+                      length_from_root(solver, v) + arc->weight + length_from_root(solver, w), err);
 }
 
 /* Adds the pairs that the duals violate. If none is added, no pair of odd places is violated. */
@@ -156,7 +156,7 @@ static thr_status price(moat_solver *solver, thr_err *err)
   for (int i = 0; i < net->n_odd && !st; i++) {
     int v = net->odd[i];
     if (solver->flood.root[v] != i)
-      st = add_violated(solver, solver->flood.root[v], i, way_from_root(solver, v), err);
+      st = add_violated(solver, solver->flood.root[v], i, length_from_root(solver, v), err);
   }
 
   /* So are two odd places whose moats overlap along an arc. */
@@ -267,6 +267,7 @@ static bool join_mates(path_search *paths, int search, int i, int k, int64_t sha
   paths->stack[top++] = second;
   while (top) {
     int v = paths->stack[--top];
+
     /* The searches meet at a place. */
     if (paths->reached[v] == search) {
       toggle_back(paths, paths->came, v, first);

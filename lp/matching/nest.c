@@ -80,7 +80,7 @@ static int common_set(const thr_nest *nest, int a, int b)
 }
 
 /* Takes as much of the missing width as there is from the moat of a set. */
-static void take(thr_nest *nest, int set, int64_t *missing)
+static void take_width(thr_nest *nest, int set, int64_t *missing)
 {
   int64_t part = nest->width[set] < *missing ? nest->width[set] : *missing;
   if (part <= 0) return;
@@ -99,13 +99,13 @@ static void raise_width(thr_nest *nest, int i, int k, int *chain)
 
   /* The moats round i. */
   for (int s = nest->parent[i]; s != common && missing; s = nest->parent[s])
-    take(nest, s, &missing);
+    take_width(nest, s, &missing);
 
   /* The moats round k, of which the inner ones are listed first and served last. */
   for (int s = k; s != common; s = nest->parent[s])
     chain[n++] = s;
   while (n && missing)
-    take(nest, chain[--n], &missing);
+    take_width(nest, chain[--n], &missing);
 }
 
 /* Computes the depth just outside of every moat, parents first. */
@@ -153,9 +153,9 @@ thr_status thr_nest_of_balls(thr_nest *nest, int n_odd, const int64_t *width, th
   thr_status st = allocate(nest, n_odd, 0, err);
   if (st) return st;
   memcpy(nest->width, width, (size_t)n_odd * sizeof *width);
-  for (int i = 0; i < n_odd; i++)
 
-    /* A ball lies in no other set. */
+  /* A ball lies in no other set. */
+  for (int i = 0; i < n_odd; i++)
     nest->parent[i] = nest->jump[i] = -1;
   return THR_OK;
 }

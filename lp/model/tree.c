@@ -89,6 +89,7 @@ static bool before(const thr_tree *t, int a, int b)
 
   if (bound != other_bound) return bound < other_bound;
   if (node->depth != other->depth) return node->depth > other->depth;
+
   /* Nodes 2 k + 1 and 2 k + 2 are siblings. */
   return (a - 1) / 2 == (b - 1) / 2 ? node->first : a > b;
 }
@@ -258,7 +259,6 @@ static thr_status split(thr_tree *t, int node, thr_tree_branch branch, thr_err *
  * THR_TREE_BATCH. The size of a batch does not depend on the number of threads. */
 static void take(thr_tree *t, bool several)
 {
-
   const int most = !several || t->n_solved == 0 ? 1 : t->n_solved < 3 ? 2 : THR_TREE_BATCH;
   t->n_taken = 0;
   while (t->n_taken < most && t->n_open > 0 && !thr_tree_closed(t, t->open[0]))
@@ -279,7 +279,6 @@ thr_status thr_tree_run(thr_tree *t, const thr_tree_calls *calls, thr_err *err)
 {
   thr_status st = THR_OK;
   while (!st && !t->stopped && t->n_open > 0 && !thr_tree_closed(t, t->open[0])) {
-
     thr_tree_branch branch[THR_TREE_BATCH];
 
     /* The root is solved in any case, so that there is a bound. */

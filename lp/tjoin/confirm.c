@@ -44,6 +44,7 @@ thr_status thr_confirmations_add(thr_confirmations *confirmations,
                                  thr_err *err)
 {
   if (!confirmations) return THR_OK;
+
   /* No join is lighter than one of weight 0. Without cuts there is nothing to ask about. */
   if (tjoin->length == 0) {
     confirmations->confirmed++;
@@ -85,6 +86,7 @@ static thr_status solve_on_cuts(const thr_confirm_job *confirm_job, const thr_li
 {
   const thr_cut_programme *cut_programme = &confirm_job->programme;
   double *cost = thr_calloc((size_t)cut_programme->n_columns, sizeof *cost), sum = 0;
+
   /* No row has a slack of GLPK's own in the basis: slacks are columns of the programme. */
   bool *slack = thr_calloc((size_t)cut_programme->n_rows, sizeof *slack);
   thr_lp *lp = NULL;

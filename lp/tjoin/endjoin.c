@@ -226,11 +226,11 @@ static int64_t next_price(const price_search *search, int round)
 
 /* Narrows the interval of prices until its ends are 1 apart, or both joins are optimal at one
  * price, or the join with few ends has as many as allowed. Each join stays optimal at its price.
- * *same becomes the join whose cuts prove the least weight with n_ends, if one of them does. */
-static thr_status close_in(price_search *search, const priced_join **same, thr_err *err)
+ * *proof becomes the join whose cuts prove the least weight with n_ends, if one of them does. */
+static thr_status close_in(price_search *search, const priced_join **proof, thr_err *err)
 {
   priced_join *few = &search->few, *many = &search->many;
-  *same = NULL;
+  *proof = NULL;
   for (int round = 0; few->n_ends < search->problem->n_ends && few->price - many->price > 1;
        round++) {
     priced_join candidate;
@@ -252,11 +252,11 @@ static thr_status close_in(price_search *search, const priced_join **same, thr_e
     /* Both joins are optimal at this price, so the cuts of the new one hold for every number of
      * ends between theirs. */
     other->price = side->price;
-    *same = side;
+    *proof = side;
     return THR_OK;
   }
 
-  if (few->n_ends == search->problem->n_ends) *same = few;
+  if (few->n_ends == search->problem->n_ends) *proof = few;
   return THR_OK;
 }
 
@@ -359,27 +359,27 @@ static void find_trails(join_difference *difference, const price_search *search)
 
 /* Makes the join with few ends take over trails until it has n_ends. The two joins are optimal
  * at prices that are at most 1 apart, and changes are even, so that a trail saves either twice
- * the higher price or twice the lower one; the former go first. *last says whether one of the
- * latter was needed, in which case only the cuts at the lower price prove the result. */
-static thr_status take_over(price_search *search, bool *last, thr_err *err)
+ * the higher price or twice the lower one; the former go first. *lower_price says whether one of
+ * the latter was needed, in which case only the cuts at the lower price prove the result. */
+static thr_status take_over(price_search *search, bool *lower_price, thr_err *err)
 {
   join_difference difference;
   thr_status st = difference_init(&difference, search, err);
-  *last = false;
+  *lower_price = false;
   if (!st) find_trails(&difference, search);
 
   /* First the trails that save twice the higher price, then the others. */
   for (int round = 0; round < 2 && !st; round++)
     for (int i = 0; i < difference.n_trails && search->few.n_ends < search->problem->n_ends; i++) {
-      bool dear = difference.change[i] > -2 * search->few.price;
-      if (dear != (round == 1)) continue;
+      bool at_lower_price = difference.change[i] > -2 * search->few.price;
+      if (at_lower_price != (round == 1)) continue;
 
       /* Exchange the edges of the trail. */
       for (int k = difference.start[i]; k < difference.start[i + 1]; k++)
         search->few.join.in_join[difference.step[k]] =
             !search->few.join.in_join[difference.step[k]];
       search->few.n_ends += 2;
-      *last |= dear;
+      *lower_price |= at_lower_price;
     }
 
   difference_destroy(&difference);
@@ -439,11 +439,11 @@ static thr_status confirm(price_search *search, const priced_join *candidate, th
 }
 
 /* Hands out the edges of one join and the cuts of another, which prove them. */
-static thr_status take(price_search *search, priced_join *join, priced_join *proof,
-                       thr_endjoin *out, thr_err *err)
+static thr_status hand_out(price_search *search, priced_join *found, priced_join *proof,
+                           thr_endjoin *out, thr_err *err)
 {
-  *out = (thr_endjoin){.in_join = join->join.in_join};
-  join->join.in_join = NULL;
+  *out = (thr_endjoin){.in_join = found->join.in_join};
+  found->join.in_join = NULL;
   return take_cuts(search->problem, search->hub + 1, &proof->join, out, err);
 }
 
@@ -459,7 +459,7 @@ static double bound(const price_search *search, const priced_join *candidate)
 static thr_status take_best(price_search *search, thr_endjoin *out, thr_err *err)
 {
   bool better = !search->few.no_hub && bound(search, &search->few) > bound(search, &search->many);
-  return take(search, &search->few, better ? &search->few : &search->many, out, err);
+  return hand_out(search, &search->few, better ? &search->few : &search->many, out, err);
 }
 
 /* Lowers the price of the join without ends of a connected graph to the least integer at which
@@ -501,21 +501,21 @@ static thr_status solve_few(price_search *search, thr_err *err)
 static thr_status run(price_search *search, thr_endjoin *out, thr_err *err)
 {
   thr_err stopped = {0};
-  const priced_join *same = NULL;
-  bool last = false;
+  const priced_join *proof = NULL;
+  bool lower_price = false;
 
   /* If ends cost nothing and there are not too many of them, nothing has to be searched for. */
   thr_status st = solve_at(search, 0, &search->many, &stopped), limit = st;
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", stopped.text);
   if (search->many.n_ends <= search->problem->n_ends) {
     st = limit ? THR_OK : confirm(search, &search->many, err);
-    if (!st) st = take(search, &search->many, &search->many, out, err);
+    if (!st) st = hand_out(search, &search->many, &search->many, out, err);
     return !st && limit ? thr_fail(err, limit, "%s", stopped.text) : st;
   }
 
   /* Otherwise enclose the price and narrow the interval. */
   st = solve_few(search, &stopped);
-  if (!st && !limit) st = close_in(search, &same, &stopped);
+  if (!st && !limit) st = close_in(search, &proof, &stopped);
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", stopped.text);
 
   /* Stopped: hand out the best join and bound so far. */
@@ -525,15 +525,15 @@ static thr_status run(price_search *search, thr_endjoin *out, thr_err *err)
   }
 
   /* The join whose cuts are the proof is confirmed as found, before circuits are taken over. */
-  bool by_same_many = same == &search->many;
-  if ((st = confirm(search, by_same_many ? &search->many : &search->few, err))) return st;
+  bool many_proves = proof == &search->many;
+  if ((st = confirm(search, many_proves ? &search->many : &search->few, err))) return st;
 
-  if (search->few.n_ends < search->problem->n_ends && (st = take_over(search, &last, err)))
+  if (search->few.n_ends < search->problem->n_ends && (st = take_over(search, &lower_price, err)))
     return st;
 
-  /* The cuts at the price of the last trail are the proof. */
-  bool by_many = same ? by_same_many : last;
-  return take(search, &search->few, by_many ? &search->many : &search->few, out, err);
+  /* If trails were taken over, the proof is at the price of the last one. */
+  bool by_many = proof ? many_proves : lower_price;
+  return hand_out(search, &search->few, by_many ? &search->many : &search->few, out, err);
 }
 
 /* ---- two ends ---- */

@@ -276,6 +276,7 @@ static thr_status add_balls(const thr_oddcut_graph *graph, const voronoi_diagram
   for (int root = 0; root < graph->p->n_nodes && !st; root++) {
     const int *node = by_owner + start[root];
     int n = start[root + 1] - start[root];
+
     /* Distances this close are equal: edges inside even components cost rounding. */
     double near = 1e-9 * (1 + voronoi->radius[root]);
 
