@@ -331,13 +331,11 @@ static thr_status pair_up(const pair *edge, tree_node *node, int *stack, int n, 
     if (node[v].degree == 1) stack[top++] = v;
   while (top && !st) {
     int v = stack[--top];
-
     if (node[v].degree == 0) continue; /* the last node of the tree */
+
+    /* Take the last edge of the leaf out of the tree. */
     const pair *leaf_edge = &edge[node[v].across];
-
-    /* Take the edge of the leaf out of the tree. */
     int inner = leaf_edge->end[0] == v ? leaf_edge->end[1] : leaf_edge->end[0];
-
     int64_t way = node[v].way + leaf_edge->weight;
     node[inner].across ^= node[v].across;
     if (--node[inner].degree == 1) stack[top++] = inner;
@@ -359,7 +357,6 @@ static thr_status pair_up(const pair *edge, tree_node *node, int *stack, int n, 
 static thr_status add_fallback(thr_pairs *pairs, int n_odd, thr_err *err)
 {
   thr_scratch own = {0};
-
   size_t n = (size_t)n_odd, n_pairs = (size_t)pairs->count;
   pair *edge = thr_scratch_array(&own, n_pairs, sizeof *edge);
   tree_node *node = thr_scratch_array(&own, n, sizeof *node);

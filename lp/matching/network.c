@@ -113,7 +113,7 @@ void thr_network_destroy(thr_network *net)
   *net = (thr_network){0};
 }
 
-/* ---- mending a join ---- */
+/* ---- repairing the parities of a join ---- */
 
 /* A forest, as the edges at every node, that is taken apart from the leaves inwards. */
 typedef struct {
@@ -170,7 +170,6 @@ thr_status thr_network_tree_weight(const thr_tjoin_problem *tjoin_problem, doubl
                                    thr_err *err)
 {
   int *edge, n;
-
   *weight = 0;
   thr_status st = find_forest(tjoin_problem, true, &edge, &n, err);
 

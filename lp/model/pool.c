@@ -171,7 +171,6 @@ thr_status thr_pool_add(thr_pool *p, thr_row row, thr_err *err)
 {
   /* The pool owns copies; until then the row has no members to be released. */
   const int *member = row.member;
-
   if (!row.name) row.name = name_draft(p, row.lower);
   row.member = NULL;
 

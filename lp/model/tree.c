@@ -6,8 +6,8 @@
  * x[column] >= value + 1 on the way from the root to the node. The caller's function computes a
  * lower bound on these solutions, by a linear programme, a matching or an ascent, and chooses the
  * column to branch on. A node whose bound reaches tree.enough, the value of the incumbent or a
- * little less, is closed, and nothing below it is solved. The optimum is at least the least open
- * bound or tree.enough, and when all nodes are closed no solution is below tree.enough.
+ * little less, is closed, and nothing below it is solved. No solution is below the lesser of
+ * tree.enough and the least open bound, and when all nodes are closed none is below tree.enough.
  *
  * Symmetries: where all images of a decision under the symmetries of the solutions have the same
  * optimum, the first child decides for all images at once (orbital branching: Ostrowski, Linderoth,
@@ -33,6 +33,7 @@ thr_status thr_tree_init(thr_tree *t, int n_columns, const int *least, const int
 {
   size_t n = (size_t)n_columns;
   *t = (thr_tree){.n_columns = n_columns, .enough = INFINITY, .most_nodes = INT_MAX};
+
   thr_status st = thr_grow(&t->node, 0, &t->capacity, sizeof *t->node, err);
   if (!st) st = thr_grow(&t->open, 0, &t->open_capacity, sizeof *t->open, err);
   if (!st && !(t->least = thr_calloc(6 * n, sizeof *t->least))) st = thr_nomem(err);
@@ -190,6 +191,7 @@ static thr_status set_along(const thr_tree *t, const thr_tree_calls *calls, thr_
     for (int i = 0; i <= t->node[k].n_also && !st; i++) {
       int j = decided(&t->node[k], i), low = place->next[0][j], high = place->next[1][j];
       if (low == place->low[j] && high == place->high[j]) continue;
+
       place->low[j] = low;
       place->high[j] = high;
       st = calls->set(calls->user, j, low, high, err);
@@ -226,6 +228,8 @@ static thr_status split(thr_tree *t, int node, thr_tree_branch branch, thr_err *
     t->stopped = true;
     return THR_OK;
   }
+
+  /* The child with the lower values is the first. */
   for (int side = 0; side < 2; side++) {
     thr_status st = thr_grow(&t->node, t->n_nodes, &t->capacity, sizeof *t->node, err);
     if (st) return st;
@@ -261,6 +265,7 @@ static void take(thr_tree *t, bool several)
 {
   const int most = !several || t->n_solved == 0 ? 1 : t->n_solved < 3 ? 2 : THR_TREE_BATCH;
   t->n_taken = 0;
+
   while (t->n_taken < most && t->n_open > 0 && !thr_tree_closed(t, t->open[0]))
     t->taken[t->n_taken++] = pop(t);
   t->n_solved += t->n_taken;
@@ -271,6 +276,7 @@ static thr_status solve_taken(thr_tree *t, const thr_tree_calls *calls, thr_tree
                               thr_err *err)
 {
   if (t->n_taken > 1) return calls->solve_all(calls->user, t->n_taken, t->taken, branch, err);
+
   thr_status st = thr_tree_enter(t, calls, t->taken[0], err);
   return st ? st : calls->solve(calls->user, t->taken[0], branch, err);
 }

@@ -330,7 +330,6 @@ thr_status thr_oddcut_moats(const thr_oddcut_graph *graph, const double *x, doub
                             const double *reduced_cost, thr_pool *pool, thr_err *err)
 {
   thr_scratch own = {0};
-
   const thr_tjoin_problem *tjoin_problem = graph->p;
   size_t n = (size_t)tjoin_problem->n_nodes;
   voronoi_diagram voronoi = {0};
@@ -339,7 +338,6 @@ thr_status thr_oddcut_moats(const thr_oddcut_graph *graph, const double *x, doub
       *by_owner = thr_scratch_array(&own, n, sizeof *by_owner);
   thr_status st = thr_scratch_check(&own, err);
   if (!st) st = voronoi_init(&voronoi, tjoin_problem, err);
-
   if (st) goto done;
 
   /* Find the odd components and grow their balls. */
@@ -476,7 +474,6 @@ thr_status thr_oddcut_exact(const thr_oddcut_graph *graph, const double *x, thr_
 {
   const thr_tjoin_problem *tjoin_problem = graph->p;
   size_t n = (size_t)tjoin_problem->n_nodes;
-
   thr_scratch own = {0};
   int *parent = thr_scratch_array(&own, n, sizeof *parent),
       *block = thr_scratch_array(&own, n, sizeof *block),
@@ -484,7 +481,6 @@ thr_status thr_oddcut_exact(const thr_oddcut_graph *graph, const double *x, thr_
   int *list = thr_scratch_array(&own, n, sizeof *list),
       *start = thr_scratch_array(&own, n + 2, sizeof *start),
       *node = thr_scratch_array(&own, n, sizeof *node);
-
   thr_status st = thr_scratch_check(&own, err);
   if (st) goto done;
 

@@ -252,7 +252,7 @@ static int64_t integer_dual(tjoin_solver *solver, const double *dual, bool greed
 
   /* The first pass takes back what overloads an edge, the second hands out slack that is left. */
   wide sum = 0;
-  for (int pass = 0; pass < 2; pass++) /* first take back, then give out */
+  for (int pass = 0; pass < 2; pass++)
     for (int i = 0; i < pool->count; i++) {
       const thr_row *row = &pool->row[i];
       wide least = solver->slack[row->column[0]];
@@ -312,12 +312,11 @@ static thr_status certify(tjoin_solver *solver, const double *dual, bool greedy,
 
   int64_t sum = integer_dual(solver, dual, greedy);
   thr_status st = THR_OK;
+  if (sum > solver->best.sum || solver->best.n_cuts == 0) st = store_cuts(solver, sum, err);
 
   /* Weights are integers: a bound above length - 1 proves the join. */
-  if (sum > solver->best.sum || solver->best.n_cuts == 0) st = store_cuts(solver, sum, err);
   solver->best.optimal =
       (wide)solver->best.sum > ((wide)solver->best.length - 1) * THR_DUAL_DENOMINATOR;
-
   return st;
 }
 
