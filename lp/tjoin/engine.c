@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Solves minimum T-join problems by one of two engines, and asks GLPK whether the result is the
- * minimum.
- *
- * Matching (lp/matching/moat.c) is the engine, unless the user asks for the linear programme
- * (lp/tjoin/tjoin.h) or the weights are too large for whole numbers of 64 bits. */
+/* Solves minimum T-join problems by one of two engines: by matching (lp/matching/moat.c), unless
+ * the user asks for the linear programme (lp/tjoin/tjoin.c) or the weights are too large for whole
+ * numbers of 64 bits. */
 #include "lp/tjoin/tjoin.h"
 #include "lp/matching/blossom.h"
 
