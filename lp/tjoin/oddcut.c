@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Separates odd-cut inequalities: finds sets S of nodes, with an odd number of odd nodes in them,
- * that a fractional point x violates, x(edges that leave S) < 1. Every T-join satisfies these
- * inequalities, because an odd set cannot be paired up inside.
+ * such that a fractional point x has x(edges that leave S) < 1, which is less than any T-join has.
+ * An odd set cannot be paired up inside, so that at least one edge of a T-join leaves the set.
  *
  * The heuristic separation grows a ball round every odd component of the support until balls
  * meet. The exact one computes a Gomory-Hu tree of the support (Padberg & Rao, Mathematics of
