@@ -25,60 +25,60 @@ typedef struct {
   thr_scratch own;    /* the arrays */
 } cut_index;
 
-static void index_destroy(cut_index *index)
+static void index_destroy(cut_index *by_node)
 {
-  thr_scratch_free(&index->own);
+  thr_scratch_free(&by_node->own);
 }
 
 /* Fills the index; children must come before their parents. */
-static thr_status index_init(cut_index *index, const thr_tjoin_problem *tjoin_problem,
+static thr_status index_init(cut_index *by_node, const thr_tjoin_problem *tjoin_problem,
                              const thr_tjoin *tjoin, thr_err *err)
 {
   size_t n = (size_t)tjoin_problem->n_nodes, named = 0;
-  *index = (cut_index){.problem = tjoin_problem, .join = tjoin};
-  index->tree = thr_scratch_array(&index->own, (size_t)tjoin->n_cuts, sizeof *index->tree);
-  index->first = thr_scratch_array(&index->own, n + 2, sizeof *index->first);
-  if (thr_scratch_check(&index->own, err)) return THR_ENOMEM;
+  *by_node = (cut_index){.problem = tjoin_problem, .join = tjoin};
+  by_node->tree = thr_scratch_array(&by_node->own, (size_t)tjoin->n_cuts, sizeof *by_node->tree);
+  by_node->first = thr_scratch_array(&by_node->own, n + 2, sizeof *by_node->first);
+  if (thr_scratch_check(&by_node->own, err)) return THR_ENOMEM;
 
   /* Find the root of every cut, parents first, and count the cuts at every node. */
   for (int i = tjoin->n_cuts - 1; i >= 0; i--) {
-    index->tree[i] = tjoin->cut[i].parent < 0 ? i : index->tree[tjoin->cut[i].parent];
+    by_node->tree[i] = tjoin->cut[i].parent < 0 ? i : by_node->tree[tjoin->cut[i].parent];
     named += (size_t)tjoin->cut[i].n_nodes;
     for (int k = 0; k < tjoin->cut[i].n_nodes; k++)
-      index->first[tjoin->cut[i].node[k] + 2]++;
+      by_node->first[tjoin->cut[i].node[k] + 2]++;
   }
 
   /* Sort the cuts by node. */
   for (size_t v = 1; v <= n; v++)
-    index->first[v + 1] += index->first[v];
-  index->holds = thr_scratch_array(&index->own, named, sizeof *index->holds);
-  if (thr_scratch_check(&index->own, err)) return THR_ENOMEM;
+    by_node->first[v + 1] += by_node->first[v];
+  by_node->holds = thr_scratch_array(&by_node->own, named, sizeof *by_node->holds);
+  if (thr_scratch_check(&by_node->own, err)) return THR_ENOMEM;
   for (int i = 0; i < tjoin->n_cuts; i++)
     for (int k = 0; k < tjoin->cut[i].n_nodes; k++)
-      index->holds[index->first[tjoin->cut[i].node[k] + 1]++] = i;
+      by_node->holds[by_node->first[tjoin->cut[i].node[k] + 1]++] = i;
   return THR_OK;
 }
 
 /* Returns the cut of a tree that lists node v, or -1. */
-static int cut_in_tree(const cut_index *index, int v, int tree)
+static int cut_in_tree(const cut_index *by_node, int v, int tree)
 {
-  for (int k = index->first[v]; k < index->first[v + 1]; k++)
-    if (index->tree[index->holds[k]] == tree) return index->holds[k];
+  for (int k = by_node->first[v]; k < by_node->first[v + 1]; k++)
+    if (by_node->tree[by_node->holds[k]] == tree) return by_node->holds[k];
   return -1;
 }
 
 /* Computes where edge e lies in the k-th of the trees that list one of its ends: at[i] becomes
  * the cut that lists end i, -1 if the tree does not list this end. Both are -1 if the tree came
  * up at a smaller k. Returns false if there are fewer trees. */
-static bool ends_in_tree(const cut_index *index, int e, int k, int at[2])
+static bool ends_in_tree(const cut_index *by_node, int e, int k, int at[2])
 {
   /* The trees at the first end come first, then the trees at the second one. */
-  int u = index->problem->edge[e][0], v = index->problem->edge[e][1],
-      of_u = index->first[u + 1] - index->first[u];
+  int u = by_node->problem->edge[e][0], v = by_node->problem->edge[e][1],
+      of_u = by_node->first[u + 1] - by_node->first[u];
   bool second = k >= of_u;
-  if (second && k - of_u >= index->first[v + 1] - index->first[v]) return false;
-  at[second] = index->holds[second ? index->first[v] + k - of_u : index->first[u] + k];
-  at[!second] = cut_in_tree(index, second ? u : v, index->tree[at[second]]);
+  if (second && k - of_u >= by_node->first[v + 1] - by_node->first[v]) return false;
+  at[second] = by_node->holds[second ? by_node->first[v] + k - of_u : by_node->first[u] + k];
+  at[!second] = cut_in_tree(by_node, second ? u : v, by_node->tree[at[second]]);
 
   /* A tree at both ends has come up at the first one. */
   if (second && at[0] >= 0) at[0] = at[1] = -1;
@@ -107,14 +107,14 @@ static void add_entry(thr_cut_programme *cut_programme, int *n, int row, double 
 
 /* Writes the column of an edge: in every tree an entry 1 at the innermost cuts that the edge
  * leaves, one at either end, and as many times -1 at the innermost cut that holds both ends. */
-static void add_edge(thr_cut_programme *cut_programme, const cut_index *index, int e, int *n)
+static void add_edge(thr_cut_programme *cut_programme, const cut_index *by_node, int e, int *n)
 {
   int at[2];
-  for (int k = 0; ends_in_tree(index, e, k, at); k++) {
+  for (int k = 0; ends_in_tree(by_node, e, k, at); k++) {
     /* Find the innermost cut that holds both ends, or -1. */
     int inner[2] = {at[0], at[1]}, leaves = 0;
     while (at[0] != at[1])
-      step_out(index->join->cut, at);
+      step_out(by_node->join->cut, at);
 
     /* An end listed by this very cut leaves nothing. */
     for (int i = 0; i < 2; i++) {
@@ -128,18 +128,18 @@ static void add_edge(thr_cut_programme *cut_programme, const cut_index *index, i
 }
 
 /* Writes all columns, of edges and of slacks, and the right sides. */
-static thr_status columns_init(thr_cut_programme *cut_programme, const cut_index *index,
+static thr_status columns_init(thr_cut_programme *cut_programme, const cut_index *by_node,
                                thr_err *err)
 {
-  const thr_cut *cut = index->join->cut;
+  const thr_cut *cut = by_node->join->cut;
   size_t most = 2 * (size_t)cut_programme->n_rows;
   int n = 0;
 
   /* An edge has at most three entries in a tree, a slack two. */
-  for (int e = 0; e < index->problem->n_edges; e++)
+  for (int e = 0; e < by_node->problem->n_edges; e++)
     for (int i = 0; i < 2; i++)
-      most += 3 * (size_t)(index->first[index->problem->edge[e][i] + 1] -
-                           index->first[index->problem->edge[e][i]]);
+      most += 3 * (size_t)(by_node->first[by_node->problem->edge[e][i] + 1] -
+                           by_node->first[by_node->problem->edge[e][i]]);
   cut_programme->rhs = thr_calloc((size_t)cut_programme->n_rows, sizeof *cut_programme->rhs);
   cut_programme->start =
       thr_calloc((size_t)cut_programme->n_columns + 1, sizeof *cut_programme->start);
@@ -149,8 +149,8 @@ static thr_status columns_init(thr_cut_programme *cut_programme, const cut_index
     return thr_nomem(err);
 
   /* Columns of edges. */
-  for (int e = 0; e < index->problem->n_edges; e++) {
-    add_edge(cut_programme, index, e, &n);
+  for (int e = 0; e < by_node->problem->n_edges; e++) {
+    add_edge(cut_programme, by_node, e, &n);
     cut_programme->start[e + 1] = n;
   }
 
@@ -163,7 +163,7 @@ static thr_status columns_init(thr_cut_programme *cut_programme, const cut_index
       add_entry(cut_programme, &n, cut[i].parent, 1);
       cut_programme->rhs[cut[i].parent] -= 1;
     }
-    cut_programme->start[index->problem->n_edges + i + 1] = n;
+    cut_programme->start[by_node->problem->n_edges + i + 1] = n;
   }
   return THR_OK;
 }
@@ -174,25 +174,25 @@ static thr_status columns_init(thr_cut_programme *cut_programme, const cut_index
  * join leaves, but no edge twice, and the slacks of all other cuts. The matrix is not singular:
  * the equation x(edges that leave S) - s = 1 of a cut with a basic edge has no other basic
  * column. */
-static thr_status choose_basis(const cut_index *index, bool *edge, bool *slack, thr_err *err)
+static thr_status choose_basis(const cut_index *by_node, bool *edge, bool *slack, thr_err *err)
 {
   thr_scratch own = {0};
-  size_t n = (size_t)index->join->n_cuts;
+  size_t n = (size_t)by_node->join->n_cuts;
   int *joined = thr_scratch_array(&own, n, sizeof *joined),
       *by = thr_scratch_array(&own, n, sizeof *by), at[2];
   thr_status st = thr_scratch_check(&own, err);
 
   /* Count the edges of the join that leave each cut, and remember one. */
-  for (int e = 0; e < index->problem->n_edges && !st; e++)
-    for (int k = 0; index->join->in_join[e] && ends_in_tree(index, e, k, at); k++)
+  for (int e = 0; e < by_node->problem->n_edges && !st; e++)
+    for (int k = 0; by_node->join->in_join[e] && ends_in_tree(by_node, e, k, at); k++)
       while (at[0] != at[1]) {
-        int left = step_out(index->join->cut, at);
+        int left = step_out(by_node->join->cut, at);
         joined[left]++;
         by[left] = e;
       }
 
   /* An edge is basic for the first cut that it alone leaves. */
-  for (int i = 0; i < index->join->n_cuts && !st; i++) {
+  for (int i = 0; i < by_node->join->n_cuts && !st; i++) {
     slack[i] = joined[i] != 1 || edge[by[i]];
     if (!slack[i]) edge[by[i]] = true;
   }
@@ -215,19 +215,19 @@ thr_status thr_cut_programme_init(thr_cut_programme *cut_programme,
                                   const thr_tjoin_problem *tjoin_problem, const thr_tjoin *tjoin,
                                   thr_err *err)
 {
-  cut_index index;
+  cut_index by_node;
   *cut_programme = (thr_cut_programme){.n_rows = tjoin->n_cuts,
                                        .n_columns = tjoin_problem->n_edges + tjoin->n_cuts};
   cut_programme->basic = thr_calloc((size_t)cut_programme->n_columns, sizeof *cut_programme->basic);
 
-  thr_status st = index_init(&index, tjoin_problem, tjoin, err);
+  thr_status st = index_init(&by_node, tjoin_problem, tjoin, err);
   if (!st && !cut_programme->basic) st = thr_nomem(err);
-  if (!st) st = columns_init(cut_programme, &index, err);
+  if (!st) st = columns_init(cut_programme, &by_node, err);
   if (!st)
-    st = choose_basis(&index, cut_programme->basic, cut_programme->basic + tjoin_problem->n_edges,
+    st = choose_basis(&by_node, cut_programme->basic, cut_programme->basic + tjoin_problem->n_edges,
                       err);
 
-  index_destroy(&index);
+  index_destroy(&by_node);
   if (st) thr_cut_programme_destroy(cut_programme);
   return st;
 }
