@@ -45,17 +45,17 @@ void thr_nest_destroy(thr_nest *nest)
 static void link_up(thr_nest *nest)
 {
   /* Parents come after their children, so that the parent of a set is done before the set. */
-  for (int s = nest->n_sets - 1; s >= 0; s--) {
-    int up = nest->parent[s], far = up < 0 ? -1 : nest->jump[up],
+  for (int set = nest->n_sets - 1; set >= 0; set--) {
+    int up = nest->parent[set], far = up < 0 ? -1 : nest->jump[up],
         farther = far < 0 ? -1 : nest->jump[far];
 
-    nest->jump[s] = up;
-    nest->level[s] = up < 0 ? 0 : nest->level[up] + 1;
+    nest->jump[set] = up;
+    nest->level[set] = up < 0 ? 0 : nest->level[up] + 1;
 
     /* Two jumps of the same length make one. */
     if (farther >= 0 &&
         nest->level[up] - nest->level[far] == nest->level[far] - nest->level[farther])
-      nest->jump[s] = farther;
+      nest->jump[set] = farther;
   }
 }
 
@@ -98,12 +98,12 @@ static void raise_width(thr_nest *nest, int i, int k, int *chain)
   nest->width[i] = 0;
 
   /* The moats round i. */
-  for (int s = nest->parent[i]; s != common && missing; s = nest->parent[s])
-    take_width(nest, s, &missing);
+  for (int set = nest->parent[i]; set != common && missing; set = nest->parent[set])
+    take_width(nest, set, &missing);
 
   /* The moats round k, of which the inner ones are listed first and served last. */
-  for (int s = k; s != common; s = nest->parent[s])
-    chain[n++] = s;
+  for (int set = k; set != common; set = nest->parent[set])
+    chain[n++] = set;
   while (n && missing)
     take_width(nest, chain[--n], &missing);
 }
@@ -111,9 +111,9 @@ static void raise_width(thr_nest *nest, int i, int k, int *chain)
 /* Computes the depth just outside of every moat, parents first. */
 static void find_depths(thr_nest *nest)
 {
-  for (int s = nest->n_sets - 1; s >= 0; s--) {
-    int up = nest->parent[s];
-    nest->outer[s] = up < 0 ? 0 : nest->outer[up] + nest->width[up];
+  for (int set = nest->n_sets - 1; set >= 0; set--) {
+    int up = nest->parent[set];
+    nest->outer[set] = up < 0 ? 0 : nest->outer[up] + nest->width[up];
   }
 }
 
@@ -130,10 +130,10 @@ thr_status thr_nest_init(thr_nest *nest, int n_odd, const thr_matching *matching
   }
 
   /* The sets are the odd places, then the blossoms. */
-  for (int s = 0; s < nest->n_sets; s++) {
-    int up = s < n_odd ? matching->node_blossom[s] : matching->blossom_parent[s - n_odd];
-    nest->parent[s] = up < 0 ? -1 : n_odd + up;
-    nest->width[s] = s < n_odd ? matching->dual[s] : matching->blossom_dual[s - n_odd];
+  for (int set = 0; set < nest->n_sets; set++) {
+    int up = set < n_odd ? matching->node_blossom[set] : matching->blossom_parent[set - n_odd];
+    nest->parent[set] = up < 0 ? -1 : n_odd + up;
+    nest->width[set] = set < n_odd ? matching->dual[set] : matching->blossom_dual[set - n_odd];
   }
   link_up(nest);
 
@@ -162,8 +162,8 @@ thr_status thr_nest_of_balls(thr_nest *nest, int n_odd, const int64_t *width, th
 
 int64_t thr_nest_shared_depth(const thr_nest *nest, int i, int j)
 {
-  int s = common_set(nest, i, j);
-  return s < 0 ? 0 : nest->outer[s] + nest->width[s];
+  int set = common_set(nest, i, j);
+  return set < 0 ? 0 : nest->outer[set] + nest->width[set];
 }
 
 void thr_nest_depths(const thr_nest *nest, int64_t *start)
@@ -227,12 +227,12 @@ static thr_status cutter_init(moat_cutter *cutter, thr_err *err)
  * n_sets). */
 static int set_at(const thr_nest *nest, int i, int64_t depth)
 {
-  int s = i;
-  while (depth <= nest->outer[s]) {
-    int far = nest->jump[s];
-    s = far >= 0 && depth <= nest->outer[far] ? far : nest->parent[s];
+  int set = i;
+  while (depth <= nest->outer[set]) {
+    int far = nest->jump[set];
+    set = far >= 0 && depth <= nest->outer[far] ? far : nest->parent[set];
   }
-  return s;
+  return set;
 }
 
 /* Sorts the places by set, in the order in which the flood came, and the nodes by place,
@@ -246,8 +246,8 @@ static void sort_places(moat_cutter *cutter)
     cutter->set[v] = set_at(cutter->nest, flood->root[v], flood->depth[v]);
     cutter->first[cutter->set[v] + 2]++;
   }
-  for (int s = 1; s <= cutter->nest->n_sets; s++)
-    cutter->first[s + 1] += cutter->first[s];
+  for (int set = 1; set <= cutter->nest->n_sets; set++)
+    cutter->first[set + 1] += cutter->first[set];
 
   /* Deepest first within a set, as the flood came. */
   for (int k = 0; k < flood->n_reached; k++)
@@ -262,9 +262,9 @@ static void sort_places(moat_cutter *cutter)
     cutter->node[cutter->first_node[cutter->net->place[v] + 1]++] = v;
 }
 
-/* Adds a cut of set s: the places list[from .. end - 1] and all cuts that wait inside of the
+/* Adds a cut of a set: the places list[from .. end - 1] and all cuts that wait inside of the
  * set. */
-static thr_status add_cut(moat_cutter *cutter, int s, int from, int end, int64_t width,
+static thr_status add_cut(moat_cutter *cutter, int set, int from, int end, int64_t width,
                           thr_err *err)
 {
   int n = 0, k = cutter->n_cuts;
@@ -289,43 +289,43 @@ static thr_status add_cut(moat_cutter *cutter, int s, int from, int end, int64_t
   thr_sort_ints(cut->node, (size_t)n);
 
   /* The cuts inside get their parent, and now the new cut waits. */
-  for (int inside = cutter->open[s]; inside >= 0; inside = cutter->waiting[inside])
+  for (int inside = cutter->open[set]; inside >= 0; inside = cutter->waiting[inside])
     cutter->cut[inside].parent = k;
-  cutter->open[s] = cutter->last_open[s] = k;
+  cutter->open[set] = cutter->last_open[set] = k;
   cutter->waiting[k] = -1;
   return THR_OK;
 }
 
 /* Cuts the moat of a set at every depth where places come in: from each such depth to the next,
  * the cut is the places reached so far. */
-static thr_status cut_moat(moat_cutter *cutter, int s, thr_err *err)
+static thr_status cut_moat(moat_cutter *cutter, int set, thr_err *err)
 {
   const thr_nest *nest = cutter->nest;
-  int64_t bottom = nest->outer[s], depth = bottom + nest->width[s];
+  int64_t bottom = nest->outer[set], depth = bottom + nest->width[set];
   thr_status st = THR_OK;
-  for (int from = cutter->first[s], end = from; depth > bottom && !st; from = end) {
+  for (int from = cutter->first[set], end = from; depth > bottom && !st; from = end) {
     /* Take the places at this depth. */
-    while (end < cutter->first[s + 1] && cutter->flood->depth[cutter->list[end]] == depth)
+    while (end < cutter->first[set + 1] && cutter->flood->depth[cutter->list[end]] == depth)
       end++;
 
     /* The cut goes down to the next depth with a place, or to the outer edge of the moat. */
-    int64_t next = end < cutter->first[s + 1] ? cutter->flood->depth[cutter->list[end]] : bottom;
-    st = add_cut(cutter, s, from, end, depth - next, err);
+    int64_t next = end < cutter->first[set + 1] ? cutter->flood->depth[cutter->list[end]] : bottom;
+    st = add_cut(cutter, set, from, end, depth - next, err);
     depth = next;
   }
   return st;
 }
 
-/* Passes the cuts that wait inside set s on to the parent of s. */
-static void hand_on(moat_cutter *cutter, int s)
+/* Passes the cuts that wait inside a set on to the parent of the set. */
+static void hand_on(moat_cutter *cutter, int set)
 {
-  int up = cutter->nest->parent[s];
-  if (up < 0 || cutter->open[s] < 0) return;
+  int up = cutter->nest->parent[set];
+  if (up < 0 || cutter->open[set] < 0) return;
 
   /* Put the list in front of the parent's. */
-  cutter->waiting[cutter->last_open[s]] = cutter->open[up];
-  if (cutter->open[up] < 0) cutter->last_open[up] = cutter->last_open[s];
-  cutter->open[up] = cutter->open[s];
+  cutter->waiting[cutter->last_open[set]] = cutter->open[up];
+  if (cutter->open[up] < 0) cutter->last_open[up] = cutter->last_open[set];
+  cutter->open[up] = cutter->open[set];
 }
 
 thr_status thr_nest_cuts(const thr_nest *nest, const thr_network *net, const thr_flood *flood,
@@ -337,9 +337,9 @@ thr_status thr_nest_cuts(const thr_nest *nest, const thr_network *net, const thr
   if (!st) sort_places(&cutter);
 
   /* Children come before their parents, so that a cut is there before the one around it. */
-  for (int s = 0; s < nest->n_sets && !st; s++) {
-    st = cut_moat(&cutter, s, err);
-    hand_on(&cutter, s);
+  for (int set = 0; set < nest->n_sets && !st; set++) {
+    st = cut_moat(&cutter, set, err);
+    hand_on(&cutter, set);
   }
 
   thr_scratch_free(&cutter.own);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Branch and cut (Padberg & Rinaldi, SIAM Review 33, 1991) in three parts that can be used alone: a
- * pool of rows, the cutting-plane method for one linear programme, and branch and bound. The room
- * knows nothing about cords: callers hand in the columns, the separators that find rows, and the
- * function that solves a node.
+ * pool of rows, the cutting-plane method for one linear programme, and branch and bound. This
+ * folder knows nothing about cords: callers hand in the columns, the separators that find rows, and
+ * the function that solves a node.
  *
  * Read pool.c first, then search.c, which adds the pool's rows to a programme; tree.c needs
  * neither. Callers are lp/tjoin/tjoin.c for rounds without branching, tortuosity/ and symmetry/ for

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Minimum T-joins: sets of edges of least weight with an odd degree at given nodes and an even
- * degree at all others. The passes that a cord needs beyond the required ones are such a set. The
- * room has the engine by linear programming, the odd cuts that prove a minimum, the extension by
+ * degree at all others. The passes that a cord needs beyond the required ones are such a set. This
+ * folder has the engine by linear programming, the odd cuts that prove a minimum, the extension by
  * cord ends, and the confirmation by GLPK; the engine by matching is in lp/matching.
  *
  * Read tjoin.c first, then oddcut.c, which finds its cuts. engine.c chooses between the engines,
