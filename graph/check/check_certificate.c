@@ -71,6 +71,7 @@ static thr_status forest_init(forest *cuts, const thr_certificate *certificate, 
   size_t n = (size_t)certificate->n_cuts;
   *cuts = (forest){.certificate = certificate};
 
+  /* All arrays are owned by the scratch. */
   cuts->first = thr_scratch_array(&cuts->own, n, sizeof *cuts->first);
   cuts->next = thr_scratch_array(&cuts->own, n, sizeof *cuts->next);
   cuts->root = thr_scratch_array(&cuts->own, n, sizeof *cuts->root);
@@ -103,6 +104,7 @@ static thr_status check_cut(const workspace *work, const thr_certificate *certif
                     "certificate of component %d, cut %d: its parent %d is not a later cut",
                     certificate->component, i, cut->parent);
 
+  /* Ascending nodes cannot repeat. */
   for (int j = 0; j < cut->n_nodes; j++) {
     int v = cut->node[j];
     if (j > 0 && v <= cut->node[j - 1])
@@ -145,6 +147,7 @@ static thr_status forest_fill(forest *cuts, const workspace *work, thr_err *err)
     if (cuts->heavy[p] < 0 || cuts->size[i] > cuts->size[cuts->heavy[p]]) cuts->heavy[p] = i;
   }
 
+  /* Downwards: a heavy child continues the path of its parent. */
   for (int i = certificate->n_cuts - 1; i >= 0; i--) {
     int p = certificate->cut[i].parent, root = p < 0 ? i : cuts->root[p];
     cuts->depth[i] = certificate->cut[i].value + (p < 0 ? 0 : cuts->depth[p]);
@@ -195,6 +198,8 @@ static void load_tree(workspace *work, const forest *cuts, int root)
     for (int j = 0; j < cuts->certificate->cut[i].n_nodes; j++) {
       int v = cuts->certificate->cut[i].node[j];
       work->held[v] += cuts->depth[i];
+
+      /* Edges to nodes that the tree names, too, are shared by all sets round both. */
       for (int place = work->far_start[v]; place < work->far_start[v + 1]; place++) {
         int other = work->own[work->far[place]];
         if (other >= 0)
@@ -267,6 +272,7 @@ static thr_status apply_prices(workspace *work, const thr_certificate *certifica
     const int *end = frame->edge[work->edge[j]];
     thr_priced p = priced(work, certificate, j);
 
+    /* An edge whose passes cost less than their places would be passed without end. */
     if (p.room && p.endless)
       return thr_fail(
           err, THR_EVIOLATED,
@@ -292,6 +298,7 @@ static thr_status check_loads(const workspace *work, const thr_certificate *cert
     wide load = work->held[work->frame->edge[e][0]] + work->held[work->frame->edge[e][1]] -
                 2 * work->shared[e];
 
+    /* The sets round exactly one end. */
     if (load <= 0) continue; /* bears any price */
     thr_priced p = priced(work, certificate, j);
     if (p.room && load > (p.odd > p.even ? p.odd - p.even : p.even - p.odd))
@@ -400,6 +407,7 @@ static thr_status judge(const workspace *work, const thr_certificate *certificat
         "certificate of component %d: the extra passes do not weigh the stated %" PRId64,
         certificate->component, certificate->join);
 
+  /* Every free cord end may cross the sets round its node, at the end price. */
   int cords = thr_plan_fewest_first(work->request) ? work->walked->cords[certificate->component]
                                                    : work->request->cords;
   int64_t ends = thr_check_ends_free(work->request) ? 2 * (int64_t)cords : 0;
@@ -411,6 +419,7 @@ static thr_status judge(const workspace *work, const thr_certificate *certificat
         "certificate of component %d: its bound is above the weight of the plan's own extra passes",
         certificate->component);
 
+  /* Optimal if nothing fits between the bound and the weight, and rounding hides nothing. */
   out->extra = thr_check_extra(certificate, out, ends);
   bool attained = !weightless && least_weight(certificate, places, ends) >= join;
   out->optimal = extra == 0 || (attained && extra - out->extra <= 1e-9 * total);
@@ -426,6 +435,7 @@ static thr_status check_numbers(const workspace *work, const thr_certificate *ce
                     "certificate of component %d: scale and denominator must be positive",
                     certificate->component);
 
+  /* Weights are lengths times the scale. */
   for (int j = work->edge_start[certificate->component];
        j < work->edge_start[certificate->component + 1]; j++) {
     int e = work->edge[j];
@@ -467,6 +477,8 @@ static thr_status run_certificate(workspace *work, const thr_certificate *certif
 {
   forest cuts = {0};
   wide sum = 0, places = 0;
+
+  /* Numbers and prices first. */
   thr_status st = check_numbers(work, certificate, err);
   if (!st && certificate->n_prices > 0 && work->request->ends == THR_ENDS_CLOSED)
     st = find_loops(work, certificate->component, err);
@@ -560,6 +572,7 @@ static thr_status workspace_init(workspace *work, const thr_frame *frame,
 
   if (thr_scratch_check(&work->scratch, err)) return THR_ENOMEM;
 
+  /* Order by component, edges at one end each. */
   group(work);
   point(work);
   thr_check_most_cords(frame, options, check_walked, work->cords);
