@@ -1,5 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Claims about several cords: how short the longest can be, and how few they can be. */
+/* Checks claims about several cords: how short the longest cord can be, and how few cords there can
+ * be.
+ *
+ * Lower bounds on the longest cord: the least length of a component shared out evenly; the shortest
+ * cord over the edge that is hardest to reach (Dijkstra); cuts round the nodes where cords may end
+ * (ways_in.c); in components of few edges all sets of edges (few_edges.c, short_cords.c); prices of
+ * walks (walk_proof.c). K cords are too few if their least length exceeds K times max_length. */
 #include "graph/check/check_parts.h"
 #include "graph/check/edge_sets.h"
 #include "graph/plan/walk_proof.h"
@@ -7,7 +13,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* ---- shortest ways ---- */
+/* ---- shortest paths ---- */
 
 typedef struct {
   double distance;
@@ -16,83 +22,105 @@ typedef struct {
 
 /* Dijkstra's method with a binary heap. A node may wait in it several times; the nearest counts. */
 typedef struct {
-  const thr_frame *f;
+  const thr_frame *frame;
   double *distance; /* [n_nodes] INFINITY = not reached */
   int n_waiting, n_touched, steps;
   reached *waiting; /* [2 * n_edges + n_nodes] */
   int *touched;     /* [n_nodes] those reached */
-} ways;
+} shortest_paths;
 
-static void ways_destroy(ways *w)
+static void paths_destroy(shortest_paths *search)
 {
-  free(w->distance);
-  free(w->waiting);
-  free(w->touched);
+  free(search->distance);
+  free(search->waiting);
+  free(search->touched);
 }
 
-static thr_status ways_init(ways *w, const thr_frame *frame, thr_err *err)
+/* Allocates a search in which no node is reached. Release with paths_destroy, after a failure too.
+ */
+static thr_status paths_init(shortest_paths *search, const thr_frame *frame, thr_err *err)
 {
   size_t n = (size_t)frame->n_nodes;
-  *w = (ways){.f = frame};
-  w->distance = thr_calloc(n, sizeof *w->distance);
-  w->waiting = thr_calloc(2 * (size_t)frame->n_edges + n, sizeof *w->waiting);
-  w->touched = thr_calloc(n, sizeof *w->touched);
-  if (!w->distance || !w->waiting || !w->touched) return thr_nomem(err);
+  *search = (shortest_paths){.frame = frame};
+
+  search->distance = thr_calloc(n, sizeof *search->distance);
+  search->waiting = thr_calloc(2 * (size_t)frame->n_edges + n, sizeof *search->waiting);
+  search->touched = thr_calloc(n, sizeof *search->touched);
+  if (!search->distance || !search->waiting || !search->touched) return thr_nomem(err);
+
   for (size_t v = 0; v < n; v++)
-    w->distance[v] = INFINITY;
+    search->distance[v] = INFINITY;
   return THR_OK;
 }
 
-static void reach(ways *w, int v, double distance)
+/* Lowers the distance of node v, and puts the node into the heap; no effect if the distance is no
+ * less. */
+static void reach(shortest_paths *search, int v, double distance)
 {
-  if (!(distance < w->distance[v])) return;
-  if (w->distance[v] == INFINITY) w->touched[w->n_touched++] = v;
-  w->distance[v] = distance;
-  int i = w->n_waiting++;
-  for (; i > 0 && distance < w->waiting[(i - 1) / 2].distance; i = (i - 1) / 2)
-    w->waiting[i] = w->waiting[(i - 1) / 2];
-  w->waiting[i] = (reached){distance, v};
+  if (!(distance < search->distance[v])) return;
+  if (search->distance[v] == INFINITY) search->touched[search->n_touched++] = v;
+  search->distance[v] = distance;
+
+  /* Sift up. */
+  int i = search->n_waiting++;
+  for (; i > 0 && distance < search->waiting[(i - 1) / 2].distance; i = (i - 1) / 2)
+    search->waiting[i] = search->waiting[(i - 1) / 2];
+  search->waiting[i] = (reached){distance, v};
 }
 
-static reached nearest(ways *w)
+/* Takes the node at the smallest distance from the heap. */
+static reached nearest(shortest_paths *search)
 {
-  reached top = w->waiting[0], last = w->waiting[--w->n_waiting];
+  reached top = search->waiting[0], last = search->waiting[--search->n_waiting];
+
+  /* Sift the last entry down from the top. */
   int i = 0;
-  for (int child; (child = 2 * i + 1) < w->n_waiting; i = child) {
-    if (child + 1 < w->n_waiting && w->waiting[child + 1].distance < w->waiting[child].distance)
+  for (int child; (child = 2 * i + 1) < search->n_waiting; i = child) {
+    if (child + 1 < search->n_waiting &&
+        search->waiting[child + 1].distance < search->waiting[child].distance)
       child++;
-    if (last.distance <= w->waiting[child].distance) break;
-    w->waiting[i] = w->waiting[child];
+    if (last.distance <= search->waiting[child].distance) break;
+    search->waiting[i] = search->waiting[child];
   }
-  w->waiting[i] = last;
+
+  search->waiting[i] = last;
   return top;
 }
 
 /* Settles all nodes, or those up to node target (-1 = none). */
-static void spread(ways *w, int target)
+static void spread(shortest_paths *search, int target)
 {
-  while (w->n_waiting > 0) {
-    reached r = nearest(w);
-    if (r.distance > w->distance[r.node]) continue;
+  while (search->n_waiting > 0) {
+    reached r = nearest(search);
+
+    /* A larger distance is out of date. */
+    if (r.distance > search->distance[r.node]) continue;
     if (r.node == target) return;
-    for (int i = w->f->first[r.node]; i < w->f->first[r.node + 1]; i++, w->steps++)
-      reach(w, thr_head(w->f, w->f->half[i]), r.distance + w->f->length[w->f->half[i] >> 1]);
+    for (int i = search->frame->first[r.node]; i < search->frame->first[r.node + 1];
+         i++, search->steps++)
+      reach(search, thr_head(search->frame, search->frame->half[i]),
+            r.distance + search->frame->length[search->frame->half[i] >> 1]);
   }
 }
 
 /* ---- the shortest cord over the worst edge ---- */
 
-/* From where a cord may end over the edge to where one may end. */
-static double open_detour(ways *w, const thr_request *options)
+/* Returns the length of the shortest cord over the worst edge: between two nodes where cords may
+ * end. */
+static double open_detour(shortest_paths *search, const thr_request *options)
 {
-  const thr_frame *frame = w->f;
+  const thr_frame *frame = search->frame;
   double worst = 0;
+
+  /* One search from all nodes where cords may end. */
   for (int v = 0; v < frame->n_nodes; v++)
-    if (thr_plan_end_allowed(frame, options, v)) reach(w, v, 0);
-  spread(w, -1);
+    if (thr_plan_end_allowed(frame, options, v)) reach(search, v, 0);
+  spread(search, -1);
+
+  /* A cord over edge e reaches both of its nodes from such a node. */
   for (int e = 0; e < frame->n_edges; e++)
-    worst = fmax(worst, w->distance[frame->edge[e][0]] + frame->length[e] +
-                            w->distance[frame->edge[e][1]]);
+    worst = fmax(worst, search->distance[frame->edge[e][0]] + frame->length[e] +
+                            search->distance[frame->edge[e][1]]);
   return worst;
 }
 
@@ -101,6 +129,7 @@ typedef struct {
   int edge;
 } measured;
 
+/* Orders edges by length, longest first. */
 static int longest_first(const void *pa, const void *pb)
 {
   const measured *a = pa, *b = pb;
@@ -108,25 +137,33 @@ static int longest_first(const void *pa, const void *pb)
   return a->edge - b->edge;
 }
 
-/* Over the edge and the shortest way back, which is no longer than the edge. Only what could raise
- * *worst is looked at, and only STEPS edges long: the result is a lower bound. */
-static thr_status closed_detour(ways *w, double *worst, thr_err *err)
+/* Raises *worst to the shortest closed cord over the worst edge: the edge and the shortest way
+ * back, which is no longer than the edge. Only edges that could raise *worst are searched from, for
+ * STEPS steps in all: the result is a lower bound. */
+static thr_status closed_detour(shortest_paths *search, double *worst, thr_err *err)
 {
   enum { STEPS = 1 << 24 };
-  const thr_frame *frame = w->f;
+  const thr_frame *frame = search->frame;
   measured *by_length = thr_calloc((size_t)frame->n_edges, sizeof *by_length);
   if (!by_length) return thr_nomem(err);
+
   for (int e = 0; e < frame->n_edges; e++)
     by_length[e] = (measured){frame->length[e], e};
   qsort(by_length, (size_t)frame->n_edges, sizeof *by_length, longest_first);
-  for (int i = 0; i < frame->n_edges && 2 * by_length[i].length > *worst && w->steps < STEPS; i++) {
+
+  /* Longest edges first, as a cord over an edge is at most twice as long. */
+  for (int i = 0; i < frame->n_edges && 2 * by_length[i].length > *worst && search->steps < STEPS;
+       i++) {
     int *end = frame->edge[by_length[i].edge];
-    reach(w, end[0], 0);
-    spread(w, end[1]);
-    *worst = fmax(*worst, by_length[i].length + w->distance[end[1]]);
-    for (; w->n_touched > 0; w->n_touched--)
-      w->distance[w->touched[w->n_touched - 1]] = INFINITY;
-    w->n_waiting = 0;
+
+    reach(search, end[0], 0);
+    spread(search, end[1]);
+    *worst = fmax(*worst, by_length[i].length + search->distance[end[1]]);
+
+    /* Forget what the search reached. */
+    for (; search->n_touched > 0; search->n_touched--)
+      search->distance[search->touched[search->n_touched - 1]] = INFINITY;
+    search->n_waiting = 0;
   }
   free(by_length);
   return THR_OK;
@@ -136,13 +173,13 @@ static thr_status closed_detour(ways *w, double *worst, thr_err *err)
 static thr_status detour(const thr_frame *frame, const thr_request *options, double *worst,
                          thr_err *err)
 {
-  ways w;
-  thr_status st = ways_init(&w, frame, err);
+  shortest_paths search;
+  thr_status st = paths_init(&search, frame, err);
   if (!st && options->ends == THR_ENDS_CLOSED)
-    st = closed_detour(&w, worst, err);
+    st = closed_detour(&search, worst, err);
   else if (!st)
-    *worst = fmax(*worst, open_detour(&w, options));
-  ways_destroy(&w);
+    *worst = fmax(*worst, open_detour(&search, options));
+  paths_destroy(&search);
   return st;
 }
 
@@ -159,30 +196,41 @@ void thr_check_most_cords(const thr_frame *frame, const thr_request *options,
 {
   for (int c = 0; c < check_walked->n_components; c++)
     cords[c] = options->ends == THR_ENDS_COUNTS ? 0 : options->cords;
+
   if (options->ends != THR_ENDS_COUNTS) return;
+
+  /* Two given ends make a cord. */
   for (int v = 0; v < frame->n_nodes; v++)
     cords[check_walked->component[v]] += options->end_count[v];
   for (int c = 0; c < check_walked->n_components; c++)
     cords[c] /= 2;
 }
 
+/* Computes lengths and numbers of cords of every component: (*parts)[n_components], the caller's to
+ * free. */
 static thr_status parts_of(const thr_frame *frame, const thr_request *options,
                            const thr_check_walked *check_walked, part **parts, thr_err *err)
 {
   part *part_of = thr_calloc((size_t)check_walked->n_components, sizeof *part_of);
   if (!(*parts = part_of)) return thr_nomem(err);
+
+  /* Lengths. */
   for (int e = 0; e < frame->n_edges; e++) {
     part *p = &part_of[check_walked->component[frame->edge[e][0]]];
     p->base += frame->length[e] * thr_plan_cover(frame, options, e);
     p->length += frame->length[e] * check_walked->passes[e];
   }
+
+  /* Numbers of cords. */
   int *most = thr_calloc((size_t)check_walked->n_components, sizeof *most);
   if (most) thr_check_most_cords(frame, options, check_walked, most);
+
   for (int c = 0; c < check_walked->n_components && most; c++) {
     part_of[c].most = most[c];
     part_of[c].cords = check_walked->cords[c];
     part_of[c].least = options->ends == THR_ENDS_COUNTS ? most[c] : thr_plan_cords_least(options);
   }
+
   free(most);
   if (most) return THR_OK;
   free(part_of);
@@ -190,38 +238,46 @@ static thr_status parts_of(const thr_frame *frame, const thr_request *options,
   return thr_nomem(err);
 }
 
-/* No so many cords through the component are shorter together. */
+/* Returns a lower bound on the length of so many cords through the component. */
 static double least_length(const thr_request *options, const part *p, int cords,
                            const thr_certificate *certificate,
                            const thr_check_verdict *check_verdict)
 {
+  /* Without a certificate only the passes that edges need count. */
   if (!check_verdict) return p->base;
+
   double own = check_verdict->optimal ? p->length : p->base + check_verdict->extra;
   if (!thr_check_ends_free(options)) return own;
+
+  /* More ends lower the bound: each of them saves the end price. */
   double length = p->base + thr_check_extra(certificate, check_verdict, 2 * (int64_t)cords);
   return thr_plan_fewest_first(options) && cords > p->cords ? length : fmax(own, length);
 }
 
-/* Is this more cord than so many of the greatest length? */
+/* Returns whether so many cords of the greatest length are shorter than `length` together. */
 static bool too_long(double length, int cords, const thr_request *options)
 {
   return length > cords * options->max_length * (1 + 2e-9);
 }
 
-/* No so many cords, of which each edge is passed by so many different ones, have a longest that is
- * shorter than *longest. known: the longest of some that are known. */
+/* Computes a lower bound on the longest of so many cords of which every edge is passed by `each`
+ * different ones, from tables over sets of edges; 0 if there are too many edges. known: the longest
+ * of known cords. */
 static thr_status longest_of(const thr_few_edges *few, int each, int cords, double known,
                              double *longest, thr_err *err)
 {
   double found;
   *longest = 0;
+
   if (few->n == 0) return THR_OK;
+
+  /* Without different cords the tables are exact. */
   if (each == 1) return thr_few_edges_dearest(few, cords, longest, err);
   return thr_few_edges_different_dearest(few, each, cords, known, NULL, longest, &found, err);
 }
 
-/* Raises *least, cords of a component, as far as the certificate and, of few edges, all sets of
- * cords exclude that number. */
+/* Raises *least, cords of a component, as long as the certificate or a table over all sets of few
+ * edges excludes that number. */
 static thr_status rule_out_part(const thr_request *options, const part *p, int each,
                                 const thr_certificate *certificate,
                                 const thr_check_verdict *check_verdict, const thr_few_edges *few,
@@ -230,18 +286,20 @@ static thr_status rule_out_part(const thr_request *options, const part *p, int e
   thr_status st = THR_OK;
   bool ruled_out = options->max_length > 0;
   while (!st && ruled_out && *least < p->most) {
+    /* By the least length first, as tables take longer. */
     double longest = 0;
     ruled_out =
         too_long(least_length(options, p, *least, certificate, check_verdict), *least, options);
     if (!ruled_out) st = longest_of(few, each, *least, options->max_length, &longest, err);
+
     ruled_out |= !st && longest > options->max_length * (1 + 2e-9);
     if (ruled_out) ++*least;
   }
   return st;
 }
 
-/* What is claimed of component number: its fewest cords, and what raises *bound on the longest.
- * each: so many different ones over every edge; sets: of edges that may be looked at yet. */
+/* Adds the fewest cords of component `number` to found, and raises *bound, on the longest cord.
+ * each: so many different cords over every edge; sets: of edges that may still be looked at. */
 static thr_status judge_part(const thr_frame *frame, const thr_request *options,
                              const int *component, int number, const part *p, int each,
                              const thr_certificate *certificate, const thr_check_verdict *verdict,
@@ -252,17 +310,24 @@ static thr_status judge_part(const thr_frame *frame, const thr_request *options,
   double longest = 0, by_ways = 0;
   int least = p->least;
   thr_status st = THR_OK;
+
+  /* One cord needs no table. */
   if (p->most > 1)
     st = thr_few_edges_init(&few, frame, options, component, number, false, limit, *sets, err);
   if (few.n > 0) *sets -= 1 << few.n;
+
+  /* Bounds from the tables. */
   if (!st) st = longest_of(&few, each, p->most, found->longest, &longest, err);
   if (!st) st = rule_out_part(options, p, each, certificate, verdict, &few, &least, err);
   thr_few_edges_destroy(&few);
+
+  /* Cuts round the nodes where cords may end, and the mean of the least length. */
   if (!st && verdict)
     st = thr_ways_in(frame, options, component, number, p->most, certificate, &by_ways, err);
   *bound = fmax(*bound, by_ways);
   *bound = fmax(*bound,
                 fmax(longest, least_length(options, p, p->most, certificate, verdict) / p->most));
+
   found->fewest += least;
   return st;
 }
@@ -275,16 +340,18 @@ thr_status thr_check_least_of(const thr_frame *frame, const thr_request *options
   part *parts;
   thr_status st = parts_of(frame, options, check_walked, &parts, err);
   if (st) return st;
+
   const part *p = &parts[component];
   *least = least_length(options, p, p->most, verdict ? &certificate[component] : NULL,
                         verdict ? &verdict[component] : NULL);
+
   free(parts);
   return THR_OK;
 }
 
-/* ---- worth of walks ---- */
+/* ---- prices of walks, and sets of edges ---- */
 
-/* What prices of walks prove raises *bound. */
+/* Raises *bound to what prices of walks prove. */
 static thr_status judge_walks(const thr_frame *frame, const thr_request *options, const part *parts,
                               const thr_certificate *certificate, const thr_check_verdict *verdict,
                               const thr_walk_proof *walks, double *bound, thr_err *err)
@@ -292,37 +359,45 @@ static thr_status judge_walks(const thr_frame *frame, const thr_request *options
   const double rounding = 1e-11; /* of a sum of lengths */
   bool *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
   thr_turning_columns columns = {0};
-  double worth = 0;
+  double walks_bound = 0;
+
   if (!end_allowed) return thr_nomem(err);
   const thr_turning_task task = thr_walk_length_task(frame, options, end_allowed);
   thr_status st = thr_turning_columns_init(&columns, frame, &task, err);
+
+  /* The walks collect what the least length of the component is worth, rounded down. */
   if (!st) {
     int k = thr_walk_component(&columns, walks);
     double least = least_length(options, &parts[k], parts[k].most, verdict ? &certificate[k] : NULL,
                                 verdict ? &verdict[k] : NULL);
     st = thr_walk_proof_check(&columns, THR_WALK_LENGTH, walks, parts[k].most,
-                              least * (1 - rounding), &worth, err);
+                              least * (1 - rounding), &walks_bound, err);
   }
-  *bound = fmax(*bound, worth);
+
+  *bound = fmax(*bound, walks_bound);
   thr_turning_columns_destroy(&columns);
   free(end_allowed);
   return st;
 }
 
-/* All sets of edges that cords pass below the bound are too few, and raise it. */
+/* Raises *bound to what a search over all sets of edges that cords below found->longest pass
+ * proves. */
 static thr_status judge_sets(const thr_frame *frame, const thr_request *options, double *bound,
                              const thr_cords_claim *found, thr_err *err)
 {
   thr_short_cords cords;
   double longest = 0, known;
+
   thr_status st =
       thr_short_cords_init(&cords, frame, options, found->longest * (1 + 1e-9), NULL, err);
   if (!st && cords.n == 0)
     st = thr_fail(err, THR_EVIOLATED,
                   "proof.cords.sets: not of this framework, or there are more than are tried");
+
   if (!st)
     st = thr_short_cords_longest(&cords, options->cords, found->longest, NULL, &longest, &known,
                                  err);
+
   thr_short_cords_destroy(&cords);
   *bound = fmax(*bound, longest);
   return st;
@@ -330,7 +405,8 @@ static thr_status judge_sets(const thr_frame *frame, const thr_request *options,
 
 /* ---- tube joints: the proof is one of all components together ---- */
 
-/* No cords, from least to most in every component, are shorter together. */
+/* Computes the least length of `least` to `most` cords in every component, by the proof for tube
+ * joints. */
 static thr_status tied_length(const thr_frame *frame, const thr_request *options,
                               const thr_turning_proof *tied, int least, int most, double *length,
                               thr_err *err)
@@ -341,8 +417,8 @@ static thr_status tied_length(const thr_frame *frame, const thr_request *options
   return thr_tied_least(frame, &other, tied, length, err);
 }
 
-/* fewest: a lower bound on the cords of one component with free ends, raised as far as the proof
- * goes, one by one: it may rule out a number and not the one below. */
+/* Raises *fewest, a lower bound on the cords of one component with free ends, as far as the proof
+ * goes; one by one, as the proof may exclude a number but not the one below. */
 static thr_status rule_out(const thr_frame *frame, const thr_request *options,
                            const thr_turning_proof *tied, int *fewest, thr_err *err)
 {
@@ -357,6 +433,8 @@ static thr_status rule_out(const thr_frame *frame, const thr_request *options,
   return st;
 }
 
+/* Raises *bound and found->fewest to what the proof for tube joints gives: it is about all
+ * components together. */
 static thr_status check_tied(const thr_frame *frame, const thr_request *options,
                              const thr_turning_proof *tied, const part *parts, int n_parts,
                              double *bound, thr_cords_claim *found, thr_err *err)
@@ -365,10 +443,14 @@ static thr_status check_tied(const thr_frame *frame, const thr_request *options,
   int64_t most = 0;
   thr_status st = tied_length(frame, options, tied, thr_plan_cords_least(options), options->cords,
                               &length, err);
+
   for (int c = 0; c < n_parts; c++)
     most += parts[c].most;
   *bound = fmax(*bound, length / (double)most);
+
   if (st || options->max_length <= 0) return st;
+
+  /* All cords together, and in a single component number by number. */
   double cords = ceil(length / options->max_length * (1 - 2e-9));
   if (cords > found->fewest) found->fewest = cords < (double)most ? (int)cords : (int)most;
   return n_parts == 1 && thr_check_ends_free(options)
@@ -386,8 +468,11 @@ thr_status thr_check_several(const thr_frame *frame, const thr_request *options,
   double bound = 0, unit = thr_plan_unit(frame); /* cords have whole numbers of it */
   int sets = THR_FEW_SETS, each;
   *found = (thr_cords_claim){.present = true, .longest = thr_cords_longest(frame, cord, n_cords)};
+
   thr_status st = parts_of(frame, options, check_walked, &parts, err);
   if (st) return st;
+
+  /* Bounds of each component. */
   st = thr_check_different(frame, options, cord, n_cords, &each, err);
   for (int c = 0; c < check_walked->n_components && !st; c++) {
     const thr_certificate *proof = verdict ? &certificate[c] : NULL;
@@ -395,18 +480,25 @@ thr_status thr_check_several(const thr_frame *frame, const thr_request *options,
     st = judge_part(frame, options, check_walked->component, c, &parts[c], each, proof,
                     check_verdict, &sets, &bound, found, err);
   }
+
+  /* Bounds of all together. */
   if (!st && tied)
     st = check_tied(frame, options, tied, parts, check_walked->n_components, &bound, found, err);
   if (!st && walks && walks->unit)
     st = judge_walks(frame, options, parts, certificate, verdict, walks, &bound, err);
   if (!st && walks && walks->sets) st = judge_sets(frame, options, &bound, found, err);
+
   free(parts);
   if (st) return st;
   if (!(options->max_length > 0 && thr_plan_cords_least(options) < options->cords))
     found->fewest = 0;
+
+  /* The longest cord passes the edge that is hardest to reach. */
   st = detour(frame, options, &bound, err);
   if (st) return st;
   if (unit > 0) bound = unit * ceil(bound / unit * (1 - 2e-9));
+
+  /* No bound may exceed what this plan has. */
   if (bound > found->longest && !thr_check_close(bound, found->longest, found->longest))
     return thr_fail(
         err, THR_EVIOLATED,
@@ -416,6 +508,7 @@ thr_status thr_check_several(const thr_frame *frame, const thr_request *options,
     return thr_fail(err, THR_EVIOLATED,
                     "proof: any plan would have %d cords or more, but this one has %d",
                     found->fewest, n_cords);
+
   found->longest_optimal = thr_check_close(found->longest, bound, found->longest);
   found->longest_bound = fmin(found->longest, bound);
   found->fewest_optimal = found->fewest == n_cords;

@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cords as a plan states them, against its framework and what was asked for. */
+/* Checks the cords themselves against the framework and the request, and counts their passes.
+ *
+ * A cord is a walk: every pass starts where the last one ended. Cords end where they may, pass
+ * every edge as often as needed, and keep to the limits on length, pull and joints. */
 #include "graph/check/check_parts.h"
 
 #include <stdlib.h>
 
+/* Checks that the passes of a cord follow each other, and that it is closed if it says so. */
 static thr_status check_walk(const thr_frame *frame, const thr_cord *cord, thr_err *err)
 {
   for (int i = 0; i + 1 < cord->n_passes; i++)
@@ -12,7 +16,10 @@ static thr_status check_walk(const thr_frame *frame, const thr_cord *cord, thr_e
                       "cord %s, pass %d: ends at node %d, but pass %d starts at node %d", cord->id,
                       i + 1, thr_head(frame, cord->half[i]), i + 2,
                       thr_tail(frame, cord->half[i + 1]));
+
+  /* A cord is closed exactly if it ends where it starts. */
   bool meets = thr_cord_start(frame, cord) == thr_cord_end(frame, cord);
+
   if (cord->closed != meets)
     return thr_fail(err, THR_EVIOLATED, "cord %s: said to be %s, but runs from node %d to node %d",
                     cord->id, cord->closed ? "closed" : "open", thr_cord_start(frame, cord),
@@ -20,13 +27,17 @@ static thr_status check_walk(const thr_frame *frame, const thr_cord *cord, thr_e
   return THR_OK;
 }
 
+/* Checks that a cord ends where the request allows. */
 static thr_status check_ends(const thr_frame *frame, const thr_request *options,
                              const thr_cord *cord, thr_err *err)
 {
   if (options->ends == THR_ENDS_CLOSED && !cord->closed)
     return thr_fail(err, THR_EVIOLATED, "cord %s: open, but the plan's options say closed",
                     cord->id);
+
+  /* Both ends, which may be at one node. */
   int end[2] = {thr_cord_start(frame, cord), thr_cord_end(frame, cord)};
+
   for (int i = 0; i < 2; i++)
     if (!thr_plan_end_allowed(frame, options, end[i]))
       return thr_fail(err, THR_EVIOLATED, "cord %s: %s at node %d, where no cord end is allowed",
@@ -34,7 +45,7 @@ static thr_status check_ends(const thr_frame *frame, const thr_request *options,
   return THR_OK;
 }
 
-/* Every edge has the passes that it needs, and no more than fit. */
+/* Checks that every edge has the passes that it needs, and no more than fit. */
 thr_status thr_check_cover(const thr_frame *frame, const thr_request *options, const int *passes,
                            thr_err *err)
 {
@@ -43,6 +54,7 @@ thr_status thr_check_cover(const thr_frame *frame, const thr_request *options, c
     if (passes[e] < least)
       return thr_fail(err, THR_EVIOLATED, "edge %d (nodes %d and %d): %d of %d passes", e,
                       frame->edge[e][0], frame->edge[e][1], passes[e], least);
+
     if (passes[e] > most)
       return thr_fail(err, THR_EVIOLATED, "edge %d (nodes %d and %d): %d passes, but only %d fit",
                       e, frame->edge[e][0], frame->edge[e][1], passes[e], most);
@@ -50,25 +62,31 @@ thr_status thr_check_cover(const thr_frame *frame, const thr_request *options, c
   return THR_OK;
 }
 
-/* THR_ENDS_COUNTS: at every node as many cord ends as asked for. */
+/* Checks, if the request gives numbers of ends (THR_ENDS_COUNTS), that every node has them. */
 static thr_status check_end_counts(const thr_frame *frame, const thr_request *options,
                                    const thr_cord *cord, int n_cords, thr_err *err)
 {
   if (options->ends != THR_ENDS_COUNTS) return THR_OK;
+
   int *count = thr_calloc((size_t)frame->n_nodes, sizeof *count);
   thr_status st = count ? THR_OK : thr_nomem(err);
+
+  /* Both ends of every cord count. */
   for (int i = 0; i < n_cords && !st; i++) {
     count[thr_cord_start(frame, &cord[i])]++;
     count[thr_cord_end(frame, &cord[i])]++;
   }
+
   for (int v = 0; v < frame->n_nodes && !st; v++)
     if (count[v] != options->end_count[v])
       st = thr_fail(err, THR_EVIOLATED, "node %d: has %d cord %s; the plan's options say %d", v,
                     count[v], count[v] == 1 ? "end" : "ends", options->end_count[v]);
+
   free(count);
   return st;
 }
 
+/* Checks that no cord is longer than the request allows, but for rounding. */
 static thr_status check_lengths(const thr_frame *frame, const thr_request *options,
                                 const thr_cord *cord, int n_cords, thr_err *err)
 {
@@ -81,48 +99,61 @@ static thr_status check_lengths(const thr_frame *frame, const thr_request *optio
   return THR_OK;
 }
 
-/* THR_JOINT_TUBE: no cord turns back into its edge, and the turns tie the edges of every node
- * together. */
+/* Checks tube joints (THR_JOINT_TUBE): no cord turns back into its edge, and the turns tie the
+ * edges of every node together. */
 static thr_status check_joints(const thr_frame *frame, const thr_request *options,
                                const thr_cord *cord, int n_cords, thr_err *err)
 {
   if (options->joint != THR_JOINT_TUBE) return THR_OK;
+
+  /* U-turns connect an edge with itself only. */
   for (int i = 0; i < n_cords; i++)
     for (int k = 0; k < thr_cord_turns(options, &cord[i]); k++)
       if (cord[i].half[(k + 1) % cord[i].n_passes] >> 1 == cord[i].half[k] >> 1)
         return thr_fail(err, THR_EVIOLATED,
                         "cord %s, pass %d: turns back at node %d, which ties no tube joint",
                         cord[i].id, k + 1, thr_head(frame, cord[i].half[k]));
+
+  /* Edges of a node are tied if turns connect them all (junction.c). */
   bool *tied = thr_calloc((size_t)frame->n_nodes, sizeof *tied);
   thr_status st =
       tied ? thr_junction_tied(frame, cord, n_cords, options->ends == THR_ENDS_CLOSED, tied, err)
            : thr_nomem(err);
+
   for (int v = 0; v < frame->n_nodes && !st; v++)
     if (!tied[v])
       st = thr_fail(
           err, THR_EVIOLATED,
           "node %d: the cords do not tie its edges together, as the plan's tube joints need", v);
+
   free(tied);
   return st;
 }
 
-/* Counts the passes that the cords make. */
+/* Checks all cords, and counts their passes. */
 static thr_status check_cords(const thr_frame *frame, const thr_request *options,
                               const int *component, const thr_cord *cord, int n_cords, int *passes,
                               thr_err *err)
 {
   thr_status st;
+
+  /* Cord by cord. */
   for (int i = 0; i < n_cords; i++) {
     const thr_cord *c = &cord[i];
     if ((st = check_walk(frame, c, err))) return st;
     if ((st = check_ends(frame, options, c, err))) return st;
+
+    /* A cord stays in the component where it starts. */
     if (component[thr_cord_start(frame, c)] != c->component)
       return thr_fail(err, THR_EVIOLATED,
                       "cord %s: said to be in component %d, but runs in component %d", c->id,
                       c->component, component[thr_cord_start(frame, c)]);
+
     for (int k = 0; k < c->n_passes; k++)
       passes[c->half[k] >> 1]++;
   }
+
+  /* All cords together, and the limits of the request. */
   if ((st = thr_check_cover(frame, options, passes, err))) return st;
   if ((st = check_end_counts(frame, options, cord, n_cords, err))) return st;
   if ((st = check_lengths(frame, options, cord, n_cords, err))) return st;
@@ -144,14 +175,18 @@ thr_status thr_check_walked_init(thr_check_walked *check_walked, const thr_frame
   *check_walked = (thr_check_walked){
       .component = thr_calloc((size_t)frame->n_nodes, sizeof *check_walked->component),
       .passes = thr_calloc((size_t)frame->n_edges, sizeof *check_walked->passes)};
+
   thr_status st = check_walked->component && check_walked->passes ? THR_OK : thr_nomem(err);
   if (!st)
     st = thr_frame_components(frame, check_walked->component, &check_walked->n_components, err);
   if (!st && !(check_walked->cords =
                    thr_calloc((size_t)check_walked->n_components, sizeof *check_walked->cords)))
     st = thr_nomem(err);
+
+  /* The most that a component may have, as long as the cords are not known. */
   for (int k = 0; k < check_walked->n_components && !st; k++)
     check_walked->cords[k] = options->cords;
+
   if (st) thr_check_walked_destroy(check_walked);
   return st;
 }
@@ -160,6 +195,7 @@ static void count_cords(thr_check_walked *check_walked, const thr_cord *cord, in
 {
   for (int k = 0; k < check_walked->n_components; k++)
     check_walked->cords[k] = 0;
+
   for (int i = 0; i < n_cords; i++)
     check_walked->cords[cord[i].component]++;
 }
@@ -172,6 +208,8 @@ thr_status thr_check_walked_from(thr_check_walked *check_walked, const thr_frame
   if (!st)
     st = check_cords(frame, options, check_walked->component, cord, n_cords, check_walked->passes,
                      err);
+
+  /* The numbers of cords replace the most that were allowed. */
   if (!st) count_cords(check_walked, cord, n_cords);
   if (st) thr_check_walked_destroy(check_walked);
   return st;
@@ -185,13 +223,18 @@ thr_status thr_check_cord_count(const thr_check_walked *check_walked, const thr_
   bool counted = thr_plan_counted(options);
   int first = 0, end = check_walked->n_components,
       least = counted ? options->cords_least : options->cords;
+
+  /* Numbers that were not asked for are compared in the component that has most. */
   for (int k = 0; k < check_walked->n_components && !st && !counted; k++) {
     if (count[k] > count[first]) first = k;
     end = first + 1;
   }
+
   for (int k = first; k < end && !st; k++) {
     const char *cords = count[k] == 1 ? "cord" : "cords";
     if (count[k] >= least && count[k] <= options->cords) continue;
+
+    /* Say what the options ask for. */
     if (least == options->cords)
       st = thr_fail(err, THR_EVIOLATED, "component %d: has %d %s; the plan's options say %d", k,
                     count[k], cords, least);
@@ -217,16 +260,22 @@ thr_status thr_check_count_different(const thr_frame *frame, int distinct, const
   bool *here = thr_calloc((size_t)frame->n_edges, sizeof *here);
   thr_status st = cords && here ? THR_OK : thr_nomem(err);
   *found = 0;
+
+  /* Count every cord once at each of its edges. */
   for (int i = 0; i < n_cords && !st; i++) {
     for (int k = 0; k < cord[i].n_passes; k++) {
       cords[cord[i].half[k] >> 1] += !here[cord[i].half[k] >> 1];
       here[cord[i].half[k] >> 1] = true;
     }
+
     for (int k = 0; k < cord[i].n_passes; k++)
       here[cord[i].half[k] >> 1] = false;
   }
+
+  /* An edge counts if enough different cords pass it. */
   for (int e = 0; e < frame->n_edges && !st; e++)
     *found += cords[e] >= distinct;
+
   free(cords);
   free(here);
   return st;
@@ -238,6 +287,8 @@ thr_status thr_check_different(const thr_frame *frame, const thr_request *option
   int found = 0;
   *each = 1;
   if (options->distinct < 2) return THR_OK;
+
+  /* All edges, or none counts. */
   thr_status st = thr_check_count_different(frame, options->distinct, cord, n_cords, &found, err);
   if (found == frame->n_edges) *each = options->distinct;
   return st;
