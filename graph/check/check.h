@@ -1,6 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The independent checker: recomputes every claim of a plan from its framework and cords, with no
- * solver. */
+ * solver.
+ *
+ * Every lower bound in a plan comes with a proof: odd cuts for the length, trees of multipliers for
+ * the turning, prices of walks for the longest or hardest cord. This room verifies proofs, which is
+ * far easier than finding them, and shares no search with the planners. Small components need no
+ * proof: tables over all sets of their edges are made here and serve planners, too.
+ *
+ * Reading order: check.c (the whole plan), check_walked.c (the cords), then one proof at a time:
+ * length in check_certificate.c, check_length.c, check_cords.c, ways_in.c, prices.c; turning in
+ * check_turning.c, turning_proof.c, turning_leaf.c, turning_ranks.c, turning_symmetry.c,
+ * junction.c; walks and pulls in walk_proof.c, walk_places.c, check_pull.c; tables in edge_sets.h;
+ * symmetry in check_group.c, check_symmetry.c; what a plan says of its physics in
+ * check_evaluation.c, check_schedule.c, check_standing.c. */
 #ifndef THR_CHECK_H
 #define THR_CHECK_H
 

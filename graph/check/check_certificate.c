@@ -9,8 +9,8 @@
  * The sets form forests. The load of an edge is the sum of the multipliers round one end plus that
  * round the other, less twice that of the sets round both; the latter is looked up at the lowest
  * common ancestor of the cuts in which the ends lie (heavy paths). Cord ends at free nodes add an
- * end price, which bounds the multipliers round such a node; prices of places bound passes by the
- * number of cords (graph/plan/plan_measures.h).
+ * end price, which bounds the multipliers round such a node. Prices of places account for passes
+ * that are only needed to hold as many cords as are asked for (graph/plan/plan_measures.h).
  *
  * Example: a path a-b-c of weights 2 and 3 with T = {a, c}: cuts {a} with 2 and {c} with 3 prove
  * that both edges need an extra pass. */
@@ -254,7 +254,7 @@ static thr_status apply_prices(workspace *work, const thr_certificate *certifica
                       "certificate of component %d: place price %" PRId64 " is negative",
                       certificate->component, certificate->place_price[i]);
 
-  /* Prices of the nodes where cords may end, and the places that cord ends leave. */
+  /* Prices of the nodes where cords may end, and those of all places that the cords need. */
   for (int i = 0; i < n && options->ends != THR_ENDS_CLOSED; i++) {
     int v = work->node[first + i];
     if (thr_plan_end_allowed(frame, options, v))

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the files of graph/check/ share: comparisons of stated values, the plan as it was walked,
- * and the parts of the proofs. */
+/* What the files of graph/check/ share: comparisons of stated values, the cords as they were
+ * counted, and the parts of the proofs. See check.h for the order to read the files in. */
 #ifndef THR_CHECK_PARTS_H
 #define THR_CHECK_PARTS_H
 
@@ -12,8 +12,6 @@
 
 #include <stdbool.h>
 #include <stdint.h>
-
-/* ---- What the files of the checker share. Private to them. */
 
 /* Lengths, angles and forces are sums of doubles, taken in an order of the plan's own: equal up to
  * 1e-9 of what they are parts of. */
@@ -54,7 +52,7 @@ thr_status thr_check_walked_from(thr_check_walked *check_walked, const thr_frame
                                  thr_err *err) THR_MUST_CHECK;
 void thr_check_walked_destroy(thr_check_walked *check_walked);
 
-/* Every edge has the passes that it needs, and no more than fit. */
+/* Checks that every edge has the passes that it needs, and no more than fit. */
 thr_status thr_check_cover(const thr_frame *frame, const thr_request *options, const int *passes,
                            thr_err *err) THR_MUST_CHECK;
 
@@ -63,7 +61,7 @@ thr_status thr_check_cover(const thr_frame *frame, const thr_request *options, c
 thr_status thr_check_cord_count(const thr_check_walked *check_walked, const thr_request *options,
                                 thr_err *err) THR_MUST_CHECK;
 
-/* Cord ends at allowed nodes, their number at each being free? */
+/* Returns whether cords end at allowed nodes, any number of them at each. */
 static inline bool thr_check_ends_free(const thr_request *options)
 {
   return options->ends != THR_ENDS_CLOSED && options->ends != THR_ENDS_COUNTS;
@@ -158,21 +156,21 @@ thr_status thr_check_pulled_least(const thr_frame *frame, const thr_request *opt
                                   const thr_turning_task *task, const thr_turning_claim *claim,
                                   double *side, thr_err *err) THR_MUST_CHECK;
 
-/* Cords that component k has at most, where all have so many at most: given ends tell. */
+/* Returns the most cords that component k has: half of its given ends, or else `cords`. */
 int thr_check_cords_of(const thr_turning_columns *columns, int k, int cords);
 
-/* What a tree proves of the price of turns, and walks with it: *all: of all cords together;
- * *largest: raised to that of the dearest, each component alone. */
+/* Computes what a tree, and prices of walks with it, prove of the price of turns. *all: of all
+ * cords together; *largest: raised to that of the cord with the largest price, each component
+ * alone. */
 thr_status thr_check_shares(const thr_turning_columns *columns, int cords,
                             const thr_turning_proof *tree, double *all, double *largest,
                             thr_err *err) THR_MUST_CHECK;
 
-/* No cord needs more pull than the options allow. */
+/* Checks that no cord needs more pull than the options allow. */
 thr_status thr_check_pulls(const thr_frame *frame, const thr_request *options, const thr_cord *cord,
                            int n_cords, thr_err *err) THR_MUST_CHECK;
 
-/* What prices of walks within the pull prove of the length of their component, if that is more than
- * length[n_components] says. */
+/* Raises length[n_components] of one component to what prices of walks within the pull prove. */
 thr_status thr_check_pulled_length(const thr_frame *frame, const thr_request *options,
                                    const thr_check_walked *check_walked,
                                    const thr_walk_proof *pulled, double *length,
@@ -214,7 +212,7 @@ double thr_check_tension(const thr_physics *physics, double tension, double expo
  * its mechanisms. */
 thr_status thr_check_standing(const thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
-/* Are the tensions of cord i those that the schedule leaves in it? */
+/* Checks that the tensions of cord i are those that the schedule leaves. */
 thr_status thr_check_schedule(const thr_frame *frame, const thr_cord *path,
                               const thr_schedule *schedule, int i, const thr_physics *physics,
                               const thr_eval_cord *claim, thr_err *err) THR_MUST_CHECK;
@@ -253,11 +251,12 @@ thr_wide thr_turning_leaf_adds(const thr_turning_leaf *k, int j, int least, int 
 /* The nearest that 64 bits hold. */
 int64_t thr_turning_in_64_bits(thr_wide total);
 
-/* ---- ways_in.c: How long the longest of several cords is by the ways from where cords may end. */
+/* ---- ways_in.c: A lower bound on the longest of several cords, by cuts round the nodes where
+ * cords may end. */
 
-/* *longest: no less in component number, of at most so many cords; 0 for closed cords, given
- * numbers of ends, tube joints, prices of places, and what is too large to look at in a moment.
- * certificate: verified, of that component. O(cuts (nodes + edges)). */
+/* Computes *longest, which the longest of at most so many cords of component `number` reaches; 0
+ * for closed cords, given numbers of ends, tube joints, prices of places, and problems too large to
+ * try. certificate: verified, of that component. O(cuts (nodes + edges)). */
 thr_status thr_ways_in(const thr_frame *frame, const thr_request *options, const int *component,
                        int number, int cords, const thr_certificate *certificate, double *longest,
                        thr_err *err) THR_MUST_CHECK;
