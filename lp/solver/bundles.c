@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A sparse matrix as dense bundles: consecutive columns with the same rows, such as the forces at
- * the four corners of a face, which act on the same two beads. Products with it read no index but
- * those of the bundles' rows.
+/* Stores a sparse matrix as dense bundles: consecutive columns with the same rows, such as the
+ * forces at the four corners of a face, which act on the same two beads. Products then read no
+ * index but those of the bundles' rows. Values are kept twice, by columns and by rows, so that both
+ * products run along memory.
  *
  * Example: columns with rows {0, 2}, {0, 2}, {1}: two bundles. */
 #include "lp/solver/solver.h"
@@ -14,18 +15,20 @@ enum {
   USUAL = 12 /* rows and columns of a face between two beads: loops of that length are unrolled */
 };
 
+/* Returns the number of rows of column j. */
 static int rows_of(const thr_columns *a, int j)
 {
   return a->start[j + 1] - a->start[j];
 }
 
+/* Returns whether two columns have the same rows. */
 static bool alike(const thr_columns *a, int j, int k)
 {
   return rows_of(a, j) == rows_of(a, k) && !memcmp(a->row + a->start[j], a->row + a->start[k],
                                                    (size_t)rows_of(a, j) * sizeof *a->row);
 }
 
-/* Where bundles begin, into column[]; their number. */
+/* Fills column[] with the first column of each bundle, and returns their number. */
 static int form_bundles(const thr_columns *a, int n_alone, int *column)
 {
   int n = 0;
@@ -35,71 +38,90 @@ static int form_bundles(const thr_columns *a, int n_alone, int *column)
   return n;
 }
 
-static thr_status allocate(thr_bundles *b, const thr_columns *a, thr_err *err)
+/* Allocates the arrays of the bundles. */
+static thr_status allocate(thr_bundles *bundles, const thr_columns *a, thr_err *err)
 {
-  const size_t n = (size_t)b->n_bundles, entries = (size_t)a->start[a->n_columns];
+  const size_t n = (size_t)bundles->n_bundles, entries = (size_t)a->start[a->n_columns];
   size_t rows = 0;
-  for (int g = 0; g < b->n_bundles; g++) {
-    const int high = rows_of(a, b->column[g]), wide = b->column[g + 1] - b->column[g];
+
+  /* Rows in all, and the largest bundle. */
+  for (int g = 0; g < bundles->n_bundles; g++) {
+    const int high = rows_of(a, bundles->column[g]),
+              wide = bundles->column[g + 1] - bundles->column[g];
     rows += (size_t)high;
-    if (high > b->most_rows) b->most_rows = high;
-    if (wide > b->most_wide) b->most_wide = wide;
+    if (high > bundles->most_rows) bundles->most_rows = high;
+    if (wide > bundles->most_wide) bundles->most_wide = wide;
   }
-  b->first = thr_scratch_array(&b->own, n + 1, sizeof *b->first);
-  b->row = thr_scratch_array(&b->own, rows, sizeof *b->row);
-  b->at = thr_scratch_array(&b->own, n, sizeof *b->at);
-  b->value = thr_scratch_array(&b->own, entries, sizeof *b->value);
-  b->across = thr_scratch_array(&b->own, entries, sizeof *b->across);
-  b->part =
-      thr_scratch_array(&b->own, (size_t)b->most_rows + (size_t)b->most_wide, sizeof *b->part);
-  return thr_scratch_check(&b->own, err);
+
+  /* Values by columns and by rows take the same room. */
+  bundles->first = thr_scratch_array(&bundles->own, n + 1, sizeof *bundles->first);
+  bundles->row = thr_scratch_array(&bundles->own, rows, sizeof *bundles->row);
+  bundles->at = thr_scratch_array(&bundles->own, n, sizeof *bundles->at);
+  bundles->value = thr_scratch_array(&bundles->own, entries, sizeof *bundles->value);
+  bundles->across = thr_scratch_array(&bundles->own, entries, sizeof *bundles->across);
+  bundles->part =
+      thr_scratch_array(&bundles->own, (size_t)bundles->most_rows + (size_t)bundles->most_wide,
+                        sizeof *bundles->part);
+
+  return thr_scratch_check(&bundles->own, err);
 }
 
-static void place(thr_bundles *b, const thr_columns *a)
+/* Places the rows and values of the bundles one after the other. */
+static void place(thr_bundles *bundles, const thr_columns *a)
 {
   size_t at = 0;
-  for (int g = 0; g < b->n_bundles; g++) {
-    const int j = b->column[g], high = rows_of(a, j), wide = b->column[g + 1] - j;
-    b->at[g] = at;
-    b->first[g + 1] = b->first[g] + high;
-    memcpy(b->row + b->first[g], a->row + a->start[j], (size_t)high * sizeof *a->row);
+  for (int g = 0; g < bundles->n_bundles; g++) {
+    const int j = bundles->column[g], high = rows_of(a, j), wide = bundles->column[g + 1] - j;
+
+    /* Columns of a bundle have the rows of its first one. */
+    bundles->at[g] = at;
+    bundles->first[g + 1] = bundles->first[g] + high;
+    memcpy(bundles->row + bundles->first[g], a->row + a->start[j], (size_t)high * sizeof *a->row);
+
     at += (size_t)high * (size_t)wide;
   }
 }
 
-void thr_bundles_refill(thr_bundles *b, const thr_columns *a)
+void thr_bundles_refill(thr_bundles *bundles, const thr_columns *a)
 {
-  for (int g = 0; g < b->n_bundles; g++) {
-    const int j = b->column[g], high = rows_of(a, j), wide = b->column[g + 1] - j;
+  for (int g = 0; g < bundles->n_bundles; g++) {
+    const int j = bundles->column[g], high = rows_of(a, j), wide = bundles->column[g + 1] - j;
     const double *value = a->value + a->start[j];
-    const size_t at = b->at[g];
-    memcpy(b->value + at, value, (size_t)high * (size_t)wide * sizeof *value);
+    const size_t at = bundles->at[g];
+
+    /* By columns as they are, then by rows. */
+    memcpy(bundles->value + at, value, (size_t)high * (size_t)wide * sizeof *value);
     for (int k = 0; k < wide; k++)
       for (int i = 0; i < high; i++)
-        b->across[at + (size_t)i * (size_t)wide + (size_t)k] =
+        bundles->across[at + (size_t)i * (size_t)wide + (size_t)k] =
             value[(size_t)k * (size_t)high + (size_t)i];
   }
 }
 
-thr_status thr_bundles_make(thr_bundles *b, const thr_columns *a, int n_alone, thr_err *err)
+thr_status thr_bundles_make(thr_bundles *bundles, const thr_columns *a, int n_alone, thr_err *err)
 {
-  *b = (thr_bundles){.n_rows = a->n_rows};
-  b->column = thr_scratch_array(&b->own, (size_t)a->n_columns + 1, sizeof *b->column);
-  thr_status st = thr_scratch_check(&b->own, err);
-  if (!st) b->n_bundles = form_bundles(a, n_alone, b->column);
-  if (!st) st = allocate(b, a, err);
+  *bundles = (thr_bundles){.n_rows = a->n_rows};
+  bundles->column =
+      thr_scratch_array(&bundles->own, (size_t)a->n_columns + 1, sizeof *bundles->column);
+
+  thr_status st = thr_scratch_check(&bundles->own, err);
+  if (!st) bundles->n_bundles = form_bundles(a, n_alone, bundles->column);
+  if (!st) st = allocate(bundles, a, err);
+
+  /* On failure there are no bundles. */
   if (st) {
-    thr_bundles_destroy(b);
+    thr_bundles_destroy(bundles);
     return st;
   }
-  place(b, a);
-  thr_bundles_refill(b, a);
+
+  place(bundles, a);
+  thr_bundles_refill(bundles, a);
   return st;
 }
 
-void thr_bundles_destroy(thr_bundles *b)
+void thr_bundles_destroy(thr_bundles *bundles)
 {
-  thr_scratch_free(&b->own);
+  thr_scratch_free(&bundles->own);
 }
 
 /* sum[n] = sum over k of from[k * n + i] * factor[k]. */
@@ -113,33 +135,44 @@ THR_INLINE void add_up(double *restrict sum, const double *restrict from,
       sum[i] += from[i] * factor[k];
 }
 
-THR_WIDE void thr_bundles_times(const thr_bundles *b, const double *x, double *y)
+THR_WIDE void thr_bundles_times(const thr_bundles *bundles, const double *x, double *y)
 {
-  memset(y, 0, (size_t)b->n_rows * sizeof *y);
-  for (int g = 0; g < b->n_bundles; g++) {
-    const int *row = b->row + b->first[g], n = b->first[g + 1] - b->first[g];
-    const int j = b->column[g], wide = b->column[g + 1] - j;
-    double usual[USUAL], *sum = n == USUAL ? usual : b->part;
+  memset(y, 0, (size_t)bundles->n_rows * sizeof *y);
+
+  /* Bundle by bundle. */
+  for (int g = 0; g < bundles->n_bundles; g++) {
+    const int *row = bundles->row + bundles->first[g],
+              n = bundles->first[g + 1] - bundles->first[g];
+    const int j = bundles->column[g], wide = bundles->column[g + 1] - j;
+
+    /* The usual size gets loops of constant length. */
+    double usual[USUAL], *sum = n == USUAL ? usual : bundles->part;
     if (n == USUAL)
-      add_up(usual, b->value + b->at[g], x + j, wide, USUAL);
+      add_up(usual, bundles->value + bundles->at[g], x + j, wide, USUAL);
     else
-      add_up(sum, b->value + b->at[g], x + j, wide, n);
+      add_up(sum, bundles->value + bundles->at[g], x + j, wide, n);
+
+    /* Add the bundle's sums to its rows. */
     for (int i = 0; i < n; i++)
       y[row[i]] += sum[i];
   }
 }
 
-THR_WIDE void thr_bundles_transposed(const thr_bundles *b, const double *y, double *x)
+THR_WIDE void thr_bundles_transposed(const thr_bundles *bundles, const double *y, double *x)
 {
-  for (int g = 0; g < b->n_bundles; g++) {
-    const int *row = b->row + b->first[g], n = b->first[g + 1] - b->first[g];
-    const int j = b->column[g], wide = b->column[g + 1] - j;
-    double *at = b->part;
+  for (int g = 0; g < bundles->n_bundles; g++) {
+    const int *row = bundles->row + bundles->first[g],
+              n = bundles->first[g + 1] - bundles->first[g];
+    const int j = bundles->column[g], wide = bundles->column[g + 1] - j;
+
+    /* Gather the bundle's rows, then multiply by rows. */
+    double *at = bundles->part;
     for (int i = 0; i < n; i++)
       at[i] = y[row[i]];
+
     if (wide == USUAL)
-      add_up(x + j, b->across + b->at[g], at, n, USUAL);
+      add_up(x + j, bundles->across + bundles->at[g], at, n, USUAL);
     else
-      add_up(x + j, b->across + b->at[g], at, n, wide);
+      add_up(x + j, bundles->across + bundles->at[g], at, n, wide);
   }
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Products of dense columns, which a processor does fastest: what a block of the factors brings to
- * others (lp/solver/normal.c). Columns are `apart` numbers apart. Every sum is added up in one
- * fixed order, whatever the processor has, so that the digits are the same on every machine.
+/* Multiplies dense columns that are `apart` numbers apart, which a processor does fastest: what a
+ * block of the factors brings to others (lp/solver/normal.c). Every sum is added up in one fixed
+ * order, so that the digits are the same on every machine, whatever vectors its processor has.
  *
  * Example: columns (1 2) and (3 4) with factors 5 and 6 bring (23 34). */
 #include "lp/solver/solver_parts.h"
@@ -12,24 +12,30 @@
 
 enum { LANES = 4, TILE = 8 /* rows, whose sums stay in registers */ };
 
+/* Computes TILE rows of a product, with all sums in registers. */
 THR_INLINE void tile(double *restrict to, const double *restrict from,
                      const double *restrict factor, size_t apart, int n_k, size_t n, int n_q)
 {
   double sum[THR_DENSE_MOST][TILE] = {{0}};
+
   for (int k = 0; k < n_k; k++, from += apart, factor += apart)
     for (int q = 0; q < n_q; q++)
       for (int i = 0; i < TILE; i++)
         sum[q][i] += from[i] * factor[q];
+
   for (int q = 0; q < n_q; q++)
     memcpy(to + (size_t)q * n, sum[q], sizeof sum[q]);
 }
 
+/* Computes a product tile by tile; n_q is a constant where this is inlined. */
 THR_INLINE void product(double *to, const double *from, const double *factor, size_t apart, int n_k,
                         size_t n, int n_q)
 {
+  /* Whole tiles, then the rows that are left. */
   size_t i = 0;
   for (; i + TILE <= n; i += TILE)
     tile(to + i, from + i, factor, apart, n_k, n, n_q);
+
   for (; i < n; i++) {
     double sum[THR_DENSE_MOST] = {0};
     for (int k = 0; k < n_k; k++)
@@ -43,6 +49,7 @@ THR_INLINE void product(double *to, const double *from, const double *factor, si
 THR_WIDE void thr_dense_product(double *to, const double *from, const double *factor, size_t apart,
                                 int n_k, size_t n, int n_q)
 {
+  /* One copy of the loops for each number of columns. */
   switch (n_q) {
   case 1: product(to, from, factor, apart, n_k, n, 1); break;
   case 2: product(to, from, factor, apart, n_k, n, 2); break;
@@ -51,12 +58,14 @@ THR_WIDE void thr_dense_product(double *to, const double *from, const double *fa
   }
 }
 
+/* Subtracts up to four columns, each times its factor, from `to`. */
 THR_INLINE void take(double *restrict to, const double *restrict from, size_t apart,
                      const double *restrict factor, int n_q, size_t n)
 {
   double f[THR_DENSE_MOST];
   for (int q = 0; q < n_q; q++)
     f[q] = factor[q];
+
   for (size_t i = 0; i < n; i++) {
     double sum = from[i] * f[0];
     for (int q = 1; q < n_q; q++)
@@ -68,6 +77,7 @@ THR_INLINE void take(double *restrict to, const double *restrict from, size_t ap
 THR_WIDE void thr_dense_take(double *to, const double *from, size_t apart, const double *factor,
                              int n_q, size_t n)
 {
+  /* One copy of the loops for each number of columns. */
   switch (n_q) {
   case 1: take(to, from, apart, factor, 1, n); break;
   case 2: take(to, from, apart, factor, 2, n); break;
@@ -76,15 +86,20 @@ THR_WIDE void thr_dense_take(double *to, const double *from, size_t apart, const
   }
 }
 
+/* Computes the scalar products of up to four columns with one vector, in LANES partial sums each.
+ */
 THR_INLINE void sums(double *restrict sum, const double *restrict from, size_t apart,
                      const double *restrict with, int n_q, size_t n)
 {
   double part[THR_DENSE_MOST][LANES] = {{0}};
+
   size_t i = 0;
   for (; i + LANES <= n; i += LANES)
     for (int q = 0; q < n_q; q++)
       for (int k = 0; k < LANES; k++)
         part[q][k] += from[(size_t)q * apart + i + (size_t)k] * with[i + (size_t)k];
+
+  /* Partial sums in one order, then the rows that are left. */
   for (int q = 0; q < n_q; q++) {
     sum[q] = (part[q][0] + part[q][1]) + (part[q][2] + part[q][3]);
     for (size_t k = i; k < n; k++)
@@ -95,6 +110,7 @@ THR_INLINE void sums(double *restrict sum, const double *restrict from, size_t a
 THR_WIDE void thr_dense_sums(double *sum, const double *from, size_t apart, const double *with,
                              int n_q, size_t n)
 {
+  /* One copy of the loops for each number of columns. */
   switch (n_q) {
   case 1: sums(sum, from, apart, with, 1, n); break;
   case 2: sums(sum, from, apart, with, 2, n); break;

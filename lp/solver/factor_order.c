@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Order and pattern of the factors of A A^T, by blocks: consecutive columns of the factor with the
- * same rows below them (supernodes: J. W. H. Liu, E. G. Ng & B. W. Peyton, SIAM J. Matrix Anal.
- * Appl. 14, 1993). Least degree (W. F. Tinney & J. W. Walker, 1967) takes rows with the same
- * neighbours as one, such as the six rows of a bead; blocks follow each other as children and
- * parents do, and are joined where that stores few zeros.
+/* Finds order and pattern of the factors of A A^T, by blocks: consecutive columns of the factor
+ * with the same rows below them (supernodes: J. W. H. Liu, E. G. Ng & B. W. Peyton, SIAM J. Matrix
+ * Anal. Appl. 14, 1993).
  *
- * Example: A A^T with the rows {0, 1} and {1, 2} joined: 0 and 2 go before 1, and no entry is
- * added.
+ * Rows with the same neighbours form one group, such as the six rows of a bead. Groups are
+ * eliminated by least degree (W. F. Tinney & J. W. Walker, 1967), explicitly: what is left of a
+ * group's neighbours when it is eliminated is its column of the factor. Then groups are ordered
+ * along the elimination tree, children before parents, and joined to blocks where that stores few
+ * zeros.
  *
- * Least degree by explicit elimination: what is left of a group's neighbours when it goes is its
- * column of the factor. */
+ * Example: A A^T in which rows {0, 1} and {1, 2} share columns: 0 and 2 go before 1, and no entry
+ * is added. */
 #include "lp/solver/solver_parts.h"
 
 #include "graph/sort.h"
@@ -34,7 +35,7 @@ typedef struct {
   int *rank;    /* [n_groups] place in that */
   int *parent;  /* [n_groups] first group below, -1 = none */
   thr_scratch own;
-} elimination;
+} group_elimination;
 
 static void destroy_sets(set *sets, int n)
 {
@@ -45,22 +46,27 @@ static void destroy_sets(set *sets, int n)
 
 /* ---- groups ---- */
 
-/* Rows by the columns they are in: by_start[n_rows + 1], column[]. */
+/* Lists the columns of every row: column[by_start[i]] .. of row i. */
 static void list_columns(const thr_columns *a, int *by_start, int *column)
 {
   for (int k = 0; k < a->start[a->n_columns]; k++)
     by_start[a->row[k] + 1]++;
+
+  /* Counts become starts. */
   for (int i = 0; i < a->n_rows; i++)
     by_start[i + 1] += by_start[i];
+
   for (int j = 0; j < a->n_columns; j++)
     for (int k = a->start[j]; k < a->start[j + 1]; k++)
       column[by_start[a->row[k]]++] = j;
+
+  /* Filling moved every start to the next one; move them back. */
   for (int i = a->n_rows; i > 0; i--)
     by_start[i] = by_start[i - 1];
   by_start[0] = 0;
 }
 
-/* Every row with the rows that share a column with it, itself among them. */
+/* Lists for every row, ascending, the rows that share a column with it, itself among them. */
 static thr_status list_neighbours(const thr_columns *a, set *row, thr_err *err)
 {
   const size_t m = (size_t)a->n_rows, entries = (size_t)a->start[a->n_columns];
@@ -69,71 +75,86 @@ static thr_status list_neighbours(const thr_columns *a, set *row, thr_err *err)
       *column = thr_scratch_array(&own, entries, sizeof *column);
   int *seen = thr_scratch_array(&own, m, sizeof *seen),
       *list = thr_scratch_array(&own, m, sizeof *list);
+
   thr_status st = thr_scratch_check(&own, err);
   if (!st) list_columns(a, by_start, column);
+
   for (int i = 0; i < a->n_rows && !st; i++) {
     int count = 0;
     seen[i] = i + 1;
     list[count++] = i;
+
+    /* Each row once: seen[] holds the last row that listed it. */
     for (int k = by_start[i]; k < by_start[i + 1]; k++)
       for (int l = a->start[column[k]]; l < a->start[column[k] + 1]; l++)
         if (seen[a->row[l]] != i + 1) seen[a->row[l]] = i + 1, list[count++] = a->row[l];
+
     thr_sort_ints(list, (size_t)count);
     row[i].item = thr_calloc((size_t)count, sizeof *list);
     if (!row[i].item) st = thr_nomem(err);
     if (!st) memcpy(row[i].item, list, (size_t)count * sizeof *list);
     row[i].count = count;
   }
+
   thr_scratch_free(&own);
   return st;
 }
 
-/* Rows with the same neighbours get one group, numbered by their lowest rows. */
-static void form_groups(elimination *e, const set *row)
+/* Gives one group to rows with the same neighbours; groups are numbered by their lowest rows. */
+static void form_groups(group_elimination *work, const set *row)
 {
-  for (int i = 0; i < e->a->n_rows; i++) {
-    e->group[i] = -1;
-    for (int k = 0; k < row[i].count && row[i].item[k] < i && e->group[i] < 0; k++) {
+  for (int i = 0; i < work->a->n_rows; i++) {
+    work->group[i] = -1;
+
+    /* Such rows are neighbours of each other. */
+    for (int k = 0; k < row[i].count && row[i].item[k] < i && work->group[i] < 0; k++) {
       const set *other = &row[row[i].item[k]];
       if (other->count == row[i].count &&
           !memcmp(other->item, row[i].item, (size_t)row[i].count * sizeof *row[i].item))
-        e->group[i] = e->group[row[i].item[k]];
+        work->group[i] = work->group[row[i].item[k]];
     }
-    if (e->group[i] < 0) e->group[i] = e->n_groups++;
-    e->size[e->group[i]]++;
+
+    /* A new group. */
+    if (work->group[i] < 0) work->group[i] = work->n_groups++;
+    work->size[work->group[i]]++;
   }
 }
 
-/* From the neighbours of each group's lowest row, which ascend by rows: so do the groups, once
- * doubles are gone. */
-static thr_status list_groups(elimination *e, const set *row, int *seen, thr_err *err)
+/* Lists the neighbours of each group, ascending, from those of its lowest row. */
+static thr_status list_groups(group_elimination *work, const set *row, int *seen, thr_err *err)
 {
-  for (int i = 0; i < e->a->n_rows; i++) {
-    const int g = e->group[i];
-    if (e->next_to[g].item) continue;
-    set *made = &e->next_to[g];
+  for (int i = 0; i < work->a->n_rows; i++) {
+    const int g = work->group[i];
+    if (work->next_to[g].item) continue;
+
+    set *made = &work->next_to[g];
     made->item = thr_calloc((size_t)row[i].count, sizeof *made->item);
     if (!made->item) return thr_nomem(err);
+
     seen[g] = g + 1;
     for (int k = 0; k < row[i].count; k++) {
-      const int other = e->group[row[i].item[k]];
+      const int other = work->group[row[i].item[k]];
       if (seen[other] != g + 1) seen[other] = g + 1, made->item[made->count++] = other;
     }
+
     thr_sort_ints(made->item, (size_t)made->count);
   }
   return THR_OK;
 }
 
-static thr_status find_groups(elimination *e, thr_err *err)
+/* Forms the groups and lists their neighbours. */
+static thr_status find_groups(group_elimination *work, thr_err *err)
 {
-  const int m = e->a->n_rows;
+  const int m = work->a->n_rows;
   set *row = thr_calloc((size_t)m, sizeof *row);
   int *seen = thr_calloc((size_t)m, sizeof *seen);
-  thr_status st = row && seen ? list_neighbours(e->a, row, err) : thr_nomem(err);
+  thr_status st = row && seen ? list_neighbours(work->a, row, err) : thr_nomem(err);
+
   if (!st) {
-    form_groups(e, row);
-    st = list_groups(e, row, seen, err);
+    form_groups(work, row);
+    st = list_groups(work, row, seen, err);
   }
+
   destroy_sets(row, m);
   free(seen);
   return st;
@@ -141,11 +162,14 @@ static thr_status find_groups(elimination *e, thr_err *err)
 
 /* ---- least degree ---- */
 
-/* u's neighbours become those of either, without both. room[] holds them meanwhile. */
+/* Makes u's neighbours those of either u or v, without u and v themselves. room[] holds them
+ * meanwhile. */
 static thr_status merge(set *sets, int u, int v, int *room, thr_err *err)
 {
   const set *a = &sets[u], *b = &sets[v];
   int n = 0, i = 0, k = 0;
+
+  /* Merge the sorted lists. */
   while (i < a->count || k < b->count) {
     const int next =
         k == b->count || (i < a->count && a->item[i] <= b->item[k]) ? a->item[i] : b->item[k];
@@ -153,119 +177,143 @@ static thr_status merge(set *sets, int u, int v, int *room, thr_err *err)
     if (k < b->count && b->item[k] == next) k++;
     if (next != u && next != v) room[n++] = next;
   }
+
+  /* The list of u only ever has to grow here. */
   if (n > a->count) {
     int *grown = thr_realloc(sets[u].item, (size_t)n, sizeof *grown);
     if (!grown) return thr_nomem(err);
     sets[u].item = grown;
   }
+
   memcpy(sets[u].item, room, (size_t)n * sizeof *room);
   sets[u].count = n;
   return THR_OK;
 }
 
-static int rows_of(const elimination *e, const set *groups)
+/* Returns the number of rows in a set of groups. */
+static int rows_of(const group_elimination *work, const set *groups)
 {
   int n = 0;
   for (int k = 0; k < groups->count; k++)
-    n += e->size[groups->item[k]];
+    n += work->size[groups->item[k]];
   return n;
 }
 
-/* Is every group that is left next to all others that are? Then that stays so. */
-static bool all_meet(const elimination *e, int left)
+/* Returns whether all groups that are left are neighbours of each other, which then stays so. */
+static bool all_meet(const group_elimination *work, int left)
 {
-  for (int g = 0; g < e->n_groups; g++)
-    if (e->rank[g] < 0 && e->next_to[g].count < left - 1) return false;
+  for (int g = 0; g < work->n_groups; g++)
+    if (work->rank[g] < 0 && work->next_to[g].count < left - 1) return false;
   return true;
 }
 
-/* Group v goes, and all that are left meet: only its own list is needed. */
-static void take_out_of_all(elimination *e, int v, int *degree)
+/* Eliminates group v where all that are left are neighbours: only its own list is needed. */
+static void take_out_of_all(group_elimination *work, int v, int *degree)
 {
-  set *mine = &e->next_to[v];
+  set *mine = &work->next_to[v];
   mine->count = 0;
-  for (int g = 0; g < e->n_groups; g++) {
-    if (e->rank[g] >= 0) continue;
+  for (int g = 0; g < work->n_groups; g++) {
+    if (work->rank[g] >= 0) continue;
     mine->item[mine->count++] = g;
-    degree[g] -= e->size[v];
+    degree[g] -= work->size[v];
   }
 }
 
-/* Group v goes: its neighbours become each other's. */
-static thr_status take_out(elimination *e, int v, int *degree, int *room, thr_err *err)
+/* Eliminates group v: its neighbours become neighbours of each other. */
+static thr_status take_out(group_elimination *work, int v, int *degree, int *room, thr_err *err)
 {
   thr_status st = THR_OK;
-  for (int k = 0; k < e->next_to[v].count && !st; k++) {
-    const int u = e->next_to[v].item[k];
-    st = merge(e->next_to, u, v, room, err);
-    degree[u] = rows_of(e, &e->next_to[u]);
+  for (int k = 0; k < work->next_to[v].count && !st; k++) {
+    const int u = work->next_to[v].item[k];
+    st = merge(work->next_to, u, v, room, err);
+    degree[u] = rows_of(work, &work->next_to[u]);
   }
   return st;
 }
 
-/* Takes the groups out by least degree, the lowest first among equals. */
-static thr_status eliminate(elimination *e, thr_err *err)
+/* Eliminates the groups by least degree, the lowest number first among equals. */
+static thr_status eliminate(group_elimination *work, thr_err *err)
 {
   thr_scratch own = {0};
-  int *room = thr_scratch_array(&own, (size_t)e->n_groups, sizeof *room);
-  int *degree = thr_scratch_array(&own, (size_t)e->n_groups, sizeof *degree);
+  int *room = thr_scratch_array(&own, (size_t)work->n_groups, sizeof *room);
+  int *degree = thr_scratch_array(&own, (size_t)work->n_groups, sizeof *degree);
   bool meet = false;
   thr_status st = thr_scratch_check(&own, err);
-  for (int g = 0; g < e->n_groups && !st; g++) {
-    e->rank[g] = -1;
-    st = merge(e->next_to, g, g, room, err); /* without itself */
-    degree[g] = rows_of(e, &e->next_to[g]);
+
+  /* A group is no neighbour of itself. */
+  for (int g = 0; g < work->n_groups && !st; g++) {
+    work->rank[g] = -1;
+    st = merge(work->next_to, g, g, room, err);
+    degree[g] = rows_of(work, &work->next_to[g]);
   }
-  for (int step = 0; step < e->n_groups && !st; step++) {
+
+  for (int step = 0; step < work->n_groups && !st; step++) {
     int v = -1;
-    for (int g = 0; g < e->n_groups; g++)
-      if (e->rank[g] < 0 && (v < 0 || degree[g] < degree[v])) v = g;
-    meet = meet || all_meet(e, e->n_groups - step);
-    e->rank[v] = step;
+    for (int g = 0; g < work->n_groups; g++)
+      if (work->rank[g] < 0 && (v < 0 || degree[g] < degree[v])) v = g;
+
+    /* A dense rest needs no merging. */
+    meet = meet || all_meet(work, work->n_groups - step);
+    work->rank[v] = step;
+
     if (meet)
-      take_out_of_all(e, v, degree);
+      take_out_of_all(work, v, degree);
     else
-      st = take_out(e, v, degree, room, err);
+      st = take_out(work, v, degree, room, err);
   }
+
   thr_scratch_free(&own);
   return st;
 }
 
-/* Children before their parents, with nothing between a group and its last child: the factor stays
- * the same. */
-static thr_status order_by_tree(elimination *e, thr_err *err)
+/* Orders the groups along the elimination tree: children before parents, and a parent directly
+ * after its last child. The factor stays the same. */
+static thr_status order_by_tree(group_elimination *work, thr_err *err)
 {
-  const size_t n = (size_t)e->n_groups;
+  const size_t n = (size_t)work->n_groups;
   thr_scratch own = {0};
   int *by_rank = thr_scratch_array(&own, n, sizeof *by_rank),
       *child = thr_scratch_array(&own, n, sizeof *child);
   int *sibling = thr_scratch_array(&own, n, sizeof *sibling),
       *stack = thr_scratch_array(&own, n, sizeof *stack);
+
   thr_status st = thr_scratch_check(&own, err);
   if (st) {
     thr_scratch_free(&own);
     return st;
   }
-  for (int g = 0; g < e->n_groups; g++) {
-    by_rank[e->rank[g]] = g;
-    child[g] = e->parent[g] = -1;
-    for (int k = 0; k < e->next_to[g].count; k++) {
-      const int above = e->next_to[g].item[k];
-      if (e->parent[g] < 0 || e->rank[above] < e->rank[e->parent[g]]) e->parent[g] = above;
+
+  /* The parent is the neighbour that is eliminated first after the group. */
+  for (int g = 0; g < work->n_groups; g++) {
+    by_rank[work->rank[g]] = g;
+    child[g] = work->parent[g] = -1;
+
+    for (int k = 0; k < work->next_to[g].count; k++) {
+      const int above = work->next_to[g].item[k];
+      if (work->parent[g] < 0 || work->rank[above] < work->rank[work->parent[g]])
+        work->parent[g] = above;
     }
   }
-  for (int i = 0; i < e->n_groups; i++) { /* the last child stands first in its list */
-    const int g = by_rank[i], up = e->parent[g];
+
+  /* Lists of children, the last one first. */
+  for (int i = 0; i < work->n_groups; i++) {
+    const int g = by_rank[i], up = work->parent[g];
     if (up >= 0) sibling[g] = child[up], child[up] = g;
   }
-  int next = e->n_groups; /* parents from the end, each followed by its last child */
-  for (int i = e->n_groups - 1; i >= 0; i--) {
-    if (e->parent[by_rank[i]] >= 0) continue;
+
+  /* Depth first from the roots, filling the order from its end. */
+  int next = work->n_groups;
+  for (int i = work->n_groups - 1; i >= 0; i--) {
+    if (work->parent[by_rank[i]] >= 0) continue;
     int depth = 0;
+
+    /* A tree for every group without a parent. */
     stack[depth++] = by_rank[i];
     while (depth > 0) {
       const int g = stack[--depth];
-      e->order[--next] = g;
+      work->order[--next] = g;
+
+      /* Reverse the children, so that the last one is taken first. */
       int begin = depth;
       for (int c = child[g]; c >= 0; c = sibling[c])
         stack[depth++] = c;
@@ -276,8 +324,9 @@ static thr_status order_by_tree(elimination *e, thr_err *err)
       }
     }
   }
-  for (int i = 0; i < e->n_groups; i++)
-    e->rank[e->order[i]] = i;
+
+  for (int i = 0; i < work->n_groups; i++)
+    work->rank[work->order[i]] = i;
   thr_scratch_free(&own);
   return THR_OK;
 }
@@ -289,28 +338,34 @@ static double squared(double x)
   return x * x;
 }
 
-/* Entries of so many columns, full from the diagonal on, with so many rows below them. */
+/* Returns the entries of so many columns, full from the diagonal on, with so many rows below them.
+ */
 static double stored(int columns, int rows)
 {
   return squared(columns) / 2 + (double)columns * rows;
 }
 
-/* last[]: the last group of each block, in order. */
-static int form_blocks(const elimination *e, int *last)
+/* Joins groups to blocks, and returns the number of blocks; last[]: the last group of each, in
+ * order. */
+static int form_blocks(const group_elimination *work, int *last)
 {
   int n = 0, columns = 0;
   double needed = 0;
-  for (int i = 0; i < e->n_groups; i++) {
-    const int g = e->order[i], rows = rows_of(e, &e->next_to[g]);
-    const double own = stored(e->size[g], rows);
-    const bool child = i > 0 && e->parent[e->order[i - 1]] == g;
-    const double together = stored(columns + e->size[g], rows);
+  for (int i = 0; i < work->n_groups; i++) {
+    const int g = work->order[i], rows = rows_of(work, &work->next_to[g]);
+    const double own = stored(work->size[g], rows);
+
+    /* Only a parent that follows its child can join the child's block. */
+    const bool child = i > 0 && work->parent[work->order[i - 1]] == g;
+    const double together = stored(columns + work->size[g], rows);
+
+    /* Zeros are what is stored but not needed. */
     if (child && together - needed - own <= FEW_ZEROS * together) {
-      columns += e->size[g];
+      columns += work->size[g];
       needed += own;
       last[n - 1] = i;
     } else {
-      columns = e->size[g];
+      columns = work->size[g];
       needed = own;
       last[n++] = i;
     }
@@ -318,48 +373,63 @@ static int form_blocks(const elimination *e, int *last)
   return n;
 }
 
-static void set_places(const elimination *e, thr_factor_order *order, int *begin)
+/* Computes the place of every row in the order; begin[g] receives the first place of group g. */
+static void set_places(const group_elimination *work, thr_factor_order *order, int *begin)
 {
   int next = 0;
-  for (int i = 0; i < e->n_groups; i++) {
-    begin[e->order[i]] = next;
-    next += e->size[e->order[i]];
+  for (int i = 0; i < work->n_groups; i++) {
+    begin[work->order[i]] = next;
+    next += work->size[work->order[i]];
   }
+
+  /* Rows of a group keep their order. */
   for (int i = 0; i < order->n_rows; i++)
-    order->place[i] = begin[e->group[i]]++;
-  for (int g = 0; g < e->n_groups; g++)
-    begin[g] -= e->size[g];
+    order->place[i] = begin[work->group[i]]++;
+
+  /* Back to the first place of each group. */
+  for (int g = 0; g < work->n_groups; g++)
+    begin[g] -= work->size[g];
 }
 
-static thr_status set_blocks(const elimination *e, thr_factor_order *order, thr_err *err)
+/* Forms the blocks, and lists the places below each. */
+static thr_status set_blocks(const group_elimination *work, thr_factor_order *order, thr_err *err)
 {
   thr_scratch own = {0};
-  int *last = thr_scratch_array(&own, (size_t)e->n_groups, sizeof *last);
-  int *begin = thr_scratch_array(&own, (size_t)e->n_groups, sizeof *begin);
+  int *last = thr_scratch_array(&own, (size_t)work->n_groups, sizeof *last);
+  int *begin = thr_scratch_array(&own, (size_t)work->n_groups, sizeof *begin);
+
   thr_status st = thr_scratch_check(&own, err);
   if (!st) {
+    /* The last group of a block has the rows below the block. */
     size_t entries = 0;
-    order->n_blocks = form_blocks(e, last);
+    order->n_blocks = form_blocks(work, last);
     for (int b = 0; b < order->n_blocks; b++)
-      entries += (size_t)rows_of(e, &e->next_to[e->order[last[b]]]);
+      entries += (size_t)rows_of(work, &work->next_to[work->order[last[b]]]);
+
     order->first =
         thr_scratch_array(&order->own, (size_t)order->n_blocks + 1, sizeof *order->first);
     order->end = thr_scratch_array(&order->own, (size_t)order->n_blocks + 1, sizeof *order->end);
     order->below = thr_scratch_array(&order->own, entries, sizeof *order->below);
     st = thr_scratch_check(&order->own, err);
   }
-  if (!st) set_places(e, order, begin);
+
+  if (!st) set_places(work, order, begin);
+
+  /* The rows below a block are those below its last group. */
   for (int b = 0; b < order->n_blocks && !st; b++) {
-    const int g = e->order[last[b]];
-    const set *after = &e->next_to[g];
+    const int g = work->order[last[b]];
+    const set *after = &work->next_to[g];
     size_t at = order->end[b];
+
     for (int k = 0; k < after->count; k++)
-      for (int i = 0; i < e->size[after->item[k]]; i++)
+      for (int i = 0; i < work->size[after->item[k]]; i++)
         order->below[at++] = begin[after->item[k]] + i;
+
     thr_sort_ints(order->below + order->end[b], at - order->end[b]);
     order->end[b + 1] = at;
-    order->first[b + 1] = begin[g] + e->size[g];
+    order->first[b + 1] = begin[g] + work->size[g];
   }
+
   thr_scratch_free(&own);
   return st;
 }
@@ -367,24 +437,29 @@ static thr_status set_blocks(const elimination *e, thr_factor_order *order, thr_
 thr_status thr_factor_order_make(thr_factor_order *order, const thr_columns *a, thr_err *err)
 {
   const size_t m = (size_t)a->n_rows;
-  elimination e = {.a = a};
+  group_elimination work = {.a = a};
   *order = (thr_factor_order){.n_rows = a->n_rows};
+
   order->place = thr_scratch_array(&order->own, m, sizeof *order->place);
-  e.group = thr_scratch_array(&e.own, m, sizeof *e.group);
-  e.size = thr_scratch_array(&e.own, m, sizeof *e.size);
-  e.order = thr_scratch_array(&e.own, m, sizeof *e.order);
-  e.rank = thr_scratch_array(&e.own, m, sizeof *e.rank);
-  e.parent = thr_scratch_array(&e.own, m, sizeof *e.parent);
-  e.next_to = thr_calloc(m, sizeof *e.next_to);
-  thr_status st = thr_scratch_check(&e.own, err);
+  work.group = thr_scratch_array(&work.own, m, sizeof *work.group);
+  work.size = thr_scratch_array(&work.own, m, sizeof *work.size);
+  work.order = thr_scratch_array(&work.own, m, sizeof *work.order);
+  work.rank = thr_scratch_array(&work.own, m, sizeof *work.rank);
+  work.parent = thr_scratch_array(&work.own, m, sizeof *work.parent);
+  work.next_to = thr_calloc(m, sizeof *work.next_to);
+
+  thr_status st = thr_scratch_check(&work.own, err);
   if (!st) st = thr_scratch_check(&order->own, err);
-  if (!st && !e.next_to) st = thr_nomem(err);
-  if (!st) st = find_groups(&e, err);
-  if (!st) st = eliminate(&e, err);
-  if (!st) st = order_by_tree(&e, err);
-  if (!st) st = set_blocks(&e, order, err);
-  destroy_sets(e.next_to, a->n_rows);
-  thr_scratch_free(&e.own);
+  if (!st && !work.next_to) st = thr_nomem(err);
+
+  /* From rows to groups, to an order, to blocks. */
+  if (!st) st = find_groups(&work, err);
+  if (!st) st = eliminate(&work, err);
+  if (!st) st = order_by_tree(&work, err);
+  if (!st) st = set_blocks(&work, order, err);
+
+  destroy_sets(work.next_to, a->n_rows);
+  thr_scratch_free(&work.own);
   if (st) thr_factor_order_destroy(order);
   return st;
 }

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Large sparse linear programmes by a primal-dual interior point method: predictor and corrector
- * (S. Mehrotra, SIAM J. Optimization 2, 1992), further correctors (J. Gondzio, Comp. Optimization
- * and Applications 6, 1996).
+/* Solves large sparse linear programmes by a primal-dual interior point method: predictor and
+ * corrector (S. Mehrotra, SIAM J. Optimization 2, 1992), further correctors (J. Gondzio, Comp.
+ * Optimization and Applications 6, 1996).
  *
- * Minimize c x with A x = b, x >= 0: Newton's method on A x = b, A^T y + z = c, x z = target, with
- * the target going to 0; every step solves (A D A^T) dy = r with D = x / z (lp/solver/normal.c).
+ * Minimize c x with A x = b, x >= 0. Newton's method is applied to A x = b, A^T y + z = c,
+ * x z = target, with the target going to 0. Every step solves (A D A^T) dy = r with D = x / z
+ * (lp/solver/normal.c); conjugate gradients improve the step where the factors are rough.
  *
  * Example: minimize x + 2 y with x + y = 1 ends at x = 1, y = 0 with the dual value 1.
  *
- * Notation: x, z primal values and reduced costs, y row multipliers, d* their steps, p, q, r what
- * is missing in A x = rhs,  A^T y + z = cost,  x z = target. */
+ * Notation: x, z primal values and reduced costs, y row multipliers, d* their steps; p, q, r are
+ * the residuals of A x = rhs, A^T y + z = cost, x z = target. */
 
 #include "lp/solver/solver_parts.h"
 
@@ -30,7 +31,7 @@ typedef struct {
 } point;
 
 typedef struct {
-  const thr_equations *e;
+  const thr_equations *equations;
   thr_rays rays;
   thr_normal *normal;
   const thr_bundles *a;
@@ -44,38 +45,43 @@ typedef struct {
   double *weights;           /* .. and for the normal equations */
   double *rows, *rise, *way; /* [n_rows] scratch */
   double *force, *pushed;    /* [components] */
-} state;
+} interior_state;
 
+/* Takes n numbers from the room that is left. */
 static void carve(double **room, double **array, int n)
 {
   *array = *room;
   *room += n;
 }
 
-static thr_status state_make(state *s, thr_err *err)
+/* Allocates all arrays in one piece, and makes the normal equations. */
+static thr_status state_make(interior_state *state, thr_err *err)
 {
-  size_t m = (size_t)s->m, n = (size_t)s->n;
-  const size_t components = (size_t)s->components;
-  double *room = s->room = thr_calloc(7 * m + 9 * n + 4 * components, sizeof *room);
+  size_t m = (size_t)state->m, n = (size_t)state->n;
+  const size_t components = (size_t)state->components;
+  double *room = state->room = thr_calloc(7 * m + 9 * n + 4 * components, sizeof *room);
   if (!room) return thr_nomem(err);
-  point *points[] = {&s->at, &s->step, &s->trial};
+
+  point *points[] = {&state->at, &state->step, &state->trial};
   for (int i = 0; i < 3; i++) {
-    carve(&room, &points[i]->x, s->n);
-    carve(&room, &points[i]->z, s->n);
-    carve(&room, &points[i]->y, s->m);
+    carve(&room, &points[i]->x, state->n);
+    carve(&room, &points[i]->z, state->n);
+    carve(&room, &points[i]->y, state->m);
   }
-  carve(&room, &s->q, s->n);
-  carve(&room, &s->r, s->n);
-  carve(&room, &s->weight, s->n);
-  carve(&room, &s->p, s->m);
-  carve(&room, &s->rows, s->m);
-  carve(&room, &s->rise, s->m);
-  carve(&room, &s->way, s->m);
-  carve(&room, &s->force, s->components);
-  carve(&room, &s->pushed, s->components);
-  carve(&room, &s->weights, 2 * s->components); /* three numbers become six */
-  thr_status st = thr_normal_create(&s->normal, &s->e->a, s->rays.n_cones, err);
-  if (!st) s->a = thr_normal_bundles(s->normal);
+
+  carve(&room, &state->q, state->n);
+  carve(&room, &state->r, state->n);
+  carve(&room, &state->weight, state->n);
+  carve(&room, &state->p, state->m);
+  carve(&room, &state->rows, state->m);
+  carve(&room, &state->rise, state->m);
+  carve(&room, &state->way, state->m);
+  carve(&room, &state->force, state->components);
+  carve(&room, &state->pushed, state->components);
+  carve(&room, &state->weights, 2 * state->components); /* three numbers become six */
+
+  thr_status st = thr_normal_create(&state->normal, &state->equations->a, state->rays.n_cones, err);
+  if (!st) state->a = thr_normal_bundles(state->normal);
   return st;
 }
 
@@ -91,85 +97,100 @@ static inline double smaller(double a, double b)
   return a < b ? a : b;
 }
 
-/* y = A x. */
-static void times(state *s, const double *x, double *y)
+/* Computes y = A x; cones by the components of their rays. */
+static void times(interior_state *state, const double *x, double *y)
 {
-  thr_rays_gather(&s->rays, x, s->force);
-  thr_bundles_times(s->a, s->force, y);
+  thr_rays_gather(&state->rays, x, state->force);
+  thr_bundles_times(state->a, state->force, y);
 }
 
-/* x = A^T y. */
-static void transposed(state *s, const double *y, double *x)
+/* Computes x = A^T y. */
+static void transposed(interior_state *state, const double *y, double *x)
 {
-  thr_bundles_transposed(s->a, y, s->force);
-  thr_rays_spread(&s->rays, s->force, x);
+  thr_bundles_transposed(state->a, y, state->force);
+  thr_rays_spread(&state->rays, state->force, x);
 }
 
-/* Factors at s->weight. */
-static void factor(state *s)
+/* Factors the normal equations at state->weight. */
+static void factor(interior_state *state)
 {
-  thr_rays_weigh(&s->rays, s->weight, s->weights);
-  thr_normal_factor(s->normal, s->weights);
+  thr_rays_weigh(&state->rays, state->weight, state->weights);
+  thr_normal_factor(state->normal, state->weights);
 }
 
-/* What A R x lacks of p, into s->rows; of its components R x. */
-static double missing(state *s, const double *p, const double *components)
+/* Writes p - A R x, the residual for the components R x, to state->rows (p NULL: 0). Returns its
+ * largest magnitude. */
+static double missing(interior_state *state, const double *p, const double *components)
 {
-  thr_bundles_times(s->a, components, s->rows);
-  for (int i = 0; i < s->m; i++)
-    s->rows[i] = (p ? p[i] : 0) - s->rows[i];
-  return thr_sums_largest(s->rows, s->m);
+  thr_bundles_times(state->a, components, state->rows);
+  for (int i = 0; i < state->m; i++)
+    state->rows[i] = (p ? p[i] : 0) - state->rows[i];
+  return thr_sums_largest(state->rows, state->m);
 }
 
-/* The next direction of conjugate gradients with the factors as the preconditioner (M. R. Hestenes
- * & E. Stiefel, 1952), into s->way. before: what the last round returned, INFINITY at first. */
-static double turn(state *s, double before)
+/* Computes the next direction of conjugate gradients, with the factors as the preconditioner (M. R.
+ * Hestenes & E. Stiefel, 1952), into state->way. before: what the last round returned, INFINITY at
+ * first. */
+static double turn(interior_state *state, double before)
 {
-  thr_normal_solve(s->normal, s->rows, s->rise);
-  const double now = thr_sums_product(s->rows, s->rise, s->m), share = now / before;
-  for (int i = 0; i < s->m; i++)
-    s->way[i] = s->rise[i] + share * s->way[i];
+  thr_normal_solve(state->normal, state->rows, state->rise);
+  const double now = thr_sums_product(state->rows, state->rise, state->m), share = now / before;
+  for (int i = 0; i < state->m; i++)
+    state->way[i] = state->rise[i] + share * state->way[i];
   return now;
 }
 
-/* Makes up for what A d->x lacks, until that is little enough or no step makes it less. */
-static void make_up(state *s, const double *p, double enough, point *d)
+/* Improves step d by conjugate gradients until the residual of A d->x is small enough, or no step
+ * makes it smaller. */
+static void make_up(interior_state *state, const double *p, double enough, point *d)
 {
   enum { ROUNDS = 20 };
   double before = INFINITY;
-  memset(s->way, 0, (size_t)s->m * sizeof *s->way);
+  memset(state->way, 0, (size_t)state->m * sizeof *state->way);
+
   for (int round = 0; round < ROUNDS; round++) {
-    before = turn(s, before);
-    thr_bundles_transposed(s->a, s->way, s->force);
-    const double power = thr_rays_power(&s->rays, s->weight, s->force), step = before / power;
-    if (!(power > 0) || !(before > 0)) return; /* rounding leaves no such step */
-    thr_rays_move(&s->rays, s->weight, s->force, step, d->x, d->z, s->pushed);
-    for (int i = 0; i < s->m; i++)
-      d->y[i] += step * s->way[i];
-    if (missing(s, p, s->pushed) <= enough) return;
+    before = turn(state, before);
+    thr_bundles_transposed(state->a, state->way, state->force);
+    const double power = thr_rays_power(&state->rays, state->weight, state->force),
+                 step = before / power;
+
+    /* Rounding leaves no such step. */
+    if (!(power > 0) || !(before > 0)) return;
+
+    thr_rays_move(&state->rays, state->weight, state->force, step, d->x, d->z, state->pushed);
+    for (int i = 0; i < state->m; i++)
+      d->y[i] += step * state->way[i];
+
+    if (missing(state, p, state->pushed) <= enough) return;
   }
 }
 
-/* Step that answers p, q, r: A dx = p, A^T dy + dz = q, z dx + x dz = r. Near the optimum x / z
- * spans twenty powers of ten and the factors are rough: what A dx lacks is made up for as far as
- * the next point needs it. */
-static void newton(state *s, const double *p, const double *q, const double *r, point *d)
+/* Computes the step that answers p, q, r: A dx = p, A^T dy + dz = q, z dx + x dz = r. Near the
+ * optimum x / z spans twenty powers of ten and the factors are rough: the residual of A dx is
+ * improved as far as the next point needs it. */
+static void newton(interior_state *state, const double *p, const double *q, const double *r,
+                   point *d)
 {
-  const point *at = &s->at;
-  const double share = s->e->met > 0 ? 0.2 : 0.01; /* of what may be missing at last */
-  const double enough = fmax(share * s->goal / s->unmet * thr_sums_largest(s->e->rhs, s->m),
-                             0.1 * thr_sums_largest(s->p, s->m));
-  memset(d->y, 0, (size_t)s->m * sizeof *d->y);
-  for (int j = 0; j < s->n; j++) {
+  const point *at = &state->at;
+  const double share = state->equations->met > 0 ? 0.2 : 0.01; /* of what may be missing at last */
+  const double enough =
+      fmax(share * state->goal / state->unmet * thr_sums_largest(state->equations->rhs, state->m),
+           0.1 * thr_sums_largest(state->p, state->m));
+
+  /* Begin with dy = 0, which meets the equations of q and r. */
+  memset(d->y, 0, (size_t)state->m * sizeof *d->y);
+  for (int j = 0; j < state->n; j++) {
     d->z[j] = q ? q[j] : 0;
     d->x[j] = (r[j] - at->x[j] * d->z[j]) / at->z[j];
   }
-  thr_rays_gather(&s->rays, d->x, s->pushed);
-  missing(s, p, s->pushed);
-  make_up(s, p, enough, d);
+
+  /* Then choose dy such that A dx = p, too. */
+  thr_rays_gather(&state->rays, d->x, state->pushed);
+  missing(state, p, state->pushed);
+  make_up(state, p, enough, d);
 }
 
-/* How far a stays positive along d, at most 1. */
+/* Returns how far a stays positive along d, at most 1. */
 static double reach(const double *a, const double *d, int n)
 {
   double most = 1;
@@ -178,65 +199,80 @@ static double reach(const double *a, const double *d, int n)
   return most;
 }
 
-/* Mehrotra's start: the least x that meets the equations, the least z, both moved to be positive.
- */
-static void start(state *s)
+/* Computes Mehrotra's start: the least x that meets the equations, the least z, both moved to be
+ * positive. */
+static void start(interior_state *state)
 {
-  point *at = &s->at;
-  for (int j = 0; j < s->n; j++)
-    s->weight[j] = 1;
-  factor(s);
-  thr_normal_solve(s->normal, s->e->rhs, at->y);
-  transposed(s, at->y, at->x);
-  times(s, s->e->cost, s->rows);
-  thr_normal_solve(s->normal, s->rows, at->y);
-  transposed(s, at->y, at->z);
+  point *at = &state->at;
+  for (int j = 0; j < state->n; j++)
+    state->weight[j] = 1;
+  factor(state);
+
+  /* x = A^T (A A^T)^-1 b, z = c - A^T (A A^T)^-1 A c. */
+  thr_normal_solve(state->normal, state->equations->rhs, at->y);
+  transposed(state, at->y, at->x);
+  times(state, state->equations->cost, state->rows);
+  thr_normal_solve(state->normal, state->rows, at->y);
+  transposed(state, at->y, at->z);
+
+  /* Shift both above 0 .. */
   double up_x = 0, up_z = 0, sum_x = 0, sum_z = 0, both = 0;
-  for (int j = 0; j < s->n; j++) {
-    at->z[j] = s->e->cost[j] - at->z[j];
+  for (int j = 0; j < state->n; j++) {
+    at->z[j] = state->equations->cost[j] - at->z[j];
     up_x = fmax(up_x, -1.5 * at->x[j]);
     up_z = fmax(up_z, -1.5 * at->z[j]);
   }
+
   if (up_x == 0) up_x = 1;
   if (up_z == 0) up_z = 1;
-  for (int j = 0; j < s->n; j++) {
+
+  /* .. and by half of the mean product, each in proportion to the other one. */
+  for (int j = 0; j < state->n; j++) {
     sum_x += at->x[j] + up_x;
     sum_z += at->z[j] + up_z;
     both += (at->x[j] + up_x) * (at->z[j] + up_z);
   }
-  for (int j = 0; j < s->n; j++) {
+
+  for (int j = 0; j < state->n; j++) {
     at->x[j] += up_x + 0.5 * both / sum_z;
     at->z[j] += up_z + 0.5 * both / sum_x;
   }
 }
 
-/* A start from where a programme like this one was on its way. */
-static bool start_warm(state *s)
+/* Starts from where a similar programme was on its way. Returns false if there is none of this
+ * size. */
+static bool start_warm(interior_state *state)
 {
-  const thr_warm *warm = s->e->warm;
-  if (!warm || warm->m != s->m || warm->n != s->n) return false;
-  memcpy(s->at.x, warm->x, (size_t)s->n * sizeof *warm->x);
-  memcpy(s->at.z, warm->z, (size_t)s->n * sizeof *warm->z);
-  memcpy(s->at.y, warm->y, (size_t)s->m * sizeof *warm->y);
-  for (int j = 0; j < s->n; j++)
-    s->weight[j] = 1;
-  factor(s); /* which rows depend on others */
+  const thr_warm *warm = state->equations->warm;
+  if (!warm || warm->m != state->m || warm->n != state->n) return false;
+
+  memcpy(state->at.x, warm->x, (size_t)state->n * sizeof *warm->x);
+  memcpy(state->at.z, warm->z, (size_t)state->n * sizeof *warm->z);
+  memcpy(state->at.y, warm->y, (size_t)state->m * sizeof *warm->y);
+
+  /* The first factors find the rows that depend on others; all weights alike do for that. */
+  for (int j = 0; j < state->n; j++)
+    state->weight[j] = 1;
+  factor(state);
   return true;
 }
 
-/* Without memory there is no start for others. */
-static void keep_warm(const state *s)
+/* Keeps the point as a start for others; without memory there is none. */
+static void keep_warm(const interior_state *state)
 {
-  thr_warm *warm = s->e->warm;
-  const size_t m = (size_t)s->m, n = (size_t)s->n;
-  if (warm->m != s->m || warm->n != s->n) {
+  thr_warm *warm = state->equations->warm;
+  const size_t m = (size_t)state->m, n = (size_t)state->n;
+
+  if (warm->m != state->m || warm->n != state->n) {
     thr_warm_destroy(warm);
     if (!(warm->x = thr_calloc(2 * n + m, sizeof *warm->x))) return;
-    *warm = (thr_warm){.m = s->m, .n = s->n, .x = warm->x, .z = warm->x + n, .y = warm->x + 2 * n};
+    *warm = (thr_warm){
+        .m = state->m, .n = state->n, .x = warm->x, .z = warm->x + n, .y = warm->x + 2 * n};
   }
-  memcpy(warm->x, s->at.x, n * sizeof *warm->x);
-  memcpy(warm->z, s->at.z, n * sizeof *warm->z);
-  memcpy(warm->y, s->at.y, m * sizeof *warm->y);
+
+  memcpy(warm->x, state->at.x, n * sizeof *warm->x);
+  memcpy(warm->z, state->at.z, n * sizeof *warm->z);
+  memcpy(warm->y, state->at.y, m * sizeof *warm->y);
 }
 
 void thr_warm_destroy(thr_warm *warm)
@@ -252,168 +288,216 @@ typedef struct {
   double error;        /* largest of those and of the gap */
 } quality;
 
-static quality measure(state *s)
+/* Computes the residuals p and q, and what they and the gap say of the point. */
+static quality measure(interior_state *state)
 {
-  const point *at = &s->at;
-  const thr_equations *equations = s->e;
-  times(s, at->x, s->p);
-  for (int i = 0; i < s->m; i++)
-    s->p[i] = equations->rhs[i] - s->p[i];
-  transposed(s, at->y, s->q);
-  for (int j = 0; j < s->n; j++)
-    s->q[j] = equations->cost[j] - at->z[j] - s->q[j];
-  quality k = {.primal = thr_sums_product(equations->cost, at->x, s->n),
-               .dual = thr_sums_product(equations->rhs, at->y, s->m)};
-  k.missing[0] = thr_sums_largest(s->p, s->m) / (DBL_MIN + thr_sums_largest(equations->rhs, s->m));
-  k.missing[1] = thr_sums_largest(s->q, s->n) / (DBL_MIN + thr_sums_largest(equations->cost, s->n));
-  k.gap = fabs(k.primal - k.dual) / (NOTHING + fmax(fabs(k.primal), fabs(k.dual)));
-  k.error = fmax(k.gap, fmax(k.missing[0] * s->unmet, k.missing[1]));
-  return k;
+  const point *at = &state->at;
+  const thr_equations *equations = state->equations;
+  times(state, at->x, state->p);
+
+  for (int i = 0; i < state->m; i++)
+    state->p[i] = equations->rhs[i] - state->p[i];
+
+  transposed(state, at->y, state->q);
+  for (int j = 0; j < state->n; j++)
+    state->q[j] = equations->cost[j] - at->z[j] - state->q[j];
+
+  quality found = {.primal = thr_sums_product(equations->cost, at->x, state->n),
+                   .dual = thr_sums_product(equations->rhs, at->y, state->m)};
+
+  /* Relative to the right-hand sides. */
+  found.missing[0] =
+      thr_sums_largest(state->p, state->m) / (DBL_MIN + thr_sums_largest(equations->rhs, state->m));
+  found.missing[1] = thr_sums_largest(state->q, state->n) /
+                     (DBL_MIN + thr_sums_largest(equations->cost, state->n));
+
+  found.gap =
+      fabs(found.primal - found.dual) / (NOTHING + fmax(fabs(found.primal), fabs(found.dual)));
+  found.error = fmax(found.gap, fmax(found.missing[0] * state->unmet, found.missing[1]));
+  return found;
 }
 
-static double closeness(const state *s, double along_x, double along_z)
+/* Returns the mean product x z after a step this far along. */
+static double closeness(const interior_state *state, double along_x, double along_z)
 {
   double sum = 0;
-  for (int j = 0; j < s->n; j++)
-    sum += (s->at.x[j] + along_x * s->step.x[j]) * (s->at.z[j] + along_z * s->step.z[j]);
-  return sum / s->n;
+  for (int j = 0; j < state->n; j++)
+    sum += (state->at.x[j] + along_x * state->step.x[j]) *
+           (state->at.z[j] + along_z * state->step.z[j]);
+  return sum / state->n;
 }
 
-/* Towards the optimum first, to see how far that goes; then with a share of centring and the
- * curvature seen. */
-static double predict_and_correct(state *s)
+/* Computes a step: first straight towards the optimum, to see how far that goes, then with a share
+ * of centring and the curvature seen. Returns the target of the products. */
+static double predict_and_correct(interior_state *state)
 {
-  point *at = &s->at, *d = &s->step;
-  for (int j = 0; j < s->n; j++)
-    s->r[j] = -at->x[j] * at->z[j];
-  newton(s, s->p, s->q, s->r, d);
-  double before = thr_sums_product(at->x, at->z, s->n) / s->n;
-  double after = closeness(s, reach(at->x, d->x, s->n), reach(at->z, d->z, s->n));
+  point *at = &state->at, *d = &state->step;
+
+  /* Predictor: target 0. */
+  for (int j = 0; j < state->n; j++)
+    state->r[j] = -at->x[j] * at->z[j];
+  newton(state, state->p, state->q, state->r, d);
+
+  /* The better the predictor, the less centring. */
+  double before = thr_sums_product(at->x, at->z, state->n) / state->n;
+  double after = closeness(state, reach(at->x, d->x, state->n), reach(at->z, d->z, state->n));
   double target = before * pow(after / before, 3);
-  for (int j = 0; j < s->n; j++)
-    s->r[j] = target - at->x[j] * at->z[j] - d->x[j] * d->z[j];
-  newton(s, s->p, s->q, s->r, d);
+
+  /* Corrector. */
+  for (int j = 0; j < state->n; j++)
+    state->r[j] = target - at->x[j] * at->z[j] - d->x[j] * d->z[j];
+  newton(state, state->p, state->q, state->r, d);
+
   return target;
 }
 
-/* Where the gap is closed but the equations are not met: towards the middle only, with longer
- * steps. */
-static double meet(state *s)
+/* Computes a step where the gap is closed but the equations are not met: towards the middle only,
+ * as longer steps are possible there. Returns the target. */
+static double meet(interior_state *state)
 {
-  point *at = &s->at;
-  const double target = thr_sums_product(at->x, at->z, s->n) / s->n;
-  for (int j = 0; j < s->n; j++)
-    s->r[j] = target - at->x[j] * at->z[j];
-  newton(s, s->p, s->q, s->r, &s->step);
+  point *at = &state->at;
+  const double target = thr_sums_product(at->x, at->z, state->n) / state->n;
+
+  for (int j = 0; j < state->n; j++)
+    state->r[j] = target - at->x[j] * at->z[j];
+  newton(state, state->p, state->q, state->r, &state->step);
   return target;
 }
 
-/* Corrects products x z that a longer step would leave far from the target; kept only if the step
- * gets longer. */
-static bool correct_again(state *s, double target)
+/* Corrects products x z that a longer step would leave far from the target (Gondzio). Keeps the
+ * correction only if the step gets longer. Returns whether to try once more. */
+static bool correct_again(interior_state *state, double target)
 {
   const double least = 0.1, most = 10, further = 0.1;
-  point *at = &s->at, *d = &s->step, *t = &s->trial;
-  double along_x = reach(at->x, d->x, s->n), along_z = reach(at->z, d->z, s->n);
+  point *at = &state->at, *d = &state->step, *trial = &state->trial;
+  double along_x = reach(at->x, d->x, state->n), along_z = reach(at->z, d->z, state->n);
   double try_x = fmin(1, along_x + further), try_z = fmin(1, along_z + further);
-  for (int j = 0; j < s->n; j++) {
+
+  /* Where would the products be, a little further on? */
+  for (int j = 0; j < state->n; j++) {
     double now = (at->x[j] + try_x * d->x[j]) * (at->z[j] + try_z * d->z[j]);
     double wanted = smaller(larger(now, least * target), most * target);
-    s->r[j] = larger(wanted - now, -most * target);
+    state->r[j] = larger(wanted - now, -most * target);
   }
-  newton(s, NULL, NULL, s->r, t);
-  for (int j = 0; j < s->n; j++) {
-    t->x[j] += d->x[j];
-    t->z[j] += d->z[j];
+  newton(state, NULL, NULL, state->r, trial);
+
+  /* Add the step so far. */
+  for (int j = 0; j < state->n; j++) {
+    trial->x[j] += d->x[j];
+    trial->z[j] += d->z[j];
   }
-  for (int i = 0; i < s->m; i++)
-    t->y[i] += d->y[i];
-  double new_x = reach(at->x, t->x, s->n), new_z = reach(at->z, t->z, s->n);
+  for (int i = 0; i < state->m; i++)
+    trial->y[i] += d->y[i];
+
+  double new_x = reach(at->x, trial->x, state->n), new_z = reach(at->z, trial->z, state->n);
   if (new_x + new_z < along_x + along_z + 0.1 * further) return false;
-  point other = s->step;
-  s->step = s->trial;
-  s->trial = other;
+
+  /* Swap the steps. */
+  point other = state->step;
+  state->step = state->trial;
+  state->trial = other;
   return new_x < 0.9 || new_z < 0.9;
 }
 
-static void advance(state *s)
+/* Moves the point along the step, not quite to the boundary. */
+static void advance(interior_state *state)
 {
-  point *at = &s->at, *d = &s->step;
+  point *at = &state->at, *d = &state->step;
   const double margin = 0.995;
-  double along_x = fmin(1, margin * reach(at->x, d->x, s->n)),
-         along_z = fmin(1, margin * reach(at->z, d->z, s->n));
-  for (int j = 0; j < s->n; j++) {
+  double along_x = fmin(1, margin * reach(at->x, d->x, state->n)),
+         along_z = fmin(1, margin * reach(at->z, d->z, state->n));
+
+  for (int j = 0; j < state->n; j++) {
     at->x[j] += along_x * d->x[j];
     at->z[j] += along_z * d->z[j];
   }
-  for (int i = 0; i < s->m; i++)
+
+  for (int i = 0; i < state->m; i++)
     at->y[i] += along_z * d->y[i];
 }
 
-/* Keeps the best: rounding spoils x first, while y still gets better. Returns true as long as
- * anything does. */
-static bool keep(const state *s, const quality *k, double *bound, thr_interior *out)
+/* Keeps the best x and the best dual values, which may come from different steps: rounding spoils x
+ * first, while y still gets better. Returns true as long as anything does. */
+static bool keep(const interior_state *state, const quality *now, double *bound, thr_interior *out)
 {
-  bool better_x = k->error < out->error, better_y = k->missing[1] < 1e-9 && k->dual > *bound;
+  bool better_x = now->error < out->error, better_y = now->missing[1] < 1e-9 && now->dual > *bound;
+
   if (better_x) {
-    out->error = k->error;
-    memcpy(out->x, s->at.x, (size_t)s->n * sizeof *out->x);
+    out->error = now->error;
+    memcpy(out->x, state->at.x, (size_t)state->n * sizeof *out->x);
   }
+
   if (better_y || (better_x && !isfinite(*bound)))
-    memcpy(out->dual, s->at.y, (size_t)s->m * sizeof *out->dual);
-  bool rises = better_y && !(k->dual - *bound < GOAL * (NOTHING + fabs(k->dual)));
-  if (better_y) *bound = k->dual;
+    memcpy(out->dual, state->at.y, (size_t)state->m * sizeof *out->dual);
+
+  bool rises = better_y && !(now->dual - *bound < GOAL * (NOTHING + fabs(now->dual)));
+  if (better_y) *bound = now->dual;
   return better_x || rises;
 }
 
-static void run(state *s, const thr_limits *limits, thr_interior *out)
+/* Iterates from the start to the goal, until nothing gets better, or until the limits stop it. */
+static void run(interior_state *state, const thr_limits *limits, thr_interior *out)
 {
   double bound = -INFINITY;
   int since = 0;
-  if (!start_warm(s)) start(s);
+
+  if (!start_warm(state)) start(state);
   out->error = INFINITY;
   out->outcome = THR_LP_UNDECIDED;
   for (out->iterations = 0; out->iterations < MOST_ITERATIONS && since < PATIENCE;
        out->iterations++) {
-    quality k = measure(s);
-    if (!isfinite(k.error)) return;
-    if (s->e->warm && k.gap > WARM) keep_warm(s);
-    since = keep(s, &k, &bound, out) ? 0 : since + 1;
-    if (k.error < s->goal) {
+    quality now = measure(state);
+
+    /* Numbers too bad end the method with what was kept. */
+    if (!isfinite(now.error)) return;
+
+    if (state->equations->warm && now.gap > WARM) keep_warm(state);
+    since = keep(state, &now, &bound, out) ? 0 : since + 1;
+
+    if (now.error < state->goal) {
       out->outcome = THR_LP_OPTIMAL;
       return;
     }
+
     if (thr_limits_stop(limits)) {
       out->outcome = THR_LP_STOPPED;
       return;
     }
-    for (int j = 0; j < s->n; j++)
-      s->weight[j] = s->at.x[j] / s->at.z[j];
-    factor(s);
-    double target = k.gap < 0.9 * s->goal ? meet(s) : predict_and_correct(s);
-    for (int i = 0; i < MOST_CORRECTORS && correct_again(s, target); i++)
+
+    /* The next step. */
+    for (int j = 0; j < state->n; j++)
+      state->weight[j] = state->at.x[j] / state->at.z[j];
+    factor(state);
+
+    double target = now.gap < 0.9 * state->goal ? meet(state) : predict_and_correct(state);
+    for (int i = 0; i < MOST_CORRECTORS && correct_again(state, target); i++)
       ;
-    advance(s);
+
+    advance(state);
   }
 }
 
 thr_status thr_interior_solve(const thr_equations *equations, const thr_limits *limits,
                               thr_interior *out, thr_err *err)
 {
-  state s = {.e = equations,
-             .rays = {.n_cones = equations->n_cones,
-                      .n_rays = equations->n_rays,
-                      .n_plain = equations->a.n_columns - 3 * equations->n_cones,
-                      .kind = equations->kind,
-                      .ray = equations->ray},
-             .m = equations->a.n_rows,
-             .components = equations->a.n_columns,
-             .goal = equations->goal > 0 ? equations->goal : GOAL};
-  s.unmet = equations->met > 0 ? s.goal / equations->met : fmax(1, s.goal / MET);
-  s.n = thr_rays_unknowns(&s.rays);
-  thr_status st = state_make(&s, err);
-  if (!st) run(&s, limits, out);
-  thr_normal_destroy(s.normal);
-  free(s.room);
+  interior_state state = {.equations = equations,
+                          .rays = {.n_cones = equations->n_cones,
+                                   .n_rays = equations->n_rays,
+                                   .n_plain = equations->a.n_columns - 3 * equations->n_cones,
+                                   .kind = equations->kind,
+                                   .ray = equations->ray},
+                          .m = equations->a.n_rows,
+                          .components = equations->a.n_columns,
+                          .goal = equations->goal > 0 ? equations->goal : GOAL};
+
+  /* An error of the equations counts more, or less, than the gap. */
+  state.unmet = equations->met > 0 ? state.goal / equations->met : fmax(1, state.goal / MET);
+  state.n = thr_rays_unknowns(&state.rays);
+
+  thr_status st = state_make(&state, err);
+  if (!st) run(&state, limits, out);
+
+  thr_normal_destroy(state.normal);
+  free(state.room);
   return st;
 }

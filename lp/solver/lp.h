@@ -21,14 +21,14 @@ typedef enum {
   THR_LP_UNDECIDED /* interior point method only (lp/solver/interior.c) */
 } thr_lp_outcome;
 
-/* n columns with costs, 0 <= x (upper NULL) or 0 <= x <= upper. Release with thr_lp_destroy (NULL
- * ok). */
+/* Makes a programme of n columns with costs, 0 <= x (upper NULL) or 0 <= x <= upper. Release with
+ * thr_lp_destroy (NULL ok). */
 thr_status thr_lp_create(thr_lp **lp, int n_columns, const double *cost, const double *upper,
                          thr_err *err) THR_MUST_CHECK;
 void thr_lp_destroy(thr_lp *lp);
 
-/* A programme of this thread with the rows, columns and basis of another, which may be another
- * thread's that leaves it alone. */
+/* Makes a programme of this thread with the rows, columns and basis of another, which may be
+ * another thread's that leaves it alone. */
 thr_status thr_lp_copy(thr_lp **lp, const thr_lp *from, thr_err *err) THR_MUST_CHECK;
 
 /* Adds the row  sum value[i] * x[column[i]] >= lower  (value NULL = all 1). It enters the basis
@@ -36,15 +36,16 @@ thr_status thr_lp_copy(thr_lp **lp, const thr_lp *from, thr_err *err) THR_MUST_C
 thr_status thr_lp_add_row(thr_lp *lp, int n, const int *column, const double *value, double lower,
                           thr_err *err) THR_MUST_CHECK;
 
-/* A programme in one go: min cost x, A x = rhs, x >= 0 (free[j]: x[j] unbounded both ways; free
- * NULL = none). A by columns: start[n_columns + 1], row[], value[]; no row twice in a column.
+/* Makes a programme of equations: min cost x, A x = rhs, x >= 0 (free[j]: x[j] unbounded both ways;
+ * free NULL = none). A by columns: start[n_columns + 1], row[], value[]; no row twice in a column.
  * Release with thr_lp_destroy. */
 thr_status thr_lp_create_equations(thr_lp **lp, int n_rows, const double *rhs, int n_columns,
                                    const double *cost, const bool *free, const int *start,
                                    const int *row, const double *value,
                                    thr_err *err) THR_MUST_CHECK;
 
-/* Is the row's slack basic, so that the row can go without spoiling the basis? */
+/* Returns whether the row's slack is basic, so that the row can be removed without spoiling the
+ * basis. */
 bool thr_lp_row_basic(const thr_lp *lp, int row);
 
 bool thr_lp_column_basic(const thr_lp *lp, int column);
@@ -60,28 +61,28 @@ thr_status thr_lp_drop_rows(thr_lp *lp, const bool *drop, thr_err *err) THR_MUST
 
 int thr_lp_rows(const thr_lp *lp);
 
-/* lower <= x[column] <= upper (INFINITY = none). The basis is kept. */
+/* Sets lower <= x[column] <= upper (INFINITY = none). The basis is kept. */
 thr_status thr_lp_set_bounds(thr_lp *lp, int column, double lower, double upper,
                              thr_err *err) THR_MUST_CHECK;
 thr_status thr_lp_set_costs(thr_lp *lp, const double *cost, thr_err *err) THR_MUST_CHECK;
 
-/* Dual simplex from the last basis (primal from one that was set); THR_LP_STOPPED when the limits
- * say so (the basis is kept, solving may go on). THR_ESOLVER if GLPK aborts or gives up; the lp is
- * then only good for thr_lp_destroy. */
+/* Solves by the dual simplex method from the last basis (by the primal one from a basis that was
+ * set); THR_LP_STOPPED when the limits say so (the basis is kept, solving may go on). THR_ESOLVER
+ * if GLPK aborts or gives up; the lp is then only good for thr_lp_destroy. */
 thr_status thr_lp_solve(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome,
                         thr_err *err) THR_MUST_CHECK;
 
-/* Exact rational simplex from the optimal basis of the last solve (glp_exact). It computes with
- * GMP, which ends the program when memory runs out: it runs in a child process, whose death is
- * THR_ESOLVER. _here: in this process, which is such a child. */
+/* Solves by exact rational simplex from the optimal basis of the last solve (glp_exact). It
+ * computes with GMP, which ends the program when memory runs out: it runs in a child process, whose
+ * death is THR_ESOLVER. _here: in this process, which is such a child. */
 thr_status thr_lp_solve_exact(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome,
                               thr_err *err) THR_MUST_CHECK;
 thr_status thr_lp_solve_exact_here(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome,
                                    thr_err *err) THR_MUST_CHECK;
 
-/* Branch and bound with every column a whole number, from the optimum of the last thr_lp_solve. For
- * small programmes; in a child process if there are limits to keep. Then thr_lp_primal and
- * thr_lp_objective give the integer optimum, and thr_lp_dual nothing of use. */
+/* Solves by branch and bound with every column a whole number, from the optimum of the last
+ * thr_lp_solve. For small programmes; in a child process if there are limits to keep. Then
+ * thr_lp_primal and thr_lp_objective give the integer optimum, and thr_lp_dual nothing of use. */
 thr_status thr_lp_solve_integer(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome,
                                 thr_err *err) THR_MUST_CHECK;
 

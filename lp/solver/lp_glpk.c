@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The only file that knows GLPK. GLPK aborts on misuse and when memory runs out: every call runs
- * under guarded(), whose error hook jumps out. After that GLPK's environment must be freed, which
- * kills every problem of the process; each thr_lp remembers in which generation of the environment
- * it was born. */
+/* Implements lp/solver/lp.h with GLPK: the only file that knows this library.
+ *
+ * GLPK aborts on misuse and when memory runs out, so every call runs under guarded(), whose error
+ * hook leaves it by longjmp. After that GLPK's environment must be freed, which destroys every
+ * problem of the thread; each thr_lp remembers in which generation of the environment it was made.
+ * Calls are therefore written as a struct of arguments and a function do_..() that takes it.
+ *
+ * Pivots are counted, not timed, so that the same input gives the same answer on every machine.
+ * Exact simplex and branch and bound cannot be stopped, and run in a child process. */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/process/process.h"
 #include "graph/text.h"
@@ -30,16 +35,18 @@ static _Thread_local int generation;
 static _Thread_local jmp_buf escape;
 static _Thread_local char message[160]; /* GLPK's last words */
 
+/* Keeps the first line of what GLPK would print: the reason if it aborts. */
 static int keep_text(void *unused, const char *text)
 {
   (void)unused;
+
   size_t n = strcspn(text, "\n");
   if (n > 0) {
     if (n >= sizeof message) n = sizeof message - 1;
     memcpy(message, text, n);
     message[n] = '\0';
   }
-  return 1; /* printed nothing, and GLPK must not either */
+  return 1; /* GLPK must not print it, either */
 }
 
 static void jump_out(void *unused)
@@ -60,17 +67,20 @@ static void free_environment(void *unused)
   glp_free_env();
 }
 
+/* Makes the key whose destructor frees the environment; without memory there is none. */
 static void make_key(void)
 {
   has_key = pthread_key_create(&thread_end, free_environment) == 0;
 }
 
+/* Has the environment freed when the thread ends; without memory for that it stays. */
 static void free_with_the_thread(void)
 {
   static const bool used = true;
   pthread_once(&once, make_key);
-  if (has_key && !pthread_getspecific(thread_end))
-    pthread_setspecific(thread_end, &used); /* without memory for it, it is kept */
+
+  /* The value only has to be something other than NULL. */
+  if (has_key && !pthread_getspecific(thread_end)) pthread_setspecific(thread_end, &used);
 }
 
 /* Runs call(argument) with GLPK's aborts turned into THR_ESOLVER. The hooks are set anew each time
@@ -79,20 +89,27 @@ static thr_status guarded(void (*call)(void *), void *argument, thr_err *err)
 {
   message[0] = '\0';
   free_with_the_thread();
-  glp_term_out(GLP_ON); /* through keep_text: an abort's reason passes here */
+
+  /* Through keep_text: the reason of an abort passes here. */
+  glp_term_out(GLP_ON);
   glp_term_hook(keep_text, NULL);
+
+  /* After an abort the environment is not to be used again. */
   if (setjmp(escape)) {
     glp_free_env();
     generation++;
     return thr_fail(err, THR_ESOLVER, "GLPK gave up: %s", message);
   }
+
   glp_error_hook(jump_out, NULL);
   call(argument);
+
   glp_error_hook(NULL, NULL);
   glp_term_hook(NULL, NULL);
   return THR_OK;
 }
 
+/* Fails if the environment in which the programme was made is gone. */
 static thr_status check_alive(const thr_lp *lp, thr_err *err)
 {
   if (lp->problem && lp->generation == generation) return THR_OK;
@@ -113,20 +130,25 @@ typedef struct {
   const double *cost, *upper;
 } create_call;
 
+/* Creates the problem with its columns; GLPK counts from 1. */
 static void do_create(void *argument)
 {
-  create_call *c = argument;
-  glp_prob *p = c->lp->problem = glp_create_prob();
-  glp_set_obj_dir(p, GLP_MIN);
-  if (c->n > 0) glp_add_cols(p, c->n);
-  for (int j = 0; j < c->n; j++) {
-    glp_set_obj_coef(p, j + 1, c->cost[j]);
-    if (c->upper)
-      glp_set_col_bnds(p, j + 1, c->upper[j] > 0 ? GLP_DB : GLP_FX, 0, c->upper[j]);
+  create_call *call = argument;
+  glp_prob *problem = call->lp->problem = glp_create_prob();
+  glp_set_obj_dir(problem, GLP_MIN);
+  if (call->n > 0) glp_add_cols(problem, call->n);
+
+  /* A column with an upper bound of 0 is fixed. */
+  for (int j = 0; j < call->n; j++) {
+    glp_set_obj_coef(problem, j + 1, call->cost[j]);
+    if (call->upper)
+      glp_set_col_bnds(problem, j + 1, call->upper[j] > 0 ? GLP_DB : GLP_FX, 0, call->upper[j]);
     else
-      glp_set_col_bnds(p, j + 1, GLP_LO, 0, 0);
+      glp_set_col_bnds(problem, j + 1, GLP_LO, 0, 0);
   }
-  glp_std_basis(p);
+
+  /* All slacks are basic. */
+  glp_std_basis(problem);
 }
 
 thr_status thr_lp_create(thr_lp **lp, int n_columns, const double *cost, const double *upper,
@@ -136,12 +158,14 @@ thr_status thr_lp_create(thr_lp **lp, int n_columns, const double *cost, const d
   thr_lp *made = thr_calloc(1, sizeof *made);
   if (!made) return thr_nomem(err);
   made->generation = generation;
-  create_call c = {made, n_columns, cost, upper};
-  thr_status st = guarded(do_create, &c, err);
+
+  create_call call = {made, n_columns, cost, upper};
+  thr_status st = guarded(do_create, &call, err);
   if (st) {
     free(made);
     return st;
   }
+
   *lp = made;
   return THR_OK;
 }
@@ -166,9 +190,9 @@ typedef struct {
 
 static void do_copy(void *argument)
 {
-  copy_call *c = argument;
-  c->lp->problem = glp_create_prob();
-  glp_copy_prob(c->lp->problem, c->from, GLP_OFF);
+  copy_call *call = argument;
+  call->lp->problem = glp_create_prob();
+  glp_copy_prob(call->lp->problem, call->from, GLP_OFF);
 }
 
 thr_status thr_lp_copy(thr_lp **lp, const thr_lp *from, thr_err *err)
@@ -178,12 +202,14 @@ thr_status thr_lp_copy(thr_lp **lp, const thr_lp *from, thr_err *err)
   if (!made) return thr_nomem(err);
   made->generation = generation;
   made->primal = from->primal;
-  copy_call c = {made, from->problem};
-  thr_status st = guarded(do_copy, &c, err);
+
+  copy_call call = {made, from->problem};
+  thr_status st = guarded(do_copy, &call, err);
   if (st) {
     free(made);
     return st;
   }
+
   *lp = made;
   return THR_OK;
 }
@@ -198,26 +224,34 @@ typedef struct {
   double *entry; /* of one column, 1-based */
 } equations_call;
 
+/* Creates rows and columns with their entries. */
 static void do_create_equations(void *argument)
 {
-  equations_call *c = argument;
-  glp_prob *p = c->lp->problem = glp_create_prob();
-  glp_set_obj_dir(p, GLP_MIN);
-  if (c->n_rows > 0) glp_add_rows(p, c->n_rows);
-  if (c->n_columns > 0) glp_add_cols(p, c->n_columns);
-  for (int i = 0; i < c->n_rows; i++)
-    glp_set_row_bnds(p, i + 1, GLP_FX, c->rhs[i], c->rhs[i]);
-  for (int j = 0; j < c->n_columns; j++) {
-    int n = c->start[j + 1] - c->start[j];
+  equations_call *call = argument;
+  glp_prob *problem = call->lp->problem = glp_create_prob();
+
+  /* x >= 0, or unbounded both ways. */
+  glp_set_obj_dir(problem, GLP_MIN);
+  if (call->n_rows > 0) glp_add_rows(problem, call->n_rows);
+  if (call->n_columns > 0) glp_add_cols(problem, call->n_columns);
+
+  /* Rows are equations. */
+  for (int i = 0; i < call->n_rows; i++)
+    glp_set_row_bnds(problem, i + 1, GLP_FX, call->rhs[i], call->rhs[i]);
+
+  /* Columns one by one, as GLPK takes them. */
+  for (int j = 0; j < call->n_columns; j++) {
+    int n = call->start[j + 1] - call->start[j];
     for (int k = 0; k < n; k++) {
-      c->index[k + 1] = c->row[c->start[j] + k] + 1;
-      c->entry[k + 1] = c->value[c->start[j] + k];
+      call->index[k + 1] = call->row[call->start[j] + k] + 1;
+      call->entry[k + 1] = call->value[call->start[j] + k];
     }
-    glp_set_obj_coef(p, j + 1, c->cost[j]);
-    glp_set_col_bnds(p, j + 1, c->free && c->free[j] ? GLP_FR : GLP_LO, 0, 0);
-    glp_set_mat_col(p, j + 1, n, c->index, c->entry);
+    glp_set_obj_coef(problem, j + 1, call->cost[j]);
+    glp_set_col_bnds(problem, j + 1, call->free && call->free[j] ? GLP_FR : GLP_LO, 0, 0);
+    glp_set_mat_col(problem, j + 1, n, call->index, call->entry);
   }
-  glp_std_basis(p);
+
+  glp_std_basis(problem);
 }
 
 thr_status thr_lp_create_equations(thr_lp **lp, int n_rows, const double *rhs, int n_columns,
@@ -226,24 +260,30 @@ thr_status thr_lp_create_equations(thr_lp **lp, int n_rows, const double *rhs, i
 {
   *lp = NULL;
   thr_lp *made = thr_calloc(1, sizeof *made);
-  equations_call c = {made,         n_rows, n_columns, rhs,  cost, value,
-                      free_columns, start,  row,       NULL, NULL};
+  equations_call call = {made,         n_rows, n_columns, rhs,  cost, value,
+                         free_columns, start,  row,       NULL, NULL};
+
+  /* Scratch for one column, from 1. */
   int longest = 0;
   for (int j = 0; j < n_columns; j++)
     if (start[j + 1] - start[j] > longest) longest = start[j + 1] - start[j];
-  c.index = thr_calloc((size_t)longest + 1, sizeof *c.index);
-  c.entry = thr_calloc((size_t)longest + 1, sizeof *c.entry);
-  thr_status st = made && c.index && c.entry ? THR_OK : thr_nomem(err);
+  call.index = thr_calloc((size_t)longest + 1, sizeof *call.index);
+  call.entry = thr_calloc((size_t)longest + 1, sizeof *call.entry);
+
+  thr_status st = made && call.index && call.entry ? THR_OK : thr_nomem(err);
   if (!st) {
     made->generation = generation;
-    st = guarded(do_create_equations, &c, err);
+    st = guarded(do_create_equations, &call, err);
   }
-  free(c.index);
-  free(c.entry);
+
+  free(call.index);
+  free(call.entry);
+
   if (st) {
     free(made);
     return st;
   }
+
   *lp = made;
   return THR_OK;
 }
@@ -256,10 +296,10 @@ typedef struct {
 
 static void do_add_row(void *argument)
 {
-  row_call *c = argument;
-  int row = glp_add_rows(c->problem, 1);
-  glp_set_row_bnds(c->problem, row, GLP_LO, c->lower, 0);
-  glp_set_mat_row(c->problem, row, c->n, c->index, c->value);
+  row_call *call = argument;
+  int row = glp_add_rows(call->problem, 1);
+  glp_set_row_bnds(call->problem, row, GLP_LO, call->lower, 0);
+  glp_set_mat_row(call->problem, row, call->n, call->index, call->value);
 }
 
 thr_status thr_lp_add_row(thr_lp *lp, int n, const int *column, const double *value, double lower,
@@ -268,20 +308,25 @@ thr_status thr_lp_add_row(thr_lp *lp, int n, const int *column, const double *va
   thr_status st = check_alive(lp, err);
   forget_exact(lp);
   if (st) return st;
-  row_call c = {lp->problem, n, thr_calloc((size_t)n + 1, sizeof(int)),
-                thr_calloc((size_t)n + 1, sizeof(double)), lower};
-  if (!c.index || !c.value) {
+
+  /* Copies from 1, as GLPK wants them. */
+  row_call call = {lp->problem, n, thr_calloc((size_t)n + 1, sizeof(int)),
+                   thr_calloc((size_t)n + 1, sizeof(double)), lower};
+  if (!call.index || !call.value) {
     st = thr_nomem(err);
     goto done;
   }
+
+  /* Values default to 1. */
   for (int i = 0; i < n; i++) {
-    c.index[i + 1] = column[i] + 1;
-    c.value[i + 1] = value ? value[i] : 1;
+    call.index[i + 1] = column[i] + 1;
+    call.value[i + 1] = value ? value[i] : 1;
   }
-  st = guarded(do_add_row, &c, err);
+  st = guarded(do_add_row, &call, err);
+
 done:
-  free(c.index);
-  free(c.value);
+  free(call.index);
+  free(call.value);
   return st;
 }
 
@@ -292,8 +337,8 @@ typedef struct {
 
 static void do_drop(void *argument)
 {
-  drop_call *c = argument;
-  glp_del_rows(c->problem, c->n, c->row);
+  drop_call *call = argument;
+  glp_del_rows(call->problem, call->n, call->row);
 }
 
 thr_status thr_lp_drop_rows(thr_lp *lp, const bool *drop, thr_err *err)
@@ -301,13 +346,17 @@ thr_status thr_lp_drop_rows(thr_lp *lp, const bool *drop, thr_err *err)
   thr_status st = check_alive(lp, err);
   forget_exact(lp);
   if (st) return st;
+
   int n = glp_get_num_rows(lp->problem);
-  drop_call c = {lp->problem, 0, thr_calloc((size_t)n + 1, sizeof(int))};
-  if (!c.row) return thr_nomem(err);
+  drop_call call = {lp->problem, 0, thr_calloc((size_t)n + 1, sizeof(int))};
+  if (!call.row) return thr_nomem(err);
+
+  /* Numbers of the rows, from 1. */
   for (int i = 0; i < n; i++)
-    if (drop[i]) c.row[++c.n] = i + 1;
-  if (c.n > 0) st = guarded(do_drop, &c, err);
-  free(c.row);
+    if (drop[i]) call.row[++call.n] = i + 1;
+  if (call.n > 0) st = guarded(do_drop, &call, err);
+
+  free(call.row);
   return st;
 }
 
@@ -326,22 +375,23 @@ typedef struct {
   const bool *row, *column;
 } basis_call;
 
+/* Sets the status of rows and columns; what is not basic is at its lower bound. */
 static void do_set_basis(void *argument)
 {
-  basis_call *c = argument;
-  for (int i = 1; i <= glp_get_num_rows(c->problem); i++)
-    glp_set_row_stat(c->problem, i, c->row[i - 1] ? GLP_BS : GLP_NL);
-  for (int j = 1; j <= glp_get_num_cols(c->problem); j++)
-    glp_set_col_stat(c->problem, j, c->column[j - 1] ? GLP_BS : GLP_NL);
+  basis_call *call = argument;
+  for (int i = 1; i <= glp_get_num_rows(call->problem); i++)
+    glp_set_row_stat(call->problem, i, call->row[i - 1] ? GLP_BS : GLP_NL);
+  for (int j = 1; j <= glp_get_num_cols(call->problem); j++)
+    glp_set_col_stat(call->problem, j, call->column[j - 1] ? GLP_BS : GLP_NL);
 }
 
 thr_status thr_lp_set_basis(thr_lp *lp, const bool *row_basic, const bool *column_basic,
                             thr_err *err)
 {
   thr_status st = check_alive(lp, err);
-  basis_call c = {lp->problem, row_basic, column_basic};
+  basis_call call = {lp->problem, row_basic, column_basic};
   lp->primal = true;
-  return st ? st : guarded(do_set_basis, &c, err);
+  return st ? st : guarded(do_set_basis, &call, err);
 }
 
 int thr_lp_rows(const thr_lp *lp)
@@ -357,16 +407,18 @@ typedef struct {
 
 static void do_set_bounds(void *argument)
 {
-  bounds_call *c = argument;
-  int kind = isinf(c->upper) ? GLP_LO : c->lower < c->upper ? GLP_DB : GLP_FX;
-  glp_set_col_bnds(c->problem, c->column + 1, kind, c->lower, isinf(c->upper) ? 0 : c->upper);
+  bounds_call *call = argument;
+  /* GLPK tells one bound, two bounds and fixed columns apart. */
+  int kind = isinf(call->upper) ? GLP_LO : call->lower < call->upper ? GLP_DB : GLP_FX;
+  glp_set_col_bnds(call->problem, call->column + 1, kind, call->lower,
+                   isinf(call->upper) ? 0 : call->upper);
 }
 
 thr_status thr_lp_set_bounds(thr_lp *lp, int column, double lower, double upper, thr_err *err)
 {
   thr_status st = check_alive(lp, err);
-  bounds_call c = {lp->problem, column, lower, upper};
-  return st ? st : guarded(do_set_bounds, &c, err);
+  bounds_call call = {lp->problem, column, lower, upper};
+  return st ? st : guarded(do_set_bounds, &call, err);
 }
 
 typedef struct {
@@ -376,16 +428,16 @@ typedef struct {
 
 static void do_set_costs(void *argument)
 {
-  cost_call *c = argument;
-  for (int j = 1; j <= glp_get_num_cols(c->problem); j++)
-    glp_set_obj_coef(c->problem, j, c->cost[j - 1]);
+  cost_call *call = argument;
+  for (int j = 1; j <= glp_get_num_cols(call->problem); j++)
+    glp_set_obj_coef(call->problem, j, call->cost[j - 1]);
 }
 
 thr_status thr_lp_set_costs(thr_lp *lp, const double *cost, thr_err *err)
 {
   thr_status st = check_alive(lp, err);
-  cost_call c = {lp->problem, cost};
-  return st ? st : guarded(do_set_costs, &c, err);
+  cost_call call = {lp->problem, cost};
+  return st ? st : guarded(do_set_costs, &call, err);
 }
 
 /* ---- solving ---- */
@@ -404,19 +456,24 @@ typedef struct {
   int code;
 } solve_call;
 
+/* Runs one slice of the simplex method. */
 static void do_solve(void *argument)
 {
-  solve_call *c = argument;
+  solve_call *call = argument;
   glp_smcp options;
   glp_init_smcp(&options);
   options.msg_lev = GLP_MSG_OFF;
-  options.meth =
-      c->primal ? GLP_PRIMAL : GLP_DUALP; /* after new rows the basis stays dual feasible */
-  options.it_lim = c->slice;
-  if (c->left < 1e6) options.tm_lim = 1 + (int)(1000 * c->left);
-  options.tol_dj =
-      1e-9; /* the duals become certificates: GLPK's 1e-7 is too coarse to close them */
-  c->code = c->exact ? glp_exact(c->problem, &options) : glp_simplex(c->problem, &options);
+
+  /* After new rows the basis stays dual feasible. */
+  options.meth = call->primal ? GLP_PRIMAL : GLP_DUALP;
+  options.it_lim = call->slice;
+  if (call->left < 1e6) options.tm_lim = 1 + (int)(1000 * call->left);
+
+  /* The duals become certificates: GLPK's 1e-7 is too coarse to close them. */
+  options.tol_dj = 1e-9;
+
+  call->code =
+      call->exact ? glp_exact(call->problem, &options) : glp_simplex(call->problem, &options);
 }
 
 static void do_reset_basis(void *argument)
@@ -434,17 +491,19 @@ static thr_lp_outcome outcome_of(glp_prob *problem)
   }
 }
 
-/* Takes pivots from the work that is left: of a small programme one takes as long as 3000 rows and
- * columns do, of a dense one longer. */
-static void spend(const thr_limits *limits, glp_prob *p, int pivots)
+/* Subtracts pivots from the work that is left. A pivot of a small programme takes as long as 3000
+ * rows and columns do, one of a dense programme longer. */
+static void spend(const thr_limits *limits, glp_prob *problem, int pivots)
 {
   enum { SMALL = 3000 };
   const double each = 1e-8, of_entry = 3e-10; /* s for a row or a column, and for what is not 0 */
-  const double size = SMALL + glp_get_num_rows(p) + glp_get_num_cols(p),
-               entries = glp_get_num_nz(p);
+  const double size = SMALL + glp_get_num_rows(problem) + glp_get_num_cols(problem),
+               entries = glp_get_num_nz(problem);
   thr_limits_spend(limits, pivots * (each * size + of_entry * entries));
 }
 
+/* Solves the programme slice by slice, until GLPK decides or the limits stop it. After a failure
+ * the standard basis gets one more try. */
 static thr_status solve(thr_lp *lp, bool exact, const thr_limits *limits, thr_lp_outcome *outcome,
                         thr_err *err)
 {
@@ -452,25 +511,36 @@ static thr_status solve(thr_lp *lp, bool exact, const thr_limits *limits, thr_lp
   thr_status st = check_alive(lp, err);
   lp->integer = false;
   forget_exact(lp);
+
   for (int restarts = 0, slice = SLICE; !st; slice = slice < INT_MAX / 2 ? 2 * slice : slice) {
     if (thr_limits_stop(limits)) return THR_OK;
-    solve_call c = {lp->problem,
-                    exact,
-                    lp->primal || restarts > 0,
-                    slice,
-                    thr_limits_left(limits, INFINITY),
-                    0};
+
+    /* One slice. */
+    solve_call call = {lp->problem,
+                       exact,
+                       lp->primal || restarts > 0,
+                       slice,
+                       thr_limits_left(limits, INFINITY),
+                       0};
     int before = glp_get_it_cnt(lp->problem);
-    if ((st = guarded(do_solve, &c, err))) return st;
+    if ((st = guarded(do_solve, &call, err))) return st;
+
+    /* Work is counted after the fact. */
     spend(limits, lp->problem, glp_get_it_cnt(lp->problem) - before);
-    if (c.code == 0 && outcome_of(lp->problem) != THR_LP_STOPPED) {
+
+    /* Decided, or just at the end of a slice. */
+    if (call.code == 0 && outcome_of(lp->problem) != THR_LP_STOPPED) {
       *outcome = outcome_of(lp->problem);
       lp->primal = false;
       return THR_OK;
     }
-    if (c.code == GLP_EITLIM || c.code == GLP_ETMLIM) continue;
+
+    /* A slice that ended is continued. */
+    if (call.code == GLP_EITLIM || call.code == GLP_ETMLIM) continue;
+
     if (restarts++)
-      return thr_fail(err, THR_ESOLVER, "GLPK's simplex method failed (code %d)", c.code);
+      return thr_fail(err, THR_ESOLVER, "GLPK's simplex method failed (code %d)", call.code);
+
     /* A singular basis is refused, not repaired; and the dual method calls an unbounded problem
      * undecided. */
     st = guarded(do_reset_basis, lp->problem, err);
@@ -496,58 +566,72 @@ typedef struct {
   int code;
 } integer_call;
 
-/* Where to branch is found by a row of the tableau for every fractional column, each of which takes
- * all entries of the matrix. */
-static void spend_on_branching(const thr_limits *limits, glp_prob *p, glp_tree *tree)
+/* Subtracts the choice of a branch from the work that is left: GLPK computes a row of the tableau
+ * for every fractional column, each of which takes all entries of the matrix. */
+static void spend_on_branching(const thr_limits *limits, glp_prob *problem, glp_tree *tree)
 {
   const double each = 3e-9; /* s for an entry */
   int fractional = 0;
-  for (int j = 1; j <= glp_get_num_cols(p); j++)
+
+  for (int j = 1; j <= glp_get_num_cols(problem); j++)
     fractional += glp_ios_can_branch(tree, j) != 0;
-  thr_limits_spend(limits, each * fractional * glp_get_num_nz(p));
+
+  thr_limits_spend(limits, each * fractional * glp_get_num_nz(problem));
 }
 
-/* At every step of the tree, which counts as a pivot too. */
-static void watch_tree(glp_tree *tree, void *call)
+/* Counts the work of branch and bound, and stops it by the limits. Called by GLPK at every step of
+ * the tree, which counts as a pivot, too. */
+static void watch_tree(glp_tree *tree, void *user)
 {
-  integer_call *c = call;
-  int pivots = glp_get_it_cnt(c->problem);
-  spend(c->limits, c->problem, 1 + pivots - c->pivots);
-  c->pivots = pivots;
-  if (glp_ios_reason(tree) == GLP_IBRANCH) spend_on_branching(c->limits, c->problem, tree);
-  if (thr_limits_stop(c->limits)) glp_ios_terminate(tree);
+  integer_call *call = user;
+
+  int pivots = glp_get_it_cnt(call->problem);
+  spend(call->limits, call->problem, 1 + pivots - call->pivots);
+  call->pivots = pivots;
+
+  if (glp_ios_reason(tree) == GLP_IBRANCH) spend_on_branching(call->limits, call->problem, tree);
+  if (thr_limits_stop(call->limits)) glp_ios_terminate(tree);
 }
 
+/* Runs branch and bound with all columns integer. */
 static void do_integer(void *argument)
 {
-  integer_call *c = argument;
+  integer_call *call = argument;
   glp_iocp options;
   glp_init_iocp(&options);
   options.msg_lev = GLP_MSG_OFF;
   options.cb_func = watch_tree;
-  options.cb_info = c;
-  for (int j = 1; j <= glp_get_num_cols(c->problem); j++)
-    glp_set_col_kind(c->problem, j, GLP_IV);
-  c->code = glp_intopt(c->problem, &options);
+  options.cb_info = call;
+
+  for (int j = 1; j <= glp_get_num_cols(call->problem); j++)
+    glp_set_col_kind(call->problem, j, GLP_IV);
+
+  call->code = glp_intopt(call->problem, &options);
 }
 
+/* Runs branch and bound in this process, from the optimum of the last solve. */
 static thr_status solve_integer(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome,
                                 thr_err *err)
 {
   *outcome = THR_LP_STOPPED;
   thr_status st = check_alive(lp, err);
   forget_exact(lp);
-  integer_call c = {lp->problem, limits, 0, 0};
-  if (!st) c.pivots = glp_get_it_cnt(lp->problem);
-  if (!st) st = guarded(do_integer, &c, err);
-  if (st || c.code == GLP_ESTOP) return st;
-  if (c.code) return thr_fail(err, THR_ESOLVER, "GLPK's branch and bound failed (code %d)", c.code);
+
+  integer_call call = {lp->problem, limits, 0, 0};
+  if (!st) call.pivots = glp_get_it_cnt(lp->problem);
+  if (!st) st = guarded(do_integer, &call, err);
+
+  /* Stopped by the limits: undecided, and no failure. */
+  if (st || call.code == GLP_ESTOP) return st;
+  if (call.code)
+    return thr_fail(err, THR_ESOLVER, "GLPK's branch and bound failed (code %d)", call.code);
+
   lp->integer = true;
   *outcome = glp_mip_status(lp->problem) == GLP_OPT ? THR_LP_OPTIMAL : THR_LP_INFEASIBLE;
   return THR_OK;
 }
 
-/* ---- methods that take no heed of time, in a child ---- */
+/* ---- methods that cannot be stopped, in a child process ---- */
 
 /* Numbers of a solution: outcome, objective, column values, row multipliers. */
 enum { OUTCOME, OBJECTIVE, VALUES };
@@ -557,24 +641,30 @@ static size_t count_numbers(const thr_lp *lp)
   return VALUES + (size_t)glp_get_num_cols(lp->problem) + (size_t)glp_get_num_rows(lp->problem);
 }
 
-/* They, and a byte for each row and column that says where it stands in the basis. */
+/* Appends the numbers of the solution, and a byte for each row and column with its place in the
+ * basis. */
 static thr_status put_solution(const thr_lp *lp, thr_lp_outcome outcome, thr_text *text,
                                thr_err *err)
 {
   int n = glp_get_num_cols(lp->problem), m = glp_get_num_rows(lp->problem);
   double *number = thr_calloc(count_numbers(lp), sizeof *number);
   if (!number) return thr_nomem(err);
+
+  /* Numbers in the order of the enum. */
   number[OUTCOME] = outcome;
   number[OBJECTIVE] = thr_lp_objective(lp);
   thr_lp_primal(lp, number + VALUES);
   thr_lp_dual(lp, number + VALUES + n);
   thr_text_append_bytes(text, (const char *)number, count_numbers(lp) * sizeof *number);
   free(number);
+
+  /* The basis. */
   for (int i = 1; i <= m + n; i++) {
     const char stand =
         (char)(i <= m ? glp_get_row_stat(lp->problem, i) : glp_get_col_stat(lp->problem, i - m));
     thr_text_append_bytes(text, &stand, 1);
   }
+
   return text->failed ? thr_nomem(err) : THR_OK;
 }
 
@@ -583,14 +673,17 @@ typedef struct {
   thr_status (*solve)(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err);
 } child_job;
 
+/* Solves in the child process, and sends the solution to the parent. */
 static thr_status solve_and_send(void *user, const thr_limits *limits, thr_sender *to, thr_err *err)
 {
   const child_job *job = user;
   thr_lp_outcome outcome;
   thr_text text = {0};
   thr_status st = job->solve(job->lp, limits, &outcome, err);
+
   if (!st) st = put_solution(job->lp, outcome, &text, err);
   if (!st) st = thr_child_send(to, &text, err);
+
   thr_text_destroy(&text);
   return st;
 }
@@ -600,29 +693,37 @@ typedef struct {
   const char *stand; /* of rows, then of columns */
 } stand_call;
 
+/* Sets the basis that a child sent. */
 static void do_stand(void *argument)
 {
-  const stand_call *c = argument;
-  int m = glp_get_num_rows(c->problem);
+  const stand_call *call = argument;
+  int m = glp_get_num_rows(call->problem);
+
   for (int i = 0; i < m; i++)
-    glp_set_row_stat(c->problem, i + 1, c->stand[i]);
-  for (int j = 0; j < glp_get_num_cols(c->problem); j++)
-    glp_set_col_stat(c->problem, j + 1, c->stand[m + j]);
+    glp_set_row_stat(call->problem, i + 1, call->stand[i]);
+  for (int j = 0; j < glp_get_num_cols(call->problem); j++)
+    glp_set_col_stat(call->problem, j + 1, call->stand[m + j]);
 }
 
+/* Takes over the solution and the basis that a child sent. */
 static thr_status take_solution(thr_lp *lp, const thr_text *text, thr_lp_outcome *outcome,
                                 thr_err *err)
 {
   size_t n = count_numbers(lp);
   double *number = thr_calloc(n, sizeof *number);
-  stand_call c = {lp->problem, text->data + n * sizeof *number};
-  thr_status st = number ? guarded(do_stand, &c, err) : thr_nomem(err);
+  stand_call call = {lp->problem, text->data + n * sizeof *number};
+  thr_status st = number ? guarded(do_stand, &call, err) : thr_nomem(err);
+
+  /* Without a basis the solution is of no use. */
   if (st) {
     free(number);
     return st;
   }
+
+  /* The numbers stay with the programme, as GLPK itself has none. */
   memcpy(number, text->data, n * sizeof *number);
   *outcome = (thr_lp_outcome)(int)number[OUTCOME];
+
   lp->integer = false;
   if (*outcome == THR_LP_OPTIMAL) lp->primal = false;
   forget_exact(lp);
@@ -630,6 +731,7 @@ static thr_status take_solution(thr_lp *lp, const thr_text *text, thr_lp_outcome
   return THR_OK;
 }
 
+/* Solves in a child process; a child that the limits stopped is no failure. */
 static thr_status solve_in_child(child_job job, const char *what, const thr_limits *limits,
                                  thr_lp_outcome *outcome, thr_err *err)
 {
@@ -638,8 +740,10 @@ static thr_status solve_in_child(child_job job, const char *what, const thr_limi
   thr_err failure = {0};
   thr_text answer = {0};
   *outcome = THR_LP_STOPPED;
+
   thr_status st = check_alive(lp, err);
   if (st || thr_limits_stop(limits)) return st;
+
   st = thr_child_run(&child, limits, &answer, &failure);
   if (!st)
     st = take_solution(lp, &answer, outcome, err);
@@ -647,6 +751,7 @@ static thr_status solve_in_child(child_job job, const char *what, const thr_limi
     st = THR_OK;
   else
     thr_fail(err, st, "%s", failure.text);
+
   thr_text_destroy(&answer);
   return st;
 }
@@ -658,8 +763,8 @@ thr_status thr_lp_solve_exact(thr_lp *lp, const thr_limits *limits, thr_lp_outco
                         outcome, err);
 }
 
-/* The programmes at the tree's nodes are solved without a limit, and may go round in circles. Where
- * nobody sets limits, there is nothing to end. */
+/* Runs branch and bound in a child if there are limits to keep, as GLPK solves the programmes at
+ * the tree's nodes without a limit, and they may cycle. */
 thr_status thr_lp_solve_integer(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome,
                                 thr_err *err)
 {
@@ -691,7 +796,8 @@ double thr_lp_objective(const thr_lp *lp)
   return lp->integer ? glp_mip_obj_val(lp->problem) : glp_get_obj_val(lp->problem);
 }
 
-/* Multiplier of row i, 0 if the row's bound would not carry it; *bound: the bound that it does. */
+/* Returns the multiplier of row i, or 0 if the row has no bound on its side. *bound: the row's
+ * lower bound. */
 static double carried(glp_prob *p, int i, double *bound)
 {
   double dual = glp_get_row_dual(p, i);
@@ -702,28 +808,39 @@ static double carried(glp_prob *p, int i, double *bound)
 
 thr_status thr_lp_proved(const thr_lp *lp, double most, double *bound, thr_err *err)
 {
-  glp_prob *p = lp->problem;
-  int n = glp_get_num_cols(p), *index = thr_calloc((size_t)n + 1, sizeof *index);
+  glp_prob *problem = lp->problem;
+  int n = glp_get_num_cols(problem), *index = thr_calloc((size_t)n + 1, sizeof *index);
   double *value = thr_calloc((size_t)n + 1, sizeof *value),
          *reduced = thr_calloc((size_t)n + 1, sizeof *reduced), sum = 0;
+
   thr_status st = index && value && reduced ? THR_OK : thr_nomem(err);
+
+  /* Costs less what the rows' multipliers subtract. */
   for (int j = 1; j <= n && !st; j++)
-    reduced[j] = glp_get_obj_coef(p, j);
-  for (int i = 1; i <= glp_get_num_rows(p) && !st; i++) {
-    double lower, dual = carried(p, i, &lower);
-    int entries = dual != 0 ? glp_get_mat_row(p, i, index, value) : 0;
+    reduced[j] = glp_get_obj_coef(problem, j);
+
+  for (int i = 1; i <= glp_get_num_rows(problem) && !st; i++) {
+    double lower, dual = carried(problem, i, &lower);
+    int entries = dual != 0 ? glp_get_mat_row(problem, i, index, value) : 0;
+
     if (dual != 0) sum += dual * lower;
     for (int k = 1; k <= entries; k++)
       reduced[index[k]] -= dual * value[k];
   }
+
+  /* Every column at the end of its range that costs least. */
   for (int j = 1; j <= n && !st; j++) {
-    int kind = glp_get_col_type(p, j); /* columns: lower bounds, some with upper ones or fixed */
+    int kind =
+        glp_get_col_type(problem, j); /* columns: lower bounds, some with upper ones or fixed */
     double upper = kind == GLP_LO   ? most
-                   : kind == GLP_FX ? glp_get_col_lb(p, j)
-                                    : glp_get_col_ub(p, j);
-    sum += reduced[j] * (reduced[j] > 0 ? glp_get_col_lb(p, j) : upper);
+                   : kind == GLP_FX ? glp_get_col_lb(problem, j)
+                                    : glp_get_col_ub(problem, j);
+
+    sum += reduced[j] * (reduced[j] > 0 ? glp_get_col_lb(problem, j) : upper);
   }
+
   if (!st) *bound = sum;
+
   free(index);
   free(value);
   free(reduced);

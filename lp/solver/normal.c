@@ -1,18 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Normal equations (A W A^T) y = r of a sparse matrix A and a positive W, diagonal but for blocks
- * of three: what an interior point method solves at every step. Sparse Cholesky factors in an order
- * found once (lp/solver/factor_order.c).
+/* Solves normal equations (A W A^T) y = r of a sparse matrix A and a positive W, diagonal but for
+ * blocks of three: what an interior point method needs at every step.
  *
- * A W A^T = L L^T; L y' = r, then L^T y = y'. The factors are the program's own and not CHOLMOD's:
- * the same digits on every machine and in a browser, dense work that does not wait for a fast BLAS,
- * and rows that depend on others are left out. They are those of A W A^T with a little more on the
- * diagonal.
+ * A W A^T = L L^T by sparse Cholesky factors in an order found once (lp/solver/factor_order.c);
+ * then L y' = r and L^T y = y'. The factors are supernodal and left-looking: a block of columns
+ * with the same rows below subtracts what earlier blocks bring when its turn comes, and all work is
+ * dense.
  *
- * Example: A = (1 1), W = diag(2, 3), r = 10: 5 y = 10, y = 2.
+ * The factors are the program's own and not CHOLMOD's: the same digits on every machine and in a
+ * browser, dense work that does not wait for a fast BLAS, and rows that depend on others are left
+ * out. They are those of A W A^T with a little more on the diagonal.
  *
- * Factors by blocks of columns with the same rows below them: dense work, which a processor does
- * fastest (supernodal, looking left: a block takes off what the blocks before it bring, when its
- * turn comes). */
+ * Example: A = (1 1), W = diag(2, 3), r = 10: 5 y = 10, y = 2. */
 #include "graph/wide.h"
 #include "lp/solver/solver_parts.h"
 
@@ -20,10 +19,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Rows whose pivot is that small a part of what it was before others were taken off depend on
- * others, at the first weights: they are left out. At all weights the diagonal gets LEAST of itself
- * more: what is smaller is rounding, and would leave pivots of any sign. Callers improve the
- * solution. */
+/* A row whose pivot has shrunk below this part of its diagonal entry, at the first weights, depends
+ * on others and is left out. At all weights the diagonal gets LEAST of itself more: anything
+ * smaller is rounding, and would leave pivots of any sign. Callers improve the solution. */
 static const double DEPENDS = 1e-12, LEAST = 1e-15;
 
 enum { STRIP = THR_DENSE_MOST /* columns that are worked on together */ };
@@ -53,37 +51,46 @@ struct thr_normal {
 
 /* ---- making ---- */
 
-static int width(const thr_factor_order *o, int block)
+/* Returns the number of columns of a block. */
+static int width(const thr_factor_order *order, int block)
 {
-  return o->first[block + 1] - o->first[block];
+  return order->first[block + 1] - order->first[block];
 }
 
-/* Rows of a block: its own and those below. */
-static size_t height(const thr_factor_order *o, int block)
+/* Returns the number of rows of a block: its own and those below. */
+static size_t height(const thr_factor_order *order, int block)
 {
-  return (size_t)width(o, block) + (o->end[block + 1] - o->end[block]);
+  return (size_t)width(order, block) + (order->end[block + 1] - order->end[block]);
 }
 
-/* Where the entry of two places is in value, the later one's row in the earlier one's column. */
+/* Returns where the entry of two places is in value: the later place is the row, the earlier one
+ * the column. */
 static size_t entry_of(const thr_normal *normal, int one, int other)
 {
-  const thr_factor_order *o = &normal->order;
+  const thr_factor_order *order = &normal->order;
   const int early = one < other ? one : other, late = one < other ? other : one,
             block = normal->block_of[early];
-  size_t low = o->end[block], high = o->end[block + 1], row = (size_t)(late - o->first[block]);
-  if (late >= o->first[block + 1]) {
+
+  size_t low = order->end[block], high = order->end[block + 1],
+         row = (size_t)(late - order->first[block]);
+
+  /* A row below the block is found by halving. */
+  if (late >= order->first[block + 1]) {
     while (high - low > 1) {
       const size_t middle = low + (high - low) / 2;
-      if (o->below[middle] <= late)
+      if (order->below[middle] <= late)
         low = middle;
       else
         high = middle;
     }
-    row = (size_t)width(o, block) + (low - o->end[block]);
+    row = (size_t)width(order, block) + (low - order->end[block]);
   }
-  return normal->panel[block] + (size_t)(early - o->first[block]) * height(o, block) + row;
+
+  return normal->panel[block] + (size_t)(early - order->first[block]) * height(order, block) + row;
 }
 
+/* Fills `to` with the entry for each pair of rows of every bundle, in the order in which load adds
+ * them. */
 static void find_entries(thr_normal *normal)
 {
   const int *place = normal->order.place;
@@ -94,22 +101,28 @@ static void find_entries(thr_normal *normal)
         *to++ = entry_of(normal, place[normal->a.row[i]], place[normal->a.row[k]]);
 }
 
+/* Allocates the arrays for factors in this order. */
 static thr_status allocate(thr_normal *normal, thr_err *err)
 {
-  const thr_factor_order *o = &normal->order;
+  const thr_factor_order *order = &normal->order;
   const thr_bundles *a = &normal->a;
-  const size_t m = (size_t)o->n_rows, n = (size_t)o->n_blocks;
+  const size_t m = (size_t)order->n_rows, n = (size_t)order->n_blocks;
   size_t values = 0, most = 0, pairs = 0;
+
+  /* Panels, one after the other. */
   normal->panel = thr_scratch_array(&normal->own, n + 1, sizeof *normal->panel);
-  for (int b = 0; b < o->n_blocks && normal->panel; b++) {
-    values += height(o, b) * (size_t)width(o, b);
+  for (int b = 0; b < order->n_blocks && normal->panel; b++) {
+    values += height(order, b) * (size_t)width(order, b);
     normal->panel[b + 1] = values;
-    if (height(o, b) > most) most = height(o, b);
+    if (height(order, b) > most) most = height(order, b);
   }
+
+  /* Pairs of rows that share a bundle. */
   for (int g = 0; g < a->n_bundles; g++) {
     const size_t high = (size_t)(a->first[g + 1] - a->first[g]);
     pairs += high * (high + 1) / 2;
   }
+
   normal->to = thr_scratch_array(&normal->own, pairs, sizeof *normal->to);
   normal->weighed = thr_scratch_array(&normal->own, (size_t)a->most_rows * (size_t)a->most_wide,
                                       sizeof *normal->weighed);
@@ -125,6 +138,7 @@ static thr_status allocate(thr_normal *normal, thr_err *err)
   normal->where = thr_scratch_array(&normal->own, m, sizeof *normal->where);
   normal->work = thr_scratch_array(&normal->own, m, sizeof *normal->work);
   normal->block_of = thr_scratch_array(&normal->own, m, sizeof *normal->block_of);
+
   return thr_scratch_check(&normal->own, err);
 }
 
@@ -134,6 +148,7 @@ thr_status thr_normal_create(thr_normal **normal, const thr_columns *a, int n_th
   thr_normal *made = thr_calloc(1, sizeof *made);
   if (!made) return thr_nomem(err);
   made->n_threes = n_threes;
+
   thr_status st = thr_factor_order_make(&made->order, a, err);
   if (!st) st = thr_bundles_make(&made->a, a, 3 * n_threes, err);
   if (!st) st = allocate(made, err);
@@ -141,10 +156,13 @@ thr_status thr_normal_create(thr_normal **normal, const thr_columns *a, int n_th
     thr_normal_destroy(made);
     return st;
   }
+
+  /* Everything that does not depend on the weights is found here. */
   for (int b = 0; b < made->order.n_blocks; b++)
     for (int i = made->order.first[b]; i < made->order.first[b + 1]; i++)
       made->block_of[i] = b;
   find_entries(made);
+
   *normal = made;
   return THR_OK;
 }
@@ -170,7 +188,7 @@ const thr_bundles *thr_normal_bundles(const thr_normal *normal)
 
 /* ---- A W A^T ---- */
 
-/* A W of a bundle whose columns are weighed three by three, n rows each. */
+/* Computes A W of a bundle of `wide` columns with n rows each, weighed three by three. */
 THR_INLINE void weigh_threes(double *restrict to, const double *restrict from,
                              const double *restrict w, int wide, int n)
 {
@@ -183,6 +201,7 @@ THR_INLINE void weigh_threes(double *restrict to, const double *restrict from,
     }
 }
 
+/* Computes A W of a bundle whose columns are weighed one by one. */
 THR_INLINE void weigh_each(double *restrict to, const double *restrict from,
                            const double *restrict w, int wide, int n)
 {
@@ -202,16 +221,19 @@ THR_INLINE void mix(double *restrict sum, const double *restrict weighed,
       sum[i] += weighed[k * n + i] * factor[k * n];
 }
 
-/* Adds the bundle's A W A^T, from each row on. */
+/* Adds the bundle's A W A^T to the factors, from each row on: it is symmetric. */
 THR_INLINE void add_bundle(thr_normal *normal, int g, const double *w, bool threes, int wide, int n,
                            const size_t **to)
 {
   const double *from = normal->a.value + normal->a.at[g];
   double *value = normal->value, *sum = normal->sum;
+
   if (threes)
     weigh_threes(normal->weighed, from, w, wide, n);
   else
     weigh_each(normal->weighed, from, w, wide, n);
+
+  /* Row i of A W A^T; `to` says where its entries go. */
   for (int i = 0; i < n; i++) {
     mix(sum, normal->weighed, from + i, wide, n);
     for (int k = i; k < n; k++)
@@ -223,41 +245,52 @@ enum {
   USUAL = 12 /* rows and columns of a face between two beads: loops of that length are unrolled */
 };
 
-/* A W A^T, and its diagonal. */
+/* Computes A W A^T in place of the factors, and keeps its diagonal. */
 THR_WIDE static void load(thr_normal *normal, const double *weights)
 {
-  const thr_factor_order *o = &normal->order;
+  const thr_factor_order *order = &normal->order;
   const size_t *to = normal->to;
-  memset(normal->value, 0, normal->panel[o->n_blocks] * sizeof *normal->value);
+
+  memset(normal->value, 0, normal->panel[order->n_blocks] * sizeof *normal->value);
   for (int g = 0; g < normal->a.n_bundles; g++) {
     const int j = normal->a.column[g], wide = normal->a.column[g + 1] - j,
               n = normal->a.first[g + 1] - normal->a.first[g];
+
+    /* Weights of three columns are six numbers. */
     const bool threes = j < 3 * normal->n_threes;
     const double *w = weights + (threes ? 2 * j : j + 3 * normal->n_threes);
+
+    /* The usual size gets loops of constant length. */
     if (threes && wide == USUAL && n == USUAL)
       add_bundle(normal, g, w, true, USUAL, USUAL, &to);
     else
       add_bundle(normal, g, w, threes, wide, n, &to);
   }
-  for (int b = 0; b < o->n_blocks; b++)
-    for (int i = 0; i < width(o, b); i++) {
-      double *pivot = normal->value + normal->panel[b] + (size_t)i * (height(o, b) + 1);
-      normal->whole[o->first[b] + i] = *pivot;
+
+  /* Diagonal entries, a little larger. */
+  for (int b = 0; b < order->n_blocks; b++)
+    for (int i = 0; i < width(order, b); i++) {
+      double *pivot = normal->value + normal->panel[b] + (size_t)i * (height(order, b) + 1);
+      normal->whole[order->first[b] + i] = *pivot;
       *pivot += LEAST * *pivot;
     }
 }
 
 /* ---- factors ---- */
 
-/* The block's own columns: Cholesky, and the rows below by it. */
+/* Factors the block's own columns: Cholesky, applied to the rows below, too. */
 THR_WIDE static void factor_panel(thr_normal *normal, int block)
 {
   const int n = width(&normal->order, block), first = normal->order.first[block];
   const size_t rows = height(&normal->order, block);
   double *panel = normal->value + normal->panel[block];
+
+  /* STRIP columns at a time. */
   for (int begin = 0; begin < n; begin += STRIP) {
     const int end = begin + STRIP < n ? begin + STRIP : n;
     const size_t left = rows - (size_t)begin;
+
+    /* What the block's columns before the strip bring to it. */
     if (begin > 0)
       thr_dense_product(normal->update, panel + begin, panel + begin, rows, begin, left,
                         end - begin);
@@ -265,16 +298,22 @@ THR_WIDE static void factor_panel(thr_normal *normal, int block)
       double *column = panel + (size_t)j * rows, pivot, whole = normal->whole[first + j],
              factor[STRIP];
       const double *brought = normal->update + (size_t)(j - begin) * left;
+
       for (size_t i = (size_t)j; i < rows && begin > 0; i++)
         column[i] -= brought[i - (size_t)begin];
+
+      /* What the columns of the strip before j bring. */
       for (int k = begin; k < j; k++)
         factor[k - begin] = panel[(size_t)k * rows + (size_t)j];
       if (j > begin)
         thr_dense_take(column + j, panel + (size_t)begin * rows + j, rows, factor, j - begin,
                        rows - (size_t)j);
+
+      /* The first factors decide which rows depend on others; their pivots stay 0. */
       if (!normal->known) normal->depends[first + j] = !(column[j] > DEPENDS * whole);
       pivot = normal->depends[first + j] ? 0 : sqrt(fmax(column[j], LEAST * whole));
       column[j] = pivot;
+
       const double inverse = pivot > 0 ? 1 / pivot : 0;
       for (size_t i = (size_t)j + 1; i < rows; i++)
         column[i] *= inverse;
@@ -282,80 +321,100 @@ THR_WIDE static void factor_panel(thr_normal *normal, int block)
   }
 }
 
-/* The block waits for the one that its next row belongs to. */
+/* Puts the block into the list of the block that its next row belongs to. */
 static void enlist(thr_normal *normal, int block)
 {
   if (normal->at[block] == normal->order.end[block + 1]) return;
+
   const int to = normal->block_of[normal->order.below[normal->at[block]]];
   normal->next[block] = normal->head[to];
   normal->head[to] = block;
 }
 
-/* Takes off what the block `from` brings to `to`, and moves on to its next rows. */
+/* Subtracts from block `to` what block `from` brings, and moves on to the next rows of `from`. */
 THR_WIDE static void bring(thr_normal *normal, int from, int to)
 {
-  const thr_factor_order *o = &normal->order;
-  const size_t rows = height(o, from), rows_to = height(o, to), begin = normal->at[from],
-               end = o->end[from + 1];
-  const size_t above = (size_t)width(o, from) + (begin - o->end[from]);
+  const thr_factor_order *order = &normal->order;
+  const size_t rows = height(order, from), rows_to = height(order, to), begin = normal->at[from],
+               end = order->end[from + 1];
+  const size_t above = (size_t)width(order, from) + (begin - order->end[from]);
   const double *panel = normal->value + normal->panel[from] + above;
-  const int *below = o->below + begin;
+  const int *below = order->below + begin;
+
+  /* The rows of `from` that are columns of `to` .. */
   size_t columns = 0;
-  while (begin + columns < end && below[columns] < o->first[to + 1])
+  while (begin + columns < end && below[columns] < order->first[to + 1])
     columns++;
+
+  /* .. and where its rows are in the panel of `to`. */
   int *at = normal->rows;
   for (size_t i = 0; i < end - begin; i++)
     at[i] = normal->where[below[i]];
-  for (size_t c = 0; c < columns; c += STRIP) {
-    const size_t n = end - begin - c;
-    const int strip = columns - c < STRIP ? (int)(columns - c) : STRIP;
-    thr_dense_product(normal->update, panel + c, panel + c, rows, width(o, from), n, strip);
+
+  /* Dense products, STRIP columns at a time, scattered to these rows. */
+  for (size_t first = 0; first < columns; first += STRIP) {
+    const size_t n = end - begin - first;
+    const int strip = columns - first < STRIP ? (int)(columns - first) : STRIP;
+    thr_dense_product(normal->update, panel + first, panel + first, rows, width(order, from), n,
+                      strip);
+
     for (int q = 0; q < strip; q++) {
       const double *brought = normal->update + (size_t)q * n;
       double *column = normal->value + normal->panel[to] +
-                       (size_t)(below[c + (size_t)q] - o->first[to]) * rows_to;
+                       (size_t)(below[first + (size_t)q] - order->first[to]) * rows_to;
       for (size_t i = (size_t)q; i < n; i++)
-        column[at[c + i]] -= brought[i];
+        column[at[first + i]] -= brought[i];
     }
   }
+
   normal->at[from] = begin + columns;
 }
 
 void thr_normal_factor(thr_normal *normal, const double *weights)
 {
-  const thr_factor_order *o = &normal->order;
+  const thr_factor_order *order = &normal->order;
+
   load(normal, weights);
-  for (int b = 0; b < o->n_blocks; b++)
+  for (int b = 0; b < order->n_blocks; b++)
     normal->head[b] = -1;
-  for (int b = 0; b < o->n_blocks; b++) {
-    for (int i = o->first[b]; i < o->first[b + 1]; i++)
-      normal->where[i] = i - o->first[b];
-    for (size_t i = o->end[b]; i < o->end[b + 1]; i++)
-      normal->where[o->below[i]] = width(o, b) + (int)(i - o->end[b]);
+
+  /* Block by block from the left. */
+  for (int b = 0; b < order->n_blocks; b++) {
+    for (int i = order->first[b]; i < order->first[b + 1]; i++)
+      normal->where[i] = i - order->first[b];
+    for (size_t i = order->end[b]; i < order->end[b + 1]; i++)
+      normal->where[order->below[i]] = width(order, b) + (int)(i - order->end[b]);
+
+    /* Earlier blocks whose next rows are columns of this one. */
     for (int from = normal->head[b], after; from >= 0; from = after) {
       after = normal->next[from];
       bring(normal, from, b);
       enlist(normal, from);
     }
+
     factor_panel(normal, b);
-    normal->at[b] = o->end[b];
+    normal->at[b] = order->end[b];
     enlist(normal, b);
   }
+
   normal->known = true;
 }
 
-/* w becomes L^-1 w, block by block. */
+/* Replaces w by L^-1 w, block by block. */
 THR_WIDE static void solve_down(const thr_normal *normal, double *w)
 {
-  const thr_factor_order *o = &normal->order;
+  const thr_factor_order *order = &normal->order;
   double *part = normal->update;
-  for (int b = 0; b < o->n_blocks; b++) {
-    const int n = width(o, b), *below = o->below + o->end[b];
-    const size_t rows = height(o, b), left = rows - (size_t)n;
+  for (int b = 0; b < order->n_blocks; b++) {
+    const int n = width(order, b), *below = order->below + order->end[b];
+    const size_t rows = height(order, b), left = rows - (size_t)n;
     const double *panel = normal->value + normal->panel[b];
-    double *own = w + o->first[b];
+    double *own = w + order->first[b];
+
     memcpy(part, own, (size_t)n * sizeof *part);
     memset(part + n, 0, left * sizeof *part);
+
+    /* Forward substitution in the block; `part` gathers what its columns subtract below. */
     for (int begin = 0; begin < n; begin += STRIP) {
       const int end = begin + STRIP < n ? begin + STRIP : n;
       for (int j = begin; j < end; j++) {
@@ -364,32 +423,39 @@ THR_WIDE static void solve_down(const thr_normal *normal, double *w)
         for (int i = j + 1; i < end; i++)
           part[i] -= column[i] * part[j];
       }
+
       thr_dense_take(part + end, panel + (size_t)begin * rows + end, rows, part + begin,
                      end - begin, rows - (size_t)end);
     }
+
     memcpy(own, part, (size_t)n * sizeof *part);
     for (size_t i = 0; i < left; i++)
       w[below[i]] += part[(size_t)n + i];
   }
 }
 
-/* w becomes L^-T w. */
+/* Replaces w by L^-T w, from the last block to the first. */
 THR_WIDE static void solve_up(const thr_normal *normal, double *w)
 {
-  const thr_factor_order *o = &normal->order;
+  const thr_factor_order *order = &normal->order;
   double *part = normal->update, sum[STRIP];
-  for (int b = o->n_blocks - 1; b >= 0; b--) {
-    const int n = width(o, b), *below = o->below + o->end[b];
-    const size_t rows = height(o, b), left = rows - (size_t)n;
+  for (int b = order->n_blocks - 1; b >= 0; b--) {
+    const int n = width(order, b), *below = order->below + order->end[b];
+    const size_t rows = height(order, b), left = rows - (size_t)n;
     const double *panel = normal->value + normal->panel[b];
-    double *own = w + o->first[b];
+    double *own = w + order->first[b];
+
+    /* Values of the block, and of the rows below it, which are known. */
     memcpy(part, own, (size_t)n * sizeof *part);
     for (size_t i = 0; i < left; i++)
       part[(size_t)n + i] = w[below[i]];
+
+    /* Backward substitution, strip by strip. */
     for (int end = n; end > 0; end = (end - 1) / STRIP * STRIP) {
       const int begin = (end - 1) / STRIP * STRIP;
       thr_dense_sums(sum, panel + (size_t)begin * rows + end, rows, part + end, end - begin,
                      rows - (size_t)end);
+
       for (int j = end - 1; j >= begin; j--) {
         const double *column = panel + (size_t)j * rows;
         double all = part[j] - sum[j - begin];
@@ -398,6 +464,7 @@ THR_WIDE static void solve_up(const thr_normal *normal, double *w)
         part[j] = column[j] > 0 ? all / column[j] : 0;
       }
     }
+
     memcpy(own, part, (size_t)n * sizeof *part);
   }
 }
@@ -407,8 +474,11 @@ void thr_normal_solve(thr_normal *normal, const double *r, double *y)
   const int m = normal->order.n_rows, *place = normal->order.place;
   for (int i = 0; i < m; i++)
     normal->work[place[i]] = r[i];
+
+  /* In the order of the factors. */
   solve_down(normal, normal->work);
   solve_up(normal, normal->work);
+
   for (int i = 0; i < m; i++)
     y[i] = normal->work[place[i]];
 }

@@ -1,7 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Linear and cone programmes beside GLPK: the interior point method and its normal equations,
- * column generation in bundles, rays.
- */
+/* Linear and cone programmes: GLPK behind a neutral interface, and interior point methods of our
+ * own for large ones (limit analysis of structures, columns of walks), where simplex is too slow.
+ *
+ * An interior point method solves one set of normal equations (A W A^T) y = r at every step. They
+ * are factored by blocks of columns with the same rows, so that all work is dense.
+ *
+ * Reading order: lp.h and lp_glpk.c (simplex); then interior.c (linear programmes) and cones.c
+ * (second-order cones), which are methods alone; below them normal.c (the factors), factor_order.c
+ * (their order and pattern), bundles.c, dense.c and rays.c (products). */
 #ifndef THR_SOLVER_H
 #define THR_SOLVER_H
 
@@ -31,11 +37,11 @@ typedef struct {
   thr_scratch own;
 } thr_bundles;
 
-/* n_alone: no bundle goes past this many of the first columns. The columns are not needed any more
- * then. */
+/* Bundles the columns of a. No bundle goes past the first n_alone columns. a is not needed any more
+ * after that. */
 thr_status thr_bundles_make(thr_bundles *b, const thr_columns *a, int n_alone,
                             thr_err *err) THR_MUST_CHECK;
-/* Other values in the same places. */
+/* Takes over other values in the same places. */
 void thr_bundles_refill(thr_bundles *b, const thr_columns *a);
 void thr_bundles_destroy(thr_bundles *b);
 
@@ -47,13 +53,14 @@ void thr_bundles_transposed(const thr_bundles *b, const double *y, double *x); /
 
 typedef struct thr_normal thr_normal;
 
-/* Finds the order and makes room for the factors. The first 3 * n_threes columns are weighed three
- * by three. A is borrowed until thr_normal_destroy (NULL ok). */
+/* Finds the order of the factors and allocates them. The first 3 * n_threes columns are weighed
+ * three by three. A is borrowed until thr_normal_destroy (NULL ok). */
 thr_status thr_normal_create(thr_normal **normal, const thr_columns *a, int n_threes,
                              thr_err *err) THR_MUST_CHECK;
 void thr_normal_destroy(thr_normal *normal);
 
-/* Other values in the same places of A. Rows that depended on others are still taken to. */
+/* Takes over other values in the same places of A. Rows that depended on others still count as
+ * dependent. */
 void thr_normal_refill(thr_normal *normal, const thr_columns *a);
 
 /* Factors for positive weights: six numbers for each three columns (xx xy xz yy yz zz), one for
@@ -69,7 +76,7 @@ const thr_bundles *thr_normal_bundles(const thr_normal *normal);
 
 /* ---- interior.c: Large sparse linear programmes by a primal-dual interior point method: predictor
  * and corrector (S. Mehrotra, SIAM J. Optimization 2, 1992), further correctors (J. Gondzio, Comp.
- */
+ * Optimization and Applications 6, 1996). */
 
 /* A point on the way to an optimum, from which a programme of the same size that differs little
  * starts. 0 at first. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the files of lp/solver/ share: dense and sparse factors, exact sums. */
+/* What the files of lp/solver/ share: dense products, the order of the factors, plain sums. */
 #ifndef THR_SOLVER_PARTS_H
 #define THR_SOLVER_PARTS_H
 
@@ -27,7 +27,7 @@ void thr_dense_sums(double *sum, const double *from, size_t apart, const double 
 
 /* ---- factor_order.c: Order and pattern of the factors of A A^T, by blocks: consecutive columns of
  * the factor with the same rows below them (supernodes: J. W. H. Liu, E. G. Ng & B. W. Peyton, SIAM
- * J. Matrix Anal. */
+ * J. Matrix Anal. Appl. 14, 1993). */
 
 typedef struct {
   int n_rows, n_blocks;
@@ -38,14 +38,15 @@ typedef struct {
   thr_scratch own;
 } thr_factor_order;
 
-/* O(sum of squares of the factor's columns, by groups of rows). */
+/* Finds the order of the factors of A A^T. O(sum of squares of the factor's columns, by groups of
+ * rows). On failure nothing is allocated. */
 thr_status thr_factor_order_make(thr_factor_order *order, const thr_columns *a,
                                  thr_err *err) THR_MUST_CHECK;
 void thr_factor_order_destroy(thr_factor_order *order);
 
-/* ---- What the interior point methods add up. */
+/* ---- Sums of the interior point methods. */
 
-/* Largest magnitude of a[n]; 0 for n = 0. */
+/* Returns the largest magnitude of a[n]; 0 for n = 0. */
 static inline double thr_sums_largest(const double *a, int n)
 {
   double most = 0;
@@ -54,7 +55,7 @@ static inline double thr_sums_largest(const double *a, int n)
   return most;
 }
 
-/* a[n] . b[n] */
+/* Returns the scalar product of a[n] and b[n]. */
 static inline double thr_sums_product(const double *a, const double *b, int n)
 {
   double sum = 0;
