@@ -116,24 +116,26 @@ static thr_status check_crossings(const thr_plan *plan, thr_err *err)
 static thr_status check_metrics(const thr_plan *plan, const int *passes, thr_err *err)
 {
   thr_metrics metrics = recompute(plan, passes);
-  const thr_metrics *s = &plan->metrics;
+  const thr_metrics *stated = &plan->metrics;
   thr_status st;
 
   /* Length and passes. */
-  if ((st = metric("length", s->length, metrics.length, metrics.length, err))) return st;
-  if ((st = metric("base_length", s->base_length, metrics.base_length, metrics.length, err)))
+  if ((st = metric("length", stated->length, metrics.length, metrics.length, err))) return st;
+  if ((st = metric("base_length", stated->base_length, metrics.base_length, metrics.length, err)))
     return st;
-  if ((st = metric("overlap", s->overlap, metrics.overlap, metrics.length, err))) return st;
-  if ((st = metric("passes", s->passes, metrics.passes, 0, err))) return st;
-  if ((st = metric("most_passes", s->most_passes, metrics.most_passes, 0, err))) return st;
+  if ((st = metric("overlap", stated->overlap, metrics.overlap, metrics.length, err))) return st;
+  if ((st = metric("passes", stated->passes, metrics.passes, 0, err))) return st;
+  if ((st = metric("most_passes", stated->most_passes, metrics.most_passes, 0, err))) return st;
 
   /* Turning. */
-  if ((st = metric("turning", s->turning, metrics.turning, 1 + metrics.turning, err))) return st;
-  if ((st = metric("max_turning", s->max_turning, metrics.max_turning, 1 + metrics.turning, err)))
+  if ((st = metric("turning", stated->turning, metrics.turning, 1 + metrics.turning, err)))
     return st;
-  if ((st = metric("worst_turn", s->worst_turn, metrics.worst_turn, 1 + metrics.turning, err)))
+  if ((st = metric("max_turning", stated->max_turning, metrics.max_turning, 1 + metrics.turning,
+                   err)))
     return st;
-  if ((st = metric("u_turns", s->u_turns, metrics.u_turns, 0, err))) return st;
+  if ((st = metric("worst_turn", stated->worst_turn, metrics.worst_turn, 1 + metrics.turning, err)))
+    return st;
+  if ((st = metric("u_turns", stated->u_turns, metrics.u_turns, 0, err))) return st;
 
   return check_crossings(plan, err);
 }

@@ -131,7 +131,7 @@ static thr_status forest_fill(forest *cuts, const workspace *work, thr_err *err)
     if (st) return st;
 
     /* Parity of the odd nodes in the set: its own nodes here, those of its children before. */
-    int p = certificate->cut[i].parent;
+    int parent = certificate->cut[i].parent;
     for (int j = 0; j < certificate->cut[i].n_nodes; j++)
       cuts->odd[i] ^= work->odd[certificate->cut[i].node[j]];
     if (!cuts->odd[i])
@@ -141,17 +141,18 @@ static thr_status forest_fill(forest *cuts, const workspace *work, thr_err *err)
 
     /* The parent holds all that its child holds. */
     cuts->size[i]++;
-    if (p < 0) continue;
-    cuts->odd[p] ^= true;
-    cuts->size[p] += cuts->size[i];
-    if (cuts->heavy[p] < 0 || cuts->size[i] > cuts->size[cuts->heavy[p]]) cuts->heavy[p] = i;
+    if (parent < 0) continue;
+    cuts->odd[parent] ^= true;
+    cuts->size[parent] += cuts->size[i];
+    if (cuts->heavy[parent] < 0 || cuts->size[i] > cuts->size[cuts->heavy[parent]])
+      cuts->heavy[parent] = i;
   }
 
   /* Downwards: a heavy child continues the path of its parent. */
   for (int i = certificate->n_cuts - 1; i >= 0; i--) {
-    int p = certificate->cut[i].parent, root = p < 0 ? i : cuts->root[p];
-    cuts->depth[i] = certificate->cut[i].value + (p < 0 ? 0 : cuts->depth[p]);
-    cuts->head[i] = p >= 0 && cuts->heavy[p] == i ? cuts->head[p] : i;
+    int parent = certificate->cut[i].parent, root = parent < 0 ? i : cuts->root[parent];
+    cuts->depth[i] = certificate->cut[i].value + (parent < 0 ? 0 : cuts->depth[parent]);
+    cuts->head[i] = parent >= 0 && cuts->heavy[parent] == i ? cuts->head[parent] : i;
     cuts->root[i] = root;
     cuts->next[i] = cuts->first[root];
     cuts->first[root] = i;
@@ -270,17 +271,17 @@ static thr_status apply_prices(workspace *work, const thr_certificate *certifica
   for (int j = work->edge_start[certificate->component];
        j < work->edge_start[certificate->component + 1]; j++) {
     const int *end = frame->edge[work->edge[j]];
-    thr_priced p = priced(work, certificate, j);
+    thr_priced cost = priced(work, certificate, j);
 
     /* An edge whose passes cost less than their places would be passed without end. */
-    if (p.room && p.endless)
+    if (cost.room && cost.endless)
       return thr_fail(
           err, THR_EVIOLATED,
           "certificate of component %d: place prices make edge %d cheaper the more it is passed",
           certificate->component, work->edge[j]);
 
-    bool odd = p.room && p.odd < p.even;
-    *places += (odd ? p.odd : p.even) - p.held;
+    bool odd = cost.room && cost.odd < cost.even;
+    *places += (odd ? cost.odd : cost.even) - cost.held;
     work->odd[end[0]] ^= odd;
     work->odd[end[1]] ^= odd;
   }
@@ -300,8 +301,8 @@ static thr_status check_loads(const workspace *work, const thr_certificate *cert
 
     /* The sets round exactly one end. */
     if (load <= 0) continue; /* bears any price */
-    thr_priced p = priced(work, certificate, j);
-    if (p.room && load > (p.odd > p.even ? p.odd - p.even : p.even - p.odd))
+    thr_priced cost = priced(work, certificate, j);
+    if (cost.room && load > (cost.odd > cost.even ? cost.odd - cost.even : cost.even - cost.odd))
       return thr_fail(
           err, THR_EVIOLATED,
           "certificate of component %d: the cuts over edge %d add up to more than its weight",
@@ -350,11 +351,11 @@ double thr_check_extra(const thr_certificate *certificate, const thr_check_verdi
 static int most_extra(const workspace *work, const thr_certificate *certificate, int e)
 {
   int cover = thr_plan_cover(work->frame, work->request, e),
-      room = thr_plan_capacity(work->frame, work->request, e) - cover;
+      capacity = thr_plan_capacity(work->frame, work->request, e) - cover;
   int most = certificate->n_prices > 0 && 2 * work->cords[certificate->component] - cover > 1
                  ? 2 * work->cords[certificate->component] - cover
                  : 1;
-  return most < room ? most : room;
+  return most < capacity ? most : capacity;
 }
 
 /* As fmax(0, x), in one instruction instead of a call. */

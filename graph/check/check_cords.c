@@ -189,7 +189,7 @@ typedef struct {
   double base, length; /* of the passes that its edges need, and of all, in units */
   int least, most;     /* cords that it may have */
   int cords;           /* that it has */
-} part;
+} component_cords;
 
 void thr_check_most_cords(const thr_frame *frame, const thr_request *options,
                           const thr_check_walked *check_walked, int *cords)
@@ -209,16 +209,17 @@ void thr_check_most_cords(const thr_frame *frame, const thr_request *options,
 /* Computes lengths and numbers of cords of every component: (*parts)[n_components], the caller's to
  * free. */
 static thr_status parts_of(const thr_frame *frame, const thr_request *options,
-                           const thr_check_walked *check_walked, part **parts, thr_err *err)
+                           const thr_check_walked *check_walked, component_cords **parts,
+                           thr_err *err)
 {
-  part *part_of = thr_calloc((size_t)check_walked->n_components, sizeof *part_of);
+  component_cords *part_of = thr_calloc((size_t)check_walked->n_components, sizeof *part_of);
   if (!(*parts = part_of)) return thr_nomem(err);
 
   /* Lengths. */
   for (int e = 0; e < frame->n_edges; e++) {
-    part *p = &part_of[check_walked->component[frame->edge[e][0]]];
-    p->base += frame->length[e] * thr_plan_cover(frame, options, e);
-    p->length += frame->length[e] * check_walked->passes[e];
+    component_cords *part = &part_of[check_walked->component[frame->edge[e][0]]];
+    part->base += frame->length[e] * thr_plan_cover(frame, options, e);
+    part->length += frame->length[e] * check_walked->passes[e];
   }
 
   /* Numbers of cords. */
@@ -239,19 +240,19 @@ static thr_status parts_of(const thr_frame *frame, const thr_request *options,
 }
 
 /* Returns a lower bound on the length of so many cords through the component. */
-static double least_length(const thr_request *options, const part *p, int cords,
+static double least_length(const thr_request *options, const component_cords *part, int cords,
                            const thr_certificate *certificate,
                            const thr_check_verdict *check_verdict)
 {
   /* Without a certificate only the passes that edges need count. */
-  if (!check_verdict) return p->base;
+  if (!check_verdict) return part->base;
 
-  double own = check_verdict->optimal ? p->length : p->base + check_verdict->extra;
+  double own = check_verdict->optimal ? part->length : part->base + check_verdict->extra;
   if (!thr_check_ends_free(options)) return own;
 
   /* More ends lower the bound: each of them saves the end price. */
-  double length = p->base + thr_check_extra(certificate, check_verdict, 2 * (int64_t)cords);
-  return thr_plan_fewest_first(options) && cords > p->cords ? length : fmax(own, length);
+  double length = part->base + thr_check_extra(certificate, check_verdict, 2 * (int64_t)cords);
+  return thr_plan_fewest_first(options) && cords > part->cords ? length : fmax(own, length);
 }
 
 /* Returns whether so many cords of the greatest length are shorter than `length` together. */
@@ -278,22 +279,22 @@ static thr_status longest_of(const thr_few_edges *few, int each, int cords, doub
 
 /* Raises *least, cords of a component, as long as the certificate or a table over all sets of few
  * edges excludes that number. */
-static thr_status rule_out_part(const thr_request *options, const part *p, int each,
-                                const thr_certificate *certificate,
-                                const thr_check_verdict *check_verdict, const thr_few_edges *few,
-                                int *least, thr_err *err)
+static thr_status exclude_in_component(const thr_request *options, const component_cords *part,
+                                       int each, const thr_certificate *certificate,
+                                       const thr_check_verdict *check_verdict,
+                                       const thr_few_edges *few, int *least, thr_err *err)
 {
   thr_status st = THR_OK;
-  bool ruled_out = options->max_length > 0;
-  while (!st && ruled_out && *least < p->most) {
+  bool excluded = options->max_length > 0;
+  while (!st && excluded && *least < part->most) {
     /* By the least length first, as tables take longer. */
     double longest = 0;
-    ruled_out =
-        too_long(least_length(options, p, *least, certificate, check_verdict), *least, options);
-    if (!ruled_out) st = longest_of(few, each, *least, options->max_length, &longest, err);
+    excluded =
+        too_long(least_length(options, part, *least, certificate, check_verdict), *least, options);
+    if (!excluded) st = longest_of(few, each, *least, options->max_length, &longest, err);
 
-    ruled_out |= !st && longest > options->max_length * (1 + 2e-9);
-    if (ruled_out) ++*least;
+    excluded |= !st && longest > options->max_length * (1 + 2e-9);
+    if (excluded) ++*least;
   }
   return st;
 }
@@ -301,32 +302,34 @@ static thr_status rule_out_part(const thr_request *options, const part *p, int e
 /* Adds the fewest cords of component `number` to found, and raises *bound, on the longest cord.
  * each: so many different cords over every edge; sets: of edges that may still be looked at. */
 static thr_status judge_part(const thr_frame *frame, const thr_request *options,
-                             const int *component, int number, const part *p, int each,
-                             const thr_certificate *certificate, const thr_check_verdict *verdict,
-                             int *sets, double *bound, thr_cords_claim *found, thr_err *err)
+                             const int *component, int number, const component_cords *part,
+                             int each, const thr_certificate *certificate,
+                             const thr_check_verdict *verdict, int *sets, double *bound,
+                             thr_cords_claim *found, thr_err *err)
 {
   const double limit = fmax(found->longest, options->max_length) * (1 + 1e-6);
   thr_few_edges few = {0};
   double longest = 0, by_ways = 0;
-  int least = p->least;
+  int least = part->least;
   thr_status st = THR_OK;
 
   /* One cord needs no table. */
-  if (p->most > 1)
+  if (part->most > 1)
     st = thr_few_edges_init(&few, frame, options, component, number, false, limit, *sets, err);
   if (few.n > 0) *sets -= 1 << few.n;
 
   /* Bounds from the tables. */
-  if (!st) st = longest_of(&few, each, p->most, found->longest, &longest, err);
-  if (!st) st = rule_out_part(options, p, each, certificate, verdict, &few, &least, err);
+  if (!st) st = longest_of(&few, each, part->most, found->longest, &longest, err);
+  if (!st) st = exclude_in_component(options, part, each, certificate, verdict, &few, &least, err);
   thr_few_edges_destroy(&few);
 
   /* Cuts round the nodes where cords may end, and the mean of the least length. */
   if (!st && verdict)
-    st = thr_ways_in(frame, options, component, number, p->most, certificate, &by_ways, err);
+    st = thr_ways_in(frame, options, component, number, part->most, certificate, &by_ways, err);
   *bound = fmax(*bound, by_ways);
-  *bound = fmax(*bound,
-                fmax(longest, least_length(options, p, p->most, certificate, verdict) / p->most));
+  *bound =
+      fmax(*bound, fmax(longest, least_length(options, part, part->most, certificate, verdict) /
+                                     part->most));
 
   found->fewest += least;
   return st;
@@ -337,12 +340,12 @@ thr_status thr_check_least_of(const thr_frame *frame, const thr_request *options
                               const thr_certificate *certificate, const thr_check_verdict *verdict,
                               int component, double *least, thr_err *err)
 {
-  part *parts;
+  component_cords *parts;
   thr_status st = parts_of(frame, options, check_walked, &parts, err);
   if (st) return st;
 
-  const part *p = &parts[component];
-  *least = least_length(options, p, p->most, verdict ? &certificate[component] : NULL,
+  const component_cords *part = &parts[component];
+  *least = least_length(options, part, part->most, verdict ? &certificate[component] : NULL,
                         verdict ? &verdict[component] : NULL);
 
   free(parts);
@@ -352,9 +355,10 @@ thr_status thr_check_least_of(const thr_frame *frame, const thr_request *options
 /* ---- prices of walks, and sets of edges ---- */
 
 /* Raises *bound to what prices of walks prove. */
-static thr_status judge_walks(const thr_frame *frame, const thr_request *options, const part *parts,
-                              const thr_certificate *certificate, const thr_check_verdict *verdict,
-                              const thr_walk_proof *walks, double *bound, thr_err *err)
+static thr_status judge_walks(const thr_frame *frame, const thr_request *options,
+                              const component_cords *parts, const thr_certificate *certificate,
+                              const thr_check_verdict *verdict, const thr_walk_proof *walks,
+                              double *bound, thr_err *err)
 {
   const double rounding = 1e-11; /* of a sum of lengths */
   bool *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
@@ -419,8 +423,8 @@ static thr_status tied_length(const thr_frame *frame, const thr_request *options
 
 /* Raises *fewest, a lower bound on the cords of one component with free ends, as far as the proof
  * goes; one by one, as the proof may exclude a number but not the one below. */
-static thr_status rule_out(const thr_frame *frame, const thr_request *options,
-                           const thr_turning_proof *tied, int *fewest, thr_err *err)
+static thr_status exclude_tied(const thr_frame *frame, const thr_request *options,
+                               const thr_turning_proof *tied, int *fewest, thr_err *err)
 {
   thr_status st = THR_OK;
   bool excluded = true;
@@ -436,8 +440,8 @@ static thr_status rule_out(const thr_frame *frame, const thr_request *options,
 /* Raises *bound and found->fewest to what the proof for tube joints gives: it is about all
  * components together. */
 static thr_status check_tied(const thr_frame *frame, const thr_request *options,
-                             const thr_turning_proof *tied, const part *parts, int n_parts,
-                             double *bound, thr_cords_claim *found, thr_err *err)
+                             const thr_turning_proof *tied, const component_cords *parts,
+                             int n_parts, double *bound, thr_cords_claim *found, thr_err *err)
 {
   double length;
   int64_t most = 0;
@@ -454,7 +458,7 @@ static thr_status check_tied(const thr_frame *frame, const thr_request *options,
   double cords = ceil(length / options->max_length * (1 - 2e-9));
   if (cords > found->fewest) found->fewest = cords < (double)most ? (int)cords : (int)most;
   return n_parts == 1 && thr_check_ends_free(options)
-             ? rule_out(frame, options, tied, &found->fewest, err)
+             ? exclude_tied(frame, options, tied, &found->fewest, err)
              : THR_OK;
 }
 
@@ -464,7 +468,7 @@ thr_status thr_check_several(const thr_frame *frame, const thr_request *options,
                              const thr_check_verdict *verdict, const thr_turning_proof *tied,
                              const thr_walk_proof *walks, thr_cords_claim *found, thr_err *err)
 {
-  part *parts;
+  component_cords *parts;
   double bound = 0, unit = thr_plan_unit(frame); /* cords have whole numbers of it */
   int sets = THR_FEW_SETS, each;
   *found = (thr_cords_claim){.present = true, .longest = thr_cords_longest(frame, cord, n_cords)};

@@ -35,21 +35,20 @@ static thr_status evaluated(const cord_claim *claim, const char *name, double st
 /* Checks the loss, and that no pass is slacker than the slackest one. */
 static thr_status check_slackest(const cord_claim *claim, double force, thr_err *err)
 {
-  const thr_eval_cord *eval_cord = claim->stated;
-  const double least = eval_cord->tension[eval_cord->slackest],
-               loss = force > 0 ? 1 - least / force : 0;
+  const thr_eval_cord *stated = claim->stated;
+  const double least = stated->tension[stated->slackest], loss = force > 0 ? 1 - least / force : 0;
 
-  if (!thr_check_close(eval_cord->loss, loss, 1))
+  if (!thr_check_close(stated->loss, loss, 1))
     return thr_fail(err, THR_EVIOLATED,
                     "evaluation of cord %s: loss: stated %.12g, but the tensions give %.12g",
-                    claim->id, eval_cord->loss, loss);
+                    claim->id, stated->loss, loss);
 
-  for (int i = 0; i < eval_cord->n_passes; i++)
-    if (eval_cord->tension[i] < least)
+  for (int i = 0; i < stated->n_passes; i++)
+    if (stated->tension[i] < least)
       return thr_fail(
           err, THR_EVIOLATED,
           "evaluation of cord %s: pass %d is slacker than pass %d, which is said to be slackest",
-          claim->id, i + 1, eval_cord->slackest + 1);
+          claim->id, i + 1, stated->slackest + 1);
 
   return THR_OK;
 }
@@ -57,20 +56,20 @@ static thr_status check_slackest(const cord_claim *claim, double force, thr_err 
 /* Checks forces and work, which follow from the tensions at the ends. */
 static thr_status check_forces(const cord_claim *claim, thr_err *err)
 {
-  const thr_eval_cord *eval_cord = claim->stated;
-  double at_start = eval_cord->tension[0], at_end = eval_cord->tension[eval_cord->n_passes - 1];
+  const thr_eval_cord *stated = claim->stated;
+  double at_start = stated->tension[0], at_end = stated->tension[stated->n_passes - 1];
 
   /* The force is that of the harder pulled end, the other force that of the other one. */
-  double force = eval_cord->pull == THR_PULL_START  ? at_start
-                 : eval_cord->pull == THR_PULL_END  ? at_end
-                 : eval_cord->pull == THR_PULL_NONE ? 0
-                                                    : fmax(at_start, at_end);
-  double other = eval_cord->pull == THR_PULL_BOTH ? fmin(at_start, at_end) : 0;
+  double force = stated->pull == THR_PULL_START  ? at_start
+                 : stated->pull == THR_PULL_END  ? at_end
+                 : stated->pull == THR_PULL_NONE ? 0
+                                                 : fmax(at_start, at_end);
+  double other = stated->pull == THR_PULL_BOTH ? fmin(at_start, at_end) : 0;
 
   thr_status st;
-  if ((st = evaluated(claim, "force", eval_cord->force, force, err))) return st;
-  if ((st = evaluated(claim, "other_force", eval_cord->other_force, other, err))) return st;
-  if ((st = evaluated(claim, "work", eval_cord->work, force + other, err))) return st;
+  if ((st = evaluated(claim, "force", stated->force, force, err))) return st;
+  if ((st = evaluated(claim, "other_force", stated->other_force, other, err))) return st;
+  if ((st = evaluated(claim, "work", stated->work, force + other, err))) return st;
 
   return check_slackest(claim, force, err);
 }
@@ -79,14 +78,14 @@ static thr_status check_forces(const cord_claim *claim, thr_err *err)
  */
 static thr_status check_rise(const cord_claim *claim, thr_err *err)
 {
-  const thr_eval_cord *eval_cord = claim->stated;
-  for (int i = 0; i + 1 < eval_cord->n_passes; i++) {
+  const thr_eval_cord *stated = claim->stated;
+  for (int i = 0; i + 1 < stated->n_passes; i++) {
     /* Passes behind the slackest one move towards the end, the others towards the start. */
-    bool to_end = i >= eval_cord->slackest;
-    if (to_end ? eval_cord->pull == THR_PULL_START : eval_cord->pull == THR_PULL_END) continue;
+    bool to_end = i >= stated->slackest;
+    if (to_end ? stated->pull == THR_PULL_START : stated->pull == THR_PULL_END) continue;
 
-    double rise = to_end ? eval_cord->tension[i + 1] - eval_cord->tension[i]
-                         : eval_cord->tension[i] - eval_cord->tension[i + 1];
+    double rise = to_end ? stated->tension[i + 1] - stated->tension[i]
+                         : stated->tension[i] - stated->tension[i + 1];
 
     if (rise < 0)
       return thr_fail(
@@ -167,10 +166,10 @@ bool thr_check_slackest(const thr_request *request, thr_pull pull, int slackest,
 static thr_status check_tensions(const cord_claim *claim, const thr_request *request,
                                  const double *before, thr_err *err)
 {
-  const thr_eval_cord *eval_cord = claim->stated;
-  const int n_passes = eval_cord->n_passes, slackest = eval_cord->slackest;
+  const thr_eval_cord *stated = claim->stated;
+  const int n_passes = stated->n_passes, slackest = stated->slackest;
 
-  if (!thr_check_slackest(request, eval_cord->pull, slackest, before, n_passes))
+  if (!thr_check_slackest(request, stated->pull, slackest, before, n_passes))
     return thr_fail(err, THR_EVIOLATED,
                     "evaluation of cord %s: pass %d is not where its tension is least", claim->id,
                     slackest + 1);
@@ -182,11 +181,11 @@ static thr_status check_tensions(const cord_claim *claim, const thr_request *req
     const double expected = log(
         thr_check_tension(&claim->evaluation->physics, claim->evaluation->physics.seating, apart));
 
-    if (!thr_check_close(log(eval_cord->tension[i]), expected, 1 + before[n_passes - 1]))
+    if (!thr_check_close(log(stated->tension[i]), expected, 1 + before[n_passes - 1]))
       return thr_fail(
           err, THR_EVIOLATED,
           "evaluation of cord %s: pass %d: stated %.12g N, but the %s law gives %.12g N", claim->id,
-          i + 1, eval_cord->tension[i], thr_law_name(claim->evaluation->law), exp(expected));
+          i + 1, stated->tension[i], thr_law_name(claim->evaluation->law), exp(expected));
   }
   return THR_OK;
 }
@@ -195,15 +194,15 @@ static thr_status check_tensions(const cord_claim *claim, const thr_request *req
  * other one what the law gives. */
 static thr_status check_law(const cord_claim *claim, const thr_request *request, thr_err *err)
 {
-  const thr_eval_cord *eval_cord = claim->stated;
+  const thr_eval_cord *stated = claim->stated;
   thr_status st =
-      evaluated(claim, "tension of the slackest pass", eval_cord->tension[eval_cord->slackest],
+      evaluated(claim, "tension of the slackest pass", stated->tension[stated->slackest],
                 claim->evaluation->physics.seating, err);
-  double *before = st ? NULL : thr_calloc((size_t)eval_cord->n_passes, sizeof *before);
+  double *before = st ? NULL : thr_calloc((size_t)stated->n_passes, sizeof *before);
   if (st || !before) return st ? st : thr_nomem(err);
 
   /* Exponents add up along the cord. */
-  for (int i = 0; i + 1 < eval_cord->n_passes; i++)
+  for (int i = 0; i + 1 < stated->n_passes; i++)
     before[i + 1] = before[i] + law_exponent(claim, i);
   st = check_tensions(claim, request, before, err);
 
@@ -226,38 +225,38 @@ static thr_status check_slack(const cord_claim *claim, thr_err *err)
  * steps leave, which the checker computes itself (check_schedule.c). */
 static thr_status check_scheduled(const cord_claim *claim, int i, thr_err *err)
 {
-  const thr_eval_cord *eval_cord = claim->stated;
+  const thr_eval_cord *stated = claim->stated;
   const double hardest = thr_schedule_hardest(&claim->evaluation->schedule, i);
   const bool slack = thr_schedule_slack(&claim->evaluation->schedule, i);
 
-  if (slack && (eval_cord->pull != THR_PULL_NONE || eval_cord->most))
+  if (slack && (stated->pull != THR_PULL_NONE || stated->most))
     return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: the schedule leaves it slack",
                     claim->id);
 
-  if (!slack && eval_cord->pull != THR_PULL_BOTH)
+  if (!slack && stated->pull != THR_PULL_BOTH)
     return thr_fail(err, THR_EVIOLATED,
                     "evaluation of cord %s: pull: after a schedule it says both", claim->id);
 
   /* Forces are those of the hardest pull of all steps. */
-  thr_status st = evaluated(claim, "force", eval_cord->force, hardest, err);
-  if (!st) st = evaluated(claim, "other_force", eval_cord->other_force, 0, err);
-  if (!st) st = evaluated(claim, "work", eval_cord->work, hardest, err);
+  thr_status st = evaluated(claim, "force", stated->force, hardest, err);
+  if (!st) st = evaluated(claim, "other_force", stated->other_force, 0, err);
+  if (!st) st = evaluated(claim, "work", stated->work, hardest, err);
   if (!st) st = check_slackest(claim, hardest, err);
 
   /* Turns that were tightened have exponents of their own. */
-  for (int j = 0; j + 1 < eval_cord->n_passes && !st && claim->evaluation->method != THR_JOINT &&
+  for (int j = 0; j + 1 < stated->n_passes && !st && claim->evaluation->method != THR_JOINT &&
                   !claim->evaluation->standing.taut;
        j++)
-    if (!thr_check_close(eval_cord->exponent[j], law_exponent(claim, j), 1))
+    if (!thr_check_close(stated->exponent[j], law_exponent(claim, j), 1))
       st =
           thr_fail(err, THR_EVIOLATED,
                    "evaluation of cord %s: exponents[%d]: stated %.12g, but the %s law gives %.12g",
-                   claim->id, j, eval_cord->exponent[j], thr_law_name(claim->evaluation->law),
+                   claim->id, j, stated->exponent[j], thr_law_name(claim->evaluation->law),
                    law_exponent(claim, j));
 
   if (st || slack) return st ? st : check_slack(claim, err);
   return thr_check_schedule(claim->frame, claim->cord, &claim->evaluation->schedule, i,
-                            &claim->evaluation->physics, eval_cord, err);
+                            &claim->evaluation->physics, stated, err);
 }
 
 /* Checks what is stated of cord i. */
@@ -265,28 +264,28 @@ static thr_status check_cord_evaluation(const thr_plan *plan, int i, thr_err *er
 {
   const thr_evaluation *evaluation = &plan->evaluation;
   const thr_cord *cord = &plan->cord[i];
-  const thr_eval_cord *eval_cord = &evaluation->cord[i];
+  const thr_eval_cord *stated = &evaluation->cord[i];
   const int from_end =
-      thr_check_from_end(&plan->options, eval_cord->pull, eval_cord->slackest, cord->n_passes);
-  const cord_claim claim = {&plan->frame, cord, evaluation, eval_cord, cord->id, from_end};
+      thr_check_from_end(&plan->options, stated->pull, stated->slackest, cord->n_passes);
+  const cord_claim claim = {&plan->frame, cord, evaluation, stated, cord->id, from_end};
   const bool tight = evaluation->method == THR_JOINT || evaluation->standing.taut;
 
   /* The turning, by the checker's own formula. */
   double turning = 0;
   for (int j = 0; j + 1 < cord->n_passes; j++)
     turning += thr_check_angle(&plan->frame, cord->half[j], cord->half[j + 1]);
-  if (!thr_check_close(eval_cord->turning, turning, 1 + turning))
+  if (!thr_check_close(stated->turning, turning, 1 + turning))
     return thr_fail(err, THR_EVIOLATED,
                     "evaluation of cord %s: turning: stated %.12g, but the cord turns by %.12g",
-                    claim.id, eval_cord->turning, turning);
+                    claim.id, stated->turning, turning);
 
-  if (!(eval_cord->taut_turning >= 0) || (!tight && eval_cord->taut_turning != eval_cord->turning))
+  if (!(stated->taut_turning >= 0) || (!tight && stated->taut_turning != stated->turning))
     return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: taut_turning: %.12g; expected %s",
-                    claim.id, eval_cord->taut_turning,
+                    claim.id, stated->taut_turning,
                     tight ? "0 or more" : "the turning, for this method");
 
-  if (!(eval_cord->error >= 0) ||
-      (evaluation->method == THR_CAPSTAN && (eval_cord->error > 0 || eval_cord->refused > 0)))
+  if (!(stated->error >= 0) ||
+      (evaluation->method == THR_CAPSTAN && (stated->error > 0 || stated->refused > 0)))
     return thr_fail(
         err, THR_EVIOLATED,
         "evaluation of cord %s: error and refused: no such error is possible with this method",
@@ -295,13 +294,13 @@ static thr_status check_cord_evaluation(const thr_plan *plan, int i, thr_err *er
   /* The tensions. */
   if (evaluation->schedule.n > 0) return check_scheduled(&claim, i, err);
   thr_status st = check_forces(&claim, err);
-  if (eval_cord->pull == THR_PULL_NONE) return st ? st : check_slack(&claim, err);
+  if (stated->pull == THR_PULL_NONE) return st ? st : check_slack(&claim, err);
   if (!st) st = check_rise(&claim, err);
 
   /* Both pulls meet behind the slackest pass, at one tension. */
   if (!st && evaluation->method != THR_CAPSTAN && from_end < cord->n_passes)
-    st = evaluated(&claim, "tension behind the slackest pass", eval_cord->tension[from_end],
-                   eval_cord->tension[eval_cord->slackest], err);
+    st = evaluated(&claim, "tension behind the slackest pass", stated->tension[from_end],
+                   stated->tension[stated->slackest], err);
   if (!st && evaluation->method == THR_CAPSTAN) st = check_law(&claim, &plan->options, err);
 
   return st;

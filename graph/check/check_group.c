@@ -269,10 +269,11 @@ static census census_of_name(const char *name)
 
 /* Computes the census of the group from the motions that fit its elements. A name, and the option
  * to keep to isometries, claim that all elements are isometries. */
-static thr_status take_census(const elements *group, const thr_plan *plan, census *c, thr_err *err)
+static thr_status take_census(const elements *group, const thr_plan *plan, census *found,
+                              thr_err *err)
 {
   double within = plan->options.symmetry.geometric;
-  *c = (census){.order = group->order};
+  *found = (census){.order = group->order};
 
   for (int i = 0; i < group->order; i++) {
     int order = order_of_element(element(group, i), group->n);
@@ -293,14 +294,14 @@ static thr_status take_census(const elements *group, const thr_plan *plan, censu
                       "by %.12g of the framework's size",
                       within, order, motion.farthest);
 
-    if (order > c->longest) c->longest = order;
-    if (motion.proper && order > c->turn) c->turn = order;
+    if (order > found->longest) found->longest = order;
+    if (motion.proper && order > found->turn) found->turn = order;
 
     /* The inversion is the element of order 2 with trace -3. */
-    c->involutions += order == 2;
-    c->improper += !motion.proper;
-    c->flat |= motion.flat;
-    c->inversions += order == 2 && motion.q[0][0] + motion.q[1][1] + motion.q[2][2] < -2;
+    found->involutions += order == 2;
+    found->improper += !motion.proper;
+    found->flat |= motion.flat;
+    found->inversions += order == 2 && motion.q[0][0] + motion.q[1][1] + motion.q[2][2] < -2;
   }
   return THR_OK;
 }

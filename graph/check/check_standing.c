@@ -31,8 +31,8 @@ typedef struct {
   const thr_evaluation *evaluation;
   const thr_standing *standing;
   double unit, width, down[3];
-  double level[3]; /* direction of what stands upright or on the ground */
-  double play;     /* by how much a cord may be off the middle of a face */
+  double level[3];  /* direction of what stands upright or on the ground */
+  double clearance; /* by how much a cord may be off the middle of a face */
   double *mass, (*centre)[3], (*mass_centre)[3];
   bool *foot;
   double *knotted; /* [n_edges] m: length of the edge, of those that a cord passes which is knotted
@@ -168,7 +168,7 @@ static void weigh(bead_bodies *bodies)
 static thr_status bodies_make(bead_bodies *bodies, const thr_plan *plan, thr_err *err)
 {
   const size_t n = (size_t)plan->frame.n_nodes;
-  const thr_standing *s = &plan->evaluation.standing;
+  const thr_standing *standing = &plan->evaluation.standing;
   double mm;
   int longest = 1;
   for (int i = 0; i < plan->n_cords; i++)
@@ -176,7 +176,7 @@ static thr_status bodies_make(bead_bodies *bodies, const thr_plan *plan, thr_err
 
   *bodies = (bead_bodies){.plan = plan,
                           .evaluation = &plan->evaluation,
-                          .standing = s,
+                          .standing = standing,
                           .width = plan->evaluation.physics.bead_diameter / 1e3};
   bodies->mass = thr_scratch_array(&bodies->own, n, sizeof *bodies->mass);
   bodies->centre = thr_scratch_array(&bodies->own, n, sizeof *bodies->centre);
@@ -199,15 +199,15 @@ static thr_status bodies_make(bead_bodies *bodies, const thr_plan *plan, thr_err
 
   /* Directions and sizes in SI units; gravity is tilted by the angles of the claim. */
   bodies->unit = mm / 1e3;
-  bodies->down[0] = sin(s->tilt) * cos(s->azimuth);
-  bodies->down[1] = sin(s->tilt) * sin(s->azimuth);
-  bodies->down[2] = -cos(s->tilt);
+  bodies->down[0] = sin(standing->tilt) * cos(standing->azimuth);
+  bodies->down[1] = sin(standing->tilt) * sin(standing->azimuth);
+  bodies->down[2] = -cos(standing->tilt);
 
   place_nodes(bodies);
   find_knotted(bodies);
   find_level(bodies);
-  if (s->model > 1)
-    bodies->play = fmax(
+  if (standing->model > 1)
+    bodies->clearance = fmax(
         0, (bodies->evaluation->physics.bore - bodies->evaluation->physics.cord_diameter) / 2e3);
   weigh(bodies);
   return THR_OK;
@@ -450,14 +450,14 @@ typedef struct {
   double sum, terms;
 } power;
 
-static void add_power(power *p, double value)
+static void add_power(power *total, double value)
 {
-  p->sum += value;
-  p->terms += fabs(value);
+  total->sum += value;
+  total->terms += fabs(value);
 }
 
 /* Adds `press` times the speed at which the beads of edge e part: at the middle of their face, and
- * as much more as the cord gains anywhere within its play. */
+ * as much more as the cord gains anywhere within its clearance. */
 static void parting_power(const bead_bodies *bodies, const thr_answer *answer, int e, double press,
                           power *resistance)
 {
@@ -477,9 +477,9 @@ static void parting_power(const bead_bodies *bodies, const thr_answer *answer, i
     add_power(resistance, (which ? 1 : -1) * press * thr_dot(axis, velocity));
   }
 
-  /* The cord may be off the middle by the play, to the worst side. */
+  /* The cord may be off the middle by the clearance, to the worst side. */
   thr_cross(axis, turn, across);
-  add_power(resistance, press * bodies->play * sqrt(thr_dot(across, across)));
+  add_power(resistance, press * bodies->clearance * sqrt(thr_dot(across, across)));
 }
 
 /* Returns the most that a face with knotted cord parts by for each metre of the cord, 1/s. Its
@@ -666,15 +666,16 @@ static thr_status check_answer(bead_bodies *bodies, int i, thr_err *err)
 /* ---- the rest ---- */
 
 /* Returns what is wrong with an answer regardless of its mechanism, or NULL. */
-static const char *misfit(const thr_standing *s, const thr_answer *answer, bool scheduled)
+static const char *misfit(const thr_standing *standing, const thr_answer *answer, bool scheduled)
 {
   const bool of_load = thr_asked_of_load(answer->asked);
 
   /* The plan needs what the question is about. */
   if (thr_asked_after(answer->asked) && !scheduled) return "it comes with a schedule";
-  if ((answer->asked == THR_ASKED_STRETCH || answer->asked == THR_ASKED_TIGHTEST) && s->model < 2)
+  if ((answer->asked == THR_ASKED_STRETCH || answer->asked == THR_ASKED_TIGHTEST) &&
+      standing->model < 2)
     return "it comes with model 2";
-  if ((of_load || answer->asked == THR_ASKED_LOADED) && s->n_loads == 0)
+  if ((of_load || answer->asked == THR_ASKED_LOADED) && standing->n_loads == 0)
     return "it comes with loads";
 
   /* An equilibrium that was found must not contradict the bound that is proved. */
@@ -687,10 +688,11 @@ static const char *misfit(const thr_standing *s, const thr_answer *answer, bool 
 
 /* Returns whether the tension that ends may be let down to is no less than any state needs that
  * holds. */
-static bool let_down_fits(const thr_standing *s)
+static bool let_down_fits(const thr_standing *standing)
 {
-  for (int i = 0; i < s->n_answers; i++)
-    if (s->answer[i].asked == THR_ASKED_ANY_STATE && s->let_down < s->answer[i].proved * (1 - 1e-6))
+  for (int i = 0; i < standing->n_answers; i++)
+    if (standing->answer[i].asked == THR_ASKED_ANY_STATE &&
+        standing->let_down < standing->answer[i].proved * (1 - 1e-6))
       return false;
   return true;
 }

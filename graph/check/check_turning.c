@@ -79,14 +79,14 @@ static thr_status walked_init(walked_cords *walked, const thr_frame *frame,
 }
 
 /* Computes the price of a cord's turns. Refuses a U-turn where the proof's plans have none. */
-static thr_status price_cord(const walked_cords *walked, const thr_cord *c, double *price,
+static thr_status price_cord(const walked_cords *walked, const thr_cord *cord, double *price,
                              thr_err *err)
 {
-  int turns = walked->request->ends == THR_ENDS_CLOSED ? c->n_passes : c->n_passes - 1;
+  int turns = walked->request->ends == THR_ENDS_CLOSED ? cord->n_passes : cord->n_passes - 1;
   *price = 0;
 
   for (int k = 0; k < turns; k++) {
-    int in = c->half[k], out = c->half[k + 1 < c->n_passes ? k + 1 : 0],
+    int in = cord->half[k], out = cord->half[k + 1 < cord->n_passes ? k + 1 : 0],
         v = thr_head(walked->frame, in);
     bool back = in == (out ^ 1);
 
@@ -96,7 +96,7 @@ static thr_status price_cord(const walked_cords *walked, const thr_cord *c, doub
                       "proof.turning: cord %s turns back at node %d after pass %d; the proof is "
                       "about plans that turn back only at "
                       "nodes with one edge",
-                      c->id, v, k + 1);
+                      cord->id, v, k + 1);
 
     *price += thr_check_price(walked->frame, walked->request->turning.cost, in, out);
   }
@@ -132,19 +132,19 @@ typedef struct {
 } parts;
 
 /* Leaves in[k] only where the angle is a multiple of pi / k, and returns whether any is left. */
-static bool keep_parts(parts *p, double angle, double tolerance)
+static bool keep_parts(parts *left, double angle, double tolerance)
 {
   bool any = false;
 
   /* Most angles of a framework repeat. */
-  for (int i = 0; i < SEEN && i < p->n_seen; i++)
-    if (p->seen[i] == angle) return true;
-  p->seen[p->n_seen++ % SEEN] = angle;
+  for (int i = 0; i < SEEN && i < left->n_seen; i++)
+    if (left->seen[i] == angle) return true;
+  left->seen[left->n_seen++ % SEEN] = angle;
 
   for (int k = 1; k <= MOST_PARTS; k++) {
     const double times = angle * k / THR_PI;
-    p->in[k] = p->in[k] && fabs(times - round(times)) * THR_PI / k <= tolerance;
-    any |= p->in[k];
+    left->in[k] = left->in[k] && fabs(times - round(times)) * THR_PI / k <= tolerance;
+    any |= left->in[k];
   }
 
   return any;
@@ -183,10 +183,10 @@ static double round_up(const walked_cords *walked, double angle, double bound)
 }
 
 /* Adds to *found, which is zeros, what follows from the cords, and checks that they are of the kind
- * that the proof is about. *dearest: the largest price of a cord's turns; found->largest is the
- * same unless a pull is minimized. */
-static thr_status judge_cords(const walked_cords *walked, thr_turning_claim *found, double *dearest,
-                              thr_err *err)
+ * that the proof is about. *largest_price: the largest price of a cord's turns; found->largest is
+ * the same unless a pull is minimized. */
+static thr_status judge_cords(const walked_cords *walked, thr_turning_claim *found,
+                              double *largest_price, thr_err *err)
 {
   const thr_frame *frame = walked->frame;
   double length = 0;
@@ -197,7 +197,7 @@ static thr_status judge_cords(const walked_cords *walked, thr_turning_claim *fou
     if (st) return st;
 
     found->price += price;
-    *dearest = fmax(*dearest, price);
+    *largest_price = fmax(*largest_price, price);
     found->largest =
         fmax(found->largest,
              thr_wants_pull(walked->request) ? pulled_turning(frame, &walked->cord[i]) : price);
@@ -238,17 +238,17 @@ thr_status thr_check_shares(const thr_turning_columns *columns, int cords,
                             const thr_turning_proof *tree, double *all, double *largest,
                             thr_err *err)
 {
-  double worth = 0, *bound_of = thr_calloc((size_t)columns->n_components, sizeof *bound_of);
+  double by_walks = 0, *bound_of = thr_calloc((size_t)columns->n_components, sizeof *bound_of);
   if (!bound_of) return thr_nomem(err);
 
   thr_status st = thr_turning_proof_check_columns(columns, tree, all, bound_of, err);
   if (!st && tree->walks.unit)
     st = thr_walk_proof_check(columns, THR_WALK_TURNING, &tree->walks, cords,
-                              bound_of[thr_walk_component(columns, &tree->walks)], &worth, err);
+                              bound_of[thr_walk_component(columns, &tree->walks)], &by_walks, err);
 
   /* The largest of so many cords is at least their mean. */
   for (int k = 0; k < columns->n_components && !st; k++)
-    *largest = fmax(*largest, fmax(worth, bound_of[k] / thr_check_cords_of(columns, k, cords)));
+    *largest = fmax(*largest, fmax(by_walks, bound_of[k] / thr_check_cords_of(columns, k, cords)));
 
   free(bound_of);
   return st;
@@ -275,7 +275,7 @@ static thr_status bound_by_tree(const thr_turning_columns *columns, const thr_re
 
 /* Computes what the claim's proof gives for these cords, and fills the bounds of found. */
 static thr_status judge_tree(const walked_cords *walked, const thr_turning_claim *claim,
-                             double dearest, thr_turning_claim *found, thr_err *err)
+                             double largest_price, thr_turning_claim *found, thr_err *err)
 {
   double bound, forced, side = 0, passes = 0, length = 0;
   const bool pull = thr_wants_pull(walked->request);
@@ -309,7 +309,8 @@ static thr_status judge_tree(const walked_cords *walked, const thr_turning_claim
   thr_status st = thr_turning_columns_init(&columns, walked->frame, &task, err);
   if (st) return st;
   if (pull) tree.walks = (thr_walk_proof){0};
-  st = bound_by_tree(&columns, walked->request, cords, &tree, dearest + 1e-3, &bound, &forced, err);
+  st = bound_by_tree(&columns, walked->request, cords, &tree, largest_price + 1e-3, &bound, &forced,
+                     err);
   thr_turning_columns_destroy(&columns);
   if (!st && pull)
     st = thr_check_pulled_least(walked->frame, walked->request, &task, claim, &side, err);
@@ -380,9 +381,9 @@ thr_status thr_check_turning(const thr_frame *frame, const thr_request *options,
     return thr_fail(err, THR_EVIOLATED, "proof.turning.largest.cut: with minimize pull only");
 
   thr_status st = walked_init(&walked, frame, options, cord, n_cords, err);
-  double dearest = 0;
-  if (!st) st = judge_cords(&walked, found, &dearest, err);
-  if (!st) st = judge_tree(&walked, claim, dearest, found, err);
+  double largest_price = 0;
+  if (!st) st = judge_cords(&walked, found, &largest_price, err);
+  if (!st) st = judge_tree(&walked, claim, largest_price, found, err);
   walked_destroy(&walked);
   return st;
 }

@@ -372,8 +372,8 @@ static thr_status run_junction(thr_turning_leaf *leaf, int i, thr_err *err)
 
 /* Returns the least value of the turns at a ranked node, forests of turns with their ranks. Turns
  * with a reduced price below 0 are counted as columns and connect at no price here. */
-static thr_wide node_worth(const thr_turning_leaf *leaf, int v, const int64_t *value,
-                           int (*block)[THR_RANK_DEGREE])
+static thr_wide least_at_node(const thr_turning_leaf *leaf, int v, const int64_t *value,
+                              int (*block)[THR_RANK_DEGREE])
 {
   const int64_t most = (int64_t)1 << 58;
   const int *half = leaf->c->f->half + leaf->c->f->first[v];
@@ -408,7 +408,7 @@ static thr_status count_ranks(thr_turning_leaf *leaf, thr_err *err)
 
   for (int v = 0; v < leaf->c->f->n_nodes && !st; v++)
     if (is_ranked(leaf, v))
-      leaf->constant[leaf->c->component[v]] += node_worth(leaf, v, value, block);
+      leaf->constant[leaf->c->component[v]] += least_at_node(leaf, v, value, block);
   thr_scratch_free(&own);
   return st;
 }

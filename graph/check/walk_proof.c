@@ -388,7 +388,7 @@ static thr_status check_prices(const thr_walk_steps *steps, const thr_walk_proof
 }
 
 /* Returns the reward for a weight of turning or length, rounded up. */
-static int64_t all_worth(const thr_walk_proof *proof, int64_t weight)
+static int64_t weight_reward(const thr_walk_proof *proof, int64_t weight)
 {
   return (int64_t)(((wide)proof->all * weight + (INT64_C(1) << THR_TURNING_BITS) - 1) >>
                    THR_TURNING_BITS);
@@ -396,7 +396,7 @@ static int64_t all_worth(const thr_walk_proof *proof, int64_t weight)
 
 /* Returns the prices that a pass over half-edge h collects: of the edge and of both of its nodes.
  */
-static wide pass_worth(const thr_walk_steps *steps, const thr_walk_proof *proof, int h)
+static wide pass_reward(const thr_walk_steps *steps, const thr_walk_proof *proof, int h)
 {
   const thr_frame *frame = steps->c->f;
   return (wide)proof->edge[h >> 1] + proof->node[thr_tail(frame, h)] +
@@ -427,12 +427,12 @@ static bool add_up(const thr_walk_steps *steps, const thr_walk_proof *proof)
   /* The largest reward and cost of one pass .. */
   for (int h = 0; h < 2 * frame->n_edges; h++) {
     wide sum =
-        pass_worth(steps, proof, h) + proof->node[thr_head(frame, h)] + pass_cost(steps, proof, h);
+        pass_reward(steps, proof, h) + proof->node[thr_head(frame, h)] + pass_cost(steps, proof, h);
     if (sum > largest) largest = sum;
   }
 
   /* .. times the largest number of passes. */
-  return (largest + all_worth(proof, INT64_C(4) << THR_TURNING_BITS)) * passes < (wide)1 << 61;
+  return (largest + weight_reward(proof, INT64_C(4) << THR_TURNING_BITS)) * passes < (wide)1 << 61;
 }
 
 thr_status thr_walk_steps_price(thr_walk_steps *steps, const thr_walk_proof *proof, thr_err *err)
@@ -452,8 +452,8 @@ thr_status thr_walk_steps_price(thr_walk_steps *steps, const thr_walk_proof *pro
   for (int i = 0; i < steps->n; i++)
     for (int k = steps->first[i]; k < steps->first[i + 1]; k++) {
       thr_walk_step *step = &steps->step[k];
-      step->worth = (int64_t)pass_worth(steps, proof, step->half) + all_worth(proof, step->weight) -
-                    pass_cost(steps, proof, step->half);
+      step->worth = (int64_t)pass_reward(steps, proof, step->half) +
+                    weight_reward(proof, step->weight) - pass_cost(steps, proof, step->half);
       if (step->known) step->worth -= proof->edge[step->half >> 1];
       steps->move[k] = (thr_walk_move){.worth = step->worth, .to = step->to, .units = step->units};
       if (steps->end[step->to] >= 0)
@@ -463,14 +463,14 @@ thr_status thr_walk_steps_price(thr_walk_steps *steps, const thr_walk_proof *pro
   /* First passes of closed walks with a pull. */
   for (int k = 0; k < steps->n_homes; k++)
     for (int i = steps->from[k]; i < steps->from[k + 1]; i++)
-      steps->begin[i].worth = (int64_t)pass_worth(steps, proof, steps->begin[i].half) -
+      steps->begin[i].worth = (int64_t)pass_reward(steps, proof, steps->begin[i].half) -
                               pass_cost(steps, proof, steps->begin[i].half);
 
   /* First passes of open walks collect the price of the node where they start, too. */
   for (int k = 0; k < steps->n_begins && !steps->closed; k++) {
     thr_walk_step *begin = &steps->begin[k];
-    begin->worth = (int64_t)pass_worth(steps, proof, begin->half) +
-                   proof->node[thr_tail(frame, begin->half)] + all_worth(proof, begin->weight) -
+    begin->worth = (int64_t)pass_reward(steps, proof, begin->half) +
+                   proof->node[thr_tail(frame, begin->half)] + weight_reward(proof, begin->weight) -
                    pass_cost(steps, proof, begin->half);
     if (steps->end[begin->to] >= 0)
       steps->end[begin->to] = proof->node[thr_head(frame, begin->half)];
