@@ -71,7 +71,6 @@ static thr_status forest_init(forest *cuts, const thr_certificate *certificate, 
   size_t n = (size_t)certificate->n_cuts;
   *cuts = (forest){.certificate = certificate};
 
-  /* All arrays are owned by the scratch. */
   cuts->first = thr_scratch_array(&cuts->own, n, sizeof *cuts->first);
   cuts->next = thr_scratch_array(&cuts->own, n, sizeof *cuts->next);
   cuts->root = thr_scratch_array(&cuts->own, n, sizeof *cuts->root);
@@ -218,7 +217,6 @@ static void load_tree(workspace *work, const forest *cuts, int root)
 static thr_priced priced(const workspace *work, const thr_certificate *certificate, int j)
 {
   int e = work->edge[j];
-
   bool closed = work->request->ends == THR_ENDS_CLOSED;
 
   /* A pass of an open cord has a place at either node; closed cords have one price for all places.
@@ -296,10 +294,10 @@ static thr_status check_loads(const workspace *work, const thr_certificate *cert
   for (int j = work->edge_start[certificate->component];
        j < work->edge_start[certificate->component + 1]; j++) {
     int e = work->edge[j];
+
+    /* The load is the sum of the multipliers of the sets round exactly one end. */
     wide load = work->held[work->frame->edge[e][0]] + work->held[work->frame->edge[e][1]] -
                 2 * work->shared[e];
-
-    /* The sets round exactly one end. */
     if (load <= 0) continue; /* bears any price */
     thr_priced cost = priced(work, certificate, j);
     if (cost.room && load > (cost.odd > cost.even ? cost.odd - cost.even : cost.even - cost.odd))

@@ -158,7 +158,8 @@ static double tight_end(const cord_state *cord, int a, int b, bool falls)
     high = fmax(high, cord->tension[k]);
   }
 
-  /* A single pass has its tension; factors make the sum proportional. */
+  /* A single pass keeps its tension; with friction by factors the sum is proportional to the tight
+   * end. */
   if (a == b) return cord->tension[a];
   if (cord->physics->mu_power == 0 || cord->physics->mu_power == 1)
     return sum / stretched(cord, a, b, falls, 1);

@@ -248,8 +248,8 @@ static void take_partition(thr_turning_leaf *leaf, const thr_turning_partition *
     int odd, b = thr_turning_blocks_at(columns, partition->block, v, &odd, even);
     if (b < 2 || (rank && is_ranked(leaf, v))) continue;
 
-    /* Turns between b blocks that have an even number of passes here form cycles: b turns make b -
-     * 1 connections. */
+    /* If all b blocks have an even number of passes here, the turns between them form cycles: it
+     * takes b turns to connect b blocks. */
     int64_t share = share_of(partition->value, b, 1), part = share_of(partition->value, b, 2);
 
     /* Turns between blocks, and extra passes that make a block's number of passes odd. */
@@ -350,13 +350,13 @@ static thr_status run_junction(thr_turning_leaf *leaf, int i, thr_err *err)
   for (int a = 0; a < d; a++) {
     int b = junction->block[a];
     ok = b >= 0 && b < d;
-
     if (!ok) break;
     used += !seen[b];
     seen[b] = true;
     if (b >= blocks) blocks = b + 1;
   }
   free(seen);
+
   if (!ok || used < blocks)
     return thr_fail(err, THR_EVIOLATED, "turning proof: junction %d: bad block numbers", i);
 

@@ -226,7 +226,7 @@ static void start(interior_state *state)
   if (up_x == 0) up_x = 1;
   if (up_z == 0) up_z = 1;
 
-  /* .. and by half of the mean product, each in proportion to the other one. */
+  /* .. and by half of the products' sum over the sum of the other one. */
   for (int j = 0; j < state->n; j++) {
     sum_x += at->x[j] + up_x;
     sum_z += at->z[j] + up_z;
