@@ -70,7 +70,7 @@ static thr_status walks_bound(const thr_frame *frame, const thr_request *options
 
   thr_status st = end_allowed && most ? THR_OK : thr_nomem(err);
 
-  /* The columns of the model only serve to number turns and ends. */
+  /* The columns of the task give the turns with their weights, and the ends. */
   if (!st) {
     const thr_turning_task task = thr_walk_pull_task(frame, options, end_allowed);
     thr_check_most_cords(frame, options, check_walked, most);

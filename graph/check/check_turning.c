@@ -316,7 +316,7 @@ static thr_status judge_tree(const walked_cords *walked, const thr_turning_claim
     st = thr_check_pulled_least(walked->frame, walked->request, &task, claim, &side, err);
   if (st) return st;
 
-  /* Every closed cord costs a full turn, and turns may be multiples of one angle. */
+  /* Every closed cord has a least price, and turns may be multiples of one angle. */
   if (walked->request->ends == THR_ENDS_CLOSED)
     bound = fmax(bound, thr_turn_closed(walked->request->turning.cost) * walked->cords_least);
   const double angle = walked->request->turning.cost == THR_TURN_ANGLE
@@ -364,7 +364,7 @@ thr_status thr_check_turning(const thr_frame *frame, const thr_request *options,
                                .length_limit = claim->length_limit,
                                .cut = claim->cut};
 
-  /* Plans in which an edge is passed more often need no proof, but all others do. */
+  /* A proof has to be about all plans with up to so many passes over an edge. */
   int least_most = thr_turning_most_passes(frame, options->cover);
   if (claim->most_passes < least_most)
     return thr_fail(
@@ -388,7 +388,7 @@ thr_status thr_check_turning(const thr_frame *frame, const thr_request *options,
   return st;
 }
 
-/* ---- the plan's words ---- */
+/* ---- what the plan states ---- */
 
 /* Compares a number that the claim states with the one found. */
 static thr_status stated(const char *name, double said, double found, double whole, thr_err *err)
