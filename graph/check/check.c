@@ -76,6 +76,7 @@ static thr_metrics recompute(const thr_plan *plan, const int *passes)
     double turning = 0, unit[2][3]; /* of pass k at k % 2 */
     unit_direction(frame, cord->half[first ? 0 : cord->n_passes - 1], unit[1 - first]);
 
+    /* A turn is compared by the unit directions of two passes, of which the last is kept. */
     for (int k = first; k < cord->n_passes; k++) {
       int in = cord->half[k ? k - 1 : cord->n_passes - 1], out = cord->half[k];
       unit_direction(frame, out, unit[k % 2]);
@@ -99,6 +100,7 @@ static thr_status check_crossings(const thr_plan *plan, thr_err *err)
   thr_channels channels;
   if (plan->options.crossings == THR_CROSSINGS_ALLOW) return THR_OK;
 
+  /* Channels through the pieces tell which cords cross. */
   thr_status st = thr_channels_make(&channels, plan, err);
   if (st) return st;
 
@@ -212,6 +214,8 @@ static thr_status check_cords_claim(const thr_plan *plan, const thr_check_walked
       plan->options.joint == THR_JOINT_TUBE && plan->proof.present ? &plan->proof.tied : NULL;
 
   /* Find what the proofs give. */
+
+  /* Find what the proofs give. */
   thr_status st =
       thr_check_several(&plan->frame, &plan->options, check_walked, plan->cord, plan->n_cords,
                         plan->proof.certificate, verdict, tied, &plan->proof.walks, &found, err);
@@ -304,6 +308,7 @@ static thr_status check_distinct(const thr_plan *plan, thr_err *err)
                                             plan->n_cords, &found, err);
   if (!st) st = metric("distinct", plan->metrics.distinct, found, 0, err);
 
+  /* Any claim of optimality counts. */
   bool optimal = plan->proof.optimal || plan->cords_claim.longest_optimal ||
                  plan->cords_claim.fewest_optimal || plan->pull_claim.optimal ||
                  plan->turning.optimal || plan->turning.largest_optimal;
@@ -338,6 +343,7 @@ static thr_status check_needed(const thr_plan *plan, const thr_check_walked *che
                       ? thr_distinct_needs(&plan->frame, &plan->options, &needs, err)
                       : THR_OK;
 
+  /* Proofs count these passes as needed only if the plan makes them. */
   for (int e = 0; needs && e < plan->frame.n_edges; e++)
     all = all && check_walked->passes[e] >= needs[e];
 
@@ -381,6 +387,7 @@ static thr_status check_alike(const thr_plan *plan, const thr_request *one, int 
   part.options = *one;
   part.cord = thr_calloc((size_t)n_components, sizeof *part.cord); /* whose passes are plan's */
 
+  /* Round i has cord number i of every component. */
   thr_status st = next && part.cord ? THR_OK : thr_nomem(err);
   for (int i = 0; i < plan->options.distinct && !st; i++) {
     thr_check_walked round;

@@ -38,6 +38,7 @@ static thr_status check_slackest(const cord_claim *claim, double force, thr_err 
   const thr_eval_cord *stated = claim->stated;
   const double least = stated->tension[stated->slackest], loss = force > 0 ? 1 - least / force : 0;
 
+  /* The loss is the part of the force that does not reach the slackest pass. */
   if (!thr_check_close(stated->loss, loss, 1))
     return thr_fail(err, THR_EVIOLATED,
                     "evaluation of cord %s: loss: stated %.12g, but the tensions give %.12g",
@@ -84,6 +85,7 @@ static thr_status check_rise(const cord_claim *claim, thr_err *err)
     bool to_end = i >= stated->slackest;
     if (to_end ? stated->pull == THR_PULL_START : stated->pull == THR_PULL_END) continue;
 
+    /* Pulled from there, the tension rises in that direction. */
     double rise = to_end ? stated->tension[i + 1] - stated->tension[i]
                          : stated->tension[i] - stated->tension[i + 1];
 
@@ -174,6 +176,7 @@ static thr_status check_tensions(const cord_claim *claim, const thr_request *req
                     "evaluation of cord %s: pass %d is not where its tension is least", claim->id,
                     slackest + 1);
 
+  /* Exponents add up from the slackest pass to either end. */
   for (int i = 0; i < n_passes; i++) {
     const double apart =
         i <= slackest ? before[slackest] - before[i] : before[i] - before[claim->from_end];
@@ -325,6 +328,7 @@ static thr_status check_physics(const thr_plan *plan, thr_err *err)
                       "evaluation.physics.%s: an evaluation states what it used, so not 0",
                       thr_physics_fields[i].key);
 
+  /* Friction by a power of the tension is known to one law only. */
   if (stated->mu_power > 0 && stated->mu_power < 1 &&
       (plan->evaluation.method != THR_CAPSTAN || plan->evaluation.law != THR_LAW_CAPSTAN))
     return thr_fail(err, THR_EVIOLATED,

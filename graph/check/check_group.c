@@ -53,6 +53,8 @@ static thr_status check_automorphism(const thr_plan *plan, const int *image, con
   }
 
   /* Edges map to edges. */
+
+  /* Edges map to edges. */
   for (int e = 0; e < frame->n_edges; e++) {
     int a = image[frame->edge[e][0]], b = image[frame->edge[e][1]];
     if (thr_frame_edge_between(frame, a, b) < 0)
@@ -108,11 +110,12 @@ static int *find(elements *group, const int *image)
   return &group->slot[i];
 }
 
-/* Grows the list by at least one element, to no more than `most`. */
+/* Makes place for one more element in the list, but for no more than `most`. */
 static thr_status make_room(elements *group, int most, thr_err *err)
 {
   if (group->order < group->capacity) return THR_OK;
 
+  /* Double the list. */
   int wanted = 2 * group->capacity + 1 < most ? 2 * group->capacity + 1 : most;
 
   int *image = thr_realloc(group->image, (size_t)wanted * (size_t)group->n, sizeof *image);
@@ -146,9 +149,11 @@ static thr_status list_elements(elements *group, const thr_symmetry_record *reco
       for (int v = 0; v < n_nodes; v++)
         last[v] = element(group, i)[record->generator[(size_t)k * (size_t)n_nodes + (size_t)v]];
 
+      /* A product that was found before is overwritten by the next one. */
       int *number = find(group, last);
       if (*number < 0) *number = group->order++;
 
+      /* Stop one beyond the stated order. */
       if (group->order > record->order)
         return thr_fail(err, THR_EVIOLATED,
                         "symmetry.order: stated %d, but the generators make more elements",
@@ -181,6 +186,7 @@ static int order_of_element(const int *image, int n)
   for (int v = 0; v < n; v++) {
     int length = 1, w = image[v], multiple = order;
 
+    /* Follow the cycle of v as long as v is its lowest node. */
     for (; w > v; w = image[w])
       length++;
 
@@ -280,6 +286,7 @@ static thr_status take_census(const elements *group, const thr_plan *plan, censu
     thr_motion motion;
     thr_procrustes(&plan->frame, element(group, i), &motion);
 
+    /* Isometries leave a residual of rounding only. */
     if (*plan->symmetry.name && motion.residual > THR_ISOMETRY_NEAR + THR_ISOMETRY_ROUNDING)
       return thr_fail(err, THR_EVIOLATED,
                       "symmetry.name: \"%s\", but an element of order %d is no isometry: it moves "
@@ -319,6 +326,7 @@ static thr_status check_name(const elements *group, const thr_plan *plan, thr_er
                     "symmetry.name: \"%s\" is not the name of a point group of order %d", name,
                     found.order);
 
+  /* Orders do not depend on the embedding. */
   if (stated.longest != found.longest || stated.involutions != found.involutions)
     return thr_fail(err, THR_EVIOLATED,
                     "symmetry.name: \"%s\" has %d elements of order 2 and one of order %d; the "

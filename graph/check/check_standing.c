@@ -174,6 +174,7 @@ static thr_status bodies_make(bead_bodies *bodies, const thr_plan *plan, thr_err
   for (int i = 0; i < plan->n_cords; i++)
     longest = plan->cord[i].n_passes > longest ? plan->cord[i].n_passes : longest;
 
+  /* Everything else is 0 at first. */
   *bodies = (bead_bodies){.plan = plan,
                           .evaluation = &plan->evaluation,
                           .standing = standing,
@@ -309,7 +310,7 @@ static bool opens(const double apart[3], const double normal[3], double mu, doub
   return along >= mu * sqrt(thr_dot(across, across)) - closing;
 }
 
-/* Unit vector along edge e, and two across it, the first one level. */
+/* Computes the unit vector along edge e, and two across it, the first one level. */
 static void axes_of(const bead_bodies *bodies, int e, double axis[3], double side[2][3])
 {
   axis_of(bodies, e, axis);
@@ -322,7 +323,7 @@ static void axes_of(const bead_bodies *bodies, int e, double axis[3], double sid
   thr_cross(axis, side[0], side[1]);
 }
 
-/* Point number i of the corners of a square of side width round `middle`. */
+/* Computes corner number i of a square of side width round `middle`. */
 static void corner_of(const bead_bodies *bodies, const double middle[3], const double side[2][3],
                       int i, double out[3])
 {
@@ -373,6 +374,7 @@ static int foot_velocities(const bead_bodies *bodies, const thr_answer *answer, 
   return sides;
 }
 
+/* Returns the magnitude of a velocity. */
 static double speed(const double velocity[3])
 {
   return sqrt(thr_dot(velocity, velocity));
@@ -640,6 +642,8 @@ static thr_status check_answer(bead_bodies *bodies, int i, thr_err *err)
                     "%.12g; expected 1",
                     i, fastest_bead(bodies, answer));
   const double fastest = fastest_point(bodies, answer), closing = STILL * fastest;
+
+  /* Speeds of corners grow with the turning of their bead. */
   if (!isfinite(fastest))
     return thr_fail(err, THR_EVIOLATED,
                     "evaluation.structure.answers[%d].mechanism: a bead turns too fast", i);
@@ -656,6 +660,7 @@ static thr_status check_answer(bead_bodies *bodies, int i, thr_err *err)
                       i, v,
                       bodies->standing->clamped ? "is held, but moves" : "goes into the ground");
 
+  /* What is stated has to follow from the powers. */
   if (proves(bodies, answer, fastest)) return THR_OK;
   return thr_fail(
       err, THR_EVIOLATED,

@@ -62,7 +62,8 @@ thr_status thr_check_cover(const thr_frame *frame, const thr_request *options, c
   return THR_OK;
 }
 
-/* Checks, if the request gives numbers of ends (THR_ENDS_COUNTS), that every node has them. */
+/* Checks that every node has as many cord ends as the request says, if it says so
+ * (THR_ENDS_COUNTS). */
 static thr_status check_end_counts(const thr_frame *frame, const thr_request *options,
                                    const thr_cord *cord, int n_cords, thr_err *err)
 {

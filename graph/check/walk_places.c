@@ -51,6 +51,7 @@ static thr_status check_memory(const thr_walk_steps *steps, const thr_walk_memor
                     "walks: edge %d is not to be remembered: out of order, or of another component",
                     e);
 
+  /* An edge that needs more passes is rewarded more than once. */
   if (columns->cover[e] != 1)
     return thr_fail(err, THR_EVIOLATED, "walks: edge %d, which is remembered, needs %d passes", e,
                     columns->cover[e]);
@@ -82,6 +83,7 @@ static thr_status make_lists(memory_builder *builder, const thr_walk_memory *mem
   }
   if (st) return st;
 
+  /* Edges come in ascending order, so that an edge is listed once. */
   builder->first =
       thr_scratch_array(&builder->own, (size_t)steps->n_spots + 1, sizeof *builder->first);
   builder->offset =
@@ -107,6 +109,7 @@ static thr_status make_lists(memory_builder *builder, const thr_walk_memory *mem
     for (int k = 0; k < memory[i].n; k++)
       builder->edge[--builder->first[steps->place[memory[i].place[k]] + 1]] = memory[i].edge;
 
+  /* Starts moved to the ends of the lists before; move them back. */
   for (int s = 0; s < steps->n_spots; s++)
     builder->first[s] = builder->first[s + 1];
   builder->first[steps->n_spots] = (int)total;
@@ -151,6 +154,7 @@ static void find_place(memory_builder *builder, int spot, int set)
   const int i = builder->offset[spot] + set;
   if (builder->place[i] >= 0) return;
 
+  /* The set and the spot are found again by the place's number. */
   builder->place[i] = builder->n;
   builder->at[builder->n] = spot;
   builder->queue[builder->n++] = i;
@@ -170,9 +174,11 @@ static thr_status find_places(memory_builder *builder, thr_err *err)
   for (size_t i = 0; i < most && !st; i++)
     builder->place[i] = -1;
 
+  /* Walks begin here .. */
   for (int k = 0; k < steps->n_begins && !st; k++)
     find_place(builder, steps->begin[k].to, first_set(builder, &steps->begin[k]));
 
+  /* .. and every step from a place found leads to a place. */
   for (int i = 0; i < builder->n && !st; i++) {
     const int spot = builder->at[i], set = builder->queue[i] - builder->offset[spot];
     builder->n_steps += steps->first[spot + 1] - steps->first[spot];
@@ -197,6 +203,7 @@ static void number_places(memory_builder *builder, int *copy, int *spot)
     for (int i = builder->offset[s]; i < builder->offset[s + 1]; i++) {
       if (builder->place[i] < 0) continue;
 
+      /* From here on the queue holds the places by number. */
       spot[n] = s;
       builder->queue[n] = i;
       builder->place[i] = n++;
@@ -218,6 +225,7 @@ static void copy_steps(const memory_builder *builder, thr_walk_steps *to)
     to->group[i] = from->group[s];
     to->end[i] = from->end[s];
 
+    /* Steps stay those of the spot; only where they lead to depends on the set. */
     for (int k = from->first[s]; k < from->first[s + 1]; k++, n++) {
       const int after = from->step[k].to, edge = from->step[k].half >> 1;
       to->step[n] = from->step[k];
@@ -241,6 +249,7 @@ thr_status thr_walk_steps_remember(thr_walk_steps *steps, const thr_walk_memory 
   memory_builder builder = {.steps = steps};
   if (n == 0) return THR_OK;
 
+  /* Lists of edges, then places. */
   thr_status st = make_lists(&builder, memory, n, err);
   if (!st) st = find_places(&builder, err);
 
@@ -260,6 +269,7 @@ thr_status thr_walk_steps_remember(thr_walk_steps *steps, const thr_walk_memory 
     made.active = thr_scratch_array(&steps->own, places, sizeof *made.active);
     made.own = steps->own;
 
+    /* The old arrays stay in the same scratch until the end. */
     st = thr_scratch_check(&steps->own, err);
     if (!st) {
       number_places(&builder, made.copy, made.spot);
