@@ -26,6 +26,7 @@ static void unit_direction(const thr_frame *frame, int half, double unit[3])
     unit[i] /= size;
 }
 
+/* Returns the angle between two unit vectors by Kahan's formula. */
 static double angle_of_units(const double a[3], const double b[3])
 {
   double sum = 0, difference = 0;

@@ -85,7 +85,7 @@ static thr_status check_rise(const cord_claim *claim, thr_err *err)
     bool to_end = i >= stated->slackest;
     if (to_end ? stated->pull == THR_PULL_START : stated->pull == THR_PULL_END) continue;
 
-    /* Pulled from there, the tension rises in that direction. */
+    /* By how much the tension rises towards the pulled end. */
     double rise = to_end ? stated->tension[i + 1] - stated->tension[i]
                          : stated->tension[i] - stated->tension[i + 1];
 

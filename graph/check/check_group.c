@@ -110,8 +110,8 @@ static int *find(elements *group, const int *image)
   return &group->slot[i];
 }
 
-/* Makes place for one more element in the list, but for no more than `most`. */
-static thr_status make_room(elements *group, int most, thr_err *err)
+/* Allocates one more element for the list if it is full, but no more than `most` in all. */
+static thr_status grow_list(elements *group, int most, thr_err *err)
 {
   if (group->order < group->capacity) return THR_OK;
 
@@ -132,7 +132,7 @@ static thr_status list_elements(elements *group, const thr_symmetry_record *reco
 {
   group->n = n_nodes;
   memset(group->slot, -1, sizeof group->slot);
-  thr_status st = make_room(group, record->order + 1, err);
+  thr_status st = grow_list(group, record->order + 1, err);
   if (st) return st;
 
   /* The identity, then every element times every generator until nothing is new. */
@@ -142,7 +142,7 @@ static thr_status list_elements(elements *group, const thr_symmetry_record *reco
 
   for (int i = 0; i < group->order; i++)
     for (int k = 0; k < record->n_generators; k++) {
-      if ((st = make_room(group, record->order + 1, err))) return st;
+      if ((st = grow_list(group, record->order + 1, err))) return st;
 
       /* The product is written behind the list, and stays there if it is new. */
       int *last = group->image + (size_t)group->order * (size_t)n_nodes;

@@ -349,10 +349,11 @@ static void face_velocities(const bead_bodies *bodies, const thr_answer *answer,
   }
 }
 
+enum { SIDES = 16 };
+
 /* Computes the velocities of the corners on which foot v stands, and returns their number: those of
  * a regular polygon round its disc, or, in the first model, of a square. If no corner closes, no
  * point of the disc does. */
-enum { SIDES = 16 };
 static int foot_velocities(const bead_bodies *bodies, const thr_answer *answer, int v,
                            double velocity[SIDES][3])
 {

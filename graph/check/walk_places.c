@@ -109,7 +109,7 @@ static thr_status make_lists(memory_builder *builder, const thr_walk_memory *mem
     for (int k = 0; k < memory[i].n; k++)
       builder->edge[--builder->first[steps->place[memory[i].place[k]] + 1]] = memory[i].edge;
 
-  /* Starts moved to the ends of the lists before; move them back. */
+  /* After filling, the start of list s is at first[s + 1]. */
   for (int s = 0; s < steps->n_spots; s++)
     builder->first[s] = builder->first[s + 1];
   builder->first[steps->n_spots] = (int)total;

@@ -162,9 +162,9 @@ static thr_status find_groups(group_elimination *work, thr_err *err)
 
 /* ---- least degree ---- */
 
-/* Makes u's neighbours those of either u or v, without u and v themselves. room[] holds them
+/* Makes u's neighbours those of either u or v, without u and v themselves. merged[] holds them
  * meanwhile. */
-static thr_status merge(set *sets, int u, int v, int *room, thr_err *err)
+static thr_status merge(set *sets, int u, int v, int *merged, thr_err *err)
 {
   const set *a = &sets[u], *b = &sets[v];
   int n = 0, i = 0, k = 0;
@@ -175,7 +175,7 @@ static thr_status merge(set *sets, int u, int v, int *room, thr_err *err)
         k == b->count || (i < a->count && a->item[i] <= b->item[k]) ? a->item[i] : b->item[k];
     if (i < a->count && a->item[i] == next) i++;
     if (k < b->count && b->item[k] == next) k++;
-    if (next != u && next != v) room[n++] = next;
+    if (next != u && next != v) merged[n++] = next;
   }
 
   /* The list of u only ever has to grow here. */
@@ -185,7 +185,7 @@ static thr_status merge(set *sets, int u, int v, int *room, thr_err *err)
     sets[u].item = grown;
   }
 
-  memcpy(sets[u].item, room, (size_t)n * sizeof *room);
+  memcpy(sets[u].item, merged, (size_t)n * sizeof *merged);
   sets[u].count = n;
   return THR_OK;
 }
@@ -220,12 +220,12 @@ static void take_out_of_all(group_elimination *work, int v, int *degree)
 }
 
 /* Eliminates group v: its neighbours become neighbours of each other. */
-static thr_status take_out(group_elimination *work, int v, int *degree, int *room, thr_err *err)
+static thr_status take_out(group_elimination *work, int v, int *degree, int *merged, thr_err *err)
 {
   thr_status st = THR_OK;
   for (int k = 0; k < work->next_to[v].count && !st; k++) {
     const int u = work->next_to[v].item[k];
-    st = merge(work->next_to, u, v, room, err);
+    st = merge(work->next_to, u, v, merged, err);
     degree[u] = rows_of(work, &work->next_to[u]);
   }
   return st;
@@ -235,7 +235,7 @@ static thr_status take_out(group_elimination *work, int v, int *degree, int *roo
 static thr_status eliminate(group_elimination *work, thr_err *err)
 {
   thr_scratch own = {0};
-  int *room = thr_scratch_array(&own, (size_t)work->n_groups, sizeof *room);
+  int *merged = thr_scratch_array(&own, (size_t)work->n_groups, sizeof *merged);
   int *degree = thr_scratch_array(&own, (size_t)work->n_groups, sizeof *degree);
   bool meet = false;
   thr_status st = thr_scratch_check(&own, err);
@@ -243,7 +243,7 @@ static thr_status eliminate(group_elimination *work, thr_err *err)
   /* A group is no neighbour of itself. */
   for (int g = 0; g < work->n_groups && !st; g++) {
     work->rank[g] = -1;
-    st = merge(work->next_to, g, g, room, err);
+    st = merge(work->next_to, g, g, merged, err);
     degree[g] = rows_of(work, &work->next_to[g]);
   }
 
@@ -259,7 +259,7 @@ static thr_status eliminate(group_elimination *work, thr_err *err)
     if (meet)
       take_out_of_all(work, v, degree);
     else
-      st = take_out(work, v, degree, room, err);
+      st = take_out(work, v, degree, merged, err);
   }
 
   thr_scratch_free(&own);

@@ -36,9 +36,9 @@ typedef struct {
   thr_normal *normal;
   const thr_bundles *a;
   int m, n, components;
-  double goal;  /* relative error to end at */
-  double unmet; /* what a relative error of the equations counts */
-  double *room; /* all arrays below; owned */
+  double goal;    /* relative error to end at */
+  double unmet;   /* what a relative error of the equations counts */
+  double *memory; /* all arrays below; owned */
   point at, step, trial;
   double *p, *q, *r;
   double *weight;            /* x / z .. */
@@ -47,11 +47,11 @@ typedef struct {
   double *force, *pushed;    /* [components] */
 } interior_state;
 
-/* Takes n numbers from the room that is left. */
-static void carve(double **room, double **array, int n)
+/* Takes n numbers from the memory that is left. */
+static void carve(double **memory, double **array, int n)
 {
-  *array = *room;
-  *room += n;
+  *array = *memory;
+  *memory += n;
 }
 
 /* Allocates all arrays in one piece, and makes the normal equations. */
@@ -59,26 +59,26 @@ static thr_status state_make(interior_state *state, thr_err *err)
 {
   size_t m = (size_t)state->m, n = (size_t)state->n;
   const size_t components = (size_t)state->components;
-  double *room = state->room = thr_calloc(7 * m + 9 * n + 4 * components, sizeof *room);
-  if (!room) return thr_nomem(err);
+  double *memory = state->memory = thr_calloc(7 * m + 9 * n + 4 * components, sizeof *memory);
+  if (!memory) return thr_nomem(err);
 
   point *points[] = {&state->at, &state->step, &state->trial};
   for (int i = 0; i < 3; i++) {
-    carve(&room, &points[i]->x, state->n);
-    carve(&room, &points[i]->z, state->n);
-    carve(&room, &points[i]->y, state->m);
+    carve(&memory, &points[i]->x, state->n);
+    carve(&memory, &points[i]->z, state->n);
+    carve(&memory, &points[i]->y, state->m);
   }
 
-  carve(&room, &state->q, state->n);
-  carve(&room, &state->r, state->n);
-  carve(&room, &state->weight, state->n);
-  carve(&room, &state->p, state->m);
-  carve(&room, &state->rows, state->m);
-  carve(&room, &state->rise, state->m);
-  carve(&room, &state->way, state->m);
-  carve(&room, &state->force, state->components);
-  carve(&room, &state->pushed, state->components);
-  carve(&room, &state->weights, 2 * state->components); /* three numbers become six */
+  carve(&memory, &state->q, state->n);
+  carve(&memory, &state->r, state->n);
+  carve(&memory, &state->weight, state->n);
+  carve(&memory, &state->p, state->m);
+  carve(&memory, &state->rows, state->m);
+  carve(&memory, &state->rise, state->m);
+  carve(&memory, &state->way, state->m);
+  carve(&memory, &state->force, state->components);
+  carve(&memory, &state->pushed, state->components);
+  carve(&memory, &state->weights, 2 * state->components); /* three numbers become six */
 
   thr_status st = thr_normal_create(&state->normal, &state->equations->a, state->rays.n_cones, err);
   if (!st) state->a = thr_normal_bundles(state->normal);
@@ -498,6 +498,6 @@ thr_status thr_interior_solve(const thr_equations *equations, const thr_limits *
   if (!st) run(&state, limits, out);
 
   thr_normal_destroy(state.normal);
-  free(state.room);
+  free(state.memory);
   return st;
 }

@@ -481,6 +481,7 @@ static void do_reset_basis(void *argument)
   glp_std_basis(argument);
 }
 
+/* Returns what the last solve came to; undecided means stopped. */
 static thr_lp_outcome outcome_of(glp_prob *problem)
 {
   switch (glp_get_status(problem)) {
