@@ -1,16 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A short longest cord: from several starts, and by the programme over walks. */
+/* Makes the longest cord of a plan as short as can be, and proves it: by all sets of edges that
+ * short cords pass, by annealing, and by the programme over walks. */
 #include "graph/check/check.h"
 #include "graph/check/edge_sets.h"
 #include "graph/plan/walk_proof.h"
-#include "graph/random.h"
-#include "graph/threading/threading.h"
 #include "planner/planner_parts.h"
-#include "tortuosity/cords/anneal.h"
+#include "graph/threading/anneal.h"
 #include "tortuosity/cords/walk_model.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 
 static const double near = 1e-9; /* of the bound: rounding */
@@ -55,99 +53,6 @@ static bool has_room(const thr_frame *frame, const thr_request *options, const t
     fits = passes >= thr_plan_cover(frame, options, e) && passes <= room;
   }
   return fits;
-}
-
-/* ---- from several starts ---- */
-
-/* The cords of a plan for edges that are longer than they are, each by up to a part of its length,
- * evened out as long as they are. *cord: NULL, or the caller's. */
-static thr_status start_again(const thr_frame *frame, const thr_request *options, double part,
-                              uint64_t *random, const thr_limits *limits, thr_cord **cord,
-                              int *n_cords, thr_err *err)
-{
-  thr_plan asked = {0}, made = {0};
-  thr_decomposition x = {0};
-  thr_err why = {0};
-  *cord = NULL;
-  thr_status st = thr_plan_request(&asked, frame, options, err);
-  if (st) return st;
-  asked.options.confirm = THR_CONFIRM_NEVER;
-  for (int e = 0; e < frame->n_edges; e++)
-    asked.frame.length[e] *= 1 + part * thr_random_unit(random);
-  st = thr_cords_plan(&asked.frame, &asked.options, limits, &made, NULL, &why);
-  bool found = made.n_cords > 0;
-  st = st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves no start */
-  if (!st && found) st = thr_decomposition_init(&x, frame, options, limits, err);
-  for (int i = 0; i < made.n_cords && !st; i++)
-    st = thr_walks_copy(&x.walks, frame, made.cord[i].half, made.cord[i].n_passes,
-                        options->ends == THR_ENDS_CLOSED, err);
-  if (!st && found) thr_walks_count(&x.walks, x.passes);
-  if (!st && found) st = thr_decomposition_even(&x, 0, err);
-  if (!st && found) st = thr_walks_cords(&x.walks, frame, options, cord, n_cords, err);
-  thr_decomposition_destroy(&x);
-  thr_plan_destroy(&made);
-  thr_plan_destroy(&asked);
-  return st;
-}
-
-/* Keeps the cords with the shorter longest one. */
-static void keep_shorter(const thr_frame *frame, thr_cord **best, thr_cord *cord, int n_cords)
-{
-  bool shorter = thr_cords_longest(frame, cord, n_cords) <
-                 thr_cords_longest(frame, *best, n_cords) * (1 - 1e-9);
-  thr_cords_destroy(shorter ? *best : cord, n_cords);
-  if (shorter) *best = cord;
-}
-
-/* *best: n_cords cords, of which the longest is short enough at that length. */
-static thr_status try_starts(const thr_frame *frame, const thr_request *options, double enough,
-                             const thr_limits *limits, thr_cord **best, int n_cords, thr_err *err)
-{
-  enum { STARTS = 400, UNLIMITED = 30, PASSES = 20000 };
-  static const double part[] = {.02, .1, .4};
-  thr_limits quiet = thr_limits_part(limits, .3);
-  int starts = limits->deadline > 0 ? PASSES / frame->n_edges : UNLIMITED;
-  uint64_t random = 1;
-  thr_status st = THR_OK;
-  if (starts > STARTS) starts = STARTS;
-  quiet.found = NULL;
-  for (int i = 0; i < starts && !st && thr_cords_longest(frame, *best, n_cords) > enough &&
-                  !thr_limits_stop(&quiet);
-       i++) {
-    thr_cord *cord;
-    int n = 0;
-    st = start_again(frame, options, part[i % 3], &random, &quiet, &cord, &n, err);
-    if (!st && n == n_cords)
-      keep_shorter(frame, best, cord, n);
-    else
-      thr_cords_destroy(cord, n);
-  }
-  return st;
-}
-
-thr_status thr_planner_even_starts(const thr_frame *frame, const thr_request *options,
-                                   const thr_limits *limits, thr_plan *plan, thr_cords_word *word,
-                                   thr_err *err)
-{
-  enum { MOST_EDGES = 1000 };
-  thr_cord *best = NULL;
-  thr_err why = {0};
-  thr_status st = thr_cords_plan(frame, options, limits, plan, word, &why);
-  const thr_cords_claim *claim = &plan->cords_claim;
-  bool wanted = thr_wants_balance(options) && options->max_length == 0 &&
-                frame->n_edges <= MOST_EDGES && claim->longest > claim->longest_bound * (1 + near);
-  if (st != THR_ELIMIT || !wanted) return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
-  st = thr_cords_copy(plan->cord, plan->n_cords, &best, err);
-  if (!st)
-    st = try_starts(frame, options, claim->longest_bound * (1 + near), limits, &best, plan->n_cords,
-                    err);
-  if (!st && thr_cords_longest(frame, best, plan->n_cords) < claim->longest) {
-    st = take_cords(plan, best, err);
-    best = NULL;
-  }
-  thr_cords_destroy(best, plan->n_cords);
-  if (!st) st = judge(plan, err);
-  return st ? st : thr_cords_judge(plan, &(thr_err){0}, err);
 }
 
 /* ---- all sets of edges ---- */

@@ -117,7 +117,7 @@ static thr_status one_component(const thr_frame *frame, const thr_request *optio
                                 thr_err *err)
 {
   thr_err why = {0};
-  thr_status st = thr_planner_even_starts(frame, options, limits, plan, word, &why);
+  thr_status st = thr_cords_plan(frame, options, limits, plan, word, &why);
   bool open = st == THR_ELIMIT && plan->cords_claim.present && thr_wants_balance(options);
   if (!open) return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
   st = thr_planner_even_length(plan, limits, err);
@@ -135,7 +135,7 @@ static thr_status plan_solid(const thr_frame *frame, const thr_request *options,
   if (st) return st;
   if (n == 1) return one_component(frame, options, limits, plan, word, err);
   st = thr_plan_request(plan, frame, options, err);
-  if (!st) st = plan_components(thr_planner_even_starts, limits, plan, word, err);
+  if (!st) st = plan_components(thr_cords_plan, limits, plan, word, err);
   if (!st) st = prove_solid(plan, err);
   if (!st) st = thr_planner_even_length(plan, limits, err);
   if (!st) return thr_cords_judge(plan, &(thr_err){0}, err);

@@ -56,13 +56,6 @@ double thr_planner_length_limit(const thr_plan *plan, double limit);
 /* Does a plan serve the aims better than another, which may be empty? */
 bool thr_planner_is_better(const thr_request *options, const thr_plan *a, const thr_plan *b);
 
-/* thr_cords_plan, for solid joints and one component. Where the longest cord is to be short and may
- * be half a percent longer than it must, again from other passes: those that are shortest if the
- * edges were a little longer, each by chance. */
-thr_status thr_planner_even_starts(const thr_frame *frame, const thr_request *options,
-                                   const thr_limits *limits, thr_plan *plan, thr_cords_word *word,
-                                   thr_err *err) THR_MUST_CHECK;
-
 /* Where the longest cord of a plan of the least length is to be short and may be half a percent
  * longer than it must: what the programme over walks proves of it (tortuosity/cords/walk_bound.c),
  * and the cords that it finds. Solid joints. Without a deadline the work is counted.

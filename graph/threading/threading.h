@@ -228,14 +228,11 @@ typedef struct {
   int *walk;   /* [n] */
   int *at;     /* [n] its position */
   double *sum; /* [n] length of the walk as far as there */
-  bool own;    /* first is owned */
 } thr_walk_visits;
 
-/* Of walks w[0 .. n_walks - 1]. first: [n_nodes] of -1, borrowed and changed until
- * thr_walk_visits_forget; NULL: one of its own. O(positions), and O(nodes) for one of its own. */
+/* Lists the visits of walks w[0 .. n_walks - 1], which are borrowed. O(positions + nodes). */
 thr_status thr_walk_visits_init(thr_walk_visits *visits, const thr_frame *frame, const thr_walk *w,
-                                int n_walks, int *first, thr_err *err) THR_MUST_CHECK;
-void thr_walk_visits_forget(const thr_walk_visits *visits);
+                                int n_walks, thr_err *err) THR_MUST_CHECK;
 void thr_walk_visits_destroy(thr_walk_visits *visits);
 
 /* Moves the walks into cords: open ones from their lower end, cyclic ones from where closing leaves

@@ -187,38 +187,31 @@ static void list_walk(thr_walk_visits *visits, int i)
 }
 
 thr_status thr_walk_visits_init(thr_walk_visits *visits, const thr_frame *frame,
-                                const thr_walk *walk, int n_walks, int *first, thr_err *err)
+                                const thr_walk *walk, int n_walks, thr_err *err)
 {
   size_t n = (size_t)n_walks, nodes = (size_t)frame->n_nodes;
   for (int i = 0; i < n_walks; i++)
     n += (size_t)walk[i].n;
   *visits = (thr_walk_visits){.f = frame,
                               .w = walk,
-                              .first = first ? first : thr_calloc(nodes, sizeof *visits->first),
+                              .first = thr_calloc(nodes, sizeof *visits->first),
                               .next = thr_calloc(n, sizeof *visits->next),
                               .walk = thr_calloc(n, sizeof *visits->walk),
                               .at = thr_calloc(n, sizeof *visits->at),
-                              .sum = thr_calloc(n, sizeof *visits->sum),
-                              .own = !first};
+                              .sum = thr_calloc(n, sizeof *visits->sum)};
   if (!visits->first || !visits->next || !visits->walk || !visits->at || !visits->sum) {
     thr_walk_visits_destroy(visits);
     return thr_nomem(err);
   }
-  if (visits->own) memset(visits->first, 0xff, nodes * sizeof *visits->first);
+  memset(visits->first, 0xff, nodes * sizeof *visits->first);
   for (int i = 0; i < n_walks; i++)
     list_walk(visits, i);
   return THR_OK;
 }
 
-void thr_walk_visits_forget(const thr_walk_visits *visits)
-{
-  for (int e = 0; e < visits->n; e++)
-    visits->first[thr_walk_node(visits->f, &visits->w[visits->walk[e]], visits->at[e])] = -1;
-}
-
 void thr_walk_visits_destroy(thr_walk_visits *visits)
 {
-  if (visits->own) free(visits->first);
+  free(visits->first);
   free(visits->next);
   free(visits->walk);
   free(visits->at);

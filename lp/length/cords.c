@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The shortest plan with any number of cords: passes (lp/length/postman.h), shared out among cords
- * (lp/length/decomposition.c, lp/length/balance.c); for a length limit with more and more cords
+ * (lp/length/decomposition.c); for a length limit with more and more cords
  * until none is longer.
  *
  * Example: a framework of 12 m of passes, no cord longer than 5 m: three cords at least, ceil(12 /
@@ -190,14 +190,14 @@ thr_status thr_cords_reach(const thr_frame *frame, const thr_request *options, t
   thr_status st = thr_paths_init(&w, frame, err);
   for (int v = 0; v < frame->n_nodes && !st && !closed; v++)
     if (thr_plan_end_allowed(frame, options, v)) st = thr_paths_start(&w, v, err);
-  if (!st) st = thr_paths_spread(&w, options, NULL, 0, INFINITY, NULL, err);
+  if (!st) st = thr_paths_spread(&w, options, NULL, 0, INFINITY, err);
   for (int e = 0; e < frame->n_edges && !st; e++) {
     const int *end = frame->edge[e];
     if (closed && thr_decomposition_within(2 * frame->length[e], limit)) continue;
     if (closed) { /* there, and the shortest path back */
       thr_paths_clear(&w);
       st = thr_paths_start(&w, end[0], err);
-      if (!st) st = thr_paths_spread(&w, options, NULL, 0, frame->length[e], NULL, err);
+      if (!st) st = thr_paths_spread(&w, options, NULL, 0, frame->length[e], err);
       if (st) break;
     }
     double least = (closed ? 0 : w.far[end[0]]) + frame->length[e] + w.far[end[1]];

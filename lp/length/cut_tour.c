@@ -49,7 +49,7 @@ static thr_status cutting_init(cutting *x, thr_err *err)
     x->left[e] = thr_plan_cover(frame, x->o, e);
   for (int v = 0; v < frame->n_nodes && !st && !closed_cords(x); v++)
     if (thr_plan_end_allowed(frame, x->o, v)) st = thr_paths_start(&x->home, v, err);
-  if (!st) st = thr_paths_spread(&x->home, x->o, NULL, 0, INFINITY, NULL, err);
+  if (!st) st = thr_paths_spread(&x->home, x->o, NULL, 0, INFINITY, err);
   return st ? st : trace_tour(x, err);
 }
 
@@ -59,7 +59,7 @@ static thr_status begin_at(cutting *x, int v, thr_err *err)
   if (!closed_cords(x)) return THR_OK;
   thr_paths_clear(&x->home);
   thr_status st = thr_paths_start(&x->home, v, err);
-  return st ? st : thr_paths_spread(&x->home, x->o, NULL, 0, x->o->max_length, NULL, err);
+  return st ? st : thr_paths_spread(&x->home, x->o, NULL, 0, x->o->max_length, err);
 }
 
 /* Where the section of tour walk that begins at pass `from` ends: after the last pass that still

@@ -6,6 +6,9 @@
  * circuits.
  *
  * Example: a figure of eight, two closed cords: cut at its middle. */
+#include "graph/plan/turning_proof.h"
+#include "graph/plan/walk_proof.h"
+#include "graph/threading/anneal.h"
 #include "lp/length/postman_parts.h"
 
 #include <math.h>
@@ -240,8 +243,77 @@ static thr_status make_exact(thr_decomposition *decomposition, double goal, thr_
   return st;
 }
 
+/* The annealed cords as the walks. */
+static thr_status take_cords(thr_decomposition *decomposition, const thr_cord *cord, int n,
+                             thr_err *err)
+{
+  const bool closed = decomposition->o->ends == THR_ENDS_CLOSED;
+  thr_walks walks = {0};
+  thr_status st = THR_OK;
+  for (int i = 0; i < n && !st; i++)
+    st = thr_walks_copy(&walks, decomposition->f, cord[i].half, cord[i].n_passes, closed, err);
+  if (st) {
+    thr_walks_destroy(&walks);
+    return st;
+  }
+  thr_walks_destroy(&decomposition->walks);
+  decomposition->walks = walks;
+  memset(decomposition->passes, 0, (size_t)decomposition->f->n_edges * sizeof(int));
+  thr_walks_count(&decomposition->walks, decomposition->passes);
+  return THR_OK;
+}
+
+/* Anneals the walks until none is longer than the goal, or than the shortest passes shared evenly.
+ */
+static thr_status anneal(thr_decomposition *decomposition, double goal, thr_err *err)
+{
+  enum { STEPS = 20000, STEPS_PER_PASS = 3000, STEPS_MOST = 600000 };
+  const thr_frame *frame = decomposition->f;
+  const thr_walks *walks = &decomposition->walks;
+  thr_turning_columns columns = {0};
+  thr_cord *cord = NULL;
+  int n = walks->n_walks;
+  bool better = false;
+  if (n < 2) return THR_OK;
+  bool *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
+  if (!end_allowed) return thr_nomem(err);
+
+  /* What is asked of the cords, as columns. */
+  thr_turning_task task = thr_walk_length_task(frame, decomposition->o, end_allowed);
+  task.tube = decomposition->o->joint == THR_JOINT_TUBE;
+  thr_status st = thr_turning_columns_init(&columns, frame, &task, err);
+
+  /* The walks as cords. */
+  thr_walks copy = {0};
+  for (int i = 0; i < n && !st; i++)
+    st = thr_walks_copy(&copy, frame, walks->walk[i].half, walks->walk[i].n, walks->walk[i].cyclic,
+                        err);
+  if (!st) st = thr_walks_cords(&copy, frame, decomposition->o, &cord, &n, err);
+
+  /* First without further passes, as no cords are shorter together; then with them. */
+  const double mean = thr_walks_length(walks) / n;
+  const int steps = st ? 0 : STEPS + STEPS_PER_PASS * thr_cords_passes(cord, n);
+  thr_anneal_task annealing = {.measure = THR_WALK_LENGTH,
+                               .steps = steps < STEPS_MOST ? steps : STEPS_MOST,
+                               .rounds = 1,
+                               .enough = fmax(goal, mean * (1 + 1e-12))};
+  for (int i = 0; i < 2 && !st; i++) {
+    bool fell;
+    task.extra_limit = i == 0 ? 0 : -1;
+    annealing.first = i;
+    st = thr_anneal(&columns, &annealing, decomposition->limits, cord, n, &fell, err);
+    better |= fell;
+  }
+  if (!st && better) st = take_cords(decomposition, cord, n, err);
+  thr_cords_destroy(cord, cord ? n : 0);
+  thr_walks_destroy(&copy);
+  thr_turning_columns_destroy(&columns);
+  free(end_allowed);
+  return st;
+}
+
 thr_status thr_decomposition_even(thr_decomposition *decomposition, double goal, thr_err *err)
 {
-  thr_status st = thr_balance_walks(decomposition, goal, err);
+  thr_status st = anneal(decomposition, goal, err);
   return st ? st : make_exact(decomposition, goal, err);
 }

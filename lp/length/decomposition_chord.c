@@ -25,8 +25,7 @@ static thr_status best_chord(thr_paths *x, const thr_decomposition *decompositio
     thr_paths_clear(x);
     st = thr_paths_start(x, thr_walk_node(decomposition->f, walk, i), err);
     if (!st)
-      st = thr_paths_spread(x, decomposition->o, decomposition->passes, 2, walk->length / 2, NULL,
-                            err);
+      st = thr_paths_spread(x, decomposition->o, decomposition->passes, 2, walk->length / 2, err);
     for (int j = i + 1; j < walk->n && !st; j++) {
       part += decomposition->f->length[walk->half[j - 1] >> 1];
       double longer =
@@ -65,7 +64,7 @@ static thr_status split(thr_paths *x, thr_decomposition *decomposition, int i, c
   thr_status st = thr_paths_start(x, thr_walk_node(frame, &walks->walk[i], c->from), err);
   if (!st)
     st = thr_paths_spread(x, decomposition->o, decomposition->passes, 2, walks->walk[i].length / 2,
-                          NULL, err);
+                          err);
   int n = st ? 0 : thr_paths_to(x, thr_walk_node(frame, &walks->walk[i], c->end), path);
   if (!st) st = thr_decomposition_chord(decomposition, i, c->from, c->end, path, n, NULL, err);
   free(path);

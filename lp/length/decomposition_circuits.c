@@ -57,8 +57,7 @@ static thr_status best_section(const thr_decomposition *decomposition, thr_junct
   const thr_walks *walks = &decomposition->walks;
   thr_walk_visits visits;
   *best = (section){INFINITY, -1, 0, 0};
-  thr_status st =
-      thr_walk_visits_init(&visits, decomposition->f, walks->walk, walks->n_walks, NULL, err);
+  thr_status st = thr_walk_visits_init(&visits, decomposition->f, walks->walk, walks->n_walks, err);
   for (int j = 0; j < visits.n && !st; j++) {
     const thr_walk *y = &walks->walk[visits.walk[j]];
     if (only >= 0 && visits.walk[j] != only) continue;
@@ -226,8 +225,7 @@ static thr_status best_junction(const thr_decomposition *decomposition, junction
   const thr_walks *walks = &decomposition->walks;
   thr_walk_visits visits;
   *best = (junction){.price = INFINITY, .a = -1};
-  thr_status st =
-      thr_walk_visits_init(&visits, decomposition->f, walks->walk, walks->n_walks, NULL, err);
+  thr_status st = thr_walk_visits_init(&visits, decomposition->f, walks->walk, walks->n_walks, err);
   if (st) return st;
   for (int j = 0; j < visits.n; j++)
     for (int i = visits.next[j], seen = 0; i >= 0 && seen < MOST_VISITS; i = visits.next[i])

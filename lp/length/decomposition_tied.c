@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* More closed cords for tube joints: other orders of the same passes, then pairs of passes, or a
  * cord round a short circuit. */
+#include "graph/random.h"
 #include "lp/length/postman_parts.h"
 
 #include <math.h>
@@ -15,21 +16,48 @@ typedef struct {
 
 /* ---- other orders ---- */
 
-/* Sections turned round at random, so that other places to split come up. */
+/* Turns the closed section i .. j - 1 of a walk round, if every node stays tied. */
+static void turn_round(splitting *x, thr_walk *walk, int i, int j)
+{
+  thr_turn_change change = {.n = 0};
+  int before = thr_walk_before(walk, i);
+  if (j - i < walk->n) {
+    thr_turn_change_note(&change, before, walk->half[i], -1);
+    thr_turn_change_note(&change, walk->half[j - 1], walk->half[j], -1);
+    thr_turn_change_note(&change, before, walk->half[j - 1] ^ 1, 1);
+    thr_turn_change_note(&change, walk->half[i] ^ 1, walk->half[j], 1);
+    if (!thr_junction_graphs_allow(&x->ties, &change)) return;
+    thr_junction_graphs_make(&x->ties, &change);
+  }
+  thr_walk_reverse(walk->half + i, j - i);
+}
+
+/* Turns random closed sections of a walk round: its passes stay, their order changes. */
+static thr_status shuffle(splitting *x, thr_walk *walk, uint64_t *random, thr_err *err)
+{
+  enum { TURNS = 8 };
+  for (int t = 0; t < TURNS; t++) {
+    thr_walk_visits visits;
+    thr_status st = thr_walk_visits_init(&visits, x->s->f, walk, 1, err);
+    if (st) return st;
+    const int j = (int)(thr_random(random) % (uint64_t)walk->n), i = visits.next[j];
+    thr_walk_visits_destroy(&visits);
+    if (i >= 0 && (thr_random(random) & 3)) turn_round(x, walk, i, j);
+  }
+  return THR_OK;
+}
+
+/* Splits the walks, and where they are too few again after sections were turned round. */
 static thr_status split_shuffled(splitting *x, int n, thr_err *err)
 {
   enum { ROUNDS = 12 };
-  size_t nodes = (size_t)x->s->f->n_nodes;
-  thr_balance balance = {.s = x->s, .ties = &x->ties, .random = 1};
-  if (!(balance.first = thr_calloc(nodes, sizeof *balance.first))) return thr_nomem(err);
-  memset(balance.first, 0xff, nodes * sizeof *balance.first);
+  uint64_t random = 1;
   thr_status st = thr_decomposition_split(x->s, n, x->even, &x->ties, err);
   for (int round = 0; round < ROUNDS && !st && x->s->walks.n_walks < n; round++) {
     for (int i = 0; i < x->s->walks.n_walks && !st; i++)
-      st = thr_balance_shuffle(&balance, i, err);
+      st = shuffle(x, &x->s->walks.walk[i], &random, err);
     if (!st) st = thr_decomposition_split(x->s, n, x->even, &x->ties, err);
   }
-  free(balance.first);
   return st;
 }
 
@@ -78,8 +106,7 @@ static thr_status best_chord(const splitting *x, chord *best, thr_err *err)
   const thr_frame *frame = x->s->f;
   *best = (chord){.price = INFINITY};
   const int only = x->even ? thr_walks_longest(&x->s->walks) : -1;
-  thr_status st =
-      thr_walk_visits_init(&visits, frame, x->s->walks.walk, x->s->walks.n_walks, NULL, err);
+  thr_status st = thr_walk_visits_init(&visits, frame, x->s->walks.walk, x->s->walks.n_walks, err);
   if (st) return st;
   for (int h = 0; h < 2 * frame->n_edges; h++)
     if (x->s->passes[h >> 1] <= thr_plan_capacity(frame, x->s->o, h >> 1) - 2 &&
@@ -110,7 +137,7 @@ static thr_status spread_from(const splitting *x, thr_paths *g, int v, double mo
 {
   thr_paths_clear(g);
   thr_status st = thr_paths_start(g, v, err);
-  return st ? st : thr_paths_spread(g, x->s->o, x->s->passes, 1, most, NULL, err);
+  return st ? st : thr_paths_spread(g, x->s->o, x->s->passes, 1, most, err);
 }
 
 static bool on_way(const thr_paths *g, int v, int e)

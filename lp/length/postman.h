@@ -79,10 +79,10 @@ void thr_paths_clear(thr_paths *x);
 thr_status thr_paths_start(thr_paths *x, int v, thr_err *err) THR_MUST_CHECK;
 
 /* From the starts, over edges whose capacity leaves room for so many passes beyond passes[n_edges]
- * (NULL: over all), no further than most. What it costs is taken off *steps (NULL ok). O(m log m).
+ * (NULL: over all), no further than most. O(m log m).
  */
 thr_status thr_paths_spread(thr_paths *x, const thr_request *options, const int *passes, int room,
-                            double most, int64_t *steps, thr_err *err) THR_MUST_CHECK;
+                            double most, thr_err *err) THR_MUST_CHECK;
 
 /* The half-edges of the shortest path to v, walked back from v to node `to` on it (-1: to its
  * start), into half (NULL: they are only counted); returns how many. */
@@ -170,9 +170,9 @@ thr_status thr_decomposition_chord(thr_decomposition *decomposition, int i, int 
 thr_status thr_decomposition_merge(thr_decomposition *decomposition, int n,
                                    thr_err *err) THR_MUST_CHECK;
 
-/* Makes the longest walk as short as exchanges do it (lp/length/balance.c) and, where the framework
- * is small, as the table knows it. goal > 0: until none is longer than this, with the fewest cords
- * from then on. */
+/* Makes the longest walk as short as annealing does it (graph/threading/anneal.c) and, where the
+ * framework is small, as the table knows it. goal > 0: until none is longer than this, with the
+ * fewest cords from then on. */
 thr_status thr_decomposition_even(thr_decomposition *decomposition, double goal,
                                   thr_err *err) THR_MUST_CHECK;
 
@@ -182,7 +182,7 @@ static inline bool thr_decomposition_within(double length, double limit)
 }
 
 /* ---- cords.c: The shortest plan with any number of cords: passes (lp/length/postman.h), shared
- * out among cords (lp/length/decomposition.c, lp/length/balance.c); for a length limit with more
+ * out among cords (lp/length/decomposition.c); for a length limit with more
  * and more cords until none is longer. */
 
 /* What is known beyond what graph/check/check.c can verify, for the one who asked. */

@@ -47,7 +47,7 @@ thr_status thr_paths_start(thr_paths *x, int v, thr_err *err)
 }
 
 thr_status thr_paths_spread(thr_paths *x, const thr_request *options, const int *passes, int room,
-                            double most, int64_t *steps, thr_err *err)
+                            double most, thr_err *err)
 {
   const thr_frame *frame = x->f;
   thr_status st = THR_OK;
@@ -55,7 +55,6 @@ thr_status thr_paths_spread(thr_paths *x, const thr_request *options, const int 
     thr_queued at = thr_queue_pop(&x->queue);
     if (-at.key > (int64_t)(x->far[at.place] / x->unit))
       continue; /* a shorter path was found since */
-    if (steps) *steps -= 4;
     for (int i = frame->first[at.place]; i < frame->first[at.place + 1] && !st; i++) {
       int h = frame->half[i], e = h >> 1;
       double far = x->far[at.place] + frame->length[e];

@@ -8,7 +8,7 @@
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "tests/walks.h"
-#include "tortuosity/cords/anneal.h"
+#include "graph/threading/anneal.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -6,7 +6,7 @@
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "tests/walks.h"
-#include "tortuosity/cords/anneal.h"
+#include "tortuosity/cords/anneal_turns.h"
 #include "tortuosity/cords/join.h"
 
 #include <math.h>

@@ -16,7 +16,7 @@
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
 #include "graph/random.h"
-#include "tortuosity/cords/anneal.h"
+#include "tortuosity/cords/anneal_turns.h"
 
 #include <float.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 /* What the annealing of turns is made of. Internal to tortuosity/cords/anneal_turns*.c. */
 #include "graph/disjoint.h"
 #include "graph/framework/frame.h"
-#include "tortuosity/cords/anneal.h"
+#include "tortuosity/cords/anneal_turns.h"
 
 #include <math.h>
 #include <stdlib.h>

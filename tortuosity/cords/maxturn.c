@@ -10,7 +10,6 @@
 #include "graph/plan/physics.h"
 #include "graph/process/threads.h"
 #include "graph/random.h"
-#include "tortuosity/cords/anneal.h"
 #include "tortuosity/cords/several.h"
 #include "tortuosity/cords/walk_model.h"
 #include "tortuosity/tie/tie.h"

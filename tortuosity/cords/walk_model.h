@@ -11,6 +11,7 @@
 #include "graph/plan/walk_proof.h"
 #include "graph/scratch.h"
 #include "graph/status.h"
+#include "graph/threading/anneal.h"
 #include "lp/model/tree.h"
 #include "tortuosity/proof/branch.h"
 
@@ -160,12 +161,6 @@ thr_row thr_walk_programme_row(const thr_walk_programme *programme, thr_pool *po
 
 /* Keeps the walks for the next limit. */
 thr_status thr_walk_programme_end(thr_walk_programme *programme, thr_err *err) THR_MUST_CHECK;
-
-/* Price of the turns of a cord, its pulled turning, or its length; which one has most. */
-double thr_walk_price(const thr_turning_columns *columns, thr_walk_measure measure,
-                      const thr_cord *cord);
-int thr_walk_dearest(const thr_turning_columns *columns, thr_walk_measure measure,
-                     const thr_cord *cord, int n_cords);
 
 /* ---- walk_pull.c: How long all cords together must be if each keeps to a limit on the pull: the
  * programme over walks. */

@@ -36,46 +36,6 @@ static const double most_steps = 2e8;      /* of all recursions for a look at th
 static const double most_pull_steps = 3e7; /* where they are about all cords, and look longer */
 static const double per_step = 1e-9;       /* seconds */
 
-/* What the pass after number k of a cord, or the first one for k = -1, adds to it. */
-static double pass_price(const thr_turning_columns *columns, thr_walk_measure measure,
-                         const thr_cord *cord, int k)
-{
-  int out = cord->half[(k + 1) % cord->n_passes];
-  if (measure == THR_WALK_LENGTH) return columns->f->length[out >> 1];
-  return k < 0 ? 0 : thr_turn_price(columns->f, columns->task->cost, cord->half[k], out);
-}
-
-/* Of the passes from number -1 on that have a price: closed cords turn where they close, too, if
- * that is not at their ends. */
-static int priced_passes(const thr_turning_columns *columns, thr_walk_measure measure,
-                         const thr_cord *cord)
-{
-  return cord->n_passes - (measure != THR_WALK_TURNING || columns->task->end_allowed);
-}
-
-double thr_walk_price(const thr_turning_columns *columns, thr_walk_measure measure,
-                      const thr_cord *cord)
-{
-  double price = 0;
-  if (measure == THR_WALK_PULL) return thr_cord_pulled_turning(columns->f, cord);
-  for (int k = -1; k < priced_passes(columns, measure, cord); k++)
-    price += pass_price(columns, measure, cord, k);
-  return price;
-}
-
-int thr_walk_dearest(const thr_turning_columns *columns, thr_walk_measure measure,
-                     const thr_cord *cord, int n_cords)
-{
-  double most = -1;
-  int dearest = 0;
-  for (int i = 0; i < n_cords; i++) {
-    double price = thr_walk_price(columns, measure, &cord[i]);
-    if (price > most) dearest = i;
-    most = fmax(most, price);
-  }
-  return dearest;
-}
-
 /* ---- set up ---- */
 
 /* A unit of which at most so many make up the whole, and of those up to twice as large the one of
@@ -91,8 +51,8 @@ static int64_t choose_unit(const thr_walk_programme *p, thr_walk_measure measure
     if (p->c->component[frame->edge[e][0]] == p->component) most = fmin(most, frame->length[e]);
   for (int i = 0; i < CANDIDATES; i++) {
     double candidate = fmin(smallest * (1 + (double)i / CANDIDATES), most), loss = 0;
-    for (int k = -1; k < priced_passes(p->c, measure, cord); k++) {
-      double part = pass_price(p->c, measure, cord, k) / candidate;
+    for (int k = -1; k < thr_walk_priced_passes(p->c, measure, cord); k++) {
+      double part = thr_walk_pass_price(p->c, measure, cord, k) / candidate;
       loss += candidate * (part + 1e-9 - floor(part + 1e-9));
     }
     if (loss < least_loss) {

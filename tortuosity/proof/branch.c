@@ -8,7 +8,7 @@
  *
  * Example: bounds 10 and 12 of the two sides and a plan of price 11 leave one side open. */
 #include "graph/angle.h"
-#include "tortuosity/cords/anneal.h"
+#include "tortuosity/cords/anneal_turns.h"
 #include "tortuosity/proof/relax_parts.h"
 #include "tortuosity/tie/tie.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Plans by annealing from the best one. */
 #include "graph/scratch.h"
-#include "tortuosity/cords/anneal.h"
+#include "tortuosity/cords/anneal_turns.h"
 #include "tortuosity/proof/branch.h"
 
 enum {

@@ -148,7 +148,7 @@ static thr_status add_circuits(first *x, int n, thr_err *err)
   thr_paths g;
   thr_status st = thr_paths_init(&g, x->f, err);
   if (!st) st = thr_paths_start(&g, 0, err);
-  if (!st) st = thr_paths_spread(&g, x->o, NULL, 0, INFINITY, NULL, err);
+  if (!st) st = thr_paths_spread(&g, x->o, NULL, 0, INFINITY, err);
   if (!st) st = add_circuit(x, &g, find_circuit(x->f, &g), n, err);
   thr_paths_destroy(&g);
   return st;

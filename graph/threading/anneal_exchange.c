@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Changes that leave all passes as they are: what they make of the totals is known from running
  * sums. */
-#include "graph/framework/frame.h"
 #include "graph/random.h"
-#include "tortuosity/cords/anneal.h"
+#include "graph/threading/anneal.h"
 
 /* The passes before and after visit i; -1 where an open cord ends. */
 static int before(const thr_annealer *x, const thr_anneal_walk *walk, int i)

@@ -6,11 +6,9 @@
  *
  * Example: a cord that turns by 400 degrees passes an edge that another one passes as well, with
  * two turns of 90 degrees; it goes straight on instead. */
-#include "tortuosity/cords/anneal.h"
-#include "graph/framework/frame.h"
+#include "graph/threading/anneal.h"
 #include "graph/process/threads.h"
 #include "graph/random.h"
-#include "tortuosity/cords/walk_model.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -38,10 +36,10 @@ static double fall(double first, double to, double done)
  * taken. */
 static void cool(course *at, thr_walk_measure measure, int number, double done)
 {
-  const double hot = number % 2 ? 2 : .5;
+  const bool hot = number / 2 % 2;
   if (measure == THR_WALK_LENGTH) {
-    at->part = fall(.15 * at->best, .1, done);
-    at->heat = fall(hot, .01, done);
+    at->part = fall((hot ? .15 : .02) * at->best, .1, done);
+    at->heat = fall(hot ? .5 : .1, .01, done);
   } else if (at->near) {
     at->part = fall(.2 * at->best, .15, done);
     at->heat = fall(.4, .175, done) / at->part; /* rad */
@@ -105,7 +103,7 @@ static thr_status step(thr_annealer *x, const course *at, bool *made, thr_err *e
     found = thr_anneal_exchanges(x, a, &exchange);
   else if (kind < drops)
     found = thr_anneal_drop_loop(x, a, &exchange.change);
-  else if (kind < ends && !x->closed)
+  else if (kind < ends && !x->closed && !x->fixed)
     found = thr_anneal_end_elsewhere(x, a, &exchange.change);
   else
     found = thr_anneal_reroute(x, a, &exchange.change);

@@ -1,13 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Simulated annealing of cords by exchanges: of walks, of turns at nodes, of parts. */
+/* Simulated annealing of several cords: the one that is longest, or turns most, as short as can be.
+ */
 #ifndef THR_ANNEAL_H
 #define THR_ANNEAL_H
 
+#include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
 #include "graph/scratch.h"
-#include "tortuosity/cords/join.h"
+#include "graph/threading/threading.h"
 
 #include <stdint.h>
+
+/* ---- walk_price.c: Computes what one cord counts for, by length, turning or pull. */
+
+/* Price of the turns of a cord, its pulled turning, or its length; which one has most. */
+double thr_walk_price(const thr_turning_columns *columns, thr_walk_measure measure,
+                      const thr_cord *cord);
+int thr_walk_dearest(const thr_turning_columns *columns, thr_walk_measure measure,
+                     const thr_cord *cord, int n_cords);
+
+/* The summands of thr_walk_price: what the pass after number k adds, k = -1 .. so many - 1. */
+double thr_walk_pass_price(const thr_turning_columns *columns, thr_walk_measure measure,
+                           const thr_cord *cord, int k);
+int thr_walk_priced_passes(const thr_turning_columns *columns, thr_walk_measure measure,
+                           const thr_cord *cord);
 
 /* ---- anneal.c: Cords evened out by simulated annealing (S. Kirkpatrick, C. D. Gelatt & M. P.
  * Vecchi 1983) that changes their passes, too. */
@@ -26,32 +42,16 @@ typedef struct {
 /* Lowers the largest price of the turns of n_cords cords, or their largest length, and replaces
  * them where it falls, as long as it is above enough: in rounds of two runs each from the best so
  * far (alone: of one; of lengths every second run begins hotter), until all rounds are done, or
- * several in turn were in vain, or the limits' time is up. Solid joints, and no given numbers of
- * ends at nodes. Every edge keeps the passes that the columns ask for, and has no more than they
- * allow. *better: whether it fell. A change that is not taken takes time that does not depend on
- * the framework, one that is O(passes of two cords). */
+ * several in turn were in vain, or the limits' time is up. Where
+ * ends are counted at nodes they stay; with tube joints every node stays tied. Every edge keeps the
+ * passes that the columns ask for, and has no more than they allow. *better: whether it fell. A
+ * change that is not taken takes time that does not depend on the framework, one that is O(passes
+ * of two cords). */
 thr_status thr_anneal(const thr_turning_columns *columns, const thr_anneal_task *task,
                       const thr_limits *limits, thr_cord *cord, int n_cords, bool *better,
                       thr_err *err) THR_MUST_CHECK;
 
-/* ---- anneal_turns.c: Turns and extra passes changed together by simulated annealing (S.
- * Kirkpatrick, C. D. Gelatt & M. P. Vecchi 1983), for the least turning of single cords. */
-
-/* Is it made for what is asked? Solid joints, one cord in every component, closed or open, turns
- * that cost, and at most 64 edges at a node. */
-bool thr_anneal_turns_serves(const thr_turning_columns *columns);
-
-/* cycles: of these columns (thr_short_cycles_find). x[n_columns], whole numbers that keep the
- * equations and hang together, is replaced if something cheaper is found: in so many steps of one
- * run with these random numbers, or when the limits stop it. again: x was found by such a run, and
- * the temperature begins so low that most of it stays. Cord ends stay at their nodes. A step is
- * O(length of a cycle * degree), and what it looks at to see whether all hangs together; memory
- * O(columns). */
-thr_status thr_anneal_turns(const thr_turning_columns *columns, const thr_short_cycles *cycles,
-                            bool again, int64_t steps, uint64_t seed, const thr_limits *limits,
-                            int *x, bool *better, thr_err *err) THR_MUST_CHECK;
-
-/* ---- The walks that are annealed, and changes of them. Internal to tortuosity/. */
+/* ---- The walks that are annealed, and changes of them. Internal to anneal*.c. */
 
 /* A cord. An open one visits the nodes between its passes, number i ahead of pass i, for i = 1 .. n
  * - 1; a closed one also ahead of pass 0. */
@@ -77,12 +77,16 @@ typedef struct {
   const thr_turning_columns *c;
   thr_walk_measure measure;
   bool closed;
+  bool fixed;      /* open cords end where they do, as ends are counted at nodes */
+  bool tube;       /* the turns tie the edges of every node together */
   thr_scratch own; /* all but the walks' arrays */
   int n_cords;
   thr_anneal_walk *walk; /* [n_cords] */
   int *pair_first;       /* [n_nodes] of the prices of the turns at a node */
   double *price; /* [sum of the squares of the degrees] by the numbers of both half-edges at their
                     node */
+  int *tied;     /* tube: [2 * n_edges] half-edges of a node */
+  int *turns; /* tube: [as price] how often cords turn from one of these half-edges to the other */
   double *end_price; /* [n_edges] of a cord end; lengths are half those of the passes before and
                         after a turn */
   double noise;      /* of the prices of a route */
@@ -118,8 +122,9 @@ thr_status thr_annealer_init(thr_annealer *x, const thr_turning_columns *columns
                              thr_err *err) THR_MUST_CHECK;
 void thr_annealer_destroy(thr_annealer *x);
 
-/* Makes a change, unless edges would no longer keep to their covers and limits. O(passes of its
- * cords). */
+/* Makes a change, unless edges would no longer keep to their covers and limits, or tube joints
+ * would no longer be tied. O(passes of its cords, and the squares of the degrees where turns go).
+ */
 thr_status thr_anneal_make(thr_annealer *x, const thr_anneal_change *change,
                            thr_err *err) THR_MUST_CHECK;
 
@@ -160,46 +165,5 @@ thr_anneal_visit thr_anneal_visit_at(thr_annealer *x, int node);
 thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_task *task,
                           int number, const thr_limits *limits, thr_cord *cord, int n_cords,
                           bool *better, thr_err *err) THR_MUST_CHECK;
-
-/* ---- anneal_turns_parts.c: What the annealing of turns is made of. */
-
-/* Edges at a node at most; changes of columns that are tried together. */
-enum { THR_TURN_DEGREE = 64, THR_TURN_CHANGES = 5 * THR_CYCLE_MOST + 8 };
-
-typedef struct {
-  const thr_turning_columns *c;
-  thr_scratch own;
-  int *x;             /* [n_columns] */
-  uint64_t *partners; /* [2 * n_edges] of a half-edge: those of its node, by position, that it has
-                         turns with */
-  double *cost;       /* [n_columns] */
-  int64_t spare;      /* extra length that is left, in units of c->length; INT64_MAX = no limit */
-  int n_changes, change[THR_TURN_CHANGES][2]; /* column, by how much, in this order */
-  double gain;                                /* what they cost */
-  /* for thr_turn_parts */
-  int *label, *queue; /* [n_edges] source that an edge was reached from, -1 = none */
-} thr_turn_state;
-
-thr_status thr_turn_state_init(thr_turn_state *state, const thr_turning_columns *columns,
-                               const int *x, thr_err *err) THR_MUST_CHECK;
-void thr_turn_state_destroy(thr_turn_state *state);
-
-/* The partner -1 is a cord's end. */
-static inline int thr_turn_state_column(const thr_turn_state *state, int a, int b)
-{
-  return a < 0   ? state->c->end_column[b]
-         : b < 0 ? state->c->end_column[a]
-                 : thr_turning_column(state->c, a, b);
-}
-
-void thr_turn_state_change(thr_turn_state *state, int column, int by);
-void thr_turn_state_undo(thr_turn_state *state);
-
-/* Into how many parts the edges of the turns that were changed fall. O(edges) at worst, few where
- * they hang together. */
-int thr_turn_parts(thr_turn_state *state);
-
-/* The same before the changes. */
-int thr_turn_parts_before(thr_turn_state *state);
 
 #endif

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Changes of passes: what other cords pass as well goes another way, or is left out. */
-#include "graph/framework/frame.h"
 #include "graph/random.h"
-#include "tortuosity/cords/anneal.h"
+#include "graph/threading/anneal.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The walks while they are annealed: what is known of them, and how they are changed. */
-#include "graph/framework/frame.h"
 #include "graph/random.h"
-#include "tortuosity/cords/anneal.h"
+#include "graph/threading/anneal.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -42,6 +41,74 @@ static void add_passes(thr_annealer *x, const int *half, int n, int change)
     x->passes[half[i] >> 1] += change;
     x->extra += change * x->c->f->length[half[i] >> 1];
   }
+}
+
+/* Counts the turns of half[n] up or down, under both orders of their half-edges. */
+static void add_turns(thr_annealer *x, const int *half, int n, int change)
+{
+  const thr_turning_columns *c = x->c;
+  for (int i = x->closed ? 0 : 1; i < n; i++) {
+    const int in = half[i > 0 ? i - 1 : n - 1] ^ 1, out = half[i], v = thr_tail(c->f, out);
+    const int degree = thr_degree(c->f, v), *position = c->position;
+    x->turns[x->pair_first[v] + position[in] * degree + position[out]] += change;
+    x->turns[x->pair_first[v] + position[out] * degree + position[in]] += change;
+  }
+}
+
+/* Returns whether the turns at node v tie its edges together: all are reached from the first. */
+static bool is_tied(thr_annealer *x, int v)
+{
+  const int degree = thr_degree(x->c->f, v), *turns = x->turns + x->pair_first[v];
+  int n = 1, *reached = x->tied, *left = x->tied + degree;
+
+  /* The half-edges that are not reached yet wait in left. */
+  reached[0] = 0;
+  for (int i = 1; i < degree; i++)
+    left[i - 1] = i;
+
+  for (int done = 0, n_left = degree - 1; done < n; done++)
+    for (int i = 0; i < n_left;) {
+      if (turns[reached[done] * degree + left[i]] == 0) {
+        i++;
+        continue;
+      }
+      reached[n++] = left[i];
+      left[i] = left[--n_left];
+    }
+  return n == degree;
+}
+
+/* Counts the turns of the cords of a change in place of those that it would make. */
+static void take_turns_back(thr_annealer *x, const thr_anneal_change *change)
+{
+  for (int i = 0; i < change->n_cords; i++) {
+    add_turns(x, x->made[i], change->n[i], -1);
+    add_turns(x, x->walk[change->cord[i]].half, x->walk[change->cord[i]].n, 1);
+  }
+}
+
+/* Counts the turns of a change in place of those of its cords. Returns false, and counts nothing,
+ * where a node that they pass would no longer be tied. */
+static bool recount_turns(thr_annealer *x, const thr_anneal_change *change)
+{
+  bool tied = true;
+  for (int i = 0; i < change->n_cords; i++) {
+    add_turns(x, x->walk[change->cord[i]].half, x->walk[change->cord[i]].n, -1);
+    add_turns(x, x->made[i], change->n[i], 1);
+  }
+
+  /* Only nodes that lost their last turn of a kind may have come apart. */
+  for (int i = 0; i < change->n_cords && tied; i++) {
+    const thr_anneal_walk *walk = &x->walk[change->cord[i]];
+    for (int k = x->closed ? 0 : 1; k < walk->n && tied; k++) {
+      const int in = walk->half[k > 0 ? k - 1 : walk->n - 1] ^ 1, out = walk->half[k];
+      const int v = thr_tail(x->c->f, out), degree = thr_degree(x->c->f, v);
+      const int at = x->c->position[in] * degree + x->c->position[out];
+      if (x->turns[x->pair_first[v] + at] == 0) tied = is_tied(x, v);
+    }
+  }
+  if (!tied) take_turns_back(x, change);
+  return tied;
 }
 
 static void sum_turns(const thr_annealer *x, thr_anneal_walk *walk)
@@ -94,11 +161,12 @@ static void fill_prices(thr_annealer *x)
     const int degree = thr_degree(frame, v), *half = frame->half + frame->first[v];
     for (int i = 0; i < degree * degree; i++) {
       const int in = half[i / degree] ^ 1, out = half[i % degree];
-      const bool back = in == (out ^ 1) && degree > 1;
-      x->price[x->pair_first[v] + i] = x->measure == THR_WALK_LENGTH
+      const bool length = x->measure == THR_WALK_LENGTH;
+      const bool back = in == (out ^ 1) && (x->tube || (!length && degree > 1));
+      x->price[x->pair_first[v] + i] = back ? THR_FORBIDDEN
+                                       : length
                                            ? (frame->length[in >> 1] + frame->length[out >> 1]) / 2
-                                       : back ? THR_FORBIDDEN
-                                              : thr_turn_price(frame, x->c->task->cost, in, out);
+                                           : thr_turn_price(frame, x->c->task->cost, in, out);
     }
   }
 }
@@ -162,6 +230,8 @@ static thr_status allocate(thr_annealer *x, const thr_cord *cord, thr_err *err)
   x->visit_first = thr_scratch_array(&x->own, n, sizeof *x->visit_first);
   x->n_visits = thr_scratch_array(&x->own, n, sizeof *x->n_visits);
   x->price = thr_scratch_array(&x->own, squares, sizeof *x->price);
+  x->turns = thr_scratch_array(&x->own, x->tube ? squares : 0, sizeof *x->turns);
+  x->tied = thr_scratch_array(&x->own, x->tube ? 2 * m : 0, sizeof *x->tied);
   x->passes = thr_scratch_array(&x->own, m, sizeof *x->passes);
   x->count = thr_scratch_array(&x->own, m, sizeof *x->count);
   x->end_price = thr_scratch_array(&x->own, m, sizeof *x->end_price);
@@ -195,6 +265,8 @@ thr_status thr_annealer_init(thr_annealer *x, const thr_turning_columns *columns
   *x = (thr_annealer){.c = columns,
                       .measure = measure,
                       .closed = !columns->task->end_allowed,
+                      .fixed = columns->task->end_count != NULL,
+                      .tube = columns->task->tube,
                       .n_cords = n_cords,
                       .state = 1};
   thr_status st = allocate(x, cord, err);
@@ -207,6 +279,7 @@ thr_status thr_annealer_init(thr_annealer *x, const thr_turning_columns *columns
     if (st) break;
     note_visits(x, i);
     add_passes(x, cord[i].half, cord[i].n_passes, 1);
+    if (x->tube) add_turns(x, cord[i].half, cord[i].n_passes, 1);
   }
   x->most_extra = columns->task->extra_limit < 0
                       ? INFINITY
@@ -297,7 +370,11 @@ thr_status thr_anneal_make(thr_annealer *x, const thr_anneal_change *change, thr
   thr_status st = THR_OK;
   for (int i = 0; i < change->n_cords; i++)
     right &= change->n[i] > 0;
-  if (!right || (!change->keeps && !recount_passes(x, change))) return THR_OK;
+  if (!right || (x->tube && !recount_turns(x, change))) return THR_OK;
+  if (!change->keeps && !recount_passes(x, change)) {
+    if (x->tube) take_turns_back(x, change);
+    return THR_OK;
+  }
   for (int i = 0; i < change->n_cords; i++)
     forget_visits(x, &x->walk[change->cord[i]]);
   for (int i = 0; i < change->n_cords && !st; i++) {
