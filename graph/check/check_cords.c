@@ -232,8 +232,9 @@ static thr_status parts_of(const thr_frame *frame, const thr_request *options,
     part_of[c].least = options->ends == THR_ENDS_COUNTS ? most[c] : thr_plan_cords_least(options);
   }
 
+  const bool counted = most != NULL;
   free(most);
-  if (most) return THR_OK;
+  if (counted) return THR_OK;
   free(part_of);
   *parts = NULL;
   return thr_nomem(err);
