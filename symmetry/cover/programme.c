@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The columns of the integer programme of symmetry/cover/cover.h, what they cost, and what a whole
- * solution is worth. Internal.
+/* Makes the columns of the integer programme of symmetry/cover/cover.h and their costs, and says
+ * what a whole solution is worth.
  *
- * A column is a number of orbits; its cost in an aim is what one orbit adds to overlap, steps,
- * paths or turning. Every value of an aim is a constant plus a multiple of its unit, so that a
- * bound may be rounded up to the next one.
+ * A column is a number of orbits: of copies, turns, ends, or circles. Its cost in an aim is what
+ * one orbit adds to the overlap, the learned steps, the paths or the turning. The value of an aim
+ * is a constant plus, where all costs have one, a multiple of their unit, so that a bound may be
+ * rounded up to the next one.
  *
  * Example: an orbit of three copies of an edge of length 2 that is covered already adds 6 to the
  * overlap. */
@@ -18,233 +19,279 @@
 
 /* ---- columns ---- */
 
-bool thr_programme_end_allowed(const thr_programme *p, int v)
+/* Tells whether a cord may end at a node. */
+bool thr_programme_end_allowed(const thr_programme *programme, int node)
 {
-  switch (p->o->ends) {
+  switch (programme->o->ends) {
   case THR_ENDS_CLOSED: return false;
   case THR_ENDS_ANY: return true;
-  case THR_ENDS_FEET: return p->q->f->foot[v];
-  default: return p->o->end_node && p->o->end_node[v];
+  case THR_ENDS_FEET: return programme->q->f->foot[node];
+  default: return programme->o->end_node && programme->o->end_node[node];
   }
 }
 
-static thr_status find_node_orbits(thr_programme *p, thr_err *err)
+/* Finds the lowest node of every node's orbit. THR_EINPUT: an orbit has nodes where cords may end
+ * and others. */
+static thr_status find_node_orbits(thr_programme *programme, thr_err *err)
 {
-  const thr_quotient *quotient = p->q;
+  const thr_quotient *quotient = programme->q;
   int n = quotient->f->n_nodes;
+
   for (int v = 0; v < n; v++)
-    p->node_orbit[v] = v;
+    programme->node_orbit[v] = v;
   for (int i = 0; i < quotient->h->order; i++) {
-    const int *to = &quotient->group->image[(size_t)quotient->h->element[i] * (size_t)n];
+    const int *image = &quotient->group->image[(size_t)quotient->h->element[i] * (size_t)n];
     for (int v = 0; v < n; v++)
-      if (to[v] < p->node_orbit[v]) p->node_orbit[v] = to[v];
+      if (image[v] < programme->node_orbit[v]) programme->node_orbit[v] = image[v];
   }
+
+  /* Ends must be allowed alike in an orbit. */
   for (int v = 0; v < n; v++)
-    if (thr_programme_end_allowed(p, v) != thr_programme_end_allowed(p, p->node_orbit[v]))
+    if (thr_programme_end_allowed(programme, v) !=
+        thr_programme_end_allowed(programme, programme->node_orbit[v]))
       return thr_fail(
           err, THR_EINPUT,
           "the group moves node %s, where cords may end, to node %s, where they may not",
-          quotient->f->name[thr_programme_end_allowed(p, v) ? v : p->node_orbit[v]],
-          quotient->f->name[thr_programme_end_allowed(p, v) ? p->node_orbit[v] : v]);
+          quotient->f->name[thr_programme_end_allowed(programme, v) ? v : programme->node_orbit[v]],
+          quotient->f
+              ->name[thr_programme_end_allowed(programme, v) ? programme->node_orbit[v] : v]);
   return THR_OK;
 }
 
-/* What the edges of an orbit need and may have, which is the same for all. */
-static thr_status find_passes(thr_programme *p, thr_err *err)
+/* Finds how often the edges of every orbit have to be passed, and may be. THR_EINPUT: edges of an
+ * orbit differ in that. */
+static thr_status find_passes(thr_programme *programme, thr_err *err)
 {
-  const thr_quotient *quotient = p->q;
+  const thr_quotient *quotient = programme->q;
   for (int e = 0; e < quotient->f->n_edges; e++) {
     int orbit = quotient->edge_orbit[e],
-        cover = p->o->edge_cover ? p->o->edge_cover[e] : p->o->cover;
-    int capacity = p->o->edge_capacity ? p->o->edge_capacity[e] : INT_MAX;
-    bool first = p->cover[orbit] == 0;
-    if (!first && (p->cover[orbit] != cover || p->capacity[orbit] != capacity))
+        cover = programme->o->edge_cover ? programme->o->edge_cover[e] : programme->o->cover;
+    int capacity = programme->o->edge_capacity ? programme->o->edge_capacity[e] : INT_MAX;
+
+    bool first = programme->cover[orbit] == 0;
+    if (!first && (programme->cover[orbit] != cover || programme->capacity[orbit] != capacity))
       return thr_fail(err, THR_EINPUT,
                       "the group moves edge %d to one that needs, or may have, other passes", e);
-    p->cover[orbit] = cover;
-    p->capacity[orbit] = capacity;
+    programme->cover[orbit] = cover;
+    programme->capacity[orbit] = capacity;
   }
   return THR_OK;
 }
 
-static void fill_copies(thr_programme *p)
+/* Fills the columns of the copies. */
+static void fill_copies(thr_programme *programme)
 {
-  const thr_quotient *quotient = p->q;
-  for (int c = 0; c < quotient->n_copies; c++) {
-    const thr_copy_type *type = &quotient->copy[c];
-    int most = 2 * p->cover[type->edge_orbit] + 2,
-        fit = p->capacity[type->edge_orbit] / type->passes;
-    for (int i = 0; i < 2 && p->o->tube;
-         i++) /* one less than its tubes: so many kinds of turns can tie a node */
+  const thr_quotient *quotient = programme->q;
+  for (int copy = 0; copy < quotient->n_copies; copy++) {
+    const thr_copy_type *type = &quotient->copy[copy];
+
+    /* The bound: what may serve a cover, and what fits into the edge. */
+    int most = 2 * programme->cover[type->edge_orbit] + 2,
+        fit = programme->capacity[type->edge_orbit] / type->passes;
+    for (int i = 0; i < 2 && programme->o->tube;
+         i++) /* one less than its tubes: so many kinds of turns tie a node */
       most += 2 * (thr_degree(quotient->f, quotient->f->edge[type->edge][i]) - 1);
-    p->most[c] = fit < most ? fit : most;
-    p->join[c][0] = type->dart[0];
-    p->join[c][1] = type->fold ? quotient->n_darts : type->dart[1];
-    p->cost[THR_AIM_OVERLAP][c] = type->passes * quotient->orbit_length[type->edge_orbit];
-    p->cost[THR_AIM_STEPS][c] = type->fold ? 0.5 : 1;
-    p->cost[THR_AIM_PATHS][c] = type->fold ? 0.5 : 0;
+    programme->most[copy] = fit < most ? fit : most;
+
+    /* A fold leads to the root: half of its passes is learned, and it is half of the terminals of a
+     * path. */
+    programme->join[copy][0] = type->dart[0];
+    programme->join[copy][1] = type->fold ? quotient->n_darts : type->dart[1];
+    programme->cost[THR_AIM_OVERLAP][copy] =
+        type->passes * quotient->orbit_length[type->edge_orbit];
+    programme->cost[THR_AIM_STEPS][copy] = type->fold ? 0.5 : 1;
+    programme->cost[THR_AIM_PATHS][copy] = type->fold ? 0.5 : 0;
   }
 }
 
-static void fill_pairs(thr_programme *p)
+/* Fills the columns of the turns. With tube joints none goes back into its edge. */
+static void fill_pairs(thr_programme *programme)
 {
-  const thr_quotient *quotient = p->q;
-  for (int y = 0; y < quotient->n_pairs; y++) {
-    const thr_pair_type *type = &quotient->pair[y];
-    int j = p->first_pair + y;
-    p->most[j] = p->o->tube && type->half[0] == type->half[1] ? 0 : -1;
-    p->join[j][0] = type->dart[0];
-    p->join[j][1] = type->self ? quotient->n_darts : type->dart[1];
-    p->cost[THR_AIM_PATHS][j] = type->self ? 0.5 : 0;
-    p->cost[THR_AIM_TURNING][j] = type->turns * type->angle;
+  const thr_quotient *quotient = programme->q;
+  for (int pair = 0; pair < quotient->n_pairs; pair++) {
+    const thr_pair_type *type = &quotient->pair[pair];
+
+    int j = programme->first_pair + pair;
+    programme->most[j] = programme->o->tube && type->half[0] == type->half[1] ? 0 : -1;
+
+    programme->join[j][0] = type->dart[0];
+    programme->join[j][1] = type->self ? quotient->n_darts : type->dart[1];
+    programme->cost[THR_AIM_PATHS][j] = type->self ? 0.5 : 0;
+    programme->cost[THR_AIM_TURNING][j] = type->turns * type->angle;
   }
 }
 
-static void fill_darts(thr_programme *p)
+/* Fills the columns of the ends and of the circles. A path has two ends; where every cord is open
+ * there are no circles. */
+static void fill_darts(thr_programme *programme)
 {
-  const thr_quotient *quotient = p->q;
-  for (int d = 0; d < quotient->n_darts; d++) {
-    int t = p->first_end + d, z = p->first_circle + d;
-    p->most[t] =
-        thr_programme_end_allowed(p, thr_tail(quotient->f, quotient->dart[d].half)) ? -1 : 0;
-    p->most[z] = !p->open;
-    p->join[t][0] = p->join[z][0] = p->join[z][1] = d;
-    p->join[t][1] = quotient->n_darts;
-    p->cost[THR_AIM_STEPS][t] = thr_cover_steps_of_end(p->o);
-    p->cost[THR_AIM_PATHS][t] = 0.5;
-    p->cost[THR_AIM_PATHS][z] = 1;
+  const thr_quotient *quotient = programme->q;
+  for (int dart = 0; dart < quotient->n_darts; dart++) {
+    int end = programme->first_end + dart, circle = programme->first_circle + dart;
+
+    programme->most[end] =
+        thr_programme_end_allowed(programme, thr_tail(quotient->f, quotient->dart[dart].half)) ? -1
+                                                                                               : 0;
+    programme->most[circle] = !programme->open;
+
+    programme->join[end][0] = programme->join[circle][0] = programme->join[circle][1] = dart;
+    programme->join[end][1] = quotient->n_darts;
+    programme->cost[THR_AIM_STEPS][end] = thr_cover_steps_of_end(programme->o);
+    programme->cost[THR_AIM_PATHS][end] = 0.5;
+    programme->cost[THR_AIM_PATHS][circle] = 1;
   }
 }
 
-static void list_pairs(thr_programme *p)
+/* Lists the pair types of every dart type, in two passes: the first one counts, the second one
+ * fills. */
+static void list_pairs(thr_programme *programme)
 {
-  const thr_quotient *quotient = p->q;
+  const thr_quotient *quotient = programme->q;
   for (int pass = 0; pass < 2; pass++) {
-    for (int y = 0; y < quotient->n_pairs; y++)
-      for (int i = 0; i < (quotient->pair[y].dart[0] == quotient->pair[y].dart[1] ? 1 : 2); i++) {
-        int d = quotient->pair[y].dart[i];
+    for (int pair = 0; pair < quotient->n_pairs; pair++)
+      for (int i = 0; i < (quotient->pair[pair].dart[0] == quotient->pair[pair].dart[1] ? 1 : 2);
+           i++) {
+        int dart = quotient->pair[pair].dart[i];
         if (pass == 0)
-          p->first[d + 2]++;
+          programme->first[dart + 2]++;
         else
-          p->incident[p->first[d + 1]++] = y;
+          programme->incident[programme->first[dart + 1]++] = pair;
       }
-    for (int d = 1; pass == 0 && d <= quotient->n_darts; d++)
-      p->first[d + 1] += p->first[d];
+    for (int dart = 1; pass == 0 && dart <= quotient->n_darts; dart++)
+      programme->first[dart + 1] += programme->first[dart];
   }
 }
 
-static thr_status allocate(thr_programme *p, thr_err *err)
+/* Allocates the arrays; on failure the caller destroys what is there. */
+static thr_status allocate(thr_programme *programme, thr_err *err)
 {
-  size_t n = (size_t)p->n;
-  p->cover = thr_calloc((size_t)p->q->n_edge_orbits, sizeof *p->cover);
-  p->capacity = thr_calloc((size_t)p->q->n_edge_orbits, sizeof *p->capacity);
-  p->least = thr_calloc(n, sizeof *p->least);
-  p->most = thr_calloc(n, sizeof *p->most);
-  p->join = thr_calloc(n, sizeof *p->join);
-  p->first = thr_calloc((size_t)p->q->n_darts + 2, sizeof *p->first);
-  p->incident = thr_calloc(2 * (size_t)p->q->n_pairs, sizeof *p->incident);
-  p->node_orbit = thr_calloc((size_t)p->q->f->n_nodes, sizeof *p->node_orbit);
-  bool all = p->cover && p->capacity && p->least && p->most && p->join && p->first && p->incident &&
-             p->node_orbit;
+  size_t n = (size_t)programme->n;
+  programme->cover = thr_calloc((size_t)programme->q->n_edge_orbits, sizeof *programme->cover);
+  programme->capacity =
+      thr_calloc((size_t)programme->q->n_edge_orbits, sizeof *programme->capacity);
+  programme->least = thr_calloc(n, sizeof *programme->least);
+  programme->most = thr_calloc(n, sizeof *programme->most);
+  programme->join = thr_calloc(n, sizeof *programme->join);
+  programme->first = thr_calloc((size_t)programme->q->n_darts + 2, sizeof *programme->first);
+  programme->incident = thr_calloc(2 * (size_t)programme->q->n_pairs, sizeof *programme->incident);
+  programme->node_orbit =
+      thr_calloc((size_t)programme->q->f->n_nodes, sizeof *programme->node_orbit);
+
+  bool all = programme->cover && programme->capacity && programme->least && programme->most &&
+             programme->join && programme->first && programme->incident && programme->node_orbit;
   for (int a = 0; a < THR_N_AIMS; a++)
-    all = (p->cost[a] = thr_calloc(n, sizeof *p->cost[a])) && all;
+    all = (programme->cost[a] = thr_calloc(n, sizeof *programme->cost[a])) && all;
   return all ? THR_OK : thr_nomem(err);
 }
 
-/* Largest number that all costs are multiples of, up to rounding; 0 if it is not worth having. */
+/* Returns the largest number that all costs are multiples of up to rounding, by Euclid's algorithm;
+ * 0 if it is less than 1e-4 of the scale, where it would not help. */
 static double common_unit(const double *cost, int n, double scale)
 {
   double unit = 0;
   for (int j = 0; j < n; j++) {
+    /* The greatest common divisor of this cost and the unit so far. */
     double a = cost[j], b = unit;
+
     while (b > 1e-4 * scale) {
       double rest = fabs(a - b * nearbyint(a / b));
       a = b;
       b = rest < 1e-10 * scale ? 0 : rest;
     }
+
     if (b > 0) return 0;
     unit = a;
   }
   return unit;
 }
 
-thr_status thr_programme_init(thr_programme *p, const thr_quotient *quotient,
+thr_status thr_programme_init(thr_programme *programme, const thr_quotient *quotient,
                               const thr_cover_options *options, thr_err *err)
 {
-  *p = (thr_programme){.q = quotient, .o = options, .open = thr_cover_all_open(options)};
-  p->first_pair = quotient->n_copies;
-  p->first_end = p->first_pair + quotient->n_pairs;
-  p->first_circle = p->first_end + quotient->n_darts;
-  p->n = p->first_circle + quotient->n_darts;
-  thr_status st = allocate(p, err);
-  if (!st) st = find_node_orbits(p, err);
-  if (!st) st = find_passes(p, err);
+  /* Columns: copies, turns, ends, circles. */
+  *programme = (thr_programme){.q = quotient, .o = options, .open = thr_cover_all_open(options)};
+  programme->first_pair = quotient->n_copies;
+  programme->first_end = programme->first_pair + quotient->n_pairs;
+  programme->first_circle = programme->first_end + quotient->n_darts;
+  programme->n = programme->first_circle + quotient->n_darts;
+
+  /* What they are, and which of them no cover needs. */
+  thr_status st = allocate(programme, err);
+  if (!st) st = find_node_orbits(programme, err);
+  if (!st) st = find_passes(programme, err);
   if (!st) {
-    fill_copies(p);
-    fill_pairs(p);
-    fill_darts(p);
-    list_pairs(p);
-    st = thr_programme_rule_out(p, err);
+    fill_copies(programme);
+    fill_pairs(programme);
+    fill_darts(programme);
+    list_pairs(programme);
+    st = thr_programme_rule_out(programme, err);
   }
-  for (int j = p->first_pair; j < p->first_end && !st;
-       j++) /* turns that no cover has are of no weight in units and scales */
-    if (p->most[j] == 0) p->cost[THR_AIM_TURNING][j] = 0;
+
+  /* Turns that no cover has do not count in units and scales. */
+  for (int j = programme->first_pair; j < programme->first_end && !st; j++)
+    if (programme->most[j] == 0) programme->cost[THR_AIM_TURNING][j] = 0;
+
   if (st) {
-    thr_programme_destroy(p);
+    thr_programme_destroy(programme);
     return st;
   }
+
+  /* Passes that are needed are no overlap. */
   for (int i = 0; i < quotient->n_edge_orbits; i++)
-    p->constant[THR_AIM_OVERLAP] -= p->cover[i] * quotient->orbit_length[i];
+    programme->constant[THR_AIM_OVERLAP] -= programme->cover[i] * quotient->orbit_length[i];
+
+  /* The largest cost of an aim, and its unit. As terminals come in pairs, the number of paths is
+   * whole. */
   for (int a = 0; a < THR_N_AIMS; a++) {
-    for (int j = 0; j < p->n; j++)
-      p->scale[a] = fmax(p->scale[a], p->cost[a][j]);
-    if (p->scale[a] == 0) p->scale[a] = 1;
-    p->unit[a] = a == THR_AIM_PATHS
-                     ? 1
-                     : common_unit(p->cost[a], p->n, p->scale[a]); /* terminals come in twos */
+    for (int j = 0; j < programme->n; j++)
+      programme->scale[a] = fmax(programme->scale[a], programme->cost[a][j]);
+    if (programme->scale[a] == 0) programme->scale[a] = 1;
+    programme->unit[a] =
+        a == THR_AIM_PATHS ? 1 : common_unit(programme->cost[a], programme->n, programme->scale[a]);
   }
   return THR_OK;
 }
 
-void thr_programme_destroy(thr_programme *p)
+void thr_programme_destroy(thr_programme *programme)
 {
-  free(p->cover);
-  free(p->capacity);
-  free(p->least);
-  free(p->most);
-  free(p->join);
-  free(p->first);
-  free(p->incident);
-  free(p->node_orbit);
-  if (p->ties) thr_ties_destroy(p->ties);
-  free(p->ties);
+  free(programme->cover);
+  free(programme->capacity);
+  free(programme->least);
+  free(programme->most);
+  free(programme->join);
+  free(programme->first);
+  free(programme->incident);
+  free(programme->node_orbit);
+  if (programme->ties) thr_ties_destroy(programme->ties);
+  free(programme->ties);
   for (int a = 0; a < THR_N_AIMS; a++)
-    free(p->cost[a]);
-  *p = (thr_programme){0};
+    free(programme->cost[a]);
+  *programme = (thr_programme){0};
 }
 
-thr_status thr_programme_tie(thr_programme *p, thr_err *err)
+thr_status thr_programme_tie(thr_programme *programme, thr_err *err)
 {
-  p->ties = thr_calloc(1, sizeof *p->ties);
-  return p->ties ? thr_ties_init(p->ties, p->q, p->node_orbit, err) : thr_nomem(err);
+  programme->ties = thr_calloc(1, sizeof *programme->ties);
+  return programme->ties ? thr_ties_init(programme->ties, programme->q, programme->node_orbit, err)
+                         : thr_nomem(err);
 }
 
-thr_status thr_programme_check_time(const thr_programme *p)
+thr_status thr_programme_check_time(const thr_programme *programme)
 {
-  return p->limits && thr_limits_stop(p->limits) ? THR_ELIMIT : THR_OK;
+  return programme->limits && thr_limits_stop(programme->limits) ? THR_ELIMIT : THR_OK;
 }
 
-bool thr_programme_terminal(const thr_programme *p, int column)
+bool thr_programme_terminal(const thr_programme *programme, int column)
 {
-  return p->join[column][1] == p->q->n_darts;
+  return programme->join[column][1] == programme->q->n_darts;
 }
 
-bool thr_programme_loop(const thr_programme *p, int dart)
+bool thr_programme_loop(const thr_programme *programme, int dart)
 {
-  for (int k = p->first[dart]; k < p->first[dart + 1]; k++) {
-    const thr_pair_type *type = &p->q->pair[p->incident[k]];
+  for (int k = programme->first[dart]; k < programme->first[dart + 1]; k++) {
+    const thr_pair_type *type = &programme->q->pair[programme->incident[k]];
     if (!type->self && type->dart[0] == type->dart[1] &&
-        p->most[p->first_pair + p->incident[k]] != 0)
+        programme->most[programme->first_pair + programme->incident[k]] != 0)
       return true;
   }
   return false;
@@ -252,144 +299,162 @@ bool thr_programme_loop(const thr_programme *p, int dart)
 
 /* ---- connected sets ---- */
 
-thr_status thr_programme_parts_init(thr_programme_parts *programme_parts, const thr_programme *p,
+thr_status thr_programme_parts_init(thr_programme_parts *parts, const thr_programme *programme,
                                     thr_err *err)
 {
-  size_t n = (size_t)p->q->n_darts;
-  programme_parts->root = thr_calloc(n, sizeof *programme_parts->root);
-  programme_parts->terminals = thr_calloc(n, sizeof *programme_parts->terminals);
-  programme_parts->ends = thr_calloc(n, sizeof *programme_parts->ends);
-  programme_parts->copies = thr_calloc(n, sizeof *programme_parts->copies);
-  return programme_parts->root && programme_parts->terminals && programme_parts->ends &&
-                 programme_parts->copies
-             ? THR_OK
-             : thr_nomem(err);
+  size_t n = (size_t)programme->q->n_darts;
+  parts->root = thr_calloc(n, sizeof *parts->root);
+  parts->terminals = thr_calloc(n, sizeof *parts->terminals);
+  parts->ends = thr_calloc(n, sizeof *parts->ends);
+  parts->copies = thr_calloc(n, sizeof *parts->copies);
+  return parts->root && parts->terminals && parts->ends && parts->copies ? THR_OK : thr_nomem(err);
 }
 
-void thr_programme_parts_destroy(thr_programme_parts *programme_parts)
+void thr_programme_parts_destroy(thr_programme_parts *parts)
 {
-  free(programme_parts->root);
-  free(programme_parts->terminals);
-  free(programme_parts->ends);
-  free(programme_parts->copies);
-  *programme_parts = (thr_programme_parts){0};
+  free(parts->root);
+  free(parts->terminals);
+  free(parts->ends);
+  free(parts->copies);
+  *parts = (thr_programme_parts){0};
 }
 
-void thr_programme_parts_find(thr_programme_parts *programme_parts, const thr_programme *p,
+/* Finds the connected sets of dart types that the columns of a whole solution join, and counts for
+ * each its terminals, ends and copies. */
+void thr_programme_parts_find(thr_programme_parts *parts, const thr_programme *programme,
                               const int *value)
 {
-  int n = p->q->n_darts;
-  for (int d = 0; d < n; d++) {
-    programme_parts->root[d] = d;
-    programme_parts->terminals[d] = programme_parts->ends[d] = programme_parts->copies[d] = 0;
+  int n = programme->q->n_darts;
+  for (int dart = 0; dart < n; dart++) {
+    parts->root[dart] = dart;
+    parts->terminals[dart] = parts->ends[dart] = parts->copies[dart] = 0;
   }
-  for (int j = 0; j < p->first_end; j++)
-    if (value[j] > 0 && !thr_programme_terminal(p, j))
-      thr_disjoint_join(programme_parts->root, p->join[j][0], p->join[j][1]);
-  for (int j = 0; j < p->first_circle; j++) {
-    int root = thr_disjoint_find(programme_parts->root, p->join[j][0]);
-    if (thr_programme_terminal(p, j)) programme_parts->terminals[root] += value[j];
-    if (j >= p->first_end) programme_parts->ends[root] += value[j];
-    if (j < p->first_pair) programme_parts->copies[root] += value[j];
+
+  /* Join the dart types of every column in use. */
+  for (int j = 0; j < programme->first_end; j++)
+    if (value[j] > 0 && !thr_programme_terminal(programme, j))
+      thr_disjoint_join(parts->root, programme->join[j][0], programme->join[j][1]);
+
+  /* Add up by root. */
+  for (int j = 0; j < programme->first_circle; j++) {
+    int root = thr_disjoint_find(parts->root, programme->join[j][0]);
+    if (thr_programme_terminal(programme, j)) parts->terminals[root] += value[j];
+    if (j >= programme->first_end) parts->ends[root] += value[j];
+    if (j < programme->first_pair) parts->copies[root] += value[j];
   }
-  for (int d = n - 1; d >= 0; d--) { /* a root comes before the rest of its set */
-    int root = thr_disjoint_find(programme_parts->root, d);
-    programme_parts->root[d] = programme_parts->copies[root] > 0 ? root : -1;
+
+  /* Dart types that are not used have no set. A root comes before the rest of its set. */
+  for (int dart = n - 1; dart >= 0; dart--) {
+    int root = thr_disjoint_find(parts->root, dart);
+    parts->root[dart] = parts->copies[root] > 0 ? root : -1;
   }
 }
 
 /* ---- worth ---- */
 
-static const double worth_tolerance =
-    4e-6; /* in parts of the largest cost: several times that of the relaxation's rows */
+/* In parts of the largest cost: several times the tolerance of the relaxation's rows. */
+static const double worth_tolerance = 4e-6;
 
-double thr_programme_tolerance(const thr_programme *p, thr_aim aim)
+double thr_programme_tolerance(const thr_programme *programme, thr_aim aim)
 {
-  return worth_tolerance * p->scale[aim];
+  return worth_tolerance * programme->scale[aim];
 }
 
-double thr_programme_round(const thr_programme *p, thr_aim aim, double worth)
+double thr_programme_round(const thr_programme *programme, thr_aim aim, double worth)
 {
-  double unit = p->unit[aim], constant = p->constant[aim];
+  double unit = programme->unit[aim], constant = programme->constant[aim];
   return unit > 0 ? unit * ceil((worth - constant) / unit - 1e-4) + constant : worth;
 }
 
-int thr_programme_compare(const thr_programme *p, const double *a, const double *b)
+int thr_programme_compare(const thr_programme *programme, const double *a, const double *b)
 {
   for (int k = 0; k < THR_N_AIMS; k++) {
-    thr_aim aim = p->o->prefer[k];
-    if (fabs(a[aim] - b[aim]) > thr_programme_tolerance(p, aim)) return a[aim] < b[aim] ? -1 : 1;
+    thr_aim aim = programme->o->prefer[k];
+    if (fabs(a[aim] - b[aim]) > thr_programme_tolerance(programme, aim))
+      return a[aim] < b[aim] ? -1 : 1;
   }
   return 0;
 }
 
-/* Has no edge more passes than its capacity? */
-static bool fits_capacity(const thr_programme *p, const int *value)
+/* Tells whether no edge is passed more often than its capacity allows. */
+static bool fits_capacity(const thr_programme *programme, const int *value)
 {
-  const thr_quotient *quotient = p->q;
+  const thr_quotient *quotient = programme->q;
   bool fits = true;
-  for (int c = 0, end; c < quotient->n_copies; c = end) {
+  for (int copy = 0, end; copy < quotient->n_copies; copy = end) {
     long passes = 0;
-    for (end = c; end < quotient->n_copies && quotient->copy[end].edge == quotient->copy[c].edge;
-         end++)
+    for (end = copy;
+         end < quotient->n_copies && quotient->copy[end].edge == quotient->copy[copy].edge; end++)
       passes += (long)value[end] * quotient->copy[end].passes;
-    fits = fits && passes <= p->capacity[quotient->copy[c].edge_orbit];
+
+    fits = fits && passes <= programme->capacity[quotient->copy[copy].edge_orbit];
   }
   return fits;
 }
 
-/* Are there no more ends of cords than asked for? */
-static bool fits_ends(const thr_programme *p, const int *value)
+/* Tells whether there are no more ends of cords than asked for. */
+static bool fits_ends(const thr_programme *programme, const int *value)
 {
   long ends = 0;
-  for (int d = 0; d < p->q->n_darts; d++)
-    ends += (long)value[p->first_end + d] * p->q->dart[d].darts;
-  return p->o->most_ends == 0 || ends <= p->o->most_ends;
+  for (int d = 0; d < programme->q->n_darts; d++)
+    ends += (long)value[programme->first_end + d] * programme->q->dart[d].darts;
+  return programme->o->most_ends == 0 || ends <= programme->o->most_ends;
 }
 
-/* Clears *valid if not every node is tied. */
-static thr_status all_tied(const thr_programme *p, const int *value, bool *valid, thr_err *err)
+/* Clears *valid unless all nodes are tied. */
+static thr_status all_tied(const thr_programme *programme, const int *value, bool *valid,
+                           thr_err *err)
 {
-  int *parent = thr_calloc((size_t)p->ties->most, sizeof *parent);
+  int *parent = thr_calloc((size_t)programme->ties->most, sizeof *parent);
   if (!parent) return thr_nomem(err);
-  for (int i = 0; i < p->ties->n && *valid; i++)
-    *valid = thr_ties_tied(p->ties, i, value + p->first_pair, parent);
+  for (int i = 0; i < programme->ties->n && *valid; i++)
+    *valid = thr_ties_tied(programme->ties, i, value + programme->first_pair, parent);
   free(parent);
   return THR_OK;
 }
 
-thr_status thr_programme_value(const thr_programme *p, const int *value, double worth[THR_N_AIMS],
-                               bool *valid, thr_err *err)
+thr_status thr_programme_value(const thr_programme *programme, const int *value,
+                               double worth[THR_N_AIMS], bool *valid, thr_err *err)
 {
-  size_t n = (size_t)p->q->n_darts;
-  thr_programme_parts programme_parts = {0};
+  size_t n = (size_t)programme->q->n_darts;
+  thr_programme_parts parts = {0};
   bool *copy_side = thr_calloc(n, sizeof *copy_side), *pair_side = thr_calloc(n, sizeof *pair_side),
        unmatched = false;
-  double *x = thr_calloc((size_t)p->n, sizeof *x);
-  thr_status st = copy_side && pair_side && x ? thr_programme_parts_init(&programme_parts, p, err)
-                                              : thr_nomem(err);
+  double *point = thr_calloc((size_t)programme->n, sizeof *point);
+  thr_status st = copy_side && pair_side && point ? thr_programme_parts_init(&parts, programme, err)
+                                                  : thr_nomem(err);
+
+  /* What all columns but the circles cost. */
   for (int a = 0; a < THR_N_AIMS; a++) {
-    worth[a] = p->constant[a];
-    for (int j = 0; j < p->first_circle; j++)
-      worth[a] += p->cost[a][j] * value[j];
+    worth[a] = programme->constant[a];
+    for (int j = 0; j < programme->first_circle; j++)
+      worth[a] += programme->cost[a][j] * value[j];
   }
-  *valid = fits_capacity(p, value) && fits_ends(p, value);
-  if (!st && p->ties) st = all_tied(p, value, valid, err);
+
+  /* Capacities, ends and ties. */
+  *valid = fits_capacity(programme, value) && fits_ends(programme, value);
+  if (!st && programme->ties) st = all_tied(programme, value, valid, err);
+
+  /* A set without a terminal is a circle, and where every cord is open no cover may have one. */
   if (!st) {
-    thr_programme_parts_find(&programme_parts, p, value);
-    for (int d = 0; d < p->q->n_darts; d++) {
-      if (programme_parts.root[d] != d) continue;
-      if (programme_parts.terminals[d] == 0) worth[THR_AIM_PATHS]++;
-      if (p->open && programme_parts.ends[d] == 0) *valid = false;
+    thr_programme_parts_find(&parts, programme, value);
+    for (int d = 0; d < programme->q->n_darts; d++) {
+      if (parts.root[d] != d) continue;
+      if (parts.terminals[d] == 0) worth[THR_AIM_PATHS]++;
+      if (programme->open && parts.ends[d] == 0) *valid = false;
     }
   }
-  for (int j = 0; j < p->n && !st; j++)
-    x[j] = value[j];
-  if (!st && p->open) st = thr_programme_folds(p, x, copy_side, pair_side, &unmatched, err);
+
+  /* Every fold needs an end of its own (symmetry/cover/folds.c). */
+  for (int j = 0; j < programme->n && !st; j++)
+    point[j] = value[j];
+  if (!st && programme->open)
+    st = thr_programme_folds(programme, point, copy_side, pair_side, &unmatched, err);
   *valid = *valid && !unmatched;
-  thr_programme_parts_destroy(&programme_parts);
+
+  thr_programme_parts_destroy(&parts);
   free(copy_side);
   free(pair_side);
-  free(x);
+  free(point);
   return st;
 }
