@@ -1,63 +1,86 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Exchanges at the nodes of a whole solution: sets are joined, turning gets less. */
+/* Exchanges at the nodes of a whole solution: two turns of one node exchange partners, or a turn
+ * and an end or fold do. An exchange keeps the copies, and with them overlap and the steps over
+ * edges; it may join connected sets, or lower the turning.
+ *
+ * Exchanges are visited turn by turn, and a visitor says what becomes of each: thr_programme_mend
+ * lists them, cheapest turning first, to join sets that lack a terminal; thr_programme_straighten
+ * takes each that turns less; thr_programme_improve takes each that makes the solution better in
+ * the order of the aims; thr_programme_attempt only tries them.
+ *
+ * Example: of the turns a-b and c-d, between four dart types of one node, there can be made a-c and
+ * b-d. */
 #include "graph/disjoint.h"
 #include "symmetry/cover/cover.h"
 
 #include <stdlib.h>
 
-/* Of the columns out[] one less, of the columns in[] one more. */
+/* An exchange: one less of the columns out[], one more of the columns in[]. */
 typedef struct {
   int out[2], in[2];
   int type[2];    /* dart types of the two turns that are broken up */
-  double turning; /* more than before */
-} exchange;
+  double turning; /* what it adds to the turning */
+} node_exchange;
 
-/* Cheapest pair column between dart types a and b, -1 = none. */
-static int pair_between(const thr_programme *p, int a, int b, bool self)
+/* Returns the pair column between dart types a and b with the least turning, of self pairs if self;
+ * -1 = none. */
+static int pair_between(const thr_programme *programme, int a, int b, bool self)
 {
   int best = -1;
-  for (int k = p->first[a]; k < p->first[a + 1]; k++) {
-    const thr_pair_type *pair_type = &p->q->pair[p->incident[k]];
-    int j = p->first_pair + p->incident[k];
-    if (p->most[j] == 0 || pair_type->self != self ||
+  for (int k = programme->first[a]; k < programme->first[a + 1]; k++) {
+    const thr_pair_type *pair_type = &programme->q->pair[programme->incident[k]];
+    int j = programme->first_pair + programme->incident[k];
+    if (programme->most[j] == 0 || pair_type->self != self ||
         pair_type->dart[0] + pair_type->dart[1] != a + b ||
         (pair_type->dart[0] != a && pair_type->dart[1] != a))
       continue;
-    if (best < 0 || p->cost[THR_AIM_TURNING][j] < p->cost[THR_AIM_TURNING][best]) best = j;
+
+    if (best < 0 || programme->cost[THR_AIM_TURNING][j] < programme->cost[THR_AIM_TURNING][best])
+      best = j;
   }
   return best;
 }
 
-static void apply(const exchange *x, int sign, int *value)
+/* Applies an exchange (sign 1), or takes it back (-1). */
+static void apply_exchange(const node_exchange *exchange, int sign, int *value)
 {
   for (int i = 0; i < 2; i++) {
-    value[x->out[i]] -= sign;
-    value[x->in[i]] += sign;
+    value[exchange->out[i]] -= sign;
+    value[exchange->in[i]] += sign;
   }
 }
 
-/* Enough of what is taken out; and where joints are tied, the node stays so if it was. parent:
- * [p->ties->most] scratch. */
-static bool possible(const thr_programme *p, const exchange *x, int *value, int *parent)
+/* Tells whether value has what an exchange takes out, and, with tube joints, whether the node stays
+ * tied if it was. parent: [programme->ties->most] scratch. */
+static bool is_possible(const thr_programme *programme, const node_exchange *exchange, int *value,
+                        int *parent)
 {
-  if (value[x->out[0]] <= 0 || value[x->out[1]] <= (x->out[0] == x->out[1])) return false;
-  int star = p->ties ? p->ties->star[x->type[0]] : -1;
-  if (star < 0 || !thr_ties_tied(p->ties, star, value + p->first_pair, parent)) return true;
-  apply(x, 1, value);
-  bool tied = thr_ties_tied(p->ties, star, value + p->first_pair, parent);
-  apply(x, -1, value);
+  if (value[exchange->out[0]] <= 0 ||
+      value[exchange->out[1]] <= (exchange->out[0] == exchange->out[1]))
+    return false;
+
+  /* Only the node of these dart types can become untied. */
+  int star = programme->ties ? programme->ties->star[exchange->type[0]] : -1;
+  if (star < 0 || !thr_ties_tied(programme->ties, star, value + programme->first_pair, parent))
+    return true;
+
+  /* Try it. */
+  apply_exchange(exchange, 1, value);
+  bool tied = thr_ties_tied(programme->ties, star, value + programme->first_pair, parent);
+  apply_exchange(exchange, -1, value);
   return tied;
 }
 
-/* What visits the exchanges; false = no more of this turn. */
-typedef struct visitor {
-  bool (*visit)(struct visitor *v, const exchange *x, thr_err *err, thr_status *st);
-  const thr_programme *p;
+/* Visits exchanges: visit returns false to end those of the present turn. */
+typedef struct exchange_visitor {
+  bool (*visit)(struct exchange_visitor *visitor, const node_exchange *exchange, thr_err *err,
+                thr_status *st);
+  const thr_programme *programme;
   int *value;
-  int *parent; /* as for possible() */
+  int *parent; /* scratch of is_possible() */
   thr_programme_parts parts;
   /* mending */
-  exchange *list;
+  node_exchange *list;
   int n, capacity;
   /* improving */
   const thr_limits *limits;
@@ -67,276 +90,353 @@ typedef struct visitor {
   bool level; /* only what turns no more */
   thr_status (*attempt)(void *user, thr_err *err);
   void *user;
-} visitor;
+} exchange_visitor;
 
-static thr_status visitor_init(visitor *v, thr_err *err)
+/* Allocates what every visitor needs. */
+static thr_status visitor_init(exchange_visitor *visitor, thr_err *err)
 {
-  v->parent = thr_calloc(v->p->ties ? (size_t)v->p->ties->most : 0, sizeof *v->parent);
-  return v->parent ? THR_OK : thr_nomem(err);
+  visitor->parent =
+      thr_calloc(visitor->programme->ties ? (size_t)visitor->programme->ties->most : 0,
+                 sizeof *visitor->parent);
+  return visitor->parent ? THR_OK : thr_nomem(err);
 }
 
-static bool offer(visitor *v, int out0, int out1, int in0, int in1, int a, int c, thr_err *err,
-                  thr_status *st)
+/* Visits one exchange, of columns out0 and out1 for in0 and in1 (-1: there are none), if it is
+ * possible. a, third: dart types of the two turns. Returns false to end the exchanges of this turn.
+ */
+static bool offer_exchange(exchange_visitor *visitor, int out0, int out1, int in0, int in1, int a,
+                           int third, thr_err *err, thr_status *st)
 {
-  const double *cost = v->p->cost[THR_AIM_TURNING];
+  const double *cost = visitor->programme->cost[THR_AIM_TURNING];
   if (in0 < 0 || in1 < 0) return true;
-  exchange x = {{out0, out1}, {in0, in1}, {a, c}, cost[in0] + cost[in1] - cost[out0] - cost[out1]};
-  return !possible(v->p, &x, v->value, v->parent) || v->visit(v, &x, err, st);
+
+  node_exchange x = {
+      {out0, out1}, {in0, in1}, {a, third}, cost[in0] + cost[in1] - cost[out0] - cost[out1]};
+  return !is_possible(visitor->programme, &x, visitor->value, visitor->parent) ||
+         visitor->visit(visitor, &x, err, st);
 }
 
-/* The pair column j with dart types a and b, against everything that dart type c does. */
-static bool against(visitor *v, int j, int a, int b, int c, thr_err *err, thr_status *st)
+/* Visits the exchanges of pair column j, between dart types a and b, with everything that dart type
+ * `third` does: a gets `third` as partner, and b what that had. */
+static bool visit_partners(exchange_visitor *visitor, int j, int a, int b, int third, thr_err *err,
+                           thr_status *st)
 {
-  const thr_programme *p = v->p;
-  int with = pair_between(p, a, c, false), end = p->first_end + c;
+  const thr_programme *programme = visitor->programme;
+  int with = pair_between(programme, a, third, false), end = programme->first_end + third;
   if (with < 0) return true;
-  for (int k = p->first[c]; k < p->first[c + 1]; k++) {
-    int y = p->first_pair + p->incident[k];
-    const thr_pair_type *pair_type = &p->q->pair[p->incident[k]];
-    if (v->value[y] <= 0) continue;
-    int in = pair_type->self
-                 ? pair_between(p, b, b, true)
-                 : pair_between(p, b, pair_type->dart[0] + pair_type->dart[1] - c, false);
-    if (!offer(v, j, y, with, in, a, c, err, st)) return false;
+
+  /* Turns of the third dart type. */
+  for (int k = programme->first[third]; k < programme->first[third + 1]; k++) {
+    int pair = programme->first_pair + programme->incident[k];
+    const thr_pair_type *pair_type = &programme->q->pair[programme->incident[k]];
+    if (visitor->value[pair] <= 0) continue;
+    int in = pair_type->self ? pair_between(programme, b, b, true)
+                             : pair_between(programme, b,
+                                            pair_type->dart[0] + pair_type->dart[1] - third, false);
+    if (!offer_exchange(visitor, j, pair, with, in, a, third, err, st)) return false;
   }
-  return v->value[end] <= 0 || p->most[p->first_end + b] == 0 ||
-         offer(v, j, end, with, p->first_end + b, a, c, err, st);
+
+  /* Ends of it. */
+  return visitor->value[end] <= 0 || programme->most[programme->first_end + b] == 0 ||
+         offer_exchange(visitor, j, end, with, programme->first_end + b, a, third, err, st);
 }
 
-/* Visits the exchanges of a turn with what meets it. */
-static thr_status visit_turn(visitor *v, int y, thr_err *err)
+/* Visits the exchanges of a turn with everything at its node that either of its dart types can turn
+ * into. A self pair has none of its own. */
+static thr_status visit_turn(exchange_visitor *visitor, int pair, thr_err *err)
 {
-  const thr_programme *p = v->p;
-  const thr_pair_type *pair_type = &p->q->pair[y];
+  const thr_programme *programme = visitor->programme;
+  const thr_pair_type *pair_type = &programme->q->pair[pair];
   thr_status st = THR_OK;
   bool go_on = !pair_type->self;
+  /* Each dart type of the turn, with each type that it can turn into. */
   for (int i = 0; i < 2 && go_on; i++) {
     int a = pair_type->dart[i], b = pair_type->dart[1 - i], last = -1;
-    for (int k = p->first[a]; k < p->first[a + 1] && go_on; k++) {
-      const thr_pair_type *r = &p->q->pair[p->incident[k]];
-      int c = r->dart[0] + r->dart[1] - a;
-      if (r->self || c == last) continue; /* turns between two types follow each other */
-      last = c;
-      go_on = against(v, p->first_pair + y, a, b, c, err, &st);
+    for (int k = programme->first[a]; k < programme->first[a + 1] && go_on; k++) {
+      const thr_pair_type *other = &programme->q->pair[programme->incident[k]];
+      int third = other->dart[0] + other->dart[1] - a;
+      if (other->self || third == last)
+        continue; /* pair types of two dart types follow each other */
+      last = third;
+      go_on = visit_partners(visitor, programme->first_pair + pair, a, b, third, err, &st);
     }
   }
+
   return st;
 }
 
 /* ---- mending ---- */
 
-static bool in_need(const visitor *v, int root)
+/* Tells whether a connected set needs a terminal (an end, if every cord is open). */
+static bool in_need(const exchange_visitor *visitor, int root)
 {
-  return (v->p->open ? v->parts.ends : v->parts.terminals)[root] == 0;
+  return (visitor->programme->open ? visitor->parts.ends : visitor->parts.terminals)[root] == 0;
 }
 
-static bool collect(visitor *v, const exchange *x, thr_err *err, thr_status *st)
+/* Lists an exchange that would join two sets (a visit). */
+static bool collect(exchange_visitor *visitor, const node_exchange *exchange, thr_err *err,
+                    thr_status *st)
 {
-  const int *root = v->parts.root;
-  if (root[x->type[1]] < 0 || root[x->type[1]] == root[x->type[0]]) return true;
-  *st = thr_grow(&v->list, v->n, &v->capacity, sizeof *v->list, err);
-  if (!*st) v->list[v->n++] = *x;
+  const int *root = visitor->parts.root;
+  if (root[exchange->type[1]] < 0 || root[exchange->type[1]] == root[exchange->type[0]])
+    return true;
+  *st = thr_grow(&visitor->list, visitor->n, &visitor->capacity, sizeof *visitor->list, err);
+  if (!*st) visitor->list[visitor->n++] = *exchange;
   return !*st;
 }
 
+/* Compares exchanges by turning, then by their columns, so that the order is the same everywhere.
+ */
 static int by_turning(const void *a, const void *b)
 {
-  const exchange *x = a, *y = b;
-  if (x->turning < y->turning || x->turning > y->turning) return x->turning < y->turning ? -1 : 1;
+  const node_exchange *first = a, *second = b;
+  if (first->turning < second->turning || first->turning > second->turning)
+    return first->turning < second->turning ? -1 : 1;
+
   for (int i = 0; i < 2; i++) {
-    if (x->out[i] != y->out[i]) return x->out[i] < y->out[i] ? -1 : 1;
-    if (x->in[i] != y->in[i]) return x->in[i] < y->in[i] ? -1 : 1;
+    if (first->out[i] != second->out[i]) return first->out[i] < second->out[i] ? -1 : 1;
+    if (first->in[i] != second->in[i]) return first->in[i] < second->in[i] ? -1 : 1;
   }
   return 0;
 }
 
-/* Joins two sets if one is in need. The sums of both stay with the root. */
-static void join_sets(visitor *v, const exchange *x)
+/* Applies an exchange that joins two sets if one of them needs a terminal. The sums of both stay
+ * with the root. */
+static void join_sets(exchange_visitor *visitor, const node_exchange *exchange)
 {
-  thr_programme_parts *programme_parts = &v->parts;
-  int a = thr_disjoint_find(programme_parts->root, x->type[0]),
-      b = thr_disjoint_find(programme_parts->root, x->type[1]);
-  if (a == b || !possible(v->p, x, v->value, v->parent) || (!in_need(v, a) && !in_need(v, b)))
+  thr_programme_parts *parts = &visitor->parts;
+  int a = thr_disjoint_find(parts->root, exchange->type[0]),
+      b = thr_disjoint_find(parts->root, exchange->type[1]);
+  if (a == b || !is_possible(visitor->programme, exchange, visitor->value, visitor->parent) ||
+      (!in_need(visitor, a) && !in_need(visitor, b)))
     return;
-  int terminals = programme_parts->terminals[a] + programme_parts->terminals[b],
-      ends = programme_parts->ends[a] + programme_parts->ends[b];
-  apply(x, 1, v->value);
-  thr_disjoint_join(programme_parts->root, a, b);
-  a = thr_disjoint_find(programme_parts->root, a);
-  programme_parts->terminals[a] = terminals;
-  programme_parts->ends[a] = ends;
+
+  /* Join the sets, and add up what they have. */
+  int terminals = parts->terminals[a] + parts->terminals[b], ends = parts->ends[a] + parts->ends[b];
+  apply_exchange(exchange, 1, visitor->value);
+  thr_disjoint_join(parts->root, a, b);
+  a = thr_disjoint_find(parts->root, a);
+  parts->terminals[a] = terminals;
+  parts->ends[a] = ends;
 }
 
-static int count_in_need(const visitor *v)
+/* Counts the connected sets that need a terminal. */
+static int count_in_need(const exchange_visitor *visitor)
 {
   int n = 0;
-  for (int d = 0; d < v->p->q->n_darts; d++)
-    n += v->parts.root[d] == d && in_need(v, d);
+  for (int d = 0; d < visitor->programme->q->n_darts; d++)
+    n += visitor->parts.root[d] == d && in_need(visitor, d);
   return n;
 }
 
-/* A set without terminals stays connected when a turn in it is broken up: its sets join for
- * certain. One with folds may fall apart, and leave as many sets in need as before: then this ends.
- */
-thr_status thr_programme_mend(const thr_programme *p, int *value, thr_err *err)
+/* Joins connected sets until every set has what it needs. A set without terminals stays connected
+ * when a turn in it is broken up, so that its sets are certain to join. A set with folds may fall
+ * apart and leave as many sets in need as before: then this ends. */
+thr_status thr_programme_mend(const thr_programme *programme, int *value, thr_err *err)
 {
-  visitor v = {.visit = collect, .p = p, .value = value};
-  thr_status st = visitor_init(&v, err);
-  if (!st) st = thr_programme_parts_init(&v.parts, p, err);
+  exchange_visitor visitor = {.visit = collect, .programme = programme, .value = value};
+  thr_status st = visitor_init(&visitor, err);
+  if (!st) st = thr_programme_parts_init(&visitor.parts, programme, err);
+
+  /* Each round joins what it can. */
   for (int before = -1; !st;) {
-    thr_programme_parts_find(&v.parts, p, value);
-    int now = count_in_need(&v);
+    thr_programme_parts_find(&visitor.parts, programme, value);
+    int now = count_in_need(&visitor);
     if (now == 0 || (before >= 0 && now >= before)) break;
     before = now;
-    v.n = 0;
-    for (int y = 0; y < p->q->n_pairs && !st; y++) {
-      int root = v.parts.root[p->q->pair[y].dart[0]];
-      if (value[p->first_pair + y] > 0 && in_need(&v, root)) st = visit_turn(&v, y, err);
+
+    /* List the exchanges of the turns in sets that need a terminal, and apply them by ascending
+     * turning. */
+    visitor.n = 0;
+    for (int pair = 0; pair < programme->q->n_pairs && !st; pair++) {
+      int root = visitor.parts.root[programme->q->pair[pair].dart[0]];
+      if (value[programme->first_pair + pair] > 0 && in_need(&visitor, root))
+        st = visit_turn(&visitor, pair, err);
     }
-    if (v.n > 0) qsort(v.list, (size_t)v.n, sizeof *v.list, by_turning);
-    for (int i = 0; i < v.n && !st; i++)
-      join_sets(&v, &v.list[i]);
+    if (visitor.n > 0) qsort(visitor.list, (size_t)visitor.n, sizeof *visitor.list, by_turning);
+    for (int i = 0; i < visitor.n && !st; i++)
+      join_sets(&visitor, &visitor.list[i]);
   }
-  thr_programme_parts_destroy(&v.parts);
-  free(v.list);
-  free(v.parent);
+
+  thr_programme_parts_destroy(&visitor.parts);
+  free(visitor.list);
+  free(visitor.parent);
   return st;
 }
 
-thr_status thr_programme_open(const thr_programme *p, int *value, thr_err *err)
+thr_status thr_programme_open(const thr_programme *programme, int *value, thr_err *err)
 {
-  visitor v = {.p = p, .value = value};
-  thr_programme_parts *programme_parts = &v.parts;
-  thr_status st = visitor_init(&v, err);
-  if (!st) st = thr_programme_parts_init(programme_parts, p, err);
-  if (!st) thr_programme_parts_find(programme_parts, p, value);
-  for (int y = 0; y < p->q->n_pairs && p->open && !st; y++) {
-    const int *d = p->q->pair[y].dart;
-    int root = programme_parts->root[d[0]], star = p->ties ? p->ties->star[d[0]] : -1,
-        end[2] = {p->first_end + d[0], p->first_end + d[1]};
-    if (value[p->first_pair + y] == 0 || p->q->pair[y].self || programme_parts->ends[root] > 0 ||
-        p->most[end[0]] == 0)
+  exchange_visitor visitor = {.programme = programme, .value = value};
+  thr_programme_parts *parts = &visitor.parts;
+  thr_status st = visitor_init(&visitor, err);
+  if (!st) st = thr_programme_parts_init(parts, programme, err);
+  if (!st) thr_programme_parts_find(parts, programme, value);
+
+  /* One turn of each set without ends becomes two ends, where they are allowed. */
+  for (int pair = 0; pair < programme->q->n_pairs && programme->open && !st; pair++) {
+    const int *d = programme->q->pair[pair].dart;
+    int root = parts->root[d[0]], star = programme->ties ? programme->ties->star[d[0]] : -1,
+        end[2] = {programme->first_end + d[0], programme->first_end + d[1]};
+    if (value[programme->first_pair + pair] == 0 || programme->q->pair[pair].self ||
+        parts->ends[root] > 0 || programme->most[end[0]] == 0)
       continue;
-    value[p->first_pair + y]--;
-    if (star >= 0 && !thr_ties_tied(p->ties, star, value + p->first_pair, v.parent)) {
-      value[p->first_pair + y]++;
+
+    value[programme->first_pair + pair]--;
+    /* With tube joints only if the node stays tied without the turn. */
+    if (star >= 0 &&
+        !thr_ties_tied(programme->ties, star, value + programme->first_pair, visitor.parent)) {
+      value[programme->first_pair + pair]++;
       continue;
     }
+
     value[end[0]]++;
     value[end[1]]++;
-    programme_parts->ends[root] += 2;
+    parts->ends[root] += 2;
   }
-  thr_programme_parts_destroy(programme_parts);
-  free(v.parent);
+
+  thr_programme_parts_destroy(parts);
+  free(visitor.parent);
   return st;
 }
 
 /* ---- improving ---- */
 
-static bool take(visitor *v, const exchange *x, thr_err *err, thr_status *st)
+/* Takes an exchange that turns less (a visit). */
+static bool take_straighter(exchange_visitor *visitor, const node_exchange *exchange, thr_err *err,
+                            thr_status *st)
 {
   (void)err;
   (void)st;
-  if (x->turning >= -thr_programme_tolerance(v->p, THR_AIM_TURNING)) return true;
-  apply(x, 1, v->value);
-  v->better = true;
+  if (exchange->turning >= -thr_programme_tolerance(visitor->programme, THR_AIM_TURNING))
+    return true;
+  apply_exchange(exchange, 1, visitor->value);
+  visitor->better = true;
   return false;
 }
 
-/* Of several turns between two types the cheapest, unless they tie what it does not. */
-static void take_cheapest(visitor *v)
+/* Replaces the turns between two dart types by the cheapest ones between them, unless those leave a
+ * node untied that was tied. */
+static void take_cheapest(exchange_visitor *visitor)
 {
-  const thr_programme *p = v->p;
-  for (int y = 0; y < p->q->n_pairs; y++) {
-    const thr_pair_type *pair_type = &p->q->pair[y];
-    int from = p->first_pair + y,
-        to = pair_between(p, pair_type->dart[0], pair_type->dart[1], pair_type->self),
-        moved = v->value[from];
-    int star = p->ties ? p->ties->star[pair_type->dart[0]] : -1;
+  const thr_programme *programme = visitor->programme;
+  for (int pair = 0; pair < programme->q->n_pairs; pair++) {
+    const thr_pair_type *pair_type = &programme->q->pair[pair];
+    int from = programme->first_pair + pair,
+        to = pair_between(programme, pair_type->dart[0], pair_type->dart[1], pair_type->self),
+        moved = visitor->value[from];
+    int star = programme->ties ? programme->ties->star[pair_type->dart[0]] : -1;
+
+    /* Move all of them, and move them back if the node needs them. */
     if (moved == 0 || to < 0 || to == from) continue;
-    bool tied = star >= 0 && thr_ties_tied(p->ties, star, v->value + p->first_pair, v->parent);
-    v->value[from] = 0;
-    v->value[to] += moved;
-    if (!tied || thr_ties_tied(p->ties, star, v->value + p->first_pair, v->parent)) continue;
-    v->value[from] = moved;
-    v->value[to] -= moved;
+    bool tied = star >= 0 && thr_ties_tied(programme->ties, star,
+                                           visitor->value + programme->first_pair, visitor->parent);
+    visitor->value[from] = 0;
+    visitor->value[to] += moved;
+    if (!tied || thr_ties_tied(programme->ties, star, visitor->value + programme->first_pair,
+                               visitor->parent))
+      continue;
+    visitor->value[from] = moved;
+    visitor->value[to] -= moved;
   }
 }
 
-thr_status thr_programme_straighten(const thr_programme *p, const thr_limits *limits, int *value,
-                                    thr_err *err)
+thr_status thr_programme_straighten(const thr_programme *programme, const thr_limits *limits,
+                                    int *value, thr_err *err)
 {
-  visitor v = {.visit = take, .p = p, .value = value, .better = true};
-  thr_status st = visitor_init(&v, err);
-  if (!st) take_cheapest(&v);
-  while (v.better && !st) {
-    v.better = false;
-    for (int y = 0; y < p->q->n_pairs && !st && !thr_limits_stop(limits); y++)
-      if (value[p->first_pair + y] > 0) st = visit_turn(&v, y, err);
+  exchange_visitor visitor = {
+      .visit = take_straighter, .programme = programme, .value = value, .better = true};
+  thr_status st = visitor_init(&visitor, err);
+  if (!st) take_cheapest(&visitor);
+
+  /* Rounds over all turns, until nothing gets better. */
+  while (visitor.better && !st) {
+    visitor.better = false;
+    for (int pair = 0; pair < programme->q->n_pairs && !st && !thr_limits_stop(limits); pair++)
+      if (value[programme->first_pair + pair] > 0) st = visit_turn(&visitor, pair, err);
   }
-  free(v.parent);
+
+  free(visitor.parent);
   return st;
 }
 
-static bool improve(visitor *v, const exchange *x, thr_err *err, thr_status *st)
+/* Takes an exchange that makes a valid solution better in the order of the aims (a visit). */
+static bool take_better(exchange_visitor *visitor, const node_exchange *exchange, thr_err *err,
+                        thr_status *st)
 {
   double worth[THR_N_AIMS];
   bool valid;
-  if (x->turning >= -thr_programme_tolerance(v->p, THR_AIM_TURNING)) return true;
-  if (thr_limits_stop(v->limits)) return false;
-  apply(x, 1, v->value);
-  *st = thr_programme_value(v->p, v->value, worth, &valid, err);
-  if (!*st && valid && thr_programme_compare(v->p, worth, v->worth) < 0) {
+  if (exchange->turning >= -thr_programme_tolerance(visitor->programme, THR_AIM_TURNING))
+    return true;
+  if (thr_limits_stop(visitor->limits)) return false;
+
+  /* Of the exchanges that turn less, keep one that makes the whole solution better. */
+  apply_exchange(exchange, 1, visitor->value);
+  *st = thr_programme_value(visitor->programme, visitor->value, worth, &valid, err);
+  if (!*st && valid && thr_programme_compare(visitor->programme, worth, visitor->worth) < 0) {
     for (int a = 0; a < THR_N_AIMS; a++)
-      v->worth[a] = worth[a];
-    v->better = true;
+      visitor->worth[a] = worth[a];
+    visitor->better = true;
     return false;
   }
-  apply(x, -1, v->value);
+
+  apply_exchange(exchange, -1, visitor->value);
   return !*st;
 }
 
-thr_status thr_programme_improve(const thr_programme *p, const thr_limits *limits, int *value,
-                                 thr_err *err)
+thr_status thr_programme_improve(const thr_programme *programme, const thr_limits *limits,
+                                 int *value, thr_err *err)
 {
-  visitor v = {.visit = improve, .p = p, .value = value, .limits = limits, .better = true};
+  exchange_visitor visitor = {.visit = take_better,
+                              .programme = programme,
+                              .value = value,
+                              .limits = limits,
+                              .better = true};
   bool valid = true;
-  thr_status st = visitor_init(&v, err);
-  if (!st) take_cheapest(&v);
-  if (!st) st = thr_programme_value(p, value, v.worth, &valid, err);
-  while (v.better && !st && valid) {
-    v.better = false;
-    for (int y = 0; y < p->q->n_pairs && !st && !thr_limits_stop(limits); y++)
-      if (value[p->first_pair + y] > 0) st = visit_turn(&v, y, err);
+  thr_status st = visitor_init(&visitor, err);
+  if (!st) take_cheapest(&visitor);
+  if (!st) st = thr_programme_value(programme, value, visitor.worth, &valid, err);
+
+  /* Rounds over all turns, until nothing gets better. */
+  while (visitor.better && !st && valid) {
+    visitor.better = false;
+    for (int pair = 0; pair < programme->q->n_pairs && !st && !thr_limits_stop(limits); pair++)
+      if (value[programme->first_pair + pair] > 0) st = visit_turn(&visitor, pair, err);
   }
-  free(v.parent);
+
+  free(visitor.parent);
   return st;
 }
 
-/* ---- trying ---- */
+/* ---- attempts ---- */
 
-static bool attempt(visitor *v, const exchange *x, thr_err *err, thr_status *st)
+/* Calls the caller's function with the exchange applied, and takes it back (a visit). */
+static bool call_attempt(exchange_visitor *visitor, const node_exchange *exchange, thr_err *err,
+                         thr_status *st)
 {
-  if (v->level && x->turning > thr_programme_tolerance(v->p, THR_AIM_TURNING)) return true;
-  apply(x, 1, v->value);
-  *st = v->attempt(v->user, err);
-  apply(x, -1, v->value);
+  if (visitor->level &&
+      exchange->turning > thr_programme_tolerance(visitor->programme, THR_AIM_TURNING))
+    return true;
+  apply_exchange(exchange, 1, visitor->value);
+  *st = visitor->attempt(visitor->user, err);
+  apply_exchange(exchange, -1, visitor->value);
   return !*st;
 }
 
-thr_status thr_programme_attempt(const thr_programme *p, int *value, bool level,
+thr_status thr_programme_attempt(const thr_programme *programme, int *value, bool level,
                                  thr_status (*attempt_one)(void *user, thr_err *err), void *user,
                                  thr_err *err)
 {
-  visitor v = {.visit = attempt,
-               .p = p,
-               .value = value,
-               .level = level,
-               .attempt = attempt_one,
-               .user = user};
-  thr_status st = visitor_init(&v, err);
-  for (int y = 0; y < p->q->n_pairs && !st; y++)
-    if (value[p->first_pair + y] > 0) st = visit_turn(&v, y, err);
-  free(v.parent);
+  exchange_visitor visitor = {.visit = call_attempt,
+                              .programme = programme,
+                              .value = value,
+                              .level = level,
+                              .attempt = attempt_one,
+                              .user = user};
+  thr_status st = visitor_init(&visitor, err);
+
+  for (int pair = 0; pair < programme->q->n_pairs && !st; pair++)
+    if (value[programme->first_pair + pair] > 0) st = visit_turn(&visitor, pair, err);
+
+  free(visitor.parent);
   return st;
 }
