@@ -1,45 +1,57 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The programme without the turns at most nodes: which orbits of copies, ends and folds, but not
- * who meets whom. Internal.
+/* Contracts the programme: the turns at most nodes are left out, so that its solutions say which
+ * orbits of copies, ends and folds there are, but not who meets whom.
  *
  * A cell is a set of dart types at one node that turns join. Dart orbits of two different types of
- * a cell can always be paired, so all that most cells ask for is an even number; a cell becomes one
- * dart type with one turn, to itself. Every solution of the whole programme is one of the
- * contracted programme, with the same overlap and steps and no more paths: its bounds hold. */
+ * a cell can always be paired, so all that most cells ask for is an even number; such a cell
+ * becomes one dart type with one turn, to itself. Every solution of the whole programme is one of
+ * the contracted programme, with the same overlap and steps and no more paths: its bounds hold.
+ * symmetry/lift/lift.c finds the turns of a contracted solution.
+ *
+ * Example: a node whose six dart types all turn into each other has 15 turns; contracted it is one
+ * type with one. */
 #include "symmetry/cover/cover.h"
 #include "graph/disjoint.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- making ---- */
+/* ---- making a contraction ---- */
 
+/* Tells whether turns of this pair type may be used. */
 static bool allowed(const thr_programme *p, int pair)
 {
   return p->most[p->first_pair + pair] != 0;
 }
 
-/* Types and turns of the cell with lowest type d: how many types, and does one turn into itself? */
+/* Finds the cells, each by its lowest dart type: how many types it has, and whether one turns into
+ * itself. */
 static void find_cells(thr_contraction *contraction, int *count, bool *loop)
 {
+  /* Cells are connected by turns. */
   const thr_quotient *quotient = contraction->whole->q;
-  for (int d = 0; d < quotient->n_darts; d++)
-    contraction->root[d] = d;
-  for (int y = 0; y < quotient->n_pairs; y++)
-    if (allowed(contraction->whole, y))
-      thr_disjoint_join(contraction->root, quotient->pair[y].dart[0], quotient->pair[y].dart[1]);
-  for (int d = 0; d < quotient->n_darts; d++)
-    count[contraction->root[d] = thr_disjoint_find(contraction->root, d)]++;
-  for (int y = 0; y < quotient->n_pairs; y++)
-    if (allowed(contraction->whole, y) && !quotient->pair[y].self &&
-        quotient->pair[y].dart[0] == quotient->pair[y].dart[1])
-      loop[contraction->root[quotient->pair[y].dart[0]]] = true;
+  for (int dart = 0; dart < quotient->n_darts; dart++)
+    contraction->root[dart] = dart;
+  for (int pair = 0; pair < quotient->n_pairs; pair++)
+    if (allowed(contraction->whole, pair))
+      thr_disjoint_join(contraction->root, quotient->pair[pair].dart[0],
+                        quotient->pair[pair].dart[1]);
+
+  for (int dart = 0; dart < quotient->n_darts; dart++)
+    count[contraction->root[dart] = thr_disjoint_find(contraction->root, dart)]++;
+
+  /* A type that turns into itself asks for no partner of another type. */
+  for (int pair = 0; pair < quotient->n_pairs; pair++)
+    if (allowed(contraction->whole, pair) && !quotient->pair[pair].self &&
+        quotient->pair[pair].dart[0] == quotient->pair[pair].dart[1])
+      loop[contraction->root[quotient->pair[pair].dart[0]]] = true;
 }
 
 thr_status thr_contraction_init(thr_contraction *contraction, const thr_programme *whole, bool all,
                                 thr_err *err)
 {
   *contraction = (thr_contraction){.whole = whole};
+
   size_t n = (size_t)whole->q->n_darts;
   int *count = thr_calloc(n, sizeof *count);
   bool *loop = thr_calloc(n, sizeof *loop);
@@ -47,23 +59,29 @@ thr_status thr_contraction_init(thr_contraction *contraction, const thr_programm
   contraction->keep = thr_calloc(n, sizeof *contraction->keep);
   contraction->becomes = thr_calloc(n, sizeof *contraction->becomes);
   contraction->pair = thr_calloc((size_t)whole->q->n_pairs, sizeof *contraction->pair);
+
   thr_status st = count && loop && contraction->root && contraction->keep && contraction->becomes &&
                           contraction->pair
                       ? THR_OK
                       : thr_nomem(err);
+
+  /* Without such types, two types ask for equal numbers, and one for none at all: contracting would
+   * lose that. */
   if (!st) {
     find_cells(contraction, count, loop);
-    for (int d = 0; d < whole->q->n_darts; d++)
-      contraction->keep[d] = !all && count[d] < 3 && !loop[d];
+    for (int dart = 0; dart < whole->q->n_darts; dart++)
+      contraction->keep[dart] = !all && count[dart] < 3 && !loop[dart];
     st = thr_contraction_make(contraction, err);
   }
+
   free(count);
   free(loop);
   if (st) thr_contraction_destroy(contraction);
   return st;
 }
 
-static void unmake(thr_contraction *contraction)
+/* Frees the contracted quotient and programme. */
+static void clear_contracted(thr_contraction *contraction)
 {
   thr_programme_destroy(&contraction->p);
   free(contraction->q.copy);
@@ -74,7 +92,7 @@ static void unmake(thr_contraction *contraction)
 
 void thr_contraction_destroy(thr_contraction *contraction)
 {
-  unmake(contraction);
+  clear_contracted(contraction);
   free(contraction->root);
   free(contraction->keep);
   free(contraction->becomes);
@@ -82,42 +100,49 @@ void thr_contraction_destroy(thr_contraction *contraction)
   *contraction = (thr_contraction){0};
 }
 
-/* Of a contracted cell one turn and one self pair at most; made[2 * type + self] is 1 more than its
- * number, 0 = none yet. */
+/* Contracts the pair types: a contracted cell has one turn and one self pair at most, where the
+ * whole has any. made[2 * type + self] is 1 more than the number of that pair type, 0 = none yet.
+ */
 static void contract_pairs(thr_contraction *contraction, int *made)
 {
   const thr_quotient *quotient = contraction->whole->q;
-  for (int y = 0; y < quotient->n_pairs; y++) {
-    int root = contraction->root[quotient->pair[y].dart[0]],
-        *known = &made[2 * root + quotient->pair[y].self];
-    contraction->pair[y] = contraction->q.n_pairs;
+  for (int pair = 0; pair < quotient->n_pairs; pair++) {
+    int root = contraction->root[quotient->pair[pair].dart[0]],
+        *known = &made[2 * root + quotient->pair[pair].self];
+    contraction->pair[pair] = contraction->q.n_pairs;
+
+    /* The turns of a contracted cell become one, made when the first comes. */
     if (!contraction->keep[root]) {
-      contraction->pair[y] =
-          allowed(contraction->whole, y) ? (*known ? *known - 1 : contraction->q.n_pairs) : -1;
-      if (contraction->pair[y] < contraction->q.n_pairs) continue;
+      contraction->pair[pair] =
+          allowed(contraction->whole, pair) ? (*known ? *known - 1 : contraction->q.n_pairs) : -1;
+      if (contraction->pair[pair] < contraction->q.n_pairs) continue;
       *known = contraction->q.n_pairs + 1;
     }
+
+    /* A new pair type. */
     thr_pair_type *type = &contraction->q.pair[contraction->q.n_pairs++];
-    *type = quotient->pair[y];
+    *type = quotient->pair[pair];
     for (int i = 0; i < 2; i++)
       type->dart[i] = contraction->becomes[contraction->keep[root] ? type->dart[i] : root];
-    if (!contraction->keep[root]) type->half[1] = -1; /* it stands for several */
+    if (!contraction->keep[root]) type->half[1] = -1; /* the one turn has many partners */
   }
 }
 
-/* The ties of the whole programme, as far as turns are kept. */
+/* Contracts the ties: links of turns that are kept stay, other turns are only counted. */
 static thr_status contract_ties(thr_contraction *contraction, thr_err *err)
 {
   const thr_quotient *quotient = contraction->whole->q;
   bool *keep = thr_calloc((size_t)quotient->n_pairs, sizeof *keep);
   contraction->p.ties = thr_calloc(1, sizeof *contraction->p.ties);
   thr_status st = keep && contraction->p.ties ? THR_OK : thr_nomem(err);
-  for (int y = 0; y < quotient->n_pairs && !st; y++)
-    keep[y] = contraction->keep[contraction->root[quotient->pair[y].dart[0]]];
+
+  for (int pair = 0; pair < quotient->n_pairs && !st; pair++)
+    keep[pair] = contraction->keep[contraction->root[quotient->pair[pair].dart[0]]];
   if (!st)
     st =
         thr_ties_contract(contraction->p.ties, contraction->whole->ties, quotient->n_pairs,
                           &contraction->q, contraction->p.node_orbit, contraction->pair, keep, err);
+
   free(keep);
   return st;
 }
@@ -125,7 +150,8 @@ static thr_status contract_ties(thr_contraction *contraction, thr_err *err)
 thr_status thr_contraction_make(thr_contraction *contraction, thr_err *err)
 {
   const thr_quotient *quotient = contraction->whole->q;
-  unmake(contraction);
+  /* Copies stay in number; dart types and turns become fewer. */
+  clear_contracted(contraction);
   contraction->q = *quotient;
   contraction->q.n_darts = contraction->q.n_pairs = 0;
   contraction->q.copy = thr_calloc((size_t)quotient->n_copies, sizeof *contraction->q.copy);
@@ -135,27 +161,36 @@ thr_status thr_contraction_make(thr_contraction *contraction, thr_err *err)
   thr_status st = contraction->q.copy && contraction->q.dart && contraction->q.pair && made
                       ? THR_OK
                       : thr_nomem(err);
-  for (int d = 0; d < quotient->n_darts && !st; d++) {
-    contraction->becomes[d] = contraction->keep[contraction->root[d]] || contraction->root[d] == d
-                                  ? contraction->q.n_darts
-                                  : contraction->becomes[contraction->root[d]];
-    if (contraction->becomes[d] == contraction->q.n_darts)
-      contraction->q.dart[contraction->q.n_darts++] = quotient->dart[d];
+
+  /* Dart types: all of a cell that is kept, or else its lowest. */
+  for (int dart = 0; dart < quotient->n_darts && !st; dart++) {
+    contraction->becomes[dart] =
+        contraction->keep[contraction->root[dart]] || contraction->root[dart] == dart
+            ? contraction->q.n_darts
+            : contraction->becomes[contraction->root[dart]];
+    if (contraction->becomes[dart] == contraction->q.n_darts)
+      contraction->q.dart[contraction->q.n_darts++] = quotient->dart[dart];
   }
-  for (int k = 0; k < quotient->n_copies && !st; k++) {
-    contraction->q.copy[k] = quotient->copy[k];
-    for (int i = 0; i < (quotient->copy[k].fold ? 1 : 2); i++)
-      contraction->q.copy[k].dart[i] = contraction->becomes[quotient->copy[k].dart[i]];
+
+  /* Copies between contracted types. */
+  for (int copy = 0; copy < quotient->n_copies && !st; copy++) {
+    contraction->q.copy[copy] = quotient->copy[copy];
+    for (int i = 0; i < (quotient->copy[copy].fold ? 1 : 2); i++)
+      contraction->q.copy[copy].dart[i] = contraction->becomes[quotient->copy[copy].dart[i]];
   }
+
+  /* Turns, and the programme of what there is now. */
   if (!st) contract_pairs(contraction, made);
   free(made);
   if (!st) st = thr_programme_init(&contraction->p, &contraction->q, contraction->whole->o, err);
   contraction->p.limits = contraction->whole->limits;
   if (!st && contraction->whole->ties) st = contract_ties(contraction, err);
+
   if (st) return st;
+
+  /* Bounds of copies are those of the whole: turns that are left out ruled some copies out. */
   memcpy(contraction->p.least, contraction->whole->least,
-         (size_t)quotient->n_copies *
-             sizeof *contraction->p.least); /* turns that are gone ruled some out */
+         (size_t)quotient->n_copies * sizeof *contraction->p.least);
   memcpy(contraction->p.most, contraction->whole->most,
          (size_t)quotient->n_copies * sizeof *contraction->p.most);
   return THR_OK;

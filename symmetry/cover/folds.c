@@ -1,142 +1,177 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Folds that outnumber the ends they could be led to: a flow. */
+/* Separates sets of dart types whose folds outnumber their ends, by a maximum flow.
+ *
+ * The trail of every fold needs a cord end of its own where every cord is open. So for every set of
+ * dart types the folds inside are no more than the cord ends inside and the columns that leave the
+ * set. Copies and turns have sides of their own at a dart type, so that a trail alternates between
+ * both. All these inequalities hold if a flow leads all folds to ends, with the values of the
+ * columns as capacities; if none does, a minimum cut (L. Ford & D. Fulkerson 1956) is a set whose
+ * inequality is violated.
+ *
+ * Example: two folds in a set that only one cord end belongs to and nothing leaves: one of them
+ * lacks an end. */
 #include "graph/scratch.h"
 #include "symmetry/cover/cover.h"
 
 #include <math.h>
 
-static const double least_flow = 1e-6;
+static const double least_flow = 1e-6; /* less is rounding */
 
-/* Flows from folds to ends. Nodes: 2 * d the copies' side of dart type d, 2 * d + 1 the turns'
- * side. */
+/* A network for flows from folds to ends. Node 2 * d is the side of the copies of dart type d, node
+ * 2 * d + 1 that of the turns. */
 typedef struct {
   int n, m;
   int (*edge)[2];
   double *capacity, *flow;        /* [m] flow from edge[e][0] to edge[e][1] */
-  double *supply, *demand, *used; /* [n] left; of copies at a dart type */
-  int *first, *incident;          /* as in lp/tjoin/oddcut.c */
+  double *supply, *demand, *used; /* [n] folds and ends that are left; copies at a dart type */
+  int *first, *incident;          /* edges at node v: incident[first[v] .. first[v + 1] - 1] */
   int *queue, *arrived;           /* [n] edge by which a node was reached, -1 = not, m = a source */
   thr_scratch own;                /* the arrays */
-} network;
+} flow_network;
 
-static thr_status network_init(network *w, const thr_programme *p, thr_err *err)
+/* Allocates the network of a programme; the caller frees network->own. */
+static thr_status network_init(flow_network *network, const thr_programme *programme, thr_err *err)
 {
-  int darts = p->q->n_darts;
-  size_t n = 2 * (size_t)darts, m = (size_t)p->first_end + (size_t)darts;
-  w->n = 2 * darts;
-  w->edge = thr_scratch_array(&w->own, m, sizeof *w->edge);
-  w->capacity = thr_scratch_array(&w->own, m, sizeof *w->capacity);
-  w->flow = thr_scratch_array(&w->own, m, sizeof *w->flow);
-  w->supply = thr_scratch_array(&w->own, n, sizeof *w->supply);
-  w->demand = thr_scratch_array(&w->own, n, sizeof *w->demand);
-  w->used = thr_scratch_array(&w->own, n, sizeof *w->used);
-  w->first = thr_scratch_array(&w->own, n + 2, sizeof *w->first);
-  w->incident = thr_scratch_array(&w->own, 2 * m, sizeof *w->incident);
-  w->queue = thr_scratch_array(&w->own, n, sizeof *w->queue);
-  w->arrived = thr_scratch_array(&w->own, n, sizeof *w->arrived);
-  return thr_scratch_check(&w->own, err);
+  int darts = programme->q->n_darts;
+  size_t n = 2 * (size_t)darts, m = (size_t)programme->first_end + (size_t)darts;
+  network->n = 2 * darts;
+  network->edge = thr_scratch_array(&network->own, m, sizeof *network->edge);
+  network->capacity = thr_scratch_array(&network->own, m, sizeof *network->capacity);
+  network->flow = thr_scratch_array(&network->own, m, sizeof *network->flow);
+  network->supply = thr_scratch_array(&network->own, n, sizeof *network->supply);
+  network->demand = thr_scratch_array(&network->own, n, sizeof *network->demand);
+  network->used = thr_scratch_array(&network->own, n, sizeof *network->used);
+  network->first = thr_scratch_array(&network->own, n + 2, sizeof *network->first);
+  network->incident = thr_scratch_array(&network->own, 2 * m, sizeof *network->incident);
+  network->queue = thr_scratch_array(&network->own, n, sizeof *network->queue);
+  network->arrived = thr_scratch_array(&network->own, n, sizeof *network->arrived);
+  return thr_scratch_check(&network->own, err);
 }
 
-static void network_fill(network *w, const thr_programme *p, const double *value)
+/* Fills the network with the values of a point. */
+static void network_fill(flow_network *network, const thr_programme *programme, const double *value)
 {
-  for (int j = 0; j < p->first_circle; j++) {
-    int side = j >= p->first_pair, a = 2 * p->join[j][0] + side;
+  /* Ends demand, folds supply; other columns lead from one dart type to another on the same side.
+   */
+  for (int j = 0; j < programme->first_circle; j++) {
+    int side = j >= programme->first_pair, a = 2 * programme->join[j][0] + side;
     if (value[j] < least_flow) continue;
-    if (j >= p->first_end)
-      w->demand[a] += value[j];
-    else if (thr_programme_terminal(p, j))
-      w->supply[a] += value[j];
+    if (j >= programme->first_end)
+      network->demand[a] += value[j];
+    else if (thr_programme_terminal(programme, j))
+      network->supply[a] += value[j];
     else {
-      w->edge[w->m][0] = a;
-      w->edge[w->m][1] = 2 * p->join[j][1] + side;
-      w->capacity[w->m++] = value[j];
+      network->edge[network->m][0] = a;
+      network->edge[network->m][1] = 2 * programme->join[j][1] + side;
+      network->capacity[network->m++] = value[j];
     }
+
+    /* Each copy leads over to the turns. */
     if (side) continue;
-    for (int i = 0; i < 2; i++) /* each copy leads over to the turns */
-      if (p->join[j][i] < p->q->n_darts) w->used[p->join[j][i]] += value[j];
+    for (int i = 0; i < 2; i++)
+      if (programme->join[j][i] < programme->q->n_darts)
+        network->used[programme->join[j][i]] += value[j];
   }
-  for (int d = 0; d < p->q->n_darts; d++)
-    if (w->used[d] > 0) {
-      w->edge[w->m][0] = 2 * d;
-      w->edge[w->m][1] = 2 * d + 1;
-      w->capacity[w->m++] = w->used[d];
+
+  /* The edges from side to side. */
+  for (int dart = 0; dart < programme->q->n_darts; dart++)
+    if (network->used[dart] > 0) {
+      network->edge[network->m][0] = 2 * dart;
+      network->edge[network->m][1] = 2 * dart + 1;
+      network->capacity[network->m++] = network->used[dart];
     }
-  for (int e = 0; e < w->m; e++)
+
+  /* Edges by node: count, two places further on, and fill. */
+  for (int edge = 0; edge < network->m; edge++)
     for (int i = 0; i < 2; i++)
-      w->first[w->edge[e][i] + 2]++;
-  for (int v = 1; v <= w->n; v++)
-    w->first[v + 1] += w->first[v];
-  for (int e = 0; e < w->m; e++)
+      network->first[network->edge[edge][i] + 2]++;
+  for (int v = 1; v <= network->n; v++)
+    network->first[v + 1] += network->first[v];
+  for (int e = 0; e < network->m; e++)
     for (int i = 0; i < 2; i++)
-      w->incident[w->first[w->edge[e][i] + 1]++] = e;
+      network->incident[network->first[network->edge[e][i] + 1]++] = e;
 }
 
-static double room(const network *w, int e, int from)
+/* Returns how much more can flow along an edge from one of its nodes. */
+static double residual(const flow_network *network, int e, int from)
 {
-  return w->edge[e][0] == from ? w->capacity[e] - w->flow[e] : w->capacity[e] + w->flow[e];
+  return network->edge[e][0] == from ? network->capacity[e] - network->flow[e]
+                                     : network->capacity[e] + network->flow[e];
 }
 
-/* As much as fits along the path on which v was reached. */
-static void push(network *w, int v)
+/* Sends as much as fits along the path on which a node was reached. */
+static void push(flow_network *network, int node)
 {
-  double amount = w->demand[v];
-  int source = v;
-  while (w->arrived[source] < w->m) {
-    int e = w->arrived[source], from = w->edge[e][w->edge[e][1] == source ? 0 : 1];
-    amount = fmin(amount, room(w, e, from));
+  double amount = network->demand[node];
+  int source = node;
+  /* The narrowest place. */
+  while (network->arrived[source] < network->m) {
+    int e = network->arrived[source],
+        from = network->edge[e][network->edge[e][1] == source ? 0 : 1];
+    amount = fmin(amount, residual(network, e, from));
     source = from;
   }
-  amount = fmin(amount, w->supply[source]);
-  w->supply[source] -= amount;
-  w->demand[v] -= amount;
-  while (w->arrived[v] < w->m) {
-    int e = w->arrived[v], forward = w->edge[e][1] == v;
-    w->flow[e] += forward ? amount : -amount;
-    v = w->edge[e][!forward];
+
+  amount = fmin(amount, network->supply[source]);
+  network->supply[source] -= amount;
+  network->demand[node] -= amount;
+
+  /* Change the flow from the end backwards. */
+  while (network->arrived[node] < network->m) {
+    int e = network->arrived[node], forward = network->edge[e][1] == node;
+    network->flow[e] += forward ? amount : -amount;
+    node = network->edge[e][!forward];
   }
 }
 
-/* More flow along a shortest path (Edmonds & Karp 1972); false if there is none, then arrived marks
- * what the folds left over reach. */
-static bool augment(network *w)
+/* Sends more flow along a shortest path (J. Edmonds & R. Karp 1972). Returns false if there is
+ * none; then arrived marks what the folds that are left reach: a minimum cut. */
+static bool augment(flow_network *network)
 {
   int head = 0, tail = 0;
-  for (int v = 0; v < w->n; v++) {
-    w->arrived[v] = w->supply[v] >= least_flow ? w->m : -1;
-    if (w->arrived[v] >= 0) w->queue[tail++] = v;
+  /* All folds that are left are sources. */
+  for (int node = 0; node < network->n; node++) {
+    network->arrived[node] = network->supply[node] >= least_flow ? network->m : -1;
+    if (network->arrived[node] >= 0) network->queue[tail++] = node;
   }
+
+  /* Breadth first, until there is a demand. */
   while (head < tail) {
-    int v = w->queue[head++];
-    if (w->demand[v] >= least_flow) {
-      push(w, v);
+    int node = network->queue[head++];
+    if (network->demand[node] >= least_flow) {
+      push(network, node);
       return true;
     }
-    for (int k = w->first[v]; k < w->first[v + 1]; k++) {
-      int e = w->incident[k], to = w->edge[e][w->edge[e][0] == v];
-      if (w->arrived[to] >= 0 || room(w, e, v) < least_flow) continue;
-      w->arrived[to] = e;
-      w->queue[tail++] = to;
+    for (int k = network->first[node]; k < network->first[node + 1]; k++) {
+      int e = network->incident[k], to = network->edge[e][network->edge[e][0] == node];
+      if (network->arrived[to] >= 0 || residual(network, e, node) < least_flow) continue;
+      network->arrived[to] = e;
+      network->queue[tail++] = to;
     }
   }
   return false;
 }
 
-thr_status thr_programme_folds(const thr_programme *p, const double *value, bool *copy_side,
+thr_status thr_programme_folds(const thr_programme *programme, const double *value, bool *copy_side,
                                bool *pair_side, bool *found, thr_err *err)
 {
-  network w = {0};
-  thr_status st = network_init(&w, p, err);
+  flow_network network = {0};
+  thr_status st = network_init(&network, programme, err);
   *found = false;
+
+  /* A maximum flow; folds that are left mean a violated inequality. */
   if (!st) {
-    network_fill(&w, p, value);
-    while (augment(&w))
+    network_fill(&network, programme, value);
+    while (augment(&network))
       continue;
-    for (int d = 0; d < p->q->n_darts; d++) {
-      *found = *found || w.supply[2 * d] >= least_flow || w.supply[2 * d + 1] >= least_flow;
-      copy_side[d] = w.arrived[2 * d] >= 0;
-      pair_side[d] = w.arrived[2 * d + 1] >= 0;
+    for (int dart = 0; dart < programme->q->n_darts; dart++) {
+      *found = *found || network.supply[2 * dart] >= least_flow ||
+               network.supply[2 * dart + 1] >= least_flow;
+      copy_side[dart] = network.arrived[2 * dart] >= 0;
+      pair_side[dart] = network.arrived[2 * dart + 1] >= 0;
     }
   }
-  thr_scratch_free(&w.own);
+
+  thr_scratch_free(&network.own);
   return st;
 }

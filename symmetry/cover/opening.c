@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Trails between two folds done away with: every trail is given a direction, with all folds at
- * beginnings.
+/* Removes trails between two folds: gives every trail a direction, with all folds at beginnings.
  *
- * The network's nodes are the two sides of every dart type, that of the copies and that of the
- * turns; its edges are the orbits of copies, of turns and of darts (which lead from one side to the
- * other), the folds (from a source) and the cord ends (to a sink). If each fold has a path of its
- * own to a cord end (a maximum flow, Ford & Fulkerson 1956), what is left over is even at every
- * node and falls into circuits. At a type then as many copies arrive as turns lead away, so that
- * they can be matched. */
+ * Where every cord is open, the trail of a fold has to end in a cord end. The network's nodes are
+ * the two sides of every dart type, that of the copies and that of the turns; its edges are the
+ * orbits of copies, of turns and of darts (which lead from one side to the other), the folds (from
+ * a source) and the cord ends (to a sink). If each fold has a path of its own to a cord end (a
+ * maximum flow, L. Ford & D. Fulkerson 1956), what is left over is even at every node and falls
+ * into circuits. At a type then as many copies arrive as turns lead away, so that they can be
+ * matched.
+ *
+ * Example: one trail from fold to fold and one from end to end that share a dart type exchange what
+ * follows there, and become two trails from a fold to an end. */
 #include "graph/status.h"
 #include "symmetry/lift/lift.h"
 
@@ -19,179 +22,213 @@ typedef struct {
   int to;     /* 0 or 1: directed towards that end; -1: not directed */
 } arc;
 
-/* Arcs: o the orbit's own from side to side, n_orbits + o its copy, 2 * n_orbits + o its turn;
- * those of a copy or turn of two orbits stand with the lower one, the other place is empty (both
- * ends -1). */
+/* Arcs: `o` is orbit o's own from side to side, n_orbits + o that of its copy, 2 * n_orbits + o
+ * that of its turn. Those of a copy or turn of two orbits stand with the lower one; the other place
+ * is empty (both ends -1). */
 typedef struct {
-  const thr_strands *s;
+  const thr_strands *strands;
   int source, sink, n_nodes, n_arcs;
   arc *arc;
   int *first, *list; /* arcs at node v: list[first[v] .. first[v + 1] - 1]; loops twice */
   int *came, *queue; /* [n_nodes] arc that a search came by, -1 = not reached; [n_nodes] */
-} network;
+} trail_network;
 
-static void network_destroy(network *w)
+static void network_destroy(trail_network *network)
 {
-  free(w->arc);
-  free(w->first);
-  free(w->list);
-  free(w->came);
-  free(w->queue);
+  free(network->arc);
+  free(network->first);
+  free(network->list);
+  free(network->came);
+  free(network->queue);
 }
 
-static void make_arcs(network *w)
+/* Makes the arcs of all orbits, without directions. */
+static void make_arcs(trail_network *network)
 {
-  const thr_strands *strands = w->s;
-  for (int o = 0; o < strands->n_orbits; o++) {
-    int copies = 2 * strands->type[o], turns = copies + 1, other = strands->other[o],
-        partner = strands->partner[o];
+  const thr_strands *strands = network->strands;
+  for (int orbit = 0; orbit < strands->n_orbits; orbit++) {
+    int copies = 2 * strands->type[orbit], turns = copies + 1, other = strands->other[orbit],
+        partner = strands->partner[orbit];
     const arc none = {{-1, -1}, -1};
-    w->arc[o] = (arc){{copies, turns}, -1};
-    w->arc[strands->n_orbits + o] =
-        other < o ? none : (arc){{other == o ? w->source : copies, 2 * strands->type[other]}, -1};
+
+    /* The orbit's own; its copy, which comes from the source if it is a fold; its turn or its end.
+     */
+    network->arc[orbit] = (arc){{copies, turns}, -1};
+    network->arc[strands->n_orbits + orbit] =
+        other < orbit
+            ? none
+            : (arc){{other == orbit ? network->source : copies, 2 * strands->type[other]}, -1};
     arc turn = none;
-    if (partner < 0) turn = (arc){{turns, w->sink}, -1};
-    if (partner == o) turn = (arc){{w->source, turns}, -1};
-    if (partner > o) turn = (arc){{turns, 2 * strands->type[partner] + 1}, -1};
-    w->arc[2 * strands->n_orbits + o] = turn;
+    if (partner < 0) turn = (arc){{turns, network->sink}, -1};
+    if (partner == orbit) turn = (arc){{network->source, turns}, -1};
+    if (partner > orbit) turn = (arc){{turns, 2 * strands->type[partner] + 1}, -1};
+    network->arc[2 * strands->n_orbits + orbit] = turn;
   }
 }
 
-static thr_status network_init(network *w, const thr_strands *strands, thr_err *err)
+/* Initializes the network; the caller destroys it also on failure. */
+static thr_status network_init(trail_network *network, const thr_strands *strands, thr_err *err)
 {
-  *w = (network){.s = strands,
-                 .source = 2 * strands->q->n_darts,
-                 .sink = 2 * strands->q->n_darts + 1,
-                 .n_arcs = 3 * strands->n_orbits};
-  w->n_nodes = w->sink + 1;
-  w->arc = thr_calloc((size_t)w->n_arcs, sizeof *w->arc);
-  w->first = thr_calloc((size_t)w->n_nodes + 2, sizeof *w->first);
-  w->list = thr_calloc(2 * (size_t)w->n_arcs, sizeof *w->list);
-  w->came = thr_calloc((size_t)w->n_nodes, sizeof *w->came);
-  w->queue = thr_calloc((size_t)w->n_nodes, sizeof *w->queue);
-  if (!w->arc || !w->first || !w->list || !w->came || !w->queue) return thr_nomem(err);
-  make_arcs(w);
-  for (int i = 0; i < 2 * w->n_arcs; i++)
-    if (w->arc[i / 2].end[i % 2] >= 0) w->first[w->arc[i / 2].end[i % 2] + 2]++;
-  for (int v = 0; v < w->n_nodes; v++)
-    w->first[v + 2] += w->first[v + 1];
-  for (int i = 0; i < 2 * w->n_arcs; i++)
-    if (w->arc[i / 2].end[i % 2] >= 0) w->list[w->first[w->arc[i / 2].end[i % 2] + 1]++] = i / 2;
+  *network = (trail_network){.strands = strands,
+                             .source = 2 * strands->q->n_darts,
+                             .sink = 2 * strands->q->n_darts + 1,
+                             .n_arcs = 3 * strands->n_orbits};
+  network->n_nodes = network->sink + 1;
+
+  network->arc = thr_calloc((size_t)network->n_arcs, sizeof *network->arc);
+  network->first = thr_calloc((size_t)network->n_nodes + 2, sizeof *network->first);
+  network->list = thr_calloc(2 * (size_t)network->n_arcs, sizeof *network->list);
+  network->came = thr_calloc((size_t)network->n_nodes, sizeof *network->came);
+  network->queue = thr_calloc((size_t)network->n_nodes, sizeof *network->queue);
+  if (!network->arc || !network->first || !network->list || !network->came || !network->queue)
+    return thr_nomem(err);
+
+  make_arcs(network);
+
+  /* Arcs by node: count, two places further on, and fill. */
+  for (int i = 0; i < 2 * network->n_arcs; i++)
+    if (network->arc[i / 2].end[i % 2] >= 0) network->first[network->arc[i / 2].end[i % 2] + 2]++;
+  for (int v = 0; v < network->n_nodes; v++)
+    network->first[v + 2] += network->first[v + 1];
+  for (int i = 0; i < 2 * network->n_arcs; i++)
+    if (network->arc[i / 2].end[i % 2] >= 0)
+      network->list[network->first[network->arc[i / 2].end[i % 2] + 1]++] = i / 2;
+
   return THR_OK;
 }
 
-/* The end of an arc that is not v; v for a loop. */
-static int far_end(const arc *a, int v)
+/* Returns which end of an arc is not this node; the node's own for a loop. */
+static int far_end(const arc *a, int node)
 {
-  return a->end[0] == v;
+  return a->end[0] == node;
 }
 
-/* One more path from the source to the sink, against directed arcs if need be; false if there is
- * none. */
-static bool augment(network *w)
+/* Directs one more path from the source to the sink, which may undo arcs that are directed the
+ * other way. Returns false if there is none. */
+static bool augment(trail_network *network)
 {
   int head = 0, tail = 0;
-  for (int v = 0; v < w->n_nodes; v++)
-    w->came[v] = -1;
-  w->came[w->source] = w->n_arcs;
-  w->queue[tail++] = w->source;
-  while (head < tail && w->came[w->sink] < 0) {
-    int v = w->queue[head++];
-    for (int i = w->first[v]; i < w->first[v + 1]; i++) {
-      const arc *a = &w->arc[w->list[i]];
-      int side = far_end(a, v), u = a->end[side];
-      if (w->came[u] >= 0 || a->to == side) continue;
-      w->came[u] = w->list[i];
-      w->queue[tail++] = u;
+  /* Breadth first from the source, not along arcs that are directed to where the search comes from.
+   */
+  for (int node = 0; node < network->n_nodes; node++)
+    network->came[node] = -1;
+  network->came[network->source] = network->n_arcs;
+  network->queue[tail++] = network->source;
+
+  while (head < tail && network->came[network->sink] < 0) {
+    int node = network->queue[head++];
+    for (int i = network->first[node]; i < network->first[node + 1]; i++) {
+      const arc *a = &network->arc[network->list[i]];
+      int side = far_end(a, node), next_node = a->end[side];
+      if (network->came[next_node] >= 0 || a->to == side) continue;
+      network->came[next_node] = network->list[i];
+      network->queue[tail++] = next_node;
     }
   }
-  if (w->came[w->sink] < 0) return false;
-  for (int v = w->sink; v != w->source;) {
-    arc *a = &w->arc[w->came[v]];
-    int side = far_end(a, v); /* where the path comes from */
+
+  if (network->came[network->sink] < 0) return false;
+
+  /* Direct the arcs of the path, from the sink back; an arc that the path undoes has no direction
+   * again. */
+  for (int node = network->sink; node != network->source;) {
+    arc *a = &network->arc[network->came[node]];
+    int side = far_end(a, node); /* where the path comes from */
     a->to = a->to < 0 ? 1 - side : -1;
-    v = a->end[side];
+    node = a->end[side];
   }
   return true;
 }
 
-/* Directs what is left: from any node along arcs without direction until there is none, which is
- * where the walk began. */
-static void direct_circuits(network *w)
+/* Directs all arcs that are left: from any node along arcs without direction until there is none,
+ * which is at the node where the walk began, as numbers are even. */
+static void direct_circuits(trail_network *network)
 {
-  int *next = w->came;
-  memcpy(next, w->first, (size_t)w->n_nodes * sizeof *next);
-  for (int start = 0; start < w->n_nodes; start++)
-    for (int v = start; next[v] < w->first[v + 1];) {
-      arc *a = &w->arc[w->list[next[v]++]];
+  int *next = network->came;
+  memcpy(next, network->first, (size_t)network->n_nodes * sizeof *next);
+  for (int start = 0; start < network->n_nodes; start++)
+    for (int node = start; next[node] < network->first[node + 1];) {
+      arc *a = &network->arc[network->list[next[node]++]];
       if (a->to >= 0) continue;
-      a->to = far_end(a, v);
-      v = a->end[a->to];
+      a->to = far_end(a, node);
+      node = a->end[a->to];
     }
 }
 
-/* Does the trail come over the copy to orbit o's darts? */
-static bool arrives(const network *w, int o)
+/* Tells whether the trail comes over the copy to this orbit's darts. */
+static bool arrives(const trail_network *network, int orbit)
 {
-  int n = w->s->n_orbits, other = w->s->other[o];
-  return other > o ? w->arc[n + o].to == 0 : w->arc[n + other].to == 1;
+  int n_orbits = network->strands->n_orbits, other = network->strands->other[orbit];
+  return other > orbit ? network->arc[n_orbits + orbit].to == 0
+                       : network->arc[n_orbits + other].to == 1;
 }
 
-/* Does it lead away from orbit o's place in its turn, or end there? */
-static bool leads_away(const network *w, int o)
+/* Tells whether the trail leads away from this orbit's place in its turn, or ends there. */
+static bool leads_away(const trail_network *network, int orbit)
 {
-  int n = w->s->n_orbits, partner = w->s->partner[o];
-  return partner >= 0 && partner <= o ? w->arc[2 * n + partner].to == 0 : w->arc[2 * n + o].to == 1;
+  int n_orbits = network->strands->n_orbits, partner = network->strands->partner[orbit];
+  return partner >= 0 && partner <= orbit ? network->arc[2 * n_orbits + partner].to == 0
+                                          : network->arc[2 * n_orbits + orbit].to == 1;
 }
 
-/* Orbits that arrive where their turn arrives, too, change places with those of their type where
- * both lead away. waiting: first of a type that has no such partner yet; next: [n_orbits] the one
- * after it. */
-static void match(const network *w, thr_strands *strands, int *wrong, int *next)
+/* Makes every trail go on in its direction: orbits that arrive where their turn arrives, too,
+ * change places with orbits of their type where both lead away. waiting: the first orbit of a type
+ * that has no such partner yet; next: [n_orbits] the one after it. */
+static void match_places(const trail_network *network, thr_strands *strands, int *wrong, int *next)
 {
-  int *waiting = w->queue;
-  for (int t = 0; t < strands->q->n_darts; t++)
-    waiting[t] = -1;
-  for (int o = 0; o < strands->n_orbits; o++) {
-    wrong[o] = arrives(w, o) - leads_away(w, o);
-    if (wrong[o] <= 0) continue;
-    next[o] = waiting[strands->type[o]];
-    waiting[strands->type[o]] = o;
+  int *waiting = network->queue;
+
+  /* List the orbits where both arrive. */
+  for (int type = 0; type < strands->q->n_darts; type++)
+    waiting[type] = -1;
+  for (int orbit = 0; orbit < strands->n_orbits; orbit++) {
+    wrong[orbit] = arrives(network, orbit) - leads_away(network, orbit);
+    if (wrong[orbit] <= 0) continue;
+    next[orbit] = waiting[strands->type[orbit]];
+    waiting[strands->type[orbit]] = orbit;
   }
-  for (int o = 0; o < strands->n_orbits; o++) {
-    int other = waiting[strands->type[o]];
-    if (wrong[o] >= 0 || other < 0) continue;
-    waiting[strands->type[o]] = next[other];
-    thr_strands_exchange(strands, o, other);
+
+  /* Exchange each where both lead away with one of them. */
+  for (int orbit = 0; orbit < strands->n_orbits; orbit++) {
+    int other = waiting[strands->type[orbit]];
+    if (wrong[orbit] >= 0 || other < 0) continue;
+    waiting[strands->type[orbit]] = next[other];
+    thr_strands_exchange(strands, orbit, other);
   }
 }
 
-static thr_status direct(network *w, thr_err *err)
+/* Directs all trails. THR_ESOLVER: a fold has no path to an end. */
+static thr_status direct_trails(trail_network *network, thr_err *err)
 {
-  while (augment(w))
+  /* A maximum flow. */
+  while (augment(network))
     continue;
-  for (int i = w->first[w->source]; i < w->first[w->source + 1]; i++) {
-    int a = w->list[i], o = a % w->s->n_orbits;
-    if (w->arc[a].to < 0)
+
+  /* Every arc from the source must be in it. */
+  for (int i = network->first[network->source]; i < network->first[network->source + 1]; i++) {
+    int arc_index = network->list[i], orbit = arc_index % network->strands->n_orbits;
+    if (network->arc[arc_index].to < 0)
       return thr_fail(
           err, THR_ESOLVER,
           "the cords over edge %d and its images would be closed, where ends are asked for",
-          w->s->q->dart[w->s->type[o]].half >> 1);
+          network->strands->q->dart[network->strands->type[orbit]].half >> 1);
   }
-  direct_circuits(w);
+
+  direct_circuits(network);
   return THR_OK;
 }
 
 thr_status thr_strands_open(thr_strands *strands, thr_err *err)
 {
-  network w;
+  trail_network network;
   int *wrong = thr_calloc((size_t)strands->n_orbits, sizeof *wrong),
       *next = thr_calloc((size_t)strands->n_orbits, sizeof *next);
-  thr_status st = network_init(&w, strands, err);
+  thr_status st = network_init(&network, strands, err);
   if (!st && (!wrong || !next)) st = thr_nomem(err);
-  if (!st) st = direct(&w, err);
-  if (!st) match(&w, strands, wrong, next);
-  network_destroy(&w);
+
+  if (!st) st = direct_trails(&network, err);
+  if (!st) match_places(&network, strands, wrong, next);
+
+  network_destroy(&network);
   free(wrong);
   free(next);
   return st;
