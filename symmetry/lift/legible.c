@@ -1,10 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cords of a symmetric cover that are read in fewer instructions (graph/plan/reading.c), with every
- * aim at the value it has: two turns of a node, in all their images, exchange their partners where
- * that turns no more.
+/* Changes the cords of a symmetric cover so that they are read in fewer instructions
+ * (graph/plan/reading.c), with every aim at the value it has: two turns of a node, in all their
+ * images, exchange their partners where that turns no more.
+ *
+ * A local search: the first exchange with fewer instructions is made, and all are tried again,
+ * until none has fewer or MOST_TRACED passes have been traced, so that the result depends on no
+ * clock.
  *
  * Example: two stairs over a grid that go right and then up here, up and then right there, become
- * stairs that are one the other moved along, which is read once. */
+ * stairs of which one is the other moved along, which is read once. */
 #include "graph/plan/plan_measures.h"
 #include "symmetry/lift/lift.h"
 
@@ -12,163 +16,207 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Passes that are traced, in all trials together: some tenths of a second. */
+/* Passes that are traced, in all trials together, which takes some tenths of a second. */
 static const double MOST_TRACED = 1e6;
 
-/* What has to stay as low as it is. */
+/* What may not become more: numbers, and values of the aims. */
 typedef struct {
   int cords, paths;
   double steps, turning, pulled, longest;
-} level;
+} measures;
 
 typedef struct {
-  const thr_quotient *q;
+  const thr_quotient *quotient;
   const thr_cover_options *how;
-  const thr_request *o;
+  const thr_request *request;
   const thr_limits *limits;
-  thr_programme p;
+  thr_programme programme;
   int *component;
-  int *value, *best; /* [p.n] of the trial, and of the best so far */
+  int *value, *best; /* [programme.n] of the trial, and of the best so far */
   double worth[THR_N_AIMS], passes, traced;
   bool better;
-  level most;
+  measures most;
   int instructions;
-  thr_lifted *now;
-} reader;
+  thr_lifted *threading;
+} reading_search;
 
-static void reader_destroy(reader *r)
+static void reader_destroy(reading_search *search)
 {
-  free(r->component);
-  free(r->value);
-  free(r->best);
-  thr_programme_destroy(&r->p);
+  free(search->component);
+  free(search->value);
+  free(search->best);
+  thr_programme_destroy(&search->programme);
 }
 
-static void threading_destroy(thr_lifted *t)
+static void threading_destroy(thr_lifted *threading)
 {
-  thr_cords_destroy(t->cord, t->n_cords);
-  thr_symmetry_record_destroy(&t->record);
+  thr_cords_destroy(threading->cord, threading->n_cords);
+  thr_symmetry_record_destroy(&threading->record);
 }
 
-static int count_instructions(const reader *r, const thr_lifted *t)
+/* Counts the instructions that a threading is read in. */
+static int count_instructions(const reading_search *search, const thr_lifted *threading)
 {
-  const thr_plan plan = {.frame = *r->q->f,
-                         .options = *r->o,
-                         .cord = t->cord,
-                         .n_cords = t->n_cords,
-                         .symmetry = t->record};
+  const thr_plan plan = {.frame = *search->quotient->f,
+                         .options = *search->request,
+                         .cord = threading->cord,
+                         .n_cords = threading->n_cords,
+                         .symmetry = threading->record};
   return thr_reading_of(&plan).instructions;
 }
 
-static level level_of(const reader *r, const thr_lifted *t)
+/* Computes the values of a threading that may not become more. */
+static measures measures_of(const reading_search *search, const thr_lifted *threading)
 {
-  level out = {.cords = t->n_cords, .paths = t->record.unique_paths, .steps = t->record.steps};
-  for (int i = 0; i < t->n_cords; i++)
-    out.turning += thr_cord_turning(r->q->f, &t->cord[i], r->o->ends == THR_ENDS_CLOSED);
-  out.pulled = thr_cords_pulled_turning(r->q->f, t->cord, t->n_cords);
-  out.longest = thr_cords_longest(r->q->f, t->cord, t->n_cords);
+  measures out = {.cords = threading->n_cords,
+                  .paths = threading->record.unique_paths,
+                  .steps = threading->record.steps};
+
+  for (int i = 0; i < threading->n_cords; i++)
+    out.turning += thr_cord_turning(search->quotient->f, &threading->cord[i],
+                                    search->request->ends == THR_ENDS_CLOSED);
+  out.pulled = thr_cords_pulled_turning(search->quotient->f, threading->cord, threading->n_cords);
+  out.longest = thr_cords_longest(search->quotient->f, threading->cord, threading->n_cords);
+
   return out;
 }
 
-/* But for rounding. */
+/* Tells whether a is at most b, up to rounding. */
 static bool at_most(double a, double b)
 {
   return a <= b + 1e-9 * fmax(1, fabs(b));
 }
 
-static bool stays(const reader *r, const thr_lifted *t)
+/* Tells whether a threading is no worse than the one at the beginning, and keeps to what is asked
+ * of cords. */
+static bool is_no_worse(const reading_search *search, const thr_lifted *threading)
 {
-  const level x = level_of(r, t);
-  return x.cords == r->most.cords && x.paths == r->most.paths && at_most(x.steps, r->most.steps) &&
-         at_most(x.turning, r->most.turning) && at_most(x.pulled, r->most.pulled) &&
-         at_most(x.longest, r->most.longest) &&
-         (!thr_keep_asked(r->o) || thr_keep_does(r->q->f, r->o, r->component, t->cord, t->n_cords));
+  const measures own = measures_of(search, threading);
+  return own.cords == search->most.cords && own.paths == search->most.paths &&
+         at_most(own.steps, search->most.steps) && at_most(own.turning, search->most.turning) &&
+         at_most(own.pulled, search->most.pulled) && at_most(own.longest, search->most.longest) &&
+         (!thr_keep_asked(search->request) ||
+          thr_keep_does(search->quotient->f, search->request, search->component, threading->cord,
+                        threading->n_cords));
 }
 
-/* The cords of r->value, if they are of this kind, are no worse and there is less to read. */
-static thr_status try_value(reader *r, thr_err *err)
+/* Makes the cords of search->value, if there are any of this kind, and keeps them if they are no
+ * worse and there is less to read. */
+static thr_status try_value(reading_search *search, thr_err *err)
 {
   double worth[THR_N_AIMS];
   bool valid;
-  thr_lifted t = {0};
-  const thr_cover cover = {
-      .copies = r->value, .pairs = r->value + r->p.first_pair, .ends = r->value + r->p.first_end};
-  thr_status st = thr_programme_value(&r->p, r->value, worth, &valid, err);
-  if (st || !valid || thr_programme_compare(&r->p, worth, r->worth) > 0) return st;
-  r->traced += r->passes;
-  st = thr_cover_cords(r->q, r->how, &cover, &t.cord, &t.n_cords, &t.record, &(thr_err){0});
-  if (st) return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* no cords of this kind */
-  const int instructions = count_instructions(r, &t);
-  r->better = instructions < r->instructions && stays(r, &t);
-  if (r->better) {
-    memcpy(r->best, r->value, (size_t)r->p.n * sizeof *r->best);
-    r->instructions = instructions;
-    const thr_lifted old = *r->now;
-    *r->now = t;
-    t = old;
+  thr_lifted tried = {0};
+  const thr_cover cover = {.copies = search->value,
+                           .pairs = search->value + search->programme.first_pair,
+                           .ends = search->value + search->programme.first_end};
+
+  /* No aim may become worse. */
+  thr_status st = thr_programme_value(&search->programme, search->value, worth, &valid, err);
+  if (st || !valid || thr_programme_compare(&search->programme, worth, search->worth) > 0)
+    return st;
+
+  /* Trace the cords. */
+  search->traced += search->passes;
+  st = thr_cover_cords(search->quotient, search->how, &cover, &tried.cord, &tried.n_cords,
+                       &tried.record, &(thr_err){0});
+  if (st) return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
+
+  /* Keep the best, and free the other. */
+  const int instructions = count_instructions(search, &tried);
+  search->better = instructions < search->instructions && is_no_worse(search, &tried);
+  if (search->better) {
+    memcpy(search->best, search->value, (size_t)search->programme.n * sizeof *search->best);
+    search->instructions = instructions;
+    const thr_lifted old = *search->threading;
+    *search->threading = tried;
+    tried = old;
   }
-  threading_destroy(&t);
+  threading_destroy(&tried);
   return THR_OK;
 }
 
-/* One exchange: of a pass over all of them only the first that is better counts. */
-static thr_status attempt(void *user, thr_err *err)
+/* Tries one exchange; of a round over all exchanges only the first that is better counts. */
+static thr_status attempt_exchange(void *user, thr_err *err)
 {
-  reader *r = user;
-  const bool over = r->better || r->traced >= MOST_TRACED || thr_limits_stop(r->limits);
-  return over ? THR_OK : try_value(r, err);
+  reading_search *search = user;
+  const bool over =
+      search->better || search->traced >= MOST_TRACED || thr_limits_stop(search->limits);
+  return over ? THR_OK : try_value(search, err);
 }
 
-static thr_status search(reader *r, thr_err *err)
+/* Makes exchanges, one a round, until there is none that is better. */
+static thr_status improve_reading(reading_search *search, thr_err *err)
 {
   thr_status st = THR_OK;
   do {
-    memcpy(r->value, r->best, (size_t)r->p.n * sizeof *r->best);
-    r->better = false;
-    st = thr_programme_attempt(&r->p, r->value, true, attempt, r, err);
-  } while (!st && r->better);
+    memcpy(search->value, search->best, (size_t)search->programme.n * sizeof *search->best);
+    search->better = false;
+    st = thr_programme_attempt(&search->programme, search->value, true, attempt_exchange, search,
+                               err);
+  } while (!st && search->better);
   return st;
 }
 
-static thr_status reader_init(reader *r, const thr_cover *cover, thr_err *err)
+/* Starts from the cover and its cords; the caller destroys search also on failure. */
+static thr_status reader_init(reading_search *search, const thr_cover *cover, thr_err *err)
 {
-  const thr_quotient *q = r->q;
+  const thr_quotient *quotient = search->quotient;
   int components;
   bool valid;
-  r->component = thr_calloc((size_t)q->f->n_nodes, sizeof *r->component);
-  thr_status st =
-      r->component ? thr_frame_components(q->f, r->component, &components, err) : thr_nomem(err);
-  if (!st) st = thr_programme_init(&r->p, q, r->how, err);
-  if (!st && r->how->tube) st = thr_programme_tie(&r->p, err);
+
+  search->component = thr_calloc((size_t)quotient->f->n_nodes, sizeof *search->component);
+  thr_status st = search->component
+                      ? thr_frame_components(quotient->f, search->component, &components, err)
+                      : thr_nomem(err);
+  if (!st) st = thr_programme_init(&search->programme, quotient, search->how, err);
+  if (!st && search->how->tube) st = thr_programme_tie(&search->programme, err);
   if (st) return st;
-  r->value = thr_calloc((size_t)r->p.n, sizeof *r->value);
-  r->best = thr_calloc((size_t)r->p.n, sizeof *r->best);
-  if (!r->value || !r->best) return thr_nomem(err);
-  memcpy(r->best, cover->copies, (size_t)q->n_copies * sizeof *r->best);
-  if (q->n_pairs > 0)
-    memcpy(r->best + r->p.first_pair, cover->pairs, (size_t)q->n_pairs * sizeof *r->best);
-  memcpy(r->best + r->p.first_end, cover->ends, (size_t)q->n_darts * sizeof *r->best);
-  for (int i = 0; i < r->now->n_cords; i++)
-    r->passes += r->now->cord[i].n_passes;
-  r->most = level_of(r, r->now);
-  r->instructions = count_instructions(r, r->now);
-  return thr_programme_value(&r->p, r->best, r->worth, &valid, err);
+
+  search->value = thr_calloc((size_t)search->programme.n, sizeof *search->value);
+  search->best = thr_calloc((size_t)search->programme.n, sizeof *search->best);
+  if (!search->value || !search->best) return thr_nomem(err);
+
+  /* The cover. */
+  memcpy(search->best, cover->copies, (size_t)quotient->n_copies * sizeof *search->best);
+  if (quotient->n_pairs > 0)
+    memcpy(search->best + search->programme.first_pair, cover->pairs,
+           (size_t)quotient->n_pairs * sizeof *search->best);
+  memcpy(search->best + search->programme.first_end, cover->ends,
+         (size_t)quotient->n_darts * sizeof *search->best);
+
+  /* The cords, and what is traced for one trial. */
+  for (int i = 0; i < search->threading->n_cords; i++)
+    search->passes += search->threading->cord[i].n_passes;
+  search->most = measures_of(search, search->threading);
+  search->instructions = count_instructions(search, search->threading);
+  return thr_programme_value(&search->programme, search->best, search->worth, &valid, err);
 }
 
 thr_status thr_legible_cords(const thr_quotient *quotient, const thr_cover_options *options,
                              const thr_request *request, const thr_limits *limits, thr_cover *cover,
                              thr_lifted *threading, int *instructions, thr_err *err)
 {
-  reader r = {.q = quotient, .how = options, .o = request, .limits = limits, .now = threading};
-  thr_status st = reader_init(&r, cover, err);
-  if (!st) st = search(&r, err);
+  reading_search search = {.quotient = quotient,
+                           .how = options,
+                           .request = request,
+                           .limits = limits,
+                           .threading = threading};
+  thr_status st = reader_init(&search, cover, err);
+
+  if (!st) st = improve_reading(&search, err);
+
+  /* The cover becomes that of the cords. */
   if (!st) {
-    memcpy(cover->copies, r.best, (size_t)quotient->n_copies * sizeof *r.best);
+    memcpy(cover->copies, search.best, (size_t)quotient->n_copies * sizeof *search.best);
     if (quotient->n_pairs > 0)
-      memcpy(cover->pairs, r.best + r.p.first_pair, (size_t)quotient->n_pairs * sizeof *r.best);
-    memcpy(cover->ends, r.best + r.p.first_end, (size_t)quotient->n_darts * sizeof *r.best);
-    *instructions = r.instructions;
+      memcpy(cover->pairs, search.best + search.programme.first_pair,
+             (size_t)quotient->n_pairs * sizeof *search.best);
+    memcpy(cover->ends, search.best + search.programme.first_end,
+           (size_t)quotient->n_darts * sizeof *search.best);
+    *instructions = search.instructions;
   }
-  reader_destroy(&r);
+
+  reader_destroy(&search);
   return st;
 }
