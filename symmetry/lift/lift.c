@@ -1,5 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Solutions of a contraction with turns, and the other way round. */
+/* Lifts a solution of a contraction: finds the turns of the cells that were contracted; and
+ * contracts a solution.
+ *
+ * In a cell, every orbit of darts gets a partner of a type that its own turns into. The type with
+ * the most darts left gets the cheapest partner after which the rest can still be paired: no type
+ * may have more darts than all others together. With tube joints turns that join tubes are taken
+ * first, those that join most before others. Cells where this greedy search fails are kept in the
+ * next contraction, which decides their turns itself.
+ *
+ * Example: three types with 2, 1 and 1 darts: the first is paired with both others, which could not
+ * be if these were paired with each other first. */
 #include "graph/disjoint.h"
 #include "graph/status.h"
 #include "symmetry/cover/cover.h"
@@ -8,321 +18,382 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Dart orbits of the cells that are still to be led on. */
+/* What is left to be paired, in the whole and in the present cell. */
 typedef struct {
-  const thr_contraction *c;
+  const thr_contraction *contraction;
   int *value; /* of the whole programme */
-  int *left;  /* [n_darts] */
+  int *left;  /* [n_darts] orbits of darts without a partner */
   int *first,
       *types;   /* dart types of the cell with lowest type d: types[first[d] .. first[d + 1] - 1] */
   int *selves;  /* [n_darts] by lowest type: self pairs that are still to be taken */
   bool *failed; /* [n_darts] by lowest type */
-  int n, *type; /* of the cell at hand */
-  int *parent, *next; /* [ties->most] tubes of the star at hand, joined so far; scratch */
+  int n_types, *type; /* of the present cell */
+  int *parent, *next; /* [ties->most] tubes of the present star, joined so far; scratch */
   bool stopped;       /* by the limits */
-} lifting;
+} cell_lifting;
 
-static void lifting_destroy(lifting *x)
+/* Frees what lifting_init has allocated, all of it or a part. */
+static void lifting_destroy(cell_lifting *lifting)
 {
-  free(x->left);
-  free(x->first);
-  free(x->types);
-  free(x->selves);
-  free(x->failed);
-  free(x->parent);
-  free(x->next);
+  free(lifting->left);
+  free(lifting->first);
+  free(lifting->types);
+  free(lifting->selves);
+  free(lifting->failed);
+  free(lifting->parent);
+  free(lifting->next);
 }
 
-static thr_status lifting_init(lifting *x, const thr_contraction *contraction, const int *small,
-                               int *value, thr_err *err)
+/* Starts with the copies of the contracted solution, all of whose darts are left, and lists the
+ * types of all cells; the caller destroys lifting also on failure. */
+static thr_status lifting_init(cell_lifting *lifting, const thr_contraction *contraction,
+                               const int *small, int *value, thr_err *err)
 {
   const thr_quotient *quotient = contraction->whole->q;
-  size_t n = (size_t)quotient->n_darts,
+  size_t n_darts = (size_t)quotient->n_darts,
          tubes = contraction->whole->ties ? (size_t)contraction->whole->ties->most : 0;
-  *x = (lifting){.c = contraction, .value = value, .left = thr_calloc(n, sizeof *x->left)};
-  x->first = thr_calloc(n + 2, sizeof *x->first);
-  x->types = thr_calloc(n, sizeof *x->types);
-  x->selves = thr_calloc(n, sizeof *x->selves);
-  x->failed = thr_calloc(n, sizeof *x->failed);
-  x->parent = thr_calloc(tubes, sizeof *x->parent);
-  x->next = thr_calloc(tubes, sizeof *x->next);
-  if (!x->left || !x->first || !x->types || !x->selves || !x->failed || !x->parent || !x->next)
+  *lifting = (cell_lifting){.contraction = contraction,
+                            .value = value,
+                            .left = thr_calloc(n_darts, sizeof *lifting->left)};
+  lifting->first = thr_calloc(n_darts + 2, sizeof *lifting->first);
+  lifting->types = thr_calloc(n_darts, sizeof *lifting->types);
+  lifting->selves = thr_calloc(n_darts, sizeof *lifting->selves);
+  lifting->failed = thr_calloc(n_darts, sizeof *lifting->failed);
+  lifting->parent = thr_calloc(tubes, sizeof *lifting->parent);
+  lifting->next = thr_calloc(tubes, sizeof *lifting->next);
+
+  if (!lifting->left || !lifting->first || !lifting->types || !lifting->selves ||
+      !lifting->failed || !lifting->parent || !lifting->next)
     return thr_nomem(err);
+
+  /* Copies, and their darts. */
   memset(value, 0, (size_t)contraction->whole->n * sizeof *value);
-  for (int k = 0; k < quotient->n_copies; k++) {
-    value[k] = small[k];
-    for (int i = 0; i < (quotient->copy[k].fold ? 1 : 2); i++)
-      x->left[quotient->copy[k].dart[i]] += small[k];
+  for (int copy = 0; copy < quotient->n_copies; copy++) {
+    value[copy] = small[copy];
+    for (int i = 0; i < (quotient->copy[copy].fold ? 1 : 2); i++)
+      lifting->left[quotient->copy[copy].dart[i]] += small[copy];
   }
-  for (int d = 0; d < quotient->n_darts; d++)
-    x->first[contraction->root[d] + 2]++;
-  for (int d = 1; d < quotient->n_darts; d++)
-    x->first[d + 1] += x->first[d];
-  for (int d = 0; d < quotient->n_darts; d++)
-    x->types[x->first[contraction->root[d] + 1]++] = d;
+
+  /* Types by cell: count, two places further on, and fill. */
+  for (int dart = 0; dart < quotient->n_darts; dart++)
+    lifting->first[contraction->root[dart] + 2]++;
+  for (int dart = 1; dart < quotient->n_darts; dart++)
+    lifting->first[dart + 1] += lifting->first[dart];
+  for (int dart = 0; dart < quotient->n_darts; dart++)
+    lifting->types[lifting->first[contraction->root[dart] + 1]++] = dart;
+
   return THR_OK;
 }
 
-static bool stop(lifting *x)
+/* Tells whether the limits of the programme say so; remembers that. */
+static bool should_stop(cell_lifting *lifting)
 {
-  x->stopped = x->stopped || thr_programme_check_time(x->c->whole) != THR_OK;
-  return x->stopped;
+  lifting->stopped =
+      lifting->stopped || thr_programme_check_time(lifting->contraction->whole) != THR_OK;
+  return lifting->stopped;
 }
 
-static void enter_cell(lifting *x, int root)
+/* Makes this cell the present one. */
+static void enter_cell(cell_lifting *lifting, int root)
 {
-  x->type = x->types + x->first[root];
-  x->n = x->first[root + 1] - x->first[root];
+  lifting->type = lifting->types + lifting->first[root];
+  lifting->n_types = lifting->first[root + 1] - lifting->first[root];
 }
 
 /* ---- one cell ---- */
 
-static int most_left(const lifting *x)
+/* Returns the type of the cell with the most darts left, or -1 if none has any. */
+static int most_left(const cell_lifting *lifting)
 {
   int best = -1;
-  for (int i = 0; i < x->n; i++)
-    if (x->left[x->type[i]] > 0 && (best < 0 || x->left[x->type[i]] > x->left[best]))
-      best = x->type[i];
+  for (int i = 0; i < lifting->n_types; i++)
+    if (lifting->left[lifting->type[i]] > 0 &&
+        (best < 0 || lifting->left[lifting->type[i]] > lifting->left[best]))
+      best = lifting->type[i];
   return best;
 }
 
-/* Returns the column that ends one of the trails of type d, a cord end or the cheapest self pair,
+/* Returns the column that ends one trail at this dart type, a cord end or the cheapest self pair,
  * or -1 if there is none. */
-static int terminal_of(const thr_programme *p, int d, bool self)
+static int terminal_of(const thr_programme *programme, int dart, bool self)
 {
-  const double *cost = p->cost[THR_AIM_TURNING];
+  const double *cost = programme->cost[THR_AIM_TURNING];
   int best = -1;
-  if (!self) return p->most[p->first_end + d] != 0 ? p->first_end + d : -1;
-  for (int k = p->first[d]; k < p->first[d + 1]; k++) {
-    const int j = p->first_pair + p->incident[k];
-    if (p->q->pair[p->incident[k]].self && p->most[j] != 0 && (best < 0 || cost[j] < cost[best]))
+  if (!self)
+    return programme->most[programme->first_end + dart] != 0 ? programme->first_end + dart : -1;
+
+  for (int k = programme->first[dart]; k < programme->first[dart + 1]; k++) {
+    const int j = programme->first_pair + programme->incident[k];
+    if (programme->q->pair[programme->incident[k]].self && programme->most[j] != 0 &&
+        (best < 0 || cost[j] < cost[best]))
       best = j;
   }
   return best;
 }
 
-/* So many ends or self pairs, always where most is left. */
-static bool take_terminals(lifting *x, bool self, int count)
+/* Takes so many ends, or self pairs, always of the type with the most darts left. Returns false if
+ * there are none. */
+static bool take_terminals(cell_lifting *lifting, bool self, int count)
 {
-  const thr_programme *p = x->c->whole;
+  const thr_programme *programme = lifting->contraction->whole;
   for (; count > 0; count--) {
+    /* The type with the most darts left that may end. */
     int best = -1;
-    for (int i = 0; i < x->n; i++) {
-      int d = x->type[i];
-      if (x->left[d] > 0 && terminal_of(p, d, self) >= 0 &&
-          (best < 0 || x->left[d] > x->left[best]))
-        best = d;
+    for (int i = 0; i < lifting->n_types; i++) {
+      int dart = lifting->type[i];
+      if (lifting->left[dart] > 0 && terminal_of(programme, dart, self) >= 0 &&
+          (best < 0 || lifting->left[dart] > lifting->left[best]))
+        best = dart;
     }
+
     if (best < 0) return false;
-    x->value[terminal_of(p, best, self)]++;
-    x->left[best]--;
+    lifting->value[terminal_of(programme, best, self)]++;
+    lifting->left[best]--;
   }
   return true;
 }
 
-/* Can the rest be paired: does no type without a turn to itself have more than the others together?
- */
-static bool can_go_on(const lifting *x)
+/* Tells whether the rest can be paired: a type without a turn to itself may have no more darts than
+ * all others and the self pairs together. */
+static bool can_pair_rest(const cell_lifting *lifting)
 {
-  int sum = 0, selves = x->selves[x->c->root[x->type[0]]];
-  for (int i = 0; i < x->n; i++)
-    sum += x->left[x->type[i]];
-  for (int i = 0; i < x->n; i++)
-    if (2 * x->left[x->type[i]] > sum + selves && !thr_programme_loop(x->c->whole, x->type[i]))
+  int sum = 0, selves = lifting->selves[lifting->contraction->root[lifting->type[0]]];
+
+  for (int i = 0; i < lifting->n_types; i++)
+    sum += lifting->left[lifting->type[i]];
+
+  /* Is some type too many? */
+  for (int i = 0; i < lifting->n_types; i++)
+    if (2 * lifting->left[lifting->type[i]] > sum + selves &&
+        !thr_programme_loop(lifting->contraction->whole, lifting->type[i]))
       return false;
   return (sum - selves) % 2 == 0;
 }
 
-/* Pair column j once more, or once less. */
-static void use(lifting *x, int j, int sign)
+/* Takes a pair column once more (sign 1), or once less (-1). */
+static void use_pair(cell_lifting *lifting, int j, int sign)
 {
-  const int *type = x->c->whole->join[j];
-  bool self = thr_programme_terminal(x->c->whole, j);
-  x->value[j] += sign;
-  x->left[type[0]] -= sign;
-  if (self) x->selves[x->c->root[type[0]]] -= sign;
-  if (!self) x->left[type[1]] -= sign;
+  const int *type = lifting->contraction->whole->join[j];
+  bool self = thr_programme_terminal(lifting->contraction->whole, j);
+  lifting->value[j] += sign;
+  lifting->left[type[0]] -= sign;
+  if (self) lifting->selves[lifting->contraction->root[type[0]]] -= sign;
+  if (!self) lifting->left[type[1]] -= sign;
 }
 
-static bool is_left(const lifting *x, int j)
+/* Tells whether a pair column is allowed and has darts left for it. */
+static bool is_usable(const cell_lifting *lifting, int j)
 {
-  int a = x->c->whole->join[j][0], b = x->c->whole->join[j][1];
-  if (x->c->whole->most[j] == 0) return false;
-  if (thr_programme_terminal(x->c->whole, j)) return x->left[a] > 0 && x->selves[x->c->root[a]] > 0;
-  return x->left[a] > (a == b) && x->left[b] > 0;
+  int a = lifting->contraction->whole->join[j][0], b = lifting->contraction->whole->join[j][1];
+  if (lifting->contraction->whole->most[j] == 0) return false;
+  if (thr_programme_terminal(lifting->contraction->whole, j))
+    return lifting->left[a] > 0 && lifting->selves[lifting->contraction->root[a]] > 0;
+  return lifting->left[a] > (a == b) && lifting->left[b] > 0;
 }
 
-/* The type with most left gets the cheapest partner after which the rest can be paired. */
-static bool pair_one(lifting *x, int a)
+/* Gives dart type a, which has the most darts left, the cheapest partner after which the rest can
+ * be paired. Returns false if there is none. */
+static bool pair_one(cell_lifting *lifting, int a)
 {
-  const thr_programme *p = x->c->whole;
-  const double *cost = p->cost[THR_AIM_TURNING];
+  const thr_programme *programme = lifting->contraction->whole;
+  const double *cost = programme->cost[THR_AIM_TURNING];
   int best = -1;
-  for (int k = p->first[a]; k < p->first[a + 1]; k++) {
-    int j = p->first_pair + p->incident[k];
-    if (p->q->pair[p->incident[k]].self || !is_left(x, j) || (best >= 0 && cost[j] >= cost[best]))
+
+  /* Try each, and take it back. */
+  for (int k = programme->first[a]; k < programme->first[a + 1]; k++) {
+    int j = programme->first_pair + programme->incident[k];
+    if (programme->q->pair[programme->incident[k]].self || !is_usable(lifting, j) ||
+        (best >= 0 && cost[j] >= cost[best]))
       continue;
-    use(x, j, 1);
-    if (can_go_on(x)) best = j;
-    use(x, j, -1);
+    use_pair(lifting, j, 1);
+    if (can_pair_rest(lifting)) best = j;
+    use_pair(lifting, j, -1);
   }
+
   if (best < 0) return false;
-  use(x, best, 1);
+  use_pair(lifting, best, 1);
   return true;
 }
 
-/* The ends; and how many self pairs are to be taken. */
-static bool end_trails(lifting *x, const int *small)
+/* Takes the cord ends of a cell, and counts its self pairs, which are taken later. Returns false if
+ * the darts cannot be paired then. */
+static bool end_trails(cell_lifting *lifting, const int *small)
 {
-  const thr_programme *p = &x->c->p;
-  int d = x->c->becomes[x->type[0]], *selves = &x->selves[x->c->root[x->type[0]]];
-  for (int k = p->first[d]; k < p->first[d + 1]; k++)
-    if (p->q->pair[p->incident[k]].self) *selves += small[p->first_pair + p->incident[k]];
-  return take_terminals(x, false, small[p->first_end + d]) && can_go_on(x);
+  const thr_programme *programme = &lifting->contraction->p;
+  int dart = lifting->contraction->becomes[lifting->type[0]],
+      *selves = &lifting->selves[lifting->contraction->root[lifting->type[0]]];
+
+  for (int k = programme->first[dart]; k < programme->first[dart + 1]; k++)
+    if (programme->q->pair[programme->incident[k]].self)
+      *selves += small[programme->first_pair + programme->incident[k]];
+
+  return take_terminals(lifting, false, small[programme->first_end + dart]) &&
+         can_pair_rest(lifting);
 }
 
-static bool pair_rest(lifting *x)
+/* Takes the self pairs of a cell, and pairs what is left. Returns false if that fails. */
+static bool pair_rest(cell_lifting *lifting)
 {
-  int *selves = &x->selves[x->c->root[x->type[0]]], count = *selves;
+  int *selves = &lifting->selves[lifting->contraction->root[lifting->type[0]]], count = *selves;
   *selves = 0;
-  if (!take_terminals(x, true, count) || !can_go_on(x)) return false;
-  for (int a; (a = most_left(x)) >= 0;)
-    if (stop(x) || !pair_one(x, a)) return false;
+  if (!take_terminals(lifting, true, count) || !can_pair_rest(lifting)) return false;
+
+  for (int a; (a = most_left(lifting)) >= 0;)
+    if (should_stop(lifting) || !pair_one(lifting, a)) return false;
   return true;
 }
 
 /* ---- tubes ---- */
 
-static bool cell_kept(const thr_contraction *contraction, int y)
+/* Tells whether the cell of a pair type is kept. */
+static bool cell_kept(const thr_contraction *contraction, int pair)
 {
-  return contraction->keep[contraction->root[contraction->whole->q->pair[y].dart[0]]];
+  return contraction->keep[contraction->root[contraction->whole->q->pair[pair].dart[0]]];
 }
 
-static int join_tubes(const thr_ties *ties, int y, int *parent)
+/* Joins the tubes that a turn of this pair type links; returns how many joins there were. */
+static int join_tubes(const thr_ties *ties, int pair, int *parent)
 {
-  int n = 0;
-  for (int k = ties->join[y]; k < ties->join[y + 1]; k++)
-    n += thr_disjoint_join(parent, ties->link[k][0], ties->link[k][1]);
-  return n;
+  int joined = 0;
+  for (int k = ties->join[pair]; k < ties->join[pair + 1]; k++)
+    joined += thr_disjoint_join(parent, ties->link[k][0], ties->link[k][1]);
+  return joined;
 }
 
-/* May turn y be used with what is left: can all blocks of tubes still be joined, and the rest be
- * paired? */
-static bool leaves_room(lifting *x, int star, int y)
+/* Tells whether a turn of this pair type can be taken: then all blocks of tubes must still be
+ * connectable, each by some turn that is left, and the rest of the cell be paired. */
+static bool keeps_feasible(cell_lifting *lifting, int star, int pair)
 {
-  const thr_programme *p = x->c->whole;
-  const thr_ties *ties = p->ties;
+  const thr_programme *programme = lifting->contraction->whole;
+  const thr_ties *ties = programme->ties;
   int blocks = 0, open = 0;
-  memcpy(x->next, x->parent, (size_t)ties->degree[star] * sizeof *x->next);
-  join_tubes(ties, y, x->next);
+
+  /* The blocks with this turn. */
+  memcpy(lifting->next, lifting->parent, (size_t)ties->degree[star] * sizeof *lifting->next);
+  join_tubes(ties, pair, lifting->next);
   for (int i = 0; i < ties->degree[star]; i++)
-    blocks += x->next[i] == i;
-  use(x, p->first_pair + y, 1);
-  bool good = can_go_on(x);
+    blocks += lifting->next[i] == i;
+
+  /* Marks the root of every block that a turn which is still possible leads to another block. */
+  use_pair(lifting, programme->first_pair + pair, 1);
+  bool good = can_pair_rest(lifting);
   for (int i = ties->first[star]; i < ties->first[star + 1] && good && blocks > 1; i++) {
-    int other = ties->pair[i], j = p->first_pair + other;
-    if (cell_kept(x->c, other) || !is_left(x, j)) continue;
+    int other = ties->pair[i], j = programme->first_pair + other;
+    if (cell_kept(lifting->contraction, other) || !is_usable(lifting, j)) continue;
     for (int k = ties->join[other]; k < ties->join[other + 1];
-         k++) { /* -1 - root: this block can be joined */
+         k++) { /* a marked root is -1 - root */
       int a = ties->link[k][0], b = ties->link[k][1];
-      while (x->next[a] >= 0 && x->next[a] != a)
-        a = x->next[a];
-      while (x->next[b] >= 0 && x->next[b] != b)
-        b = x->next[b];
+      while (lifting->next[a] >= 0 && lifting->next[a] != a)
+        a = lifting->next[a];
+      while (lifting->next[b] >= 0 && lifting->next[b] != b)
+        b = lifting->next[b];
       if (a == b) continue;
-      x->next[a] = -1 - a;
-      x->next[b] = -1 - b;
+      lifting->next[a] = -1 - a;
+      lifting->next[b] = -1 - b;
     }
   }
+
+  /* Take it back; is every block marked? */
   for (int i = 0; i < ties->degree[star]; i++)
-    open += x->next[i] < 0;
-  use(x, p->first_pair + y, -1);
+    open += lifting->next[i] < 0;
+  use_pair(lifting, programme->first_pair + pair, -1);
   return good && (blocks == 1 || open == blocks);
 }
 
-/* How many joins of tubes turn y would add. */
-static int count_joins(lifting *x, int star, int y)
+/* Returns how many joins of tubes a turn of this pair type would add. */
+static int count_joins(cell_lifting *lifting, int star, int pair)
 {
-  const thr_ties *ties = x->c->whole->ties;
+  const thr_ties *ties = lifting->contraction->whole->ties;
   bool any = false;
-  for (int k = ties->join[y]; k < ties->join[y + 1]; k++)
-    any = any || thr_disjoint_find(x->parent, ties->link[k][0]) !=
-                     thr_disjoint_find(x->parent, ties->link[k][1]);
+  for (int k = ties->join[pair]; k < ties->join[pair + 1]; k++)
+    any = any || thr_disjoint_find(lifting->parent, ties->link[k][0]) !=
+                     thr_disjoint_find(lifting->parent, ties->link[k][1]);
+
   if (!any) return 0;
-  memcpy(x->next, x->parent, (size_t)ties->degree[star] * sizeof *x->next);
-  return join_tubes(ties, y, x->next);
+  memcpy(lifting->next, lifting->parent, (size_t)ties->degree[star] * sizeof *lifting->next);
+  return join_tubes(ties, pair, lifting->next);
 }
 
-/* Joins the tubes of a star with turns of the cells that are not kept: those that join most, of
- * several the cheapest. */
-static void tie_star(lifting *x, int star, const int *small)
+/* Joins the tubes of a star with turns of the cells that are not kept: those that join the most
+ * tubes, of several the cheapest, until no turn joins any. */
+static void tie_star(cell_lifting *lifting, int star, const int *small)
 {
-  const thr_contraction *contraction = x->c;
-  const thr_programme *p = contraction->whole;
-  const thr_ties *ties = p->ties;
-  const double *cost = p->cost[THR_AIM_TURNING] + p->first_pair;
+  const thr_contraction *contraction = lifting->contraction;
+  const thr_programme *programme = contraction->whole;
+  const thr_ties *ties = programme->ties;
+  const double *cost = programme->cost[THR_AIM_TURNING] + programme->first_pair;
+
+  /* Tubes that the turns so far join. */
   for (int i = 0; i < ties->degree[star]; i++)
-    x->parent[i] = i;
+    lifting->parent[i] = i;
   for (int i = ties->first[star]; i < ties->first[star + 1]; i++) {
-    int y = ties->pair[i];
-    if ((cell_kept(contraction, y) ? small[contraction->p.first_pair + contraction->pair[y]]
-                                   : x->value[p->first_pair + y]) > 0)
-      join_tubes(ties, y, x->parent);
+    int pair = ties->pair[i];
+    if ((cell_kept(contraction, pair) ? small[contraction->p.first_pair + contraction->pair[pair]]
+                                      : lifting->value[programme->first_pair + pair]) > 0)
+      join_tubes(ties, pair, lifting->parent);
   }
+
+  /* One more turn, as long as one joins tubes. */
   for (int best = 0; best >= 0;) {
     int most = 0;
     best = -1;
     for (int i = ties->first[star]; i < ties->first[star + 1]; i++) {
-      int y = ties->pair[i], j = p->first_pair + y;
-      if (cell_kept(contraction, y) || !is_left(x, j)) continue;
-      int joins = count_joins(x, star, y);
-      if (joins == 0 || joins < most || (joins == most && cost[y] >= cost[best])) continue;
-      if (stop(x)) return;
-      enter_cell(x, contraction->root[p->q->pair[y].dart[0]]);
-      if (!leaves_room(x, star, y)) continue;
+      int pair = ties->pair[i], j = programme->first_pair + pair;
+      if (cell_kept(contraction, pair) || !is_usable(lifting, j)) continue;
+      int joins = count_joins(lifting, star, pair);
+      if (joins == 0 || joins < most || (joins == most && cost[pair] >= cost[best])) continue;
+      if (should_stop(lifting)) return;
+      enter_cell(lifting, contraction->root[programme->q->pair[pair].dart[0]]);
+      if (!keeps_feasible(lifting, star, pair)) continue;
       most = joins;
-      best = y;
+      best = pair;
     }
+
     if (best < 0) break;
-    use(x, p->first_pair + best, 1);
-    join_tubes(ties, best, x->parent);
+    use_pair(lifting, programme->first_pair + best, 1);
+    join_tubes(ties, best, lifting->parent);
   }
 }
 
-/* Is the star not tied? Then its cells have failed. */
-static void check_star(lifting *x, int star, const int *small)
+/* Sets failed for the cells of a star whose turns do not tie it. */
+static void check_star(cell_lifting *lifting, int star, const int *small)
 {
-  const thr_contraction *contraction = x->c;
+  const thr_contraction *contraction = lifting->contraction;
   const thr_ties *ties = contraction->whole->ties;
   bool tied = true;
+
+  /* Tubes that the turns join. */
   for (int i = 0; i < ties->degree[star]; i++)
-    x->parent[i] = i;
+    lifting->parent[i] = i;
   for (int i = ties->first[star]; i < ties->first[star + 1]; i++) {
-    int y = ties->pair[i];
-    if ((cell_kept(contraction, y) ? small[contraction->p.first_pair + contraction->pair[y]]
-                                   : x->value[contraction->whole->first_pair + y]) > 0)
-      join_tubes(ties, y, x->parent);
+    int pair = ties->pair[i];
+    if ((cell_kept(contraction, pair) ? small[contraction->p.first_pair + contraction->pair[pair]]
+                                      : lifting->value[contraction->whole->first_pair + pair]) > 0)
+      join_tubes(ties, pair, lifting->parent);
   }
+
+  /* Are they all connected? */
   for (int i = 1; i < ties->degree[star]; i++)
-    tied = tied && thr_disjoint_find(x->parent, i) == thr_disjoint_find(x->parent, 0);
+    tied = tied && thr_disjoint_find(lifting->parent, i) == thr_disjoint_find(lifting->parent, 0);
   for (int i = ties->first[star]; i < ties->first[star + 1] && !tied; i++)
-    x->failed[contraction->root[contraction->whole->q->pair[ties->pair[i]].dart[0]]] = true;
+    lifting->failed[contraction->root[contraction->whole->q->pair[ties->pair[i]].dart[0]]] = true;
 }
 
-/* ---- all ---- */
+/* ---- the whole solution ---- */
 
-/* A cell that is left as it is has its turns already. */
+/* Copies the turns and ends of cells that are kept: the contracted solution has them. */
 static void copy_kept(const thr_contraction *contraction, const int *small, int *value)
 {
   const thr_quotient *quotient = contraction->whole->q;
-  for (int y = 0; y < quotient->n_pairs; y++)
-    if (contraction->keep[contraction->root[quotient->pair[y].dart[0]]])
-      value[contraction->whole->first_pair + y] =
-          small[contraction->p.first_pair + contraction->pair[y]];
-  for (int d = 0; d < quotient->n_darts; d++)
-    if (contraction->keep[contraction->root[d]])
-      value[contraction->whole->first_end + d] =
-          small[contraction->p.first_end + contraction->becomes[d]];
+  for (int pair = 0; pair < quotient->n_pairs; pair++)
+    if (contraction->keep[contraction->root[quotient->pair[pair].dart[0]]])
+      value[contraction->whole->first_pair + pair] =
+          small[contraction->p.first_pair + contraction->pair[pair]];
+
+  for (int dart = 0; dart < quotient->n_darts; dart++)
+    if (contraction->keep[contraction->root[dart]])
+      value[contraction->whole->first_end + dart] =
+          small[contraction->p.first_end + contraction->becomes[dart]];
 }
 
 void thr_contraction_lower(const thr_contraction *contraction, const int *value, int *small)
@@ -330,42 +401,51 @@ void thr_contraction_lower(const thr_contraction *contraction, const int *value,
   const thr_quotient *quotient = contraction->whole->q;
   memset(small, 0, (size_t)contraction->p.n * sizeof *small);
   memcpy(small, value, (size_t)quotient->n_copies * sizeof *small);
-  for (int y = 0; y < quotient->n_pairs; y++)
-    if (contraction->pair[y] >= 0)
-      small[contraction->p.first_pair + contraction->pair[y]] +=
-          value[contraction->whole->first_pair + y];
-  for (int d = 0; d < quotient->n_darts; d++)
-    small[contraction->p.first_end + contraction->becomes[d]] +=
-        value[contraction->whole->first_end + d];
+
+  for (int pair = 0; pair < quotient->n_pairs; pair++)
+    if (contraction->pair[pair] >= 0)
+      small[contraction->p.first_pair + contraction->pair[pair]] +=
+          value[contraction->whole->first_pair + pair];
+  for (int dart = 0; dart < quotient->n_darts; dart++)
+    small[contraction->p.first_end + contraction->becomes[dart]] +=
+        value[contraction->whole->first_end + dart];
 }
 
 thr_status thr_contraction_lift(thr_contraction *contraction, const int *small, int *value,
                                 int *kept, thr_err *err)
 {
-  const int n = contraction->whole->q->n_darts,
+  const int n_darts = contraction->whole->q->n_darts,
             stars = contraction->whole->ties ? contraction->whole->ties->n : 0;
-  lifting x;
+  cell_lifting lifting;
   *kept = 0;
-  thr_status st = lifting_init(&x, contraction, small, value, err);
-  for (int d = 0; d < n && !st; d++) {
-    enter_cell(&x, d);
-    if (!contraction->keep[d] && x.n > 0) x.failed[d] = !end_trails(&x, small);
+  thr_status st = lifting_init(&lifting, contraction, small, value, err);
+
+  /* Ends first, in all cells; then turns that tie; then what is left; then the check of the ties.
+   */
+  for (int dart = 0; dart < n_darts && !st; dart++) {
+    enter_cell(&lifting, dart);
+    if (!contraction->keep[dart] && lifting.n_types > 0)
+      lifting.failed[dart] = !end_trails(&lifting, small);
   }
   for (int i = 0; i < stars && !st; i++)
-    tie_star(&x, i, small);
-  for (int d = 0; d < n && !st; d++) {
-    enter_cell(&x, d);
-    if (!contraction->keep[d] && x.n > 0) x.failed[d] = x.failed[d] || !pair_rest(&x);
+    tie_star(&lifting, i, small);
+  for (int dart = 0; dart < n_darts && !st; dart++) {
+    enter_cell(&lifting, dart);
+    if (!contraction->keep[dart] && lifting.n_types > 0)
+      lifting.failed[dart] = lifting.failed[dart] || !pair_rest(&lifting);
   }
   for (int i = 0; i < stars && !st; i++)
-    check_star(&x, i, small);
-  for (int d = 0; d < n && !st; d++) {
-    if (contraction->keep[d] || !x.failed[d]) continue;
-    contraction->keep[d] = true;
+    check_star(&lifting, i, small);
+
+  /* Cells that failed are kept from now on. */
+  for (int dart = 0; dart < n_darts && !st; dart++) {
+    if (contraction->keep[dart] || !lifting.failed[dart]) continue;
+    contraction->keep[dart] = true;
     ++*kept;
   }
-  if (x.stopped && !st) st = THR_ELIMIT;
+
+  if (lifting.stopped && !st) st = THR_ELIMIT;
   if (!st && *kept == 0) copy_kept(contraction, small, value);
-  lifting_destroy(&x);
+  lifting_destroy(&lifting);
   return st;
 }
