@@ -1,7 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Isometries of a framework from its coordinates: two reference nodes may go to few places, and
- * where they go fixes the motion up to a mirror; every such motion is refined by Procrustes
- * analysis and verified on all nodes and edges. */
+/* Finds the isometries of a framework from its coordinates.
+ *
+ * Two reference nodes may go to few places, and where they go fixes the motion up to a mirror.
+ * Every such motion is applied to all nodes, whose nearest nodes of their kind (in a grid of cells)
+ * make a matching; the motion is refined by Procrustes analysis of the matching (P. Schoenemann
+ * 1966), and the matching verified on all nodes and edges.
+ *
+ * Example: on a cube a corner may go to 8 places and a neighbour of it then to 3, each with and
+ * without a mirror: the 48 isometries. */
 #include "graph/scratch.h"
 #include "graph/vector.h"
 #include "symmetry/group/group.h"
@@ -16,56 +22,60 @@ enum {
   TRIES = 4   /* motions that send every node near another but match otherwise, for each isometry
                  allowed */
 };
-/* Nodes moved and nodes near them: about a second. A count and not a time, so that the result is
- * always the same. */
+/* Nodes that are moved and nodes that are compared: about a second. A count and not a time, so that
+ * the result is always the same. */
 static const int64_t MOST_WORK = INT64_C(1) << 28;
 
-/* A node as it may be mistaken for others: by kind (colour, degree and foot) and distance from the
- * centroid. */
+/* A node and what it can be mistaken for: nodes of its kind (colour, degree and foot) at its
+ * distance from the centroid. */
 typedef struct {
   int64_t kind;
   int node;
   double radius;
-} likeness;
+} node_likeness;
 
+/* The search, and the isometries found so far. */
 typedef struct {
-  const thr_frame *f;
+  const thr_frame *frame;
   const thr_limits *limits;
   const thr_automorphism_options *colours;
   double tolerance; /* in parts of size, of every node */
   double centroid[3], size;
-  thr_scratch own;      /* the arrays */
-  double (*x)[3];       /* [n_nodes] from the centroid, in parts of size */
-  double *radius, most; /* [n_nodes] and the largest */
-  int64_t *kind;        /* [n_nodes] */
-  likeness *like;       /* [n_nodes] by kind and radius */
-  int first, second;    /* reference nodes; second < 0: all on a line */
-  double loose;         /* how far a motion from two references may be off at any node */
+  thr_scratch own;       /* the arrays */
+  double (*position)[3]; /* [n_nodes] from the centroid, in parts of size */
+  double *radius, most;  /* [n_nodes] and the largest */
+  int64_t *kind;         /* [n_nodes] */
+  node_likeness *like;   /* [n_nodes] by kind and radius */
+  int first, second;     /* reference nodes; second < 0: all on a line */
+  double loose;          /* how far a motion from two references may be off at any node */
   int side, *cell_first,
       *cell;         /* side^3 cells; their nodes: cell[cell_first[c] .. cell_first[c + 1] - 1] */
-  int *image, *next; /* [n_nodes] of the motion at hand */
+  int *image, *next; /* [n_nodes] of the present motion */
   bool *hit;         /* [n_nodes] */
   int *found, count, capacity; /* [count * n_nodes] */
   int tried;                   /* motions that sent every node near another, as none before */
   int64_t work;                /* see MOST_WORK */
-} search;
+} isometry_search;
 
+/* Compares entries by kind, radius and node. */
 static int by_likeness(const void *a, const void *b)
 {
-  const likeness *p = a, *q = b;
-  if (p->kind != q->kind) return p->kind < q->kind ? -1 : 1;
-  if (p->radius != q->radius) return p->radius < q->radius ? -1 : 1;
-  return (p->node > q->node) - (p->node < q->node);
+  const node_likeness *first_entry = a, *second_entry = b;
+  if (first_entry->kind != second_entry->kind)
+    return first_entry->kind < second_entry->kind ? -1 : 1;
+  if (first_entry->radius != second_entry->radius)
+    return first_entry->radius < second_entry->radius ? -1 : 1;
+  return (first_entry->node > second_entry->node) - (first_entry->node < second_entry->node);
 }
 
-/* Index of the first entry of like that is not below this kind and radius. */
-static int lower(const search *s, int64_t kind, double radius)
+/* Returns the index of the first entry of like that is not below this kind and radius. */
+static int lower_bound(const isometry_search *search, int64_t kind, double radius)
 {
-  likeness key = {kind, -1, radius};
-  int low = 0, high = s->f->n_nodes;
+  node_likeness key = {kind, -1, radius};
+  int low = 0, high = search->frame->n_nodes;
   while (low < high) {
     int middle = low + (high - low) / 2;
-    if (by_likeness(&s->like[middle], &key) < 0)
+    if (by_likeness(&search->like[middle], &key) < 0)
       low = middle + 1;
     else
       high = middle;
@@ -73,131 +83,160 @@ static int lower(const search *s, int64_t kind, double radius)
   return low;
 }
 
-/* Entries of like where node v may go: *end - returned are how many. */
-static int places(const search *s, int v, int *end)
+/* Finds the entries of like where node v may go: returned .. *end - 1. */
+static int find_places(const isometry_search *search, int v, int *end)
 {
-  *end = lower(s, s->kind[v], nextafter(s->radius[v] + s->tolerance, INFINITY));
-  return lower(s, s->kind[v], s->radius[v] - s->tolerance);
+  *end = lower_bound(search, search->kind[v],
+                     nextafter(search->radius[v] + search->tolerance, INFINITY));
+  return lower_bound(search, search->kind[v], search->radius[v] - search->tolerance);
 }
 
-static int count_places(const search *s, int v)
+/* Returns how many there are. */
+static int count_places(const isometry_search *search, int v)
 {
-  int end, begin = places(s, v, &end);
+  int end, begin = find_places(search, v, &end);
   return end - begin;
 }
 
-/* Distance of node v from the line through the centroid and node u. */
-static double off_line(const search *s, int u, int v)
+/* Returns the distance of node v from the line through the centroid and node u. */
+static double off_line(const isometry_search *search, int u, int v)
 {
-  double c[3];
-  thr_cross(s->x[u], s->x[v], c);
-  return sqrt(thr_dot(c, c)) / s->radius[u];
+  double cross[3];
+  thr_cross(search->position[u], search->position[v], cross);
+  return sqrt(thr_dot(cross, cross)) / search->radius[u];
 }
 
-/* The references: with the fewest places among those that are far enough out to fix the motion
- * well. */
-static void choose_references(search *s)
+/* Chooses the reference nodes: of those that are far enough from the centroid, and from the line
+ * through the first, to fix the motion well, the ones that may go to the fewest places. Also
+ * computes how far a motion from two references may be off. */
+static void choose_references(isometry_search *search)
 {
-  int n = s->f->n_nodes, best = -1;
+  int n_nodes = search->frame->n_nodes, best = -1;
   double widest = 0;
-  for (int v = 0; v < n; v++) {
-    if (s->radius[v] < 0.5) continue;
-    int count = count_places(s, v);
+
+  /* The first: not near the centroid. */
+  for (int v = 0; v < n_nodes; v++) {
+    if (search->radius[v] < 0.5) continue;
+    int count = count_places(search, v);
     if (best >= 0 && count >= best) continue;
     best = count;
-    s->first = v;
+    search->first = v;
   }
-  for (int v = 0; v < n; v++)
-    widest = fmax(widest, off_line(s, s->first, v));
-  s->second = best = -1;
-  for (int v = 0; v < n && widest > 1e-4 + 2 * s->tolerance; v++) {
-    if (off_line(s, s->first, v) < 0.5 * widest) continue;
-    int count = count_places(s, v);
+
+  /* The second: not near that line, unless all are. */
+  for (int v = 0; v < n_nodes; v++)
+    widest = fmax(widest, off_line(search, search->first, v));
+
+  search->second = best = -1;
+  for (int v = 0; v < n_nodes && widest > 1e-4 + 2 * search->tolerance; v++) {
+    if (off_line(search, search->first, v) < 0.5 * widest) continue;
+    int count = count_places(search, v);
     if (best >= 0 && count >= best) continue;
     best = count;
-    s->second = v;
+    search->second = v;
   }
-  double r = s->radius[s->first], lever = s->most / r;
-  if (s->second >= 0) lever += s->most * (1 + s->most / r) / off_line(s, s->first, s->second);
-  s->loose = 2 * s->tolerance * (1 + lever) + (s->second >= 0 ? 0 : 2 * widest);
+
+  /* Errors at the references grow with the distance from them. */
+  double radius = search->radius[search->first], lever = search->most / radius;
+  if (search->second >= 0)
+    lever += search->most * (1 + search->most / radius) /
+             off_line(search, search->first, search->second);
+  search->loose = 2 * search->tolerance * (1 + lever) + (search->second >= 0 ? 0 : 2 * widest);
 }
 
-static int axis_cell(const search *s, double x)
+/* Returns the number of a cell along one axis. */
+static int axis_cell(const isometry_search *search, double point)
 {
-  int i = (int)floor((x + s->most) / (2 * s->most) * s->side);
-  return i < 0 ? 0 : i >= s->side ? s->side - 1 : i;
+  int i = (int)floor((point + search->most) / (2 * search->most) * search->side);
+  return i < 0 ? 0 : i >= search->side ? search->side - 1 : i;
 }
 
-static int cell_of(const search *s, const double x[3])
+/* Returns the cell of a point. */
+static int cell_of(const isometry_search *search, const double point[3])
 {
-  return (axis_cell(s, x[0]) * s->side + axis_cell(s, x[1])) * s->side + axis_cell(s, x[2]);
+  return (axis_cell(search, point[0]) * search->side + axis_cell(search, point[1])) * search->side +
+         axis_cell(search, point[2]);
 }
 
-/* Cells no narrower than loose, up to sixteen per node, since frameworks are surfaces and lines. */
-static thr_status fill_cells(search *s, thr_err *err)
+/* Sorts the nodes into cells no narrower than loose, at most sixteen a node, since frameworks are
+ * surfaces and lines. */
+static thr_status fill_cells(isometry_search *search, thr_err *err)
 {
-  int n = s->f->n_nodes;
-  double fit = fmin(fmin(2 * s->most / s->loose, cbrt(16.0 * n)), 256);
-  s->side = fit < 1 ? 1 : (int)fit;
-  int cells = s->side * s->side * s->side;
-  s->cell_first = thr_scratch_array(&s->own, (size_t)cells + 2, sizeof *s->cell_first);
-  s->cell = thr_scratch_array(&s->own, (size_t)n, sizeof *s->cell);
-  thr_status st = thr_scratch_check(&s->own, err);
+  int n_nodes = search->frame->n_nodes;
+  double fit = fmin(fmin(2 * search->most / search->loose, cbrt(16.0 * n_nodes)), 256);
+  search->side = fit < 1 ? 1 : (int)fit;
+
+  int cells = search->side * search->side * search->side;
+  search->cell_first =
+      thr_scratch_array(&search->own, (size_t)cells + 2, sizeof *search->cell_first);
+  search->cell = thr_scratch_array(&search->own, (size_t)n_nodes, sizeof *search->cell);
+  thr_status st = thr_scratch_check(&search->own, err);
   if (st) return st;
-  for (int v = 0; v < n; v++)
-    s->cell_first[cell_of(s, s->x[v]) + 2]++;
+
+  /* Count, two places further on, and fill. */
+  for (int v = 0; v < n_nodes; v++)
+    search->cell_first[cell_of(search, search->position[v]) + 2]++;
   for (int c = 0; c < cells; c++)
-    s->cell_first[c + 2] += s->cell_first[c + 1];
-  for (int v = 0; v < n; v++)
-    s->cell[s->cell_first[cell_of(s, s->x[v]) + 1]++] = v;
+    search->cell_first[c + 2] += search->cell_first[c + 1];
+  for (int v = 0; v < n_nodes; v++)
+    search->cell[search->cell_first[cell_of(search, search->position[v]) + 1]++] = v;
   return THR_OK;
 }
 
-static thr_status search_init(search *s, thr_err *err)
+/* Allocates search, and prepares positions, kinds, references and cells. */
+static thr_status search_init(isometry_search *search, thr_err *err)
 {
-  const thr_frame *frame = s->f;
+  const thr_frame *frame = search->frame;
   size_t n = (size_t)frame->n_nodes;
-  s->x = thr_scratch_array(&s->own, n, sizeof *s->x);
-  s->radius = thr_scratch_array(&s->own, n, sizeof *s->radius);
-  s->kind = thr_scratch_array(&s->own, n, sizeof *s->kind);
-  s->like = thr_scratch_array(&s->own, n, sizeof *s->like);
-  s->image = thr_scratch_array(&s->own, n, sizeof *s->image);
-  s->next = thr_scratch_array(&s->own, n, sizeof *s->next);
-  s->hit = thr_scratch_array(&s->own, n, sizeof *s->hit);
-  thr_status st = thr_scratch_check(&s->own, err);
+  search->position = thr_scratch_array(&search->own, n, sizeof *search->position);
+  search->radius = thr_scratch_array(&search->own, n, sizeof *search->radius);
+  search->kind = thr_scratch_array(&search->own, n, sizeof *search->kind);
+  search->like = thr_scratch_array(&search->own, n, sizeof *search->like);
+  search->image = thr_scratch_array(&search->own, n, sizeof *search->image);
+  search->next = thr_scratch_array(&search->own, n, sizeof *search->next);
+  search->hit = thr_scratch_array(&search->own, n, sizeof *search->hit);
+  thr_status st = thr_scratch_check(&search->own, err);
   if (st) return st;
-  thr_frame_extent(frame, s->centroid, &s->size);
+
+  /* Positions from the centroid, kinds and radii. */
+  thr_frame_extent(frame, search->centroid, &search->size);
   for (int v = 0; v < frame->n_nodes; v++) {
     for (int i = 0; i < 3; i++)
-      s->x[v][i] = (frame->xyz[v][i] - s->centroid[i]) / s->size;
-    s->radius[v] = sqrt(thr_dot(s->x[v], s->x[v]));
-    s->most = fmax(s->most, s->radius[v]);
-    int64_t colour = s->colours->node_colour ? s->colours->node_colour[v] : 0;
-    s->kind[v] = colour * (INT64_C(1) << 32) + 2 * (int64_t)thr_degree(frame, v) + frame->foot[v];
-    s->like[v] = (likeness){s->kind[v], v, s->radius[v]};
+      search->position[v][i] = (frame->xyz[v][i] - search->centroid[i]) / search->size;
+    search->radius[v] = sqrt(thr_dot(search->position[v], search->position[v]));
+    search->most = fmax(search->most, search->radius[v]);
+    int64_t colour = search->colours->node_colour ? search->colours->node_colour[v] : 0;
+    search->kind[v] =
+        colour * (INT64_C(1) << 32) + 2 * (int64_t)thr_degree(frame, v) + frame->foot[v];
+    search->like[v] = (node_likeness){search->kind[v], v, search->radius[v]};
   }
-  qsort(s->like, n, sizeof *s->like, by_likeness);
-  choose_references(s);
-  return fill_cells(s, err);
+
+  qsort(search->like, n, sizeof *search->like, by_likeness);
+  choose_references(search);
+  return fill_cells(search, err);
 }
 
-/* The node of this kind nearest to x within loose; -1: none. */
-static int nearest(search *s, const double x[3], int64_t kind)
+/* Returns the node of this kind that is nearest to a point, within loose; -1: none. */
+static int nearest_node(isometry_search *search, const double point[3], int64_t kind)
 {
   int low[3], high[3], best = -1;
-  double least = s->loose * s->loose;
+  double least = search->loose * search->loose;
+  /* Cells within reach. */
   for (int i = 0; i < 3; i++) {
-    low[i] = axis_cell(s, x[i] - s->loose);
-    high[i] = axis_cell(s, x[i] + s->loose);
+    low[i] = axis_cell(search, point[i] - search->loose);
+    high[i] = axis_cell(search, point[i] + search->loose);
   }
+
+  /* All their nodes; cells of a row stand together. */
   for (int i = low[0]; i <= high[0]; i++)
     for (int j = low[1]; j <= high[1]; j++) {
-      const int *row = &s->cell_first[(i * s->side + j) * s->side];
-      s->work += row[high[2] + 1] - row[low[2]];
-      for (int k = row[low[2]]; k < row[high[2] + 1]; k++) { /* cells of a row stand together */
-        int v = s->cell[k];
-        if (s->kind[v] != kind) continue;
-        double d[3] = {x[0] - s->x[v][0], x[1] - s->x[v][1], x[2] - s->x[v][2]},
+      const int *row = &search->cell_first[(i * search->side + j) * search->side];
+      search->work += row[high[2] + 1] - row[low[2]];
+      for (int k = row[low[2]]; k < row[high[2] + 1]; k++) {
+        int v = search->cell[k];
+        if (search->kind[v] != kind) continue;
+        double d[3] = {point[0] - search->position[v][0], point[1] - search->position[v][1],
+                       point[2] - search->position[v][2]},
                square = thr_dot(d, d);
         if (square > least || (square == least && best >= 0)) continue;
         least = square;
@@ -207,13 +246,16 @@ static int nearest(search *s, const double x[3], int64_t kind)
   return best;
 }
 
-/* Where q moves every node, into image; false: some node to none. */
-static bool match(search *s, double q[3][3], int *image)
+/* Finds the node nearest to where a motion moves every node, into image; returns false if there is
+ * none for some node. */
+static bool match_nodes(isometry_search *search, double rotation[3][3], int *image)
 {
-  for (int v = 0; v < s->f->n_nodes; v++) {
-    double moved[3] = {thr_dot(q[0], s->x[v]), thr_dot(q[1], s->x[v]), thr_dot(q[2], s->x[v])};
-    s->work++;
-    image[v] = nearest(s, moved, s->kind[v]);
+  for (int v = 0; v < search->frame->n_nodes; v++) {
+    double moved[3] = {thr_dot(rotation[0], search->position[v]),
+                       thr_dot(rotation[1], search->position[v]),
+                       thr_dot(rotation[2], search->position[v])};
+    search->work++;
+    image[v] = nearest_node(search, moved, search->kind[v]);
     if (image[v] < 0) return false;
   }
   return true;
@@ -225,91 +267,113 @@ int thr_edge_joining(const thr_frame *frame, int a, int b)
   return thr_frame_edge_between(frame, fewer ? a : b, fewer ? b : a);
 }
 
-static bool is_automorphism(search *s)
+/* Tells whether search->image is a permutation that keeps the edges and their colours. */
+static bool is_automorphism(isometry_search *search)
 {
-  const thr_frame *frame = s->f;
-  memset(s->hit, 0, (size_t)frame->n_nodes * sizeof *s->hit);
+  const thr_frame *frame = search->frame;
+  memset(search->hit, 0, (size_t)frame->n_nodes * sizeof *search->hit);
+  /* No two nodes may have one image. */
   for (int v = 0; v < frame->n_nodes; v++) {
-    if (s->hit[s->image[v]]) return false;
-    s->hit[s->image[v]] = true;
+    if (search->hit[search->image[v]]) return false;
+    search->hit[search->image[v]] = true;
   }
+
+  /* Edges go to edges of their colour. */
   for (int e = 0; e < frame->n_edges; e++) {
-    int to = thr_edge_joining(frame, s->image[frame->edge[e][0]], s->image[frame->edge[e][1]]);
-    s->work++;
-    if (to < 0 ||
-        (s->colours->edge_colour && s->colours->edge_colour[to] != s->colours->edge_colour[e]))
+    int to =
+        thr_edge_joining(frame, search->image[frame->edge[e][0]], search->image[frame->edge[e][1]]);
+    search->work++;
+    if (to < 0 || (search->colours->edge_colour &&
+                   search->colours->edge_colour[to] != search->colours->edge_colour[e]))
       return false;
   }
   return true;
 }
 
-static bool is_known(const search *s)
+/* Tells whether search->image has been found before. */
+static bool is_known(const isometry_search *search)
 {
-  size_t n = (size_t)s->f->n_nodes;
-  for (int k = 0; k < s->count; k++)
-    if (memcmp(&s->found[(size_t)k * n], s->image, n * sizeof *s->found) == 0) return true;
+  size_t n = (size_t)search->frame->n_nodes;
+  for (int k = 0; k < search->count; k++)
+    if (memcmp(&search->found[(size_t)k * n], search->image, n * sizeof *search->found) == 0)
+      return true;
   return false;
 }
 
-static thr_status keep(search *s, int cap, thr_err *err)
+/* Keeps search->image, unless it is known. THR_ELIMIT: there are too many. */
+static thr_status keep_image(isometry_search *search, int cap, thr_err *err)
 {
-  size_t n = (size_t)s->f->n_nodes, row = n * sizeof *s->found;
-  if (is_known(s)) return THR_OK;
-  if (s->count >= cap) return thr_fail(err, THR_ELIMIT, "more than %d isometries", cap);
-  thr_status st = thr_grow(&s->found, s->count, &s->capacity, row, err);
-  if (!st) memcpy(&s->found[(size_t)s->count++ * n], s->image, row);
+  size_t n = (size_t)search->frame->n_nodes, row = n * sizeof *search->found;
+  if (is_known(search)) return THR_OK;
+  if (search->count >= cap) return thr_fail(err, THR_ELIMIT, "more than %d isometries", cap);
+  thr_status st = thr_grow(&search->found, search->count, &search->capacity, row, err);
+  if (!st) memcpy(&search->found[(size_t)search->count++ * n], search->image, row);
   return st;
 }
 
-static thr_status too_many(const search *s, thr_err *err)
+/* Fails with THR_ELIMIT because too many motions fit. */
+static thr_status fail_too_many(const isometry_search *search, thr_err *err)
 {
   return thr_fail(err, THR_ELIMIT,
                   "tolerance %g is too large for nodes so near to each other: too many motions fit",
-                  s->tolerance);
+                  search->tolerance);
 }
 
-/* Refines the motion until its matching is an isometry, or stays the same without being one. */
-static thr_status try_motion(search *s, double q[3][3], int cap, thr_err *err)
+/* Refines a motion until its matching is an isometry, which is kept, or stays the same without
+ * being one. */
+static thr_status try_motion(isometry_search *search, double rotation[3][3], int cap, thr_err *err)
 {
-  size_t row = (size_t)s->f->n_nodes * sizeof *s->image;
-  if (!match(s, q, s->image) || is_known(s)) return THR_OK;
-  if (s->tried++ / TRIES > cap + 256) return too_many(s, err);
+  size_t row = (size_t)search->frame->n_nodes * sizeof *search->image;
+
+  if (!match_nodes(search, rotation, search->image) || is_known(search)) return THR_OK;
+  if (search->tried++ / TRIES > cap + 256) return fail_too_many(search, err);
+
+  /* Match and refine in turn. */
   for (int round = 0; round < ROUNDS; round++) {
     thr_motion motion;
-    thr_procrustes(s->f, s->image, &motion);
-    if (motion.farthest <= s->tolerance && is_automorphism(s)) return keep(s, cap, err);
-    if (!match(s, motion.q, s->next) || memcmp(s->next, s->image, row) == 0) return THR_OK;
-    memcpy(s->image, s->next, row);
+    thr_procrustes(search->frame, search->image, &motion);
+    if (motion.farthest <= search->tolerance && is_automorphism(search))
+      return keep_image(search, cap, err);
+    if (!match_nodes(search, motion.q, search->next) ||
+        memcmp(search->next, search->image, row) == 0)
+      return THR_OK;
+    memcpy(search->image, search->next, row);
   }
   return THR_OK;
 }
 
-/* Orthonormal rows: towards a, across it towards b, across both. false: a and b are on a line. */
+/* Makes orthonormal rows: towards a, across it towards b, and across both. Returns false if a and b
+ * are on a line with the origin. */
 static bool base_of(const double *a, const double *b, double base[3][3])
 {
   double across[3];
   thr_cross(a, b, across);
+
   double norm = sqrt(thr_dot(a, a)), wide = sqrt(thr_dot(across, across));
   if (norm <= 0 || wide <= 0) return false;
+
   for (int i = 0; i < 3; i++) {
     base[0][i] = a[i] / norm;
     base[2][i] = across[i] / wide;
   }
+
   thr_cross(base[2], base[0], base[1]);
   return true;
 }
 
-/* The motion that takes the references' base to another, and the one that is mirrored at the plane
- * of both besides. */
-static thr_status try_bases(search *s, double from[3][3], double to[3][3], int cap, thr_err *err)
+/* Tries the motion that takes the references' base to another, and the one that is mirrored at the
+ * plane of both besides. */
+static thr_status try_bases(isometry_search *search, double from[3][3], double to[3][3], int cap,
+                            thr_err *err)
 {
   thr_status st = THR_OK;
   for (int sign = 1; sign >= -1 && !st; sign -= 2) {
-    double q[3][3];
+    double rotation[3][3];
     for (int i = 0; i < 3; i++)
       for (int j = 0; j < 3; j++)
-        q[i][j] = to[0][i] * from[0][j] + to[1][i] * from[1][j] + sign * to[2][i] * from[2][j];
-    st = try_motion(s, q, cap, err);
+        rotation[i][j] =
+            to[0][i] * from[0][j] + to[1][i] * from[1][j] + sign * to[2][i] * from[2][j];
+    st = try_motion(search, rotation, cap, err);
   }
   return st;
 }
@@ -320,31 +384,39 @@ static double distance(const double *a, const double *b)
   return sqrt(thr_dot(d, d));
 }
 
-/* On a line the identity and the reversal are all there is. */
-static thr_status try_line(search *s, int cap, thr_err *err)
+/* Tries the identity and the reversal, which are all isometries of a line. */
+static thr_status try_line(isometry_search *search, int cap, thr_err *err)
 {
   thr_status st = THR_OK;
   for (int sign = 1; sign >= -1 && !st; sign -= 2) {
-    double q[3][3] = {{sign, 0, 0}, {0, sign, 0}, {0, 0, sign}};
-    st = try_motion(s, q, cap, err);
+    double rotation[3][3] = {{sign, 0, 0}, {0, sign, 0}, {0, 0, sign}};
+    st = try_motion(search, rotation, cap, err);
   }
   return st;
 }
 
-static thr_status try_all(search *s, int cap, thr_err *err)
+/* Tries the motions that take the references to all places where they may go. */
+static thr_status try_all(isometry_search *search, int cap, thr_err *err)
 {
   double from[3][3], to[3][3];
-  const double *a = s->x[s->first], *b = s->x[s->second];
-  int first_end, second_end, first = places(s, s->first, &first_end),
-                             second = places(s, s->second, &second_end);
+  const double *a = search->position[search->first], *b = search->position[search->second];
+  int first_end, second_end, first = find_places(search, search->first, &first_end),
+                             second = find_places(search, search->second, &second_end);
+
   thr_status st = THR_OK;
   if (!base_of(a, b, from)) return THR_OK;
+
   for (int i = first; i < first_end && !st; i++)
     for (int j = second; j < second_end && !st; j++) {
-      const double *c = s->x[s->like[i].node], *d = s->x[s->like[j].node];
-      if (s->work++ > MOST_WORK || thr_limits_stop(s->limits)) return too_many(s, err);
-      if (fabs(distance(a, b) - distance(c, d)) > 2 * s->tolerance || !base_of(c, d, to)) continue;
-      st = try_bases(s, from, to, cap, err);
+      /* The distance of the references is kept, up to the tolerance of both. */
+      const double *to_first = search->position[search->like[i].node],
+                   *to_second = search->position[search->like[j].node];
+      if (search->work++ > MOST_WORK || thr_limits_stop(search->limits))
+        return fail_too_many(search, err);
+      if (fabs(distance(a, b) - distance(to_first, to_second)) > 2 * search->tolerance ||
+          !base_of(to_first, to_second, to))
+        continue;
+      st = try_bases(search, from, to, cap, err);
     }
   return st;
 }
@@ -354,22 +426,26 @@ thr_status thr_isometries_find(const thr_frame *frame, const thr_automorphism_op
                                int *count, thr_err *err)
 {
   const thr_automorphism_options none = {0};
-  search s = {.f = frame,
-              .limits = limits,
-              .colours = colours ? colours : &none,
-              .tolerance = tolerance + THR_ISOMETRY_ROUNDING};
+  isometry_search search = {.frame = frame,
+                            .limits = limits,
+                            .colours = colours ? colours : &none,
+                            .tolerance = tolerance + THR_ISOMETRY_ROUNDING};
   *out = NULL;
   *count = 0;
-  thr_status st = search_init(&s, err);
-  if (!st) st = s.second < 0 ? try_line(&s, cap, err) : try_all(&s, cap, err);
-  if (!st) st = thr_rows_sort(s.found, s.count, frame->n_nodes, NULL, err);
-  thr_scratch_free(&s.own);
+
+  thr_status st = search_init(&search, err);
+  /* Try all motions, and sort what was found. */
+  if (!st) st = search.second < 0 ? try_line(&search, cap, err) : try_all(&search, cap, err);
+  if (!st) st = thr_rows_sort(search.found, search.count, frame->n_nodes, NULL, err);
+
+  thr_scratch_free(&search.own);
   if (st) {
-    free(s.found);
+    free(search.found);
     return st;
   }
-  *out = s.found;
-  *count = s.count;
+
+  *out = search.found;
+  *count = search.count;
   return st;
 }
 
@@ -382,6 +458,8 @@ thr_status thr_isometries_among(const thr_frame *frame, const int *image, int n,
   *count = 0;
   *out = thr_calloc((size_t)n * row, sizeof **out);
   if (!*out) return thr_nomem(err);
+
+  /* Each is judged by its own best motion. */
   for (int i = 0; i < n; i++) {
     thr_motion motion;
     thr_procrustes(frame, image + (size_t)i * row, &motion);
@@ -391,35 +469,41 @@ thr_status thr_isometries_among(const thr_frame *frame, const int *image, int n,
   return THR_OK;
 }
 
-/* ---- edge lengths ---- */
+/* ---- colours of edge lengths ---- */
 
+/* An edge with its length. */
 typedef struct {
   double length;
   int edge;
 } measured;
 
+/* Compares edges by length, then by number. */
 static int by_length(const void *a, const void *b)
 {
-  const measured *p = a, *q = b;
-  if (p->length != q->length) return p->length < q->length ? -1 : 1;
-  return (p->edge > q->edge) - (p->edge < q->edge);
+  const measured *first_entry = a, *second_entry = b;
+  if (first_entry->length != second_entry->length)
+    return first_entry->length < second_entry->length ? -1 : 1;
+  return (first_entry->edge > second_entry->edge) - (first_entry->edge < second_entry->edge);
 }
 
 thr_status thr_length_colours(const thr_frame *frame, double tolerance, int *colour, thr_err *err)
 {
-  measured *m = thr_calloc((size_t)frame->n_edges, sizeof *m);
+  measured *measured_edge = thr_calloc((size_t)frame->n_edges, sizeof *measured_edge);
   double centroid[3], size;
-  if (!m) return thr_nomem(err);
+  if (!measured_edge) return thr_nomem(err);
   thr_frame_extent(frame, centroid, &size);
+
+  /* Edges by length; a gap wider than what an isometry can change makes a new colour. */
   for (int e = 0; e < frame->n_edges; e++)
-    m[e] = (measured){frame->length[e], e};
-  qsort(m, (size_t)frame->n_edges, sizeof *m, by_length);
-  double step = 2 * (tolerance + 2 * THR_ISOMETRY_ROUNDING) *
-                size; /* an isometry moves either end by the tolerance at most */
+    measured_edge[e] = (measured){frame->length[e], e};
+  qsort(measured_edge, (size_t)frame->n_edges, sizeof *measured_edge, by_length);
+  /* An isometry moves either end by the tolerance at most. */
+  double step = 2 * (tolerance + 2 * THR_ISOMETRY_ROUNDING) * size;
   for (int i = 0, last = 0; i < frame->n_edges; i++) {
-    last += i > 0 && m[i].length - m[i - 1].length > step;
-    colour[m[i].edge] = last;
+    last += i > 0 && measured_edge[i].length - measured_edge[i - 1].length > step;
+    colour[measured_edge[i].edge] = last;
   }
-  free(m);
+
+  free(measured_edge);
   return THR_OK;
 }
