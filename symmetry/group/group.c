@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A finite permutation group with all its elements listed, and its subgroups up to conjugacy.
+/* Lists all elements of a finite permutation group, with tables of products, inverses and orders.
  *
- * Elements are found breadth first from the generators, with a table of products; subgroups by
- * extension: each one is extended by one more element, and one of each class of conjugates is kept
- * (J. Neubueser 1960).
+ * Elements are found breadth first from the generators. Every element but the first is an earlier
+ * one times a generator, g = h s, which gives the product table without multiplying out: a (h s) =
+ * (a h) s. symmetry/group/subgroups.c finds the subgroups.
  *
- * Example: the eight elements of the square's group have 10 subgroups in 8 classes. */
+ * Example: two generators of the square's group, a turn and a reflection, make its eight elements.
+ */
 #include "symmetry/group/group.h"
 #include "graph/scratch.h"
 #include "symmetry/group/groups.h"
@@ -13,9 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The elements in order of discovery, found again by their hash. Every element but the first is an
- * earlier one times a generator, which gives the product table without multiplying out: g * (h * s)
- * = (g * h) * s. */
+/* The elements in order of discovery, found again by their hash. */
 typedef struct {
   int degree, cap, n_generators;
   const int *generator;
@@ -26,154 +25,189 @@ typedef struct {
   unsigned slots;  /* of the hash table */
   int *times;      /* [cap * n_generators] number of the element g * s */
   int *from, *by;  /* [cap] element g = from[g] * generator by[g] */
-} listing;
+} element_listing;
 
-static int *row_of(const listing *l, int g)
+/* Returns the images of a listed element. */
+static int *row_of(const element_listing *listing, int g)
 {
-  return &l->image[(size_t)g * (size_t)l->degree];
+  return &listing->image[(size_t)g * (size_t)listing->degree];
 }
 
+/* Returns the hash of an element (Fowler, Noll and Vo, with a last mixing step). */
 static uint64_t hash_of(const int *image, int degree)
 {
-  uint64_t h = UINT64_C(14695981039346656037);
-  for (int x = 0; x < degree; x++)
-    h = (h ^ (uint64_t)image[x]) * UINT64_C(1099511628211);
-  return h ^ h >> 32;
+  uint64_t hash = UINT64_C(14695981039346656037);
+  for (int point = 0; point < degree; point++)
+    hash = (hash ^ (uint64_t)image[point]) * UINT64_C(1099511628211);
+  return hash ^ hash >> 32;
 }
 
-/* Number of the element in the row after the last, which becomes a new one if it is none of the
- * others. */
-static int number_last(listing *l)
+/* Returns the number of the element in the row after the last, which becomes a new one if it is
+ * none of the others. */
+static int number_last(element_listing *listing)
 {
-  size_t bytes = (size_t)l->degree * sizeof *l->image;
-  const int *last = row_of(l, l->order);
-  unsigned i = (unsigned)hash_of(last, l->degree) & (l->slots - 1);
-  while (l->slot[i] >= 0 && memcmp(row_of(l, l->slot[i]), last, bytes) != 0)
-    i = (i + 1) & (l->slots - 1);
-  if (l->slot[i] < 0) l->slot[i] = l->order++;
-  return l->slot[i];
+
+  size_t bytes = (size_t)listing->degree * sizeof *listing->image;
+  const int *last = row_of(listing, listing->order);
+
+  /* Open addressing. */
+  unsigned i = (unsigned)hash_of(last, listing->degree) & (listing->slots - 1);
+  while (listing->slot[i] >= 0 && memcmp(row_of(listing, listing->slot[i]), last, bytes) != 0)
+    i = (i + 1) & (listing->slots - 1);
+  if (listing->slot[i] < 0) listing->slot[i] = listing->order++;
+  return listing->slot[i];
 }
 
-static thr_status make_room(listing *l, thr_err *err)
+/* Allocates one more row of images, if there is none left. */
+static thr_status grow_images(element_listing *listing, thr_err *err)
 {
-  if (l->order < l->capacity) return THR_OK;
-  int wanted = 2 * l->capacity + 1 < l->cap + 1 ? 2 * l->capacity + 1 : l->cap + 1;
-  int *image = thr_realloc(l->image, (size_t)wanted * (size_t)l->degree, sizeof *image);
+  if (listing->order < listing->capacity) return THR_OK;
+  int wanted =
+      2 * listing->capacity + 1 < listing->cap + 1 ? 2 * listing->capacity + 1 : listing->cap + 1;
+  int *image = thr_realloc(listing->image, (size_t)wanted * (size_t)listing->degree, sizeof *image);
   if (!image) return thr_nomem(err);
-  l->image = image;
-  l->capacity = wanted;
+  listing->image = image;
+  listing->capacity = wanted;
   return THR_OK;
 }
 
-static thr_status listing_init(listing *l, thr_err *err)
+/* Allocates the table and the arrays; the caller destroys listing also on failure. */
+static thr_status listing_init(element_listing *listing, thr_err *err)
 {
-  for (l->slots = 4; l->slots <= 2u * (unsigned)l->cap;)
-    l->slots *= 2;
-  l->slot = thr_scratch_array(&l->own, l->slots, sizeof *l->slot);
-  l->times = thr_scratch_array(&l->own, (size_t)l->cap * (size_t)l->n_generators, sizeof *l->times);
-  l->from = thr_scratch_array(&l->own, (size_t)l->cap + 1, sizeof *l->from);
-  l->by = thr_scratch_array(&l->own, (size_t)l->cap + 1, sizeof *l->by);
-  thr_status st = thr_scratch_check(&l->own, err);
+  for (listing->slots = 4; listing->slots <= 2u * (unsigned)listing->cap;)
+    listing->slots *= 2;
+
+  listing->slot = thr_scratch_array(&listing->own, listing->slots, sizeof *listing->slot);
+  listing->times = thr_scratch_array(
+      &listing->own, (size_t)listing->cap * (size_t)listing->n_generators, sizeof *listing->times);
+  listing->from = thr_scratch_array(&listing->own, (size_t)listing->cap + 1, sizeof *listing->from);
+  listing->by = thr_scratch_array(&listing->own, (size_t)listing->cap + 1, sizeof *listing->by);
+
+  thr_status st = thr_scratch_check(&listing->own, err);
   if (st) return st;
-  memset(l->slot, -1, l->slots * sizeof *l->slot);
-  return make_room(l, err);
+
+  memset(listing->slot, -1, listing->slots * sizeof *listing->slot);
+  return grow_images(listing, err);
 }
 
-static void listing_destroy(listing *l)
+static void listing_destroy(element_listing *listing)
 {
-  free(l->image);
-  thr_scratch_free(&l->own);
+  free(listing->image);
+  thr_scratch_free(&listing->own);
 }
 
-/* Breadth first from the identity: each element times each generator. */
-static thr_status list_elements(listing *l, thr_err *err)
+/* Lists the elements breadth first from the identity: each element times each generator.
+ * THR_ELIMIT: there are more than the cap. */
+static thr_status list_elements(element_listing *listing, thr_err *err)
 {
-  for (int x = 0; x < l->degree; x++)
-    l->image[x] = x;
-  number_last(l);
-  for (int g = 0; g < l->order; g++)
-    for (int s = 0; s < l->n_generators; s++) {
-      thr_status st = make_room(l, err);
+  /* The identity. */
+  for (int point = 0; point < listing->degree; point++)
+    listing->image[point] = point;
+  number_last(listing);
+
+  /* Elements that are added are multiplied, too. */
+  for (int element = 0; element < listing->order; element++)
+    for (int by_generator = 0; by_generator < listing->n_generators; by_generator++) {
+      thr_status st = grow_images(listing, err);
       if (st) return st;
-      const int *first = &l->generator[(size_t)s * (size_t)l->degree], *then = row_of(l, g);
-      int *last = row_of(l, l->order), before = l->order;
-      for (int x = 0; x < l->degree; x++)
-        last[x] = then[first[x]];
-      int h = number_last(l);
-      if (l->order > l->cap)
-        return thr_fail(err, THR_ELIMIT, "the group has more than %d elements", l->cap);
-      l->times[(size_t)g * (size_t)l->n_generators + (size_t)s] = h;
-      if (h < before) continue;
-      l->from[h] = g;
-      l->by[h] = s;
+
+      const int *first = &listing->generator[(size_t)by_generator * (size_t)listing->degree],
+                *then = row_of(listing, element);
+      int *last = row_of(listing, listing->order), before = listing->order;
+      for (int point = 0; point < listing->degree; point++)
+        last[point] = then[first[point]];
+
+      /* Known, or new as this product. */
+      int product = number_last(listing);
+      if (listing->order > listing->cap)
+        return thr_fail(err, THR_ELIMIT, "the group has more than %d elements", listing->cap);
+      listing->times[(size_t)element * (size_t)listing->n_generators + (size_t)by_generator] =
+          product;
+      if (product < before) continue;
+      listing->from[product] = element;
+      listing->by[product] = by_generator;
     }
   return THR_OK;
 }
 
-/* number[element as listed] is its number in the group; listed: [order] scratch. */
-static void fill_products(const listing *l, const int *number, int *listed, thr_group *group)
+/* Fills the product table. number[element as listed]: its number in the group; listed: [order]
+ * scratch. */
+static void fill_products(const element_listing *listing, const int *number, int *listed,
+                          thr_group *group)
 {
-  for (int a = 0; a < group->order; a++) {
-    int *row = &group->product[(size_t)number[a] * (size_t)group->order];
-    listed[0] = a; /* a * h, for every h */
-    for (int h = 1; h < group->order; h++)
-      listed[h] = l->times[(size_t)listed[l->from[h]] * (size_t)l->n_generators + (size_t)l->by[h]];
-    for (int h = 0; h < group->order; h++)
-      row[number[h]] = number[listed[h]];
+  for (int element = 0; element < group->order; element++) {
+    int *row = &group->product[(size_t)number[element] * (size_t)group->order];
+
+    /* element * factor for every factor, from those before it. */
+    listed[0] = element;
+    for (int factor = 1; factor < group->order; factor++)
+      listed[factor] =
+          listing->times[(size_t)listed[listing->from[factor]] * (size_t)listing->n_generators +
+                         (size_t)listing->by[factor]];
+    for (int factor = 0; factor < group->order; factor++)
+      row[number[factor]] = number[listed[factor]];
   }
 }
 
+/* Fills the orders and inverses of all elements, by their powers. */
 static void fill_orders(thr_group *group)
 {
-  for (int a = 0; a < group->order; a++) {
-    int k = 1, last = 0, power = a;
+  for (int element = 0; element < group->order; element++) {
+    int k = 1, last = 0, power = element;
     for (; power != 0; k++) {
       last = power;
-      power = group->product[(size_t)power * (size_t)group->order + (size_t)a];
+      power = group->product[(size_t)power * (size_t)group->order + (size_t)element];
     }
-    group->power_order[a] = k;
-    group->inverse[a] = last; /* the power before the identity; of the identity: itself */
+    group->power_order[element] = k;
+    group->inverse[element] = last; /* the power before the identity; the identity's own */
   }
 }
 
-/* Takes the list of images over. */
-static thr_status tabulate(listing *l, thr_group *group, thr_err *err)
+/* Makes the tables of the group, with elements in lexicographic order. Takes the list of images
+ * over. */
+static thr_status make_tables(element_listing *listing, thr_group *group, thr_err *err)
 {
-  size_t order = (size_t)l->order;
-  int *listed = thr_scratch_array(&l->own, order, sizeof *listed),
-      *number = thr_scratch_array(&l->own, order, sizeof *number);
-  *group = (thr_group){.degree = l->degree, .order = l->order, .image = l->image};
-  l->image = NULL;
+  size_t order = (size_t)listing->order;
+  int *listed = thr_scratch_array(&listing->own, order, sizeof *listed),
+      *number = thr_scratch_array(&listing->own, order, sizeof *number);
+
+  *group = (thr_group){.degree = listing->degree, .order = listing->order, .image = listing->image};
+  listing->image = NULL;
+
   group->product = thr_calloc(order * order, sizeof *group->product);
   group->inverse = thr_calloc(order, sizeof *group->inverse);
   group->power_order = thr_calloc(order, sizeof *group->power_order);
   thr_status st = group->product && group->inverse && group->power_order
-                      ? thr_scratch_check(&l->own, err)
+                      ? thr_scratch_check(&listing->own, err)
                       : thr_nomem(err);
+
+  /* Numbers in the order of the images. */
   if (!st) st = thr_rows_sort(group->image, group->order, group->degree, listed, err);
   if (!st) {
     for (int a = 0; a < group->order; a++)
       number[listed[a]] = a;
-    fill_products(l, number, listed, group);
+    fill_products(listing, number, listed, group);
     fill_orders(group);
   }
   return st;
 }
 
-/* Is every generator a permutation? */
+/* Fails with THR_EINPUT if some generator is no permutation. */
 static thr_status check_generators(int degree, const int *generator, int n, thr_err *err)
 {
   bool *hit = thr_calloc((size_t)degree, sizeof *hit), good = true;
   if (!hit) return thr_nomem(err);
-  for (int s = 0; s < n && good; s++) {
+  for (int number = 0; number < n && good; number++) {
+    /* Every image once. */
     memset(hit, 0, (size_t)degree * sizeof *hit);
-    for (int x = 0; x < degree && good; x++) {
-      int y = generator[(size_t)s * (size_t)degree + (size_t)x];
-      good = y >= 0 && y < degree && !hit[y];
-      if (good) hit[y] = true;
+    for (int point = 0; point < degree && good; point++) {
+      int image = generator[(size_t)number * (size_t)degree + (size_t)point];
+      good = image >= 0 && image < degree && !hit[image];
+      if (good) hit[image] = true;
     }
+
     if (!good)
-      thr_fail(err, THR_EINPUT, "generator %d is not a permutation of %d points", s, degree);
+      thr_fail(err, THR_EINPUT, "generator %d is not a permutation of %d points", number, degree);
   }
   free(hit);
   return good ? THR_OK : THR_EINPUT;
@@ -182,14 +216,16 @@ static thr_status check_generators(int degree, const int *generator, int n, thr_
 thr_status thr_group_generate(int degree, const int *generator, int n_generators, int cap,
                               thr_group *out, thr_err *err)
 {
-  listing l = {.degree = degree, .generator = generator, .n_generators = n_generators};
+  element_listing listing = {
+      .degree = degree, .generator = generator, .n_generators = n_generators};
   thr_group group = {0};
-  l.cap = cap < 1 ? 1 : cap > THR_GROUP_CAP ? THR_GROUP_CAP : cap;
+  listing.cap = cap < 1 ? 1 : cap > THR_GROUP_CAP ? THR_GROUP_CAP : cap;
+
   thr_status st = check_generators(degree, generator, n_generators, err);
-  if (!st) st = listing_init(&l, err);
-  if (!st) st = list_elements(&l, err);
-  if (!st) st = tabulate(&l, &group, err);
-  listing_destroy(&l);
+  if (!st) st = listing_init(&listing, err);
+  if (!st) st = list_elements(&listing, err);
+  if (!st) st = make_tables(&listing, &group, err);
+  listing_destroy(&listing);
   if (st) thr_group_destroy(&group);
   *out = group;
   return st;

@@ -1,15 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What an automorphism is in space: the best rigid motion or reflection that moves the nodes to
- * their images, and what that is called.
+/* Says what an automorphism is in space: the rigid motion or reflection that moves the nodes
+ * nearest to their images, its name, and the name of the point group that automorphisms make.
  *
- * The orthogonal R with the least sum of |R x(v) - x(p(v))|^2 (Procrustes analysis, Schoenemann
- * 1966): from the singular value decomposition X^T Y = U S V^T, R = V U^T. The trace of R says the
- * angle, its determinant whether it reflects.
+ * The orthogonal R with the least sum of |R x(v) - x(p(v))|^2 (Procrustes analysis, P. Schoenemann
+ * 1966) comes from the singular value decomposition X^T Y = U S V^T as R = V U^T. The trace of R
+ * says the angle, its determinant whether it reflects. Point groups are told by counts: the order
+ * of the group, its principal axis, its mirrors.
  *
- * Example: R with determinant 1 and trace -1 turns by 180 degrees: C2.
- *
- * Procrustes analysis of automorphisms, their names, and the name of the point group that they
- * make. */
+ * Example: R with determinant 1 and trace -1 turns by 180 degrees: C2. */
 #include "graph/angle.h"
 #include "graph/vector.h"
 #include "symmetry/group/group.h"
@@ -18,35 +16,40 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Least k > 0 such that the permutation's k-th power is the identity: of points that one cycle
- * moves, its length, and the least common multiple of those. Marks nothing: a cycle is counted at
- * its lowest point. */
+/* Returns the order of a permutation: the least common multiple of the lengths of its cycles. A
+ * cycle is counted at its lowest point, so that nothing has to be marked. */
 static int order_of(const int *image, int n)
 {
   long long order = 1;
-  for (int v = 0; v < n; v++) {
-    long long length = 1, a = order, b;
-    int w = image[v];
-    for (; w > v; w = image[w])
+  for (int start = 0; start < n; start++) {
+    long long length = 1, divisor = order, other;
+    /* The length of the cycle, unless it has a lower point. */
+    int point = image[start];
+    for (; point > start; point = image[point])
       length++;
-    if (w < v) continue;
-    for (b = length; b;) { /* greatest common divisor into a */
-      long long rest = a % b;
-      a = b;
-      b = rest;
+    if (point < start) continue;
+
+    /* The greatest common divisor, by Euclid's algorithm, into divisor. */
+    for (other = length; other;) {
+      long long rest = divisor % other;
+      divisor = other;
+      other = rest;
     }
-    order = order / a * length;
+
+    order = order / divisor * length;
     if (order > INT32_MAX) return INT32_MAX;
   }
   return (int)order;
 }
 
-/* Unit axis of a proper rotation, from its symmetric part: cos I + (1 - cos) a a^T. Its largest
- * component is positive. */
+/* Computes the unit axis of a proper rotation from its symmetric part, cos I + (1 - cos) a a^T: the
+ * largest column of (1 - cos) a a^T. The largest component of the axis is positive; the identity
+ * has no axis. */
 static void axis_of(double rotation[3][3], double cosine, double axis[3])
 {
-  double column[3], best = 0; /* stays 0 for the identity, which has no axis */
+  double column[3], best = 0;
   memset(axis, 0, 3 * sizeof *axis);
+
   for (int j = 0; j < 3; j++) {
     for (int i = 0; i < 3; i++)
       column[i] = (rotation[i][j] + rotation[j][i]) / 2 - (i == j ? cosine : 0);
@@ -56,6 +59,8 @@ static void axis_of(double rotation[3][3], double cosine, double axis[3])
     for (int i = 0; i < 3; i++)
       axis[i] = column[i] / norm;
   }
+
+  /* The sign. */
   int largest = 0;
   for (int i = 1; i < 3; i++) /* of equal ones, the first */
     if (fabs(axis[i]) > fabs(axis[largest]) + 1e-9) largest = i;
@@ -64,47 +69,60 @@ static void axis_of(double rotation[3][3], double cosine, double axis[3])
     axis[i] *= sign;
 }
 
-/* Axis, and angle in (-pi, pi]: of the rotation if q is one, else of the rotation that follows the
- * mirror across the axis. */
-static void decompose(double q[3][3], bool proper, double axis[3], double *angle)
+/* Computes the axis, and the angle in (-pi, pi]: of the rotation if the motion is proper, else of
+ * the rotation that follows the mirror across the axis. */
+static void decompose(double motion[3][3], bool proper, double axis[3], double *angle)
 {
-  double r[3][3];
+  /* An improper motion is minus a proper one. */
+  double rotation[3][3];
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
-      r[i][j] = proper ? q[i][j] : -q[i][j];
-  double cosine = (r[0][0] + r[1][1] + r[2][2] - 1) / 2;
-  double twist[3] = {(r[2][1] - r[1][2]) / 2, (r[0][2] - r[2][0]) / 2, (r[1][0] - r[0][1]) / 2};
-  axis_of(r, cosine, axis);
+      rotation[i][j] = proper ? motion[i][j] : -motion[i][j];
+
+  /* The trace gives the cosine, the antisymmetric part the sine. */
+  double cosine = (rotation[0][0] + rotation[1][1] + rotation[2][2] - 1) / 2;
+  double twist[3] = {(rotation[2][1] - rotation[1][2]) / 2, (rotation[0][2] - rotation[2][0]) / 2,
+                     (rotation[1][0] - rotation[0][1]) / 2};
+  axis_of(rotation, cosine, axis);
   *angle = atan2(thr_dot(axis, twist), cosine);
-  if (!proper) *angle += *angle > 0 ? -THR_PI : THR_PI; /* -1 is half a turn and a mirror */
+
+  /* Minus the identity is half a turn and a mirror. */
+  if (!proper) *angle += *angle > 0 ? -THR_PI : THR_PI;
 }
 
+/* Returns the greatest common divisor. */
 static int common_divisor(int a, int b)
 {
   return b ? common_divisor(b, a % b) : a;
 }
 
-/* "C5^2": two fifths of a turn. */
+/* Names a turn: "C5^2" is two fifths of a turn. */
 static void name_turn(thr_isometry *isometry, char letter, int part, int of)
 {
-  int d = common_divisor(of, part);
-  if (part == d)
-    snprintf(isometry->name, sizeof isometry->name, "%c%d", letter, of / d);
+  int divisor = common_divisor(of, part);
+  if (part == divisor)
+    snprintf(isometry->name, sizeof isometry->name, "%c%d", letter, of / divisor);
   else
-    snprintf(isometry->name, sizeof isometry->name, "%c%d^%d", letter, of / d, part / d);
+    snprintf(isometry->name, sizeof isometry->name, "%c%d^%d", letter, of / divisor,
+             part / divisor);
 }
 
-/* A q whose order^th power is not near the identity, or an earlier power is, only looks like an
- * isometry: nodes that lie within the tolerance of each other change places. */
-static void classify(thr_isometry *isometry, double q[3][3], bool proper)
+/* Finds what a motion is, from its angle and the permutation's order. A motion whose order^th power
+ * is not near the identity, or an earlier power is, only looks like an isometry: nodes that lie
+ * within the tolerance of each other change places. */
+static void classify(thr_isometry *isometry, double motion[3][3], bool proper)
 {
   int order = isometry->order;
   double angle;
-  decompose(q, proper, isometry->axis, &angle);
-  int part = (int)lround(fabs(angle) * order / (2 * THR_PI)), d = common_divisor(order, part),
-      own = order / d;
+
+  decompose(motion, proper, isometry->axis, &angle);
+  /* The angle as a fraction of a turn, and the order of such a motion. */
+  int part = (int)lround(fabs(angle) * order / (2 * THR_PI)), divisor = common_divisor(order, part),
+      own = order / divisor;
   if (!proper && own % 2 == 1) own *= 2;
   if (own != order) return;
+
+  /* Kind and name. */
   double snapped = copysign(2 * THR_PI * part / order, angle);
   if (!proper && part == 0) {
     isometry->kind = THR_ISO_MIRROR;
@@ -126,12 +144,16 @@ void thr_isometry_of(const thr_frame *frame, const int *image, double tolerance,
   thr_motion motion;
   thr_procrustes(frame, image, &motion);
   isometry.residual = motion.residual;
+
+  /* Name the motion if it is near enough. */
   if (isometry.order == 1) {
     isometry.kind = THR_ISO_IDENTITY;
     snprintf(isometry.name, sizeof isometry.name, "identity");
   } else if (isometry.residual <= tolerance) {
     classify(&isometry, motion.q, motion.proper);
   }
+
+  /* No isometry. */
   if (isometry.kind == THR_ISO_NONE) {
     memset(isometry.axis, 0, sizeof isometry.axis);
     snprintf(isometry.name, sizeof isometry.name, "order %d", isometry.order);
@@ -139,57 +161,61 @@ void thr_isometry_of(const thr_frame *frame, const int *image, double tolerance,
   *out = isometry;
 }
 
-/* ---- Schoenflies ---- */
+/* ---- names of point groups (Schoenflies) ---- */
 
+/* How many elements there are of each kind. */
 typedef struct {
   int rotations; /* and the identity */
   int principal; /* greatest order of a rotation */
   int threefold; /* rotations of order 3 */
   int mirrors, inversions, improper;
-} census;
+} kind_counts;
 
-static census count(const thr_isometry *element, int n)
+/* Counts the elements by kind. */
+static kind_counts count_kinds(const thr_isometry *element, int n)
 {
-  census c = {.principal = 1};
+  kind_counts counts = {.principal = 1};
   for (int i = 0; i < n; i++) {
     const thr_isometry *isometry = &element[i];
     bool proper = isometry->kind == THR_ISO_ROTATION || isometry->kind == THR_ISO_IDENTITY;
-    c.rotations += proper;
-    c.improper += !proper;
-    c.mirrors += isometry->kind == THR_ISO_MIRROR;
-    c.inversions += isometry->kind == THR_ISO_INVERSION;
-    c.threefold += proper && isometry->order == 3;
-    if (proper && isometry->order > c.principal) c.principal = isometry->order;
+    counts.rotations += proper;
+    counts.improper += !proper;
+    counts.mirrors += isometry->kind == THR_ISO_MIRROR;
+    counts.inversions += isometry->kind == THR_ISO_INVERSION;
+    counts.threefold += proper && isometry->order == 3;
+    if (proper && isometry->order > counts.principal) counts.principal = isometry->order;
   }
-  return c;
+  return counts;
 }
 
-/* One axis of order m, nothing turns it over. */
-static void name_cyclic(const census *c, char name[16])
+/* Names a group with one axis, which nothing turns over. */
+static void name_cyclic(const kind_counts *counts, char name[16])
 {
-  int m = c->principal;
-  if (!c->improper)
-    snprintf(name, 16, "C%d", m);
-  else if (m == 1)
-    snprintf(name, 16, c->mirrors ? "Cs" : "Ci");
-  else if (c->mirrors == 0)
-    snprintf(name, 16, "S%d", 2 * m);
+  int order = counts->principal;
+  if (!counts->improper)
+    snprintf(name, 16, "C%d", order);
+  else if (order == 1)
+    snprintf(name, 16, counts->mirrors ? "Cs" : "Ci");
+  else if (counts->mirrors == 0)
+    snprintf(name, 16, "S%d", 2 * order);
   else
-    snprintf(name, 16, "C%d%c", m, c->mirrors == 1 ? 'h' : 'v');
+    snprintf(name, 16, "C%d%c", order, counts->mirrors == 1 ? 'h' : 'v');
 }
 
-static void name_dihedral(const census *c, char name[16])
+/* Names a group with one principal axis that rotations turn over. */
+static void name_dihedral(const kind_counts *counts, char name[16])
 {
-  snprintf(name, 16, "D%d%s", c->principal,
-           !c->improper                ? ""
-           : c->mirrors > c->principal ? "h"
-                                       : "d");
+  snprintf(name, 16, "D%d%s", counts->principal,
+           !counts->improper                     ? ""
+           : counts->mirrors > counts->principal ? "h"
+                                                 : "d");
 }
 
-static void name_polyhedral(const census *c, char name[16])
+/* Names a group with several axes of order three or more. */
+static void name_polyhedral(const kind_counts *counts, char name[16])
 {
-  char letter = c->rotations == 12 ? 'T' : c->rotations == 24 ? 'O' : 'I';
-  snprintf(name, 16, "%c%s", letter, !c->improper ? "" : c->inversions ? "h" : "d");
+  char letter = counts->rotations == 12 ? 'T' : counts->rotations == 24 ? 'O' : 'I';
+  snprintf(name, 16, "%c%s", letter, !counts->improper ? "" : counts->inversions ? "h" : "d");
 }
 
 void thr_point_group_name(const thr_isometry *element, int n, char name[16])
@@ -197,12 +223,16 @@ void thr_point_group_name(const thr_isometry *element, int n, char name[16])
   name[0] = '\0';
   for (int i = 0; i < n; i++)
     if (element[i].kind == THR_ISO_NONE) return;
-  census c = count(element, n);
-  if (c.improper && c.improper != c.rotations) return; /* no group */
-  if (c.threefold >= 8)
-    name_polyhedral(&c, name);
-  else if (c.rotations == c.principal)
-    name_cyclic(&c, name);
-  else if (c.rotations == 2 * c.principal)
-    name_dihedral(&c, name);
+
+  kind_counts counts = count_kinds(element, n);
+
+  /* In a group half of the elements are improper, or none. */
+  if (counts.improper && counts.improper != counts.rotations) return;
+
+  if (counts.threefold >= 8)
+    name_polyhedral(&counts, name);
+  else if (counts.rotations == counts.principal)
+    name_cyclic(&counts, name);
+  else if (counts.rotations == 2 * counts.principal)
+    name_dihedral(&counts, name);
 }

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Automorphisms by Traces (McKay & Piperno 2014). The only file that knows nauty.
+/* Finds automorphisms by Traces (B. McKay & A. Piperno 2014). The only file that knows nauty.
  *
- * nauty's callback has no user pointer and its failures end the program: one target at a time in a
- * thread, and alloc_error, which nauty calls when memory runs out, is replaced by a jump back (the
- * program's definition goes before the shared library's). Sparse nauty itself is not used: it
- * overruns its buffers on stars. */
+ * nauty's callback has no user pointer, and its failures end the program. So there is one target at
+ * a time in a thread, and alloc_error, which nauty calls when memory runs out, is replaced by a
+ * jump back (the program's definition goes before the shared library's). Sparse nauty itself is not
+ * used: it overruns its buffers on stars.
+ *
+ * Example: a square of four edges: two generators and order 8; with one edge of another colour,
+ * subdivided by a node of that colour, one generator and order 2. */
 #include "graph/disjoint.h"
 #include "symmetry/group/group.h"
 
@@ -19,72 +22,83 @@ enum {
   BYTES_PER_POINT = 1024 /* that Traces may use; measured: up to 230 on grids, tubes, spheres, trees
                             and random graphs */
 };
-static const long SEED =
-    1; /* of nauty's random Schreier-Sims: generators are the same on every call */
+/* Seed of nauty's random Schreier-Sims: generators are the same on every call. */
+static const long SEED = 1;
 
+/* Where the callback puts generators. */
 typedef struct {
   thr_automorphisms *out;
   int capacity;      /* rows that out->generator has room for */
   thr_status status; /* why not all were collected */
-} collector;
+} generator_collector;
 
-static _Thread_local collector *collecting;
+static _Thread_local generator_collector *collecting;
 static _Thread_local jmp_buf escape;
 
-/* Called by nauty, instead of its own. */
+/* Is called by nauty, in place of its own function, when memory runs out. */
 void alloc_error(const char *what)
 {
   (void)what;
   longjmp(escape, 1);
 }
 
-static void collect(int count, int *image, int degree)
+/* Appends a generator: the callback of Traces. The first failure ends collecting. */
+static void collect_generator(int count, int *image, int degree)
 {
   (void)count, (void)degree;
-  collector *c = collecting;
-  thr_automorphisms *a = c->out;
-  size_t row = (size_t)a->n * sizeof *a->generator;
-  if (c->status) return;
-  if (a->n_generators >= MOST_IMAGES / a->n)
-    c->status = THR_ELIMIT;
+  generator_collector *collector = collecting;
+  thr_automorphisms *automorphisms = collector->out;
+  size_t row = (size_t)automorphisms->n * sizeof *automorphisms->generator;
+  if (collector->status) return;
+
+  /* A row for the generator. */
+  if (automorphisms->n_generators >= MOST_IMAGES / automorphisms->n)
+    collector->status = THR_ELIMIT;
   else
-    c->status = thr_grow(&a->generator, a->n_generators, &c->capacity, row, NULL);
-  if (!c->status) memcpy(&a->generator[(size_t)a->n_generators++ * (size_t)a->n], image, row);
+    collector->status = thr_grow(&automorphisms->generator, automorphisms->n_generators,
+                                 &collector->capacity, row, NULL);
+  if (!collector->status)
+    memcpy(
+        &automorphisms->generator[(size_t)automorphisms->n_generators++ * (size_t)automorphisms->n],
+        image, row);
 }
 
-/* The graph as Traces takes it: nodes, and one more per edge when edges have colours. */
+/* The graph as Traces takes it: nodes, and one more for each edge if edges have colours. */
 typedef struct {
   int n; /* nodes and subdivisions */
   sparsegraph graph;
   int *lab, *ptn; /* nodes by colour; ptn 0 at the last of each colour */
   int *orbits;
-} coloured;
+} coloured_graph;
 
-static void coloured_destroy(coloured *c)
+static void coloured_destroy(coloured_graph *coloured)
 {
-  free(c->graph.v);
-  free(c->graph.d);
-  free(c->graph.e);
-  free(c->lab);
-  free(c->ptn);
-  free(c->orbits);
+  free(coloured->graph.v);
+  free(coloured->graph.d);
+  free(coloured->graph.e);
+  free(coloured->lab);
+  free(coloured->ptn);
+  free(coloured->orbits);
 }
 
+/* A node or subdivision with what colours it. */
 typedef struct {
   int kind, colour, index; /* kind: 0 a node, 1 a foot, 2 an edge */
 } point;
 
-static bool same_colour(const point *p, const point *q)
+/* Tells whether two points have one colour. */
+static bool same_colour(const point *first, const point *second)
 {
-  return p->kind == q->kind && p->colour == q->colour;
+  return first->kind == second->kind && first->colour == second->colour;
 }
 
+/* Compares points by colour, then by index. */
 static int by_colour(const void *a, const void *b)
 {
-  const point *p = a, *q = b;
-  if (p->kind != q->kind) return p->kind < q->kind ? -1 : 1;
-  if (p->colour != q->colour) return p->colour < q->colour ? -1 : 1;
-  return (p->index > q->index) - (p->index < q->index);
+  const point *first = a, *second = b;
+  if (first->kind != second->kind) return first->kind < second->kind ? -1 : 1;
+  if (first->colour != second->colour) return first->colour < second->colour ? -1 : 1;
+  return (first->index > second->index) - (first->index < second->index);
 }
 
 static int colour_of(const int *colour, int i)
@@ -92,46 +106,60 @@ static int colour_of(const int *colour, int i)
   return colour ? colour[i] : 0;
 }
 
-static thr_status fill_colours(coloured *c, const thr_frame *frame,
+/* Lists the points by colour, as Traces takes colours. */
+static thr_status fill_colours(coloured_graph *coloured, const thr_frame *frame,
                                const thr_automorphism_options *options, thr_err *err)
 {
-  point *p = thr_calloc((size_t)c->n, sizeof *p);
-  if (!p) return thr_nomem(err);
-  for (int i = 0; i < c->n; i++) {
+  point *points = thr_calloc((size_t)coloured->n, sizeof *points);
+
+  if (!points) return thr_nomem(err);
+  for (int i = 0; i < coloured->n; i++) {
     int e = i - frame->n_nodes;
-    p[i].index = i;
-    p[i].kind = e >= 0 ? 2 : frame->foot[i] ? 1 : 0;
-    p[i].colour = e >= 0 ? colour_of(options->edge_colour, e) : colour_of(options->node_colour, i);
+    points[i].index = i;
+    points[i].kind = e >= 0 ? 2 : frame->foot[i] ? 1 : 0;
+    points[i].colour =
+        e >= 0 ? colour_of(options->edge_colour, e) : colour_of(options->node_colour, i);
   }
-  qsort(p, (size_t)c->n, sizeof *p, by_colour);
-  for (int i = 0; i < c->n; i++) {
-    c->lab[i] = p[i].index;
-    c->ptn[i] = i + 1 < c->n && same_colour(&p[i], &p[i + 1]);
+
+  qsort(points, (size_t)coloured->n, sizeof *points, by_colour);
+
+  /* ptn is 0 at the last point of a colour. */
+  for (int i = 0; i < coloured->n; i++) {
+    coloured->lab[i] = points[i].index;
+    coloured->ptn[i] = i + 1 < coloured->n && same_colour(&points[i], &points[i + 1]);
   }
-  free(p);
+
+  free(points);
   return THR_OK;
 }
 
-static void fill_graph(coloured *c, const thr_frame *frame)
+/* Fills the adjacency: nodes next to nodes, or, with subdivisions, nodes next to edges. */
+static void fill_graph(coloured_graph *coloured, const thr_frame *frame)
 {
   size_t at = 0;
+  /* Nodes. */
   for (int v = 0; v < frame->n_nodes; v++) {
-    c->graph.v[v] = at;
-    c->graph.d[v] = thr_degree(frame, v);
+    coloured->graph.v[v] = at;
+    coloured->graph.d[v] = thr_degree(frame, v);
     for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
-      c->graph.e[at++] = c->n > frame->n_nodes ? frame->n_nodes + (frame->half[i] >> 1)
-                                               : thr_head(frame, frame->half[i]);
+      coloured->graph.e[at++] = coloured->n > frame->n_nodes
+                                    ? frame->n_nodes + (frame->half[i] >> 1)
+                                    : thr_head(frame, frame->half[i]);
   }
-  for (int i = frame->n_nodes; i < c->n; i++) {
-    c->graph.v[i] = at;
-    c->graph.d[i] = 2;
-    c->graph.e[at++] = frame->edge[i - frame->n_nodes][0];
-    c->graph.e[at++] = frame->edge[i - frame->n_nodes][1];
+
+  /* Subdivisions have two neighbours. */
+  for (int i = frame->n_nodes; i < coloured->n; i++) {
+    coloured->graph.v[i] = at;
+    coloured->graph.d[i] = 2;
+    coloured->graph.e[at++] = frame->edge[i - frame->n_nodes][0];
+    coloured->graph.e[at++] = frame->edge[i - frame->n_nodes][1];
   }
-  c->graph.nv = c->n;
-  c->graph.nde = at;
+
+  coloured->graph.nv = coloured->n;
+  coloured->graph.nde = at;
 }
 
+/* Tells whether all colours are the same. */
 static bool all_equal(const int *colour, int n)
 {
   for (int e = 1; e < n; e++)
@@ -139,46 +167,56 @@ static bool all_equal(const int *colour, int n)
   return true;
 }
 
-static thr_status coloured_init(coloured *c, const thr_frame *frame,
+/* Makes the coloured graph; edges are subdivided only if their colours differ. The caller destroys
+ * it also on failure. */
+static thr_status coloured_init(coloured_graph *coloured, const thr_frame *frame,
                                 const thr_automorphism_options *options, thr_err *err)
 {
   bool subdivide = options->edge_colour && !all_equal(options->edge_colour, frame->n_edges);
-  SG_INIT(c->graph);
+  SG_INIT(coloured->graph);
   if (subdivide && frame->n_edges > NAUTY_INFINITY - 1 - frame->n_nodes)
     return thr_fail(err, THR_ELIMIT, "nauty: more than %d nodes and edges", NAUTY_INFINITY);
-  c->n = frame->n_nodes + (subdivide ? frame->n_edges : 0);
-  c->graph.vlen = c->graph.dlen = (size_t)c->n;
-  c->graph.elen = (subdivide ? 4 : 2) * (size_t)frame->n_edges;
-  c->graph.v = thr_calloc(c->graph.vlen, sizeof *c->graph.v);
-  c->graph.d = thr_calloc(c->graph.dlen, sizeof *c->graph.d);
-  c->graph.e = thr_calloc(c->graph.elen, sizeof *c->graph.e);
-  c->lab = thr_calloc((size_t)c->n, sizeof *c->lab);
-  c->ptn = thr_calloc((size_t)c->n, sizeof *c->ptn);
-  c->orbits = thr_calloc((size_t)c->n, sizeof *c->orbits);
-  if (!c->graph.v || !c->graph.d || !c->graph.e || !c->lab || !c->ptn || !c->orbits)
+
+  coloured->n = frame->n_nodes + (subdivide ? frame->n_edges : 0);
+
+  coloured->graph.vlen = coloured->graph.dlen = (size_t)coloured->n;
+  coloured->graph.elen = (subdivide ? 4 : 2) * (size_t)frame->n_edges;
+  coloured->graph.v = thr_calloc(coloured->graph.vlen, sizeof *coloured->graph.v);
+  coloured->graph.d = thr_calloc(coloured->graph.dlen, sizeof *coloured->graph.d);
+  coloured->graph.e = thr_calloc(coloured->graph.elen, sizeof *coloured->graph.e);
+  coloured->lab = thr_calloc((size_t)coloured->n, sizeof *coloured->lab);
+  coloured->ptn = thr_calloc((size_t)coloured->n, sizeof *coloured->ptn);
+  coloured->orbits = thr_calloc((size_t)coloured->n, sizeof *coloured->orbits);
+
+  if (!coloured->graph.v || !coloured->graph.d || !coloured->graph.e || !coloured->lab ||
+      !coloured->ptn || !coloured->orbits)
     return thr_nomem(err);
-  fill_graph(c, frame);
-  return fill_colours(c, frame, options, err);
+
+  fill_graph(coloured, frame);
+  return fill_colours(coloured, frame, options, err);
 }
 
-/* Is there memory for a run? Asked for and given back. */
-static bool enough_memory(const coloured *c)
+/* Tells whether there is memory for a run: asks for it and gives it back. */
+static bool enough_memory(const coloured_graph *coloured)
 {
-  void *probe = thr_calloc((size_t)c->n + 1024, BYTES_PER_POINT);
+  void *probe = thr_calloc((size_t)coloured->n + 1024, BYTES_PER_POINT);
   free(probe);
   return probe != NULL;
 }
 
-/* Traces leaves what it was working on behind when it jumps out: its tables are released, its
- * search tree is lost. */
-static thr_status run_traces(coloured *c, collector *k, thr_err *err)
+/* Runs Traces. When it jumps out because memory ran out, its tables are released, and its search
+ * tree is lost. */
+static thr_status run_traces(coloured_graph *coloured, generator_collector *collector, thr_err *err)
 {
   TracesStats stats = {0};
+
   DEFAULTOPTIONS_TRACES(options);
   options.defaultptn = FALSE;
-  options.userautomproc = collect;
-  collecting = k;
-  if (!enough_memory(c)) return thr_nomem(err);
+  options.userautomproc = collect_generator;
+  collecting = collector;
+  if (!enough_memory(coloured)) return thr_nomem(err);
+
+  /* alloc_error jumps here. */
   if (setjmp(escape)) {
     traces_freedyn();
     nausparse_freedyn();
@@ -186,64 +224,74 @@ static thr_status run_traces(coloured *c, collector *k, thr_err *err)
     nautil_freedyn();
     return thr_nomem(err);
   }
+
   ran_init(SEED);
-  Traces(&c->graph, c->lab, c->ptn, c->orbits, &options, &stats, NULL);
+  Traces(&coloured->graph, coloured->lab, coloured->ptn, coloured->orbits, &options, &stats, NULL);
+
+  /* Did it succeed, and could all generators be kept? */
   if (stats.errstatus)
     return thr_fail(err, THR_ESOLVER, "nauty: Traces gave up with status %d", stats.errstatus);
-  if (k->status == THR_ELIMIT)
+  if (collector->status == THR_ELIMIT)
     return thr_fail(err, THR_ELIMIT, "the group of %d nodes has too many generators to hold",
-                    k->out->n);
-  if (k->status) return thr_nomem(err);
-  k->out->mantissa = stats.grpsize1;
-  k->out->exponent = stats.grpsize2;
+                    collector->out->n);
+  if (collector->status) return thr_nomem(err);
+
+  collector->out->mantissa = stats.grpsize1;
+  collector->out->exponent = stats.grpsize2;
   return THR_OK;
 }
 
-/* nauty takes powers of ten out as soon as it can: back where the order is an integer that a double
- * holds. */
-static void normalize_order(thr_automorphisms *a)
+/* Restores the order as an integer without power of ten where a double holds it: nauty takes powers
+ * of ten out as soon as it can. */
+static void normalize_order(thr_automorphisms *automorphisms)
 {
-  double order = a->mantissa * pow(10, a->exponent);
+  double order = automorphisms->mantissa * pow(10, automorphisms->exponent);
   if (order >= 1e15) return;
-  a->mantissa = nearbyint(order);
-  a->exponent = 0;
+  automorphisms->mantissa = nearbyint(order);
+  automorphisms->exponent = 0;
 }
 
-thr_status thr_automorphisms_orbits(thr_automorphisms *a, thr_err *err)
+thr_status thr_automorphisms_orbits(thr_automorphisms *automorphisms, thr_err *err)
 {
-  a->orbit = thr_calloc((size_t)a->n, sizeof *a->orbit);
-  if (!a->orbit) return thr_nomem(err);
-  for (int v = 0; v < a->n; v++)
-    a->orbit[v] = v;
-  for (int g = 0; g < a->n_generators; g++)
-    for (int v = 0; v < a->n; v++)
-      thr_disjoint_join(a->orbit, v, a->generator[(size_t)g * (size_t)a->n + (size_t)v]);
-  for (int v = 0; v < a->n; v++)
-    a->orbit[v] = thr_disjoint_find(a->orbit, v);
+  automorphisms->orbit = thr_calloc((size_t)automorphisms->n, sizeof *automorphisms->orbit);
+  if (!automorphisms->orbit) return thr_nomem(err);
+
+  for (int v = 0; v < automorphisms->n; v++)
+    automorphisms->orbit[v] = v;
+  for (int generator = 0; generator < automorphisms->n_generators; generator++)
+    for (int v = 0; v < automorphisms->n; v++)
+      thr_disjoint_join(
+          automorphisms->orbit, v,
+          automorphisms->generator[(size_t)generator * (size_t)automorphisms->n + (size_t)v]);
+
+  for (int v = 0; v < automorphisms->n; v++)
+    automorphisms->orbit[v] = thr_disjoint_find(automorphisms->orbit, v);
   return THR_OK;
 }
 
 thr_status thr_automorphisms_find(const thr_frame *frame, const thr_automorphism_options *options,
                                   thr_automorphisms *out, thr_err *err)
 {
-  coloured c = {0};
-  thr_automorphisms a = {.n = frame->n_nodes, .mantissa = 1};
-  collector k = {.out = &a};
-  thr_status st = coloured_init(&c, frame, options, err);
-  if (!st && c.n > 0) st = run_traces(&c, &k, err);
-  if (!st) normalize_order(&a);
-  if (!st) st = thr_automorphisms_orbits(&a, err);
-  coloured_destroy(&c);
-  if (st) thr_automorphisms_destroy(&a);
-  *out = a;
+  coloured_graph coloured = {0};
+  thr_automorphisms automorphisms = {.n = frame->n_nodes, .mantissa = 1};
+  generator_collector collector = {.out = &automorphisms};
+
+  thr_status st = coloured_init(&coloured, frame, options, err);
+  if (!st && coloured.n > 0) st = run_traces(&coloured, &collector, err);
+  if (!st) normalize_order(&automorphisms);
+  if (!st) st = thr_automorphisms_orbits(&automorphisms, err);
+
+  coloured_destroy(&coloured);
+  if (st) thr_automorphisms_destroy(&automorphisms);
+  *out = automorphisms;
   return st;
 }
 
-void thr_automorphisms_destroy(thr_automorphisms *a)
+void thr_automorphisms_destroy(thr_automorphisms *automorphisms)
 {
-  free(a->generator);
-  free(a->orbit);
-  *a = (thr_automorphisms){0};
+  free(automorphisms->generator);
+  free(automorphisms->orbit);
+  *automorphisms = (thr_automorphisms){0};
 }
 
 const char *thr_nauty_version(void)
