@@ -1,6 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Few unique paths whose images under a group cover every edge: the programme of the quotient, its
- * options and ties. */
+/* The room symmetry/cover: finds few unique paths whose images under a group cover every edge.
+ *
+ * A symmetric cover is a number of orbits for each type of the quotient
+ * (symmetry/group/quotient.c): copies, turns, ends and folds. These numbers are the columns of an
+ * integer programme that minimizes overlap, learned steps, paths and turning, one after the other.
+ * symmetry/lift makes cords of a solution.
+ *
+ * To read in this order: programme.c has the columns, their costs and what makes a solution valid;
+ * ruled_out.c the columns that no best cover needs; ties.c, tie_rows.c tube joints. relaxation.c is
+ * the linear programme with its rows, folds.c one kind of them; cover_search.c the branch and cut.
+ * contraction.c leaves turns out, so that most of the search is over few columns; start.c makes
+ * first covers by a T-join, exchange.c improves covers, bounds.c and turning_bound.c prove bounds.
+ * cover.c puts the steps together; claims.c says what is proved of plans; solve.c solves all rows
+ * of a table of groups. opening.c belongs to symmetry/lift/strands.c. */
 #ifndef THR_COVER_H
 #define THR_COVER_H
 
@@ -287,11 +299,10 @@ void thr_contraction_destroy(thr_contraction *contraction);
 /* Makes q and p anew from keep. */
 thr_status thr_contraction_make(thr_contraction *contraction, thr_err *err) THR_MUST_CHECK;
 
-/* In symmetry/lift/lift.contraction. A solution of p with turns, cheap ones first, but with tube
+/* In symmetry/lift/lift.c. A solution of p with turns, cheap ones first, but with tube
  * joints first those that tie: value[whole->n]. *kept > 0: in so many cells no turns can be found,
  * or none that tie their nodes; they are left as they are from now on, and the contraction is to be
- * made anew. */
-/* THR_ELIMIT, without a text: stopped by the limits of the programme. */
+ * made anew. THR_ELIMIT, without a text: stopped by the limits of the programme. */
 thr_status thr_contraction_lift(thr_contraction *contraction, const int *small, int *value,
                                 int *kept, thr_err *err) THR_MUST_CHECK;
 
@@ -307,7 +318,7 @@ typedef enum {
   THR_CONTRACTION_TWICE
 } thr_contraction_kind;
 
-/* In symmetry/cover/start.contraction. Of a contraction of all cells: such copies, of types that
+/* In symmetry/cover/start.c. Of a contraction of all cells: such copies, of types that
  * are not barred[p.first_pair], the first two kinds made even by a least T-join over copies and
  * terminals (small[p.n], without the turns, which lifting finds, unless one type outnumbers all
  * others of its cell). Of least overlap where every edge orbit has one copy type, but not always
@@ -317,7 +328,7 @@ thr_status thr_contraction_start(const thr_contraction *contraction, thr_contrac
                                  const bool *barred, const thr_limits *limits, int *small,
                                  bool *found, thr_err *err) THR_MUST_CHECK;
 
-/* In symmetry/lift/fasten.contraction. For tube joints: more copies, two of a type where that keeps
+/* In symmetry/lift/fasten.c. For tube joints: more copies, two of a type where that keeps
  * numbers even, until every node has turns enough to be tied; of stars that are
  * failed[whole->ties->n], or NULL, one more turn than they have. As cheap as goes copy by copy;
  * copies that are barred excepted. *found = false if capacities leave no such copies. O(copies^2).

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the files of symmetry/cover/ share: relaxations, bounds, searches, claims. */
+/* What the files of symmetry/cover share among themselves and with symmetry/lift: relaxations,
+ * bounds, searches and claims. symmetry/cover/cover.h says in which order to read the room. */
 #ifndef THR_COVER_PARTS_H
 #define THR_COVER_PARTS_H
 
@@ -154,7 +155,8 @@ thr_status thr_symmetry_shortest_tied(const thr_frame *frame, const thr_request 
                                       const thr_limits *limits, double *length, bool *optimal,
                                       thr_err *err) THR_MUST_CHECK;
 
-/* group: as in thr_symmetry_options. */
+/* Is this row asked for? group: the request's symmetry.group, a row's number from 1 or its name; ""
+ * = all rows. */
 bool thr_symmetry_asked(const thr_symmetries *symmetries, int row, const char *group);
 
 /* ---- turning_bound.c: How much the cords of a symmetric cover turn at least, known early and at

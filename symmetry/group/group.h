@@ -1,6 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The symmetries of a framework: automorphisms, the isometries among them, groups, and the quotient
- * by a group. */
+/* The room symmetry/group: finds the symmetries of a framework, and takes the quotient by a group
+ * of them.
+ *
+ * To read in this order: nauty.c finds automorphisms, within.c in a process that can be stopped;
+ * group.c lists the elements of a group (rows.c sorts them), subgroups.c its subgroups up to
+ * conjugacy. isometry.c says what an automorphism is in space, and isometries.c finds those that
+ * are motions of the shape. groups.c (groups.h) chooses from all this the groups that a table
+ * offers. quotient.c lists the types of copies, darts and turns of threadings that a group maps to
+ * themselves: the columns of symmetry/cover. */
 #ifndef THR_GROUP_H
 #define THR_GROUP_H
 
@@ -54,8 +61,8 @@ void thr_automorphisms_destroy(thr_automorphisms *a);
 
 const char *thr_nauty_version(void);
 
-/* ---- group.c: A finite permutation group with all its elements listed, and its subgroups up to
- * conjugacy. */
+/* ---- group.c, subgroups.c: A finite permutation group with all its elements listed, and its
+ * subgroups up to conjugacy. */
 
 enum { THR_GROUP_CAP = 1024 }; /* largest order that is listed */
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* All groups that a plan may repeat by, the largest first. */
+/* The groups that a plan may repeat by, the largest first, and the order of permutations.
+ * symmetry/group/group.h says in which order to read the room. */
 #ifndef THR_GROUPS_H
 #define THR_GROUPS_H
 

@@ -6,8 +6,8 @@
  * jump back (the program's definition goes before the shared library's). Sparse nauty itself is not
  * used: it overruns its buffers on stars.
  *
- * Example: a square of four edges: two generators and order 8; with one edge of another colour,
- * subdivided by a node of that colour, one generator and order 2. */
+ * Example: a square of four edges has order 8. If one edge has another colour, every edge gets a
+ * node of its colour in its middle, and the order is 2. */
 #include "graph/disjoint.h"
 #include "symmetry/group/group.h"
 
@@ -111,7 +111,6 @@ static thr_status fill_colours(coloured_graph *coloured, const thr_frame *frame,
                                const thr_automorphism_options *options, thr_err *err)
 {
   point *points = thr_calloc((size_t)coloured->n, sizeof *points);
-
   if (!points) return thr_nomem(err);
   for (int i = 0; i < coloured->n; i++) {
     int e = i - frame->n_nodes;

@@ -1,5 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From paths of the quotient to cords of the framework that a hand can follow. */
+/* The room symmetry/lift: makes cords of the framework, which a hand can follow, from a cover of
+ * the quotient.
+ *
+ * A cover says how many orbits of copies, turns and ends there are (symmetry/cover). To read in
+ * this order: lift.c finds the turns of a contracted cover, after fasten.c has added the copies
+ * that tube joints need (both are declared in symmetry/cover/cover.h); strands.c makes orbits of
+ * darts of the numbers, and links them; symmetric_cords.c follows the links to cords and says which
+ * is a copy of which (thr_cover_cords). keep.c then changes the cords until they keep to what is
+ * asked of their number and length, and legible.c until there is less to read. */
 #ifndef THR_LIFT_H
 #define THR_LIFT_H
 
