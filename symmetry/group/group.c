@@ -46,7 +46,6 @@ static uint64_t hash_of(const int *image, int degree)
  * none of the others. */
 static int number_last(element_listing *listing)
 {
-
   size_t bytes = (size_t)listing->degree * sizeof *listing->image;
   const int *last = row_of(listing, listing->order);
 
@@ -74,6 +73,7 @@ static thr_status grow_images(element_listing *listing, thr_err *err)
 /* Allocates the table and the arrays; the caller destroys listing also on failure. */
 static thr_status listing_init(element_listing *listing, thr_err *err)
 {
+  /* More than twice as many slots as elements. */
   for (listing->slots = 4; listing->slots <= 2u * (unsigned)listing->cap;)
     listing->slots *= 2;
 
@@ -86,6 +86,7 @@ static thr_status listing_init(element_listing *listing, thr_err *err)
   thr_status st = thr_scratch_check(&listing->own, err);
   if (st) return st;
 
+  /* All slots are empty, and there is a row for the identity. */
   memset(listing->slot, -1, listing->slots * sizeof *listing->slot);
   return grow_images(listing, err);
 }
@@ -144,6 +145,8 @@ static void fill_products(const element_listing *listing, const int *number, int
       listed[factor] =
           listing->times[(size_t)listed[listing->from[factor]] * (size_t)listing->n_generators +
                          (size_t)listing->by[factor]];
+
+    /* Renumbered. */
     for (int factor = 0; factor < group->order; factor++)
       row[number[factor]] = number[listed[factor]];
   }
@@ -153,11 +156,13 @@ static void fill_products(const element_listing *listing, const int *number, int
 static void fill_orders(thr_group *group)
 {
   for (int element = 0; element < group->order; element++) {
+    /* Powers, until the identity comes. */
     int k = 1, last = 0, power = element;
     for (; power != 0; k++) {
       last = power;
       power = group->product[(size_t)power * (size_t)group->order + (size_t)element];
     }
+
     group->power_order[element] = k;
     group->inverse[element] = last; /* the power before the identity; the identity's own */
   }
@@ -171,6 +176,7 @@ static thr_status make_tables(element_listing *listing, thr_group *group, thr_er
   int *listed = thr_scratch_array(&listing->own, order, sizeof *listed),
       *number = thr_scratch_array(&listing->own, order, sizeof *number);
 
+  /* The images change hands. */
   *group = (thr_group){.degree = listing->degree, .order = listing->order, .image = listing->image};
   listing->image = NULL;
 
@@ -209,6 +215,7 @@ static thr_status check_generators(int degree, const int *generator, int n, thr_
     if (!good)
       thr_fail(err, THR_EINPUT, "generator %d is not a permutation of %d points", number, degree);
   }
+
   free(hit);
   return good ? THR_OK : THR_EINPUT;
 }
@@ -221,10 +228,12 @@ thr_status thr_group_generate(int degree, const int *generator, int n_generators
   thr_group group = {0};
   listing.cap = cap < 1 ? 1 : cap > THR_GROUP_CAP ? THR_GROUP_CAP : cap;
 
+  /* Check, list, and make tables. */
   thr_status st = check_generators(degree, generator, n_generators, err);
   if (!st) st = listing_init(&listing, err);
   if (!st) st = list_elements(&listing, err);
   if (!st) st = make_tables(&listing, &group, err);
+
   listing_destroy(&listing);
   if (st) thr_group_destroy(&group);
   *out = group;

@@ -73,6 +73,7 @@ static thr_status add_row(group_offer *offer, int group, thr_subgroup *elements,
       .order = elements->order, .conjugates = conjugates, .group = group, .elements = *elements};
   *elements = (thr_subgroup){0};
 
+  /* Is it there already? */
   for (int i = 0; i < symmetries->n; i++)
     if (same_row(symmetries, &symmetries->row[i], &row)) {
       thr_subgroup_destroy(&row.elements);
@@ -105,6 +106,8 @@ static thr_status add_group(group_offer *offer, thr_group *g, thr_err *err)
                                           sizeof *group),
                      added = {.all = *g};
   *g = (thr_group){0};
+
+  /* One more place in the table; without memory the group is freed. */
   if (group) symmetries->group = group;
   if (!group || !(added.isometry = thr_calloc((size_t)added.all.order, sizeof *added.isometry))) {
     thr_group_destroy(&added.all);
@@ -112,6 +115,7 @@ static thr_status add_group(group_offer *offer, thr_group *g, thr_err *err)
   }
   symmetries->group[symmetries->n_groups++] = added;
 
+  /* What its elements are in space. */
   for (int a = 0; a < added.all.order; a++)
     thr_isometry_of(offer->frame, image_of(symmetries, symmetries->n_groups - 1, a),
                     thr_symmetry_near, &added.isometry[a]);
@@ -140,6 +144,7 @@ static thr_status add_classes(group_offer *offer, bool partly, bool *complete, t
   thr_status st = thr_subgroup_classes_find(&offer->table->group[group].all, THR_SYMMETRY_CLASSES,
                                             &classes, err);
 
+  /* Rows for all classes, or none. */
   *complete = classes.complete;
   for (int k = 0; k < classes.n && !st && (partly || classes.complete); k++)
     if (keeps_shape(offer, group, &classes.subgroup[k]))
@@ -161,6 +166,7 @@ static thr_status count_orbits(group_offer *offer, const int *generator, int n_g
       *edge = thr_calloc((size_t)frame->n_edges, sizeof *edge);
   offer->table->node_orbits = frame->n_nodes;
   offer->table->edge_orbits = frame->n_edges;
+
   /* Every node and edge for itself. */
   for (int v = 0; node && v < frame->n_nodes; v++)
     node[v] = v;
@@ -188,6 +194,7 @@ static thr_status count_orbits(group_offer *offer, const int *generator, int n_g
 /* Tells whether an automorphism keeps where cords may end, and what edges need and may have. */
 static bool keeps_request(const group_offer *offer, const int *image)
 {
+  /* Edges. */
   for (int e = 0; e < offer->frame->n_edges; e++) {
     int to = thr_edge_joining(offer->frame, image[offer->frame->edge[e][0]],
                               image[offer->frame->edge[e][1]]);
@@ -197,6 +204,8 @@ static bool keeps_request(const group_offer *offer, const int *image)
             thr_plan_capacity(offer->frame, offer->request, to))
       return false;
   }
+
+  /* Where cords may end. */
   for (int v = 0; offer->request->ends == THR_ENDS_NODES && v < offer->frame->n_nodes; v++)
     if (offer->request->end_node[v] != offer->request->end_node[image[v]]) return false;
   return true;
@@ -206,7 +215,9 @@ static bool keeps_request(const group_offer *offer, const int *image)
 static bool has_element(const thr_group *group, const int *image)
 {
   int low = 0, high = group->order;
+
   while (low < high) {
+    /* The first point where the images differ. */
     int middle = (low + high) / 2, i = 0;
     const int *at = &group->image[(size_t)middle * (size_t)group->degree];
     while (i < group->degree && at[i] == image[i])
@@ -259,6 +270,7 @@ static thr_status add_isometries(group_offer *offer, const thr_automorphism_opti
   if (!st) st = generate_from(offer, image, count, &group, &why);
   free(image);
 
+  /* Too many: only the identity. */
   *all = !st;
   if (st == THR_ELIMIT)
     st = generate_from(offer, NULL, 0, &group, err);
@@ -277,6 +289,7 @@ static thr_status add_listed_isometries(group_offer *offer, const thr_automorphi
   thr_status st = thr_group_generate(automorphisms->n, automorphisms->generator,
                                      automorphisms->n_generators, THR_GROUP_CAP, &listed, err);
 
+  /* List all automorphisms, and choose the isometries among them. */
   if (!st)
     st = thr_isometries_among(offer->frame, listed.image, listed.order, tolerance, &image, &count,
                               err);
@@ -297,6 +310,7 @@ static thr_status add_shape(group_offer *offer, const thr_automorphisms *automor
   offer->table->keep_lengths[0] = automorphisms->mantissa;
   offer->table->keep_lengths[1] = automorphisms->exponent;
 
+  /* Can the automorphisms be listed? */
   *all = true;
   if (automorphisms->exponent == 0 && automorphisms->mantissa <= THR_GROUP_CAP)
     return add_listed_isometries(offer, automorphisms, tolerance, err);
@@ -333,6 +347,7 @@ static thr_status colour_passes(const group_offer *offer, int *colour, thr_err *
   edge_kind *kind = thr_calloc((size_t)n_edges, sizeof *kind);
   if (!kind) return thr_nomem(err);
 
+  /* Sort the edges by what tells them apart. */
   for (int e = 0; e < n_edges; e++)
     kind[e] = (edge_kind){colour[e], thr_plan_cover(offer->frame, offer->request, e),
                           thr_plan_capacity(offer->frame, offer->request, e), e};
@@ -384,6 +399,7 @@ static thr_status offer_isometries(group_offer *offer, thr_err *err)
   thr_symmetries *symmetries = offer->table;
   bool all, complete = true;
   double tolerance = offer->request->symmetry.geometric;
+  /* Isometries, and subgroups of their group. */
   thr_status st = find_shape(offer, &all, err);
   if (!st) st = add_classes(offer, true, &complete, err);
   if (st) return st;
@@ -415,6 +431,7 @@ static thr_status add_small(group_offer *offer, const int *generator, int n_gene
   thr_err why = {0};
   bool complete;
   int before = offer->table->n;
+  /* The group, if it is small. */
   thr_status st = thr_group_generate(offer->frame->n_nodes, generator, n_generators,
                                      THR_SYMMETRY_EXTRA_ORDER, &group, &why);
   if (st == THR_ELIMIT) return THR_OK;
@@ -475,6 +492,7 @@ static thr_status offer_some(group_offer *offer, const thr_automorphisms *automo
   bool all, complete = true;
   int first = symmetries->n_groups;
   const thr_automorphism_options orbits = {.node_colour = automorphisms->orbit};
+  /* Isometries, and their subgroups. */
   thr_status st = add_isometries(offer, &orbits, thr_symmetry_near, &all, err);
   if (!st) st = add_classes(offer, true, &complete, err);
   if (st) return st;
@@ -512,6 +530,7 @@ static thr_status offer_automorphisms(group_offer *offer, thr_err *err)
   int *node = thr_calloc((size_t)offer->frame->n_nodes, sizeof *node),
       *edge = thr_calloc((size_t)offer->frame->n_edges, sizeof *edge);
   thr_status st = node && edge ? colour_passes(offer, edge, err) : thr_nomem(err);
+  /* Colours, and the automorphisms that keep them. */
   if (!st) {
     colour_ends(offer, node);
     st = thr_automorphisms_within(offer->frame, &(thr_automorphism_options){node, edge},
@@ -534,6 +553,8 @@ static thr_status offer_automorphisms(group_offer *offer, thr_err *err)
 
   /* Or some groups. */
   if (!st && !symmetries->listed) st = offer_some(offer, &automorphisms, err);
+
+  /* What is said if not all were found. */
   if (!st && !all) {
     symmetries->listed = false;
     snprintf(symmetries->note, sizeof symmetries->note,

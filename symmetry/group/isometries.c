@@ -73,6 +73,7 @@ static int lower_bound(const isometry_search *search, int64_t kind, double radiu
 {
   node_likeness key = {kind, -1, radius};
   int low = 0, high = search->frame->n_nodes;
+  /* Bisection. */
   while (low < high) {
     int middle = low + (high - low) / 2;
     if (by_likeness(&search->like[middle], &key) < 0)
@@ -80,6 +81,7 @@ static int lower_bound(const isometry_search *search, int64_t kind, double radiu
     else
       high = middle;
   }
+
   return low;
 }
 
@@ -163,6 +165,7 @@ static int cell_of(const isometry_search *search, const double point[3])
 static thr_status fill_cells(isometry_search *search, thr_err *err)
 {
   int n_nodes = search->frame->n_nodes;
+  /* The number of cells along an axis. */
   double fit = fmin(fmin(2 * search->most / search->loose, cbrt(16.0 * n_nodes)), 256);
   search->side = fit < 1 ? 1 : (int)fit;
 
@@ -203,8 +206,10 @@ static thr_status search_init(isometry_search *search, thr_err *err)
   for (int v = 0; v < frame->n_nodes; v++) {
     for (int i = 0; i < 3; i++)
       search->position[v][i] = (frame->xyz[v][i] - search->centroid[i]) / search->size;
+
     search->radius[v] = sqrt(thr_dot(search->position[v], search->position[v]));
     search->most = fmax(search->most, search->radius[v]);
+    /* The kind in one number. */
     int64_t colour = search->colours->node_colour ? search->colours->node_colour[v] : 0;
     search->kind[v] =
         colour * (INT64_C(1) << 32) + 2 * (int64_t)thr_degree(frame, v) + frame->foot[v];
@@ -233,16 +238,19 @@ static int nearest_node(isometry_search *search, const double point[3], int64_t 
       const int *row = &search->cell_first[(i * search->side + j) * search->side];
       search->work += row[high[2] + 1] - row[low[2]];
       for (int k = row[low[2]]; k < row[high[2] + 1]; k++) {
+        /* Of its kind, and nearer than all before. */
         int v = search->cell[k];
         if (search->kind[v] != kind) continue;
         double d[3] = {point[0] - search->position[v][0], point[1] - search->position[v][1],
                        point[2] - search->position[v][2]},
                square = thr_dot(d, d);
+
         if (square > least || (square == least && best >= 0)) continue;
         least = square;
         best = v;
       }
     }
+
   return best;
 }
 
@@ -250,6 +258,7 @@ static int nearest_node(isometry_search *search, const double point[3], int64_t 
  * none for some node. */
 static bool match_nodes(isometry_search *search, double rotation[3][3], int *image)
 {
+  /* Move each node, and find what is there. */
   for (int v = 0; v < search->frame->n_nodes; v++) {
     double moved[3] = {thr_dot(rotation[0], search->position[v]),
                        thr_dot(rotation[1], search->position[v]),
@@ -325,6 +334,7 @@ static thr_status try_motion(isometry_search *search, double rotation[3][3], int
 {
   size_t row = (size_t)search->frame->n_nodes * sizeof *search->image;
 
+  /* Only a matching that is new. */
   if (!match_nodes(search, rotation, search->image) || is_known(search)) return THR_OK;
   if (search->tried++ / TRIES > cap + 256) return fail_too_many(search, err);
 
@@ -334,6 +344,8 @@ static thr_status try_motion(isometry_search *search, double rotation[3][3], int
     thr_procrustes(search->frame, search->image, &motion);
     if (motion.farthest <= search->tolerance && is_automorphism(search))
       return keep_image(search, cap, err);
+
+    /* Refined: does the matching change? */
     if (!match_nodes(search, motion.q, search->next) ||
         memcmp(search->next, search->image, row) == 0)
       return THR_OK;
@@ -349,9 +361,11 @@ static bool base_of(const double *a, const double *b, double base[3][3])
   double across[3];
   thr_cross(a, b, across);
 
+  /* Lengths. */
   double norm = sqrt(thr_dot(a, a)), wide = sqrt(thr_dot(across, across));
   if (norm <= 0 || wide <= 0) return false;
 
+  /* Two of the rows; the third is across them. */
   for (int i = 0; i < 3; i++) {
     base[0][i] = a[i] / norm;
     base[2][i] = across[i] / wide;
@@ -369,10 +383,12 @@ static thr_status try_bases(isometry_search *search, double from[3][3], double t
   thr_status st = THR_OK;
   for (int sign = 1; sign >= -1 && !st; sign -= 2) {
     double rotation[3][3];
+    /* to^T from, with the last row of either sign. */
     for (int i = 0; i < 3; i++)
       for (int j = 0; j < 3; j++)
         rotation[i][j] =
             to[0][i] * from[0][j] + to[1][i] * from[1][j] + sign * to[2][i] * from[2][j];
+
     st = try_motion(search, rotation, cap, err);
   }
   return st;
@@ -404,6 +420,7 @@ static thr_status try_all(isometry_search *search, int cap, thr_err *err)
                              second = find_places(search, search->second, &second_end);
 
   thr_status st = THR_OK;
+  /* The references' own base. */
   if (!base_of(a, b, from)) return THR_OK;
 
   for (int i = first; i < first_end && !st; i++)
@@ -416,6 +433,7 @@ static thr_status try_all(isometry_search *search, int cap, thr_err *err)
       if (fabs(distance(a, b) - distance(to_first, to_second)) > 2 * search->tolerance ||
           !base_of(to_first, to_second, to))
         continue;
+
       st = try_bases(search, from, to, cap, err);
     }
   return st;

@@ -60,9 +60,9 @@ static void axis_of(double rotation[3][3], double cosine, double axis[3])
       axis[i] = column[i] / norm;
   }
 
-  /* The sign. */
+  /* The largest component, of equal ones the first, becomes positive. */
   int largest = 0;
-  for (int i = 1; i < 3; i++) /* of equal ones, the first */
+  for (int i = 1; i < 3; i++)
     if (fabs(axis[i]) > fabs(axis[largest]) + 1e-9) largest = i;
   double sign = axis[largest] < 0 ? -1 : 1;
   for (int i = 0; i < 3; i++)
@@ -177,6 +177,7 @@ static kind_counts count_kinds(const thr_isometry *element, int n)
   kind_counts counts = {.principal = 1};
   for (int i = 0; i < n; i++) {
     const thr_isometry *isometry = &element[i];
+    /* Rotations count the identity. */
     bool proper = isometry->kind == THR_ISO_ROTATION || isometry->kind == THR_ISO_IDENTITY;
     counts.rotations += proper;
     counts.improper += !proper;
@@ -185,6 +186,7 @@ static kind_counts count_kinds(const thr_isometry *element, int n)
     counts.threefold += proper && isometry->order == 3;
     if (proper && isometry->order > counts.principal) counts.principal = isometry->order;
   }
+
   return counts;
 }
 
@@ -192,6 +194,8 @@ static kind_counts count_kinds(const thr_isometry *element, int n)
 static void name_cyclic(const kind_counts *counts, char name[16])
 {
   int order = counts->principal;
+  /* Without improper elements; of order 2; with a rotoreflection; with mirrors across the axis or
+   * along it. */
   if (!counts->improper)
     snprintf(name, 16, "C%d", order);
   else if (order == 1)

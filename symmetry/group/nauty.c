@@ -112,6 +112,7 @@ static thr_status fill_colours(coloured_graph *coloured, const thr_frame *frame,
 {
   point *points = thr_calloc((size_t)coloured->n, sizeof *points);
   if (!points) return thr_nomem(err);
+  /* What colours each point. */
   for (int i = 0; i < coloured->n; i++) {
     int e = i - frame->n_nodes;
     points[i].index = i;
@@ -173,11 +174,13 @@ static thr_status coloured_init(coloured_graph *coloured, const thr_frame *frame
 {
   bool subdivide = options->edge_colour && !all_equal(options->edge_colour, frame->n_edges);
   SG_INIT(coloured->graph);
+  /* nauty numbers points by int. */
   if (subdivide && frame->n_edges > NAUTY_INFINITY - 1 - frame->n_nodes)
     return thr_fail(err, THR_ELIMIT, "nauty: more than %d nodes and edges", NAUTY_INFINITY);
 
   coloured->n = frame->n_nodes + (subdivide ? frame->n_edges : 0);
 
+  /* Every edge is in two lists, a subdivided one in four. */
   coloured->graph.vlen = coloured->graph.dlen = (size_t)coloured->n;
   coloured->graph.elen = (subdivide ? 4 : 2) * (size_t)frame->n_edges;
   coloured->graph.v = thr_calloc(coloured->graph.vlen, sizeof *coloured->graph.v);
@@ -255,6 +258,7 @@ thr_status thr_automorphisms_orbits(thr_automorphisms *automorphisms, thr_err *e
   automorphisms->orbit = thr_calloc((size_t)automorphisms->n, sizeof *automorphisms->orbit);
   if (!automorphisms->orbit) return thr_nomem(err);
 
+  /* Images are joined. */
   for (int v = 0; v < automorphisms->n; v++)
     automorphisms->orbit[v] = v;
   for (int generator = 0; generator < automorphisms->n_generators; generator++)
@@ -263,6 +267,7 @@ thr_status thr_automorphisms_orbits(thr_automorphisms *automorphisms, thr_err *e
           automorphisms->orbit, v,
           automorphisms->generator[(size_t)generator * (size_t)automorphisms->n + (size_t)v]);
 
+  /* Every orbit has its lowest node as root. */
   for (int v = 0; v < automorphisms->n; v++)
     automorphisms->orbit[v] = thr_disjoint_find(automorphisms->orbit, v);
   return THR_OK;
@@ -275,6 +280,7 @@ thr_status thr_automorphisms_find(const thr_frame *frame, const thr_automorphism
   thr_automorphisms automorphisms = {.n = frame->n_nodes, .mantissa = 1};
   generator_collector collector = {.out = &automorphisms};
 
+  /* Run Traces on the graph. */
   thr_status st = coloured_init(&coloured, frame, options, err);
   if (!st && coloured.n > 0) st = run_traces(&coloured, &collector, err);
   if (!st) normalize_order(&automorphisms);

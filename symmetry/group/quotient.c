@@ -138,11 +138,13 @@ static thr_status find_edge_orbits(thr_quotient *quotient, thr_err *err)
   quotient->orbit_length = thr_calloc(n_edges, sizeof *quotient->orbit_length);
   if (!quotient->edge_orbit || !quotient->orbit_size || !quotient->orbit_length)
     return thr_nomem(err);
+
   memset(quotient->edge_orbit, -1, n_edges * sizeof *quotient->edge_orbit);
 
   /* The lowest edge without an orbit makes a new one. */
   for (int e = 0; e < quotient->f->n_edges; e++) {
     if (quotient->edge_orbit[e] >= 0) continue;
+    /* All images of the edge. */
     int orbit = quotient->n_edge_orbits++;
     for (int i = 0; i < quotient->h->order; i++) {
       int to = image(quotient, i, 2 * e) >> 1;
@@ -152,6 +154,7 @@ static thr_status find_edge_orbits(thr_quotient *quotient, thr_err *err)
       quotient->orbit_length[orbit] += quotient->f->length[to];
     }
   }
+
   return THR_OK;
 }
 
@@ -177,6 +180,7 @@ static void mark_conjugate(const thr_group *group, int by, const thr_subgroup *s
 static thr_status make_subgroup(const bool *set, int order, thr_subgroup *out, thr_err *err)
 {
   int n = 0;
+  /* How many are marked? */
   for (int g = 0; g < order; g++)
     n += set[g];
 
@@ -213,6 +217,7 @@ static int least_conjugate(const quotient_builder *builder, int half, const thr_
   bool first = true;
   for (int i = 0; i < quotient->h->order; i++) {
     if (half >= 0 && image(quotient, i, half) != lowest) continue;
+    /* Mark the conjugate, and keep it if it is the least so far. */
     if (!first && subgroup->order == 1) break;
     mark_conjugate(quotient->group, quotient->h->element[i], subgroup, builder->set);
     if (first || less_set(builder->set, builder->least, order))
@@ -244,6 +249,7 @@ static thr_status find_layer(quotient_builder *builder, const thr_subgroup *subg
   thr_quotient *quotient = builder->quotient;
   int order = quotient->group->order;
 
+  /* A layer is known by its least conjugate. */
   least_conjugate(builder, -1, subgroup);
   for (*layer = 0; *layer < quotient->n_layers; ++*layer)
     if (holds_exactly(builder->least, order, &builder->s_class[*layer])) return THR_OK;
@@ -358,6 +364,7 @@ static thr_status add_copy(quotient_builder *builder, int e, int stabilizers,
   thr_subgroup dart_stabilizer = {0};
   *subgroup = (thr_subgroup){0};
 
+  /* The elements that keep the half-edge fix its dart. */
   thr_status st = is_full(builder)
                       ? fail_too_many(builder, err)
                       : edge_keepers(builder, e, &copy_type.stabilizer, &dart_stabilizer, err);
@@ -388,6 +395,7 @@ static thr_status add_copies(quotient_builder *builder, int e, thr_err *err)
   thr_group own = {0};
   thr_subgroup_classes classes = {0};
   int *element = NULL;
+  /* Subgroups of the edge's stabilizer, up to conjugacy in it. */
   thr_status st = edge_stabilizer(builder, e, &own, &element, err);
   if (!st) st = thr_subgroup_classes_find(&own, builder->most, &classes, err);
   if (!st && !classes.complete) st = fail_too_many(builder, err);
@@ -419,6 +427,7 @@ static int by_half(const void *a, const void *b)
 {
   const thr_dart_type *first = &((const numbered *)a)->type, *second = &((const numbered *)b)->type;
 
+  /* By half-edge, then by order. */
   if (first->half != second->half) return first->half < second->half ? -1 : 1;
   if (first->stabilizer.order != second->stabilizer.order)
     return first->stabilizer.order > second->stabilizer.order ? -1 : 1;
@@ -434,6 +443,7 @@ static int by_half(const void *a, const void *b)
 static void number_layers(thr_quotient *quotient, int *becomes)
 {
   int next = 0;
+  /* The trivial layer is 0 if there is one. */
   for (int d = 0; d < quotient->n_darts; d++)
     if (quotient->dart[d].stabilizer.order == 1) next = 1;
 
@@ -447,6 +457,7 @@ static void number_layers(thr_quotient *quotient, int *becomes)
     *layer = becomes[*layer];
   }
 
+  /* Copies follow their darts. */
   for (int c = 0; c < quotient->n_copies; c++)
     quotient->copy[c].layer = becomes[quotient->copy[c].layer];
 }
@@ -528,6 +539,7 @@ static int find_exchange(const quotient_builder *builder, int own_half, int othe
   const thr_quotient *quotient = builder->quotient;
   for (int k = 0; k < builder->n_at; k++) {
     int i = builder->at[k], g = quotient->h->element[i];
+    /* It exchanges the half-edges, is an involution modulo the subgroup, and normalizes it. */
     if (image(quotient, i, own_half) == other_half && image(quotient, i, other_half) == own_half &&
         !thr_subgroup_has(subgroup, g) &&
         thr_subgroup_has(subgroup, product(quotient->group, g, g)) &&
@@ -562,6 +574,7 @@ static thr_status add_pair(quotient_builder *builder, int dart, int other, int h
                            sizeof *quotient->pair, err);
   if (st) return st;
 
+  /* One orbit of darts makes as many turns, a self pair half as many. */
   thr_pair_type pair_type = {
       {dart, other}, {quotient->dart[dart].half, half}, element >= 0, quotient->dart[dart].darts, 0,
       element};
@@ -638,6 +651,8 @@ static thr_status build_init(quotient_builder *builder, thr_err *err)
   builder->at = thr_scratch_array(&builder->own, (size_t)quotient->h->order, sizeof *builder->at);
 
   if (thr_scratch_check(&builder->own, err)) return THR_ENOMEM;
+
+  /* No element has a place, and no half-edge a dart type yet. */
   memset(builder->position, -1, order * sizeof *builder->position);
   memset(builder->latest, -1, halves * sizeof *builder->latest);
   for (int i = 0; i < quotient->h->order; i++)

@@ -87,6 +87,7 @@ static thr_status copy_elements(const thr_group *group, const element_set *set, 
     return thr_nomem(err);
   }
 
+  /* Ascending. */
   for (int element = 0; element < group->order; element++)
     if (has_element(set, element)) out->element[n_elements++] = element;
   return THR_OK;
@@ -101,6 +102,7 @@ void thr_subgroup_destroy(thr_subgroup *subgroup)
 bool thr_subgroup_has(const thr_subgroup *subgroup, int element)
 {
   int low = 0, high = subgroup->order;
+  /* Bisection. */
   while (low < high) {
     int middle = low + (high - low) / 2;
     if (subgroup->element[middle] < element)
@@ -119,6 +121,7 @@ static int few_generators(const thr_group *group, const int *element, int n,
   element_set made = trivial();
   int count = 0;
   for (int i = 0; i < n && made.order < n; i++) {
+    /* Only elements that are not made yet. */
     if (has_element(&made, element[i])) continue;
     generator[count++] = element[i];
     close_set(group, &made, generator, count);
@@ -175,6 +178,7 @@ static thr_status grow_slots(subgroup_atlas *atlas, thr_err *err)
   int *slot = thr_realloc(atlas->slot, (size_t)slots, sizeof *slot);
   if (!slot) return thr_nomem(err);
 
+  /* All subgroups again, in a table of twice the size. */
   atlas->slot = slot;
   atlas->slots = slots;
   memset(slot, -1, (size_t)slots * sizeof *slot);
@@ -188,8 +192,10 @@ static thr_status add_if_new(subgroup_atlas *atlas, const element_set *set, thr_
 {
   thr_status st = grow_slots(atlas, err);
   if (st) return st;
+
   int i = find_slot(atlas, set);
   if (atlas->slot[i] >= 0) return THR_OK;
+
   if ((st = thr_grow(&atlas->all, atlas->n, &atlas->capacity, sizeof *atlas->all, err))) return st;
 
   atlas->slot[i] = atlas->n;
@@ -293,6 +299,7 @@ static thr_status fill_classes(subgroup_atlas *atlas, thr_subgroup_classes *out,
   thr_status st = THR_OK;
   qsort(atlas->class, (size_t)atlas->n_classes, sizeof *atlas->class, by_least);
 
+  /* One subgroup of each class. */
   out->subgroup = thr_calloc((size_t)atlas->n_classes, sizeof *out->subgroup);
   out->conjugates = thr_calloc((size_t)atlas->n_classes, sizeof *out->conjugates);
   if (!out->subgroup || !out->conjugates) return thr_nomem(err);

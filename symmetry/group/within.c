@@ -41,6 +41,7 @@ static void put_generator(thr_text *text, const int *image, int n)
 static const char *take_generator(const char *data, int *image, int n)
 {
   int moved, pair[2];
+  /* All nodes stay, but for the listed ones. */
   for (int v = 0; v < n; v++)
     image[v] = v;
 

@@ -80,16 +80,19 @@ static long gain_of(const copy_search *search, int copy)
 {
   const int *dart = search->contraction->whole->q->copy[copy].dart;
   long gain = 0;
+  /* Both ends at one star bring their darts together, and are counted once. */
   for (int i = 0; i < 2; i++) {
     if (dart[i] < 0 || search->ties->star[dart[i]] < 0) continue;
     int star = search->ties->star[dart[i]],
         twice = i == 0 && dart[1] >= 0 && search->ties->star[dart[1]] == star;
+
     long more = (long)step_of(search, copy) *
                 (darts_of(search, dart[i]) + (twice ? darts_of(search, dart[1]) : 0)),
          lack = search->lack[star];
     if (lack > 0) gain += more < lack ? more : lack;
     if (twice) break;
   }
+
   return gain;
 }
 
@@ -125,9 +128,11 @@ static bool add_copies(copy_search *search)
 {
   enum { MOST_BEYOND = 1 << 12 };
   const thr_programme *programme = search->contraction->whole;
+
   for (search->beyond = 2; search->beyond < MOST_BEYOND;) {
     int best = -1, stars = 0;
     double most = 0;
+
     /* Which stars lack darts? */
     for (int i = 0; i < search->ties->n; i++)
       stars += search->lack[i] > 0;

@@ -58,12 +58,13 @@ typedef struct {
 static thr_status count_lacking(const thr_frame *frame, int distinct, const thr_cord *cord,
                                 int n_cords, int *lacking, thr_err *err)
 {
-  int *last = thr_calloc((size_t)frame->n_edges,
-                         sizeof *last); /* number of the cord that passed last, from 1 */
+  /* The number of the cord that passed an edge last, from 1. */
+  int *last = thr_calloc((size_t)frame->n_edges, sizeof *last);
   if (!last) return thr_nomem(err);
   *lacking = distinct * frame->n_edges;
   int *met = thr_calloc((size_t)frame->n_edges, sizeof *met);
 
+  /* A cord counts once for an edge, and no edge lacks less than none. */
   for (int i = 0; i < n_cords && met; i++)
     for (int k = 0; k < cord[i].n_passes; k++) {
       const int e = cord[i].half[k] >> 1;
@@ -129,21 +130,23 @@ int thr_keep_fewest(const thr_quotient *quotient, const int *component)
 {
   const thr_frame *frame = quotient->f;
   int fewest = 1, order = quotient->h->order;
+
   /* A cord over edge e is its own image under at most 2 * fixed elements. */
   for (int e = 0; e < frame->n_edges; e++) {
-    int fixed = 0,
-        same =
-            0; /* elements that leave a half-edge alone (the identity does), or in its component */
+    /* Elements that leave the half-edge alone (the identity does), and images of the edge in its
+     * component. */
+    int fixed = 0, same = 0;
     for (int i = 0; i < order; i++) {
       int half = quotient->half_image[(size_t)i * 2 * (size_t)frame->n_edges + 2 * (size_t)e];
       fixed += half == 2 * e;
       same += component[thr_tail(frame, half)] == component[frame->edge[e][0]];
     }
 
-    /* Its images in the component are so many cords at least. */
+    /* So the edge's images in the component are passed by so many cords at least. */
     int cords = (same + 2 * fixed - 1) / (2 * fixed);
     if (cords > fewest) fewest = cords;
   }
+
   return fewest;
 }
 
@@ -198,6 +201,7 @@ static bool is_better(const cord_keeper *keeper, const cord_excess *excess, cons
          b = keeper->excess.few + keeper->excess.many + keeper->excess.lacking +
              keeper->excess.beyond;
 
+  /* What exceeds the request, then the longest cord, then the aims. */
   if (fabs(a - b) > 1e-9) return a < b;
   if (thr_wants_balance(keeper->request) &&
       fabs(excess->longest - keeper->excess.longest) > 1e-9 * excess->longest)
@@ -259,6 +263,7 @@ static thr_status attempt_value(void *user, thr_err *err)
     return THR_OK;
   }
 
+  /* Of all trials every n_trials / MOST_TRIALS-th is made. */
   long i = keeper->at++;
   bool turn = keeper->n_trials <= MOST_TRIALS ||
               i * MOST_TRIALS / keeper->n_trials != (i + 1) * MOST_TRIALS / keeper->n_trials;
@@ -281,10 +286,13 @@ static bool can_swap(const cord_keeper *keeper, int pair, int sign)
   const thr_pair_type *type = &keeper->quotient->pair[pair];
   const int *ends = keeper->base + keeper->programme.first_end, *dart = type->dart;
 
+  /* The turn must be there, and its first type allow ends, which its second then does, too. */
   if (sign > 0)
     return keeper->base[keeper->programme.first_pair + pair] > 0 &&
            keeper->programme.most[keeper->programme.first_end + dart[0]] != 0;
   if (keeper->programme.most[keeper->programme.first_pair + pair] == 0) return false;
+
+  /* The ends must be there: one, two of one type, or one of each type. */
   return type->self           ? ends[dart[0]] > 0
          : dart[0] == dart[1] ? ends[dart[0]] > 1
                               : ends[dart[0]] > 0 && ends[dart[1]] > 0;
@@ -300,6 +308,7 @@ typedef enum { STOP, FOLD, BACK, N_GOING_ON } going_on;
 static int column_of(const cord_keeper *keeper, int dart, going_on direction)
 {
   const thr_programme *programme = &keeper->programme;
+  /* An end. */
   if (direction == STOP)
     return programme->most[programme->first_end + dart] != 0 ? programme->first_end + dart : -1;
 
@@ -360,11 +369,13 @@ static thr_status attempt_additions(cord_keeper *keeper, thr_err *err)
  * turns. */
 static thr_status attempt_all(cord_keeper *keeper, thr_err *err)
 {
+  /* More cords, and exchanges. */
   thr_status st = attempt_additions(keeper, err);
   if (!st)
     st =
         thr_programme_attempt(&keeper->programme, keeper->value, false, attempt_value, keeper, err);
 
+  /* Turns into ends, and ends into turns. */
   for (int i = 0; i < 2 * keeper->quotient->n_pairs && !st; i++) {
     int sign = i % 2 ? -1 : 1;
     if (!can_swap(keeper, i / 2, sign)) continue;
@@ -385,6 +396,7 @@ static int modes_of(const cord_keeper *keeper)
 /* Makes the best change of one orbit of turns or ends. Too many trials are thinned out evenly. */
 static thr_status change_one(cord_keeper *keeper, thr_err *err)
 {
+  /* Trials start from the best so far. */
   memcpy(keeper->base, keeper->best, (size_t)keeper->programme.n * sizeof *keeper->base);
   memcpy(keeper->value, keeper->best, (size_t)keeper->programme.n * sizeof *keeper->value);
   keeper->better = false;
@@ -462,6 +474,7 @@ static thr_status keeper_init(cord_keeper *keeper, const thr_cover *cover, thr_e
   if (!st && keeper->how.tube) st = thr_programme_tie(&keeper->programme, err);
   if (st) return st;
 
+  /* The cover is the first trial. */
   keeper->value = thr_calloc((size_t)keeper->programme.n, sizeof *keeper->value);
   keeper->best = thr_calloc((size_t)keeper->programme.n, sizeof *keeper->best);
   keeper->base = thr_calloc((size_t)keeper->programme.n, sizeof *keeper->base);
@@ -488,6 +501,7 @@ thr_status thr_keep_cords(const thr_quotient *quotient, const thr_cover_options 
                         .component = component,
                         .how = *options};
 
+  /* Search from the cover as it is. */
   thr_status st =
       component ? thr_frame_components(quotient->f, component, &n, err) : thr_nomem(err);
   if (!st) st = keeper_init(&keeper, cover, err);
@@ -508,5 +522,6 @@ thr_status thr_keep_cords(const thr_quotient *quotient, const thr_cover_options 
 
   keeper_destroy(&keeper);
   free(component);
+
   return st;
 }

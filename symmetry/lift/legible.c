@@ -72,6 +72,7 @@ static measures measures_of(const reading_search *search, const thr_lifted *thre
                   .paths = threading->record.unique_paths,
                   .steps = threading->record.steps};
 
+  /* Turning is a sum, the rest are largest values. */
   for (int i = 0; i < threading->n_cords; i++)
     out.turning += thr_cord_turning(search->quotient->f, &threading->cord[i],
                                     search->request->ends == THR_ENDS_CLOSED);
@@ -204,6 +205,7 @@ thr_status thr_legible_cords(const thr_quotient *quotient, const thr_cover_optio
                            .threading = threading};
   thr_status st = reader_init(&search, cover, err);
 
+  /* Exchange, as long as something gets shorter to read. */
   if (!st) st = improve_reading(&search, err);
 
   /* The cover becomes that of the cords. */

@@ -52,6 +52,7 @@ static thr_status lifting_init(cell_lifting *lifting, const thr_contraction *con
   const thr_quotient *quotient = contraction->whole->q;
   size_t n_darts = (size_t)quotient->n_darts,
          tubes = contraction->whole->ties ? (size_t)contraction->whole->ties->most : 0;
+  /* Nothing is used or joined yet. */
   *lifting = (cell_lifting){.contraction = contraction,
                             .value = value,
                             .left = thr_calloc(n_darts, sizeof *lifting->left)};
@@ -122,6 +123,7 @@ static int terminal_of(const thr_programme *programme, int dart, bool self)
   if (!self)
     return programme->most[programme->first_end + dart] != 0 ? programme->first_end + dart : -1;
 
+  /* Of the self pairs the cheapest. */
   for (int k = programme->first[dart]; k < programme->first[dart + 1]; k++) {
     const int j = programme->first_pair + programme->incident[k];
     if (programme->q->pair[programme->incident[k]].self && programme->most[j] != 0 &&
@@ -223,6 +225,7 @@ static bool end_trails(cell_lifting *lifting, const int *small)
   int dart = lifting->contraction->becomes[lifting->type[0]],
       *selves = &lifting->selves[lifting->contraction->root[lifting->type[0]]];
 
+  /* Self pairs, of the cell's one self pair type. */
   for (int k = programme->first[dart]; k < programme->first[dart + 1]; k++)
     if (programme->q->pair[programme->incident[k]].self)
       *selves += small[programme->first_pair + programme->incident[k]];
@@ -280,8 +283,8 @@ static bool keeps_feasible(cell_lifting *lifting, int star, int pair)
   for (int i = ties->first[star]; i < ties->first[star + 1] && good && blocks > 1; i++) {
     int other = ties->pair[i], j = programme->first_pair + other;
     if (cell_kept(lifting->contraction, other) || !is_usable(lifting, j)) continue;
-    for (int k = ties->join[other]; k < ties->join[other + 1];
-         k++) { /* a marked root is -1 - root */
+    for (int k = ties->join[other]; k < ties->join[other + 1]; k++) {
+      /* A marked root is -1 - root. */
       int a = ties->link[k][0], b = ties->link[k][1];
       while (lifting->next[a] >= 0 && lifting->next[a] != a)
         a = lifting->next[a];
@@ -293,7 +296,7 @@ static bool keeps_feasible(cell_lifting *lifting, int star, int pair)
     }
   }
 
-  /* Take it back; is every block marked? */
+  /* Is every block marked? Then take the turn back. */
   for (int i = 0; i < ties->degree[star]; i++)
     open += lifting->next[i] < 0;
   use_pair(lifting, programme->first_pair + pair, -1);
@@ -305,6 +308,7 @@ static int count_joins(cell_lifting *lifting, int star, int pair)
 {
   const thr_ties *ties = lifting->contraction->whole->ties;
   bool any = false;
+  /* Does it join any two blocks at all? */
   for (int k = ties->join[pair]; k < ties->join[pair + 1]; k++)
     any = any || thr_disjoint_find(lifting->parent, ties->link[k][0]) !=
                      thr_disjoint_find(lifting->parent, ties->link[k][1]);
@@ -340,11 +344,15 @@ static void tie_star(cell_lifting *lifting, int star, const int *small)
     for (int i = ties->first[star]; i < ties->first[star + 1]; i++) {
       int pair = ties->pair[i], j = programme->first_pair + pair;
       if (cell_kept(contraction, pair) || !is_usable(lifting, j)) continue;
+
+      /* It has to join tubes, no fewer and not at a higher price than the best so far. */
       int joins = count_joins(lifting, star, pair);
       if (joins == 0 || joins < most || (joins == most && cost[pair] >= cost[best])) continue;
       if (should_stop(lifting)) return;
+
       enter_cell(lifting, contraction->root[programme->q->pair[pair].dart[0]]);
       if (!keeps_feasible(lifting, star, pair)) continue;
+
       most = joins;
       best = pair;
     }
@@ -385,11 +393,13 @@ static void check_star(cell_lifting *lifting, int star, const int *small)
 static void copy_kept(const thr_contraction *contraction, const int *small, int *value)
 {
   const thr_quotient *quotient = contraction->whole->q;
+  /* Turns. */
   for (int pair = 0; pair < quotient->n_pairs; pair++)
     if (contraction->keep[contraction->root[quotient->pair[pair].dart[0]]])
       value[contraction->whole->first_pair + pair] =
           small[contraction->p.first_pair + contraction->pair[pair]];
 
+  /* Ends. */
   for (int dart = 0; dart < quotient->n_darts; dart++)
     if (contraction->keep[contraction->root[dart]])
       value[contraction->whole->first_end + dart] =
@@ -402,6 +412,7 @@ void thr_contraction_lower(const thr_contraction *contraction, const int *value,
   memset(small, 0, (size_t)contraction->p.n * sizeof *small);
   memcpy(small, value, (size_t)quotient->n_copies * sizeof *small);
 
+  /* Turns and ends of all types that became one. */
   for (int pair = 0; pair < quotient->n_pairs; pair++)
     if (contraction->pair[pair] >= 0)
       small[contraction->p.first_pair + contraction->pair[pair]] +=
@@ -420,20 +431,25 @@ thr_status thr_contraction_lift(thr_contraction *contraction, const int *small, 
   *kept = 0;
   thr_status st = lifting_init(&lifting, contraction, small, value, err);
 
-  /* Ends first, in all cells; then turns that tie; then what is left; then the check of the ties.
-   */
+  /* Ends first, in all cells. */
   for (int dart = 0; dart < n_darts && !st; dart++) {
     enter_cell(&lifting, dart);
     if (!contraction->keep[dart] && lifting.n_types > 0)
       lifting.failed[dart] = !end_trails(&lifting, small);
   }
+
+  /* Tie. */
   for (int i = 0; i < stars && !st; i++)
     tie_star(&lifting, i, small);
+
+  /* Pair what is left. */
   for (int dart = 0; dart < n_darts && !st; dart++) {
     enter_cell(&lifting, dart);
     if (!contraction->keep[dart] && lifting.n_types > 0)
       lifting.failed[dart] = lifting.failed[dart] || !pair_rest(&lifting);
   }
+
+  /* Are the nodes tied? */
   for (int i = 0; i < stars && !st; i++)
     check_star(&lifting, i, small);
 
@@ -444,8 +460,10 @@ thr_status thr_contraction_lift(thr_contraction *contraction, const int *small, 
     ++*kept;
   }
 
+  /* Only a solution without failures is whole. */
   if (lifting.stopped && !st) st = THR_ELIMIT;
   if (!st && *kept == 0) copy_kept(contraction, small, value);
+
   lifting_destroy(&lifting);
   return st;
 }

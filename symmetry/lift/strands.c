@@ -134,6 +134,7 @@ static int number_rows(thr_strands *strands, const thr_cover *cover)
   const thr_quotient *quotient = strands->q;
   int rows = 0;
 
+  /* Types that occur, in the order of the copies. */
   for (int type = 0; type < quotient->n_darts; type++)
     strands->row[type] = -1;
   for (int i = 0; i < quotient->n_copies; i++)
@@ -152,6 +153,7 @@ static void list_cosets(thr_strands *strands, int type)
   size_t start = (size_t)strands->row[type] * (size_t)quotient->h->order;
   int *coset = strands->coset + start, coset_number = 0;
 
+  /* No element is in a coset yet. */
   for (int i = 0; i < quotient->h->order; i++)
     coset[i] = -1;
 
@@ -173,6 +175,7 @@ static thr_status make_tables(thr_strands *strands, const thr_cover *cover, thr_
   strands->row = thr_calloc((size_t)quotient->n_darts, sizeof *strands->row);
   if (!strands->place || !strands->row) return thr_nomem(err);
 
+  /* Places of the elements of H. */
   for (int element = 0; element < quotient->group->order; element++)
     strands->place[element] = -1;
   for (int i = 0; i < quotient->h->order; i++)
@@ -183,6 +186,7 @@ static thr_status make_tables(thr_strands *strands, const thr_cover *cover, thr_
   strands->coset = thr_calloc(entries, sizeof *strands->coset);
   strands->chosen = thr_calloc(entries, sizeof *strands->chosen);
   if (!strands->coset || !strands->chosen) return thr_nomem(err);
+
   for (int type = 0; type < quotient->n_darts; type++)
     if (strands->row[type] >= 0) list_cosets(strands, type);
   return THR_OK;
@@ -208,7 +212,8 @@ static int fold_carrier(const thr_quotient *quotient, const thr_copy_type *type)
 {
   const thr_dart_type *dart_type = &quotient->dart[type->dart[0]];
   for (int i = 0; i < quotient->h->order; i++) {
-
+    /* The half-edge fits, and every element of the dart's stabilizer, seen from the edge, is in the
+     * copy's. */
     int element = quotient->h->element[i];
     bool fits = half_image(quotient, i, 2 * type->edge) == dart_type->half;
     for (int k = 0; k < dart_type->stabilizer.order && fits; k++)
@@ -231,7 +236,6 @@ static thr_status link_copy(const thr_strands *strands, const thr_copy_type *typ
   const thr_quotient *quotient = strands->q;
   int to_type[2], back;
   /* The elements that take both ends to their types. */
-
   for (int i = 0; i < 2; i++) {
     const thr_dart_type *dart_type = &quotient->dart[type->dart[type->fold ? 0 : i]];
     to_type[i] = type->fold ? fold_carrier(quotient, type)
@@ -253,6 +257,7 @@ static thr_status link_copy(const thr_strands *strands, const thr_copy_type *typ
 static thr_status orbits_init(thr_strands *strands, const thr_cover *cover, thr_err *err)
 {
   const thr_quotient *quotient = strands->q;
+  /* A fold has one orbit of darts, any other copy two. */
   for (int i = 0; i < quotient->n_copies; i++)
     strands->n_orbits += cover->copies[i] * (quotient->copy[i].fold ? 1 : 2);
 
@@ -324,6 +329,7 @@ static thr_status type_lists_init(orbit_lists *lists, const thr_strands *strands
   lists->next = thr_calloc((size_t)strands->n_orbits, sizeof *lists->next);
   if (!lists->head || !lists->next) return thr_nomem(err);
 
+  /* From the last orbit on, so that the lists ascend. */
   for (int type = 0; type < strands->q->n_darts; type++)
     lists->head[type] = -1;
   for (int orbit = strands->n_orbits - 1; orbit >= 0; orbit--) {
@@ -356,11 +362,13 @@ static thr_status pair_orbits(thr_strands *strands, orbit_lists *unpaired,
 {
   int turn = count > 0 ? pair_element(strands->q, type) : 0;
 
+  /* The first orbits that are left. */
   for (int k = 0; k < count; k++) {
     int a = take_orbit(unpaired, type->dart[0]),
         b = type->self ? a : take_orbit(unpaired, type->dart[1]);
     if (turn < 0 || a < 0 || b < 0)
       return thr_fail(err, THR_ESOLVER, "a turn of the cover joins no two of its passes");
+
     strands->partner[a] = b;
     strands->turn[a] = turn;
     strands->partner[b] = a;
@@ -423,12 +431,14 @@ static void join(trail_sets *trails, int a, int b)
 /* Finds the trails: orbits that are linked over an edge or at a node. */
 static void find_trails(const thr_strands *strands, trail_sets *trails)
 {
+  /* Every orbit for itself, with its terminals. */
   for (int orbit = 0; orbit < strands->n_orbits; orbit++) {
     trails->parent[orbit] = orbit;
     trails->ends[orbit] = strands->partner[orbit] < 0;
     trails->folds[orbit] = (strands->partner[orbit] == orbit) + (strands->other[orbit] == orbit);
   }
 
+  /* Joined over the edge, and at the node. */
   for (int orbit = 0; orbit < strands->n_orbits; orbit++) {
     join(trails, orbit, strands->other[orbit]);
     if (strands->partner[orbit] >= 0) join(trails, orbit, strands->partner[orbit]);
@@ -449,7 +459,7 @@ void thr_strands_exchange(thr_strands *strands, int a, int b)
 
   if (pa == b) return; /* they are paired with each other */
 
-  /* A partner of itself stays one, of the other orbit. */
+  /* A fold at the node stays one, of the other orbit. */
   strands->partner[a] = pb == b ? a : pb;
   strands->partner[b] = pa == a ? b : pa;
   if (pa >= 0 && pa != a) strands->partner[pa] = b;
@@ -460,10 +470,12 @@ void thr_strands_exchange(thr_strands *strands, int a, int b)
 static void join_circles(thr_strands *strands, trail_sets *trails, const orbit_lists *all)
 {
   for (int type = 0; type < strands->q->n_darts; type++) {
+    /* All orbits of a type against its first. */
     int a = all->head[type];
     for (int b = a < 0 ? -1 : all->next[a]; b >= 0; b = all->next[b]) {
       int ra = root(trails, a), rb = root(trails, b);
       if (ra == rb || (!is_circle(trails, ra) && !is_circle(trails, rb))) continue;
+
       thr_strands_exchange(strands, a, b);
       join(trails, ra, rb);
     }
@@ -502,10 +514,12 @@ static bool may_turn(const thr_strands *strands, int orbit, int turn)
   const thr_dart_type *a = &quotient->dart[strands->type[orbit]],
                       *b = &quotient->dart[strands->type[strands->partner[orbit]]];
 
+  /* The same half-edge of the partner. */
   if (half_image(quotient, strands->place[turn], b->half) !=
       half_image(quotient, strands->place[strands->turn[orbit]], b->half))
     return false;
 
+  /* Stabilizers must fit, and a fold must be of order two. */
   if (!conjugates(quotient, turn, &b->stabilizer, &a->stabilizer)) return false;
   return strands->partner[orbit] != orbit ||
          (!thr_subgroup_has(&a->stabilizer, turn) &&
@@ -580,9 +594,9 @@ static int darts_within(const thr_strands *strands, int orbit, const int *compon
 static int passes_within(const thr_strands *strands, const trail_sets *trails, int start,
                          const int *component, int within, int *ends)
 {
-
   int darts = 0;
   *ends = 0;
+  /* The root of a trail is its lowest orbit. */
   for (int orbit = start; orbit < strands->n_orbits; orbit++) {
     if (root(trails, orbit) != start) continue;
     int n = darts_within(strands, orbit, component, within);
@@ -660,6 +674,8 @@ thr_status thr_strands_init(thr_strands *strands, const thr_quotient *quotient,
 {
   *strands = (thr_strands){.q = quotient};
   thr_status st = make_tables(strands, cover, err);
+
+  /* Darts over the edges, then links at the nodes. */
   if (!st) st = make_orbits(strands, cover, err);
   if (!st) st = make_pairs(strands, cover, err);
   if (!st) st = arrange_trails(strands, all_open, component, most, err);

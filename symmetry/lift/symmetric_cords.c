@@ -69,8 +69,11 @@ static int count_ways(const cord_tracer *tracer, const traced *a, int element, c
   int n = a->n_passes, found = 0;
   if (n != b->n_passes || a->round != b->round) return 0;
 
+  /* An open cord from either end. */
   if (!a->round)
     return matches(tracer, a, element, b, 0, false) + matches(tracer, a, element, b, n - 1, true);
+
+  /* A cord that runs round from every pass, in either direction. */
   for (int shift = 0; shift < n && found < enough; shift++)
     found +=
         matches(tracer, a, element, b, shift, false) + matches(tracer, a, element, b, shift, true);
@@ -179,6 +182,7 @@ static thr_status classify_last(cord_tracer *tracer, thr_err *err)
 {
   traced *last = &tracer->cord[tracer->n_cords - 1];
 
+  /* Does an earlier path run there? */
   for (int kind = 0; kind < tracer->n_unique; kind++) {
     int element = element_between(tracer, &tracer->cord[tracer->unique[kind]], last);
     if (element < 0) continue;
@@ -205,9 +209,12 @@ static thr_status add_given(cord_tracer *tracer, const thr_cord *cord, thr_err *
   traced added = {.half = thr_calloc((size_t)cord->n_passes, sizeof *added.half),
                   .n_passes = cord->n_passes};
   if (!added.half) return thr_nomem(err);
+
+  /* Its half-edges are copied. */
   memcpy(added.half, cord->half, (size_t)cord->n_passes * sizeof *added.half);
   added.closed = cord->closed;
   added.round = added.closed && !tracer->open;
+
   tracer->cord[tracer->n_cords++] = added;
   return classify_last(tracer, err);
 }
@@ -274,6 +281,7 @@ static thr_status trace_all(cord_tracer *tracer, thr_err *err)
   }
   qsort(from, (size_t)n, sizeof *from, by_place);
 
+  /* In the order of the keys. */
   thr_status st = THR_OK;
   for (int i = 0; i < n && !st; i++)
     st = add_orbit(tracer, from[i].dart, !from[i].inner, err);
@@ -283,6 +291,7 @@ static thr_status trace_all(cord_tracer *tracer, thr_err *err)
 
 /* ---- cords and record ---- */
 
+/* Frees everything, also what tracer_init has left unfinished. */
 static void tracer_destroy(cord_tracer *tracer)
 {
   for (int i = 0; i < tracer->n_cords; i++)
@@ -305,10 +314,12 @@ static thr_status tracer_init(cord_tracer *tracer, const thr_quotient *quotient,
                           .end_steps = thr_cover_steps_of_end(options),
                           .component = component};
 
+  /* The strands. */
   thr_status st = thr_strands_init(&tracer->strands, quotient, cover, tracer->open, component,
                                    options->most_closed, err);
   if (st) return st;
 
+  /* Walks. */
   size_t n = (size_t)tracer->strands.n_darts;
   tracer->walked = thr_calloc(n, sizeof *tracer->walked);
   tracer->walk = thr_calloc(n, sizeof *tracer->walk);
@@ -415,6 +426,7 @@ static thr_status make_record(const cord_tracer *tracer, const int *place,
 static thr_status make_cords(cord_tracer *tracer, const int *place, thr_cord **cord, thr_err *err)
 {
   if (!(*cord = thr_calloc((size_t)tracer->n_cords, sizeof **cord))) return thr_nomem(err);
+  /* Half-edges change hands. */
   for (int i = 0; i < tracer->n_cords; i++) {
     traced *from = &tracer->cord[i];
     thr_cord *to = &(*cord)[place[i]];
@@ -425,6 +437,7 @@ static thr_status make_cords(cord_tracer *tracer, const int *place, thr_cord **c
     thr_cord_id(place[i], to->id);
     from->half = NULL;
   }
+
   return THR_OK;
 }
 
@@ -442,6 +455,7 @@ thr_status thr_cover_cords(const thr_quotient *quotient, const thr_cover_options
 
   thr_status st =
       component ? thr_frame_components(quotient->f, component, &n_components, err) : thr_nomem(err);
+
   /* Trace, order and record. */
   if (!st) st = tracer_init(&tracer, quotient, options, cover, component, err);
   if (!st) st = trace_all(&tracer, err);
