@@ -175,7 +175,8 @@ static double largest_turn_left_out(const thr_programme *programme, const thr_co
 static double fewest_ends(const thr_programme *programme, const thr_cover *cover)
 {
   const thr_quotient *quotient = programme->q;
-  double steps = 0, beyond = 0; /* the most of the passes that are needed; of a unit of overlap */
+  double steps = 0,
+         beyond = 0; /* at most, of the passes that are needed and of a unit of overlap */
 
   /* Steps of a pass, by the copy type that has most of them. */
   for (int k = 0, end; k < quotient->n_copies; k = end) {

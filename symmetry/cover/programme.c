@@ -88,8 +88,9 @@ static void fill_copies(thr_programme *programme)
     /* The bound: what may serve a cover, and what fits into the edge. */
     int most = 2 * programme->cover[type->edge_orbit] + 2,
         fit = programme->capacity[type->edge_orbit] / type->passes;
-    for (int i = 0; i < 2 && programme->o->tube;
-         i++) /* one less than its tubes: so many kinds of turns tie a node */
+
+    /* As many kinds of turns tie a node as it has tubes, less one. */
+    for (int i = 0; i < 2 && programme->o->tube; i++)
       most += 2 * (thr_degree(quotient->f, quotient->f->edge[type->edge][i]) - 1);
     programme->most[copy] = fit < most ? fit : most;
 

@@ -418,7 +418,7 @@ static thr_status find_connected(void *user, int *added, thr_err *err)
       inside[d] = parts.root[d] == root;
     st = add_connected(relaxation, inside, copy[root], added, err);
 
-    /* Trails of folds leave the set, too, for they have an end. */
+    /* The trails of its folds have to leave the set, as no cord ends inside. */
     if (!st && programme->open) {
       put_leaving(relaxation, inside, -1);
       st = thr_relaxation_add_violated(relaxation, 0, added, err);

@@ -227,7 +227,7 @@ static thr_status rule_out_closed(thr_programme *programme, thr_err *err)
     if (programme->most[programme->first_end + dart] != 0)
       ends[thr_disjoint_find(parent, dart)] = true;
 
-  /* Copies with a stabilizer of their own cannot leave their set. */
+  /* Copies with a nontrivial stabilizer cannot leave their set. */
   for (int copy = 0; copy < quotient->n_copies && !st; copy++)
     if (quotient->copy[copy].stabilizer.order > 1 &&
         !ends[thr_disjoint_find(parent, quotient->copy[copy].dart[0])])

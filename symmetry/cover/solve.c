@@ -349,7 +349,7 @@ static thr_status solve_row(const table_solver *solver, int i, bool quick, const
   }
 
   /* A reason is the row's own, a failure that of all. */
-  if (st) thr_fail(&row->why, st, "stopped early"); /* if no one said why */
+  if (st) thr_fail(&row->why, st, "stopped early"); /* unless a reason is there already */
   if (!quick) thr_cover_destroy(&solver->cover[i]);
   thr_quotient_destroy(&quotient);
   return st && !is_explained(st) ? thr_fail(err, st, "%s", row->why.text) : THR_OK;
@@ -378,14 +378,13 @@ thr_status thr_symmetry_shortest_tied(const thr_frame *frame, const thr_request 
   solver.how.quick = true;
   if (few) memcpy(solver.how.prefer, cords_first, sizeof cords_first);
 
-  /* Search. */
+  /* The best cover under the identity. */
   st = thr_group_generate(frame->n_nodes, NULL, 0, 1, &group, err);
   if (!st) st = thr_quotient_make(&quotient, frame, &group, &alone, MOST_TYPES, limits, &why);
   if (!st) st = thr_cover_find(&quotient, &solver.how, limits, &cover, &why);
   if (!st || st == THR_ELIMIT) report_cover(&quotient, &solver.how, &cover, limits);
 
-  /* Only a proof of infeasibility is one; without it the search was stopped, with an empty cover.
-   */
+  /* Without a proof that there is no cover none was found in time. */
   bool proved = true;
   if (st == THR_EINFEASIBLE && find_proved_infeasible(&solver, &quotient, &proved, err))
     st = THR_ENOMEM;
@@ -630,9 +629,10 @@ thr_status thr_symmetry_solve(const thr_frame *frame, const thr_request *request
   thr_status st = solver_init(&solver, frame, request, symmetries, err);
   if (st) return st;
 
-  /* Without a deadline every row is solved to the end at once. */
   solver.end = limits->deadline;
   solver.only_choice = only_choice;
+
+  /* Without a deadline every row is solved to the end in one round. */
   for (int r = limits->deadline > 0 ? FIRST : PROOFS; r < N_ROUNDS && !st; r++)
     st = solve_round(&solver, (solving_round)r, limits, err);
 

@@ -253,7 +253,7 @@ static thr_status add_join(const join_request *request, const thr_programme *pro
   *least = 0;
   if (!st) fill_join(&graph, request, programme, small);
 
-  /* Is there an odd part? If not, connect the parts, which the T-join needs. */
+  /* No part may be odd. The parts are connected, which the search for a join needs. */
   for (int d = 0; d < graph.problem.n_nodes && !st; d++) {
     *found = *found && !graph.rest[d];
     any = any || graph.odd[d];

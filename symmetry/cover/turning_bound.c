@@ -336,9 +336,10 @@ static thr_status master_init(master_problem *master, const thr_contraction *con
   if (!st) st = allocate_cell_programme(master, err);
   if (!st) st = find_column_limit(master, worth, err);
 
-  /* Rows that keep the aims before turning. */
   if (!st && !relaxation->p)
     st = thr_relaxation_init(relaxation, &contraction->p, contraction->p.q->n_darts, limits, err);
+
+  /* Rows that keep the aims before turning. */
   for (int k = kept; !st && prefer[k] != THR_AIM_TURNING; k++) {
     st = thr_relaxation_aim(relaxation, prefer[k], err);
     if (!st) st = thr_relaxation_fix(relaxation, worth[prefer[k]], err);
@@ -445,11 +446,11 @@ static thr_status solve_cell(master_problem *master, int i, terminals demand, do
   master->rhs[types] = demand.ends;
   master->rhs[types + 1] = demand.self;
 
-  /* Solve. */
+  /* Solve: artificial columns make every right side feasible. */
   thr_status st = thr_lp_create_equations(&lp, types + 2, master->rhs, columns, master->cost, NULL,
                                           master->start, master->row, master->value, err);
   if (!st) st = thr_lp_solve(lp, master->limits, &outcome, err);
-  if (!st && outcome != THR_LP_OPTIMAL) st = THR_ELIMIT; /* it always has an optimum */
+  if (!st && outcome != THR_LP_OPTIMAL) st = THR_ELIMIT;
 
   /* The value is computed from the lowered multipliers, not taken from the solver. */
   if (!st) {
@@ -562,7 +563,7 @@ static thr_status look(void *user, thr_err *err)
   /* Any other outcome is rounding: the known cover is feasible. */
   if (master->relaxation->search.outcome != THR_LP_OPTIMAL &&
       master->relaxation->search.outcome != THR_LP_STOPPED)
-    return THR_OK; /* rounding: the cover fits */
+    return THR_OK;
   thr_relaxation_look(master->relaxation);
   thr_status st = thr_lp_proved(master->relaxation->search.lp, master->column_limit, &value, err);
   if (!st)
@@ -645,7 +646,7 @@ static thr_status add_first_cuts(master_problem *master, const int *cover, bool 
   before = master->relaxation->search.pool.count;
   if (!st) {
     contract_cover(master, cover, point);
-    for (int i = 0; i < master->n_cells; i++) /* every cell gets one, whatever it costs */
+    for (int i = 0; i < master->n_cells; i++)
       point[contraction->p.n + contraction->becomes[master->type[master->first_type[i]]]] = -1;
     st = add_cuts(master, point, &added, err);
   }

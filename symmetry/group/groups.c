@@ -99,13 +99,13 @@ static thr_status add_row(group_offer *offer, int group, thr_subgroup *elements,
 
 /* Adds a group to the table with the isometries nearest to its elements. Takes the group over, on
  * failure too. */
-static thr_status add_group(group_offer *offer, thr_group *g, thr_err *err)
+static thr_status add_group(group_offer *offer, thr_group *listed, thr_err *err)
 {
   thr_symmetries *symmetries = offer->table;
   thr_symmetry_group *group = thr_realloc(symmetries->group, (size_t)symmetries->n_groups + 1,
                                           sizeof *group),
-                     added = {.all = *g};
-  *g = (thr_group){0};
+                     added = {.all = *listed};
+  *listed = (thr_group){0};
 
   /* One more place in the table; without memory the group is freed. */
   if (group) symmetries->group = group;
@@ -276,6 +276,7 @@ static thr_status add_isometries(group_offer *offer, const thr_automorphism_opti
     st = generate_from(offer, NULL, 0, &group, err);
   else if (st)
     thr_fail(err, st, "%s", why.text);
+
   return st ? st : add_group(offer, &group, err);
 }
 
@@ -284,7 +285,7 @@ static thr_status add_isometries(group_offer *offer, const thr_automorphism_opti
 static thr_status add_listed_isometries(group_offer *offer, const thr_automorphisms *automorphisms,
                                         double tolerance, thr_err *err)
 {
-  thr_group listed, g = {0};
+  thr_group listed, group = {0};
   int *image = NULL, count = 0;
   thr_status st = thr_group_generate(automorphisms->n, automorphisms->generator,
                                      automorphisms->n_generators, THR_GROUP_CAP, &listed, err);
@@ -293,11 +294,11 @@ static thr_status add_listed_isometries(group_offer *offer, const thr_automorphi
   if (!st)
     st = thr_isometries_among(offer->frame, listed.image, listed.order, tolerance, &image, &count,
                               err);
-  if (!st) st = generate_from(offer, image, count, &g, err);
+  if (!st) st = generate_from(offer, image, count, &group, err);
 
   free(image);
   thr_group_destroy(&listed);
-  return st ? st : add_group(offer, &g, err);
+  return st ? st : add_group(offer, &group, err);
 }
 
 /* Adds the group that the isometries generate, among the automorphisms that keep the lengths of

@@ -226,6 +226,7 @@ static int nearest_node(isometry_search *search, const double point[3], int64_t 
 {
   int low[3], high[3], best = -1;
   double least = search->loose * search->loose;
+
   /* Cells within reach. */
   for (int i = 0; i < 3; i++) {
     low[i] = axis_cell(search, point[i] - search->loose);
@@ -281,6 +282,7 @@ static bool is_automorphism(isometry_search *search)
 {
   const thr_frame *frame = search->frame;
   memset(search->hit, 0, (size_t)frame->n_nodes * sizeof *search->hit);
+
   /* No two nodes may have one image. */
   for (int v = 0; v < frame->n_nodes; v++) {
     if (search->hit[search->image[v]]) return false;
@@ -452,6 +454,7 @@ thr_status thr_isometries_find(const thr_frame *frame, const thr_automorphism_op
   *count = 0;
 
   thr_status st = search_init(&search, err);
+
   /* Try all motions, and sort what was found. */
   if (!st) st = search.second < 0 ? try_line(&search, cap, err) : try_all(&search, cap, err);
   if (!st) st = thr_rows_sort(search.found, search.count, frame->n_nodes, NULL, err);

@@ -209,6 +209,7 @@ static int least_conjugate(const quotient_builder *builder, int half, const thr_
 {
   const thr_quotient *quotient = builder->quotient;
   int order = quotient->group->order, lowest = half;
+
   /* The lowest image. */
   for (int i = 0; half >= 0 && i < quotient->h->order; i++)
     if (image(quotient, i, half) < lowest) lowest = image(quotient, i, half);

@@ -262,6 +262,7 @@ static thr_status extend(subgroup_atlas *atlas, int k, bool *complete, thr_err *
   const thr_group *group = atlas->group;
   element_set from = atlas->class[k].least, tried = from;
   int element[THR_GROUP_CAP] = {0}, generator[MOST_GENERATORS], n_elements = 0;
+
   /* The subgroup's elements, and generators of it. */
   for (int a = 0; a < group->order; a++)
     if (has_element(&from, a)) element[n_elements++] = a;

@@ -256,13 +256,14 @@ typedef struct {
 /* Compares beginnings by their keys. */
 static int by_place(const void *a, const void *b)
 {
-  const beginning *p = a, *q = b;
+  const beginning *first = a, *second = b;
 
   /* The first key that differs decides. */
-  const int x[] = {p->component, p->inner, p->tail, p->half, p->dart},
-            y[] = {q->component, q->inner, q->tail, q->half, q->dart};
+  const int first_key[] = {first->component, first->inner, first->tail, first->half, first->dart},
+            second_key[] = {second->component, second->inner, second->tail, second->half,
+                            second->dart};
   for (int i = 0; i < 5; i++)
-    if (x[i] != y[i]) return x[i] < y[i] ? -1 : 1;
+    if (first_key[i] != second_key[i]) return first_key[i] < second_key[i] ? -1 : 1;
   return 0;
 }
 
