@@ -19,9 +19,9 @@
 /* ---- making a contraction ---- */
 
 /* Tells whether turns of this pair type may be used. */
-static bool allowed(const thr_programme *p, int pair)
+static bool allowed(const thr_programme *programme, int pair)
 {
-  return p->most[p->first_pair + pair] != 0;
+  return programme->most[programme->first_pair + pair] != 0;
 }
 
 /* Finds the cells, each by its lowest dart type: how many types it has, and whether one turns into

@@ -110,10 +110,10 @@ static bool offer_exchange(exchange_visitor *visitor, int out0, int out1, int in
   const double *cost = visitor->programme->cost[THR_AIM_TURNING];
   if (in0 < 0 || in1 < 0) return true;
 
-  node_exchange x = {
+  node_exchange exchange = {
       {out0, out1}, {in0, in1}, {a, third}, cost[in0] + cost[in1] - cost[out0] - cost[out1]};
-  return !is_possible(visitor->programme, &x, visitor->value, visitor->parent) ||
-         visitor->visit(visitor, &x, err, st);
+  return !is_possible(visitor->programme, &exchange, visitor->value, visitor->parent) ||
+         visitor->visit(visitor, &exchange, err, st);
 }
 
 /* Visits the exchanges of pair column j, between dart types a and b, with everything that dart type
@@ -151,14 +151,14 @@ static thr_status visit_turn(exchange_visitor *visitor, int pair, thr_err *err)
   bool go_on = !pair_type->self;
   /* Each dart type of the turn, with each type that it can turn into. */
   for (int i = 0; i < 2 && go_on; i++) {
-    int a = pair_type->dart[i], b = pair_type->dart[1 - i], last = -1;
-    for (int k = programme->first[a]; k < programme->first[a + 1] && go_on; k++) {
+    int own = pair_type->dart[i], partner = pair_type->dart[1 - i], last = -1;
+    for (int k = programme->first[own]; k < programme->first[own + 1] && go_on; k++) {
       const thr_pair_type *other = &programme->q->pair[programme->incident[k]];
-      int third = other->dart[0] + other->dart[1] - a;
+      int third = other->dart[0] + other->dart[1] - own;
       if (other->self || third == last)
         continue; /* pair types of two dart types follow each other */
       last = third;
-      go_on = visit_partners(visitor, programme->first_pair + pair, a, b, third, err, &st);
+      go_on = visit_partners(visitor, programme->first_pair + pair, own, partner, third, err, &st);
     }
   }
 
@@ -205,19 +205,21 @@ static int by_turning(const void *a, const void *b)
 static void join_sets(exchange_visitor *visitor, const node_exchange *exchange)
 {
   thr_programme_parts *parts = &visitor->parts;
-  int a = thr_disjoint_find(parts->root, exchange->type[0]),
-      b = thr_disjoint_find(parts->root, exchange->type[1]);
-  if (a == b || !is_possible(visitor->programme, exchange, visitor->value, visitor->parent) ||
-      (!in_need(visitor, a) && !in_need(visitor, b)))
+  int first_set = thr_disjoint_find(parts->root, exchange->type[0]),
+      second_set = thr_disjoint_find(parts->root, exchange->type[1]);
+  if (first_set == second_set ||
+      !is_possible(visitor->programme, exchange, visitor->value, visitor->parent) ||
+      (!in_need(visitor, first_set) && !in_need(visitor, second_set)))
     return;
 
   /* Join the sets, and add up what they have. */
-  int terminals = parts->terminals[a] + parts->terminals[b], ends = parts->ends[a] + parts->ends[b];
+  int terminals = parts->terminals[first_set] + parts->terminals[second_set],
+      ends = parts->ends[first_set] + parts->ends[second_set];
   apply_exchange(exchange, 1, visitor->value);
-  thr_disjoint_join(parts->root, a, b);
-  a = thr_disjoint_find(parts->root, a);
-  parts->terminals[a] = terminals;
-  parts->ends[a] = ends;
+  thr_disjoint_join(parts->root, first_set, second_set);
+  first_set = thr_disjoint_find(parts->root, first_set);
+  parts->terminals[first_set] = terminals;
+  parts->ends[first_set] = ends;
 }
 
 /* Counts the connected sets that need a terminal. */
@@ -274,9 +276,9 @@ thr_status thr_programme_open(const thr_programme *programme, int *value, thr_er
 
   /* One turn of each set without ends becomes two ends, where they are allowed. */
   for (int pair = 0; pair < programme->q->n_pairs && programme->open && !st; pair++) {
-    const int *d = programme->q->pair[pair].dart;
-    int root = parts->root[d[0]], star = programme->ties ? programme->ties->star[d[0]] : -1,
-        end[2] = {programme->first_end + d[0], programme->first_end + d[1]};
+    const int *dart = programme->q->pair[pair].dart;
+    int root = parts->root[dart[0]], star = programme->ties ? programme->ties->star[dart[0]] : -1,
+        end[2] = {programme->first_end + dart[0], programme->first_end + dart[1]};
     if (value[programme->first_pair + pair] == 0 || programme->q->pair[pair].self ||
         parts->ends[root] > 0 || programme->most[end[0]] == 0)
       continue;

@@ -98,9 +98,9 @@ static thr_status network_init(trail_network *network, const thr_strands *strand
 }
 
 /* Returns which end of an arc is not this node; the node's own for a loop. */
-static int far_end(const arc *a, int node)
+static int far_end(const arc *of, int node)
 {
-  return a->end[0] == node;
+  return of->end[0] == node;
 }
 
 /* Directs one more path from the source to the sink, which may undo arcs that are directed the
@@ -118,9 +118,9 @@ static bool augment(trail_network *network)
   while (head < tail && network->came[network->sink] < 0) {
     int node = network->queue[head++];
     for (int i = network->first[node]; i < network->first[node + 1]; i++) {
-      const arc *a = &network->arc[network->list[i]];
-      int side = far_end(a, node), next_node = a->end[side];
-      if (network->came[next_node] >= 0 || a->to == side) continue;
+      const arc *next_arc = &network->arc[network->list[i]];
+      int side = far_end(next_arc, node), next_node = next_arc->end[side];
+      if (network->came[next_node] >= 0 || next_arc->to == side) continue;
       network->came[next_node] = network->list[i];
       network->queue[tail++] = next_node;
     }
@@ -131,10 +131,10 @@ static bool augment(trail_network *network)
   /* Direct the arcs of the path, from the sink back; an arc that the path undoes has no direction
    * again. */
   for (int node = network->sink; node != network->source;) {
-    arc *a = &network->arc[network->came[node]];
-    int side = far_end(a, node); /* where the path comes from */
-    a->to = a->to < 0 ? 1 - side : -1;
-    node = a->end[side];
+    arc *next_arc = &network->arc[network->came[node]];
+    int side = far_end(next_arc, node); /* where the path comes from */
+    next_arc->to = next_arc->to < 0 ? 1 - side : -1;
+    node = next_arc->end[side];
   }
   return true;
 }
@@ -147,10 +147,10 @@ static void direct_circuits(trail_network *network)
   memcpy(next, network->first, (size_t)network->n_nodes * sizeof *next);
   for (int start = 0; start < network->n_nodes; start++)
     for (int node = start; next[node] < network->first[node + 1];) {
-      arc *a = &network->arc[network->list[next[node]++]];
-      if (a->to >= 0) continue;
-      a->to = far_end(a, node);
-      node = a->end[a->to];
+      arc *next_arc = &network->arc[network->list[next[node]++]];
+      if (next_arc->to >= 0) continue;
+      next_arc->to = far_end(next_arc, node);
+      node = next_arc->end[next_arc->to];
     }
 }
 

@@ -192,16 +192,16 @@ static double common_unit(const double *cost, int n, double scale)
   double unit = 0;
   for (int j = 0; j < n; j++) {
     /* The greatest common divisor of this cost and the unit so far. */
-    double a = cost[j], b = unit;
+    double multiple = cost[j], divisor = unit;
 
-    while (b > 1e-4 * scale) {
-      double rest = fabs(a - b * nearbyint(a / b));
-      a = b;
-      b = rest < 1e-10 * scale ? 0 : rest;
+    while (divisor > 1e-4 * scale) {
+      double rest = fabs(multiple - divisor * nearbyint(multiple / divisor));
+      multiple = divisor;
+      divisor = rest < 1e-10 * scale ? 0 : rest;
     }
 
-    if (b > 0) return 0;
-    unit = a;
+    if (divisor > 0) return 0;
+    unit = multiple;
   }
   return unit;
 }

@@ -201,22 +201,22 @@ static void fill_graph(thr_relaxation *relaxation, int (*edge)[2], bool *odd)
     if (split >= 0 && programme->least[split] > 0)
       split = -1; /* the other types are ruled out, and a bound covers the edge */
     for (int k = c; k < end; k++) {
-      int a = programme->join[k][0], b = programme->join[k][1],
+      int from = programme->join[k][0], to = programme->join[k][1],
           shift = k == split ? programme->cover[quotient->copy[k].edge_orbit] : programme->least[k];
-      if (a == b) continue;
+      if (from == to) continue;
 
       /* Two edges in a row: the column itself, and the orbit's surplus. */
       if (k == split) {
         int middle = relaxation->problem.n_nodes++;
-        add_edge(relaxation, edge, a, middle, k, false);
-        a = middle;
+        add_edge(relaxation, edge, from, middle, k, false);
+        from = middle;
       }
-      add_edge(relaxation, edge, a, b, k, k == split);
+      add_edge(relaxation, edge, from, to, k, k == split);
 
       /* What a set has for certain decides its parity. */
       if (shift % 2) {
-        odd[a] ^= true;
-        odd[b] ^= true;
+        odd[from] ^= true;
+        odd[to] ^= true;
       }
     }
   }
@@ -447,14 +447,14 @@ static thr_status find_folds(void *user, int *added, thr_err *err)
     const bool *inside = j < programme->first_pair ? copy_side : pair_side;
 
     /* Folds inside by -1, ends inside by 1, and all that crosses. */
-    int a = programme->join[j][0], b = programme->join[j][1];
+    int from = programme->join[j][0], to = programme->join[j][1];
     if (thr_programme_terminal(programme, j))
       thr_pool_put(&relaxation->search.pool, j,
-                   !inside[a]                  ? 0
+                   !inside[from]               ? 0
                    : j >= programme->first_end ? 1
                                                : -1);
     else
-      thr_pool_put(&relaxation->search.pool, j, inside[a] != inside[b]);
+      thr_pool_put(&relaxation->search.pool, j, inside[from] != inside[to]);
 
     /* A copy whose two sides at a dart type are on different sides of the cut. */
     for (int i = 0; i < 2 && j < programme->first_pair; i++)

@@ -218,16 +218,16 @@ static void fill_join(join_graph *graph, const join_request *request,
   for (int d = 0; d <= root; d++)
     graph->parent[d] = d;
   for (int j = 0; j < programme->first_circle; j++) {
-    int a = programme->join[j][0], b = programme->join[j][1];
-    graph->odd[a] ^= small[j] % 2;
-    graph->odd[b] ^= small[j] % 2;
-    if (programme->most[j] == 0 || a == b ||
+    int from = programme->join[j][0], to = programme->join[j][1];
+    graph->odd[from] ^= small[j] % 2;
+    graph->odd[to] ^= small[j] % 2;
+    if (programme->most[j] == 0 || from == to ||
         (request->barred && j < programme->first_pair && request->barred[j]))
       continue;
     if (!request->folds && thr_programme_terminal(programme, j) && j < programme->first_end)
       continue;
-    add_edge(graph, a, b, j, request_price(request, programme, j));
-    thr_disjoint_join(graph->parent, a, b);
+    add_edge(graph, from, to, j, request_price(request, programme, j));
+    thr_disjoint_join(graph->parent, from, to);
   }
 
   /* The root takes as many terminals as its part needs. */

@@ -292,10 +292,10 @@ static thr_status set_costs(master_problem *master, thr_err *err)
 
   /* What the turns of a contracted cell cost stands in its extra column instead. */
   for (int i = 0; i < master->n_cells; i++) {
-    int d = master->contraction->becomes[master->type[master->first_type[i]]];
-    for (int k = small->first[d]; k < small->first[d + 1]; k++)
+    int contracted = master->contraction->becomes[master->type[master->first_type[i]]];
+    for (int k = small->first[contracted]; k < small->first[contracted + 1]; k++)
       cost[small->first_pair + small->incident[k]] = 0;
-    cost[small->n + d] = 1;
+    cost[small->n + contracted] = 1;
   }
 
   thr_status st = thr_lp_set_costs(master->relaxation->search.lp, cost, err);
@@ -482,19 +482,20 @@ static thr_status add_cut(master_problem *master, int i, terminals price, thr_er
 {
   const thr_programme *small = &master->contraction->p;
   double scale = master->contraction->whole->scale[THR_AIM_TURNING];
-  int d = master->contraction->becomes[master->type[master->first_type[i]]],
-      self_pair = self_column(master, d);
+  int contracted = master->contraction->becomes[master->type[master->first_type[i]]],
+      self_pair = self_column(master, contracted);
 
   for (int k = master->first_type[i]; k < master->first_type[i + 1]; k++)
     for (int at_type = master->first[master->type[k]]; at_type < master->first[master->type[k] + 1];
          at_type++)
       thr_pool_put(&master->relaxation->search.pool, master->copy[at_type] / 2,
                    -master->shift[master->type[k]] / scale);
-  thr_pool_put(&master->relaxation->search.pool, small->first_end + d, -price.ends / scale);
+  thr_pool_put(&master->relaxation->search.pool, small->first_end + contracted,
+               -price.ends / scale);
   if (self_pair >= 0)
     thr_pool_put(&master->relaxation->search.pool, self_pair, -price.self / scale);
 
-  thr_pool_put(&master->relaxation->search.pool, small->n + d, 1);
+  thr_pool_put(&master->relaxation->search.pool, small->n + contracted, 1);
   return thr_relaxation_add_row(master->relaxation, 0, err);
 }
 
@@ -509,17 +510,18 @@ static thr_status add_cuts(master_problem *master, const double *point, int *add
 
   count_darts(master, point);
   for (int i = 0; i < master->n_cells && !st; i++) {
-    int d = master->contraction->becomes[master->type[master->first_type[i]]],
-        self_pair = self_column(master, d);
+    int contracted = master->contraction->becomes[master->type[master->first_type[i]]],
+        self_pair = self_column(master, contracted);
     double value;
     terminals price;
     st = thr_limits_stop(master->limits) ? THR_ELIMIT : THR_OK;
     /* The turning that the cell's own programme proves, at the ends and self pairs of the point. */
     if (!st)
       st = solve_cell(
-          master, i, (terminals){point[small->first_end + d], self_pair < 0 ? 0 : point[self_pair]},
+          master, i,
+          (terminals){point[small->first_end + contracted], self_pair < 0 ? 0 : point[self_pair]},
           &value, &price, err);
-    if (st || value / scale <= point[small->n + d] + 1e-6) continue;
+    if (st || value / scale <= point[small->n + contracted] + 1e-6) continue;
     st = add_cut(master, i, price, err);
     ++*added;
   }

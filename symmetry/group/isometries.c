@@ -417,13 +417,14 @@ static thr_status try_line(isometry_search *search, int cap, thr_err *err)
 static thr_status try_all(isometry_search *search, int cap, thr_err *err)
 {
   double from[3][3], to[3][3];
-  const double *a = search->position[search->first], *b = search->position[search->second];
+  const double *first_position = search->position[search->first],
+               *second_position = search->position[search->second];
   int first_end, second_end, first = find_places(search, search->first, &first_end),
                              second = find_places(search, search->second, &second_end);
 
   thr_status st = THR_OK;
   /* The references' own base. */
-  if (!base_of(a, b, from)) return THR_OK;
+  if (!base_of(first_position, second_position, from)) return THR_OK;
 
   for (int i = first; i < first_end && !st; i++)
     for (int j = second; j < second_end && !st; j++) {
@@ -432,7 +433,8 @@ static thr_status try_all(isometry_search *search, int cap, thr_err *err)
                    *to_second = search->position[search->like[j].node];
       if (search->work++ > MOST_WORK || thr_limits_stop(search->limits))
         return fail_too_many(search, err);
-      if (fabs(distance(a, b) - distance(to_first, to_second)) > 2 * search->tolerance ||
+      if (fabs(distance(first_position, second_position) - distance(to_first, to_second)) >
+              2 * search->tolerance ||
           !base_of(to_first, to_second, to))
         continue;
 

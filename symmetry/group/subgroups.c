@@ -50,20 +50,20 @@ static int product(const thr_group *group, int a, int b)
 static void close_set(const thr_group *group, element_set *set, const int *generator, int n)
 {
   int member[THR_GROUP_CAP], count = 0, core[THR_GROUP_CAP], n_core = 0;
-  for (int a = 0; a < group->order; a++)
-    if (has_element(set, a)) core[n_core++] = a;
+  for (int element = 0; element < group->order; element++)
+    if (has_element(set, element)) core[n_core++] = element;
 
   /* Multiply one member of each coset of the core by every generator. */
   member[count++] = 0;
   for (int i = 0; i < count; i++)
     for (int k = 0; k < n; k++) {
-      int a = product(group, generator[k], member[i]);
-      if (has_element(set, a)) continue;
+      int element = product(group, generator[k], member[i]);
+      if (has_element(set, element)) continue;
 
       /* A new coset. */
-      member[count++] = a;
+      member[count++] = element;
       for (int j = 0; j < n_core; j++)
-        add_element(set, product(group, a, core[j]));
+        add_element(set, product(group, element, core[j]));
     }
 }
 

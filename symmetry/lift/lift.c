@@ -285,14 +285,14 @@ static bool keeps_feasible(cell_lifting *lifting, int star, int pair)
     if (cell_kept(lifting->contraction, other) || !is_usable(lifting, j)) continue;
     for (int k = ties->join[other]; k < ties->join[other + 1]; k++) {
       /* A marked root is -1 - root. */
-      int a = ties->link[k][0], b = ties->link[k][1];
-      while (lifting->next[a] >= 0 && lifting->next[a] != a)
-        a = lifting->next[a];
-      while (lifting->next[b] >= 0 && lifting->next[b] != b)
-        b = lifting->next[b];
-      if (a == b) continue;
-      lifting->next[a] = -1 - a;
-      lifting->next[b] = -1 - b;
+      int first = ties->link[k][0], second = ties->link[k][1];
+      while (lifting->next[first] >= 0 && lifting->next[first] != first)
+        first = lifting->next[first];
+      while (lifting->next[second] >= 0 && lifting->next[second] != second)
+        second = lifting->next[second];
+      if (first == second) continue;
+      lifting->next[first] = -1 - first;
+      lifting->next[second] = -1 - second;
     }
   }
 

@@ -364,15 +364,15 @@ static thr_status pair_orbits(thr_strands *strands, orbit_lists *unpaired,
 
   /* The first orbits that are left. */
   for (int k = 0; k < count; k++) {
-    int a = take_orbit(unpaired, type->dart[0]),
-        b = type->self ? a : take_orbit(unpaired, type->dart[1]);
-    if (turn < 0 || a < 0 || b < 0)
+    int first = take_orbit(unpaired, type->dart[0]),
+        second = type->self ? first : take_orbit(unpaired, type->dart[1]);
+    if (turn < 0 || first < 0 || second < 0)
       return thr_fail(err, THR_ESOLVER, "a turn of the cover joins no two of its passes");
 
-    strands->partner[a] = b;
-    strands->turn[a] = turn;
-    strands->partner[b] = a;
-    if (b != a) strands->turn[b] = inverse(strands->q, turn);
+    strands->partner[first] = second;
+    strands->turn[first] = turn;
+    strands->partner[second] = first;
+    if (second != first) strands->turn[second] = inverse(strands->q, turn);
   }
   return THR_OK;
 }
