@@ -23,10 +23,8 @@ typedef enum {
   THREAD_NO_MEMORY,
   THREAD_IO,         /* a file could not be opened, read or written */
   THREAD_BAD_INPUT,  /* the text says where, what, and what to do */
-  THREAD_INFEASIBLE, /* no threading with these options; the text says which node or component
-                        forbids it */
-  THREAD_NOT_PROVED, /* time was over, or progress said stop: what there is is valid and holds its
-                        bounds */
+  THREAD_INFEASIBLE, /* no threading with these options; the text says what forbids it */
+  THREAD_NOT_PROVED, /* stopped by time or progress: what there is is valid and holds its bounds */
   THREAD_SOLVER,     /* a library failed */
   THREAD_VIOLATED    /* a claim of the plan is not true */
 } thread_status;
@@ -53,13 +51,10 @@ typedef struct {
   char up;           /* 'y', 'z', or 'a' = as the maker of the file is known to write */
   char split;        /* 1: an edge is cut where a node lies on it */
   int pick;          /* which framework of a file that holds several, from 1; 0 = all */
-  const char *
-      part; /* the same by its name, or by that of an object, group or layer; NULL = as pick says */
-  char all_layers;     /* 1: what a drawing has on layers that are off or frozen is read, too */
-  char parallel;       /* 1: of edges between the same two nodes all that differ in length are kept,
-                          parted by a node each */
-  const char *columns; /* of a table of edges: the two columns of their ends by name or number,
-                          "a,b"; NULL = as it says */
+  const char *part; /* the same by the name of it, an object, group or layer; NULL = as pick says */
+  char all_layers;  /* 1: what a drawing has on layers that are off or frozen is read, too */
+  char parallel;    /* 1: parallel edges that differ in length are kept, parted by a node each */
+  const char *columns; /* of a table of edges: both ends' columns, "a,b"; NULL = as it says */
 } thread_read_options;
 THREAD_API void thread_read_options_init(thread_read_options *options, size_t size);
 
@@ -80,17 +75,15 @@ THREAD_API thread_status thread_frame_shape(const char *shape, int size, thread_
                                             thread_error *err);
 THREAD_API void thread_frame_free(thread_frame *frame); /* NULL ok */
 
-THREAD_API int thread_frame_nodes(
-    const thread_frame *frame,
-    const double **xyz); /* count; xyz (NULL ok) receives 3 of each, borrowed */
-THREAD_API int thread_frame_edges(const thread_frame *frame,
-                                  const int **ends); /* the same, 2 nodes of each */
-THREAD_API const char *thread_frame_name(const thread_frame *frame,
-                                         int node); /* borrowed; NULL: there is no such node */
-THREAD_API int thread_frame_find(const thread_frame *frame,
-                                 const char *name); /* -1: there is no such node */
-THREAD_API const char *thread_frame_notes(
-    const thread_frame *frame); /* what reading merged, dropped or found odd, a line each */
+/* Counts; xyz and ends (NULL ok) receive 3 coordinates of each node and 2 nodes of each edge,
+ * borrowed. */
+THREAD_API int thread_frame_nodes(const thread_frame *frame, const double **xyz);
+THREAD_API int thread_frame_edges(const thread_frame *frame, const int **ends);
+/* Names are borrowed. NULL, -1: there is no such node. */
+THREAD_API const char *thread_frame_name(const thread_frame *frame, int node);
+THREAD_API int thread_frame_find(const thread_frame *frame, const char *name);
+/* What reading merged, dropped or found odd, a line each; borrowed. */
+THREAD_API const char *thread_frame_notes(const thread_frame *frame);
 /* Where cord ends may come out with THREAD_FEET; n < 0: the lowest nodes. */
 THREAD_API thread_status thread_frame_set_feet(thread_frame *frame, int n, const int *node,
                                                thread_error *err);

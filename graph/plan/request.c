@@ -2,8 +2,9 @@
 /* The request: what a plan is asked to be, and what it is to have little of, first, second, ...
  *
  *   thr_request o = thr_request_default();
- *   thr_aims_parse("length+5%,turning:sine", &o, &err)   at most 5 % above the least length, and of
- * that the least turning
+ *   thr_aims_parse("length+5%,turning:sine", &o, &err)
+ *
+ * asks for at most 5 % above the least length, and of such plans for the least turning.
  *
  * What is asked of a plan: lists of aims, names, and what options and framework say together. */
 #include "graph/plan/request.h"

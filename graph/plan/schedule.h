@@ -3,11 +3,10 @@
  * knotted. The tension that it leaves in every pass follows from it (eval/cord/history.c), and the
  * checker works it out again.
  *
- *   A: grip 37 18.5 from start      the cord is drawn out at its pass 37, from the side of its
- * start, with 18.5 N A: pull end 20                  its end is pulled with 20 N, and held A:
- * release end 2                its end is let down to 2 N A: knot end 0.5                 its end
- * is tied; the knot gives way by 0.5 mm B: none                         it stays slack: its only
- * step */
+ *   A: grip 37 18.5 from start   is drawn out at its pass 37, from the side of its start, with 18.5
+ * N A: pull end 20               its end is pulled with 20 N, and held A: release end 2 its end is
+ * let down to 2 N A: knot end 0.5              its end is tied; the knot gives way by 0.5 mm B:
+ * none                      stays slack: its only step */
 #ifndef THR_SCHEDULE_H
 #define THR_SCHEDULE_H
 

@@ -16,33 +16,48 @@
  * solver.
  *
  * The model. At both ends of every edge its passes either turn into another edge or end there.
- * Half-edge h (graph/framework/frame.h) also names "edge h/2 seen from its node"; columns are what
- * a plan counts: turn  (a, b)  passes that go between the edges of half-edges a and b, which leave
- * one node     cost: the turn's price extra  e      passes of edge e beyond the cover cost:
- * price_per_length end    h      cord ends that arrive at h's node over h's edge cost: none back h
- * U-turns at a node with one edge (nowhere else are they allowed)                  cost: the price
- * of a U-turn with, for each half-edge h:  sum of turns at h + 2 back(h) + end(h) = cover +
- * extra(h/2),  and sum of ends = 2 cords in every component (none if the cords are closed), or from
+ * Half-edge h (graph/framework/frame.h) also names "edge h/2 seen from its node". The columns
+ * count:
+ *
+ *   turn  (a, b)  passes between the edges of half-edges a and b, which leave one node;
+ *                 cost: the turn's price
+ *   extra e       passes of edge e beyond the cover; cost: price_per_length
+ *   end   h       cord ends that arrive at h's node over h's edge; cost: none
+ *   back  h       U-turns, at a node with one edge only; cost: the price of a U-turn
+ *
+ * The equations are, for each half-edge h,
+ *
+ *   sum of turns at h + 2 back(h) + end(h) = cover + extra(h/2),
+ *
+ * and for the ends: in every component their sum is 2 cords (none if the cords are closed), or from
  * 2 cords_least to 2 cords, or at every node as many as are asked for. Whatever multipliers one
- * puts on such equations, and on inequalities that hold for every plan, the least value of  cost x
- * + multipliers (right side - left side)  over the box of the columns' limits is a lower bound: no
- * condition on the multipliers but their sign. The inequalities are odd set U of half-edges, cover
- * * |U| odd: at least one turn, extra pass or end leaves it. U may hold the ends of a component;
- * group S of edges, connected to the rest: turns that leave S + ends in S >= 2 (one closed cord per
- * component, or open cords; not several closed cords, of which one may be all that is in S);
- * partition of the edges into blocks (closed cords, any number): at a node where b blocks meet, t
- * turns between blocks connect at most (b - 1) / b * (t + half the number of blocks with an odd
- * number of passes there) of them, because a block with an even number has 2 turns to others or
- * none. Passes of a block with an even number of edges at the node (times cover) are odd only if it
- * has an extra pass there. A closed cord connects all blocks that it passes, and the cords of a
- * component pass all of its blocks, so with k cords the blocks of a component fall into at most k
- * connected parts: the sum over all nodes is at least the sum over the components of max(0, blocks
- * - k); rank: the same partitions, but at nodes of 2 to THR_RANK_DEGREE edges the connections are
- * counted exactly (graph/plan/turning_proof.h); then the turns of such a node are a problem of
- * their own, in which every half-edge has one; junction (tube joints only): the edges at a node in
- * b blocks: at least b - 1 turns go between different blocks; the limit on the extra length. With
- * tube joints nothing turns back, and nothing but the passes need cost: then this is the proof of
- * least length. A tree of bounds on single columns turns this into an exact method: the proved
+ * puts on such equations, and on inequalities that hold for every plan, the least value of
+ *
+ *   cost x + multipliers (right side - left side)
+ *
+ * over the box of the columns' limits is a lower bound: no condition on the multipliers but their
+ * sign. The inequalities are:
+ *
+ *   odd        A set U of half-edges with cover * |U| odd: at least one turn, extra pass or end
+ *              leaves U. U may hold the ends of a component.
+ *   group      A set S of edges, connected to the rest: turns that leave S + ends in S >= 2 (one
+ *              closed cord per component, or open cords; not several closed cords, of which one may
+ *              be all that is in S).
+ *   partition  The edges in blocks (closed cords, any number). At a node where b blocks meet, t
+ *              turns between blocks connect at most (b - 1) / b * (t + half the number of blocks
+ *              with an odd number of passes there) of them, because a block with an even number has
+ *              2 turns to others or none. Passes of a block with an even number of edges at the
+ * node (times cover) are odd only if the block has an extra pass there. A closed cord connects all
+ * blocks that it passes, and the cords of a component pass all of its blocks, so with k cords the
+ * blocks of a component fall into at most k connected parts: the sum over all nodes is at least the
+ * sum over the components of max(0, blocks - k). rank       The same partitions, but at nodes of 2
+ * to THR_RANK_DEGREE edges the connections are counted exactly; the turns of such a node are then a
+ * problem of their own, in which every half-edge has one. junction   Tube joints only, the edges at
+ * a node in b blocks: at least b - 1 turns go between different blocks. length     The limit on the
+ * extra length.
+ *
+ * With tube joints nothing turns back, and nothing but the passes need cost: then this is the proof
+ * of least length. A tree of bounds on single columns turns this into an exact method: the proved
  * bound is the least over its leaves. */
 
 typedef enum {

@@ -5,8 +5,9 @@
  * breaks.
  *
  *   thr_limits limits = {.threads = 2};
- *   st = thr_threads_run(n_rows, solve_row, rows, &limits, &err);   solve_row(rows, 0, ..) ..
- * solve_row(rows, n_rows - 1, ..)
+ *   st = thr_threads_run(n_rows, solve_row, rows, &limits, &err);
+ *
+ * calls solve_row(rows, 0, ..) .. solve_row(rows, n_rows - 1, ..).
  *
  * What libraries allow: an igraph with thread-local storage, nauty's sparse functions and Bullet
  * are used from any thread, each with its own objects. GLPK's environment is the thread's, and a

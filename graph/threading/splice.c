@@ -2,12 +2,11 @@
 /* Walks cut into sections that are joined anew. Whatever is done to walks, to cut one, join two,
  * exchange parts of them, turn a part round or lead one over further passes, is a list of sections:
  *
- *   thr_splice s = thr_splice_of(true, &w->walk[a], &w->walk[b]);          two closed walks
- *   thr_splice_put(&s, 0, 0, i, false);                                    the first one as far as
- * its pass number i, thr_splice_put(&s, 1, 0, w->walk[b].n, true);                          the
- * other one backwards, thr_splice_put(&s, 0, i, w->walk[a].n, false);                         and
- * the rest of the first: st = thr_splice_make(&s, f, w, a, b, NULL, NULL, err);                 one
- * walk, number a */
+ *   thr_splice s = thr_splice_of(true, &w->walk[a], &w->walk[b]);   two closed walks
+ *   thr_splice_put(&s, 0, 0, i, false);                   the first one up to its pass i,
+ *   thr_splice_put(&s, 1, 0, w->walk[b].n, true);         the other one backwards,
+ *   thr_splice_put(&s, 0, i, w->walk[a].n, false);        and the rest of the first:
+ *   st = thr_splice_make(&s, f, w, a, b, NULL, NULL, err);   one walk, number a */
 #include "graph/threading/threading.h"
 
 #include <stdlib.h>
