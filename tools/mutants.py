@@ -123,13 +123,27 @@ def hidden(tokens):
     return out
 
 
+def statement_around(source, at):
+    """The lines of a statement in one, however they are broken."""
+    begin = source.rfind("\n", 0, at) + 1
+    while begin > 0 and re.search(r"[^;{}\s]\s*\Z", source[:begin]) and not re.search(r"(\*/|:|^#.*)\s*\Z", source[:begin].rsplit("\n", 2)[-2]):
+        begin = source.rfind("\n", 0, begin - 1) + 1
+    end = source.find("\n", at)
+    while end >= 0 and not re.search(r"[;{}:]\s*(/\*.*\*/\s*)?\Z", source[begin:end]) and source[end + 1:end + 2].strip() == "":
+        following = source.find("\n", end + 1)
+        if following < 0 or not source[end:following].strip():
+            break
+        end = following
+    return " ".join(source[begin:end if end >= 0 else None].split())
+
+
 class Mutant:
     """One change: file[start:end] becomes `new`."""
 
     def __init__(self, path, source, start, end, operator, new, number=0, name=None):
         self.path, self.start, self.end, self.operator, self.new, self.name = path, start, end, operator, new, name
         self.line = source.count("\n", 0, start) + 1
-        self.text = source.split("\n")[self.line - 1].strip()
+        self.text = statement_around(source, start)
         self.number = number  # among those with this line's text and this operator, in the whole file
         self.verdict, self.killer, self.seconds = None, "", 0.0
 
@@ -227,10 +241,11 @@ def named_mutants(sources):
     out = []
     for name, path, old, new in read_list("named.txt"):
         source = sources(path)
-        if source.count(old) != 1:
-            raise SystemExit(f"tools/mutants/named.txt: {name}: \"{old}\" stands {source.count(old)} times in {path}; expected once")
-        start = source.index(old)
-        out.append(Mutant(path, source, start, start + len(old), "named", new, 1, name))
+        # However the lines are broken, between words and within a text.
+        found = list(re.finditer(r"\s+(?:\"\s+\")?".join(map(re.escape, old.split())), source))
+        if len(found) != 1:
+            raise SystemExit(f"tools/mutants/named.txt: {name}: \"{old}\" stands {len(found)} times in {path}; expected once")
+        out.append(Mutant(path, source, found[0].start(), found[0].end(), "named", new, 1, name))
     return out
 
 
@@ -238,10 +253,10 @@ def mark_equivalent(mutants, whole_files):
     """Those that the list explains; returns the lines that fit none."""
     by_key = {}
     for m in mutants:
-        by_key.setdefault((m.path, m.operator, m.text), []).append(m)
+        by_key.setdefault((m.path, m.operator), []).append(m)
     stale = []
     for path, operator, numbers, text, reason in read_list("equivalent.txt"):
-        found = [m for m in by_key.get((path, operator, text), []) if numbers == "all" or str(m.number) in numbers.split()]
+        found = [m for m in by_key.get((path, operator), []) if text in m.text and (numbers == "all" or str(m.number) in numbers.split())]
         for m in found:
             m.verdict, m.killer = "equivalent", reason
         if not found and path in whole_files:
