@@ -237,23 +237,11 @@ static void report(const thr_branch *branch)
                            ldexp(least, -THR_TURNING_BITS));
 }
 
-/* The shortest passes of closed cords with tube joints. */
-static thr_status match_units(thr_branch *branch, thr_err *err)
-{
-  thr_turning_dual dual;
-  bool found;
-  thr_status st = thr_unit_matching(branch->c, branch->limits, branch->passes, &dual, &found, err);
-  if (st || !found) return st;
-  st = thr_branch_keep_dual(branch, 0, dual, NULL, NULL, err);
-  return st ? st : thr_branch_try(branch, branch->passes, branch->ends, err);
-}
-
 thr_status thr_branch_begin(thr_branch *branch, thr_err *err)
 {
   thr_status st = thr_branch_init_tree(branch, err);
-  bool matching = branch->projected ? !branch->c->task->end_allowed : !branch->c->task->tube;
-  if (st || !matching) return st;
-  st = branch->projected ? match_units(branch, err) : thr_branch_match(branch, err);
+  if (st || branch->c->task->tube) return st;
+  st = thr_branch_match(branch, err);
   if (!st && branch->found) report(branch);
   return st;
 }

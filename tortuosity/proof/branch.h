@@ -218,10 +218,9 @@ thr_status thr_branch_anneal(thr_branch *branch, const thr_limits *limits, int r
 thr_status thr_branch_anneal_turns(thr_branch *branch, const thr_limits *limits,
                                    thr_err *err) THR_MUST_CHECK;
 
-/* The bound of a matching, and its plan: of all turns without connectedness, if that hangs together
- * (tortuosity/proof/branch_match.c); of the shortest closed cords with tube joints
- * (tortuosity/proof/unit_matching.c). Others begin without. thr_branch_run does it if nobody has.
- */
+/* Solid joints: the bound of a matching of all turns without connectedness, and its plan, if that
+ * hangs together (tortuosity/proof/branch_match.c). Tube joints begin without. thr_branch_run does
+ * it if nobody has. */
 thr_status thr_branch_begin(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 thr_status thr_branch_match(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 

@@ -6,6 +6,7 @@
  * of a half-edge h, the pass matched out of it is one of these, and its row is no more than a part
  * of the equation of h: then the potential takes its value, divided by the cover. With cord ends it
  * is the same. */
+#include "graph/scratch.h"
 #include "graph/sort.h"
 #include "tortuosity/proof/relax_parts.h"
 

@@ -64,8 +64,7 @@ static thr_status search(const thr_turning_columns *turning_columns, const thr_r
   thr_status st = thr_branch_init(&branch, turning_columns, most_nodes, limits, err);
   if (st) return st;
   branch.projected = projected;
-  st = projected ? thr_branch_begin(&branch, err) : THR_OK;
-  if (!st && !thr_branch_proved(&branch)) st = begin(&branch, tube, err);
+  st = begin(&branch, tube, err);
   if (!st) st = thr_branch_run(&branch, err);
   if (!st && branch.found) {
     thr_cords_destroy(tube->cord, tube->n_cords);
