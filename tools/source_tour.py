@@ -23,7 +23,7 @@ def first_sentence(path):
     with open(path, encoding="utf-8") as f:
         text = f.read()
     found = re.match(r"(?:/\* SPDX[^\n]*\n)?/\*(.*?)\*/", text, re.DOTALL)
-    if not found:
+    if not found or found.group(1).startswith(" SPDX"):
         return None
     words = re.sub(r"\s*\n \*[ ]?", "\n", found.group(1)).split("\n\n")[0].replace("\n", " ").strip()
     end = re.search(r"(?<=[a-z)\"0-9][a-z)\"0-9])[.](?=\s|$)", words)
