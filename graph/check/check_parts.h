@@ -166,6 +166,11 @@ thr_status thr_check_shares(const thr_turning_columns *columns, int cords,
                             const thr_turning_proof *tree, double *all, double *largest,
                             thr_err *err) THR_MUST_CHECK;
 
+/* Returns what the harder of two pulled ends of the cord has to overcome, rad, if the cord is
+ * thought to be cut at the turn where that is least (docs/plan-format.md). at_pass: as in version 1
+ * the turn at the cut belongs to the first part. O(passes). */
+double thr_check_pulled_turning(const thr_frame *frame, const thr_cord *cord, bool at_pass);
+
 /* Checks that no cord needs more pull than the options allow. */
 thr_status thr_check_pulls(const thr_frame *frame, const thr_request *options, const thr_cord *cord,
                            int n_cords, thr_err *err) THR_MUST_CHECK;

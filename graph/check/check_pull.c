@@ -20,9 +20,7 @@ static const double rounding = 1e-9;
 
 /* ---- the cords ---- */
 
-/* Returns the larger part of a cord's turning, rad, if the cord is cut where that part is least: at
- * a turn or, for plans of version 1, at a pass. */
-static double larger_part(const thr_frame *frame, const thr_cord *cord, bool at_pass)
+double thr_check_pulled_turning(const thr_frame *frame, const thr_cord *cord, bool at_pass)
 {
   double whole = 0, before = 0;
   for (int k = 1; k < cord->n_passes; k++)
@@ -44,7 +42,7 @@ thr_status thr_check_pulls(const thr_frame *frame, const thr_request *options, c
 {
   const double mu = options->physics.mu;
   for (int i = 0; i < n_cords && options->max_pull > 0; i++) {
-    double exponent = mu * larger_part(frame, &cord[i], options->old_pull),
+    double exponent = mu * thr_check_pulled_turning(frame, &cord[i], options->old_pull),
            most = log(options->max_pull);
 
     if (exponent > most + rounding * (1 + most))

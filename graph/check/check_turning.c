@@ -103,23 +103,6 @@ static thr_status price_cord(const walked_cords *walked, const thr_cord *cord, d
   return THR_OK;
 }
 
-/* Returns the turning, rad, that the harder of two pulled ends has to overcome (least pull:
- * docs/plan-format.md). */
-static double pulled_turning(const thr_frame *frame, const thr_cord *cord)
-{
-  double whole = 0;
-  for (int k = 1; k < cord->n_passes; k++)
-    whole += thr_check_angle(frame, cord->half[k - 1], cord->half[k]);
-
-  /* The cord is cut at the turn where the larger part is least. */
-  thr_least_pull_walk walk = thr_least_pull_begin(whole);
-  for (int k = 1; k < cord->n_passes; k++)
-    if (!thr_least_pull_next(&walk, thr_check_angle(frame, cord->half[k - 1], cord->half[k])))
-      break;
-
-  return walk.larger;
-}
-
 /* ---- turns that are all multiples of one angle ---- */
 
 enum { MOST_PARTS = 180, SEEN = 16 };
@@ -199,8 +182,9 @@ static thr_status judge_cords(const walked_cords *walked, thr_turning_claim *fou
     found->price += price;
     *largest_price = fmax(*largest_price, price);
     found->largest =
-        fmax(found->largest,
-             thr_wants_pull(walked->request) ? pulled_turning(frame, &walked->cord[i]) : price);
+        fmax(found->largest, thr_wants_pull(walked->request)
+                                 ? thr_check_pulled_turning(frame, &walked->cord[i], false)
+                                 : price);
   }
 
   /* No more passes over an edge, and no more length, than the proof allows. */

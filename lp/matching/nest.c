@@ -190,7 +190,7 @@ typedef struct {
   int *last_open;    /* [n_sets] last of them */
   int *waiting;      /* [cuts] the next one in the list, or -1 */
   thr_cut *cut;
-  int n_cuts, capacity;
+  int n_cuts;
   int64_t sum;
 } moat_cutter;
 
@@ -211,7 +211,6 @@ static thr_status cutter_init(moat_cutter *cutter, thr_err *err)
 
   /* Each cut is the outermost of its set or ends at the depth of a place. */
   size_t most = (size_t)cutter->flood->n_reached + sets;
-  cutter->capacity = (int)most;
   cutter->cut = thr_calloc(most, sizeof *cutter->cut);
   cutter->waiting = thr_scratch_array(&cutter->own, most, sizeof *cutter->waiting);
   if (!cutter->cut) return thr_nomem(err);

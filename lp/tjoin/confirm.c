@@ -122,7 +122,7 @@ static thr_status solve_on_cuts(const thr_confirm_job *confirm_job, const thr_li
 
 /* What the child has found out so far. */
 typedef struct {
-  int confirmed, skipped;
+  int confirmed;
   bool refuted; /* the job after those counted */
 } verdicts;
 
@@ -138,10 +138,7 @@ static thr_status confirm(const thr_confirm_job *confirm_job, const thr_limits *
   if (st == THR_ENOMEM) return thr_nomem(err);
 
   /* A failure of the library says nothing about the join. */
-  if (st || outcome == THR_LP_STOPPED || outcome == THR_LP_UNDECIDED) {
-    counts->skipped++;
-    return THR_OK;
-  }
+  if (st || outcome == THR_LP_STOPPED || outcome == THR_LP_UNDECIDED) return THR_OK;
 
   /* Rounding of the cuts' values may leave the minimum less than 1 below the weight. */
   counts->refuted = outcome != THR_LP_OPTIMAL || value > (double)confirm_job->length ||
