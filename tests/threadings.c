@@ -68,7 +68,7 @@ static void add_snake(thr_plan *p, int n, int *node)
   add_cord(p, node, 2 * last + 1);
 }
 
-thr_plan threading_make(const thr_frame *dome, int n, threading kind)
+thr_plan threading_make(const thr_frame *dome, int n, threading_kind kind)
 {
   thr_plan p = {.options = options_for(THR_ENDS_ANY, 1)};
   p.options.order = THR_ORDER_PLANNED;

@@ -174,7 +174,7 @@ START_TEST(rough_cords_are_never_hopeless)
 }
 END_TEST
 
-static thr_plan dome_plan(int side, threading kind)
+static thr_plan dome_plan(int side, threading_kind kind)
 {
   thr_frame dome = shape_make(THR_MAKE_DOME, side, 0);
   const thr_plan p = threading_make(&dome, side, kind);
@@ -235,7 +235,7 @@ END_TEST
 START_TEST(large_domes_are_decided)
 {
   enum { SIDE = 20 };
-  thr_plan p = dome_plan(SIDE, (threading)_i);
+  thr_plan p = dome_plan(SIDE, (threading_kind)_i);
   thr_eval e;
   thr_err err;
   ck_assert_msg(eval_at(&p, 0.2, 0.2, &e, &err) == THR_OK, "%s", err.text);

@@ -12,7 +12,7 @@
 START_TEST(file_is_what_is_made)
 {
   thr_frame dome = frame_load("data/dome7.json", NULL);
-  thr_plan made = threading_make(&dome, 7, (threading)_i);
+  thr_plan made = threading_make(&dome, 7, (threading_kind)_i);
   made.generator = thr_strdup("made by hand");
   made.options.old_pull = true; /* data/ keeps plans of version 1 */
   char path[64];
@@ -40,7 +40,7 @@ START_TEST(turning_on_a_flat_grid)
   const double quarters[N_THREADINGS] = {
       0, 0, 4 * (N - 1) + 1}; /* snake: and from rows to columns; stairs: below */
   for (int kind = 0; kind < N_THREADINGS; kind++) {
-    thr_plan p = threading_make(&flat, N, (threading)kind);
+    thr_plan p = threading_make(&flat, N, (threading_kind)kind);
     double expected = quarters[kind];
     if (kind == THREAD_STAIRS) {
       expected = 0;

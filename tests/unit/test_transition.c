@@ -17,7 +17,7 @@
 typedef struct {
   thr_multigraph g;
   int *mate;
-} threading;
+} tour_of_all;
 
 static int *constant(int n, int value)
 {
@@ -28,9 +28,10 @@ static int *constant(int n, int value)
   return a;
 }
 
-static threading thread_make(const thr_frame *f, const int *passes, const int (*end)[2], int n_ends)
+static tour_of_all thread_make(const thr_frame *f, const int *passes, const int (*end)[2],
+                               int n_ends)
 {
-  threading t;
+  tour_of_all t;
   thr_err err = {0};
   ck_assert_int_eq(thr_multigraph_init(&t.g, f, 0, passes, end, n_ends, &err), THR_OK);
   t.mate = constant(t.g.n_darts, -1);
@@ -38,13 +39,13 @@ static threading thread_make(const thr_frame *f, const int *passes, const int (*
   return t;
 }
 
-static void thread_destroy(threading *t)
+static void thread_destroy(tour_of_all *t)
 {
   thr_multigraph_destroy(&t->g);
   free(t->mate);
 }
 
-static void assert_pairing(const threading *t)
+static void assert_pairing(const tour_of_all *t)
 {
   for (int d = 0; d < t->g.n_darts; d++) {
     int m = t->mate[d];
@@ -62,7 +63,7 @@ static double price_of(const thr_frame *f, const thr_multigraph *g, int a, int b
                                           : price + thr_turn_angle(f, g->half[a] ^ 1, g->half[b]);
 }
 
-static double price_at(const thr_frame *f, const threading *t, int v)
+static double price_at(const thr_frame *f, const tour_of_all *t, int v)
 {
   double sum = 0;
   for (int i = t->g.first[v]; i < t->g.first[v + 1]; i++)
@@ -70,7 +71,7 @@ static double price_at(const thr_frame *f, const threading *t, int v)
   return sum;
 }
 
-static int count_u_turns(const threading *t)
+static int count_u_turns(const tour_of_all *t)
 {
   int n = 0;
   for (int d = 0; d < t->g.n_darts; d++)
@@ -78,7 +79,7 @@ static int count_u_turns(const threading *t)
   return n;
 }
 
-static int count_circuits(const threading *t)
+static int count_circuits(const tour_of_all *t)
 {
   int *out = constant(t->g.n_darts, 0), *seen = constant(t->g.n_darts, 0), circuits = 0, n;
   for (int d = 0; d < t->g.n_darts; d++) {
@@ -203,7 +204,7 @@ START_TEST(small_nodes_are_paired_at_least_price)
   thr_frame f = random_frame(&r, rng_between(&r, 4, 9), rng_below(&r, 12), LENGTHS_EUCLID);
   int end[1][2] = {{0, f.n_nodes - 1}},
       *passes = even_passes(&r, &f, rng_between(&r, 1, 2), end[0]);
-  threading t = thread_make(&f, passes, (const int(*)[2])end, 1);
+  tour_of_all t = thread_make(&f, passes, (const int(*)[2])end, 1);
   assert_pairing(&t);
   for (int v = 0; v < f.n_nodes; v++) {
     int n = t.g.first[v + 1] - t.g.first[v];
@@ -237,7 +238,7 @@ START_TEST(join_leaves_one_circuit_and_no_new_u_turn)
   rng r = rng_make((uint64_t)_i + 300);
   thr_frame f = random_frame(&r, rng_between(&r, 3, 30), rng_below(&r, 40), LENGTHS_EUCLID);
   int *passes = even_passes(&r, &f, rng_between(&r, 1, 3), NULL);
-  threading t = thread_make(&f, passes, NULL, 0);
+  tour_of_all t = thread_make(&f, passes, NULL, 0);
   int before = count_u_turns(&t), *again = constant(t.g.n_darts, -1);
   double(*four)[3] = calloc((size_t)f.n_nodes, sizeof *four);
   ck_assert_int_eq(thr_transition_pair(&f, &t.g, again, four, NULL), THR_OK);
@@ -260,7 +261,7 @@ START_TEST(octahedron_pairs_straight_then_joins)
 {
   thr_frame f = solid_make(OCTAHEDRON);
   int *passes = constant(12, 1);
-  threading t = thread_make(&f, passes, NULL, 0);
+  tour_of_all t = thread_make(&f, passes, NULL, 0);
   double turning = 0;
   for (int v = 0; v < 6; v++)
     turning += price_at(&f, &t, v);
@@ -351,7 +352,7 @@ START_TEST(exchanges_do_what_they_say)
       ends[2][2] = {{odd[0], f.n_nodes}, {odd[1], f.n_nodes}};
   bool open = _i % 2;
   int *passes = even_passes(&r, &f, rng_between(&r, 1, 2), open ? odd : NULL);
-  threading made = {.mate = NULL};
+  tour_of_all made = {.mate = NULL};
   ck_assert_int_eq(
       thr_multigraph_init(&made.g, &f, 1, passes, (const int(*)[2])ends, open ? 2 : 0, NULL),
       THR_OK);
@@ -458,7 +459,7 @@ START_TEST(spliced_walks_keep_their_passes_and_count_their_turns)
 }
 END_TEST
 
-static double price_of_all(const thr_frame *f, const threading *t)
+static double price_of_all(const thr_frame *f, const tour_of_all *t)
 {
   double sum = 0;
   for (int v = 0; v < f->n_nodes; v++)
@@ -472,7 +473,7 @@ START_TEST(circuits_as_walks_and_walks_as_circuits)
   rng r = rng_make((uint64_t)_i + 1500);
   thr_frame f = random_frame(&r, rng_between(&r, 3, 12), rng_below(&r, 16), LENGTHS_EUCLID);
   int *passes = even_passes(&r, &f, rng_between(&r, 1, 3), NULL), *next = constant(f.n_edges, 0);
-  threading t = thread_make(&f, passes, NULL, 0);
+  tour_of_all t = thread_make(&f, passes, NULL, 0);
   int wanted = count_circuits(&t);
   thr_walks w = {0}, again = {0};
   double price = price_of_all(&f, &t);
@@ -502,7 +503,7 @@ START_TEST(equal_passes_join_their_circuits)
   thr_frame f = ring_make(7);
   int *passes = constant(7, 2), circuit[28], parent[28], next[7];
   const int ring[] = {0, 2, 4, 6, 8, 10, 12};
-  threading t = thread_make(&f, passes, NULL, 0);
+  tour_of_all t = thread_make(&f, passes, NULL, 0);
   thr_transition_copies(&f, &t.g, next);
   for (int i = 0; i < 2; i++)
     thr_transition_walk(&f, &t.g, ring, 7, false, next, t.mate);
@@ -625,7 +626,7 @@ START_TEST(hub_whose_darts_all_pair_badly_is_joined_fast)
 {
   thr_frame f = star_make(20000);
   int *passes = constant(f.n_edges, 2);
-  threading t = thread_make(&f, passes, NULL, 0);
+  tour_of_all t = thread_make(&f, passes, NULL, 0);
   ck_assert_int_eq(thr_transition_join(&f, &t.g, t.mate, NULL, 0, NULL), THR_OK);
   ck_assert_int_eq(count_circuits(&t), 1);
   thread_destroy(&t);
