@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How many cords, and from where: a plan for every number of cords and kind of ends that may be
- * worth it, and a choice among them.
+/* Advises how many cords to take, and where they should end: makes a plan for every number of
+ * cords and kind of ends that may pay, as rows of a table, and chooses one of the rows
+ * (graph/plan/advice.h).
  *
- *   thr_advice advice;
- *   thr_status st = thr_advise(&frame, &request, &(thr_advise_options){.hand = thr_hand_always},
- * &limits, &advice, &err); if (!st && advice.chosen >= 0) printf("%d cords\n",
- * advice.row[advice.chosen].cords); thr_advice_destroy(&advice);
+ * Each row starts from the plan with one cord in every component, cut evenly, or from symmetric
+ * cords, and is then searched for as far as the time allows. Numbers grow as 1, 2, 3, 4, 6, 8, 12,
+ * .. until more cords no longer lower the pull. Frameworks of many edges or components are cut
+ * only. Several components get rows of their own, which are joined: each component takes as few
+ * cords as the pull of the hardest one allows.
  *
- * Rows of advice: plans for more and more cords, each from the cords of the plan with one, cut
- * evenly, or from symmetric cords.
- */
+ * Example: thr_advise(&frame, &request, &(thr_advise_options){.hand = thr_hand_always}, &limits,
+ * &advice, &err) leaves the chosen row in advice.row[advice.chosen], or advice.chosen = -1 where
+ * there is none; release with thr_advice_destroy(&advice). */
 #include "graph/framework/components.h"
 #include "graph/plan/physics.h"
 #include "planner/planner_parts.h"
@@ -36,7 +38,7 @@ typedef struct {
   bool over;                 /* no more cords than were tried have a plan */
   double pull;               /* least so far, N at mu */
   int idle;                  /* numbers of cords in a row that bought nothing */
-} kind;
+} ends_kind;
 
 typedef struct {
   const thr_frame *frame;
@@ -47,7 +49,7 @@ typedef struct {
   int room;        /* for rows */
   bool searches;   /* is the framework, of few components, small enough for searches? */
   thr_advice *out;
-} adviser;
+} advice_search;
 
 /* ---- learned steps ---- */
 
@@ -57,8 +59,11 @@ static bool is_image(const thr_frame *frame, const int *image, const thr_cord *a
 {
   int n = a->n_passes;
   if (b->n_passes != n) return false;
+
   bool forwards = image[thr_cord_start(frame, a)] == thr_cord_start(frame, b);
   bool backwards = image[thr_cord_start(frame, a)] == thr_cord_end(frame, b);
+
+  /* Follow both cords pass by pass, as long as one of the two directions still agrees. */
   for (int k = 0; k < n && (forwards || backwards); k++) {
     int node = image[thr_head(frame, a->half[k])];
     forwards &= node == thr_head(frame, b->half[k]);
@@ -67,64 +72,74 @@ static bool is_image(const thr_frame *frame, const int *image, const thr_cord *a
   return forwards || backwards;
 }
 
-static bool is_copy(const adviser *x, const thr_cord *cord, const thr_cord *earlier)
+/* Tells whether cord is the image of the earlier cord under one of the automorphisms. */
+static bool is_copy(const advice_search *adviser, const thr_cord *cord, const thr_cord *earlier)
 {
-  for (int g = 1; g < x->group.order; g++)
-    if (is_image(x->frame, x->group.image + (size_t)g * (size_t)x->group.degree, earlier, cord))
+  for (int g = 1; g < adviser->group.order; g++)
+    if (is_image(adviser->frame, adviser->group.image + (size_t)g * (size_t)adviser->group.degree,
+                 earlier, cord))
       return true;
   return false;
 }
 
 /* Passes of the cords that are copies of none before them, and their ends where those may be
  * anywhere. */
-static int learned(const adviser *x, const thr_plan *plan)
+static int learned(const advice_search *adviser, const thr_plan *plan)
 {
   const thr_cord *cord = plan->cord;
   const int n = plan->n_cords, ends = plan->options.ends == THR_ENDS_ANY ? 2 : 0;
   int steps = 0;
+
   for (int i = 0; i < n; i++) {
     bool copy = false;
     for (int j = 0; j < i && !copy; j++)
-      copy = is_copy(x, &cord[i], &cord[j]);
+      copy = is_copy(adviser, &cord[i], &cord[j]);
     if (!copy) steps += cord[i].n_passes + (cord[i].closed ? 0 : ends);
   }
   return steps;
 }
 
-static thr_status find_group(adviser *x, thr_err *err)
+/* Finds the group of all automorphisms if the group is small; else every cord counts as learned. */
+static thr_status find_group(advice_search *adviser, thr_err *err)
 {
   const thr_automorphism_options all_alike = {0};
-  const thr_limits share = thr_limits_part(x->limits, part_group);
+  const thr_limits share = thr_limits_part(adviser->limits, part_group);
   thr_automorphisms found = {0};
   thr_err why = {0};
   bool all;
-  thr_status st = thr_automorphisms_within(x->frame, &all_alike, &share, &all, &found, &why);
+
+  thr_status st = thr_automorphisms_within(adviser->frame, &all_alike, &share, &all, &found, &why);
   if (!st && all && found.exponent == 0 && found.mantissa <= MOST_ORDER)
-    st = thr_group_generate(found.n, found.generator, found.n_generators, MOST_ORDER, &x->group,
-                            &why);
+    st = thr_group_generate(found.n, found.generator, found.n_generators, MOST_ORDER,
+                            &adviser->group, &why);
+
   thr_automorphisms_destroy(&found);
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* without a group every cord is learned */
 }
 
 /* ---- rows ---- */
 
-static thr_advice_row *find_row(const adviser *x, const kind *k, int cords)
+static thr_advice_row *find_row(const advice_search *adviser, const ends_kind *kind, int cords)
 {
-  for (int i = 0; i < x->out->n; i++)
-    if (x->out->row[i].ends == k->ends && x->out->row[i].cords == cords) return &x->out->row[i];
+  for (int i = 0; i < adviser->out->n; i++)
+    if (adviser->out->row[i].ends == kind->ends && adviser->out->row[i].cords == cords)
+      return &adviser->out->row[i];
   return NULL;
 }
 
-static thr_status new_row(adviser *x, thr_advice_row **row, thr_err *err)
+/* Appends an empty row, and makes space for more rows where the array is full. */
+static thr_status new_row(advice_search *adviser, thr_advice_row **row, thr_err *err)
 {
-  thr_advice *out = x->out;
-  if (out->n == x->room) {
-    int room = 2 * x->room + 16;
+  thr_advice *out = adviser->out;
+
+  if (out->n == adviser->room) {
+    int room = 2 * adviser->room + 16;
     thr_advice_row *more = thr_realloc(out->row, (size_t)room, sizeof *more);
     if (!more) return thr_nomem(err);
     out->row = more;
-    x->room = room;
+    adviser->room = room;
   }
+
   *row = &out->row[out->n++];
   **row = (thr_advice_row){.turning = INFINITY};
   return THR_OK;
@@ -132,176 +147,215 @@ static thr_status new_row(adviser *x, thr_advice_row **row, thr_err *err)
 
 /* Sets what the ends of the cord that is hardest to pull take. reach, other: rad that they have to
  * overcome. */
-static void set_pulls(const adviser *x, double reach, double other, thr_advice_row *row)
+static void set_pulls(const advice_search *adviser, double reach, double other, thr_advice_row *row)
 {
   double pull[THR_ADVICE_PULLS];
-  thr_advice_pulls(&x->out->physics, other, pull);
+  thr_advice_pulls(&adviser->out->physics, other, pull);
+
   row->other = pull[THR_ADVICE_MU];
-  thr_advice_pulls(&x->out->physics, reach, row->pull);
+  thr_advice_pulls(&adviser->out->physics, reach, row->pull);
 }
 
-static void measure_row(adviser *x, const kind *k, const thr_plan *plan, thr_advice_row *row)
+/* Fills a row with what the cords of the plan measure. */
+static void measure_row(advice_search *adviser, const ends_kind *kind, const thr_plan *plan,
+                        thr_advice_row *row)
 {
-  double other, reach = thr_cords_pulled_turnings(x->frame, plan->cord, plan->n_cords, &other);
-  row->ends = k->ends;
+  double other,
+      reach = thr_cords_pulled_turnings(adviser->frame, plan->cord, plan->n_cords, &other);
+
+  row->ends = kind->ends;
   row->cords = plan->options.cords;
   row->all = plan->n_cords;
   row->length = plan->metrics.length;
-  row->longest = thr_cords_longest(x->frame, plan->cord, plan->n_cords);
+  row->longest = thr_cords_longest(adviser->frame, plan->cord, plan->n_cords);
   row->turning = plan->metrics.max_turning;
   row->passes = plan->metrics.passes;
-  row->steps = learned(x, plan);
-  set_pulls(x, reach, other, row);
-  x->out->base_length = plan->metrics.base_length;
+  row->steps = learned(adviser, plan);
+
+  set_pulls(adviser, reach, other, row);
+  adviser->out->base_length = plan->metrics.base_length;
 }
 
 /* The row of cuts->plan cut into so many: what measure_row would say of the cords, none of which is
  * a copy. */
-static void measure_cuts(adviser *x, const kind *k, int cords, thr_advice_row *row)
+static void measure_cuts(advice_search *adviser, const ends_kind *kind, int cords,
+                         thr_advice_row *row)
 {
-  const thr_metrics *whole = &k->first.metrics;
-  const thr_parts_measures m = thr_parts_measure(&k->cuts);
-  const int ends = k->ends == THR_ENDS_ANY ? 2 * k->first.n_cords * cords : 0;
-  *row = (thr_advice_row){.ends = k->ends,
+  const thr_metrics *whole = &kind->first.metrics;
+
+  const thr_parts_measures parts = thr_parts_measure(&kind->cuts);
+  const int ends = kind->ends == THR_ENDS_ANY ? 2 * kind->first.n_cords * cords : 0;
+
+  *row = (thr_advice_row){.ends = kind->ends,
                           .cords = cords,
-                          .all = cords * k->first.n_cords,
+                          .all = cords * kind->first.n_cords,
                           .length = whole->length,
-                          .longest = m.longest,
-                          .turning = m.turning,
+                          .longest = parts.longest,
+                          .turning = parts.turning,
                           .passes = whole->passes,
                           .steps = whole->passes + ends};
-  set_pulls(x, m.pulled, m.other, row);
+  set_pulls(adviser, parts.pulled, parts.other, row);
 }
 
 /* Looks what the row buys, and tells it. */
-static void settle_row(adviser *x, kind *k, bool added, thr_advice_row *row, const thr_plan *plan)
+static void settle_row(advice_search *adviser, ends_kind *kind, bool added, thr_advice_row *row,
+                       const thr_plan *plan)
 {
   row->optimal = row->turning <= row->bound * (1 + 1e-9);
-  if (added) k->idle = row->pull[THR_ADVICE_MU] * little < k->pull ? 0 : k->idle + 1;
-  k->pull = fmin(k->pull, row->pull[THR_ADVICE_MU]);
-  if (x->options->row) x->options->row(x->options->user, row, plan);
+
+  /* Count the rows in sequence that lowered the pull too little. */
+  if (added) kind->idle = row->pull[THR_ADVICE_MU] * little < kind->pull ? 0 : kind->idle + 1;
+  kind->pull = fmin(kind->pull, row->pull[THR_ADVICE_MU]);
+  if (adviser->options->row) adviser->options->row(adviser->options->user, row, plan);
 }
 
 /* A row for the cords of plan, or in the place of a row whose cord that turns most turns more.
  * claim: NULL = they were not searched. */
-static thr_status set_row(adviser *x, kind *k, const thr_plan *plan, const thr_turning_claim *claim,
-                          thr_err *err)
+static thr_status set_row(advice_search *adviser, ends_kind *kind, const thr_plan *plan,
+                          const thr_turning_claim *claim, thr_err *err)
 {
-  thr_advice_row *row = find_row(x, k, plan->options.cords);
+  thr_advice_row *row = find_row(adviser, kind, plan->options.cords);
   bool added = !row;
-  thr_status st = added ? new_row(x, &row, err) : THR_OK;
+
+  thr_status st = added ? new_row(adviser, &row, err) : THR_OK;
   if (st) return st;
+
+  /* The row keeps the cords that turn less, and the better of the bounds. */
   const bool better = plan->metrics.max_turning < row->turning;
-  if (better) measure_row(x, k, plan, row);
+  if (better) measure_row(adviser, kind, plan, row);
   if (claim && claim->present) row->bound = fmax(row->bound, claim->largest_bound);
   row->searched |= claim != NULL;
-  settle_row(x, k, added, row, better ? plan : NULL);
+
+  settle_row(adviser, kind, added, row, better ? plan : NULL);
   return THR_OK;
 }
 
 /* The fewest cords that stay within the hand; 0 = none do. */
-static int within(const adviser *x, const kind *k)
+static int within(const advice_search *adviser, const ends_kind *kind)
 {
   int fewest = 0;
-  for (int i = 0; i < x->out->n; i++) {
-    const thr_advice_row *row = &x->out->row[i];
-    if (row->ends == k->ends && thr_advice_within(x->out, row) && (!fewest || row->cords < fewest))
+  for (int i = 0; i < adviser->out->n; i++) {
+    const thr_advice_row *row = &adviser->out->row[i];
+    if (row->ends == kind->ends && thr_advice_within(adviser->out, row) &&
+        (!fewest || row->cords < fewest))
       fewest = row->cords;
   }
   return fewest;
 }
 
 /* The most cords that do not, of fewer than that. */
-static int beyond(const adviser *x, const kind *k, int fewest)
+static int beyond(const advice_search *adviser, const ends_kind *kind, int fewest)
 {
   int most = 0;
-  for (int i = 0; i < x->out->n; i++) {
-    const thr_advice_row *row = &x->out->row[i];
-    if (row->ends == k->ends && row->cords < fewest && row->cords > most) most = row->cords;
+  for (int i = 0; i < adviser->out->n; i++) {
+    const thr_advice_row *row = &adviser->out->row[i];
+    if (row->ends == kind->ends && row->cords < fewest && row->cords > most) most = row->cords;
   }
   return most;
 }
 
-static thr_request request_of(const adviser *x, const kind *k, int cords)
+static thr_request request_of(const advice_search *adviser, const ends_kind *kind, int cords)
 {
-  thr_request request = x->request;
-  request.ends = k->ends;
+  thr_request request = adviser->request;
+  request.ends = kind->ends;
   request.cords = request.cords_least = cords;
   return request;
 }
 
 /* The better of the cords cut from one, and of the symmetric ones if there are any of that number.
  * It may stay empty. */
-static thr_status find_seed(const adviser *x, kind *k, const thr_request *request,
-                            const thr_limits *limits, thr_plan *seed, thr_err *err)
+static thr_status find_seed(const advice_search *adviser, ends_kind *kind,
+                            const thr_request *request, const thr_limits *limits, thr_plan *seed,
+                            thr_err *err)
 {
   thr_plan symmetric = {0};
   thr_err why = {0};
-  int row = thr_symmetries_even(&k->symmetries, request->cords);
+
+  int row = thr_symmetries_even(&kind->symmetries, request->cords);
   thr_request plain = *request;
   plain.aims = thr_aims_symmetric;
-  thr_status st = request->cords > 1 ? thr_cut_seed(&k->first, request, seed, err) : THR_OK;
+
+  /* Cut the plan with one cord evenly, and take the symmetric row of this number. */
+  thr_status st = request->cords > 1 ? thr_cut_seed(&kind->first, request, seed, err) : THR_OK;
   if (!st && row >= 0)
-    st = thr_symmetries_plan(&k->symmetries, row, x->frame, &plain, limits, &symmetric, &why);
+    st = thr_symmetries_plan(&kind->symmetries, row, adviser->frame, &plain, limits, &symmetric,
+                             &why);
+
+  /* The symmetric cords win ties, because they are easier to learn. */
   if (symmetric.n_cords > 0 && (seed->n_cords == 0 || symmetric.metrics.max_turning <=
                                                           seed->metrics.max_turning * (1 + 1e-9))) {
     thr_plan cut = *seed;
     *seed = symmetric;
     symmetric = cut;
   }
+
   thr_plan_destroy(&symmetric);
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
 }
 
 /* A row without a search where no cords can be copies, or symmetric: without looking at the cords
  * themselves. */
-static thr_status cut_large(adviser *x, kind *k, int cords, thr_err *err)
+static thr_status cut_large(advice_search *adviser, ends_kind *kind, int cords, thr_err *err)
 {
-  const thr_request request = request_of(x, k, cords);
+  const thr_request request = request_of(adviser, kind, cords);
   thr_advice_row *row;
-  thr_status st = k->cuts.plan ? THR_OK : thr_parts_open(&k->cuts, &k->first, &request, err);
-  if (st || find_row(x, k, cords) || !thr_parts_into(&k->cuts, cords)) return st;
-  if ((st = new_row(x, &row, err))) return st;
-  measure_cuts(x, k, cords, row);
-  settle_row(x, k, true, row, NULL);
+
+  /* Cut the cords only once; without such cuts there is no row. */
+  thr_status st =
+      kind->cuts.plan ? THR_OK : thr_parts_open(&kind->cuts, &kind->first, &request, err);
+  if (st || find_row(adviser, kind, cords) || !thr_parts_into(&kind->cuts, cords)) return st;
+
+  if ((st = new_row(adviser, &row, err))) return st;
+  measure_cuts(adviser, kind, cords, row);
+  settle_row(adviser, kind, true, row, NULL);
   return THR_OK;
 }
 
 /* A row without a search, if there are cords for one. */
-static thr_status cut_cords(adviser *x, kind *k, int cords, thr_err *err)
+static thr_status cut_cords(advice_search *adviser, ends_kind *kind, int cords, thr_err *err)
 {
-  if (!x->searches) return cut_large(x, k, cords, err);
-  const thr_request request = request_of(x, k, cords);
+  if (!adviser->searches) return cut_large(adviser, kind, cords, err);
+
+  const thr_request request = request_of(adviser, kind, cords);
   thr_plan seed = {0};
-  thr_status st = find_seed(x, k, &request, x->limits, &seed, err);
-  if (!st && seed.n_cords > 0) st = set_row(x, k, &seed, NULL, err);
+  thr_status st = find_seed(adviser, kind, &request, adviser->limits, &seed, err);
+  if (!st && seed.n_cords > 0) st = set_row(adviser, kind, &seed, NULL, err);
   thr_plan_destroy(&seed);
   return st;
 }
 
 /* A row by a search, from the cords that there are without one. */
-static thr_status search_cords(adviser *x, kind *k, int cords, double part, thr_err *err)
+static thr_status search_cords(advice_search *adviser, ends_kind *kind, int cords, double part,
+                               thr_err *err)
 {
-  const thr_request request = request_of(x, k, cords);
-  const thr_limits share = thr_limits_part(x->limits, part);
+  const thr_request request = request_of(adviser, kind, cords);
+
+  const thr_limits share = thr_limits_part(adviser->limits, part);
   thr_plan seed = {0}, plan = {0};
   thr_err why = {0};
-  thr_status st = find_seed(x, k, &request, &share, &seed, err);
+
+  /* Search, from the cords that need no search if there are some. */
+  thr_status st = find_seed(adviser, kind, &request, &share, &seed, err);
   if (!st)
-    st = thr_tortuosity_plan_from(x->frame, &request, seed.n_cords ? &seed : NULL, &share, &plan,
-                                  &why);
+    st = thr_tortuosity_plan_from(adviser->frame, &request, seed.n_cords ? &seed : NULL, &share,
+                                  &plan, &why);
   if (st == THR_ENOMEM)
     st = thr_nomem(err);
   else
     st = THR_OK;
-  if (!st && plan.n_cords > 0) st = set_row(x, k, &plan, &plan.turning, err);
-  thr_advice_row *row = find_row(x, k, cords);
+
+  /* The row notes the search even where the search has found nothing. */
+  if (!st && plan.n_cords > 0) st = set_row(adviser, kind, &plan, &plan.turning, err);
+  thr_advice_row *row = find_row(adviser, kind, cords);
   if (row) row->searched = true;
-  k->over |= !row;
+  kind->over |= !row;
+
+  /* The plan with one cord is what other numbers are cut from. */
   if (!st && cords == 1 && plan.n_cords > 0) {
-    k->first = plan;
+    kind->first = plan;
     plan = (thr_plan){0};
   }
+
   thr_plan_destroy(&plan);
   thr_plan_destroy(&seed);
   return st;
@@ -311,31 +365,39 @@ static thr_status search_cords(adviser *x, kind *k, int cords, double part, thr_
 
 /* The plan with one closed cord is one with both ends at a node: it takes the place of the first if
  * that turns more. */
-static thr_status take_closed(adviser *x, kind *k, const thr_plan *closed, thr_err *err)
+static thr_status take_closed(advice_search *adviser, ends_kind *kind, const thr_plan *closed,
+                              thr_err *err)
 {
-  const thr_request request = request_of(x, k, 1);
+  const thr_request request = request_of(adviser, kind, 1);
+
   thr_plan opened = {0};
-  thr_status st = thr_cut_open(x->frame, &request, closed, &opened, err);
+  thr_status st = thr_cut_open(adviser->frame, &request, closed, &opened, err);
+
+  /* The opened cord becomes the plan with one cord if it turns less. */
   if (!st && opened.n_cords > 0 &&
-      (k->first.n_cords == 0 || opened.metrics.max_turning < k->first.metrics.max_turning)) {
-    thr_plan before = k->first;
-    k->first = opened;
+      (kind->first.n_cords == 0 || opened.metrics.max_turning < kind->first.metrics.max_turning)) {
+    thr_plan before = kind->first;
+    kind->first = opened;
     opened = before;
-    st = set_row(x, k, &k->first, NULL, err);
+    st = set_row(adviser, kind, &kind->first, NULL, err);
   }
+
   thr_plan_destroy(&opened);
   return st;
 }
 
 /* ---- which ---- */
 
-static thr_status find_symmetric(const adviser *x, kind *k, thr_err *err)
+/* Finds symmetric threadings with these ends, from which rows of several numbers may be taken. */
+static thr_status find_symmetric(const advice_search *adviser, ends_kind *kind, thr_err *err)
 {
-  const thr_limits share = thr_limits_part(x->limits, part_symmetric);
-  thr_request request = request_of(x, k, 1);
+  const thr_limits share = thr_limits_part(adviser->limits, part_symmetric);
+
+  thr_request request = request_of(adviser, kind, 1);
   thr_err why = {0};
   request.aims = thr_aims_symmetric;
-  thr_status st = thr_symmetries_find(x->frame, &request, false, &share, &k->symmetries, &why);
+  thr_status st =
+      thr_symmetries_find(adviser->frame, &request, false, &share, &kind->symmetries, &why);
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves no rows */
 }
 
@@ -348,126 +410,152 @@ static int next_number(int cords)
   return cords < 4 ? cords + 1 : power == cords ? cords + cords / 2 : 2 * power;
 }
 
-static bool is_over(const adviser *x, const kind *k, int cords)
+static bool is_over(const advice_search *adviser, const ends_kind *kind, int cords)
 {
-  int fewest = within(x, k);
-  return k->over || k->idle >= IDLE || k->pull <= slack_pull * x->out->physics.seating ||
-         cords > x->frame->n_edges || cords > THR_MOST_CORDS || (fewest && cords > TIMES * fewest);
+  int fewest = within(adviser, kind);
+  return kind->over || kind->idle >= IDLE ||
+         kind->pull <= slack_pull * adviser->out->physics.seating ||
+         cords > adviser->frame->n_edges || cords > THR_MOST_CORDS ||
+         (fewest && cords > TIMES * fewest);
 }
 
 /* The time is over: what was to be tried still is not. */
-static bool stopped(adviser *x)
+static bool stopped(advice_search *adviser)
 {
-  bool stop = thr_limits_stop(x->limits);
-  x->out->complete &= !stop;
+  bool stop = thr_limits_stop(adviser->limits);
+  adviser->out->complete &= !stop;
   return stop;
 }
 
 /* Rows without a search: all numbers in turn, and where the hand is enough first, by halves. */
-static thr_status cut_numbers(adviser *x, kind *k, thr_err *err)
+static thr_status cut_numbers(advice_search *adviser, ends_kind *kind, thr_err *err)
 {
   thr_status st = THR_OK;
   bool some = true;
-  for (int cords = 2; !st && some && !is_over(x, k, cords); cords = next_number(cords)) {
-    st = cut_cords(x, k, cords, err);
-    some = find_row(x, k, cords) != NULL;
+
+  /* Upwards until more cords no longer pay, or none are found. */
+  for (int cords = 2; !st && some && !is_over(adviser, kind, cords); cords = next_number(cords)) {
+    st = cut_cords(adviser, kind, cords, err);
+    some = find_row(adviser, kind, cords) != NULL;
   }
+
+  /* Halve the interval between the numbers within the hand's force and those beyond. */
   while (!st && some) {
-    int fewest = within(x, k), most = beyond(x, k, fewest), cords = (fewest + most) / 2;
+    int fewest = within(adviser, kind), most = beyond(adviser, kind, fewest),
+        cords = (fewest + most) / 2;
     if (fewest - most < 2) break;
-    st = cut_cords(x, k, cords, err);
-    some = find_row(x, k, cords) != NULL;
+    st = cut_cords(adviser, kind, cords, err);
+    some = find_row(adviser, kind, cords) != NULL;
   }
   return st;
 }
 
 /* The fewest that stay within the hand, and one fewer as long as a search finds that they do, too.
  */
-static thr_status search_fewest(adviser *x, kind *k, thr_err *err)
+static thr_status search_fewest(advice_search *adviser, ends_kind *kind, thr_err *err)
 {
-  int fewest = within(x, k);
-  thr_status st = fewest > 1 ? search_cords(x, k, fewest, part_row, err) : THR_OK;
-  for (int cords = fewest - 1; !st && cords > 1 && within(x, k) == cords + 1 && !stopped(x);
-       cords--)
-    st = search_cords(x, k, cords, part_row, err);
+  int fewest = within(adviser, kind);
+  thr_status st = fewest > 1 ? search_cords(adviser, kind, fewest, part_row, err) : THR_OK;
+
+  /* Down one by one, as long as each number stays within the hand's force. */
+  for (int cords = fewest - 1;
+       !st && cords > 1 && within(adviser, kind) == cords + 1 && !stopped(adviser); cords--)
+    st = search_cords(adviser, kind, cords, part_row, err);
   return st;
 }
 
 /* Of rows that wait for a search, and of the time, so that each has as much. */
-static double part_of_rows(const adviser *x)
+static double part_of_rows(const advice_search *adviser)
 {
   int waiting = 0;
-  for (int i = 0; i < x->out->n; i++)
-    waiting += !x->out->row[i].searched;
+  for (int i = 0; i < adviser->out->n; i++)
+    waiting += !adviser->out->row[i].searched;
   return fmin(part_row, 1.0 / (waiting + 2));
 }
 
 /* Searches for all numbers that are not over, with ends of all kinds side by side. */
-static thr_status search_numbers(adviser *x, kind *k, int n_kinds, thr_err *err)
+static thr_status search_numbers(advice_search *adviser, ends_kind *kinds, int n_kinds,
+                                 thr_err *err)
 {
   thr_status st = THR_OK;
   bool some = true;
+
+  /* Alternate the kinds of ends, so that no kind takes all of the time. */
   for (int cords = 2; !st && some; cords = next_number(cords)) {
     some = false;
     for (int i = 0; i < n_kinds && !st; i++) {
-      const thr_advice_row *row = find_row(x, &k[i], cords);
-      if (!row && is_over(x, &k[i], cords)) continue;
+      const thr_advice_row *row = find_row(adviser, &kinds[i], cords);
+      if (!row && is_over(adviser, &kinds[i], cords)) continue;
       some = true;
+
       if (row && (row->searched || row->optimal)) continue;
-      if (stopped(x)) return THR_OK;
-      st = search_cords(x, &k[i], cords, part_of_rows(x), err);
+      if (stopped(adviser)) return THR_OK;
+      st = search_cords(adviser, &kinds[i], cords, part_of_rows(adviser), err);
     }
   }
   return st;
 }
 
-static void kind_destroy(kind *k)
+static void kind_destroy(ends_kind *kind)
 {
-  thr_plan_destroy(&k->first);
-  thr_parts_destroy(&k->cuts);
-  thr_symmetries_destroy(&k->symmetries);
+  thr_plan_destroy(&kind->first);
+  thr_parts_destroy(&kind->cuts);
+  thr_symmetries_destroy(&kind->symmetries);
 }
 
-static thr_status try_first(adviser *x, kind *k, const thr_plan *closed, thr_err *err)
+/* Searches for the row of one cord, and for the symmetric rows. */
+static thr_status try_first(advice_search *adviser, ends_kind *kind, const thr_plan *closed,
+                            thr_err *err)
 {
-  thr_status st = search_cords(x, k, 1, part_first, err);
-  if (!st) st = take_closed(x, k, closed, err);
-  k->over = !find_row(x, k, 1);
-  return !st && !k->over ? find_symmetric(x, k, err) : st;
+  thr_status st = search_cords(adviser, kind, 1, part_first, err);
+  if (!st) st = take_closed(adviser, kind, closed, err);
+  kind->over = !find_row(adviser, kind, 1);
+  return !st && !kind->over ? find_symmetric(adviser, kind, err) : st;
 }
 
-static thr_status cut_plan(adviser *x, kind *k, const thr_plan *plan, thr_err *err)
+static thr_status cut_plan(advice_search *adviser, ends_kind *kind, const thr_plan *plan,
+                           thr_err *err)
 {
-  thr_status st = take_closed(x, k, plan, err);
-  return st || !find_row(x, k, 1) ? st : cut_numbers(x, k, err);
+  thr_status st = take_closed(adviser, kind, plan, err);
+  return st || !find_row(adviser, kind, 1) ? st : cut_numbers(adviser, kind, err);
 }
 
-static thr_status search_all(adviser *x, kind *k, int n_kinds, thr_err *err)
+/* Makes the rows of a framework that is small enough for searches, in the order of their use: one
+ * cord, cut and symmetric cords, the fewest cords within the hand's force, all others. */
+static thr_status search_all(advice_search *adviser, ends_kind *kinds, int n_kinds, thr_err *err)
 {
-  kind closed = {.ends = THR_ENDS_CLOSED, .pull = INFINITY};
-  thr_status st = find_group(x, err);
-  if (!st) st = search_cords(x, &closed, 1, part_first, err);
+  ends_kind closed = {.ends = THR_ENDS_CLOSED, .pull = INFINITY};
+  thr_status st = find_group(adviser, err);
+  if (!st) st = search_cords(adviser, &closed, 1, part_first, err);
+
   for (int i = 0; i < n_kinds && !st; i++)
-    st = try_first(x, &k[i], &closed.first, err);
+    st = try_first(adviser, &kinds[i], &closed.first, err);
   for (int i = 0; i < n_kinds && !st; i++)
-    st = cut_numbers(x, &k[i], err);
+    st = cut_numbers(adviser, &kinds[i], err);
   for (int i = 0; i < n_kinds && !st; i++)
-    st = search_fewest(x, &k[i], err);
+    st = search_fewest(adviser, &kinds[i], err);
+
   kind_destroy(&closed);
-  return st ? st : search_numbers(x, k, n_kinds, err);
+  return st ? st : search_numbers(adviser, kinds, n_kinds, err);
 }
 
 /* Of a framework that is too large for searches the shortest closed cords are cut. */
-static thr_status cut_shortest(adviser *x, kind *k, int n_kinds, const thr_plan *plan, thr_err *err)
+static thr_status cut_shortest(advice_search *adviser, ends_kind *kinds, int n_kinds,
+                               const thr_plan *plan, thr_err *err)
 {
-  thr_request request = x->request;
+  thr_request request = adviser->request;
+
   thr_plan shortest = {0};
   request.aims = thr_aims_shortest;
+
+  /* Without a plan to cut, plan the shortest closed cords. */
   thr_status st =
-      plan ? THR_OK : thr_plan_make(x->frame, &request, x->limits, &shortest, NULL, err);
+      plan ? THR_OK
+           : thr_plan_make(adviser->frame, &request, adviser->limits, &shortest, NULL, err);
   if (st == THR_ELIMIT && shortest.n_cords > 0) st = THR_OK; /* not proved, but cords */
+
   for (int i = 0; i < n_kinds && !st; i++)
-    st = cut_plan(x, &k[i], plan ? plan : &shortest, err);
+    st = cut_plan(adviser, &kinds[i], plan ? plan : &shortest, err);
   thr_plan_destroy(&shortest);
   return st;
 }
@@ -477,57 +565,65 @@ static thr_status find_rows(const thr_frame *frame, const thr_request *request,
                             const thr_advise_options *options, bool searches,
                             const thr_limits *limits, thr_advice *out, thr_err *err)
 {
-  adviser x = {.frame = frame,
-               .request = thr_request_default(),
-               .limits = limits,
-               .options = options,
-               .out = out};
-  kind k[2] = {{.ends = THR_ENDS_ANY, .pull = INFINITY}};
+  advice_search adviser = {.frame = frame,
+                           .request = thr_request_default(),
+                           .limits = limits,
+                           .options = options,
+                           .out = out};
+
+  /* Ends anywhere are one kind; ends at feet come first where the framework has feet. */
+  ends_kind kinds[2] = {{.ends = THR_ENDS_ANY, .pull = INFINITY}};
   int n_kinds = 1;
   bool feet = false;
   for (int v = 0; v < frame->n_nodes; v++)
     feet |= frame->foot[v];
   if (feet) {
-    k[1] = k[0];
-    k[0].ends = THR_ENDS_FEET;
+    kinds[1] = kinds[0];
+    kinds[0].ends = THR_ENDS_FEET;
     n_kinds = 2;
   }
-  x.request.aims = (thr_aims){.n = 1, .aim = {THR_AIM_MAX_TURNING}};
-  x.request.cover = request->cover;
-  x.request.capacity = request->capacity;
-  x.request.physics = request->physics;
-  x.searches = searches && frame->n_edges <= MOST_SEARCHED;
-  thr_status st = x.searches ? search_all(&x, k, n_kinds, err)
-                             : cut_shortest(&x, k, n_kinds, options->plan, err);
+
+  /* All rows ask for little turning of the cord that turns most, and only for what holds for every
+   * number of cords. */
+  adviser.request.aims = (thr_aims){.n = 1, .aim = {THR_AIM_MAX_TURNING}};
+  adviser.request.cover = request->cover;
+  adviser.request.capacity = request->capacity;
+  adviser.request.physics = request->physics;
+  adviser.searches = searches && frame->n_edges <= MOST_SEARCHED;
+
+  thr_status st = adviser.searches ? search_all(&adviser, kinds, n_kinds, err)
+                                   : cut_shortest(&adviser, kinds, n_kinds, options->plan, err);
   if (!st && out->n == 0)
-    st = thr_fail(err, stopped(&x) ? THR_ELIMIT : THR_EINFEASIBLE,
+    st = thr_fail(err, stopped(&adviser) ? THR_ELIMIT : THR_EINFEASIBLE,
                   "no threading with one cord or more was found");
+
   for (int i = 0; i < n_kinds; i++)
-    kind_destroy(&k[i]);
-  thr_group_destroy(&x.group);
+    kind_destroy(&kinds[i]);
+  thr_group_destroy(&adviser.group);
   return st;
 }
 
 /* ---- several components ---- */
 
-/* Returns the row of the least pull with no more cords than that, and that of the fewest cords with
- * no more pull; NULL: there is none. */
-static const thr_advice_row *least_pull_row(const thr_advice *of, thr_ends ends, int cords)
+/* Returns the row of the least pull among those with at most so many cords; NULL: there is none. */
+static const thr_advice_row *least_pull_row(const thr_advice *advice, thr_ends ends, int cords)
 {
   const thr_advice_row *best = NULL;
-  for (int i = 0; i < of->n; i++) {
-    const thr_advice_row *row = &of->row[i];
+  for (int i = 0; i < advice->n; i++) {
+    const thr_advice_row *row = &advice->row[i];
     if (row->ends != ends || row->cords > cords) continue;
     if (!best || row->pull[THR_ADVICE_MU] < best->pull[THR_ADVICE_MU]) best = row;
   }
   return best;
 }
 
-static const thr_advice_row *fewest_cords_row(const thr_advice *of, thr_ends ends, double pull)
+/* Returns the row of the fewest cords that needs no more than pull, N at mu; NULL: there is
+ * none. */
+static const thr_advice_row *fewest_cords_row(const thr_advice *advice, thr_ends ends, double pull)
 {
   const thr_advice_row *best = NULL;
-  for (int i = 0; i < of->n; i++) {
-    const thr_advice_row *row = &of->row[i];
+  for (int i = 0; i < advice->n; i++) {
+    const thr_advice_row *row = &advice->row[i];
     if (row->ends != ends || row->pull[THR_ADVICE_MU] > pull * (1 + 1e-9)) continue;
     if (!best || row->cords < best->cords) best = row;
   }
@@ -547,6 +643,7 @@ static void add_to_row(thr_advice_row *sum, const thr_advice_row *row)
   sum->searched &= row->searched;
   sum->passes += row->passes;
   sum->steps += row->steps;
+
   if (row->pull[THR_ADVICE_MU] > sum->pull[THR_ADVICE_MU]) sum->other = row->other;
   for (int i = 0; i < THR_ADVICE_PULLS; i++)
     sum->pull[i] = fmax(sum->pull[i], row->pull[i]);
@@ -558,13 +655,18 @@ static bool join_row(const thr_advice *part, int n, thr_ends ends, int cords, th
 {
   double pull = 0;
   *sum = (thr_advice_row){.ends = ends, .searched = true};
+
+  /* The pull of all is at least that of the hardest component. */
   for (int k = 0; k < n; k++) {
     const thr_advice_row *row = least_pull_row(&part[k], ends, cords);
     if (!row) return false;
     pull = fmax(pull, row->pull[THR_ADVICE_MU]);
   }
+
+  /* No component needs more cords than that pull asks for. */
   for (int k = 0; k < n; k++)
     add_to_row(sum, fewest_cords_row(&part[k], ends, pull));
+
   sum->optimal = sum->turning <= sum->bound * (1 + 1e-9);
   return true;
 }
@@ -576,23 +678,29 @@ static thr_status join_rows(const thr_advice *part, int n, const thr_advise_opti
 {
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_FEET, THR_ENDS_ANY};
   bool *has = thr_calloc(THR_MOST_CORDS + 1, sizeof *has);
-  adviser x = {.options = options, .out = out};
+  advice_search adviser = {.options = options, .out = out};
   thr_status st = has ? THR_OK : thr_nomem(err);
+
+  /* For every kind of ends mark the numbers that some component has a row of. */
   for (int i = 0; i < 3 && !st; i++) {
     memset(has, 0, (THR_MOST_CORDS + 1) * sizeof *has);
     for (int k = 0; k < n; k++)
       for (int j = 0; j < part[k].n; j++)
         has[part[k].row[j].cords] |= part[k].row[j].ends == ends[i];
+
+    /* Join one row for each marked number, unless it is the row before once more. */
     int last = 0;
     for (int cords = 1; cords <= THR_MOST_CORDS && !st; cords++) {
       thr_advice_row sum, *row;
       if (!has[cords] || !join_row(part, n, ends[i], cords, &sum) || sum.cords == last) continue;
-      if ((st = new_row(&x, &row, err))) break;
+
+      if ((st = new_row(&adviser, &row, err))) break;
       *row = sum;
       last = sum.cords;
       if (options->row) options->row(options->user, row, NULL);
     }
   }
+
   free(has);
   return st;
 }
@@ -607,17 +715,22 @@ static thr_status find_by_components(const thr_components *components, const thr
   const int n = components->n, *first = components->first_edge;
   thr_advice *part = thr_calloc((size_t)n, sizeof *part);
   thr_status st = part ? THR_OK : thr_nomem(err);
+
+  /* Each component gets the share of the time that its edges have of those left. */
   for (int k = 0; k < n && !st; k++) {
     const thr_limits share =
         thr_limits_part(limits, (double)(first[k + 1] - first[k]) / (first[n] - first[k]));
+
     thr_plan asked;
     if ((st = thr_component_take(components, k, &asked, err))) break;
     part[k] = (thr_advice){.physics = out->physics, .hand = options->hand, .complete = true};
+
     st = find_rows(&asked.frame, request, &quiet, n <= MOST_COMPONENTS, &share, &part[k], err);
     out->base_length += part[k].base_length;
     out->complete &= part[k].complete;
     thr_plan_destroy(&asked);
   }
+
   if (!st) st = join_rows(part, n, options, out, err);
   for (int k = 0; part && k < n; k++)
     thr_advice_destroy(&part[k]);
@@ -631,12 +744,14 @@ thr_status thr_advise(const thr_frame *frame, const thr_request *request,
 {
   thr_components components = {0};
   *out = (thr_advice){.hand = options->hand, .complete = true, .chosen = -1};
+
   thr_status st = thr_physics_resolve(&request->physics, frame, &out->physics, err);
   if (!st) st = thr_components_init(&components, frame, request, err);
   if (!st && components.n == 1)
     st = find_rows(frame, request, options, true, limits, out, err);
   else if (!st)
     st = find_by_components(&components, request, options, limits, out, err);
+
   if (!st) thr_advice_settle(out);
   thr_components_destroy(&components);
   if (st) thr_advice_destroy(out);

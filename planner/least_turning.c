@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Plans of the least turning: from the options of a plan to cords that turn least, and what is
- * proved of them (thesis, chapter 6; docs/method.md). Friction grows as exp(mu * angle), so this is
- * the threading that pulls most easily.
+/* Plans cords that turn least, and proves how little any cords can turn (thesis, chapter 6;
+ * docs/method.md). Friction grows as exp(mu * angle), so the threading that turns least is the one
+ * that is pulled most easily.
  *
- * Options -> the search's task -> cords -> plan with its claims; and the trade-off between length
- * and turning. */
+ * The way of a plan: the request becomes the options of the search (search_options); the shortest
+ * passes and classical tours give incumbents to begin with (find_starts); the search returns cords
+ * with a proof tree (find_cords); the checker states what the proof is a proof of (judge,
+ * assemble). The trade-off between length and turning is a sweep of such searches, one for each
+ * limit on the length. */
 #include "graph/check/check.h"
 #include "planner/planner_parts.h"
 #include "tortuosity/cords/several.h"
@@ -15,21 +18,22 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+/* Translates a request into the options of the search for the least turning. */
 static thr_least_options search_options(const thr_request *options)
 {
-  thr_least_options lo = thr_least_options_default();
-  lo.cover = options->cover;
-  lo.capacity = options->capacity;
-  lo.tube = options->joint == THR_JOINT_TUBE;
-  lo.ends = options->ends;
-  lo.end_node = options->end_node;
-  lo.end_count = options->end_count;
-  lo.cords = options->cords;
-  lo.cost = options->turning.cost;
-  lo.length_slack = options->turning.length_slack;
-  if (options->turning.nodes > 0) lo.most_nodes = options->turning.nodes;
-  lo.motions = thr_planner_motions;
-  return lo;
+  thr_least_options search = thr_least_options_default();
+  search.cover = options->cover;
+  search.capacity = options->capacity;
+  search.tube = options->joint == THR_JOINT_TUBE;
+  search.ends = options->ends;
+  search.end_node = options->end_node;
+  search.end_count = options->end_count;
+  search.cords = options->cords;
+  search.cost = options->turning.cost;
+  search.length_slack = options->turning.length_slack;
+  if (options->turning.nodes > 0) search.most_nodes = options->turning.nodes;
+  search.motions = thr_planner_motions;
+  return search;
 }
 
 /* ---- cords ---- */
@@ -37,17 +41,22 @@ static thr_least_options search_options(const thr_request *options)
 /* Among cords that turn no more, shorter ones: the search once more, of solid joints with a small
  * tree, with a price on length that is far below any turn's. What is proved of the turning stays;
  * that no shorter cords turn as little is not proved. */
-static thr_status shorten(const thr_frame *frame, const thr_least_options *lo,
+static thr_status shorten(const thr_frame *frame, const thr_least_options *search,
                           const thr_limits *limits, thr_least *least, thr_err *err)
 {
   enum { FEW_NODES = 1000 };
   const double part = 0.1;   /* of the time that is left */
   const double small = 1e-6; /* price of a mean edge's length; a U-turn costs 1 or more */
-  thr_least_options with_length = *lo;
+  thr_least_options with_length = *search;
   thr_least other;
+
+  /* There is nothing to gain where the turning is not proved least, or the cords are the
+   * shortest. */
   if (!least->optimal || least->shortened || least->length <= least->shortest * (1 + 1e-9))
     return THR_OK;
-  if (!lo->tube) with_length.most_nodes = FEW_NODES;
+
+  /* Search once more with the small price on length, in a part of the time that is left. */
+  if (!search->tube) with_length.most_nodes = FEW_NODES;
   with_length.price_per_length = small * frame->n_edges / thr_frame_total_length(frame);
   thr_err unused = {0};
   thr_limits exact = thr_limits_part(limits, part);
@@ -55,8 +64,10 @@ static thr_status shorten(const thr_frame *frame, const thr_least_options *lo,
   thr_status st = thr_least_turning(frame, &with_length, &exact, &other, &unused);
   if (st == THR_ENOMEM) return thr_fail(err, st, "%s", unused.text);
   if (st && st != THR_ELIMIT) return THR_OK; /* what is proved stands without it */
+
+  /* Take the price of the length out again, and keep the cords only if they turn no more. */
   double price = other.price - with_length.price_per_length *
-                                   (other.length - thr_turning_base_length(frame, lo->cover));
+                                   (other.length - thr_turning_base_length(frame, search->cover));
   if (price <= least->price + 1e-9 && other.length < least->length * (1 - 1e-9)) {
     thr_cord *cord = least->cord;
     least->cord = other.cord;
@@ -69,12 +80,12 @@ static thr_status shorten(const thr_frame *frame, const thr_least_options *lo,
 }
 
 /* The least turning and, with time left, the shorter of those that turn equally little. */
-static thr_status find_least(const thr_frame *frame, const thr_least_options *lo,
+static thr_status find_least(const thr_frame *frame, const thr_least_options *search,
                              const thr_limits *limits, thr_least *least, thr_err *err)
 {
-  thr_status found = thr_least_turning(frame, lo, limits, least, err);
+  thr_status found = thr_least_turning(frame, search, limits, least, err);
   if (found) return found;
-  thr_status st = shorten(frame, lo, limits, least, err);
+  thr_status st = shorten(frame, search, limits, least, err);
   if (st) thr_least_destroy(least);
   return st;
 }
@@ -87,40 +98,45 @@ typedef struct {
   thr_tube tube;
 } shortest_plan;
 
-static void shortest_destroy(shortest_plan *s)
+static void shortest_destroy(shortest_plan *shortest)
 {
-  thr_shortest_destroy(&s->solid);
-  thr_tube_destroy(&s->tube);
+  thr_shortest_destroy(&shortest->solid);
+  thr_tube_destroy(&shortest->tube);
 }
 
 /* A classical tour needs the proved passes and nothing else, which no time limit cuts short: they
  * are the same on every machine. Nor does one cut them short where they take no time. */
+
 static thr_status find_shortest(const thr_frame *frame, const thr_request *options,
-                                const thr_limits *limits, shortest_plan *s, thr_err *err)
+                                const thr_limits *limits, shortest_plan *shortest, thr_err *err)
 {
   const thr_limits share = thr_dispatch_share(limits, THR_STEP_SHORTEST);
-  *s = (shortest_plan){0};
+
+  *shortest = (shortest_plan){0};
   thr_request any = *options;
   if (options->ends ==
       THR_ENDS_CLOSED) { /* no closed cords are shorter than one, which the search cuts up */
     any.aims = thr_aims_shortest;
     any.cords_least = 1;
   }
+
+  /* Tube joints have a search of their own; with solid joints the postman's passes are proved. */
   if (options->joint == THR_JOINT_TUBE)
-    return thr_tube_shortest(frame, &any, &share, &s->tube, err);
+    return thr_tube_shortest(frame, &any, &share, &shortest->tube, err);
+
   thr_limits all = *limits;
   if (options->turning.tour != THR_TOUR_LEAST || thr_planner_is_quick(frame, options))
     all.deadline = 0;
-  return thr_postman_shortest(frame, options, &all, &s->solid, err);
+  return thr_postman_shortest(frame, options, &all, &shortest->solid, err);
 }
 
 /* From the shortest tied cords, which may need more passes than are looked at otherwise. */
-static void begin_with(const thr_frame *frame, const thr_tube *t, thr_least_options *lo)
+static void begin_with(const thr_frame *frame, const thr_tube *tied, thr_least_options *search)
 {
-  int most = thr_turning_most_passes(frame, lo->cover);
-  lo->start = t->cord;
-  lo->n_start = t->n_cords;
-  lo->most_passes = t->most_passes > most ? t->most_passes : most;
+  int most = thr_turning_most_passes(frame, search->cover);
+  search->start = tied->cord;
+  search->n_start = tied->n_cords;
+  search->most_passes = tied->most_passes > most ? tied->most_passes : most;
 }
 
 /* Cords of a plan for the least length: as many ends as given, as many closed cords as asked for
@@ -132,8 +148,11 @@ static thr_status cords_by_length(const thr_frame *frame, const thr_request *opt
   thr_request length = *options;
   thr_err why = {0};
   thr_plan plan = {0};
+
   length.aims = thr_aims_shortest;
   thr_status st = thr_planner_length(frame, &length, limits, &plan, NULL, &why);
+
+  /* The cords move from the plan to the start. */
   *start = (thr_least_start){plan.n_cords, plan.cord};
   plan.cord = NULL;
   plan.n_cords = 0;
@@ -146,12 +165,13 @@ static thr_status cords_by_length(const thr_frame *frame, const thr_request *opt
 enum { N_STARTS = 3 };
 
 /* A classical tour through the shortest passes, if they hold one. */
-static thr_status walk_tour(const thr_frame *frame, const thr_least_options *lo, thr_tour tour,
+static thr_status walk_tour(const thr_frame *frame, const thr_least_options *search, thr_tour tour,
                             const int *passes, thr_least_start *start, thr_err *err)
 {
   thr_least found;
   thr_err why = {0};
-  thr_status st = thr_baseline_tour(frame, lo, tour, false, passes, &found, &why);
+  thr_status st = thr_baseline_tour(frame, search, tour, false, passes, &found, &why);
+
   *start = (thr_least_start){found.n_cords, found.cord};
   found.cord = NULL;
   found.n_cords = 0;
@@ -162,23 +182,30 @@ static thr_status walk_tour(const thr_frame *frame, const thr_least_options *lo,
 /* The shortest cords, with their pairings of little turning, and of single cords both classical
  * tours. A small framework has a second for the first at least. */
 static thr_status find_starts(const thr_frame *frame, const thr_request *options,
-                              const shortest_plan *s, const thr_limits *limits,
-                              const thr_least_options *lo, thr_least_start *start, thr_err *err)
+                              const shortest_plan *shortest, const thr_limits *limits,
+                              const thr_least_options *search, thr_least_start *start, thr_err *err)
 {
-  const bool tours = !lo->tube && lo->cords == 1 && options->ends != THR_ENDS_COUNTS,
+  const bool tours = !search->tube && search->cords == 1 && options->ends != THR_ENDS_COUNTS,
              quick = thr_planner_is_quick(frame, options);
   const thr_limits share = thr_planner_share(frame, options, limits, THR_STEP_BY_LENGTH);
+
   thr_status st = THR_OK;
+
+  /* The shortest cords: paired at once where one cord suffices, else planned with the number and
+   * the ends that the request gives. */
   if (tours)
-    st = thr_postman_cords(frame, options, s->solid.passes, &start[0].cord, &start[0].n, err);
-  else if (lo->tube ? options->ends == THR_ENDS_CLOSED && options->cords > 1
-                    : quick || options->ends == THR_ENDS_COUNTS)
+    st =
+        thr_postman_cords(frame, options, shortest->solid.passes, &start[0].cord, &start[0].n, err);
+  else if (search->tube ? options->ends == THR_ENDS_CLOSED && options->cords > 1
+                        : quick || options->ends == THR_ENDS_COUNTS)
     st = cords_by_length(frame, options, &share, &start[0], err);
+
+  /* A single cord is already a plan to show, and classical tours are further incumbents. */
   if (!st && tours) thr_limits_found(limits, start[0].cord, start[0].n, NULL);
   if (!st && tours && quick)
-    st = walk_tour(frame, lo, THR_TOUR_FLEURY, s->solid.passes, &start[1], err);
+    st = walk_tour(frame, search, THR_TOUR_FLEURY, shortest->solid.passes, &start[1], err);
   if (!st && tours && quick)
-    st = walk_tour(frame, lo, THR_TOUR_HIERHOLZER, s->solid.passes, &start[2], err);
+    st = walk_tour(frame, search, THR_TOUR_HIERHOLZER, shortest->solid.passes, &start[2], err);
   return st;
 }
 
@@ -188,40 +215,50 @@ static thr_status find_starts(const thr_frame *frame, const thr_request *options
  * as cords hold them all; of more closed cords than edges the best may be many over one edge.
  */
 static thr_status find_with_room(const thr_frame *frame, const thr_request *options,
-                                 thr_least_options *lo, const thr_limits *limits, thr_least *least,
-                                 thr_err *err)
+                                 thr_least_options *search, const thr_limits *limits,
+                                 thr_least *least, thr_err *err)
 {
-  const int room = 2 * lo->cords, usual = thr_turning_most_passes(frame, lo->cover);
-  const bool more = room > (lo->most_passes > 0 ? lo->most_passes : usual);
+  const int room = 2 * search->cords, usual = thr_turning_most_passes(frame, search->cover);
+  const bool more = room > (search->most_passes > 0 ? search->most_passes : usual);
   thr_err why = {0};
+
+  /* Allow twice as many passes as cords from the beginning where many cords are known to need
+   * them. */
   if (more && thr_wants_largest(options) && thr_request_most_passes(frame, options) >= room)
-    lo->most_passes = room;
-  if (more && options->ends == THR_ENDS_CLOSED && lo->cords > frame->n_edges)
-    lo->most_passes = room;
-  thr_status st = find_least(frame, lo, limits, least, &why);
-  if (st == THR_EINFEASIBLE && more && lo->most_passes != room) {
-    lo->most_passes = room;
-    return find_least(frame, lo, limits, least, err);
+    search->most_passes = room;
+  if (more && options->ends == THR_ENDS_CLOSED && search->cords > frame->n_edges)
+    search->most_passes = room;
+
+  /* Else allow them only where no cords were found within the usual number of passes. */
+  thr_status st = find_least(frame, search, limits, least, &why);
+  if (st == THR_EINFEASIBLE && more && search->most_passes != room) {
+    search->most_passes = room;
+    return find_least(frame, search, limits, least, err);
   }
   return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
 
 /* Begins with the cords of the shortest plan where that has as many. */
 static thr_status find_from_shortest(const thr_frame *frame, const thr_request *options,
-                                     const shortest_plan *s, const thr_limits *limits,
+                                     const shortest_plan *shortest, const thr_limits *limits,
                                      thr_least *least, thr_err *err)
 {
-  thr_least_options lo = search_options(options);
+  thr_least_options search = search_options(options);
   thr_least_start start[N_STARTS] = {{0}};
-  thr_status st = find_starts(frame, options, s, limits, &lo, start, err);
-  if (lo.tube) begin_with(frame, &s->tube, &lo);
-  if (start[0].n > 0 && (lo.tube || lo.cords <= 1 || options->ends == THR_ENDS_COUNTS)) {
-    lo.start = start[0].cord;
-    lo.n_start = start[0].n;
+
+  thr_status st = find_starts(frame, options, shortest, limits, &search, start, err);
+
+  /* Tied cords, and cords of the right number, are where the search itself begins. */
+  if (search.tube) begin_with(frame, &shortest->tube, &search);
+  if (start[0].n > 0 && (search.tube || search.cords <= 1 || options->ends == THR_ENDS_COUNTS)) {
+    search.start = start[0].cord;
+    search.n_start = start[0].n;
   }
-  lo.also = start;
-  lo.n_also = lo.tube ? 0 : N_STARTS;
-  if (!st) st = find_with_room(frame, options, &lo, limits, least, err);
+
+  /* All starts are incumbents: the plan turns no more than any of them. */
+  search.also = start;
+  search.n_also = search.tube ? 0 : N_STARTS;
+  if (!st) st = find_with_room(frame, options, &search, limits, least, err);
   for (int i = 0; i < N_STARTS; i++)
     thr_cords_destroy(start[i].cord, start[i].n);
   return st;
@@ -230,11 +267,11 @@ static thr_status find_from_shortest(const thr_frame *frame, const thr_request *
 /* The least turning of all cords together; of several closed ones through few edges the table knows
  * it. */
 static thr_status find_together(const thr_frame *frame, const thr_request *options,
-                                const shortest_plan *s, const thr_limits *limits, thr_least *least,
-                                thr_err *err)
+                                const shortest_plan *shortest, const thr_limits *limits,
+                                thr_least *least, thr_err *err)
 {
   thr_err why = {0};
-  const thr_status st = find_from_shortest(frame, options, s, limits, least, &why);
+  const thr_status st = find_from_shortest(frame, options, shortest, limits, least, &why);
   if (st == THR_ELIMIT && least->n_cords > 1 && options->ends == THR_ENDS_CLOSED) {
     const thr_status made = thr_least_turning_small(frame, limits, least, err);
     if (made) {
@@ -245,20 +282,29 @@ static thr_status find_together(const thr_frame *frame, const thr_request *optio
   return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
 
+/* Finds the cords that the request asks for: a classical tour, the least turning of all cords
+ * together, or cords of which the one that turns most turns little. */
 static thr_status find_cords(const thr_frame *frame, const thr_request *options,
-                             const shortest_plan *s, const thr_plan *seed, const thr_limits *limits,
-                             thr_least *least, thr_err *err)
+                             const shortest_plan *shortest, const thr_plan *seed,
+                             const thr_limits *limits, thr_least *least, thr_err *err)
 {
-  const thr_least_options lo = search_options(options);
+  const thr_least_options search = search_options(options);
+
   if (options->turning.tour != THR_TOUR_LEAST)
-    return thr_baseline_tour(frame, &lo, options->turning.tour,
-                             options->turning.pairings == THR_PAIRINGS_IGNORE, s->solid.passes,
-                             least, err);
-  if (!thr_wants_largest(options)) return find_together(frame, options, s, limits, least, err);
+    return thr_baseline_tour(frame, &search, options->turning.tour,
+                             options->turning.pairings == THR_PAIRINGS_IGNORE,
+                             shortest->solid.passes, least, err);
+
+  if (!thr_wants_largest(options))
+    return find_together(frame, options, shortest, limits, least, err);
+
+  /* For the largest turning begin with cords that turn least in all, in a part of the time. */
   const double enough = options->max_pull > 0 ? thr_request_most_pulled(options) : 0;
   const thr_limits first = thr_dispatch_share(limits, THR_STEP_LEAST);
-  thr_status st = find_from_shortest(frame, options, s, &first, least, err);
+  thr_status st = find_from_shortest(frame, options, shortest, &first, least, err);
   if (st && st != THR_ELIMIT) return st;
+
+  /* Then even out the turning of the cords. *seed is a second start. */
   const bool leaves_time =
       thr_wants_pull(options) && !limits->work; /* for what is to be proved of the pull */
   const thr_limits share = leaves_time ? thr_limits_part(limits, 0.8) : *limits;
@@ -278,7 +324,10 @@ static thr_status judge(const thr_frame *frame, const thr_request *options, cons
                              .length_limit = least->length_limit,
                              .tree = least->proof};
   thr_err text = {0};
+
+  /* The tree moves from least into the claim that is checked, and from there to found. */
   least->proof = (thr_turning_proof){0};
+
   if (thr_wants_pull(options))
     thr_walk_proof_destroy(&claim.tree.walks); /* of the cord that turns most */
   thr_status st = thr_check_turning(frame, options, cord, n_cords, &claim, found, &text);
@@ -286,27 +335,34 @@ static thr_status judge(const thr_frame *frame, const thr_request *options, cons
   return thr_check_own(st, &text, err);
 }
 
-/* Takes cords and proof of least, and the certificates or the proof of s. */
+/* Takes cords and proof of least, and the certificates or the proof of shortest. */
 static thr_status assemble(const thr_frame *frame, const thr_request *options,
-                           const thr_limits *limits, thr_least *least, shortest_plan *s,
+                           const thr_limits *limits, thr_least *least, shortest_plan *shortest,
                            thr_plan *plan, thr_err *err)
 {
   thr_status st = thr_plan_request(plan, frame, options, err);
   if (st) return st;
+
+  /* The cords move into the plan, which is measured anew. */
   plan->cord = least->cord;
   plan->n_cords = least->n_cords;
   least->cord = NULL;
   st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics,
                         err);
+
+  /* Prove the length: by the tied cords, or by the certificates of the shortest passes. */
   if (!st && options->joint == THR_JOINT_TUBE)
-    thr_tube_prove(&s->tube, plan->metrics.length, &plan->proof);
+    thr_tube_prove(&shortest->tube, plan->metrics.length, &plan->proof);
   else if (!st)
-    st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords, &s->solid,
-                           &plan->proof, err);
+    st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords,
+                           &shortest->solid, &plan->proof, err);
+
   plan->proof.slack_open =
       !thr_plan_within_slack(options, plan->metrics.length, plan->proof.lower_bound);
   least->length_limit = thr_planner_length_limit(plan, least->length_limit);
   if (st || options->turning.tour != THR_TOUR_LEAST) return st;
+
+  /* State what the search's tree proves of the turning, and of the hardest pull. */
   st = judge(&plan->frame, &plan->options, plan->cord, plan->n_cords, least, &plan->turning, err);
   if (!st)
     st = thr_planner_pull_least(&plan->frame, &plan->options, plan->cord, plan->n_cords, limits,
@@ -325,17 +381,23 @@ static const char *why_open(const thr_least *least)
 static thr_status verdict(const thr_plan *plan, const thr_least *least, thr_err *err)
 {
   const thr_turning_claim *claim = &plan->turning;
+
+  /* A classical tour claims nothing of its turning. */
   if (plan->options.turning.tour != THR_TOUR_LEAST) return THR_OK;
   if (plan->proof.slack_open)
     return thr_fail(
         err, THR_ELIMIT,
         "the least length is not proved: the cords may be %.3g %% longer, more than --length-slack",
         100 * (plan->metrics.length / plan->proof.lower_bound - 1));
+
   if (!claim->present) return thr_fail(err, THR_ELIMIT, "nothing is proved of the turning");
+
+  /* The cord that turns most is judged by its own bound, all cords together by theirs. */
   if (thr_wants_largest(&plan->options) && !claim->largest_optimal)
     return thr_not_proved(err, thr_largest_name(&plan->options), claim->largest,
                           claim->largest_bound);
   if (thr_wants_largest(&plan->options) || claim->optimal) return THR_OK;
+
   char what[160];
   snprintf(what, sizeof what, "%s: the turning", why_open(least));
   return thr_not_proved(err, what, claim->price, claim->lower_bound);
@@ -426,6 +488,7 @@ static thr_status plan_by_cutting(const thr_frame *frame, const thr_request *opt
   if (st && (st != THR_ELIMIT || shortest.n_cords == 0)) return thr_fail(err, st, "%s", why.text);
   thr_limits_found(limits, shortest.cord, shortest.n_cords, NULL);
 
+  /* Cut the shortest closed ones, where cords have two free ends. */
   /* Cuts the shortest closed ones. */
   length.ends = THR_ENDS_CLOSED;
   length.cords = length.cords_least = 1;
@@ -435,6 +498,8 @@ static thr_status plan_by_cutting(const thr_frame *frame, const thr_request *opt
   st = st == THR_ENOMEM ? thr_nomem(err)
        : can_cut        ? thr_cut_few(frame, options, &closed, plan, err)
                         : THR_OK;
+
+  /* Take the shortest cords instead where the cut ones are too long or serve the aims less. */
   const bool within =
       slack < 0 || plan->metrics.length <= shortest.metrics.length * (1 + slack) * (1 + 1e-9);
   if (!st && (plan->n_cords == 0 || !within || !thr_planner_is_better(options, plan, &shortest))) {
@@ -446,6 +511,8 @@ static thr_status plan_by_cutting(const thr_frame *frame, const thr_request *opt
       st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics,
                             err);
   }
+
+  /* Whatever was taken, the length is proved by the certificates of the shortest cords. */
   if (!st) st = thr_planner_prove_length(plan, &shortest, err);
   if (!st)
     plan->proof.slack_open =
@@ -458,7 +525,9 @@ static thr_status plan_by_cutting(const thr_frame *frame, const thr_request *opt
                        thr_least_most_passes);
 }
 
-/* *missed: the search found no cords, which is no proof that there are none. */
+/* Plans cords within the limits, with the pull left free; seed (NULL = none) is a second start for
+ * the largest turning. *missed: the search found no cords, which is no proof that there are
+ * none. */
 static thr_status plan_from(const thr_frame *frame, const thr_request *options,
                             const thr_plan *seed, const thr_limits *limits, thr_plan *plan,
                             bool *missed, thr_err *err)
@@ -470,22 +539,31 @@ static thr_status plan_from(const thr_frame *frame, const thr_request *options,
   any_pull.max_pull = 0;
   *plan = (thr_plan){0};
   *missed = false;
+
   if (thr_tortuosity_too_large(frame, options))
     return plan_by_cutting(frame, &any_pull, limits, plan, err);
+
+  /* Find the cords, from the shortest passes. */
   thr_status st = find_shortest(frame, options, limits, &shortest, &unproved);
   const bool may_be = !st || st == THR_ELIMIT;
   if (may_be) st = find_cords(frame, options, &shortest, seed, limits, &least, &unproved);
+
+  /* Make a plan of the cords with what is proved of them. */
   *missed = may_be && st == THR_EINFEASIBLE;
   if (st && st != THR_ELIMIT)
     st = thr_fail(err, st, "%s", unproved.text);
   else
     st = assemble(frame, &any_pull, limits, &least, &shortest, plan, err);
+
+  /* Keep to the length that the request limits; the shortest cords also serve where none were
+   * found. */
   if (!st || *missed) {
     thr_err kept = {0};
     const thr_status made = keep_length(frame, &any_pull, limits, plan, &kept);
     if (err && (made || plan->n_cords > 0)) *err = kept;
     if (made || plan->n_cords > 0) st = made;
   }
+
   if (!st) st = verdict(plan, &least, err);
   if (st && st != THR_ELIMIT) thr_plan_destroy(plan);
   thr_least_destroy(&least);
@@ -517,10 +595,14 @@ static thr_status cut_seed(const thr_frame *frame, const thr_request *options,
   thr_request one = *options;
   thr_plan plan = {0}, cut = {0};
   thr_err why = {0};
+
+  /* Search for one cord that turns least, and cut the cord into as many as are asked for. */
   one.aims = thr_aims_straightest;
   one.cords = one.cords_least = 1;
   thr_status st = thr_tortuosity_plan_from(frame, &one, NULL, &share, &plan, &why);
   if (plan.n_cords > 0) st = thr_cut_seed(&plan, options, &cut, err);
+
+  /* Keep the cut cords if they are better than the seed. */
   if (cut.n_cords > 0 &&
       (seed->n_cords == 0 || cut.metrics.max_turning < seed->metrics.max_turning * (1 - 1e-9))) {
     thr_plan_destroy(seed);
@@ -537,11 +619,16 @@ static thr_status cut_seed(const thr_frame *frame, const thr_request *options,
 static thr_status share_bound(thr_plan *plan, thr_plan *shortest, thr_err *err)
 {
   thr_length_proof *from = &shortest->proof;
+
   const thr_request *options = &plan->options;
+
+  /* Only solid joints have certificates, and without a slack they answer the same question. */
   if (plan->n_cords == 0 || shortest->n_cords == 0 || !from->certificate ||
       options->joint != THR_JOINT_SOLID || options->turning.length_slack >= 0 ||
       from->lower_bound <= plan->proof.lower_bound * (1 + 1e-9))
     return THR_OK;
+
+  /* Move the certificates of the shortest plan, and let the checker say what they prove here. */
   thr_shortest passes = {.n_certificates = from->n_certificates, .certificate = from->certificate};
   thr_plan other = {0};
   passes.confirmed.confirmed = from->confirmed;
@@ -550,6 +637,8 @@ static thr_status share_bound(thr_plan *plan, thr_plan *shortest, thr_err *err)
   from->n_certificates = 0;
   thr_status st = thr_postman_prove(&plan->frame, options, plan->cord, plan->n_cords, &passes,
                                     &other.proof, err);
+
+  /* The better of the two bounds stays. */
   if (!st && other.proof.lower_bound > plan->proof.lower_bound) {
     const thr_length_proof weaker = plan->proof;
     plan->proof = other.proof;
@@ -569,25 +658,36 @@ thr_status thr_planner_turning(const thr_frame *frame, const thr_request *option
   thr_plan seed = {0};
   thr_status st = THR_OK;
   *plan = (thr_plan){0};
+
+  /* Requests that this search does not know as a whole are composed of other plans. */
   if (thr_planner_is_mixed(options) && options->turning.length_slack >= 0)
     return thr_fail(err, THR_EINPUT,
                     "cord above the shortest is not limited together with a range of cords, their "
                     "largest length or balance");
   if (thr_planner_is_mixed(options))
     return thr_planner_mixed(frame, options, NULL, limits, plan, err);
+
   if (thr_tortuosity_too_large(frame, options))
     return thr_tortuosity_plan(frame, options, limits, plan, err);
+
+  /* Tell the caller of some cords at once, before the search begins. */
   if (options->turning.tour == THR_TOUR_LEAST)
     thr_planner_tell_first(frame, options, limits, report ? &report->shortest : NULL);
+
+  /* Look for a start whose cords turn alike: symmetric ones, or one cord cut evenly. */
   if (thr_wants_largest(options) && options->cords > 1 && options->ends != THR_ENDS_COUNTS)
     st = thr_even_seed(frame, options, limits, &seed, err);
   if (!st && thr_wants_largest(options) && options->cords > 1 && options->ends != THR_ENDS_COUNTS &&
       options->ends != THR_ENDS_CLOSED && options->joint == THR_JOINT_SOLID)
     st = cut_seed(frame, options, limits, &seed, err);
+
+  /* Search, with the start if there is one. */
   bool missed = false;
   thr_err why = {0};
   if (!st) st = plan_from(frame, options, seed.n_cords ? &seed : NULL, limits, plan, &missed, &why);
   if (why.code) st = thr_fail(err, missed ? THR_ELIMIT : st, "%s", why.text);
+
+  /* Take the bound of the plan for the least length if that is the better one. */
   if (report && (!st || st == THR_ELIMIT)) {
     thr_err failed = {0};
     const thr_status shared = share_bound(plan, &report->shortest, &failed);
@@ -608,6 +708,7 @@ void thr_frontier_destroy(thr_frontier *frontier)
   *frontier = (thr_frontier){0};
 }
 
+/* One sweep along the trade-off between length and turning. */
 typedef struct {
   const thr_frame *f;
   const thr_request *o;
@@ -616,8 +717,9 @@ typedef struct {
   double shortest;
   shortest_plan start; /* with tube joints */
   thr_frontier *out;
-} sweep;
+} frontier_sweep;
 
+/* Returns how much the cord that turns most turns, rad. */
 static double largest_turning(const thr_frame *frame, const thr_request *options,
                               const thr_least *least)
 {
@@ -628,46 +730,54 @@ static double largest_turning(const thr_frame *frame, const thr_request *options
   return largest;
 }
 
-/* Of any cords: as the search finds them. */
-static thr_status make_point(sweep *s, const thr_limits *share, double slack,
+/* Makes a point of any cords, as the search finds them, with slack (< 0: any length) above the
+ * shortest. */
+static thr_status make_point(frontier_sweep *sweep, const thr_limits *share, double slack,
                              thr_frontier_point *point, thr_err *err)
 {
   thr_least least = {0};
-  thr_least_options lo = search_options(s->o);
-  lo.length_slack = slack;
-  begin_with(s->f, &s->start.tube, &lo);
-  thr_status st = find_least(s->f, &lo, share, &least, err);
+  thr_least_options search = search_options(sweep->o);
+
+  search.length_slack = slack;
+  begin_with(sweep->f, &sweep->start.tube, &search);
+  thr_status st = find_least(sweep->f, &search, share, &least, err);
   if (st && st != THR_ELIMIT) return st;
-  s->shortest = least.shortest;
+
+  sweep->shortest = least.shortest;
+
+  /* The price and its bound are those that the checker confirms. */
   thr_turning_claim found;
-  st = judge(s->f, s->o, least.cord, least.n_cords, &least, &found, err);
+  st = judge(sweep->f, sweep->o, least.cord, least.n_cords, &least, &found, err);
   if (!st)
-    *point =
-        (thr_frontier_point){.length = least.length,
-                             .overlap = least.length - thr_turning_base_length(s->f, s->o->cover),
-                             .price = found.price,
-                             .lower_bound = found.lower_bound,
-                             .open = found.optimal ? NULL : why_open(&least),
-                             .turning = least.turning,
-                             .max_turning = largest_turning(s->f, s->o, &least),
-                             .pulled = thr_cords_pulled_turning(s->f, least.cord, least.n_cords)};
+    *point = (thr_frontier_point){
+        .length = least.length,
+        .overlap = least.length - thr_turning_base_length(sweep->f, sweep->o->cover),
+        .price = found.price,
+        .lower_bound = found.lower_bound,
+        .open = found.optimal ? NULL : why_open(&least),
+        .turning = least.turning,
+        .max_turning = largest_turning(sweep->f, sweep->o, &least),
+        .pulled = thr_cords_pulled_turning(sweep->f, least.cord, least.n_cords)};
   thr_turning_proof_destroy(&found.tree);
   thr_least_destroy(&least);
   return st;
 }
 
-/* Of different cords over every edge: a plan of theirs. */
-static thr_status make_different_point(sweep *s, const thr_limits *share, double slack,
+/* Makes a point of a plan of different cords over every edge. */
+static thr_status make_different_point(frontier_sweep *sweep, const thr_limits *share, double slack,
                                        thr_frontier_point *point, thr_err *err)
 {
-  thr_request options = *s->o;
+  thr_request options = *sweep->o;
   thr_plan plan;
   options.turning.length_slack = slack;
-  thr_status st = thr_planner_distinct(s->f, &options, share, &plan, NULL, err);
-  const bool whole = plan.n_cords > 0 && plan.metrics.distinct == s->f->n_edges;
+
+  thr_status st = thr_planner_distinct(sweep->f, &options, share, &plan, NULL, err);
+
+  /* Only plans in which every edge has its different cords are comparable. */
+  const bool whole = plan.n_cords > 0 && plan.metrics.distinct == sweep->f->n_edges;
   if (!st || st == THR_ELIMIT) st = whole && plan.turning.present ? THR_OK : THR_EINFEASIBLE;
   if (!st) {
-    s->shortest = plan.proof.lower_bound;
+    sweep->shortest = plan.proof.lower_bound;
     *point =
         (thr_frontier_point){.length = plan.metrics.length,
                              .overlap = plan.metrics.overlap,
@@ -676,7 +786,7 @@ static thr_status make_different_point(sweep *s, const thr_limits *share, double
                              .open = plan.turning.optimal ? NULL : "the bound is one of any cords",
                              .turning = plan.metrics.turning,
                              .max_turning = plan.metrics.max_turning,
-                             .pulled = thr_cords_pulled_turning(s->f, plan.cord, plan.n_cords)};
+                             .pulled = thr_cords_pulled_turning(sweep->f, plan.cord, plan.n_cords)};
   }
   thr_plan_destroy(&plan);
   return st;
@@ -684,22 +794,24 @@ static thr_status make_different_point(sweep *s, const thr_limits *share, double
 
 /* The least turning with that much more cord than the shortest (< 0: any length), as one more point
  * if there is a plan. */
-static thr_status add_point(sweep *s, double slack, thr_err *err)
+static thr_status add_point(frontier_sweep *sweep, double slack, thr_err *err)
 {
-  const thr_limits share = thr_limits_part(&s->limits, 1.0 / s->left--);
+  const thr_limits share = thr_limits_part(&sweep->limits, 1.0 / sweep->left--);
+
   thr_frontier_point point = {0};
   thr_err why = {0};
-  thr_status st =
-      (s->o->distinct > 0 ? make_different_point : make_point)(s, &share, slack, &point, &why);
-  if (!st) s->out->point[s->out->n++] = point;
+  thr_status st = (sweep->o->distinct > 0 ? make_different_point : make_point)(sweep, &share, slack,
+                                                                               &point, &why);
+  if (!st) sweep->out->point[sweep->out->n++] = point;
   return !st || st == THR_EINFEASIBLE ? THR_OK : thr_fail(err, st, "%s", why.text);
 }
 
+/* Orders points by length, then by price. */
 static int by_length(const void *a, const void *b)
 {
-  const thr_frontier_point *frontier_point = a, *y = b;
-  if (frontier_point->length != y->length) return frontier_point->length < y->length ? -1 : 1;
-  return (frontier_point->price > y->price) - (frontier_point->price < y->price);
+  const thr_frontier_point *point = a, *other = b;
+  if (point->length != other->length) return point->length < other->length ? -1 : 1;
+  return (point->price > other->price) - (point->price < other->price);
 }
 
 /* Leaves the points that turn less than every shorter one. */
@@ -720,27 +832,37 @@ static void drop_dominated(thr_frontier *out)
 thr_status thr_tortuosity_frontier(const thr_frame *frame, const thr_request *options, int most,
                                    const thr_limits *limits, thr_frontier *out, thr_err *err)
 {
-  sweep s = {.f = frame, .o = options, .limits = *limits, .left = most, .out = out};
+  frontier_sweep sweep = {.f = frame, .o = options, .limits = *limits, .left = most, .out = out};
   *out = (thr_frontier){0};
+
   if (most < 2) return thr_fail(err, THR_EINPUT, "a trade-off has at least 2 points");
   if (!(out->point = thr_calloc((size_t)most, sizeof *out->point))) return thr_nomem(err);
+
+  /* Tied cords are found once for all points. */
   thr_err unproved = {0};
   thr_status st = options->joint == THR_JOINT_TUBE
-                      ? find_shortest(frame, options, limits, &s.start, &unproved)
+                      ? find_shortest(frame, options, limits, &sweep.start, &unproved)
                       : THR_OK;
   if (st && st != THR_ELIMIT) thr_fail(err, st, "%s", unproved.text);
-  if (!st || st == THR_ELIMIT) st = add_point(&s, 0, err);
-  if (!st) st = add_point(&s, -1, err);
+
+  /* The two ends of the trade-off: the least turning among the shortest, and of any length. */
+  if (!st || st == THR_ELIMIT) st = add_point(&sweep, 0, err);
+  if (!st) st = add_point(&sweep, -1, err);
+
+  /* Points between the two, with limits on the length that are evenly spaced. */
   double longest = st || out->n == 0 ? 0 : out->point[out->n - 1].length;
-  for (int i = 1; i + 1 < most && !st && longest > s.shortest * (1 + 1e-9); i++)
-    st = add_point(&s, (longest / s.shortest - 1) * i / (most - 1), err);
-  shortest_destroy(&s.start);
+  for (int i = 1; i + 1 < most && !st && longest > sweep.shortest * (1 + 1e-9); i++)
+    st = add_point(&sweep, (longest / sweep.shortest - 1) * i / (most - 1), err);
+
+  shortest_destroy(&sweep.start);
   if (!st && out->n == 0)
     st = thr_fail(err, THR_EINFEASIBLE, "no plan was found for any point of the trade-off");
   if (st) {
     thr_frontier_destroy(out);
     return st;
   }
+
+  /* Only points that no other dominates stay; the first unproved one is told. */
   drop_dominated(out);
   for (int i = 0; i < out->n; i++)
     if (out->point[i].open)

@@ -1,6 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The order of work: among threadings of equal value the one in which what is threaded holds
- * together. */
+/* Orders the work: among threadings of equal value finds one in which the pieces that are already
+ * threaded hold together.
+ *
+ * Closed cords may begin anywhere and run either way, cords may be threaded in any order, and
+ * parts of a cord may be run the other way round (planner/order_reverse.c). Each cord is begun
+ * where its loose chains (graph/plan/chains.c) are short after those before it (find_beginning).
+ * Orders of few cords are found by a dynamic programme over subsets (try_orders; M. Held & R. M.
+ * Karp 1962), of more greedily (choose_next).
+ *
+ * Example: of two closed cords the one with feet is threaded first and begins at a foot; the other
+ * begins at a node that the first has already passed. */
 #include "planner/planner_parts.h"
 
 #include <limits.h>
@@ -28,7 +37,7 @@ typedef struct {
   thr_chains *sum;        /* [2 * most] from each start, one way and the other; scratch; owned */
   double *pulled;         /* [most] scratch; owned */
   bool *allowed;          /* [most] scratch; owned */
-} work;
+} work_order;
 
 /* A cord may begin with pass start, or backwards with the one before it. */
 typedef struct {
@@ -66,109 +75,137 @@ static bool is_better(thr_chains a, thr_chains b, int limit)
   return thr_chains_compare(a, b) < 0;
 }
 
-static thr_chains chains_now(work *x, const thr_cord *cord)
+/* Returns the loose chains that threading cord next would give. */
+static thr_chains chains_now(work_order *work, const thr_cord *cord)
 {
-  const thr_plan *plan = x->plan;
-  int n = thr_cord_pieces(&plan->frame, plan->options.joint, cord, x->piece);
-  int fold = thr_cord_fold(&plan->frame, plan->options.needles, cord), *chain = x->piece + n;
-  return thr_chains_of(chain, thr_threaded_try(&x->threaded, x->piece, n, fold, chain));
+  const thr_plan *plan = work->plan;
+  int n = thr_cord_pieces(&plan->frame, plan->options.joint, cord, work->piece);
+  int fold = thr_cord_fold(&plan->frame, plan->options.needles, cord), *chain = work->piece + n;
+  return thr_chains_of(chain, thr_threaded_try(&work->threaded, work->piece, n, fold, chain));
 }
 
-static void keep(work *x, const thr_cord *cord)
+static void keep(work_order *work, const thr_cord *cord)
 {
-  thr_threaded_keep(&x->threaded, x->piece,
-                    thr_cord_pieces(&x->plan->frame, x->plan->options.joint, cord, x->piece));
+  thr_threaded_keep(
+      &work->threaded, work->piece,
+      thr_cord_pieces(&work->plan->frame, work->plan->options.joint, cord, work->piece));
 }
 
-/* Which cords are begun alike: one, or a path and its copies, pass by pass. */
+/* The cords that are begun alike: one cord, or a path and its copies, pass by pass. */
 typedef struct {
   const int *cord;
   int n;
 } alike;
 
 /* Adds what beginning cord c at each start, one way or the other, comes to. */
-static thr_status add_chains(work *x, int c, bool backwards, thr_chains *sum, thr_err *err)
+static thr_status add_chains(work_order *work, int c, bool backwards, thr_chains *sum, thr_err *err)
 {
-  const thr_plan *plan = x->plan;
+  const thr_plan *plan = work->plan;
   thr_cord turned = plan->cord[c];
   int n = thr_order_turns(&plan->options, &turned) ? turned.n_passes : 1;
   thr_status st = THR_OK;
-  thr_starts_turn(&plan->cord[c], 0, backwards, x->half);
-  turned.half = x->half;
+
+  /* Run the cord forwards or backwards; only closed cords have more than one start. */
+  thr_starts_turn(&plan->cord[c], 0, backwards, work->half);
+  turned.half = work->half;
+
   if (n == 1)
-    x->chains[0] = chains_now(x, &turned);
+    work->chains[0] = chains_now(work, &turned);
   else
-    st = thr_starts_chains(&plan->frame, &plan->options, &turned, &x->threaded, x->chains, err);
+    st = thr_starts_chains(&plan->frame, &plan->options, &turned, &work->threaded, work->chains,
+                           err);
+
+  /* Add up by the pass of the cord as the cord is, whichever way it runs. */
   for (int s = 0; s < n && !st; s++)
-    sum[s] = thr_chains_together(sum[s], x->chains[backwards ? (n - s) % n : s]);
+    sum[s] = thr_chains_together(sum[s], work->chains[backwards ? (n - s) % n : s]);
   return st;
 }
 
 /* Which starts the cords may have: those within their room, and of these only feet, if there are
  * some. */
-static thr_status allow_starts(work *x, alike cords, thr_err *err)
+static thr_status allow_starts(work_order *work, alike cords, thr_err *err)
 {
-  const thr_frame *frame = &x->plan->frame;
-  const thr_cord *first = &x->plan->cord[cords.cord[0]];
+  const thr_frame *frame = &work->plan->frame;
+  const thr_cord *first = &work->plan->cord[cords.cord[0]];
   bool feet = false;
   thr_status st = THR_OK;
+
   for (int s = 0; s < first->n_passes; s++)
-    x->allowed[s] = true;
+    work->allowed[s] = true;
+
+  /* A start is allowed if it makes none of the cords harder to pull than its room lets it. */
   for (int i = 0; i < cords.n && !st; i++) {
     int c = cords.cord[i];
-    st = thr_starts_pulled(frame, &x->plan->cord[c], x->pulled, err);
+    st = thr_starts_pulled(frame, &work->plan->cord[c], work->pulled, err);
     for (int s = 0; s < first->n_passes && !st; s++)
-      x->allowed[s] &= x->pulled[s] <= x->room[c].pulled * (1 + rounding);
+      work->allowed[s] &= work->pulled[s] <= work->room[c].pulled * (1 + rounding);
   }
+
+  /* If feet are among the allowed starts, only these stay. */
   for (int s = 0; s < first->n_passes; s++)
-    feet |= x->allowed[s] && frame->foot[thr_tail(frame, first->half[s])];
+    feet |= work->allowed[s] && frame->foot[thr_tail(frame, first->half[s])];
   for (int s = 0; s < first->n_passes && feet; s++)
-    x->allowed[s] &= frame->foot[thr_tail(frame, first->half[s])];
+    work->allowed[s] &= frame->foot[thr_tail(frame, first->half[s])];
+
   return st;
 }
 
-static thr_status find_beginning(work *x, alike cords, int limit, beginning *best, thr_err *err)
+/* Finds the start and direction of cords that are begun alike that give the shortest chains; chains
+ * no longer than limit are alike. */
+static thr_status find_beginning(work_order *work, alike cords, int limit, beginning *best,
+                                 thr_err *err)
 {
-  const thr_cord *first = &x->plan->cord[cords.cord[0]];
-  bool turns = thr_order_turns(&x->plan->options, first);
-  thr_status st = turns ? allow_starts(x, cords, err) : THR_OK;
+  const thr_cord *first = &work->plan->cord[cords.cord[0]];
+  bool turns = thr_order_turns(&work->plan->options, first);
+  thr_status st = turns ? allow_starts(work, cords, err) : THR_OK;
+
   *best = (beginning){.chains = {INT_MAX, INT64_MAX}};
-  memset(x->sum, 0, 2 * x->most * sizeof *x->sum);
+  memset(work->sum, 0, 2 * work->most * sizeof *work->sum);
+
+  /* Sum up the chains over all cords, one way and the other. */
   for (int i = 0; i < cords.n && !st; i++) {
-    st = add_chains(x, cords.cord[i], false, x->sum, err);
-    if (!st) st = add_chains(x, cords.cord[i], true, x->sum + x->most, err);
-    if (cords.n > 1) keep(x, &x->plan->cord[cords.cord[i]]);
+    st = add_chains(work, cords.cord[i], false, work->sum, err);
+    if (!st) st = add_chains(work, cords.cord[i], true, work->sum + work->most, err);
+    if (cords.n > 1) keep(work, &work->plan->cord[cords.cord[i]]);
   }
+
+  /* Choose the best allowed start. */
   for (int back = 0; back < 2 && !st; back++)
     for (int s = 0; s < (turns ? first->n_passes : 1); s++) {
-      thr_chains chains = x->sum[(size_t)back * x->most + (size_t)s];
-      if ((!turns || x->allowed[s]) && is_better(chains, best->chains, limit))
+      thr_chains chains = work->sum[(size_t)back * work->most + (size_t)s];
+      if ((!turns || work->allowed[s]) && is_better(chains, best->chains, limit))
         *best = (beginning){s, back, chains};
     }
+
   return st;
 }
 
-static void begin(work *x, thr_cord *cord, const beginning *at)
+static void begin(work_order *work, thr_cord *cord, const beginning *at)
 {
-  thr_starts_turn(cord, at->start, at->backwards, x->half);
-  memcpy(cord->half, x->half, (size_t)cord->n_passes * sizeof *cord->half);
+  thr_starts_turn(cord, at->start, at->backwards, work->half);
+  memcpy(cord->half, work->half, (size_t)cord->n_passes * sizeof *cord->half);
 }
 
 /* Cord c as the next one: begun where that is best, and run otherwise in parts if its chains stay
  * long. */
-static thr_status thread_next(work *x, int c, thr_err *err)
+static thr_status thread_next(work_order *work, int c, thr_err *err)
 {
   beginning at;
-  const thr_plan *plan = x->plan;
+  const thr_plan *plan = work->plan;
   thr_cord *cord = &plan->cord[c];
-  thr_status st = find_beginning(x, (alike){&c, 1}, 0, &at, err);
-  if (!st) begin(x, cord, &at);
+
+  thr_status st = find_beginning(work, (alike){&c, 1}, 0, &at, err);
+  if (!st) begin(work, cord, &at);
+
+  /* Where chains stay long, run parts of the cord the other way round, and look for a start
+   * again. */
   if (!st && at.chains.longest > THR_HELD_WELL && thr_order_reverses(&plan->options, cord)) {
-    st = thr_order_reverse(plan, c, x->room[c], &x->threaded, err);
-    if (!st) st = find_beginning(x, (alike){&c, 1}, 0, &at, err);
-    if (!st) begin(x, cord, &at);
+    st = thr_order_reverse(plan, c, work->room[c], &work->threaded, err);
+    if (!st) st = find_beginning(work, (alike){&c, 1}, 0, &at, err);
+    if (!st) begin(work, cord, &at);
   }
-  if (!st) keep(x, cord);
+
+  if (!st) keep(work, cord);
   return st;
 }
 
@@ -180,133 +217,157 @@ typedef struct {
   int n;
   thr_chains best[1 << FEW_CORDS]; /* of these cords, in the best order */
   int last[1 << FEW_CORDS];        /* of them */
-} orders;
+} cord_orders;
 
-static void forget(work *x)
+static void forget(work_order *work)
 {
-  memset(x->threaded.on, 0,
-         (size_t)thr_chains_pieces(&x->plan->frame, x->plan->options.joint) *
-             sizeof *x->threaded.on);
+  memset(work->threaded.on, 0,
+         (size_t)thr_chains_pieces(&work->plan->frame, work->plan->options.joint) *
+             sizeof *work->threaded.on);
 }
 
-/* The best of all orders, by the sets of cords that may come first; chains no longer than limit are
- * alike. */
-static thr_status try_orders(work *x, orders *o, int limit, thr_err *err)
+/* Finds the best of all orders by a dynamic programme over the sets of cords that come first;
+ * chains no longer than limit are alike. */
+static thr_status try_orders(work_order *work, cord_orders *orders, int limit, thr_err *err)
 {
   thr_status st = THR_OK;
-  for (int set = 1; set < 1 << o->n; set++)
-    o->best[set] = (thr_chains){INT_MAX, INT64_MAX};
-  o->best[0] = (thr_chains){0};
-  for (int set = 0; set < (1 << o->n) - 1 && !st; set++) {
-    forget(x);
-    for (int i = 0; i < o->n; i++)
-      if (set >> i & 1) keep(x, &x->plan->cord[o->cord[i]]);
-    for (int i = 0; i < o->n && !st; i++) {
+
+  for (int set = 1; set < 1 << orders->n; set++)
+    orders->best[set] = (thr_chains){INT_MAX, INT64_MAX};
+  orders->best[0] = (thr_chains){0};
+
+  /* From each set thread one more cord, which leads to a set with one cord more. */
+  for (int set = 0; set < (1 << orders->n) - 1 && !st; set++) {
+    forget(work);
+    for (int i = 0; i < orders->n; i++)
+      if (set >> i & 1) keep(work, &work->plan->cord[orders->cord[i]]);
+
+    for (int i = 0; i < orders->n && !st; i++) {
       beginning at;
       if (set >> i & 1) continue;
-      st = find_beginning(x, (alike){&o->cord[i], 1}, limit, &at, err);
-      thr_chains all = thr_chains_together(o->best[set], at.chains);
-      if (st || !is_better(all, o->best[set | 1 << i], limit)) continue;
-      o->best[set | 1 << i] = all;
-      o->last[set | 1 << i] = i;
+      st = find_beginning(work, (alike){&orders->cord[i], 1}, limit, &at, err);
+
+      thr_chains all = thr_chains_together(orders->best[set], at.chains);
+      if (st || !is_better(all, orders->best[set | 1 << i], limit)) continue;
+      orders->best[set | 1 << i] = all;
+      orders->last[set | 1 << i] = i;
     }
   }
   return st;
 }
 
 /* Permutes cord[n], which is by ascending number, to the best order. */
-static thr_status order_few(work *x, int *cord, int n, thr_err *err)
+static thr_status order_few(work_order *work, int *cord, int n, thr_err *err)
 {
-  orders o = {.cord = cord, .n = n};
+  cord_orders orders = {.cord = cord, .n = n};
   int all = (1 << n) - 1, order[FEW_CORDS];
-  thr_status st = try_orders(x, &o, 0, err);
-  if (!st) st = try_orders(x, &o, o.best[all].longest, err);
+
+  /* First make the longest chain short, then, with its length as the limit, the squares of all. */
+  thr_status st = try_orders(work, &orders, 0, err);
+  if (!st) st = try_orders(work, &orders, orders.best[all].longest, err);
   if (st) return st;
-  for (int set = all, k = n; set; set &= ~(1 << o.last[set]))
-    order[--k] = cord[o.last[set]];
+
+  /* Walk back from the set of all cords to read off the order. */
+  for (int set = all, k = n; set; set &= ~(1 << orders.last[set]))
+    order[--k] = cord[orders.last[set]];
   memcpy(cord, order, (size_t)n * sizeof *cord);
-  forget(x);
+  forget(work);
+
   return THR_OK;
 }
 
 /* That of cord[from .. n - 1] whose chains are the least comes to from. */
-static thr_status choose_next(work *x, int *cord, int from, int n, thr_err *err)
+static thr_status choose_next(work_order *work, int *cord, int from, int n, thr_err *err)
 {
   thr_status st = THR_OK;
   int best = from;
   thr_chains least = {INT_MAX, INT64_MAX};
+
   for (int i = from; i < n && !st; i++) {
     beginning at;
-    st = find_beginning(x, (alike){&cord[i], 1}, 0, &at, err);
+    st = find_beginning(work, (alike){&cord[i], 1}, 0, &at, err);
     if (st || thr_chains_compare(at.chains, least) >= 0) continue;
     least = at.chains;
     best = i;
   }
+
+  /* The chosen cord moves to the front; the others keep their order. */
   int next = cord[best];
   memmove(&cord[from + 1], &cord[from], (size_t)(best - from) * sizeof *cord);
   cord[from] = next;
   return st;
 }
 
-static void find_room(work *x, int c)
+/* Sets how much cord c may turn, and how much before an end that is pulled. */
+static void find_room(work_order *work, int c)
 {
-  const thr_plan *plan = x->plan;
+  const thr_plan *plan = work->plan;
   const thr_cord *cord = &plan->cord[c];
-  double part = thr_order_reverses(&plan->options, cord) ? x->more : 1;
-  x->room[c].exactly = thr_wants_turning(&plan->options);
-  x->room[c].turning =
+  double part = thr_order_reverses(&plan->options, cord) ? work->more : 1;
+
+  work->room[c].exactly = thr_wants_turning(&plan->options);
+  work->room[c].turning =
       part * thr_cord_turning(&plan->frame, cord, thr_order_turns(&plan->options, cord));
-  x->room[c].pulled = part * thr_cord_pulled_turning(&plan->frame, cord);
+  work->room[c].pulled = part * thr_cord_pulled_turning(&plan->frame, cord);
 }
 
 /* The cords cord[n] of one component, of so many passes in all: threads them, and permutes the list
  * to their order. */
-static thr_status thread_cords(work *x, int *cord, int n, int64_t passes, thr_err *err)
+static thr_status thread_cords(work_order *work, int *cord, int n, int64_t passes, thr_err *err)
 {
   bool few = n > 1 && n <= FEW_CORDS && passes << n <= MOST_VISITS;
   bool some = n > 1 && !few && passes * n <= MOST_VISITS;
+
   for (int i = 0; i < n; i++)
-    find_room(x, cord[i]);
-  thr_status st = few ? order_few(x, cord, n, err) : THR_OK;
+    find_room(work, cord[i]);
+
+  /* Few cords are ordered by all orders; of some the next is chosen each time. */
+  thr_status st = few ? order_few(work, cord, n, err) : THR_OK;
   for (int i = 0; i < n && !st; i++) {
-    if (some) st = choose_next(x, cord, i, n, err);
-    if (!st) st = thread_next(x, cord[i], err);
+    if (some) st = choose_next(work, cord, i, n, err);
+    if (!st) st = thread_next(work, cord[i], err);
   }
   return st;
 }
 
 /* Component by component; the cords of one take the places that they had, in their new order. */
-static thr_status thread_all(work *x, int *cord, thr_cord *ordered, thr_err *err)
+static thr_status thread_all(work_order *work, int *cord, thr_cord *ordered, thr_err *err)
 {
-  thr_plan *plan = x->plan;
+  thr_plan *plan = work->plan;
   thr_status st = THR_OK;
   for (int c = 0; c < plan->n_cords && !st; c++) {
     int n = 0;
     int64_t passes = 0;
+
+    /* Gather the cords of the component, unless it is done. */
     if (ordered[c].half) continue;
     for (int i = c; i < plan->n_cords; i++) {
       if (plan->cord[i].component != plan->cord[c].component) continue;
       cord[n++] = i;
       passes += plan->cord[i].n_passes;
     }
-    if (passes <= THR_ORDER_MOST) st = thread_cords(x, cord, n, passes, err);
+
+    if (passes <= THR_ORDER_MOST) st = thread_cords(work, cord, n, passes, err);
     for (int i = c, k = 0; i < plan->n_cords; i++)
       if (plan->cord[i].component == plan->cord[c].component) ordered[i] = plan->cord[cord[k++]];
   }
   return st;
 }
 
-static thr_status order_cords(work *x, thr_err *err)
+/* Threads all cords, and numbers them anew in their order. */
+static thr_status order_cords(work_order *work, thr_err *err)
 {
-  thr_plan *plan = x->plan;
+  thr_plan *plan = work->plan;
   size_t n = (size_t)plan->n_cords;
   int *cord = thr_calloc(n, sizeof *cord);
   thr_cord *ordered = thr_calloc(n, sizeof *ordered);
-  thr_status st = cord && ordered ? thread_all(x, cord, ordered, err) : thr_nomem(err);
+  thr_status st = cord && ordered ? thread_all(work, cord, ordered, err) : thr_nomem(err);
+
   for (int c = 0; c < plan->n_cords && !st; c++) {
     plan->cord[c] = ordered[c];
     thr_cord_id(c, plan->cord[c].id);
   }
+
   free(cord);
   free(ordered);
   return st;
@@ -329,66 +390,79 @@ static void follow_path(const thr_plan *plan, int c)
 }
 
 /* Paths in their order, each with its copies: order is that of the work. */
-static thr_status thread_paths(work *x, const int *order, thr_err *err)
+static thr_status thread_paths(work_order *work, const int *order, thr_err *err)
 {
-  const thr_plan *plan = x->plan;
+  const thr_plan *plan = work->plan;
   thr_status st = THR_OK;
   for (int first = 0, end; first < plan->n_cords && !st; first = end) {
     beginning at;
+
+    /* Copies take the passes of their path before they are threaded. */
     for (end = first + 1; end < plan->n_cords && plan->symmetry.unique[order[end]] == order[first];
          end++)
       follow_path(plan, order[end]);
+
     for (int i = first; i < end; i++)
-      find_room(x, order[i]);
-    st = find_beginning(x, (alike){&order[first], end - first}, 0, &at, err);
+      find_room(work, order[i]);
+
+    /* A path and its copies begin alike, at the start that is best for all of them. */
+    st = find_beginning(work, (alike){&order[first], end - first}, 0, &at, err);
     for (int i = first; i < end && !st; i++) {
-      begin(x, &plan->cord[order[i]], &at);
-      keep(x, &plan->cord[order[i]]);
+      begin(work, &plan->cord[order[i]], &at);
+      keep(work, &plan->cord[order[i]]);
     }
   }
   return st;
 }
 
-static thr_status order_paths(work *x, thr_err *err)
+/* Threads the paths of a symmetric plan in the order of the work. */
+static thr_status order_paths(work_order *work, thr_err *err)
 {
-  if (x->plan->metrics.passes > THR_ORDER_MOST) return THR_OK;
-  int *order = thr_calloc((size_t)x->plan->n_cords, sizeof *order);
+  if (work->plan->metrics.passes > THR_ORDER_MOST) return THR_OK;
+  int *order = thr_calloc((size_t)work->plan->n_cords, sizeof *order);
   if (!order) return thr_nomem(err);
-  thr_plan_work(x->plan, order);
-  thr_status st = thread_paths(x, order, err);
+  thr_plan_work(work->plan, order);
+  thr_status st = thread_paths(work, order, err);
   free(order);
   return st;
 }
 
 /* ---- the whole ---- */
 
-static thr_status work_init(work *x, thr_plan *plan, double more, thr_err *err)
+/* Allocates the arrays for the longest cord. Release with work_destroy, after a failure too. */
+static thr_status work_init(work_order *work, thr_plan *plan, double more, thr_err *err)
 {
-  *x = (work){
-      .plan = plan, .more = more, .room = thr_calloc((size_t)plan->n_cords, sizeof *x->room)};
+  *work = (work_order){
+      .plan = plan, .more = more, .room = thr_calloc((size_t)plan->n_cords, sizeof *work->room)};
+
   for (int c = 0; c < plan->n_cords; c++)
-    x->most = (size_t)plan->cord[c].n_passes > x->most ? (size_t)plan->cord[c].n_passes : x->most;
-  x->half = thr_calloc(x->most, sizeof *x->half);
-  x->piece = thr_calloc(2 * x->most + 2, sizeof *x->piece);
-  x->chains = thr_calloc(x->most, sizeof *x->chains);
-  x->sum = thr_calloc(2 * x->most, sizeof *x->sum);
-  x->pulled = thr_calloc(x->most, sizeof *x->pulled);
-  x->allowed = thr_calloc(x->most, sizeof *x->allowed);
-  if (!x->room || !x->half || !x->piece || !x->chains || !x->sum || !x->pulled || !x->allowed)
+    work->most =
+        (size_t)plan->cord[c].n_passes > work->most ? (size_t)plan->cord[c].n_passes : work->most;
+
+  work->half = thr_calloc(work->most, sizeof *work->half);
+  work->piece = thr_calloc(2 * work->most + 2, sizeof *work->piece);
+  work->chains = thr_calloc(work->most, sizeof *work->chains);
+  work->sum = thr_calloc(2 * work->most, sizeof *work->sum);
+  work->pulled = thr_calloc(work->most, sizeof *work->pulled);
+  work->allowed = thr_calloc(work->most, sizeof *work->allowed);
+
+  if (!work->room || !work->half || !work->piece || !work->chains || !work->sum || !work->pulled ||
+      !work->allowed)
     return thr_nomem(err);
-  return thr_threaded_init(&x->threaded, &plan->frame, plan->options.joint, err);
+  return thr_threaded_init(&work->threaded, &plan->frame, plan->options.joint, err);
 }
 
-static void work_destroy(work *x)
+/* Releases all arrays. */
+static void work_destroy(work_order *work)
 {
-  thr_threaded_destroy(&x->threaded);
-  free(x->room);
-  free(x->half);
-  free(x->piece);
-  free(x->chains);
-  free(x->sum);
-  free(x->pulled);
-  free(x->allowed);
+  thr_threaded_destroy(&work->threaded);
+  free(work->room);
+  free(work->half);
+  free(work->piece);
+  free(work->chains);
+  free(work->sum);
+  free(work->pulled);
+  free(work->allowed);
 }
 
 /* The cords of a plan as they were. */
@@ -397,58 +471,63 @@ typedef struct {
   int *half;      /* [passes] cord by cord; owned */
 } backup;
 
-static thr_status save_cords(const thr_plan *plan, backup *b, thr_err *err)
+/* Copies the cords of the plan, and their passes, to saved. */
+static thr_status save_cords(const thr_plan *plan, backup *saved, thr_err *err)
 {
   size_t n = 0;
   for (int c = 0; c < plan->n_cords; c++)
     n += (size_t)plan->cord[c].n_passes;
-  b->cord = thr_calloc((size_t)plan->n_cords, sizeof *b->cord);
-  b->half = thr_calloc(n, sizeof *b->half);
-  if (!b->cord || !b->half) return thr_nomem(err);
-  memcpy(b->cord, plan->cord, (size_t)plan->n_cords * sizeof *b->cord);
+
+  saved->cord = thr_calloc((size_t)plan->n_cords, sizeof *saved->cord);
+  saved->half = thr_calloc(n, sizeof *saved->half);
+  if (!saved->cord || !saved->half) return thr_nomem(err);
+
+  memcpy(saved->cord, plan->cord, (size_t)plan->n_cords * sizeof *saved->cord);
   n = 0;
   for (int c = 0; c < plan->n_cords; n += (size_t)plan->cord[c++].n_passes)
-    memcpy(b->half + n, plan->cord[c].half, (size_t)plan->cord[c].n_passes * sizeof *b->half);
+    memcpy(saved->half + n, plan->cord[c].half,
+           (size_t)plan->cord[c].n_passes * sizeof *saved->half);
+
   return THR_OK;
 }
 
-static void restore_cords(thr_plan *plan, const backup *b)
+static void restore_cords(thr_plan *plan, const backup *saved)
 {
-  const int *half = b->half;
-  memcpy(plan->cord, b->cord, (size_t)plan->n_cords * sizeof *b->cord);
+  const int *half = saved->half;
+  memcpy(plan->cord, saved->cord, (size_t)plan->n_cords * sizeof *saved->cord);
   for (int c = 0; c < plan->n_cords; half += plan->cord[c++].n_passes)
     memcpy(plan->cord[c].half, half, (size_t)plan->cord[c].n_passes * sizeof *half);
 }
 
-static void free_cords(backup *b)
+static void free_cords(backup *saved)
 {
-  free(b->cord);
-  free(b->half);
-  *b = (backup){0};
+  free(saved->cord);
+  free(saved->half);
+  *saved = (backup){0};
 }
 
 static thr_status order_all(thr_plan *plan, double more, thr_err *err)
 {
-  work x;
-  thr_status st = work_init(&x, plan, more, err);
-  if (!st) st = plan->symmetry.present ? order_paths(&x, err) : order_cords(&x, err);
-  work_destroy(&x);
+  work_order work;
+  thr_status st = work_init(&work, plan, more, err);
+  if (!st) st = plan->symmetry.present ? order_paths(&work, err) : order_cords(&work, err);
+  work_destroy(&work);
   return st;
 }
 
 /* Is one order of work better than another? By hand in any way; else only if its longest chain is
  * shorter, and chains that a hand holds well are alike. */
-static bool serves_better(bool by_hand, thr_chains a, thr_chains b)
+static bool serves_better(bool by_hand, thr_chains a, thr_chains saved)
 {
-  if (by_hand) return thr_chains_compare(a, b) < 0;
-  return a.longest < b.longest && b.longest > THR_HELD_WELL;
+  if (by_hand) return thr_chains_compare(a, saved) < 0;
+  return a.longest < saved.longest && saved.longest > THR_HELD_WELL;
 }
 
 /* Replaces what was kept. */
-static thr_status keep_cords(const thr_plan *plan, backup *b, thr_err *err)
+static thr_status keep_cords(const thr_plan *plan, backup *saved, thr_err *err)
 {
-  free_cords(b);
-  return save_cords(plan, b, err);
+  free_cords(saved);
+  return save_cords(plan, saved, err);
 }
 
 /* Orders the cords, if chains get shorter by it: without more turning, or with as little as serves.
@@ -458,18 +537,24 @@ static thr_status order_if_worth(thr_plan *plan, bool by_hand, bool *changed, th
   const int n = !has_slack(&plan->options) ? 1 : by_hand ? TRIED : TRIED - 1;
   thr_chains least, after;
   backup found = {0}, best = {0};
+
+  /* Keep the cords as they were found, and the best order so far. */
   thr_status st = thr_plan_chains(plan, plan->options.needles, &least, err);
   if (!st) st = save_cords(plan, &found, err);
   if (!st) st = save_cords(plan, &best, err);
+
+  /* Try with more and more turning; every trial begins with the cords as they were found. */
   for (int i = 0; i < n && !st && (by_hand || least.longest > THR_HELD_WELL); i++) {
     restore_cords(plan, &found);
     st = order_all(plan, tried[i], err);
     if (!st) st = thr_plan_chains(plan, plan->options.needles, &after, err);
     if (st || !serves_better(by_hand, after, least)) continue;
+
     least = after;
     *changed = true;
     st = keep_cords(plan, &best, err);
   }
+
   if (!st) restore_cords(plan, &best);
   free_cords(&found);
   free_cords(&best);
@@ -488,10 +573,13 @@ thr_status thr_plan_order(thr_plan *plan, thr_err *err)
   const thr_order order = order_of(&plan->options);
   bool changed = false;
   if (order == THR_ORDER_PLANNED || plan->n_cords == 0) return THR_OK;
+
   thr_status st = order_if_worth(plan, order == THR_ORDER_HAND, &changed, err);
   if (st || !changed) return st;
+
   const double length =
       plan->metrics.length; /* the same passes, whatever the order in which they are added up */
+
   st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics,
                         err);
   plan->metrics.length = length;
