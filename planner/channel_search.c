@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cords without crossing channels, by branching on the channels of every node. Private to planner/.
+/* Finds cords without crossing channels by a depth-first search over the channels of every node.
  *
- * Cords without crossing channels, by branching.
+ * A plan is a number of passes for every edge (a join) and, at every node, a pairing of the ends
+ * of passes there; an end that stays single is the end of a cord. The search pairs the ends node
+ * by node, such that no two channels of a node cross and no more circuits or single ends come
+ * about than the cords have. Passes of an edge that nothing leads to yet are alike, so only the
+ * first of them is tried. The passes of the plan are searched first, then all joins that are short
+ * enough, the shortest first.
  *
- * A plan is a number of passes for every edge and, at every node, a pairing of the passes that end
- * there; what is left single is a cord's end. A depth-first search pairs the ends node by node, so
- * that no two channels of a node cross and no more circuits or ends come about than the cords have.
- * Passes of an edge that nothing leads to yet are alike: only the first of them is tried.
- *
- * Example: three closed cords whose greedy exchange left two, and the third had to be added as a
- * loop over an edge: the search pairs the same passes so that they fall in three. */
+ * Example: three closed cords whose greedy exchange (planner/uncross.c) left two, and the third
+ * had to be added as a loop over an edge: the search pairs the same passes so that they fall in
+ * three. */
 #include "planner/planner_parts.h"
 
 #include "graph/scratch.h"
@@ -43,48 +44,59 @@ typedef struct {
   thr_cord *cord;                    /* [n_cords] what was found; owned */
   double most_longest, most_turning; /* of the cords */
   thr_status status;
-} search;
+} channel_tree;
 
-static int node_of(const search *s, int end)
+static int node_of(const channel_tree *search, int end)
 {
-  return thr_tail(&s->plan->frame, s->arm[end]);
+  return thr_tail(&search->plan->frame, search->arm[end]);
 }
 
 /* May another cord end at this node? */
-static bool has_room(const search *s, int node)
+static bool has_room(const channel_tree *search, int node)
 {
-  const thr_request *request = &s->plan->options;
-  if (request->ends == THR_ENDS_CLOSED || s->n_single == 2 * s->n_cords) return false;
-  if (request->ends == THR_ENDS_COUNTS) return s->node_ends[node] < request->end_count[node];
-  return thr_plan_end_allowed(&s->plan->frame, request, node);
+  const thr_request *request = &search->plan->options;
+
+  if (request->ends == THR_ENDS_CLOSED || search->n_single == 2 * search->n_cords) return false;
+  if (request->ends == THR_ENDS_COUNTS) return search->node_ends[node] < request->end_count[node];
+  return thr_plan_end_allowed(&search->plan->frame, request, node);
 }
 
 /* Would a channel between ends x and y cross one of the same node? */
-static bool would_cross(const search *s, int x, int y, int from)
+static bool would_cross(const channel_tree *search, int x, int y, int from)
 {
-  const thr_channel new = {.in = s->arm[x], .out = s->arm[y]};
-  const int node = node_of(s, x);
-  while (from > 0 && node_of(s, s->order[from - 1]) == node)
+  const thr_channel new = {.in = search->arm[x], .out = search->arm[y]};
+
+  const int node = node_of(search, x);
+
+  /* The ends of a node stand side by side in the order: go back to the first of them. */
+  while (from > 0 && node_of(search, search->order[from - 1]) == node)
     from--;
-  for (int i = from; i < s->n_ends && node_of(s, s->order[i]) == node; i++) {
-    const int z = s->order[i], w = s->mate[z];
+
+  /* Compare with every channel of the node, each seen from one of its ends. */
+  for (int i = from; i < search->n_ends && node_of(search, search->order[i]) == node; i++) {
+    const int z = search->order[i], w = search->mate[z];
     if (w < z) continue; /* OPEN, END, or seen from the other end */
-    const thr_channel old = {.in = s->arm[z], .out = s->arm[w]};
-    if (thr_channels_cross(s->rank, &new, &old)) return true;
+    const thr_channel old = {.in = search->arm[z], .out = search->arm[w]};
+    if (thr_channels_cross(search->rank, &new, &old)) return true;
   }
   return false;
 }
 
 /* Takes the passes from end x on into a cord, until it ends or comes round. */
-static thr_status trace(search *s, int x, bool *seen, thr_cord *cord)
+static thr_status trace(channel_tree *search, int x, bool *seen, thr_cord *cord)
 {
-  cord->half = thr_calloc((size_t)s->n_ends / 2, sizeof *cord->half);
+  cord->half = thr_calloc((size_t)search->n_ends / 2, sizeof *cord->half);
+
   if (!cord->half) return THR_ENOMEM;
-  for (int y = x; y >= 0 && !seen[y / 2]; y = s->mate[y ^ 1]) {
+
+  /* The other end of the pass is y ^ 1, and mate tells what it is led to. */
+  for (int y = x; y >= 0 && !seen[y / 2]; y = search->mate[y ^ 1]) {
     seen[y / 2] = true;
-    cord->half[cord->n_passes++] = s->arm[y];
+    cord->half[cord->n_passes++] = search->arm[y];
   }
-  cord->closed = thr_cord_start(&s->plan->frame, cord) == thr_cord_end(&s->plan->frame, cord);
+
+  cord->closed =
+      thr_cord_start(&search->plan->frame, cord) == thr_cord_end(&search->plan->frame, cord);
   return THR_OK;
 }
 
@@ -96,120 +108,144 @@ static double turning_of(const thr_plan *plan, const thr_cord *cord, double so_f
 }
 
 /* Are the cords as short as they have to be, and turn no more than they may? */
-static bool serves(const search *s, int n)
+static bool serves(const channel_tree *search, int n)
 {
   double turning = 0;
   for (int i = 0; i < n; i++)
-    turning = turning_of(s->plan, &s->cord[i], turning);
-  return thr_cords_longest(&s->plan->frame, s->cord, n) <= s->most_longest * (1 + 1e-12) &&
-         turning <= s->most_turning * (1 + 1e-12);
+    turning = turning_of(search->plan, &search->cord[i], turning);
+  return thr_cords_longest(&search->plan->frame, search->cord, n) <=
+             search->most_longest * (1 + 1e-12) &&
+         turning <= search->most_turning * (1 + 1e-12);
 }
 
 /* Makes cords of the channels; do they serve? */
-static bool take_cords(search *s)
+static bool take_cords(channel_tree *search)
 {
-  const bool is_closed = s->plan->options.ends == THR_ENDS_CLOSED;
-  bool *seen = thr_calloc((size_t)s->n_ends / 2, sizeof *seen);
+  const bool is_closed = search->plan->options.ends == THR_ENDS_CLOSED;
+  bool *seen = thr_calloc((size_t)search->n_ends / 2, sizeof *seen);
+
   int n = 0;
-  s->status = seen ? THR_OK : THR_ENOMEM;
-  for (int x = 0; x < s->n_ends && !s->status; x++)
-    if (!seen[x / 2] && (is_closed || s->mate[x] == END))
-      s->status = trace(s, x, seen, &s->cord[n++]);
+  search->status = seen ? THR_OK : THR_ENOMEM;
+
+  /* Closed cords are traced from any end of a pass, others from where a cord ends. */
+  for (int x = 0; x < search->n_ends && !search->status; x++)
+    if (!seen[x / 2] && (is_closed || search->mate[x] == END))
+      search->status = trace(search, x, seen, &search->cord[n++]);
   free(seen);
-  if (!s->status && serves(s, n)) return true;
+
+  /* Release the cords again if they are too long or turn too much. */
+  if (!search->status && serves(search, n)) return true;
   for (int i = 0; i < n; i++) {
-    free(s->cord[i].half);
-    s->cord[i] = (thr_cord){0};
+    free(search->cord[i].half);
+    search->cord[i] = (thr_cord){0};
   }
   return false;
 }
 
-static bool lead_on(search *s, int k);
+static bool lead_on(channel_tree *search, int k);
 
 /* Leads end x = order[k] on to y, if that crosses nothing, and looks for the rest. */
-static bool try_channel(search *s, int k, int x, int y)
+static bool try_channel(channel_tree *search, int k, int x, int y)
 {
-  const bool closes = s->far[x] == y;
-  if (closes && (s->plan->options.ends != THR_ENDS_CLOSED || s->n_closed == s->n_cords))
+  /* With open cords no circuit may close, and of closed cords no more than the request has. */
+  const bool closes = search->far[x] == y;
+  if (closes &&
+      (search->plan->options.ends != THR_ENDS_CLOSED || search->n_closed == search->n_cords))
     return false;
-  if (would_cross(s, x, y, k)) return false;
+  if (would_cross(search, x, y, k)) return false;
 
-  const int one = s->far[x], other = s->far[y];
-  s->mate[x] = y;
-  s->mate[y] = x;
-  s->n_closed += closes;
+  /* Lead x to y; the path that both join now ends at their far ends. */
+  const int one = search->far[x], other = search->far[y];
+  search->mate[x] = y;
+  search->mate[y] = x;
+  search->n_closed += closes;
   if (!closes) {
-    s->far[one] = other;
-    s->far[other] = one;
+    search->far[one] = other;
+    search->far[other] = one;
   }
-  if (lead_on(s, k + 1)) return true;
+  if (lead_on(search, k + 1)) return true;
 
-  s->mate[x] = s->mate[y] = OPEN;
-  s->n_closed -= closes;
+  /* Nothing was found: restore the ends. */
+  search->mate[x] = search->mate[y] = OPEN;
+  search->n_closed -= closes;
   if (!closes) {
-    s->far[one] = x;
-    s->far[other] = y;
+    search->far[one] = x;
+    search->far[other] = y;
   }
   return false;
 }
 
 /* Chooses what the ends order[k], order[k + 1], .. are led to; true: cords were found. */
-static bool lead_on(search *s, int k)
+static bool lead_on(channel_tree *search, int k)
 {
-  if (++s->steps > s->limit || s->status) return false;
-  while (k < s->n_ends && s->mate[s->order[k]] != OPEN)
+  if (++search->steps > search->limit || search->status) return false;
+
+  /* Pass over the ends that something leads to already; at the last one the cords are complete. */
+  while (k < search->n_ends && search->mate[search->order[k]] != OPEN)
     k++;
-  if (k == s->n_ends) {
-    const bool is_closed = s->plan->options.ends == THR_ENDS_CLOSED;
-    return (is_closed ? s->n_closed == s->n_cords : s->n_single == 2 * s->n_cords) && take_cords(s);
-  }
-  const int x = s->order[k], node = node_of(s, x);
-  if (has_room(s, node)) {
-    s->mate[x] = END;
-    s->n_single++;
-    s->node_ends[node]++;
-    if (lead_on(s, k + 1)) return true;
-    s->mate[x] = OPEN;
-    s->n_single--;
-    s->node_ends[node]--;
+  if (k == search->n_ends) {
+    const bool is_closed = search->plan->options.ends == THR_ENDS_CLOSED;
+    return (is_closed ? search->n_closed == search->n_cords
+                      : search->n_single == 2 * search->n_cords) &&
+           take_cords(search);
   }
 
+  /* Let a cord end here, where the request has room for another end. */
+  const int x = search->order[k], node = node_of(search, x);
+  if (has_room(search, node)) {
+    search->mate[x] = END;
+    search->n_single++;
+    search->node_ends[node]++;
+    if (lead_on(search, k + 1)) return true;
+    search->mate[x] = OPEN;
+    search->n_single--;
+    search->node_ends[node]--;
+  }
+
+  /* Lead the pass on to another one of the node. */
   int fresh = -1; /* the arm of a pass that nothing leads to, which stands for all of its edge */
-  for (int i = k + 1; i < s->n_ends && node_of(s, s->order[i]) == node; i++) {
-    const int y = s->order[i];
-    if (s->mate[y] != OPEN) continue;
-    if (s->mate[y ^ 1] == OPEN) {
-      if (s->arm[y] == fresh) continue;
-      fresh = s->arm[y];
+  for (int i = k + 1; i < search->n_ends && node_of(search, search->order[i]) == node; i++) {
+    const int y = search->order[i];
+    if (search->mate[y] != OPEN) continue;
+    if (search->mate[y ^ 1] == OPEN) {
+      if (search->arm[y] == fresh) continue;
+      fresh = search->arm[y];
     }
-    if (try_channel(s, k, x, y)) return true;
+    if (try_channel(search, k, x, y)) return true;
   }
   return false;
 }
 
 /* Is there a way to lead the cords over so many passes of each edge? */
-static bool try_join(search *s, const unsigned char *passes)
+static bool try_join(channel_tree *search, const unsigned char *passes)
 {
+  /* List the ends of all passes, and then again node by node, which is the order of the search. */
   int n = 0, placed = 0;
-  for (int i = 0; i < s->n_edges; i++)
+  for (int i = 0; i < search->n_edges; i++)
     for (int k = 0; k < passes[i]; k++, n += 2) {
-      s->arm[n] = 2 * s->edge[i];
-      s->arm[n + 1] = 2 * s->edge[i] + 1;
+      search->arm[n] = 2 * search->edge[i];
+      search->arm[n + 1] = 2 * search->edge[i] + 1;
     }
-  s->n_ends = n;
-  for (int i = 0; i < s->n_nodes; i++) {
-    s->node_ends[s->node[i]] = 0;
+
+  search->n_ends = n;
+  for (int i = 0; i < search->n_nodes; i++) {
+    search->node_ends[search->node[i]] = 0;
     for (int x = 0; x < n; x++)
-      if (node_of(s, x) == s->node[i]) s->order[placed++] = x;
+      if (node_of(search, x) == search->node[i]) search->order[placed++] = x;
   }
+
+  /* No end leads anywhere yet; a path is a single pass. */
   for (int x = 0; x < n; x++) {
-    s->mate[x] = OPEN;
-    s->far[x] = x ^ 1;
+    search->mate[x] = OPEN;
+    search->far[x] = x ^ 1;
   }
-  s->n_closed = s->n_single = 0;
-  s->limit =
-      s->steps + most_steps_of_join < most_steps ? s->steps + most_steps_of_join : most_steps;
-  return lead_on(s, 0);
+
+  /* Each join has a part of the work for itself. */
+  search->n_closed = search->n_single = 0;
+  search->limit = search->steps + most_steps_of_join < most_steps
+                      ? search->steps + most_steps_of_join
+                      : most_steps;
+  return lead_on(search, 0);
 }
 
 /* ---- which passes ---- */
@@ -221,14 +257,14 @@ typedef struct {
 } join;
 
 typedef struct {
-  const search *s;
+  const channel_tree *s;
   double limit;
   int most_passes;
   int64_t steps;
   int *degree, *left; /* [n_nodes] passes there, and edges of which nothing is chosen yet */
   int n;
   join now, *list; /* [MOST_JOINS] */
-} joins;
+} join_list;
 
 static int by_length(const void *a, const void *b)
 {
@@ -238,65 +274,78 @@ static int by_length(const void *a, const void *b)
 }
 
 /* Could cords go on at node v with the passes that are there? */
-static bool is_even(const joins *j, int v)
+static bool is_even(const join_list *joins, int v)
 {
-  const thr_request *request = &j->s->plan->options;
-  if (j->left[v] > 0 || j->degree[v] % 2 == 0) return true;
-  return request->ends != THR_ENDS_CLOSED && thr_plan_end_allowed(&j->s->plan->frame, request, v);
+  const thr_request *request = &joins->s->plan->options;
+  if (joins->left[v] > 0 || joins->degree[v] % 2 == 0) return true;
+  return request->ends != THR_ENDS_CLOSED &&
+         thr_plan_end_allowed(&joins->s->plan->frame, request, v);
+
+  /* Give edge i from the fewest passes that are needed to the most that fit, and go on with the
+   * next edge. */
 }
 
 /* Lists what the edges i, i + 1, .. may have, with now for those before; now.length counts what
  * these need at least. */
-static void list_joins(joins *j, int i)
+static void list_joins(join_list *joins, int i)
 {
-  const thr_plan *plan = j->s->plan;
-  if (j->n == MOST_JOINS || ++j->steps > most_steps) return;
-  if (i == j->s->n_edges) {
-    j->list[j->n++] = j->now;
+  const thr_plan *plan = joins->s->plan;
+  if (joins->n == MOST_JOINS || ++joins->steps > most_steps) return;
+  if (i == joins->s->n_edges) {
+    joins->list[joins->n++] = joins->now;
     return;
   }
-  const int e = j->s->edge[i], a = thr_tail(&plan->frame, 2 * e), b = thr_head(&plan->frame, 2 * e);
+  const int e = joins->s->edge[i], a = thr_tail(&plan->frame, 2 * e),
+            b = thr_head(&plan->frame, 2 * e);
   const int least = thr_plan_cover(&plan->frame, &plan->options, e),
             most = thr_plan_capacity(&plan->frame, &plan->options, e);
-  const double before = j->now.length;
-  j->left[a]--;
-  j->left[b]--;
-  for (int k = least; k <= most && k <= j->most_passes; k++) {
-    j->now.passes[i] = (unsigned char)k;
-    j->now.length = before + (k - least) * plan->frame.length[e];
-    if (j->now.length >= j->limit) break;
-    j->degree[a] += k;
-    j->degree[b] += k;
-    if (is_even(j, a) && is_even(j, b)) list_joins(j, i + 1);
-    j->degree[a] -= k;
-    j->degree[b] -= k;
+  const double before = joins->now.length;
+
+  joins->left[a]--;
+  joins->left[b]--;
+  for (int k = least; k <= most && k <= joins->most_passes; k++) {
+    joins->now.passes[i] = (unsigned char)k;
+    joins->now.length = before + (k - least) * plan->frame.length[e];
+    if (joins->now.length >= joins->limit) break;
+    joins->degree[a] += k;
+    joins->degree[b] += k;
+    if (is_even(joins, a) && is_even(joins, b)) list_joins(joins, i + 1);
+    joins->degree[a] -= k;
+    joins->degree[b] -= k;
   }
-  j->now.length = before;
-  j->left[a]++;
-  j->left[b]++;
+
+  joins->now.length = before;
+  joins->left[a]++;
+  joins->left[b]++;
 }
 
 /* Tries the passes that are shorter than limit, the shortest first. */
-static thr_status try_joins(search *s, double limit, int most_passes, bool *found, thr_err *err)
+static thr_status try_joins(channel_tree *search, double limit, int most_passes, bool *found,
+                            thr_err *err)
 {
   thr_scratch own = {0};
-  const thr_frame *frame = &s->plan->frame;
-  joins j = {.s = s, .limit = limit, .most_passes = most_passes};
-  j.degree = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *j.degree);
-  j.left = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *j.left);
-  j.list = thr_scratch_array(&own, MOST_JOINS, sizeof *j.list);
+
+  const thr_frame *frame = &search->plan->frame;
+  join_list joins = {.s = search, .limit = limit, .most_passes = most_passes};
+
+  joins.degree = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *joins.degree);
+  joins.left = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *joins.left);
+  joins.list = thr_scratch_array(&own, MOST_JOINS, sizeof *joins.list);
   thr_status st = thr_scratch_check(&own, err);
+
+  /* Begin with the passes that every edge needs, list the joins, and try them by length. */
   if (!st) {
-    for (int i = 0; i < s->n_edges; i++) {
-      const int e = s->edge[i];
-      j.left[thr_tail(frame, 2 * e)]++;
-      j.left[thr_head(frame, 2 * e)]++;
-      j.now.length += thr_plan_cover(frame, &s->plan->options, e) * frame->length[e];
+    for (int i = 0; i < search->n_edges; i++) {
+      const int e = search->edge[i];
+      joins.left[thr_tail(frame, 2 * e)]++;
+      joins.left[thr_head(frame, 2 * e)]++;
+      joins.now.length += thr_plan_cover(frame, &search->plan->options, e) * frame->length[e];
     }
-    list_joins(&j, 0);
-    qsort(j.list, (size_t)j.n, sizeof *j.list, by_length);
-    for (int i = 0; i < j.n && !*found && !s->status && s->steps < most_steps; i++)
-      *found = try_join(s, j.list[i].passes);
+    list_joins(&joins, 0);
+
+    qsort(joins.list, (size_t)joins.n, sizeof *joins.list, by_length);
+    for (int i = 0; i < joins.n && !*found && !search->status && search->steps < most_steps; i++)
+      *found = try_join(search, joins.list[i].passes);
   }
   thr_scratch_free(&own);
   return st;
@@ -310,39 +359,47 @@ typedef struct {
   int *passes; /* [n_edges] of the frame */
 } measured;
 
+/* Sums up the cords of component k: their number, lengths, turning and passes. */
 static void measure(const thr_plan *plan, const int *component, int k, const thr_cord *cord, int n,
-                    measured *m)
+                    measured *sums)
 {
   const thr_frame *frame = &plan->frame;
-  m->n_cords = 0;
-  m->length = m->longest = m->turning = 0;
-  memset(m->passes, 0, (size_t)frame->n_edges * sizeof *m->passes);
+  sums->n_cords = 0;
+  sums->length = sums->longest = sums->turning = 0;
+
+  memset(sums->passes, 0, (size_t)frame->n_edges * sizeof *sums->passes);
+
   for (int c = 0; c < n; c++) {
     if (component[thr_tail(frame, cord[c].half[0])] != k) continue;
-    m->n_cords++;
-    m->longest = fmax(m->longest, thr_cord_length(frame, &cord[c]));
-    m->turning = turning_of(plan, &cord[c], m->turning);
-    thr_cords_add_passes(&cord[c], 1, 1, m->passes);
+    sums->n_cords++;
+    sums->longest = fmax(sums->longest, thr_cord_length(frame, &cord[c]));
+    sums->turning = turning_of(plan, &cord[c], sums->turning);
+    thr_cords_add_passes(&cord[c], 1, 1, sums->passes);
   }
+
   for (int e = 0; e < frame->n_edges; e++)
-    m->length += m->passes[e] * frame->length[e];
+    sums->length += sums->passes[e] * frame->length[e];
 }
 
 /* Puts the cords that were found in place of those of the component. */
-static void replace(thr_plan *plan, const int *component, int k, search *s)
+static void replace(thr_plan *plan, const int *component, int k, channel_tree *search)
 {
   for (int c = 0, n = 0; c < plan->n_cords; c++) {
     thr_cord *cord = &plan->cord[c];
+
     if (component[thr_tail(&plan->frame, cord->half[0])] != k) continue;
     free(cord->half);
-    cord->half = s->cord[n].half;
-    cord->n_passes = s->cord[n].n_passes;
-    cord->closed = s->cord[n++].closed;
+    cord->half = search->cord[n].half;
+    cord->n_passes = search->cord[n].n_passes;
+    cord->closed = search->cord[n++].closed;
   }
 }
 
 /* Looks for other cords of component k, which crosses or is longer than before. Of one that does
  * not cross they may not spoil what was asked for first. */
+
+/* Cords without a crossing have to be shorter than now; with crossings, not much longer than
+ * before. */
 static thr_status search_component(thr_plan *plan, const int *component, int k, const int *rank,
                                    const measured *before, const measured *now, bool crosses,
                                    bool *changed, thr_err *err)
@@ -354,44 +411,57 @@ static thr_status search_component(thr_plan *plan, const int *component, int k, 
   const bool turns = thr_wants_turning(request);
   double limit = now->length * (1 - 1e-9);
   if (crosses) limit = before->length * (turns ? 1 + 1e-9 : most_longer);
-  search s = {.plan = plan,
-              .rank = rank,
-              .n_cords = before->n_cords,
-              .most_longest = HUGE_VAL,
-              .most_turning = HUGE_VAL};
-  if (request->max_length > 0) s.most_longest = request->max_length;
-  if (!crosses && thr_wants_balance(request)) s.most_longest = fmin(s.most_longest, now->longest);
-  if (!crosses && turns && request->turning.length_slack < 0) s.most_turning = now->turning;
+
+  /* What the request asks of the longest cord and of the turning limits the search, too. */
+  channel_tree search = {.plan = plan,
+                         .rank = rank,
+                         .n_cords = before->n_cords,
+                         .most_longest = HUGE_VAL,
+                         .most_turning = HUGE_VAL};
+  if (request->max_length > 0) search.most_longest = request->max_length;
+  if (!crosses && thr_wants_balance(request))
+    search.most_longest = fmin(search.most_longest, now->longest);
+  if (!crosses && turns && request->turning.length_slack < 0) search.most_turning = now->turning;
+
+  /* Gather the edges of the component, and the passes that the plan had before. */
   join first = {0};
   int most = 0, n_passes = 0;
-  s.edge = thr_scratch_array(&own, (size_t)frame->n_edges, sizeof *s.edge);
+  search.edge = thr_scratch_array(&own, (size_t)frame->n_edges, sizeof *search.edge);
   thr_status st = thr_scratch_check(&own, err);
   for (int e = 0; e < frame->n_edges && !st; e++)
     if (component[thr_tail(frame, 2 * e)] == k) {
-      if (s.n_edges < MOST_EDGES) first.passes[s.n_edges] = (unsigned char)before->passes[e];
+      if (search.n_edges < MOST_EDGES)
+        first.passes[search.n_edges] = (unsigned char)before->passes[e];
       if (before->passes[e] > most) most = before->passes[e];
-      s.edge[s.n_edges++] = e;
+      search.edge[search.n_edges++] = e;
     }
-  if (st || s.n_edges == 0 || s.n_edges > MOST_EDGES || most + 2 * s.n_cords > MOST_PASSES)
+
+  if (st || search.n_edges == 0 || search.n_edges > MOST_EDGES ||
+      most + 2 * search.n_cords > MOST_PASSES)
     goto done;
 
-  most += 2 * s.n_cords;
-  n_passes = s.n_edges * most;
-  s.arm = thr_scratch_array(&own, 2 * (size_t)n_passes, sizeof *s.arm);
-  s.order = thr_scratch_array(&own, 2 * (size_t)n_passes, sizeof *s.order);
-  s.mate = thr_scratch_array(&own, 2 * (size_t)n_passes, sizeof *s.mate);
-  s.far = thr_scratch_array(&own, 2 * (size_t)n_passes, sizeof *s.far);
-  s.node = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *s.node);
-  s.node_ends = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *s.node_ends);
-  s.cord = thr_scratch_array(&own, (size_t)s.n_cords, sizeof *s.cord);
+  /* Each cord may add two passes over an edge. */
+  most += 2 * search.n_cords;
+  n_passes = search.n_edges * most;
+  search.arm = thr_scratch_array(&own, 2 * (size_t)n_passes, sizeof *search.arm);
+  search.order = thr_scratch_array(&own, 2 * (size_t)n_passes, sizeof *search.order);
+  search.mate = thr_scratch_array(&own, 2 * (size_t)n_passes, sizeof *search.mate);
+  search.far = thr_scratch_array(&own, 2 * (size_t)n_passes, sizeof *search.far);
+  search.node = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *search.node);
+  search.node_ends = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *search.node_ends);
+  search.cord = thr_scratch_array(&own, (size_t)search.n_cords, sizeof *search.cord);
   st = thr_scratch_check(&own, err);
   if (st) goto done;
+
+  /* Search the old passes, then others. */
   for (int v = 0; v < frame->n_nodes; v++)
-    if (component[v] == k) s.node[s.n_nodes++] = v;
-  bool found = try_join(&s, first.passes);
-  if (!found && !s.status) st = try_joins(&s, limit, most, &found, err);
-  if (s.status) st = thr_nomem(err);
-  if (!st && found) replace(plan, component, k, &s);
+    if (component[v] == k) search.node[search.n_nodes++] = v;
+  bool found = try_join(&search, first.passes);
+  if (!found && !search.status) st = try_joins(&search, limit, most, &found, err);
+  if (search.status) st = thr_nomem(err);
+
+  /* Put the cords in place of those of the component. */
+  if (!st && found) replace(plan, component, k, &search);
   *changed |= !st && found;
 done:
   thr_scratch_free(&own);
@@ -416,20 +486,26 @@ thr_status thr_channel_search(thr_plan *plan, const thr_cord *before, int n_befo
   const size_t n = (size_t)frame->n_edges;
   int *component = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *component),
       n_components = 0;
-  measured was = {.passes = thr_scratch_array(&own, n, sizeof *was.passes)};
-  measured is = {.passes = thr_scratch_array(&own, n, sizeof *is.passes)};
+  measured earlier = {.passes = thr_scratch_array(&own, n, sizeof *earlier.passes)};
+  measured current = {.passes = thr_scratch_array(&own, n, sizeof *current.passes)};
   thr_status st = thr_scratch_check(&own, err);
+
   *changed = false;
   if (!st) st = thr_frame_components(frame, component, &n_components, err);
   if (!st) st = thr_channels_make(&channels, plan, err);
+
+  /* Search each component that still crosses or has become longer, with as many cords as before. */
   for (int k = 0; k < n_components && !st; k++) {
-    measure(plan, component, k, before, n_before, &was);
-    measure(plan, component, k, plan->cord, plan->n_cords, &is);
+    measure(plan, component, k, before, n_before, &earlier);
+    measure(plan, component, k, plan->cord, plan->n_cords, &current);
     const bool crosses = has_crossing(&channels, component, frame->n_nodes, k),
-               longer = is.length > was.length * (1 + 1e-12);
-    if (is.n_cords != was.n_cords || !(crosses || longer)) continue;
-    st = search_component(plan, component, k, channels.rank, &was, &is, crosses, changed, err);
+               longer = current.length > earlier.length * (1 + 1e-12);
+
+    if (current.n_cords != earlier.n_cords || !(crosses || longer)) continue;
+    st = search_component(plan, component, k, channels.rank, &earlier, &current, crosses, changed,
+                          err);
   }
+
   thr_channels_destroy(&channels);
   thr_scratch_free(&own);
   return st;

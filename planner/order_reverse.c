@@ -1,6 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parts of a cord between two visits of a node, run the other way round: as long, through the same
- * passes, and with less loose chains. */
+/* Shortens the loose chains of one cord by running parts of the cord between two visits of a node
+ * the other way round, or by exchanging two parts: the cord stays as long and runs through the
+ * same passes.
+ *
+ * The search is simulated annealing (S. Kirkpatrick, C. D. Gelatt & M. P. Vecchi 1983). The cost
+ * of a cord is the squared excess of its chains over THR_HELD_WELL pieces, and its turning; a
+ * change that crosses more channels is refused.
+ *
+ * Example: a cord visits node v after pass 3 and again after pass 9. Passes 4 .. 9 run backwards
+ * begin and end at v as before, and thread their pieces in the opposite order. */
 #include "graph/plan/physics.h"
 #include "graph/random.h"
 #include "planner/planner_parts.h"
@@ -35,7 +43,7 @@ typedef struct {
   int number;     /* of the cord */
   double *angle;  /* [row[n_nodes]] from arm to arm, rad; < 0 = not asked for yet; owned */
   uint64_t state; /* of the random numbers */
-} annealer;
+} cord_annealer;
 
 /* ---- turns ---- */
 
@@ -49,80 +57,97 @@ static size_t count_angles(const thr_frame *frame)
   return n;
 }
 
-static bool has_angles(annealer *x)
+/* Allocates the angles, which are worked out when first asked for. False: out of memory. */
+static bool has_angles(cord_annealer *annealer)
 {
-  const thr_frame *frame = x->frame;
+  const thr_frame *frame = annealer->frame;
+
   size_t n = count_angles(frame);
-  x->arm = thr_calloc(2 * (size_t)frame->n_edges, sizeof *x->arm);
-  x->row = thr_calloc((size_t)frame->n_nodes + 1, sizeof *x->row);
-  x->angle = thr_calloc(n, sizeof *x->angle);
-  if (!x->arm || !x->row || !x->angle) return false;
+  annealer->arm = thr_calloc(2 * (size_t)frame->n_edges, sizeof *annealer->arm);
+  annealer->row = thr_calloc((size_t)frame->n_nodes + 1, sizeof *annealer->row);
+  annealer->angle = thr_calloc(n, sizeof *annealer->angle);
+  if (!annealer->arm || !annealer->row || !annealer->angle) return false;
+
   for (size_t i = 0; i < n; i++)
-    x->angle[i] = -1;
+    annealer->angle[i] = -1;
+
+  /* Number the arms of every node; the angles of a node are a square of arm by arm. */
   for (int v = 0; v < frame->n_nodes; v++) {
     int degree = thr_degree(frame, v);
-    x->row[v + 1] = x->row[v] + (size_t)degree * (size_t)degree;
+    annealer->row[v + 1] = annealer->row[v] + (size_t)degree * (size_t)degree;
     for (int i = 0; i < degree; i++)
-      x->arm[frame->half[frame->first[v] + i]] = i;
+      annealer->arm[frame->half[frame->first[v] + i]] = i;
   }
   return true;
 }
 
 /* thr_turn_angle, worked out once. */
-static double angle_of(const annealer *x, int in, int out)
+static double angle_of(const cord_annealer *annealer, int in, int out)
 {
-  int v = thr_tail(x->frame, out);
-  double *angle = &x->angle[x->row[v] + (size_t)x->arm[in ^ 1] * (size_t)thr_degree(x->frame, v) +
-                            (size_t)x->arm[out]];
-  if (*angle < 0) *angle = thr_turn_angle(x->frame, in, out);
+  int v = thr_tail(annealer->frame, out);
+  double *angle =
+      &annealer->angle[annealer->row[v] +
+                       (size_t)annealer->arm[in ^ 1] * (size_t)thr_degree(annealer->frame, v) +
+                       (size_t)annealer->arm[out]];
+
+  if (*angle < 0) *angle = thr_turn_angle(annealer->frame, in, out);
   return *angle;
 }
 
 /* thr_cord_pulled_turning of the cord as it is. */
-static double pulled_turning(const annealer *x)
+static double pulled_turning(const cord_annealer *annealer)
 {
-  const int *half = x->now.half;
+  const int *half = annealer->now.half;
+
   double whole = 0;
-  for (int k = 0; k + 1 < x->now.n_passes; k++)
-    whole += angle_of(x, half[k], half[k + 1]);
+  for (int k = 0; k + 1 < annealer->now.n_passes; k++)
+    whole += angle_of(annealer, half[k], half[k + 1]);
+
   thr_least_pull_walk walk = thr_least_pull_begin(whole);
-  for (int k = 0; k + 1 < x->now.n_passes; k++)
-    if (!thr_least_pull_next(&walk, angle_of(x, half[k], half[k + 1]))) break;
+  for (int k = 0; k + 1 < annealer->now.n_passes; k++)
+    if (!thr_least_pull_next(&walk, angle_of(annealer, half[k], half[k + 1]))) break;
   return walk.larger;
 }
 
-/* What a cord is worth. */
+/* The cost of a cord, in parts. */
 typedef struct {
   double excess;  /* of pieces beyond THR_HELD_WELL in chains, squared */
   int longest;    /* >= THR_HELD_WELL */
   double turning; /* rad */
   double over;    /* by how much it is pulled through more than there is room for, rad */
-} worth;
+} cord_cost;
 
-static worth measure(annealer *x, double turning)
+/* Returns the cost of the cord as it is; turning is its turning, rad. */
+static cord_cost measure(cord_annealer *annealer, double turning)
 {
-  worth w = {.longest = THR_HELD_WELL, .turning = turning};
-  int n = thr_cord_pieces(x->frame, x->request->joint, &x->now, x->piece),
-      fold = thr_cord_fold(x->frame, x->request->needles, &x->now);
-  int chains = thr_threaded_try(x->threaded, x->piece, n, fold, x->chain);
+  cord_cost cost = {.longest = THR_HELD_WELL, .turning = turning};
+
+  int n = thr_cord_pieces(annealer->frame, annealer->request->joint, &annealer->now,
+                          annealer->piece),
+      fold = thr_cord_fold(annealer->frame, annealer->request->needles, &annealer->now);
+  int chains = thr_threaded_try(annealer->threaded, annealer->piece, n, fold, annealer->chain);
+
+  /* Only the pieces beyond those that a hand holds well count, by the square of each chain's
+   * excess. */
   for (int i = 0; i < chains; i++) {
-    int beyond = x->chain[i] - THR_HELD_WELL;
+    int beyond = annealer->chain[i] - THR_HELD_WELL;
     if (beyond <= 0) continue;
-    w.excess += (double)beyond * beyond;
-    if (x->chain[i] > w.longest) w.longest = x->chain[i];
+    cost.excess += (double)beyond * beyond;
+    if (annealer->chain[i] > cost.longest) cost.longest = annealer->chain[i];
   }
-  w.over = fmax(0, pulled_turning(x) - x->room.pulled);
-  return w;
+
+  cost.over = fmax(0, pulled_turning(annealer) - annealer->room.pulled);
+  return cost;
 }
 
-static bool is_better(const worth *a, const worth *b)
+static bool is_better(const cord_cost *a, const cord_cost *b)
 {
   return a->longest != b->longest ? a->longest < b->longest : a->turning < b->turning * (1 - 1e-9);
 }
 
-static double weigh(const worth *w)
+static double weigh(const cord_cost *cost)
 {
-  return w->excess + turn_weight * (w->turning + w->over);
+  return cost->excess + turn_weight * (cost->turning + cost->over);
 }
 
 /* ---- changes ---- */
@@ -136,48 +161,59 @@ typedef struct {
   kind kind;
   int at[4];
   double turning; /* more, rad */
-} change;
+} cord_change;
 
 /* The turn from half-edge in to out, if there is one; INFINITY if a cord would turn back into its
  * edge. */
-static double turn(const annealer *x, int in, int out)
+static double turn(const cord_annealer *annealer, int in, int out)
 {
   if (in < 0 || out < 0) return 0;
-  return out == (in ^ 1) ? INFINITY : angle_of(x, in, out);
+  return out == (in ^ 1) ? INFINITY : angle_of(annealer, in, out);
 }
 
 /* Half-edge of the pass before visit k, of the one after it; -1 where the cord ends. */
-static int into(const annealer *x, int k)
+static int into(const cord_annealer *annealer, int k)
 {
-  return k > 0 ? x->now.half[k - 1] : x->turns ? x->now.half[x->now.n_passes - 1] : -1;
+  return k > 0             ? annealer->now.half[k - 1]
+         : annealer->turns ? annealer->now.half[annealer->now.n_passes - 1]
+                           : -1;
 }
 
-static int out_of(const annealer *x, int k)
+static int out_of(const cord_annealer *annealer, int k)
 {
-  return k < x->now.n_passes ? x->now.half[k] : x->turns ? x->now.half[0] : -1;
+  return k < annealer->now.n_passes ? annealer->now.half[k]
+         : annealer->turns          ? annealer->now.half[0]
+                                    : -1;
 }
 
-static double turn_at(const annealer *x, int k)
+static double turn_at(const cord_annealer *annealer, int k)
 {
-  return angle_of(x, into(x, k), out_of(x, k));
+  return angle_of(annealer, into(annealer, k), out_of(annealer, k));
 }
 
-static double turning_of_reverse(const annealer *x, const int at[4])
+static double turning_of_reverse(const cord_annealer *annealer, const int at[4])
 {
-  if (at[0] == 0 && at[1] == x->now.n_passes) return 0;
-  double now =
-      turn(x, into(x, at[0]), out_of(x, at[0])) + turn(x, into(x, at[1]), out_of(x, at[1]));
-  return turn(x, into(x, at[0]), into(x, at[1]) ^ 1) +
-         turn(x, out_of(x, at[0]) ^ 1, out_of(x, at[1])) - now;
+  if (at[0] == 0 && at[1] == annealer->now.n_passes) return 0;
+
+  /* Two turns are replaced by two others: of the passes before and after the part. */
+  double now = turn(annealer, into(annealer, at[0]), out_of(annealer, at[0])) +
+               turn(annealer, into(annealer, at[1]), out_of(annealer, at[1]));
+
+  return turn(annealer, into(annealer, at[0]), into(annealer, at[1]) ^ 1) +
+         turn(annealer, out_of(annealer, at[0]) ^ 1, out_of(annealer, at[1])) - now;
 }
 
-static double turning_of_exchange(const annealer *x, const int at[4])
+static double turning_of_exchange(const cord_annealer *annealer, const int at[4])
 {
-  double now = turn(x, into(x, at[0]), out_of(x, at[0])) + turn_at(x, at[1]) + turn_at(x, at[2]) +
-               turn(x, into(x, at[3]), out_of(x, at[3]));
-  return turn(x, into(x, at[0]), out_of(x, at[2])) + turn(x, into(x, at[3]), out_of(x, at[1])) +
-         turn(x, into(x, at[2]), out_of(x, at[0])) + turn(x, into(x, at[1]), out_of(x, at[3])) -
-         now;
+  /* Four turns go, and four come. */
+  double now = turn(annealer, into(annealer, at[0]), out_of(annealer, at[0])) +
+               turn_at(annealer, at[1]) + turn_at(annealer, at[2]) +
+               turn(annealer, into(annealer, at[3]), out_of(annealer, at[3]));
+
+  return turn(annealer, into(annealer, at[0]), out_of(annealer, at[2])) +
+         turn(annealer, into(annealer, at[3]), out_of(annealer, at[1])) +
+         turn(annealer, into(annealer, at[2]), out_of(annealer, at[0])) +
+         turn(annealer, into(annealer, at[1]), out_of(annealer, at[3])) - now;
 }
 
 static void reverse(int *half, int from, int end)
@@ -195,112 +231,135 @@ static int *append(int *to, const int *half, int from, int end)
   return to + (end - from);
 }
 
-static void make(annealer *x, const change *c)
+/* Makes a change in annealer->now; half is scratch. */
+static void make(cord_annealer *annealer, const cord_change *change)
 {
-  int *half = x->now.half, *to = x->half;
-  const int *at = c->at;
-  if (c->kind == REVERSE) {
+  int *half = annealer->now.half, *to = annealer->half;
+  const int *at = change->at;
+
+  if (change->kind == REVERSE) {
     reverse(half, at[0], at[1]);
-  } else if (c->kind == BEGIN) {
-    thr_starts_turn(&x->now, at[0], false, x->half);
-    memcpy(half, x->half, (size_t)x->now.n_passes * sizeof *half);
+  } else if (change->kind == BEGIN) {
+    thr_starts_turn(&annealer->now, at[0], false, annealer->half);
+    memcpy(half, annealer->half, (size_t)annealer->now.n_passes * sizeof *half);
   } else {
     append(append(append(to, half, at[2], at[3]), half, at[1], at[2]), half, at[0], at[1]);
-    memcpy(half + at[0], x->half, (size_t)(at[3] - at[0]) * sizeof *half);
+    memcpy(half + at[0], annealer->half, (size_t)(at[3] - at[0]) * sizeof *half);
   }
 }
 
-static void take_back(annealer *x, const change *c)
+/* Undoes a change that was just made: a part reversed twice is as before, and the parts of an
+ * exchange have new places. */
+static void take_back(cord_annealer *annealer, const cord_change *change)
 {
-  change back = *c;
-  if (c->kind == BEGIN) back.at[0] = (x->now.n_passes - c->at[0]) % x->now.n_passes;
-  if (c->kind == EXCHANGE) {
-    back.at[1] = c->at[0] + c->at[3] - c->at[2];
-    back.at[2] = c->at[0] + c->at[3] - c->at[1];
+  cord_change back = *change;
+  if (change->kind == BEGIN)
+    back.at[0] = (annealer->now.n_passes - change->at[0]) % annealer->now.n_passes;
+
+  if (change->kind == EXCHANGE) {
+    back.at[1] = change->at[0] + change->at[3] - change->at[2];
+    back.at[2] = change->at[0] + change->at[3] - change->at[1];
   }
-  make(x, &back);
+
+  make(annealer, &back);
 }
 
 /* ---- at random ---- */
 
 /* Another visit of the piece of visit k, of those from .. end - 1, from a random one on; -1: there
  * is none. */
-static int other_visit(annealer *x, int k, int from, int end)
+static int other_visit(cord_annealer *annealer, int k, int from, int end)
 {
-  int n = end - from, first = n > 0 ? thr_random_below(&x->state, n) : 0;
+  int n = end - from, first = n > 0 ? thr_random_below(&annealer->state, n) : 0;
+
   for (int i = 0; i < n; i++) {
     int other = from + (first + i < n ? first + i : first + i - n);
-    if (other != k && x->piece[other] == x->piece[k]) return other;
+    if (other != k && annealer->piece[other] == annealer->piece[k]) return other;
   }
   return -1;
 }
 
 /* A pass that the cord may begin with, from a random one on. */
-static int choose_start(annealer *x)
+static int choose_start(cord_annealer *annealer)
 {
-  int n = x->now.n_passes, s = thr_random_below(&x->state, n);
-  for (int tried = 0; x->feet && tried < n && !x->frame->foot[x->piece[s]]; tried++)
+  int n = annealer->now.n_passes, s = thr_random_below(&annealer->state, n);
+  for (int tried = 0; annealer->feet && tried < n && !annealer->frame->foot[annealer->piece[s]];
+       tried++)
     s = (s + 1) % n;
   return s;
 }
 
 /* False: there is no such change where it was looked for. */
-static bool choose(annealer *x, change *c)
+static bool choose(cord_annealer *annealer, cord_change *c)
 {
-  int n = x->now.n_passes;
-  *c = (change){.kind = REVERSE};
-  if (x->turns && thr_random_below(&x->state, BEGINNINGS) == 0) {
-    *c = (change){BEGIN, {choose_start(x)}, 0};
+  int n = annealer->now.n_passes;
+
+  *c = (cord_change){.kind = REVERSE};
+
+  /* Now and then begin the cord elsewhere. */
+  if (annealer->turns && thr_random_below(&annealer->state, BEGINNINGS) == 0) {
+    *c = (cord_change){BEGIN, {choose_start(annealer)}, 0};
     return true;
   }
-  int one = thr_random_below(&x->state, n + 1), other = other_visit(x, one, 0, n + 1);
+
+  /* Choose a visit and another one of the same piece; the part lies between the two. */
+  int one = thr_random_below(&annealer->state, n + 1), other = other_visit(annealer, one, 0, n + 1);
   if (other < 0) return false;
   c->at[0] = one < other ? one : other;
   c->at[1] = one < other ? other : one;
-  if (c->at[1] - c->at[0] > 1 && thr_random_below(&x->state, 2)) {
+
+  /* Half of the parts that are long enough are exchanged with a part that follows: two visits of
+   * another piece must alternate with the first two. */
+  if (c->at[1] - c->at[0] > 1 && thr_random_below(&annealer->state, 2)) {
     c->kind = EXCHANGE;
     c->at[2] = c->at[1];
-    c->at[1] = c->at[0] + 1 + thr_random_below(&x->state, c->at[2] - c->at[0] - 1);
-    c->at[3] = other_visit(x, c->at[1], c->at[2] + 1, n + 1);
+    c->at[1] = c->at[0] + 1 + thr_random_below(&annealer->state, c->at[2] - c->at[0] - 1);
+    c->at[3] = other_visit(annealer, c->at[1], c->at[2] + 1, n + 1);
     if (c->at[3] < 0) return false;
   }
-  c->turning = c->kind == REVERSE ? turning_of_reverse(x, c->at) : turning_of_exchange(x, c->at);
+
+  c->turning = c->kind == REVERSE ? turning_of_reverse(annealer, c->at)
+                                  : turning_of_exchange(annealer, c->at);
   return true;
 }
 
 /* ---- crossings ---- */
 
 /* The channel of visit k of the cord as it is; without two arms at its ends. */
-static thr_channel channel_at(const annealer *x, int k)
+static thr_channel channel_at(const cord_annealer *annealer, int k)
 {
-  int in = into(x, k);
-  return (thr_channel){.in = in < 0 ? in : in ^ 1, .out = out_of(x, k)};
+  int in = into(annealer, k);
+  return (thr_channel){.in = in < 0 ? in : in ^ 1, .out = out_of(annealer, k)};
 }
 
 /* Visits of a cord that begins anywhere: the last is the first. */
-static int count_visits(const annealer *x)
+static int count_visits(const cord_annealer *annealer)
 {
-  return x->now.n_passes + !x->turns;
+  return annealer->now.n_passes + !annealer->turns;
 }
 
 /* Pairs of channels of node v that cross, one of them or both of the cord; piece is up to date.
  * O(passes + channels^2). */
-static int crossings_in(const annealer *x, int v)
+static int crossings_in(const cord_annealer *annealer, int v)
 {
   int n = 0;
-  for (int k = 0; k < count_visits(x); k++) {
-    if (x->piece[k] != v) continue;
-    thr_channel one = channel_at(x, k);
+  for (int k = 0; k < count_visits(annealer); k++) {
+    if (annealer->piece[k] != v) continue;
+    thr_channel one = channel_at(annealer, k);
     if (one.in < 0 || one.out < 0) continue;
-    for (int i = k + 1; i < count_visits(x); i++) {
-      thr_channel other = channel_at(x, i);
-      n += x->piece[i] == v && other.in >= 0 && other.out >= 0 &&
-           thr_channels_cross(x->channels.rank, &one, &other);
+
+    /* Count the pairs of channels within the cord. */
+    for (int i = k + 1; i < count_visits(annealer); i++) {
+      thr_channel other = channel_at(annealer, i);
+      n += annealer->piece[i] == v && other.in >= 0 && other.out >= 0 &&
+           thr_channels_cross(annealer->channels.rank, &one, &other);
     }
-    for (int i = x->channels.first[v]; i < x->channels.first[v + 1]; i++) {
-      const thr_channel *other = &x->channels.channel[i];
-      n += other->cord != x->number && other->in >= 0 && other->out >= 0 &&
-           thr_channels_cross(x->channels.rank, &one, other);
+
+    /* Count the pairs of a channel of the cord and one of another cord. */
+    for (int i = annealer->channels.first[v]; i < annealer->channels.first[v + 1]; i++) {
+      const thr_channel *other = &annealer->channels.channel[i];
+      n += other->cord != annealer->number && other->in >= 0 && other->out >= 0 &&
+           thr_channels_cross(annealer->channels.rank, &one, other);
     }
   }
   return n;
@@ -308,49 +367,71 @@ static int crossings_in(const annealer *x, int v)
 
 /* Those in the nodes v and w whose channels a change changes; none for a cord that is only begun
  * elsewhere. */
-static int crossings_of(const annealer *x, const change *c, int v, int w)
+static int crossings_of(const cord_annealer *annealer, const cord_change *c, int v, int w)
 {
-  if (!x->channels.rank || c->kind == BEGIN) return 0;
-  return crossings_in(x, v) + (w == v ? 0 : crossings_in(x, w));
+  if (!annealer->channels.rank || c->kind == BEGIN) return 0;
+  return crossings_in(annealer, v) + (w == v ? 0 : crossings_in(annealer, w));
 }
 
-static bool has_channels(annealer *x, const thr_plan *plan)
+static bool has_channels(cord_annealer *annealer, const thr_plan *plan)
 {
   return plan->options.crossings == THR_CROSSINGS_ALLOW ||
-         thr_channels_make(&x->channels, plan, NULL) == THR_OK;
+         thr_channels_make(&annealer->channels, plan, NULL) == THR_OK;
 }
 
 /* ---- annealing ---- */
 
-/* One change at random of the cord that is worth *now; taken back if it is not accepted. */
-static void step(annealer *x, double heat, worth *now)
+/* Makes one change at random of the cord, whose cost is *now; takes it back if it is not
+ * accepted. */
+static void step(cord_annealer *annealer, double heat, cord_cost *now)
 {
-  change c;
-  if (!choose(x, &c) || now->turning + c.turning > x->room.turning * (1 + 1e-12)) return;
-  int v = x->piece[c.at[0]], w = x->piece[c.at[1]], crossings = crossings_of(x, &c, v, w);
-  make(x, &c);
-  worth then = measure(x, now->turning + c.turning);
-  double worse = crossings_of(x, &c, v, w) > crossings ? HUGE_VAL : weigh(&then) - weigh(now);
-  if (worse <= 0 || thr_random_unit(&x->state) < exp(-worse / heat)) {
+  cord_change c;
+  if (!choose(annealer, &c) || now->turning + c.turning > annealer->room.turning * (1 + 1e-12))
+    return;
+
+  int v = annealer->piece[c.at[0]], w = annealer->piece[c.at[1]],
+      crossings = crossings_of(annealer, &c, v, w);
+
+  make(annealer, &c);
+  cord_cost then = measure(annealer, now->turning + c.turning);
+  double worse =
+      crossings_of(annealer, &c, v, w) > crossings ? HUGE_VAL : weigh(&then) - weigh(now);
+
+  /* Metropolis: accept what is better, and what is worse with a probability that falls with the
+   * heat. */
+  if (worse <= 0 || thr_random_unit(&annealer->state) < exp(-worse / heat)) {
     *now = then;
     return;
   }
-  take_back(x, &c);
-  thr_cord_pieces(x->frame, x->request->joint, &x->now, x->piece);
+
+  take_back(annealer, &c);
+  thr_cord_pieces(annealer->frame, annealer->request->joint, &annealer->now, annealer->piece);
 }
 
-static void anneal(annealer *x)
+/* Anneals the cord, with heat that falls geometrically, and leaves the best passes in
+ * annealer->best. */
+static void anneal(cord_annealer *annealer)
 {
-  int n = x->now.n_passes;
+  int n = annealer->now.n_passes;
   long steps = (long)fmin(most_steps, most_visits / n);
-  worth now = measure(x, thr_cord_turning(x->frame, &x->now, x->turns)), best = now;
-  memcpy(x->best, x->now.half, (size_t)n * sizeof *x->best);
+  cord_cost now = measure(annealer,
+                          thr_cord_turning(annealer->frame, &annealer->now, annealer->turns)),
+            best = now;
+
+  memcpy(annealer->best, annealer->now.half, (size_t)n * sizeof *annealer->best);
+
   for (long i = 0; i < steps; i++) {
-    step(x, heat_first * pow(heat_last, (double)i / (double)steps), &now);
-    if (x->room.exactly && fabs(now.turning - x->room.turning) > 1e-10 * x->room.turning) continue;
-    if (!is_better(&now, &best) || now.over > 1e-12 * x->room.pulled) continue;
+    step(annealer, heat_first * pow(heat_last, (double)i / (double)steps), &now);
+
+    /* Only cords that keep to their room count: exactly as much turning where a proof counts on it,
+     * and no more pull. */
+    if (annealer->room.exactly &&
+        fabs(now.turning - annealer->room.turning) > 1e-10 * annealer->room.turning)
+      continue;
+    if (!is_better(&now, &best) || now.over > 1e-12 * annealer->room.pulled) continue;
+
     best = now;
-    memcpy(x->best, x->now.half, (size_t)n * sizeof *x->best);
+    memcpy(annealer->best, annealer->now.half, (size_t)n * sizeof *annealer->best);
   }
 }
 
@@ -361,36 +442,43 @@ thr_status thr_order_reverse(const thr_plan *plan, int c, thr_turning_room room,
   const thr_request *request = &plan->options;
   thr_cord *cord = &plan->cord[c];
   size_t n = (size_t)cord->n_passes;
-  annealer x = {.frame = frame,
-                .request = request,
-                .room = room,
-                .threaded = threaded,
-                .now = *cord,
-                .number = c};
+
+  cord_annealer annealer = {.frame = frame,
+                            .request = request,
+                            .room = room,
+                            .threaded = threaded,
+                            .now = *cord,
+                            .number = c};
   if (count_angles(frame) > MOST_ANGLES) return THR_OK;
-  x.turns = thr_order_turns(request, cord);
-  x.now.half = thr_calloc(n, sizeof *x.now.half);
-  x.best = thr_calloc(n, sizeof *x.best);
-  x.half = thr_calloc(n, sizeof *x.half);
-  x.piece = thr_calloc(n + 1, sizeof *x.piece);
-  x.chain = thr_calloc(n + 1, sizeof *x.chain);
-  bool all = has_angles(&x) && has_channels(&x, plan) &&
-             (x.now.half && x.best && x.half && x.piece && x.chain);
+
+  annealer.turns = thr_order_turns(request, cord);
+  annealer.now.half = thr_calloc(n, sizeof *annealer.now.half);
+  annealer.best = thr_calloc(n, sizeof *annealer.best);
+  annealer.half = thr_calloc(n, sizeof *annealer.half);
+  annealer.piece = thr_calloc(n + 1, sizeof *annealer.piece);
+  annealer.chain = thr_calloc(n + 1, sizeof *annealer.chain);
+  bool all =
+      has_angles(&annealer) && has_channels(&annealer, plan) &&
+      (annealer.now.half && annealer.best && annealer.half && annealer.piece && annealer.chain);
+
+  /* A cord that comes by a foot begins at a foot. */
   for (size_t k = 0; k < n && all; k++)
-    x.feet |= frame->foot[thr_tail(frame, cord->half[k])];
+    annealer.feet |= frame->foot[thr_tail(frame, cord->half[k])];
+
   if (all) {
-    memcpy(x.now.half, cord->half, n * sizeof *cord->half);
-    anneal(&x);
-    memcpy(cord->half, x.best, n * sizeof *cord->half);
+    memcpy(annealer.now.half, cord->half, n * sizeof *cord->half);
+    anneal(&annealer);
+    memcpy(cord->half, annealer.best, n * sizeof *cord->half);
   }
-  free(x.now.half);
-  free(x.best);
-  free(x.half);
-  free(x.piece);
-  free(x.chain);
-  free(x.arm);
-  free(x.row);
-  free(x.angle);
-  thr_channels_destroy(&x.channels);
+
+  free(annealer.now.half);
+  free(annealer.best);
+  free(annealer.half);
+  free(annealer.piece);
+  free(annealer.chain);
+  free(annealer.arm);
+  free(annealer.row);
+  free(annealer.angle);
+  thr_channels_destroy(&annealer.channels);
   return all ? THR_OK : thr_nomem(err);
 }
