@@ -94,9 +94,9 @@ static thr_status plan_alike(const thr_frame *frame, const thr_request *options,
 /* What plans of the options are made of. needed: the framework, whose bridges need passes for
  * several different cords. */
 typedef struct {
-  const thr_frame *f;
+  const thr_frame *frame;
   thr_frame needed;
-  const thr_request *o;
+  const thr_request *request;
   const thr_limits *limits;
   double length_limit; /* of all cords; < 0: none */
   thr_plan best; /* empty: none yet; in steps: which edges lack cords, then how many cords, then the
@@ -152,8 +152,8 @@ static thr_status plan_covers(const distinct_maker *maker, const thr_request *op
 
   /* A cover passes every edge once, so that other passes per edge, capacities and given ends have
    * no place here. */
-  if (options->cover > covers || maker->f->cover || options->capacity || maker->f->capacity ||
-      options->ends == THR_ENDS_COUNTS)
+  if (options->cover > covers || maker->frame->cover || options->capacity ||
+      maker->frame->capacity || options->ends == THR_ENDS_COUNTS)
     return THR_OK;
 
   /* The first kind of cover has one cord more than the second, as the division of the cords leaves
@@ -167,7 +167,7 @@ static thr_status plan_covers(const distinct_maker *maker, const thr_request *op
     one.cords = cords / covers + (i == 0);
     one.cords_least = is_exact(options) ? one.cords : 1;
 
-    st = thr_dispatch(&one)(maker->f, &one, &share, &plan, NULL, &why);
+    st = thr_dispatch(&one)(maker->frame, &one, &share, &plan, NULL, &why);
     if (st == THR_ELIMIT && plan.n_cords > 0) st = THR_OK;
     if (!st) st = add_cords(&plan, times[i], cord, n_cords, &why);
     thr_plan_destroy(&plan);
@@ -198,7 +198,7 @@ static thr_status plan_any(const distinct_maker *maker, const thr_request *optio
 /* Of any length and pull, for their proof of length alone. */
 static thr_status plan_free(const distinct_maker *maker, thr_plan *plan, thr_err *err)
 {
-  thr_request any = *maker->o;
+  thr_request any = *maker->request;
 
   thr_err why = {0};
   any.aims = thr_aims_shortest;
@@ -212,11 +212,11 @@ static thr_status plan_free(const distinct_maker *maker, thr_plan *plan, thr_err
 /* Takes cords that keep to what is asked, if they are better than the best so far. */
 static thr_status offer(distinct_maker *maker, thr_cord **cord, int *n_cords, thr_err *err)
 {
-  const thr_request *request = maker->o;
+  const thr_request *request = maker->request;
   thr_plan plan = {0};
 
   /* Make a plan of the cords, which move into it. */
-  thr_status st = thr_plan_request(&plan, maker->f, request, err);
+  thr_status st = thr_plan_request(&plan, maker->frame, request, err);
   if (st) return st;
   plan.cord = *cord;
   plan.n_cords = *n_cords;
@@ -228,9 +228,10 @@ static thr_status offer(distinct_maker *maker, thr_cord **cord, int *n_cords, th
   st = thr_plan_measure(&plan.frame, request, plan.cord, plan.n_cords, &plan.metrics, err);
 
   /* The cords have to keep to the limits on length and pull. */
-  bool fits = request->max_length == 0 || thr_cords_longest(maker->f, plan.cord, plan.n_cords) <=
-                                              request->max_length * (1 + 1e-12);
-  fits = fits && thr_cords_within_pull(maker->f, request, plan.cord, plan.n_cords);
+  bool fits =
+      request->max_length == 0 ||
+      thr_cords_longest(maker->frame, plan.cord, plan.n_cords) <= request->max_length * (1 + 1e-12);
+  fits = fits && thr_cords_within_pull(maker->frame, request, plan.cord, plan.n_cords);
 
   /* First count the edges with enough different cords, then the cords if few are asked for. */
   int more = maker->best.n_cords == 0 ? 1 : plan.metrics.distinct - maker->best.metrics.distinct;
@@ -242,7 +243,7 @@ static thr_status offer(distinct_maker *maker, thr_cord **cord, int *n_cords, th
     thr_plan swap = maker->best;
     maker->best = plan;
     plan = swap;
-    if (maker->best.metrics.distinct == maker->f->n_edges)
+    if (maker->best.metrics.distinct == maker->frame->n_edges)
       thr_limits_found(maker->limits, maker->best.cord, maker->best.n_cords, NULL);
   }
 
@@ -253,7 +254,7 @@ static thr_status offer(distinct_maker *maker, thr_cord **cord, int *n_cords, th
 /* Is the best plan one with all that is asked? */
 static bool is_whole(const distinct_maker *maker)
 {
-  return maker->best.n_cords > 0 && maker->best.metrics.distinct == maker->f->n_edges;
+  return maker->best.n_cords > 0 && maker->best.metrics.distinct == maker->frame->n_edges;
 }
 
 /* Makes the cords of from, which are as many as options say, different. */
@@ -269,7 +270,7 @@ static thr_status make_different(distinct_maker *maker, const thr_request *optio
   const thr_cord *other = n_covers == from->n_cords ? covers : NULL;
 
   if (!st)
-    st = thr_distinct_make(maker->f, options, limits, maker->length_limit, other, from->cord,
+    st = thr_distinct_make(maker->frame, options, limits, maker->length_limit, other, from->cord,
                            from->n_cords, err);
 
   thr_cords_destroy(covers, n_covers);
@@ -281,7 +282,7 @@ static thr_status try_number(distinct_maker *maker, int n, thr_err *err)
 {
   const thr_limits share = thr_dispatch_share(maker->limits, THR_STEP_DIFFERENT),
                    part = thr_dispatch_share(&share, THR_STEP_ANY_CORDS);
-  thr_request exact = *maker->o;
+  thr_request exact = *maker->request;
   thr_plan from;
   thr_err why = {0};
 
@@ -301,12 +302,12 @@ static thr_status try_covers(distinct_maker *maker, thr_err *err)
   const thr_limits part = thr_dispatch_share(maker->limits, THR_STEP_COVERS);
 
   /* Cut the number down to a multiple of the covers, so that all covers are alike. */
-  thr_request even = *maker->o;
+  thr_request even = *maker->request;
   even.cords -= even.cords % even.distinct;
   if (even.cords < even.cords_least) return THR_OK;
 
   thr_status st = plan_covers(maker, &even, &part, &covers, &n, err);
-  bool enough = n >= maker->o->cords_least;
+  bool enough = n >= maker->request->cords_least;
   if (!st && enough) st = offer(maker, &covers, &n, err);
 
   thr_cords_destroy(covers, n);
@@ -320,7 +321,7 @@ static thr_status search_fewest(distinct_maker *maker, int from, thr_err *err)
   int failed = from - 1, step = 1;
 
   thr_status st = try_covers(maker, err);
-  int found = is_whole(maker) ? maker->best.n_cords : maker->o->cords;
+  int found = is_whole(maker) ? maker->best.n_cords : maker->request->cords;
 
   /* Upwards in growing steps, until some number of cords passes every edge as asked. */
   bool tried = false; /* so many that serve the aims, too */
@@ -359,7 +360,8 @@ static thr_status search_near(distinct_maker *maker, int from, thr_err *err)
     for (int sign = -1; sign <= (i > 0 ? 1 : 0) && !st && !thr_limits_stop(maker->limits);
          sign += 2) {
       int n = from + sign * i;
-      if (n >= maker->o->cords_least && n <= maker->o->cords) st = try_number(maker, n, err);
+      if (n >= maker->request->cords_least && n <= maker->request->cords)
+        st = try_number(maker, n, err);
     }
   return st;
 }
@@ -369,7 +371,7 @@ static thr_status try_few(distinct_maker *maker, thr_err *err)
 {
   thr_cord *cord;
   int n;
-  thr_status st = thr_distinct_few(maker->f, maker->o, maker->limits, &cord, &n, err);
+  thr_status st = thr_distinct_few(maker->frame, maker->request, maker->limits, &cord, &n, err);
   if (!st && n > 0) st = offer(maker, &cord, &n, err);
   thr_cords_destroy(cord, n);
   return st;
@@ -384,9 +386,9 @@ static thr_status make_component(distinct_maker *maker, const thr_plan *from, th
   start.n_cords = from->n_cords;
 
   /* The number is given, or is to be small, or is free. */
-  if (is_exact(maker->o))
-    st = make_different(maker, maker->o, maker->limits, &start, err);
-  else if (fewest_first(maker->o))
+  if (is_exact(maker->request))
+    st = make_different(maker, maker->request, maker->limits, &start, err);
+  else if (fewest_first(maker->request))
     st = search_fewest(maker, start.n_cords, err);
   else
     st = search_near(maker, start.n_cords, err);
@@ -401,12 +403,12 @@ static thr_status make_components(distinct_maker *maker, thr_err *err)
   thr_components components;
   thr_cord *cord = NULL;
 
-  thr_status st = thr_components_init(&components, maker->f, maker->o, err);
+  thr_status st = thr_components_init(&components, maker->frame, maker->request, err);
   if (st) return st;
 
   thr_plan *made = thr_calloc((size_t)components.n, sizeof *made), whole = {0};
   if (!made) st = thr_nomem(err);
-  if (!st) st = thr_plan_request(&whole, maker->f, maker->o, err);
+  if (!st) st = thr_plan_request(&whole, maker->frame, maker->request, err);
 
   /* Plan each component as a framework of its own, in an equal part of the time left. */
   for (int k = 0; k < components.n && !st; k++) {
@@ -470,18 +472,19 @@ static thr_status prove(distinct_maker *maker, thr_plan *from, thr_plan *plan, t
 /* What was not found, or not proved, in the order of what was asked. */
 static thr_status judge(const distinct_maker *maker, const thr_plan *plan, thr_err *err)
 {
-  const int n = maker->f->n_edges, met = plan->metrics.distinct;
+  const int n = maker->frame->n_edges, met = plan->metrics.distinct;
   if (met < n)
     return thr_fail(err, THR_ELIMIT,
                     "%d of %d edges are passed by %d different cords; no better cords were found",
-                    met, n, maker->o->distinct);
+                    met, n, maker->request->distinct);
 
   if (plan->pull_claim.present && !plan->pull_claim.optimal)
     return thr_fail(err, THR_ELIMIT,
                     "%d cords keep to the pull; it is proved only that fewer than %d cannot",
                     plan->n_cords, plan->pull_claim.fewest);
 
-  if (maker->o->max_length > 0 && plan->cords_claim.fewest > 0 && !plan->cords_claim.fewest_optimal)
+  if (maker->request->max_length > 0 && plan->cords_claim.fewest > 0 &&
+      !plan->cords_claim.fewest_optimal)
     return thr_fail(err, THR_ELIMIT,
                     "%d cords keep to the length; it is proved only that fewer than %d cannot",
                     plan->n_cords, plan->cords_claim.fewest);
@@ -497,14 +500,15 @@ static thr_status judge(const distinct_maker *maker, const thr_plan *plan, thr_e
 /* Passes that bridges need have to fit. */
 static thr_status check_room(const distinct_maker *maker, thr_err *err)
 {
-  for (int e = 0; e < maker->f->n_edges && maker->needed.cover != maker->f->cover; e++) {
-    int needs = maker->needed.cover[e], room = thr_plan_capacity(maker->f, maker->o, e);
+  for (int e = 0; e < maker->frame->n_edges && maker->needed.cover != maker->frame->cover; e++) {
+    int needs = maker->needed.cover[e], room = thr_plan_capacity(maker->frame, maker->request, e);
     if (needs > room)
       return thr_fail(err, THR_EINFEASIBLE,
                       "edge %s-%s is a bridge: %d different cords pass it %d times at least, but "
                       "only %d passes fit (proved)",
-                      maker->f->name[maker->f->edge[e][0]], maker->f->name[maker->f->edge[e][1]],
-                      maker->o->distinct, needs, room);
+                      maker->frame->name[maker->frame->edge[e][0]],
+                      maker->frame->name[maker->frame->edge[e][1]], maker->request->distinct, needs,
+                      room);
   }
   return THR_OK;
 }
@@ -513,16 +517,17 @@ static thr_status check_room(const distinct_maker *maker, thr_err *err)
  * free. */
 static thr_status make_cords(distinct_maker *maker, const thr_plan *from, thr_err *err)
 {
-  int n, *component = thr_calloc((size_t)maker->f->n_nodes, sizeof *component);
-  thr_status st = component ? thr_frame_components(maker->f, component, &n, err) : thr_nomem(err);
+  int n, *component = thr_calloc((size_t)maker->frame->n_nodes, sizeof *component);
+  thr_status st =
+      component ? thr_frame_components(maker->frame, component, &n, err) : thr_nomem(err);
   free(component);
 
   if (from->turning.present && from->turning.length_limit >= 0)
     maker->length_limit = from->turning.length_limit;
 
   if (!st)
-    st = n > 1 && !is_exact(maker->o) ? make_components(maker, err)
-                                      : make_component(maker, from, err);
+    st = n > 1 && !is_exact(maker->request) ? make_components(maker, err)
+                                            : make_component(maker, from, err);
   if (!st && maker->best.n_cords == 0)
     st = thr_fail(err, THR_ELIMIT,
                   "no cords were found that pass every edge and keep to what is asked of them");
@@ -535,7 +540,7 @@ static thr_status plan_different(const thr_frame *frame, const thr_request *opti
                                  const thr_limits *limits, thr_plan *plan, thr_err *err)
 {
   distinct_maker maker = {
-      .f = frame, .needed = *frame, .o = options, .limits = limits, .length_limit = -1};
+      .frame = frame, .needed = *frame, .request = options, .limits = limits, .length_limit = -1};
   thr_plan from = {0};
   thr_err why = {0};
   int *needs = NULL;

@@ -710,8 +710,8 @@ void thr_frontier_destroy(thr_frontier *frontier)
 
 /* One sweep along the trade-off between length and turning. */
 typedef struct {
-  const thr_frame *f;
-  const thr_request *o;
+  const thr_frame *frame;
+  const thr_request *request;
   thr_limits limits;
   int left; /* searches that the time is for */
   double shortest;
@@ -736,28 +736,28 @@ static thr_status make_point(frontier_sweep *sweep, const thr_limits *share, dou
                              thr_frontier_point *point, thr_err *err)
 {
   thr_least least = {0};
-  thr_least_options search = search_options(sweep->o);
+  thr_least_options search = search_options(sweep->request);
 
   search.length_slack = slack;
-  begin_with(sweep->f, &sweep->start.tube, &search);
-  thr_status st = find_least(sweep->f, &search, share, &least, err);
+  begin_with(sweep->frame, &sweep->start.tube, &search);
+  thr_status st = find_least(sweep->frame, &search, share, &least, err);
   if (st && st != THR_ELIMIT) return st;
 
   sweep->shortest = least.shortest;
 
   /* The price and its bound are those that the checker confirms. */
   thr_turning_claim found;
-  st = judge(sweep->f, sweep->o, least.cord, least.n_cords, &least, &found, err);
+  st = judge(sweep->frame, sweep->request, least.cord, least.n_cords, &least, &found, err);
   if (!st)
     *point = (thr_frontier_point){
         .length = least.length,
-        .overlap = least.length - thr_turning_base_length(sweep->f, sweep->o->cover),
+        .overlap = least.length - thr_turning_base_length(sweep->frame, sweep->request->cover),
         .price = found.price,
         .lower_bound = found.lower_bound,
         .open = found.optimal ? NULL : why_open(&least),
         .turning = least.turning,
-        .max_turning = largest_turning(sweep->f, sweep->o, &least),
-        .pulled = thr_cords_pulled_turning(sweep->f, least.cord, least.n_cords)};
+        .max_turning = largest_turning(sweep->frame, sweep->request, &least),
+        .pulled = thr_cords_pulled_turning(sweep->frame, least.cord, least.n_cords)};
   thr_turning_proof_destroy(&found.tree);
   thr_least_destroy(&least);
   return st;
@@ -767,26 +767,26 @@ static thr_status make_point(frontier_sweep *sweep, const thr_limits *share, dou
 static thr_status make_different_point(frontier_sweep *sweep, const thr_limits *share, double slack,
                                        thr_frontier_point *point, thr_err *err)
 {
-  thr_request options = *sweep->o;
+  thr_request options = *sweep->request;
   thr_plan plan;
   options.turning.length_slack = slack;
 
-  thr_status st = thr_planner_distinct(sweep->f, &options, share, &plan, NULL, err);
+  thr_status st = thr_planner_distinct(sweep->frame, &options, share, &plan, NULL, err);
 
   /* Only plans in which every edge has its different cords are comparable. */
-  const bool whole = plan.n_cords > 0 && plan.metrics.distinct == sweep->f->n_edges;
+  const bool whole = plan.n_cords > 0 && plan.metrics.distinct == sweep->frame->n_edges;
   if (!st || st == THR_ELIMIT) st = whole && plan.turning.present ? THR_OK : THR_EINFEASIBLE;
   if (!st) {
     sweep->shortest = plan.proof.lower_bound;
-    *point =
-        (thr_frontier_point){.length = plan.metrics.length,
-                             .overlap = plan.metrics.overlap,
-                             .price = plan.turning.price,
-                             .lower_bound = plan.turning.lower_bound,
-                             .open = plan.turning.optimal ? NULL : "the bound is one of any cords",
-                             .turning = plan.metrics.turning,
-                             .max_turning = plan.metrics.max_turning,
-                             .pulled = thr_cords_pulled_turning(sweep->f, plan.cord, plan.n_cords)};
+    *point = (thr_frontier_point){
+        .length = plan.metrics.length,
+        .overlap = plan.metrics.overlap,
+        .price = plan.turning.price,
+        .lower_bound = plan.turning.lower_bound,
+        .open = plan.turning.optimal ? NULL : "the bound is one of any cords",
+        .turning = plan.metrics.turning,
+        .max_turning = plan.metrics.max_turning,
+        .pulled = thr_cords_pulled_turning(sweep->frame, plan.cord, plan.n_cords)};
   }
   thr_plan_destroy(&plan);
   return st;
@@ -800,8 +800,8 @@ static thr_status add_point(frontier_sweep *sweep, double slack, thr_err *err)
 
   thr_frontier_point point = {0};
   thr_err why = {0};
-  thr_status st = (sweep->o->distinct > 0 ? make_different_point : make_point)(sweep, &share, slack,
-                                                                               &point, &why);
+  thr_status st = (sweep->request->distinct > 0 ? make_different_point
+                                                : make_point)(sweep, &share, slack, &point, &why);
   if (!st) sweep->out->point[sweep->out->n++] = point;
   return !st || st == THR_EINFEASIBLE ? THR_OK : thr_fail(err, st, "%s", why.text);
 }
@@ -832,7 +832,8 @@ static void drop_dominated(thr_frontier *out)
 thr_status thr_tortuosity_frontier(const thr_frame *frame, const thr_request *options, int most,
                                    const thr_limits *limits, thr_frontier *out, thr_err *err)
 {
-  frontier_sweep sweep = {.f = frame, .o = options, .limits = *limits, .left = most, .out = out};
+  frontier_sweep sweep = {
+      .frame = frame, .request = options, .limits = *limits, .left = most, .out = out};
   *out = (thr_frontier){0};
 
   if (most < 2) return thr_fail(err, THR_EINPUT, "a trade-off has at least 2 points");

@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proofs of one plan for the cords of another, and what is kept of a plan of which not every proof
- * holds. */
+/* Judges the cords of one plan by the proofs of another, tells what is not proved of a plan, and
+ * reads a written plan back (thr_plan_confirm), dropping claims that the checker does not confirm.
+ *
+ * A proof of length or turning is about all cords of a request, so a certificate that was found
+ * with other cords still bounds these from below; what it proves of them is always stated by the
+ * checker. */
 #include "graph/check/check.h"
 #include "planner/planner_parts.h"
 #include "tortuosity/tie/tie.h"
@@ -11,10 +15,12 @@
 static thr_status judge_cords(thr_plan *plan, thr_err *err)
 {
   thr_length_proof *proof = &plan->proof;
+
   thr_err why = {0};
   thr_status st =
       thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate,
                       proof->n_certificates, &proof->walks, &plan->cords_claim, &why);
+
   if (st != THR_EVIOLATED || !(proof->walks.unit || proof->walks.sets))
     return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
   thr_walk_proof_destroy(&proof->walks);
@@ -22,11 +28,13 @@ static thr_status judge_cords(thr_plan *plan, thr_err *err)
                          proof->certificate, proof->n_certificates, NULL, &plan->cords_claim, err);
 }
 
-thr_status thr_planner_prove_length(thr_plan *plan, thr_plan *p, thr_err *err)
+thr_status thr_planner_prove_length(thr_plan *plan, thr_plan *source, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
   const thr_request *options = &plan->options;
-  thr_length_proof *from = &p->proof;
+  thr_length_proof *from = &source->proof;
+
+  /* The proof of tied cords is a tree, which moves over. */
   if (options->joint == THR_JOINT_TUBE) {
     thr_tube tube = {.proof = from->tied};
     from->tied = (thr_turning_proof){0};
@@ -37,14 +45,20 @@ thr_status thr_planner_prove_length(thr_plan *plan, thr_plan *p, thr_err *err)
               : thr_check_tied_cords(frame, options, plan->cord, plan->n_cords, &plan->proof.tied,
                                      &plan->cords_claim, err);
   }
-  thr_shortest s = {.n_certificates = from->n_certificates, .certificate = from->certificate};
-  s.confirmed.confirmed = from->confirmed;
-  s.confirmed.skipped = from->unconfirmed;
+
+  /* The certificates of solid joints move over, and the checker states what they prove. */
+  thr_shortest shortest = {.n_certificates = from->n_certificates,
+                           .certificate = from->certificate};
+  shortest.confirmed.confirmed = from->confirmed;
+  shortest.confirmed.skipped = from->unconfirmed;
   from->certificate = NULL;
   from->n_certificates = 0;
+
   thr_status st =
-      thr_postman_prove(frame, options, plan->cord, plan->n_cords, &s, &plan->proof, err);
-  thr_shortest_destroy(&s);
+      thr_postman_prove(frame, options, plan->cord, plan->n_cords, &shortest, &plan->proof, err);
+  thr_shortest_destroy(&shortest);
+
+  /* Proofs by walks come along, and are judged with the cords. */
   plan->proof.walks = from->walks;
   from->walks = (thr_walk_proof){0};
   return st ? st : judge_cords(plan, err);
@@ -60,12 +74,16 @@ thr_status thr_planner_prove_turning(thr_plan *plan, thr_turning_claim *claim, t
 {
   thr_err why = {0};
   if (!claim->present) return THR_OK;
+
+  /* The limit on the length may be looser now, as the proof of length is another. */
   claim->length_limit = thr_planner_length_limit(plan, claim->length_limit);
   thr_turning_claim found;
   thr_status st = thr_check_turning(&plan->frame, &plan->options, plan->cord, plan->n_cords, claim,
                                     &found, &why);
+
   if (st == THR_EVIOLATED) return THR_OK;
   if (st) return thr_fail(err, st, "%s", why.text);
+
   plan->turning = found;
   plan->turning.tree = claim->tree;
   claim->tree = (thr_turning_proof){0};
@@ -74,11 +92,14 @@ thr_status thr_planner_prove_turning(thr_plan *plan, thr_turning_claim *claim, t
 
 thr_status thr_planner_prove_again(thr_plan *plan, thr_err *err)
 {
+  /* Set the old proofs aside, and measure the cords. */
   thr_plan before = {.proof = plan->proof, .turning = plan->turning};
   plan->proof = (thr_length_proof){0};
   plan->turning = (thr_turning_claim){0};
   thr_status st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords,
                                    &plan->metrics, err);
+
+  /* Judge the length, with the walks for cords within a pull apart. */
   if (!st && before.proof.present) {
     const thr_walk_proof pulled = before.proof.pulled;
     before.proof.pulled = (thr_walk_proof){0};
@@ -88,7 +109,10 @@ thr_status thr_planner_prove_again(thr_plan *plan, thr_err *err)
     plan->proof.slack_open =
         !thr_plan_within_slack(&plan->options, plan->metrics.length, plan->proof.lower_bound);
   }
+
+  /* Judge the turning. */
   if (!st) st = thr_planner_prove_turning(plan, &before.turning, err);
+
   thr_plan_destroy(&before);
   return st;
 }
@@ -98,12 +122,15 @@ thr_status thr_planner_verdict(const thr_plan *plan, thr_err *err)
   const thr_turning_claim *claim = &plan->turning;
   const thr_length_proof *length = &plan->proof;
   bool largest = thr_wants_largest(&plan->options);
+
   if (thr_wants_balance(&plan->options) && !plan->cords_claim.longest_optimal)
     return thr_not_proved(err, "the length of the longest cord", plan->cords_claim.longest,
                           plan->cords_claim.longest_bound);
+
   if (thr_wants_length(&plan->options) && length->optimal) return THR_OK;
   if (thr_wants_length(&plan->options))
     return thr_not_proved(err, "the length", plan->metrics.length, length->lower_bound);
+
   if (!claim->present) return thr_fail(err, THR_ELIMIT, "nothing is proved of the turning");
   if (largest ? claim->largest_optimal : claim->optimal) return THR_OK;
   return largest ? thr_not_proved(err, thr_largest_name(&plan->options), claim->largest,
@@ -117,6 +144,7 @@ thr_status thr_planner_verdict(const thr_plan *plan, thr_err *err)
 static bool keeps_to_limits(const thr_plan *plan)
 {
   const thr_request *request = &plan->options;
+
   const double longest = thr_cords_longest(&plan->frame, plan->cord, plan->n_cords);
   return !(plan->proof.present && plan->proof.slack_open && request->turning.length_slack >= 0) &&
          (request->distinct == 0 || plan->metrics.distinct == plan->frame.n_edges) &&
@@ -132,8 +160,10 @@ static bool has_few_cords(const thr_plan *plan, double gap)
   const thr_request *request = &plan->options;
   const thr_pull_claim *pull = &plan->pull_claim;
   const bool few = request->cords_least < request->cords;
+
   const int least = pull->present ? pull->fewest : plan->cords_claim.fewest;
   if (!few || (request->max_pull == 0 && request->max_length == 0)) return true;
+
   return (pull->present && pull->optimal) ||
          (plan->cords_claim.present && plan->cords_claim.fewest_optimal) ||
          plan->n_cords <= least * (1 + gap);
@@ -143,11 +173,15 @@ bool thr_planner_is_enough(const thr_plan *plan, const thr_limits *limits)
 {
   const thr_request *request = &plan->options;
   const double gap = thr_request_gap(request) + 1e-12;
+
   if (plan->n_cords == 0 || !keeps_to_limits(plan)) return false;
+
+  /* Where nobody asked for a gap, any bound is enough, unless short cords are what is wanted. */
   const bool is_proved = thr_wants_symmetry(request) || thr_plan_gap(plan) < INFINITY;
   if (request->gap < 0 && limits->usual && is_proved &&
       (!thr_wants_length(request) || request->max_pull > 0))
     return true;
+
   return thr_plan_gap(plan) <= gap && has_few_cords(plan, gap);
 }
 
@@ -187,6 +221,7 @@ thr_status thr_plan_confirm(thr_plan *plan, thr_text *text, const char *name, in
             unconfirmed = plan->proof.unconfirmed; /* are not written */
   thr_err why = {0};
   *dropped = 0;
+
   thr_status st = thr_plan_parse_back(plan, text->data, text->length, name, &why);
   if (!st && (st = thr_check_plan(plan, &why))) thr_plan_destroy(plan);
 
@@ -201,8 +236,11 @@ thr_status thr_plan_confirm(thr_plan *plan, thr_text *text, const char *name, in
     }
   if (st) return thr_fail(err, st == THR_ENOMEM ? st : THR_ESOLVER, "%s", why.text);
 
+  /* Numbers that are not written down are set again, and the text is written without the dropped
+   * claims. */
   plan->proof.confirmed = confirmed;
   plan->proof.unconfirmed = unconfirmed;
+
   if (*dropped == 0) return THR_OK;
   *err = why;
   thr_text_destroy(text);

@@ -31,8 +31,8 @@ static const double work_to_find = 1.2, work_to_choose = 1.2, work_to_anneal = 0
 static const double where_none_is_found = 10;
 
 typedef struct {
-  const thr_frame *f;
-  const thr_request *o;
+  const thr_frame *frame;
+  const thr_request *request;
   const thr_limits *limits;
   double most;          /* rad that a cord may turn, with the last turn of a closed one */
   thr_pull_claim claim; /* the most cords that are proved to be too few */
@@ -74,7 +74,7 @@ static thr_status rule_out(fewest_search *search, int n, thr_turning_claim *made
   for (size_t i = 0; i < sizeof cuts / sizeof *cuts && !st && !too_few; i++) {
     thr_err why = {0};
     claim.cut = (int64_t)ldexp(cuts[i] * THR_PI, THR_TURNING_BITS);
-    st = thr_check_too_few(search->f, search->o, n, &claim, &too_few, &why);
+    st = thr_check_too_few(search->frame, search->request, n, &claim, &too_few, &why);
     if (st == THR_EVIOLATED) return THR_OK; /* rows of one number of closed cords only */
     if (st) thr_fail(err, st, "%s", why.text);
   }
@@ -97,12 +97,14 @@ static thr_status rule_out_few(fewest_search *search, thr_err *err)
   bool too_few = true;
 
   /* The largest number first: if even that is too few, all are. */
-  thr_status st = thr_check_too_few(search->f, search->o, search->o->cords, &none, &too_few, err);
-  if (!st && too_few) search->claim.excluded = search->o->cords;
+  thr_status st = thr_check_too_few(search->frame, search->request, search->request->cords, &none,
+                                    &too_few, err);
+  if (!st && too_few) search->claim.excluded = search->request->cords;
 
   /* Else count upwards from what is known, until a number is not proved too few. */
-  while (!st && search->claim.excluded < search->o->cords) {
-    st = thr_check_too_few(search->f, search->o, search->claim.excluded + 1, &none, &too_few, err);
+  while (!st && search->claim.excluded < search->request->cords) {
+    st = thr_check_too_few(search->frame, search->request, search->claim.excluded + 1, &none,
+                           &too_few, err);
     if (st || !too_few) break;
     search->claim.excluded++;
   }
@@ -115,7 +117,7 @@ static thr_status rule_out_few(fewest_search *search, thr_err *err)
 static thr_status plan_number(const fewest_search *search, int n, thr_aim aim, thr_step step,
                               thr_plan *plan, thr_err *err)
 {
-  thr_request options = *search->o;
+  thr_request options = *search->request;
   thr_limits share = thr_dispatch_share(search->limits, step);
   thr_err why = {0};
 
@@ -131,9 +133,9 @@ static thr_status plan_number(const fewest_search *search, int n, thr_aim aim, t
     options.max_pull = 0; /* all of the work goes into even cords, none into a proof */
 
   /* The planner depends on the aim and on the step. */
-  thr_status st = annealed   ? thr_planner_turning(search->f, &options, &share, plan, NULL, &why)
-                  : shortest ? thr_planner_length(search->f, &options, &share, plan, NULL, &why)
-                             : thr_tortuosity_plan(search->f, &options, &share, plan, &why);
+  thr_status st = annealed ? thr_planner_turning(search->frame, &options, &share, plan, NULL, &why)
+                  : shortest ? thr_planner_length(search->frame, &options, &share, plan, NULL, &why)
+                             : thr_tortuosity_plan(search->frame, &options, &share, plan, &why);
   if (st == THR_ENOMEM) return thr_nomem(err);
   return THR_OK; /* what else fails leaves no plan */
 }
@@ -150,10 +152,10 @@ static thr_status bound_number(fewest_search *search, int n, double *each, thr_e
 
   /* The least number's tree may prove the whole range to be too few, or all numbers below the
    * quotient of the bound and of what one cord may turn. */
-  if (!st && search->o->cords > n && n == search->o->cords_least)
-    st = rule_out(search, search->o->cords, &plan.turning, err);
+  if (!st && search->request->cords > n && n == search->request->cords_least)
+    st = rule_out(search, search->request->cords, &plan.turning, err);
   if (!st && *each > 0 && ceil(*each / search->most) - 1 < n &&
-      ceil(*each / search->most) > search->o->cords_least)
+      ceil(*each / search->most) > search->request->cords_least)
     st = rule_out(search, (int)ceil(*each / search->most) - 1, &plan.turning, err);
 
   if (!st) st = rule_out(search, n, &plan.turning, err);
@@ -175,11 +177,11 @@ static void take_found(fewest_search *search, thr_plan *plan, int number)
 /* Are a plan's cords within both limits? */
 static bool keeps(const fewest_search *search, const thr_plan *plan)
 {
-  const double limit = search->o->max_length * (1 + 1e-12);
+  const double limit = search->request->max_length * (1 + 1e-12);
   const bool short_enough =
-      limit == 0 || thr_cords_longest(search->f, plan->cord, plan->n_cords) <= limit;
+      limit == 0 || thr_cords_longest(search->frame, plan->cord, plan->n_cords) <= limit;
   return plan->n_cords > 0 && short_enough &&
-         thr_cords_within_pull(search->f, search->o, plan->cord, plan->n_cords);
+         thr_cords_within_pull(search->frame, search->request, plan->cord, plan->n_cords);
 }
 
 /* How many cords are too few by walks, if that is more than is known; where none were found that
@@ -192,14 +194,14 @@ static thr_status exclude_by_walks(fewest_search *search, const thr_plan *some, 
 
   /* Nothing is left to prove where the number below the one found is excluded, or was not free. */
   if (search->found.n_cords > 0 &&
-      (!is_range(search->o) || search->number - 1 <= search->claim.excluded))
+      (!is_range(search->request) || search->number - 1 <= search->claim.excluded))
     return THR_OK;
 
   const thr_plan *plan = search->found.n_cords > 0 ? &search->found : some;
 
   /* Take the proof by walks if it excludes more than the proofs before it. */
-  thr_status st = thr_planner_pull_too_few(search->f, search->o, plan, search->claim.excluded,
-                                           &share, &walks, &excluded, err);
+  thr_status st = thr_planner_pull_too_few(search->frame, search->request, plan,
+                                           search->claim.excluded, &share, &walks, &excluded, err);
   if (!st && excluded > search->claim.excluded) {
     thr_turning_proof_destroy(&search->claim.tree);
     thr_walk_proof_destroy(&search->claim.walks);
@@ -221,15 +223,15 @@ static thr_status use_walks(fewest_search *search, thr_err *err)
   thr_err why = {0};
   int component;
 
-  if (search->o->joint == THR_JOINT_TUBE || search->o->physics.mu <= 0 ||
-      search->f->n_edges > MOST_EDGES)
+  if (search->request->joint == THR_JOINT_TUBE || search->request->physics.mu <= 0 ||
+      search->frame->n_edges > MOST_EDGES)
     return THR_OK;
   if (search->found.n_cords > 0 && search->number - 1 <= search->claim.excluded) return THR_OK;
 
   /* Cords of any number are what the programme begins with. */
-  thr_status st = thr_planner_some_cords(search->f, search->o, &share, &some, &why);
+  thr_status st = thr_planner_some_cords(search->frame, search->request, &share, &some, &why);
   st = st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves none */
-  if (!st) st = thr_planner_pull_few(search->f, search->o, &some, &share, &plan, err);
+  if (!st) st = thr_planner_pull_few(search->frame, search->request, &some, &share, &plan, err);
   const int number = thr_planner_most_cords(&plan, &component);
 
   /* Fewer cords within the pull are taken; then the bound is raised by walks. */
@@ -250,9 +252,10 @@ static thr_status try_number(fewest_search *search, int n, thr_step step, bool *
   *fits = !st && keeps(search, &plan);
 
   /* How far the cords are beyond the limit tells the search how many more to try next. */
-  double turning =
-      plan.n_cords > 0 ? thr_cords_pulled_turning(search->f, plan.cord, plan.n_cords) : INFINITY;
-  search->beyond = fmin(1, fmax(0, turning / thr_request_most_pulled(search->o) - 1));
+  double turning = plan.n_cords > 0
+                       ? thr_cords_pulled_turning(search->frame, plan.cord, plan.n_cords)
+                       : INFINITY;
+  search->beyond = fmin(1, fmax(0, turning / thr_request_most_pulled(search->request) - 1));
 
   if (*fits && (search->found.n_cords == 0 || n < search->number + search->is_short)) {
     take_found(search, &plan, n);
@@ -271,11 +274,12 @@ static thr_status try_number(fewest_search *search, int n, thr_step step, bool *
 static thr_status try_short(fewest_search *search, thr_err *err)
 {
   enum { MOST_EDGES = 18 };
-  const int most = search->o->cords < search->f->n_edges ? search->o->cords : search->f->n_edges;
+  const int most = search->request->cords < search->frame->n_edges ? search->request->cords
+                                                                   : search->frame->n_edges;
   thr_status st = THR_OK;
 
-  if (search->o->ends != THR_ENDS_CLOSED || search->o->joint == THR_JOINT_TUBE ||
-      search->f->n_edges > MOST_EDGES)
+  if (search->request->ends != THR_ENDS_CLOSED || search->request->joint == THR_JOINT_TUBE ||
+      search->frame->n_edges > MOST_EDGES)
     return THR_OK;
 
   /* Try every number that is not excluded, the least first. */
@@ -294,7 +298,7 @@ static thr_status try_short(fewest_search *search, thr_err *err)
 
 static bool is_over(const fewest_search *search)
 {
-  return search->claim.excluded >= search->o->cords || thr_limits_stop(search->limits);
+  return search->claim.excluded >= search->request->cords || thr_limits_stop(search->limits);
 }
 
 /* Raises claim.excluded by bounds on the turning of all cords, between the fewest and as many as
@@ -303,11 +307,11 @@ static thr_status bound_all(fewest_search *search, thr_err *err)
 {
   double each;
 
-  thr_status st = bound_number(search, search->o->cords_least, &each, err);
+  thr_status st = bound_number(search, search->request->cords_least, &each, err);
 
   /* Beyond this number of cords the turning is shared out evenly enough for all to fit. */
   int low = search->claim.excluded,
-      high = (int)fmin(search->o->cords, ceil(each / fmax(search->most, 1e-3)) + 1);
+      high = (int)fmin(search->request->cords, ceil(each / fmax(search->most, 1e-3)) + 1);
   bool first = true;
 
   /* Halve the interval of the numbers that may still be proved too few. */
@@ -327,7 +331,7 @@ static thr_status bound_all(fewest_search *search, thr_err *err)
 static thr_status search_numbers(fewest_search *search, thr_err *err)
 {
   const int most =
-      search->found.n_cords > 0 ? search->number - !search->is_short : search->o->cords;
+      search->found.n_cords > 0 ? search->number - !search->is_short : search->request->cords;
   int failed = search->claim.excluded, n = failed + 1, step = 1;
   bool fits = false;
   thr_status st = THR_OK;
@@ -359,11 +363,11 @@ static thr_status anneal_fewer(fewest_search *search, const thr_limits *limits, 
   bool fits = true;
   thr_status st = THR_OK;
   for (int i = 0;
-       i < MOST_NUMBERS && !st && fits && (search->found.n_cords == 0) != is_range(search->o);
+       i < MOST_NUMBERS && !st && fits && (search->found.n_cords == 0) != is_range(search->request);
        i++) {
     /* One cord less than the plan has, with a counted share of work of its own. */
-    const int n = search->found.n_cords > 0 ? search->number - 1 : search->o->cords;
-    double work = work_to_anneal * search->o->time_limit;
+    const int n = search->found.n_cords > 0 ? search->number - 1 : search->request->cords;
+    double work = work_to_anneal * search->request->time_limit;
     const thr_limits counted = thr_limits_counted(limits, &work);
     if (n <= search->claim.excluded || thr_limits_left(limits, 1) <= 0) break;
 
@@ -379,7 +383,7 @@ static thr_status anneal_fewer(fewest_search *search, const thr_limits *limits, 
 /* Why there is no plan: of any cords, or of cords within the pull. */
 static thr_status not_found(const fewest_search *search, const thr_err *why, thr_err *err)
 {
-  const thr_request *request = search->o;
+  const thr_request *request = search->request;
   thr_plan some;
   thr_err none = {0};
   const char *more = is_range(request) ? "time, cords" : "time";
@@ -401,7 +405,8 @@ static thr_status not_found(const fewest_search *search, const thr_err *why, thr
                     request->cords, request->cords == 1 ? "" : "s", newtons);
 
   /* Perhaps there are no cords at all, whatever their pull. */
-  const thr_status any = thr_planner_some_cords(search->f, request, search->limits, &some, &none);
+  const thr_status any =
+      thr_planner_some_cords(search->frame, request, search->limits, &some, &none);
   thr_plan_destroy(&some);
   if (any == THR_EINFEASIBLE || any == THR_ENOMEM) return thr_fail(err, any, "%s", none.text);
 
@@ -432,10 +437,11 @@ static void count_cords(const thr_plan *plan, int *cords, int *n)
 static thr_status claim_number(fewest_search *search, thr_plan *plan, thr_err *err)
 {
   thr_pull_claim *claim = &search->claim;
-  if (!is_range(search->o)) return THR_OK;
-  if (claim->excluded < search->o->cords_least) claim->excluded = 0; /* nobody asked for so few */
+  if (!is_range(search->request)) return THR_OK;
+  if (claim->excluded < search->request->cords_least)
+    claim->excluded = 0; /* nobody asked for so few */
 
-  int components, *cords = thr_calloc((size_t)search->f->n_nodes, sizeof *cords);
+  int components, *cords = thr_calloc((size_t)search->frame->n_nodes, sizeof *cords);
   if (!cords) return thr_nomem(err);
   count_cords(plan, cords, &components);
 
@@ -444,7 +450,7 @@ static thr_status claim_number(fewest_search *search, thr_plan *plan, thr_err *e
   claim->fewest = 0;
   thr_status st = claim->n_parts > 0
                       ? THR_OK
-                      : thr_check_fewest_pulled(search->f, search->o, cords, components,
+                      : thr_check_fewest_pulled(search->frame, search->request, cords, components,
                                                 claim->excluded, &claim->fewest, err);
   for (int k = 0; k < claim->n_parts; k++) {
     claim->fewest += claim->part[k].fewest;
@@ -468,8 +474,8 @@ static thr_status claim_number(fewest_search *search, thr_plan *plan, thr_err *e
 /* The fewest cords, by all means in turn. */
 static thr_status find_fewest(fewest_search *search, const thr_limits *limits, thr_err *err)
 {
-  double work = work_to_find * search->o->time_limit,
-         for_walks = work_to_choose * search->o->time_limit;
+  double work = work_to_find * search->request->time_limit,
+         for_walks = work_to_choose * search->request->time_limit;
   thr_limits share = thr_dispatch_share(limits, THR_STEP_FEWEST);
   bool fits;
 
@@ -479,14 +485,15 @@ static thr_status find_fewest(fewest_search *search, const thr_limits *limits, t
   /* Bound the number from below, then try numbers, with a counted part of the work. */
   thr_status st = rule_out_few(search, err);
   if (!st)
-    st = is_range(search->o) ? bound_all(search, err)
-                             : try_number(search, search->o->cords, THR_STEP_FEW_TRY, &fits, err);
+    st = is_range(search->request)
+             ? bound_all(search, err)
+             : try_number(search, search->request->cords, THR_STEP_FEW_TRY, &fits, err);
   if (!st) st = try_short(search, err);
-  if (!st && is_range(search->o)) st = search_numbers(search, err);
+  if (!st && is_range(search->request)) st = search_numbers(search, err);
 
   /* With a second part look for fewer cords by walks and by annealing. */
-  if (!st && (is_range(search->o) ||
-              (search->found.n_cords == 0 && search->claim.excluded < search->o->cords))) {
+  if (!st && (is_range(search->request) ||
+              (search->found.n_cords == 0 && search->claim.excluded < search->request->cords))) {
     share = thr_dispatch_share(limits, THR_STEP_FEWEST);
     share = thr_limits_brief(&share, &for_walks);
     st = use_walks(search, err);
@@ -503,8 +510,9 @@ static thr_status find_fewest(fewest_search *search, const thr_limits *limits, t
  * are not free. */
 static thr_status cut_first(fewest_search *search, thr_plan *fallback, thr_err *err)
 {
-  thr_limits share = thr_planner_share(search->f, search->o, search->limits, THR_STEP_FIRST);
-  thr_request closed = *search->o;
+  thr_limits share =
+      thr_planner_share(search->frame, search->request, search->limits, THR_STEP_FIRST);
+  thr_request closed = *search->request;
   thr_plan whole = {0}, cut = {0};
   thr_err why = {0};
   int component;
@@ -519,18 +527,19 @@ static thr_status cut_first(fewest_search *search, thr_plan *fallback, thr_err *
   closed.ends = THR_ENDS_CLOSED;
   closed.cords = closed.cords_least = 1;
   closed.max_length = closed.max_pull = 0;
-  if (search->o->joint == THR_JOINT_TUBE || search->o->ends == THR_ENDS_COUNTS) return THR_OK;
+  if (search->request->joint == THR_JOINT_TUBE || search->request->ends == THR_ENDS_COUNTS)
+    return THR_OK;
 
-  thr_status st = thr_planner_length(search->f, &closed, &share, &whole, NULL, &why);
+  thr_status st = thr_planner_length(search->frame, &closed, &share, &whole, NULL, &why);
   st = st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
 
   /* Cut the cord, and show the cut cords at once if they keep to the limits. */
-  if (!st && whole.n_cords > 0) st = thr_cut_few(search->f, search->o, &whole, &cut, err);
+  if (!st && whole.n_cords > 0) st = thr_cut_few(search->frame, search->request, &whole, &cut, err);
   if (!st && keeps(search, &cut)) thr_limits_found(search->limits, cut.cord, cut.n_cords, NULL);
 
   /* In a range of numbers the cut cords are the first to beat; else they are what remains if no
    * better ones are found. */
-  if (!st && keeps(search, &cut) && is_range(search->o)) {
+  if (!st && keeps(search, &cut) && is_range(search->request)) {
     take_found(search, &cut, thr_planner_most_cords(&cut, &component));
     search->is_short = true;
   } else if (!st && keeps(search, &cut)) {
@@ -552,7 +561,8 @@ static thr_status find_together(fewest_search *search, const thr_limits *limits,
   thr_plan fallback;
   int component;
   thr_status st = cut_first(search, &fallback, err);
-  if (!st && !thr_tortuosity_too_large(search->f, search->o)) st = find_fewest(search, limits, err);
+  if (!st && !thr_tortuosity_too_large(search->frame, search->request))
+    st = find_fewest(search, limits, err);
   if (!st && search->found.n_cords == 0 && fallback.n_cords > 0)
     take_found(search, &fallback, thr_planner_most_cords(&fallback, &component));
   thr_plan_destroy(&fallback);
@@ -617,7 +627,7 @@ static thr_status find_by_components(fewest_search *search, const thr_components
     st = find_component(components, k, &share, &made[k], why);
 
   /* Join the plans, and take the cords if all together keep to the limits. */
-  if (!st) st = thr_plan_request(&joined, search->f, search->o, err);
+  if (!st) st = thr_plan_request(&joined, search->frame, search->request, err);
   if (!st) st = thr_components_join(components, made, &joined, err);
   if (!st)
     st = thr_plan_measure(&joined.frame, &joined.options, joined.cord, joined.n_cords,
@@ -639,11 +649,11 @@ static thr_status find_numbers(fewest_search *search, const thr_limits *limits, 
                                thr_err *err)
 {
   thr_components components = {0};
-  thr_status st = thr_components_init(&components, search->f, search->o, err);
+  thr_status st = thr_components_init(&components, search->frame, search->request, err);
   if (st) return st;
 
-  const bool apart =
-      components.n > 1 && is_range(search->o) && !thr_tortuosity_too_large(search->f, search->o);
+  const bool apart = components.n > 1 && is_range(search->request) &&
+                     !thr_tortuosity_too_large(search->frame, search->request);
   if (apart &&
       components.n <= THR_MOST_PULL_PARTS) /* more are cut, each into as few cords as that takes */
     st = find_by_components(search, &components, limits, why, err);
@@ -670,8 +680,8 @@ static thr_status plan_cut(fewest_search *search, const thr_request *few, thr_pl
   thr_limits quiet = *search->limits;
   quiet.found = NULL;
 
-  thr_status st = thr_planner_length(search->f, &length, &quiet, &shortest, NULL, &why);
-  st = st == THR_ENOMEM ? thr_nomem(err) : thr_plan_request(plan, search->f, few, err);
+  thr_status st = thr_planner_length(search->frame, &length, &quiet, &shortest, NULL, &why);
+  st = st == THR_ENOMEM ? thr_nomem(err) : thr_plan_request(plan, search->frame, few, err);
 
   /* The cords that were found move into the plan. */
   if (!st) {
@@ -696,8 +706,10 @@ thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options,
                             const thr_limits *limits, thr_plan *plan, thr_report *report,
                             thr_err *err)
 {
-  fewest_search search = {
-      .f = frame, .o = options, .limits = limits, .claim.excluded = options->cords_least - 1};
+  fewest_search search = {.frame = frame,
+                          .request = options,
+                          .limits = limits,
+                          .claim.excluded = options->cords_least - 1};
   thr_err why = {0}, found = {0};
   thr_request few = *options;
   (void)report;
@@ -716,9 +728,9 @@ thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options,
   patient.time_limit *= where_none_is_found;
   if (!st && !why.code && !found.code && limits->usual && search.found.n_cords == 0 &&
       search.claim.excluded < options->cords) {
-    search.o = &patient;
+    search.request = &patient;
     st = find_numbers(&search, limits, &why, &found);
-    search.o = options;
+    search.request = options;
   }
 
   if (why.code) { /* of a component: there is no plan, perhaps of another one not even without the

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Every start of a closed cord: how loose what is threaded is from there, and how hard the cord is
- * to pull. Private to planner/.
+/* Computes for every start of a closed cord how loose the chains of pieces are from there
+ * (thr_starts_chains), and how hard the cord is then to pull (thr_starts_pulled).
  *
- * A window that moves round a closed cord, and the pieces in it that are on the cord when they are
- * come to. */
+ * From one start to the next only a few pieces change, so the chains are kept in a window that
+ * moves round the cord and are updated: a piece enters at one end, a piece leaves at the other,
+ * and the fold moves on. Marks stand where a loose chain ends. */
 #include "graph/plan/physics.h"
 #include "planner/planner_parts.h"
 
@@ -26,74 +27,86 @@ typedef struct {
   int *count;    /* [2 n + 2] chains of each length; owned */
   thr_chains chains;
   const thr_threaded *threaded;
-} window;
+} chain_window;
 
 enum { NONE = -2 };
 
-static void window_destroy(window *w)
+/* Releases the arrays of a window. */
+static void window_destroy(chain_window *window)
 {
-  free(w->piece);
-  free(w->next);
-  free(w->before);
-  free(w->left);
-  free(w->right);
-  free(w->along);
-  free(w->count);
+  free(window->piece);
+  free(window->next);
+  free(window->before);
+  free(window->left);
+  free(window->right);
+  free(window->along);
+  free(window->count);
 }
 
-static bool is_marked(const window *w, int p)
+static bool is_marked(const chain_window *window, int p)
 {
-  return w->left[p + 1] != NONE;
+  return window->left[p + 1] != NONE;
 }
 
-static bool is_on(const window *w, int p)
+/* Tells whether the piece at place p is on a cord already when the needle comes to it. */
+static bool is_on(const chain_window *window, int p)
 {
-  int k = p % w->n;
-  if (p == w->fold || thr_threaded_kept(w->threaded, w->piece[k])) return true;
-  return p > w->fold ? p - w->before[k] >= w->fold : p + w->next[k] <= w->last;
+  int k = p % window->n;
+  if (p == window->fold || thr_threaded_kept(window->threaded, window->piece[k])) return true;
+  return p > window->fold ? p - window->before[k] >= window->fold
+                          : p + window->next[k] <= window->last;
 }
 
-static void count_chain(window *w, int from, int to, int change)
+/* Counts the chain between marks from and to, or, with change = -1, no longer. */
+static void count_chain(chain_window *window, int from, int to, int change)
 {
   int loose = to - from - 1;
   if (loose <= 0) return;
-  w->count[loose] += change;
-  w->chains.squares += change * (int64_t)loose * loose;
-  if (loose > w->chains.longest) w->chains.longest = loose;
-  while (w->chains.longest > 0 && w->count[w->chains.longest] == 0)
-    w->chains.longest--;
+
+  window->count[loose] += change;
+  window->chains.squares += change * (int64_t)loose * loose;
+
+  /* The longest chain is the largest length that is counted. */
+  if (loose > window->chains.longest) window->chains.longest = loose;
+  while (window->chains.longest > 0 && window->count[window->chains.longest] == 0)
+    window->chains.longest--;
 }
 
-static void link_marks(window *w, int a, int b)
+static void link_marks(chain_window *window, int a, int b)
 {
-  w->right[a + 1] = b;
-  w->left[b + 1] = a;
+  window->right[a + 1] = b;
+  window->left[b + 1] = a;
 }
 
 /* Marks p, between left and the next mark. */
-static void mark(window *w, int p, int left)
+static void mark(chain_window *window, int p, int left)
 {
-  int right = w->right[left + 1];
-  count_chain(w, left, right, -1);
-  count_chain(w, left, p, 1);
-  count_chain(w, p, right, 1);
-  link_marks(w, left, p);
-  link_marks(w, p, right);
+  int right = window->right[left + 1];
+
+  count_chain(window, left, right, -1);
+  count_chain(window, left, p, 1);
+  count_chain(window, p, right, 1);
+
+  link_marks(window, left, p);
+  link_marks(window, p, right);
 }
 
-static void unmark(window *w, int p)
+/* Takes the mark at place p away: two chains become one. */
+static void unmark(chain_window *window, int p)
 {
-  int left = w->left[p + 1], right = w->right[p + 1];
-  count_chain(w, left, p, -1);
-  count_chain(w, p, right, -1);
-  count_chain(w, left, right, 1);
-  link_marks(w, left, right);
-  w->left[p + 1] = NONE;
+  int left = window->left[p + 1], right = window->right[p + 1];
+
+  count_chain(window, left, p, -1);
+  count_chain(window, p, right, -1);
+  count_chain(window, left, right, 1);
+
+  link_marks(window, left, right);
+  window->left[p + 1] = NONE;
 }
 
-static int mark_before(const window *w, int p)
+static int mark_before(const chain_window *window, int p)
 {
-  while (!is_marked(w, --p)) {
+  while (!is_marked(window, --p)) {
   }
   return p;
 }
@@ -102,87 +115,106 @@ static int mark_before(const window *w, int p)
 
 /* The fold moves on by a place. Its piece is the left needle's now, and is not on the cord where
  * the right one comes by again. */
-static void move_fold(window *w)
+static void move_fold(chain_window *window)
 {
-  int old = w->fold++, again = old + w->next[old % w->n];
-  if (!is_marked(w, w->fold)) mark(w, w->fold, old);
-  if (!is_on(w, old)) unmark(w, old);
-  if (again <= w->last && is_marked(w, again) && !is_on(w, again)) unmark(w, again);
+  int old = window->fold++, again = old + window->next[old % window->n];
+
+  if (!is_marked(window, window->fold)) mark(window, window->fold, old);
+  if (!is_on(window, old)) unmark(window, old);
+  if (again <= window->last && is_marked(window, again) && !is_on(window, again))
+    unmark(window, again);
 }
 
 /* The window moves on by a place; the fold is in it before and afterwards. */
-static void move_window(window *w)
+static void move_window(chain_window *window)
 {
-  int last = ++w->last, earlier = last - w->before[last % w->n];
-  w->right[last + 1] = w->left[last + 2] = NONE;
-  link_marks(w, last, last + 1);
-  if (!is_on(w, last)) unmark(w, last);
-  if (earlier > w->first && earlier < w->fold && !is_marked(w, earlier))
-    mark(w, earlier, mark_before(w, earlier));
-  int outside = w->first - 1, first = w->first++;
-  if (!is_marked(w, first)) mark(w, first, outside);
+  int last = ++window->last, earlier = last - window->before[last % window->n];
+
+  /* The place that enters is marked at first, and loses the mark if its piece is loose. */
+  window->right[last + 1] = window->left[last + 2] = NONE;
+  link_marks(window, last, last + 1);
+  if (!is_on(window, last)) unmark(window, last);
+
+  /* The visit before it in the window is no longer the last one of its piece. */
+  if (earlier > window->first && earlier < window->fold && !is_marked(window, earlier))
+    mark(window, earlier, mark_before(window, earlier));
+
+  /* The first place leaves; the place before the window is always marked. */
+  int outside = window->first - 1, first = window->first++;
+  if (!is_marked(window, first)) mark(window, first, outside);
 }
 
 /* Where the fold is of the cord begun at first: as thr_cord_fold says. */
-static int fold_of(const window *w, int first, bool folded)
+static int fold_of(const chain_window *window, int first, bool folded)
 {
-  const double whole = w->along[w->n] * (1 - THR_FOLD_ROUNDING), *along = w->along;
+  const double whole = window->along[window->n] * (1 - THR_FOLD_ROUNDING), *along = window->along;
+
   if (!folded) return first;
-  int fold = first + 1 > w->fold ? first + 1 : w->fold;
+
+  int fold = first + 1 > window->fold ? first + 1 : window->fold;
   while (along[fold] + along[fold + 1] - 2 * along[first] < whole)
     fold++;
   return fold;
 }
 
-static void mark_all(window *w)
+/* Marks the places of the first window. */
+static void mark_all(chain_window *window)
 {
-  for (int p = 0; p < 2 * w->n + 2; p++)
-    w->left[p] = w->right[p] = NONE;
-  link_marks(w, w->first - 1, w->last + 1);
-  count_chain(w, w->first - 1, w->last + 1, 1);
-  for (int p = w->first, left = w->first - 1; p <= w->last; p++)
-    if (is_on(w, p)) {
-      mark(w, p, left);
+  for (int p = 0; p < 2 * window->n + 2; p++)
+    window->left[p] = window->right[p] = NONE;
+
+  link_marks(window, window->first - 1, window->last + 1);
+  count_chain(window, window->first - 1, window->last + 1, 1);
+
+  for (int p = window->first, left = window->first - 1; p <= window->last; p++)
+    if (is_on(window, p)) {
+      mark(window, p, left);
       left = p;
     }
 }
 
 /* Distances to the next and the last visit, going round. */
-static void find_visits(window *w, int *seen)
+static void find_visits(chain_window *window, int *seen)
 {
-  for (int p = 0; p < 2 * w->n; p++) {
-    int k = p % w->n, last = seen[w->piece[k]] - 1;
+  for (int p = 0; p < 2 * window->n; p++) {
+    int k = p % window->n, last = seen[window->piece[k]] - 1;
     if (last >= 0) {
-      w->before[k] = p - last;
-      w->next[last % w->n] = p - last;
+      window->before[k] = p - last;
+      window->next[last % window->n] = p - last;
     }
-    seen[w->piece[k]] = p + 1;
+    seen[window->piece[k]] = p + 1;
   }
 }
 
-static thr_status window_init(window *w, const thr_frame *frame, const thr_request *request,
-                              const thr_cord *cord, thr_err *err)
+/* Allocates a window, and marks the pieces of start 0. Release with window_destroy, after a failure
+ * too. */
+static thr_status window_init(chain_window *window, const thr_frame *frame,
+                              const thr_request *request, const thr_cord *cord, thr_err *err)
 {
   size_t n = (size_t)cord->n_passes;
-  w->n = cord->n_passes;
-  w->piece = thr_calloc(n + 1, sizeof *w->piece);
-  w->next = thr_calloc(n, sizeof *w->next);
-  w->before = thr_calloc(n, sizeof *w->before);
-  w->left = thr_calloc(2 * n + 2, sizeof *w->left);
-  w->right = thr_calloc(2 * n + 2, sizeof *w->right);
-  w->along = thr_calloc(2 * n + 1, sizeof *w->along);
-  w->count = thr_calloc(2 * n + 2, sizeof *w->count);
+  window->n = cord->n_passes;
+  window->piece = thr_calloc(n + 1, sizeof *window->piece);
+  window->next = thr_calloc(n, sizeof *window->next);
+  window->before = thr_calloc(n, sizeof *window->before);
+  window->left = thr_calloc(2 * n + 2, sizeof *window->left);
+  window->right = thr_calloc(2 * n + 2, sizeof *window->right);
+  window->along = thr_calloc(2 * n + 1, sizeof *window->along);
+  window->count = thr_calloc(2 * n + 2, sizeof *window->count);
+
   int *seen = thr_calloc((size_t)thr_chains_pieces(frame, request->joint), sizeof *seen);
-  bool all =
-      w->piece && w->next && w->before && w->left && w->right && w->along && w->count && seen;
+  bool all = window->piece && window->next && window->before && window->left && window->right &&
+             window->along && window->count && seen;
+
+  /* Fill the window of the start 0. */
   if (all) {
-    w->last = thr_cord_pieces(frame, request->joint, cord, w->piece) - 1;
-    for (int p = 0; p < 2 * w->n; p++)
-      w->along[p + 1] = w->along[p] + frame->length[cord->half[p % w->n] >> 1];
-    find_visits(w, seen);
-    w->fold = fold_of(w, 0, thr_cord_folded(request->needles, cord));
-    mark_all(w);
+    window->last = thr_cord_pieces(frame, request->joint, cord, window->piece) - 1;
+    for (int p = 0; p < 2 * window->n; p++)
+      window->along[p + 1] = window->along[p] + frame->length[cord->half[p % window->n] >> 1];
+    find_visits(window, seen);
+    window->fold = fold_of(window, 0, thr_cord_folded(request->needles, cord));
+    mark_all(window);
   }
+
   free(seen);
   return all ? THR_OK : thr_nomem(err);
 }
@@ -191,17 +223,21 @@ thr_status thr_starts_chains(const thr_frame *frame, const thr_request *request,
                              const thr_cord *cord, const thr_threaded *threaded, thr_chains *chains,
                              thr_err *err)
 {
-  window w = {.threaded = threaded};
+  chain_window window = {.threaded = threaded};
   bool folded = thr_cord_folded(request->needles, cord);
-  thr_status st = window_init(&w, frame, request, cord, err);
+  thr_status st = window_init(&window, frame, request, cord, err);
+
   for (int s = 0; s < cord->n_passes && !st; s++) {
-    chains[s] = w.chains;
+    chains[s] = window.chains;
     if (s + 1 == cord->n_passes) break;
-    for (int fold = fold_of(&w, s + 1, folded); w.fold < fold;)
-      move_fold(&w);
-    move_window(&w);
+
+    /* Move on to the next start. */
+    for (int fold = fold_of(&window, s + 1, folded); window.fold < fold;)
+      move_fold(&window);
+    move_window(&window);
   }
-  window_destroy(&w);
+
+  window_destroy(&window);
   return st;
 }
 
@@ -214,18 +250,23 @@ thr_status thr_starts_pulled(const thr_frame *frame, const thr_cord *cord, doubl
   double *turned = thr_calloc(2 * (size_t)n + 1,
                               sizeof *turned); /* up to before the turn into pass p, going round */
   if (!turned) return thr_nomem(err);
+
+  /* Sum up the turns over two rounds. */
   for (int p = 0; p < 2 * n; p++)
     turned[p + 1] =
         turned[p] + thr_turn_angle(frame, cord->half[(p + n - 1) % n], cord->half[p % n]);
+
   for (int s = 0; s < n;
        s++) { /* begun with pass s, the cord turns into the passes s + 1 .. s + n - 1 */
     const thr_parting parting = thr_least_pull(turned + 1, s, s + n - 1);
     pulled[s] = thr_parting_larger(&parting);
   }
+
   free(turned);
   return THR_OK;
 }
 
+/* Writes the passes of a closed cord begun with pass start, or run backwards from there. */
 void thr_starts_turn(const thr_cord *cord, int start, bool backwards, int *half)
 {
   int n = cord->n_passes;
