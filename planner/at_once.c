@@ -1,5 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cords that take no search, where a plan may be such. */
+/* Makes cords without any search, so that the caller has some plan to show at once
+ * (thr_limits_found).
+ *
+ * A closed walk that passes every edge as often in one direction as in the other always exists in
+ * a connected framework (Hierholzer 1873); no matching is needed. Tube joints and cords of limited
+ * length have constructions of their own.
+ *
+ * Example: a tree of three edges gives one closed cord of six passes, twice over each edge. */
 #include "graph/framework/components.h"
 #include "graph/threading/threading.h"
 #include "planner/planner_parts.h"
@@ -11,68 +18,82 @@
 /* A closed walk over every edge as often there as back, which takes no pairing (Hierholzer 1873).
  */
 typedef struct {
-  const thr_frame *f;
+  const thr_frame *frame;
   int *left;         /* [2 n_edges] passes to be made over each half-edge */
   int *cursor;       /* [n_nodes] the first place of half[] from here where some may be left */
   int *stack, *walk; /* [room] half-edges */
-} rounds;
+} round_walk;
 
-static void rounds_destroy(rounds *x)
+static void rounds_destroy(round_walk *rounds)
 {
-  free(x->left);
-  free(x->cursor);
-  free(x->stack);
-  free(x->walk);
+  free(rounds->left);
+  free(rounds->cursor);
+  free(rounds->stack);
+  free(rounds->walk);
 }
 
 /* *fits: every edge has room for an even number of passes. */
-static thr_status rounds_init(rounds *x, const thr_request *options, bool *fits, thr_err *err)
+static thr_status rounds_init(round_walk *rounds, const thr_request *options, bool *fits,
+                              thr_err *err)
 {
-  const thr_frame *frame = x->f;
+  const thr_frame *frame = rounds->frame;
   size_t room = 0;
   *fits = true;
-  x->left = thr_calloc(2 * (size_t)frame->n_edges, sizeof *x->left);
-  x->cursor = thr_calloc((size_t)frame->n_nodes, sizeof *x->cursor);
-  if (!x->left || !x->cursor) return thr_nomem(err);
+
+  rounds->left = thr_calloc(2 * (size_t)frame->n_edges, sizeof *rounds->left);
+  rounds->cursor = thr_calloc((size_t)frame->n_nodes, sizeof *rounds->cursor);
+  if (!rounds->left || !rounds->cursor) return thr_nomem(err);
+
+  /* Half of the passes that an edge needs go each way, rounded up. */
   for (int e = 0; e < frame->n_edges; e++) {
     int each_way = (thr_plan_cover(frame, options, e) + 1) / 2;
-    x->left[2 * e] = x->left[2 * e + 1] = each_way;
+    rounds->left[2 * e] = rounds->left[2 * e + 1] = each_way;
     room += 2 * (size_t)each_way;
     *fits = *fits && 2 * each_way <= thr_plan_capacity(frame, options, e);
   }
-  memcpy(x->cursor, frame->first, (size_t)frame->n_nodes * sizeof *x->cursor);
-  x->stack = thr_calloc(room, sizeof *x->stack);
-  x->walk = thr_calloc(room, sizeof *x->walk);
-  return x->stack && x->walk ? THR_OK : thr_nomem(err);
+
+  memcpy(rounds->cursor, frame->first, (size_t)frame->n_nodes * sizeof *rounds->cursor);
+  rounds->stack = thr_calloc(room, sizeof *rounds->stack);
+  rounds->walk = thr_calloc(room, sizeof *rounds->walk);
+  return rounds->stack && rounds->walk ? THR_OK : thr_nomem(err);
 }
 
 /* A half-edge that leads on from v with passes left, not straight back where there is another; -1
  * if there is none. */
-static int next_from(rounds *x, int v, int back)
+static int next_from(round_walk *rounds, int v, int back)
 {
-  const thr_frame *frame = x->f;
-  int *at = &x->cursor[v], end = frame->first[v + 1];
-  while (*at < end && x->left[frame->half[*at]] == 0)
+  const thr_frame *frame = rounds->frame;
+
+  int *at = &rounds->cursor[v], end = frame->first[v + 1];
+
+  /* Pass over half-edges that have no passes left. */
+  while (*at < end && rounds->left[frame->half[*at]] == 0)
     ++*at;
   if (*at == end) return -1;
+
+  /* Turn straight back only if nothing else is left. */
   for (int i = *at; i < end && frame->half[*at] == back; i++)
-    if (frame->half[i] != back && x->left[frame->half[i]] > 0) return frame->half[i];
+    if (frame->half[i] != back && rounds->left[frame->half[i]] > 0) return frame->half[i];
   return frame->half[*at];
 }
 
-/* Fills x->walk; the number of its half-edges. */
-static int walk_all(rounds *x)
+/* Fills rounds->walk; the number of its half-edges. */
+static int walk_all(round_walk *rounds)
+
 {
   int top = 0, n = 0, v = 0;
   for (;;) {
-    int half = next_from(x, v, top ? x->stack[top - 1] ^ 1 : -1);
+    int half = next_from(rounds, v, top ? rounds->stack[top - 1] ^ 1 : -1);
+
+    /* Go on as long as a pass is left; else the last pass of the stack is done. */
     if (half >= 0) {
-      x->left[half]--;
-      x->stack[top++] = half;
-      v = thr_head(x->f, half);
+      rounds->left[half]--;
+      rounds->stack[top++] = half;
+      v = thr_head(rounds->frame, half);
     } else if (top) {
-      x->walk[n] = x->stack[--top] ^ 1; /* the last comes first: the walk is made backwards */
-      v = thr_head(x->f, x->walk[n++]);
+      rounds->walk[n] =
+          rounds->stack[--top] ^ 1; /* the last comes first: the walk is made backwards */
+      v = thr_head(rounds->frame, rounds->walk[n++]);
     } else {
       return n;
     }
@@ -84,17 +105,19 @@ static int walk_all(rounds *x)
 static thr_status even_cord(const thr_frame *frame, const thr_request *options, const int *given,
                             thr_cord **cord, int *n, thr_err *err)
 {
-  rounds x = {.f = frame};
+  round_walk rounds = {.frame = frame};
   thr_walks walks = {0};
   bool fits = false;
   (void)given;
   *cord = NULL;
   *n = 0;
-  thr_status st = rounds_init(&x, options, &fits, err);
-  if (!st && fits) st = thr_walks_copy(&walks, frame, x.walk, walk_all(&x), true, err);
+
+  thr_status st = rounds_init(&rounds, options, &fits, err);
+  if (!st && fits) st = thr_walks_copy(&walks, frame, rounds.walk, walk_all(&rounds), true, err);
   if (!st && fits) st = thr_walks_cords(&walks, frame, options, cord, n, err);
+
   thr_walks_destroy(&walks);
-  rounds_destroy(&x);
+  rounds_destroy(&rounds);
   return st;
 }
 
@@ -116,15 +139,20 @@ void thr_planner_tell_at_once(const thr_frame *frame, const thr_request *options
     MOST_EDGES = 200000,
     FEW_EDGES = 20000
   }; /* beyond, writing it takes longer than it is worth */
+
   thr_cord *cord = NULL;
   int n = 0;
   thr_err why = {0};
+
+  /* Large frameworks, and different cords, have to wait for the planner. */
   if (!limits->found || frame->n_edges > MOST_EDGES || options->distinct > 0) return;
   if (frame->n_edges > FEW_EDGES && limits->deadline == 0 && is_quick(options)) return;
+
   bool tube = options->joint == THR_JOINT_TUBE;
   thr_component_cords *make = tube                      ? thr_tube_first
                               : options->max_length > 0 ? thr_cut_tour
                                                         : even_cord;
+
   thr_status st = thr_components_cords(frame, options, NULL, make, &cord, &n, &why);
   if (!st) thr_limits_found(limits, cord, n, NULL);
   thr_cords_destroy(cord, n);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Who plans what, and how the time is shared out: both tables are in planner/dispatch.c. */
+/* Chooses the planner of a request, and shares out the time among the steps of a plan. All
+ * constants that share out time or work stand in the tables below. */
 #include "planner/planner_parts.h"
 
 #include <math.h>
@@ -57,6 +58,7 @@ thr_objective thr_dispatch_objective(int i)
   return objectives[i].id;
 }
 
+/* Returns the row of the request's objective. */
 static int row_of(const thr_request *options)
 {
   int i = 0;
@@ -88,8 +90,12 @@ double thr_dispatch_usual_seconds(const thr_request *options)
 double thr_dispatch_work(const thr_request *options)
 {
   const bool is_tube = options->joint == THR_JOINT_TUBE, is_one = options->cords == 1;
+
+  /* Only the search for little turning counts its work, of one cord or for the cord that turns
+   * most. */
   if (thr_dispatch(options) != thr_planner_turning) return 0;
   if (!thr_wants_largest(options) && !is_one) return 0;
+
   if (options->gap >= 0) return is_tube || is_one ? 0 : work_if_asked;
   return is_tube ? work_of_tubes : is_one ? work_of_one_cord : work_of_several_cords;
 }

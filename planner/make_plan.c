@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One way to make a plan: what is wanted goes in, a plan with its proofs comes out
- * (planner/dispatch.c says who plans it).
+/* Makes a plan of a request: the one way from what is wanted to a plan with its proofs
+ * (planner/dispatch.c chooses the planner).
  *
  *   thr_request request = thr_request_default();
  *   if (!thr_aims_parse("length+5%,turning", &request, &err) &&
  *       !thr_plan_make(&frame, &request, &(thr_limits){0}, &plan, NULL, &err))
  *     thr_plan_write(&plan, &text);
  *
- * Request -> planner -> plan, in the order that was asked for, with the versions of the libraries
- * that made it. */
+ * After the planner come the steps that serve every plan: passes that no edge needs are trimmed,
+ * crossing channels are led otherwise, the order of work is chosen, and the plan is signed with
+ * the versions of the libraries that made it. */
 #include "lp/solver/lp.h"
 #include "planner/planner_parts.h"
 #include "symmetry/group/group.h"
@@ -22,6 +23,7 @@ void thr_report_destroy(thr_report *report)
   *report = (thr_report){0};
 }
 
+/* Names the program and its libraries in plan->generator. */
 static thr_status sign(thr_plan *plan, thr_err *err)
 {
   char versions[160];
@@ -48,8 +50,10 @@ static thr_status judge(thr_plan *plan, thr_status *st, thr_err *why, thr_err *e
   plan->turning = (thr_turning_claim){0};
   thr_status failed = thr_planner_prove_turning(plan, &claim, err);
   thr_turning_proof_destroy(&claim.tree);
+
   if (failed || (*st == THR_ELIMIT && (plan->options.max_pull > 0 || plan->options.max_length > 0)))
     return failed;
+
   *why = (thr_err){0};
   *st = thr_planner_verdict(plan, why);
   return THR_OK;
@@ -69,12 +73,17 @@ thr_status thr_plan_make(const thr_frame *frame, const thr_request *request,
   thr_report own = {0};
   thr_err why = {0};
   *plan = (thr_plan){0};
+
   thr_limits within = *limits;
   within.gap = gap_of_search(frame, request);
+
+  /* Show some cords at once, then run the planner. */
   thr_planner_tell_at_once(frame, request, limits);
   thr_status st = thr_dispatch(request)(frame, request, &within, plan, &own, &why),
              finished = THR_OK;
   if (st == THR_EVIOLATED) st = THR_ESOLVER; /* a claim of the search's own */
+
+  /* Trim passes that no edge needs. The verdict is another one where cords became shorter. */
   bool trimmed = false;
   if (plan->n_cords > 0) finished = thr_plan_trim(plan, &trimmed, err);
   if (trimmed && !finished && st == THR_ELIMIT && request->max_pull == 0 &&
@@ -82,19 +91,27 @@ thr_status thr_plan_make(const thr_frame *frame, const thr_request *request,
     why = (thr_err){0};
     st = thr_planner_verdict(plan, &why);
   }
+
+  /* Lead crossing channels otherwise. */
   bool others = false; /* cords that cross nothing may have other passes */
   if (plan->n_cords > 0 && !finished) finished = thr_plan_uncross(plan, &others, err);
   if (others) own.word.passes_least = false;
   if (others && !finished) finished = thr_planner_prove_again(plan, err);
+
+  /* Choose the order of work, and judge the cords that changed. */
   if (plan->n_cords > 0 && !finished) finished = thr_plan_order(plan, err);
   if (plan->n_cords > 0 && !finished && (others || is_to_be_judged(plan)))
     finished = judge(plan, &st, &why, err);
+
   if (plan->n_cords > 0 && !finished) finished = sign(plan, err);
   if (st == THR_ELIMIT && !finished && thr_planner_is_enough(plan, limits)) st = THR_OK;
+
+  /* What is not proved is an error only if more was asked for. */
   if (finished)
     thr_plan_destroy(plan);
   else if (st)
     thr_fail(err, st, "%s", why.text);
+
   if (report)
     *report = own;
   else

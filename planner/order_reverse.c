@@ -191,6 +191,7 @@ static double turn_at(const cord_annealer *annealer, int k)
   return angle_of(annealer, into(annealer, k), out_of(annealer, k));
 }
 
+/* Returns how much more the cord turns, rad, once the part at[0] .. at[1] - 1 is run backwards. */
 static double turning_of_reverse(const cord_annealer *annealer, const int at[4])
 {
   if (at[0] == 0 && at[1] == annealer->now.n_passes) return 0;
@@ -203,6 +204,8 @@ static double turning_of_reverse(const cord_annealer *annealer, const int at[4])
          turn(annealer, out_of(annealer, at[0]) ^ 1, out_of(annealer, at[1])) - now;
 }
 
+/* Returns how much more the cord turns, rad, once the first and the last of three parts change
+ * places. */
 static double turning_of_exchange(const cord_annealer *annealer, const int at[4])
 {
   /* Four turns go, and four come. */

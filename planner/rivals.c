@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The plans that one of the least turning is held against. */
+/* Makes the plans that a plan of little turning is compared with: the shortest one, the other
+ * corner of the trade-off between length and turning, and a frontier between the two. */
 #include "planner/planner.h"
 
 #include <math.h>
@@ -17,19 +18,24 @@ static thr_status close_rival(thr_rival *rival, thr_status st, thr_err *err)
 static thr_status make_length(const thr_plan *plan, thr_plan *shortest, const thr_limits *limits,
                               thr_rival *rival, thr_err *err)
 {
+  /* The search has left the shortest plan behind: take that one. */
   if (shortest->n_cords > 0) {
     rival->plan = *shortest;
     *shortest = (thr_plan){0};
     return close_rival(rival, THR_OK, err);
   }
+
+  /* Else plan the same number of cords for their length. */
   thr_request options = plan->options;
   options.aims = thr_aims_shortest;
   options.turning = thr_request_default().turning;
   options.max_pull = 0;
+
   return close_rival(
       rival, thr_plan_make(&plan->frame, &options, limits, &rival->plan, NULL, &rival->why), err);
 }
 
+/* Tells whether the plan is a classical tour. */
 static bool is_tour(const thr_plan *plan)
 {
   return plan->options.turning.tour != THR_TOUR_LEAST;
@@ -40,26 +46,33 @@ static bool is_tour(const thr_plan *plan)
 static thr_status make_corner(const thr_plan *plan, const thr_limits *limits, thr_rival *rival,
                               thr_err *err)
 {
+  /* A plan of any length is compared with the shortest, a shortest one with any length. */
   thr_request options = plan->options;
   if (!is_tour(plan)) options.turning.length_slack = options.turning.length_slack == 0 ? -1 : 0;
   options.turning.tour = THR_TOUR_LEAST;
   options.turning.pairings = THR_PAIRINGS_KEEP;
+
   thr_status st =
       plan->options.distinct > 0
           ? thr_plan_make(&plan->frame, &options, limits, &rival->plan, NULL, &rival->why)
           : thr_tortuosity_plan(&plan->frame, &options, limits, &rival->plan, &rival->why);
+
   return close_rival(rival, st, err);
 }
 
+/* Makes the frontier of so many points. */
 static thr_status make_frontier(const thr_plan *plan, int points, const thr_limits *limits,
                                 thr_rivals *out, thr_err *err)
 {
   thr_limits own = *limits;
   thr_err why = {0};
+
   if (own.deadline == 0 && plan->options.time_limit > 0)
     own.deadline = thr_clock() + plan->options.time_limit;
+
   thr_status st =
       thr_tortuosity_frontier(&plan->frame, &plan->options, points, &own, &out->frontier, &why);
+
   if (st == THR_EINFEASIBLE) out->no_frontier = why;
   return st && st != THR_ELIMIT && st != THR_EINFEASIBLE ? thr_fail(err, st, "%s", why.text)
                                                          : THR_OK;
@@ -74,11 +87,13 @@ thr_status thr_rivals_make(const thr_plan *plan, thr_plan *length_plan, bool opt
 {
   thr_limits own = *limits;
   bool shortest = plan->options.turning.length_slack == 0;
+
   *out = (thr_rivals){.corner = {.title = is_tour(plan) ? "least turning"
                                           : shortest    ? "any length"
                                                         : "shortest cord",
                                  .key = "corner"},
                       .length = {.title = "--objective length", .key = "length_plan"}};
+
   if (limits->interrupted &&
       *limits->interrupted) { /* whoever stopped the plan wants to see it now */
     thr_fail(&out->corner.why, THR_ELIMIT, "the search was stopped");
@@ -87,9 +102,12 @@ thr_status thr_rivals_make(const thr_plan *plan, thr_plan *length_plan, bool opt
     return THR_OK;
   }
   bool tube = plan->options.joint == THR_JOINT_TUBE; /* its shortest cords are an integer programme,
+
                                                         solved already for the proof */
+
   if (own.deadline > 0) own.deadline = fmax(own.deadline, thr_clock() + grace);
   thr_status st =
+
       optima || !tube ? make_length(plan, length_plan, &own, &out->length, err) : THR_OK;
   if (!st && optima) st = make_corner(plan, limits, &out->corner, err);
   if (!st && frontier) st = make_frontier(plan, frontier, limits, out, err);

@@ -96,11 +96,16 @@ static void choose(trimming *t, int end)
 static void prepare(trimming *t)
 {
   const thr_frame *frame = &t->plan->frame;
+
+  /* Count the passes that no edge needs. */
   thr_cords_add_passes(t->plan->cord, t->plan->n_cords, 1, t->spare);
   for (int e = 0; e < frame->n_edges; e++) {
     t->spare[e] -= thr_plan_cover(frame, &t->plan->options, e);
     if (t->spare[e] > 0) t->room += t->spare[e] * frame->length[e];
   }
+
+  /* From the last end to the first: how many passes up to the core, and how much length
+   * together. */
   for (int end = 2 * t->plan->n_cords - 1, deep = 0; end >= 0; end--) {
     double length = 0;
     int k = 0;
@@ -136,6 +141,7 @@ thr_status thr_plan_trim(thr_plan *plan, bool *trimmed, thr_err *err)
       request->joint == THR_JOINT_TUBE || request->distinct > 0 || plan->proof.optimal ||
       request->turning.tour != THR_TOUR_LEAST)
     return THR_OK;
+
   const size_t ends = 2 * (size_t)plan->n_cords;
   trimming t = {.plan = plan,
                 .spare = thr_scratch_array(&scratch, (size_t)plan->frame.n_edges, sizeof *t.spare),
@@ -143,6 +149,7 @@ thr_status thr_plan_trim(thr_plan *plan, bool *trimmed, thr_err *err)
                 .best = thr_scratch_array(&scratch, ends, sizeof *t.best),
                 .most = thr_scratch_array(&scratch, ends, sizeof *t.most),
                 .rest = thr_scratch_array(&scratch, ends + 1, sizeof *t.rest)};
+
   thr_status st = thr_scratch_check(&scratch, err);
   if (!st) {
     prepare(&t);
