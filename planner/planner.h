@@ -1,5 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Plans from requests: the planners by objective, their order, and advice. */
+/* Makes plans from requests: the planners by objective, the choice among them, and advice.
+ *
+ * This folder is where the searches of lp/, tortuosity/ and symmetry/ become plans with proofs. A
+ * planner fills a plan for one kind of request; what a request asks beyond that is composed of
+ * several calls of other planners.
+ *
+ * Read make_plan.c first, the way of every plan, and dispatch.c, the choice of the planner and the
+ * shares of the time; then the planners: length.c with short_few.c and even_length.c,
+ * least_turning.c with even_turning.c and mixed.c, symmetric.c, distinct.c, and pull_limit.c with
+ * the other files pull_*.c. Afterwards come the steps that serve every plan: trim.c, uncross.c with
+ * recut.c and channel_search.c, order.c with starts.c and order_reverse.c, and prove.c. advise.c
+ * and rivals.c make many plans and compare them. */
 #ifndef THR_PLANNER_H
 #define THR_PLANNER_H
 

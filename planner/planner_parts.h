@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the files of planner/ share: every planner behind one signature, cutting cords, the order of
- * work. */
+/* Declares what the files of planner/ share with each other and with nobody else: every planner
+ * behind one signature, proofs of one plan for the cords of another, cutting cords, and the order
+ * of work. planner/planner.h says in which order to read the files. */
 #ifndef THR_PLANNER_PARTS_H
 #define THR_PLANNER_PARTS_H
 

@@ -1,5 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Options -> groups -> the best symmetric threading of each -> one of them -> plan. */
+/* Finds the best symmetric threading of a framework under every group of its automorphisms,
+ * chooses one of them, and makes a plan of it.
+ *
+ * Each row of the table is a group (symmetry/group/groups.h), with the threading that
+ * symmetry/lift/lift.h finds under the group. Among the threadings with little more cord than the
+ * shortest plan the one with the fewest steps to learn is chosen (choose).
+ *
+ * Example: a square dome has rows for C4v, C4, .. down to the identity. Under C4v one path is
+ * learned and walked eight times; if all its cords are within thr_symmetry_slack of the shortest,
+ * C4v is chosen. */
 #include "symmetry/symmetry.h"
 #include "graph/check/check.h"
 #include "graph/plan/plan_measures.h"
@@ -17,6 +26,7 @@ const double thr_symmetry_slack = 0.10;
 
 /* ---- which rows, and the choice ---- */
 
+/* Fails with THR_EINPUT where the group that is asked for has no row. */
 static thr_status check_asked(const thr_symmetries *symmetries, const char *group, thr_err *err)
 {
   for (int i = 0; i < symmetries->n; i++)
@@ -27,15 +37,16 @@ static thr_status check_asked(const thr_symmetries *symmetries, const char *grou
       group, symmetries->n);
 }
 
-/* 1 % of a millionth is rounding. */
+/* Compares two values: -1, 0 or 1. Differences of 1 % of a millionth are rounding. */
 static int compare(double a, double b)
 {
   double least = 1e-8 * fmax(1, fmax(fabs(a), fabs(b)));
   return a < b - least ? -1 : a > b + least;
 }
 
-/* By learned steps and what there is to read (not if none is within the slack), the longest cord if
- * it is an aim, cord, number of cords, turning. */
+/* Tells whether row a is to be chosen rather than row b: by learned steps and what there is to read
+ * (only if some row is within the slack), the longest cord if it is an aim, cord, number of cords,
+ * and turning. */
 static bool is_better(const thr_symmetry_row *a, const thr_symmetry_row *b, bool within)
 {
   int by = within ? compare(a->record.steps, b->record.steps) : 0;
@@ -54,6 +65,8 @@ static bool is_within(const thr_symmetries *symmetries, const thr_symmetry_row *
          compare(row->longest, symmetries->longest * (1 + thr_symmetry_slack)) <= 0;
 }
 
+/* Chooses the best of the rows within the slack, or the best of all rows if none is within; -1: no
+ * row has a threading. */
 static void choose(thr_symmetries *symmetries)
 {
   symmetries->chosen = -1;
@@ -71,7 +84,7 @@ static void choose(thr_symmetries *symmetries)
 
 /* ---- all rows ---- */
 
-/* The shortest cords, one in each component, for whoever keeps the best so far. */
+/* Tells limits->found of the shortest cords, one in each component. */
 static thr_status tell_shortest(const thr_frame *frame, const thr_request *options,
                                 const thr_shortest *shortest, const thr_limits *limits,
                                 thr_err *err)
@@ -85,7 +98,8 @@ static thr_status tell_shortest(const thr_frame *frame, const thr_request *optio
   return st;
 }
 
-/* With as many cords as asked for; else with one per component, if that can be. */
+/* Sets the length of the shortest plan: with as many cords as the request gives; else with one in
+ * each component, if there is such a plan. */
 static thr_status find_shortest(const thr_frame *frame, const thr_request *options,
                                 const thr_limits *limits, thr_symmetries *symmetries, thr_err *err)
 {
@@ -93,9 +107,11 @@ static thr_status find_shortest(const thr_frame *frame, const thr_request *optio
   thr_err why = {0};
   thr_request few = *options;
   const thr_limits share = thr_limits_part(limits, 0.25);
+
   if (options->joint == THR_JOINT_TUBE)
     return thr_symmetry_shortest_tied(frame, options, options->ends != THR_ENDS_CLOSED, &share,
                                       &symmetries->shortest, &symmetries->shortest_optimal, err);
+
   if (!options->symmetry.counted) few.cords = 1;
   thr_status st = thr_postman_shortest(frame, &few, &share, &shortest, &why);
   if (st == THR_EINFEASIBLE &&
@@ -103,7 +119,9 @@ static thr_status find_shortest(const thr_frame *frame, const thr_request *optio
     few.cords = THR_MOST_CORDS;
     st = thr_postman_shortest(frame, &few, &share, &shortest, &why);
   }
+
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", why.text);
+
   symmetries->shortest = shortest.length;
   symmetries->shortest_optimal = shortest.optimal;
   st = few.cords == 1 && few.cords_least == 1 ? tell_shortest(frame, &few, &shortest, limits, err)
@@ -112,11 +130,15 @@ static thr_status find_shortest(const thr_frame *frame, const thr_request *optio
   return st;
 }
 
-/* What was asked for and could not be had. */
+/* Tells what was asked for and could not be had. THR_OK: the rows that were asked for are
+ * solved. */
 static thr_status verdict(const thr_symmetries *symmetries, const char *group, thr_err *err)
 {
   int unsolved = 0, loose = 0, asked = 0;
   const thr_symmetry_row *none = NULL, *open = NULL;
+
+  /* Count the rows that are not solved, and among these the ones whose threading is only not proved
+   * best. */
   for (int i = 0; i < symmetries->n; i++) {
     thr_status why = symmetries->row[i].why.code;
     if (!thr_symmetry_asked(symmetries, i, group) || symmetries->row[i].behind) continue;
@@ -127,9 +149,14 @@ static thr_status verdict(const thr_symmetries *symmetries, const char *group, t
       open = &symmetries->row[i];
     if (why) none = &symmetries->row[i];
   }
+
+  /* No row has a threading, and none is open: the last reason counts. */
   if (none && symmetries->chosen < 0 && !unsolved)
     return thr_fail(err, none->why.code, "%s", none->why.text);
+
   if (!unsolved) return THR_OK;
+
+  /* Threadings were found, but their proofs are missing; else some rows are open. */
   if (loose == unsolved && asked == 1)
     return thr_fail(err, THR_ELIMIT,
                     "the group is solved, but not optimal by the solver's word: %s",
@@ -144,30 +171,38 @@ static thr_status verdict(const thr_symmetries *symmetries, const char *group, t
 
 /* ---- cords without symmetry ---- */
 
-/* The plan's cords as the threading of this row, which has none, under the identity alone. Of the
- * row's bounds only that on the first aim holds for them, and that there is no more to learn of an
- * edge than its passes. */
+/* Takes the plan's cords as the threading of this row, which has none, under the identity alone. Of
+ * the row's bounds only the one on the first aim holds for these cords, and there is no more to
+ * learn of an edge than its passes. */
 static thr_status take_plan(const thr_plan *plan, thr_symmetry_row *row, thr_err *err)
 {
   const thr_request *options = &plan->options;
   const thr_cover_options how = {.ends = options->ends, .tube = options->joint == THR_JOINT_TUBE};
+
   row->n_cords = plan->n_cords;
   thr_status st = thr_cords_copy(plan->cord, plan->n_cords, &row->cord, err);
   if (!st) st = thr_cords_alone(&plan->frame, &how, row->cord, row->n_cords, &row->record, err);
   if (st) return st;
+
+  /* Count what there is to read, as of a symmetric plan of these cords. */
   snprintf(row->record.name, sizeof row->record.name, "%s", row->name);
   thr_plan copied = *plan;
   copied.symmetry = row->record;
   row->instructions = thr_reading_of(&copied).instructions;
+
   row->metrics = plan->metrics;
+
   row->value[THR_AIM_OVERLAP] = plan->metrics.overlap;
   row->value[THR_AIM_STEPS] = row->record.steps;
   row->value[THR_AIM_PATHS] = row->record.unique_paths;
   row->value[THR_AIM_TURNING] = plan->metrics.turning;
+
+  /* Only the overlap has a bound: what the plan proves of its length. */
   for (int a = 0; a < THR_N_AIMS; a++)
     row->bound[a] = 0;
   row->bound[THR_AIM_OVERLAP] = fmin(row->value[THR_AIM_OVERLAP],
                                      fmax(0, plan->proof.lower_bound - plan->metrics.base_length));
+
   row->least_copies = row->most_copies = 1;
   row->why = (thr_err){0};
   return THR_OK;
@@ -186,9 +221,8 @@ static bool serves_better(const thr_request *options, const thr_symmetry_row *a,
   return by < 0;
 }
 
-/* Cords without symmetry that keep to what is asked are a threading under the identity, where the
- * search has none or a worse one.
- */
+/* Takes cords without symmetry, which keep to what is asked, as a threading under the identity
+ * where the search has none or a worse one. */
 static thr_status use_plan(const thr_plan *plan, const thr_request *options,
                            thr_symmetries *symmetries, thr_err *err)
 {
@@ -197,6 +231,8 @@ static thr_status use_plan(const thr_plan *plan, const thr_request *options,
     if (row->order > 1 || row->behind ||
         !thr_symmetry_asked(symmetries, i, options->symmetry.group))
       continue;
+
+    /* Fill a copy of the row with the plan's cords, and compare it with what the search found. */
     thr_symmetry_row other = *row;
     other.cord = NULL;
     other.n_cords = 0;
@@ -204,10 +240,13 @@ static thr_status use_plan(const thr_plan *plan, const thr_request *options,
     thr_status st = take_plan(plan, &other, err);
     if (thr_wants_balance(options))
       other.longest = thr_cords_longest(&plan->frame, plan->cord, plan->n_cords);
+
     const bool kept = st || (row->n_cords > 0 && !serves_better(options, &other, row));
     if (!kept)
       thr_fail(&other.why, THR_ELIMIT,
                "these are the cords of least length, which need not be the best under this group");
+
+    /* The worse of the two is released. */
     thr_symmetry_row *dropped = kept ? &other : row;
     thr_cords_destroy(dropped->cord, dropped->n_cords);
     thr_symmetry_record_destroy(&dropped->record);
@@ -219,7 +258,7 @@ static thr_status use_plan(const thr_plan *plan, const thr_request *options,
 
 /* ---- together ---- */
 
-/* What a symmetric threading cannot be asked for. */
+/* Fails where the request asks for numbers of cord ends at nodes. */
 static thr_status check_request(const thr_request *options, thr_err *err)
 {
   if (options->ends != THR_ENDS_COUNTS) return THR_OK;
@@ -233,6 +272,8 @@ thr_status thr_symmetries_find_from(const thr_frame *frame, const thr_request *o
                                     const thr_limits *limits, thr_symmetries *out, thr_err *err)
 {
   *out = (thr_symmetries){.chosen = -1};
+
+  /* Find the length of the shortest plan, or take it from the plan that is given. */
   thr_status st = check_request(options, err);
   if (!st && !plan) st = find_shortest(frame, options, limits, out, err);
   if (thr_wants_balance(options)) out->longest = INFINITY;
@@ -242,17 +283,24 @@ thr_status thr_symmetries_find_from(const thr_frame *frame, const thr_request *o
     if (thr_wants_balance(options))
       out->longest = thr_cords_longest(frame, plan->cord, plan->n_cords);
   }
+
+  /* List the groups, and solve the row of each. */
   const thr_limits share = thr_limits_part(limits, 0.3);
   if (!st) st = thr_symmetry_groups(frame, options, &share, out, err);
   if (!st) st = check_asked(out, options->symmetry.group, err);
   if (!st) st = thr_symmetry_solve(frame, options, only_choice, limits, out, err);
   if (!st && plan) st = use_plan(plan, options, out, err);
+
+  /* The table shows the pull of every row. */
   for (int i = 0; i < out->n && !st; i++)
     out->row[i].pulled = thr_cords_pulled_turning(frame, out->row[i].cord, out->row[i].n_cords);
+
+  /* Choose a row, and tell which rows are open. */
   if (!st) {
     choose(out);
     st = verdict(out, options->symmetry.group, err);
   }
+
   if (st && st != THR_ELIMIT) thr_symmetries_destroy(out);
   return st;
 }
@@ -281,16 +329,18 @@ void thr_symmetries_destroy(thr_symmetries *symmetries)
 
 /* ---- plans ---- */
 
-/* Cords in the component that has most, and in the one that has least. */
+/* Counts the cords in the component that has most, and in the one that has least. */
 static void count_cords(const thr_symmetry_row *row, int *least, int *most)
 {
   int n = 0;
   *most = 0;
   *least = row->n_cords;
+
   for (int i = 0; i < row->n_cords;
        i++) { /* components are numbered without gaps, and all have cords */
     if (row->cord[i].component >= n) n = row->cord[i].component + 1;
   }
+
   for (int k = 0; k < n; k++) {
     int count = 0;
     for (int i = 0; i < row->n_cords; i++)
@@ -300,15 +350,20 @@ static void count_cords(const thr_symmetry_row *row, int *least, int *most)
   }
 }
 
+/* Proves the length of a plan of solid joints, and what that proves of single cords. */
 static thr_status prove(thr_plan *plan, const thr_limits *limits, thr_err *err)
 {
   thr_shortest shortest = {0};
   thr_err why = {0};
+
+  /* The shortest passes bring the certificates. */
   thr_status st = thr_postman_shortest(&plan->frame, &plan->options, limits, &shortest, &why);
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", why.text);
   st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords, &shortest,
                          &plan->proof, err);
   thr_shortest_destroy(&shortest);
+
+  /* Where something is asked of single cords, state what is proved of them. */
   if (st || !thr_keep_asked(&plan->options)) return st;
   const thr_length_proof *proof = &plan->proof;
   return thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords,
@@ -325,11 +380,16 @@ thr_status thr_symmetries_plan(thr_symmetries *symmetries, int row, const thr_fr
   *plan = (thr_plan){0};
   if (!thr_wants_symmetry(options)) with.aims = thr_aims_symmetric;
   count_cords(symmetry_row, &least, &most);
+
   if (most > THR_MOST_CORDS)
     return thr_fail(err, THR_EINFEASIBLE, "group %d makes %d cords in one component, more than %d",
                     row + 1, most, THR_MOST_CORDS);
+
   if (!thr_plan_counted(&with)) with.cords = most;
   thr_status st = thr_plan_request(plan, frame, &with, err);
+
+  /* The cords and their record move from the row to the plan; what the table shows of the row
+   * stays. */
   if (!st) {
     plan->cord = symmetry_row->cord;
     plan->n_cords = symmetry_row->n_cords;
@@ -341,6 +401,8 @@ thr_status thr_symmetries_plan(thr_symmetries *symmetries, int row, const thr_fr
                                                  .unique_paths = symmetry_row->record.unique_paths};
     if (options->joint == THR_JOINT_SOLID) st = prove(plan, limits, err);
   }
+
+  /* What is not proved of the row is not proved of the plan. */
   if (!st && symmetry_row->why.code)
     st = thr_fail(err, symmetry_row->why.code, "%s", symmetry_row->why.text);
   if (st && st != THR_ELIMIT) thr_plan_destroy(plan);
@@ -354,11 +416,17 @@ thr_status thr_symmetry_plan_from(const thr_frame *frame, const thr_request *opt
   thr_symmetries symmetries;
   thr_err early = {0}, own = {0};
   *plan = (thr_plan){0};
+
+  /* Solve only the rows that the choice needs. */
   thr_status found = thr_symmetries_find_from(frame, options, true, shortest, limits, &symmetries,
                                               &early),
              st = found;
+
+  /* Take the chosen row as the plan. */
+
   if (symmetries.chosen >= 0)
     st = thr_symmetries_plan(&symmetries, symmetries.chosen, frame, options, limits, plan, &own);
+
   if (st == THR_OK) st = found;
   if (!table || (st && st != THR_ELIMIT)) thr_symmetries_destroy(&symmetries);
   if (table) *table = symmetries;
@@ -375,8 +443,10 @@ thr_status thr_symmetry_plan(const thr_frame *frame, const thr_request *options,
 int thr_symmetries_even(const thr_symmetries *symmetries, int cords)
 {
   int best = -1, least, most;
+
   for (int i = 0; i < symmetries->n; i++) {
     if (symmetries->row[i].n_cords == 0 || !symmetries->row[i].cord) continue;
+
     count_cords(&symmetries->row[i], &least, &most);
     if (least != cords || most != cords) continue;
     if (best < 0 ||

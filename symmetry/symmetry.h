@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The objective "symmetry": learn a few paths, repeat them (thesis, chapter 5; docs/method.md).
- * Which groups of automorphisms a framework has, the best symmetric threading under each, and the
- * choice among them.
+ * Lists the groups of automorphisms that a framework has, finds the best symmetric threading under
+ * each group, and chooses among the threadings.
  *
- * For every group H: the cover of least (overlap, steps, paths), in the order asked for, among
- * those that H maps to themselves; a step is a pass of a unique path.
+ * For every group H the best threading is the cover of least (overlap, steps, paths), in the order
+ * asked for, among those that H maps to themselves; a step is a pass of a unique path.
  *
- * Example: a square dome under C4v: one path over an eighth of it, walked eight times, each time
- * turned or mirrored. */
+ * Read symmetry.c for the whole, then the folders in the order of the work: group/ lists the groups
+ * and divides the framework into orbits, cover/ finds passes with the symmetry, and lift/ makes
+ * cords of these passes.
+ *
+ * Example: a square dome under C4v has one path over an eighth of the dome, walked eight times,
+ * each time turned or mirrored. */
 #ifndef THR_SYMMETRY_H
 #define THR_SYMMETRY_H
 
@@ -82,9 +86,9 @@ typedef struct {
   thr_symmetry_group *group; /* [n_groups] owned */
   int n;
   thr_symmetry_row *row; /* [n] by descending order; users count them from 1; owned */
-  double shortest;       /* cord that the shortest plan with one cord per component (or as many as
-                            capacities, or with tube       joints anything, ask for) and these ends needs,
-                            or       the plan that keeps to what is asked of cords;       units */
+  double shortest; /* units: cord that the shortest plan needs with these ends and one cord per
+                      component (or as many as capacities, or with tube joints anything, ask
+                      for), or the plan that keeps to what is asked of cords */
   bool shortest_optimal; /* false: the shortest that was found in time */
   double longest; /* of that plan the longest cord, if that is an aim (INFINITY without the plan);
                      else 0 */

@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The classical tours through the shortest passes, to compare with: Hierholzer (1873), who joins
- * circuits where they meet, and Fleury (1883), who never passes a bridge of what is left while
- * there is another way on. Both need a connected multigraph with even degrees, which the shortest
- * extra passes give.
+/* The classical tours through the shortest passes, which the least turning is compared with:
+ * Hierholzer (1873) walks circuits and joins them where they meet, and Fleury (1883) never takes a
+ * pass that is a bridge of what is left while there is another way on. Both need a connected
+ * multigraph with even degrees, which the shortest extra passes give.
  *
- * Example: two triangles with one node in common: Hierholzer walks the first and inserts the second
- * where it comes past the common node. */
+ * This folder holds these two tours only. They use the search's own structures for pairs of passes
+ * (tortuosity/cords/join.h), so read those first.
+ *
+ * Example: two triangles with one node in common. Hierholzer walks the first and inserts the second
+ * at the common node. */
 #ifndef THR_BASELINE_H
 #define THR_BASELINE_H
 
