@@ -583,8 +583,8 @@ static thr_status find_rows(const thr_frame *frame, const thr_request *request,
     n_kinds = 2;
   }
 
-  /* All rows ask for little turning of the cord that turns most, and only for what holds for every
-   * number of cords. */
+  /* All rows ask for little turning of the cord that turns most; of the request only cover,
+   * capacity and physics count. */
   adviser.request.aims = (thr_aims){.n = 1, .aim = {THR_AIM_MAX_TURNING}};
   adviser.request.cover = request->cover;
   adviser.request.capacity = request->capacity;

@@ -74,9 +74,9 @@ static bool would_cross(const channel_tree *search, int x, int y, int from)
 
   /* Compare with every channel of the node, each seen from one of its ends. */
   for (int i = from; i < search->n_ends && node_of(search, search->order[i]) == node; i++) {
-    const int z = search->order[i], w = search->mate[z];
-    if (w < z) continue; /* OPEN, END, or seen from the other end */
-    const thr_channel old = {.in = search->arm[z], .out = search->arm[w]};
+    const int end = search->order[i], mate = search->mate[end];
+    if (mate < end) continue; /* OPEN, END, or seen from the other end */
+    const thr_channel old = {.in = search->arm[end], .out = search->arm[mate]};
     if (thr_channels_cross(search->rank, &new, &old)) return true;
   }
   return false;
@@ -147,7 +147,7 @@ static bool lead_on(channel_tree *search, int k);
 /* Leads end x = order[k] on to y, if that crosses nothing, and looks for the rest. */
 static bool try_channel(channel_tree *search, int k, int x, int y)
 {
-  /* With open cords no circuit may close, and of closed cords no more than the request has. */
+  /* With open cords no circuit may close, and of closed cords no more than the plan has. */
   const bool closes = search->far[x] == y;
   if (closes &&
       (search->plan->options.ends != THR_ENDS_CLOSED || search->n_closed == search->n_cords))
@@ -257,7 +257,7 @@ typedef struct {
 } join;
 
 typedef struct {
-  const channel_tree *s;
+  const channel_tree *tree;
   double limit;
   int most_passes;
   int64_t steps;
@@ -268,18 +268,18 @@ typedef struct {
 
 static int by_length(const void *a, const void *b)
 {
-  const join *p = a, *q = b;
-  if (p->length != q->length) return p->length < q->length ? -1 : 1;
-  return memcmp(p->passes, q->passes, sizeof p->passes);
+  const join *one = a, *other = b;
+  if (one->length != other->length) return one->length < other->length ? -1 : 1;
+  return memcmp(one->passes, other->passes, sizeof one->passes);
 }
 
 /* Could cords go on at node v with the passes that are there? */
 static bool is_even(const join_list *joins, int v)
 {
-  const thr_request *request = &joins->s->plan->options;
+  const thr_request *request = &joins->tree->plan->options;
   if (joins->left[v] > 0 || joins->degree[v] % 2 == 0) return true;
   return request->ends != THR_ENDS_CLOSED &&
-         thr_plan_end_allowed(&joins->s->plan->frame, request, v);
+         thr_plan_end_allowed(&joins->tree->plan->frame, request, v);
 
   /* Give edge i from the fewest passes that are needed to the most that fit, and go on with the
    * next edge. */
@@ -289,13 +289,13 @@ static bool is_even(const join_list *joins, int v)
  * these need at least. */
 static void list_joins(join_list *joins, int i)
 {
-  const thr_plan *plan = joins->s->plan;
+  const thr_plan *plan = joins->tree->plan;
   if (joins->n == MOST_JOINS || ++joins->steps > most_steps) return;
-  if (i == joins->s->n_edges) {
+  if (i == joins->tree->n_edges) {
     joins->list[joins->n++] = joins->now;
     return;
   }
-  const int e = joins->s->edge[i], a = thr_tail(&plan->frame, 2 * e),
+  const int e = joins->tree->edge[i], a = thr_tail(&plan->frame, 2 * e),
             b = thr_head(&plan->frame, 2 * e);
   const int least = thr_plan_cover(&plan->frame, &plan->options, e),
             most = thr_plan_capacity(&plan->frame, &plan->options, e);
@@ -326,7 +326,7 @@ static thr_status try_joins(channel_tree *search, double limit, int most_passes,
   thr_scratch own = {0};
 
   const thr_frame *frame = &search->plan->frame;
-  join_list joins = {.s = search, .limit = limit, .most_passes = most_passes};
+  join_list joins = {.tree = search, .limit = limit, .most_passes = most_passes};
 
   joins.degree = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *joins.degree);
   joins.left = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *joins.left);
@@ -398,8 +398,8 @@ static void replace(thr_plan *plan, const int *component, int k, channel_tree *s
 /* Looks for other cords of component k, which crosses or is longer than before. Of one that does
  * not cross they may not spoil what was asked for first. */
 
-/* Cords without a crossing have to be shorter than now; with crossings, not much longer than
- * before. */
+/* A component without crossings is searched for shorter cords, one with crossings for cords
+ * that are not much longer than before. */
 static thr_status search_component(thr_plan *plan, const int *component, int k, const int *rank,
                                    const measured *before, const measured *now, bool crosses,
                                    bool *changed, thr_err *err)

@@ -83,7 +83,7 @@ static thr_status choose_sets(thr_few_edges *few, const thr_request *options, bo
 
   *found = false;
 
-  /* The dearest cord first; cords over sets that cost more are then excluded. */
+  /* First the most expensive set is made as cheap as can be; sets that cost more are then out. */
   if (even) {
     st = thr_few_edges_different_dearest(few, options->distinct, n, 0, set, &proved, &dearest, err);
     for (unsigned k = 0; k < 1u << few->n; k++)

@@ -222,8 +222,8 @@ static thr_status find_with_room(const thr_frame *frame, const thr_request *opti
   const bool more = room > (search->most_passes > 0 ? search->most_passes : usual);
   thr_err why = {0};
 
-  /* Allow twice as many passes as cords from the beginning where many cords are known to need
-   * them. */
+  /* Allow two passes over an edge for every cord from the beginning where many cords are known
+   * to need them. */
   if (more && thr_wants_largest(options) && thr_request_most_passes(frame, options) >= room)
     search->most_passes = room;
   if (more && options->ends == THR_ENDS_CLOSED && search->cords > frame->n_edges)

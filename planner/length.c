@@ -13,7 +13,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-typedef thr_status component_planner(const thr_frame *f, const thr_request *o,
+typedef thr_status component_planner(const thr_frame *frame, const thr_request *options,
                                      const thr_limits *limits, thr_plan *plan, thr_cords_word *word,
                                      thr_err *err);
 

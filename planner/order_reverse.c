@@ -293,36 +293,37 @@ static int choose_start(cord_annealer *annealer)
 }
 
 /* False: there is no such change where it was looked for. */
-static bool choose(cord_annealer *annealer, cord_change *c)
+static bool choose(cord_annealer *annealer, cord_change *change)
 {
   int n = annealer->now.n_passes;
 
-  *c = (cord_change){.kind = REVERSE};
+  *change = (cord_change){.kind = REVERSE};
 
   /* Now and then begin the cord elsewhere. */
   if (annealer->turns && thr_random_below(&annealer->state, BEGINNINGS) == 0) {
-    *c = (cord_change){BEGIN, {choose_start(annealer)}, 0};
+    *change = (cord_change){BEGIN, {choose_start(annealer)}, 0};
     return true;
   }
 
   /* Choose a visit and another one of the same piece; the part lies between the two. */
   int one = thr_random_below(&annealer->state, n + 1), other = other_visit(annealer, one, 0, n + 1);
   if (other < 0) return false;
-  c->at[0] = one < other ? one : other;
-  c->at[1] = one < other ? other : one;
+  change->at[0] = one < other ? one : other;
+  change->at[1] = one < other ? other : one;
 
   /* Half of the parts that are long enough are exchanged with a part that follows: two visits of
    * another piece must alternate with the first two. */
-  if (c->at[1] - c->at[0] > 1 && thr_random_below(&annealer->state, 2)) {
-    c->kind = EXCHANGE;
-    c->at[2] = c->at[1];
-    c->at[1] = c->at[0] + 1 + thr_random_below(&annealer->state, c->at[2] - c->at[0] - 1);
-    c->at[3] = other_visit(annealer, c->at[1], c->at[2] + 1, n + 1);
-    if (c->at[3] < 0) return false;
+  if (change->at[1] - change->at[0] > 1 && thr_random_below(&annealer->state, 2)) {
+    change->kind = EXCHANGE;
+    change->at[2] = change->at[1];
+    change->at[1] =
+        change->at[0] + 1 + thr_random_below(&annealer->state, change->at[2] - change->at[0] - 1);
+    change->at[3] = other_visit(annealer, change->at[1], change->at[2] + 1, n + 1);
+    if (change->at[3] < 0) return false;
   }
 
-  c->turning = c->kind == REVERSE ? turning_of_reverse(annealer, c->at)
-                                  : turning_of_exchange(annealer, c->at);
+  change->turning = change->kind == REVERSE ? turning_of_reverse(annealer, change->at)
+                                            : turning_of_exchange(annealer, change->at);
   return true;
 }
 
@@ -370,9 +371,9 @@ static int crossings_in(const cord_annealer *annealer, int v)
 
 /* Those in the nodes v and w whose channels a change changes; none for a cord that is only begun
  * elsewhere. */
-static int crossings_of(const cord_annealer *annealer, const cord_change *c, int v, int w)
+static int crossings_of(const cord_annealer *annealer, const cord_change *change, int v, int w)
 {
-  if (!annealer->channels.rank || c->kind == BEGIN) return 0;
+  if (!annealer->channels.rank || change->kind == BEGIN) return 0;
   return crossings_in(annealer, v) + (w == v ? 0 : crossings_in(annealer, w));
 }
 
@@ -388,17 +389,18 @@ static bool has_channels(cord_annealer *annealer, const thr_plan *plan)
  * accepted. */
 static void step(cord_annealer *annealer, double heat, cord_cost *now)
 {
-  cord_change c;
-  if (!choose(annealer, &c) || now->turning + c.turning > annealer->room.turning * (1 + 1e-12))
+  cord_change change;
+  if (!choose(annealer, &change) ||
+      now->turning + change.turning > annealer->room.turning * (1 + 1e-12))
     return;
 
-  int v = annealer->piece[c.at[0]], w = annealer->piece[c.at[1]],
-      crossings = crossings_of(annealer, &c, v, w);
+  int v = annealer->piece[change.at[0]], w = annealer->piece[change.at[1]],
+      crossings = crossings_of(annealer, &change, v, w);
 
-  make(annealer, &c);
-  cord_cost then = measure(annealer, now->turning + c.turning);
+  make(annealer, &change);
+  cord_cost then = measure(annealer, now->turning + change.turning);
   double worse =
-      crossings_of(annealer, &c, v, w) > crossings ? HUGE_VAL : weigh(&then) - weigh(now);
+      crossings_of(annealer, &change, v, w) > crossings ? HUGE_VAL : weigh(&then) - weigh(now);
 
   /* Metropolis: accept what is better, and what is worse with a probability that falls with the
    * heat. */
@@ -407,7 +409,7 @@ static void step(cord_annealer *annealer, double heat, cord_cost *now)
     return;
   }
 
-  take_back(annealer, &c);
+  take_back(annealer, &change);
   thr_cord_pieces(annealer->frame, annealer->request->joint, &annealer->now, annealer->piece);
 }
 

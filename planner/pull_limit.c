@@ -506,8 +506,8 @@ static thr_status find_fewest(fewest_search *search, const thr_limits *limits, t
 
 /* ---- cords that take no search ---- */
 
-/* Cuts the shortest closed cords: the first plan of every search. It stands fallback where numbers
- * are not free. */
+/* Cuts the shortest closed cords, which gives the first plan of every search. *fallback receives
+ * the cut cords where the number of cords is given; else they are taken at once. */
 static thr_status cut_first(fewest_search *search, thr_plan *fallback, thr_err *err)
 {
   thr_limits share =
@@ -723,7 +723,7 @@ thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options,
   /* Find the fewest cords within the pull. */
   thr_status st = find_numbers(&search, limits, &why, &found);
 
-  /* Once more with more work where a usual run found none and none of the numbers is excluded. */
+  /* Once more with more work where a usual run found none, and not all numbers are excluded. */
   thr_request patient = *options;
   patient.time_limit *= where_none_is_found;
   if (!st && !why.code && !found.code && limits->usual && search.found.n_cords == 0 &&

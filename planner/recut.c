@@ -142,17 +142,17 @@ static thr_status find_cut(const thr_recut *recut, const thr_plan *plan,
 }
 
 /* Makes a cut: the part becomes the last cord of the plan. */
-static thr_status make_cut(thr_plan *plan, const cut *x, thr_err *err)
+static thr_status make_cut(thr_plan *plan, const cut *chosen, thr_err *err)
 {
-  thr_cord *cord = &plan->cord[x->cord], *part = &plan->cord[plan->n_cords];
+  thr_cord *cord = &plan->cord[chosen->cord], *part = &plan->cord[plan->n_cords];
 
-  const int n = x->to - x->from;
+  const int n = chosen->to - chosen->from;
   int *half = thr_calloc((size_t)n, sizeof *half);
   if (!half) return thr_nomem(err);
 
-  memcpy(half, cord->half + x->from, (size_t)n * sizeof *half);
-  memmove(cord->half + x->from, cord->half + x->to,
-          (size_t)(cord->n_passes - x->to) * sizeof *half);
+  memcpy(half, cord->half + chosen->from, (size_t)n * sizeof *half);
+  memmove(cord->half + chosen->from, cord->half + chosen->to,
+          (size_t)(cord->n_passes - chosen->to) * sizeof *half);
   cord->n_passes -= n;
 
   *part = (thr_cord){.half = half, .n_passes = n, .closed = true, .component = cord->component};

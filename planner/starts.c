@@ -135,7 +135,7 @@ static void move_window(chain_window *window)
   link_marks(window, last, last + 1);
   if (!is_on(window, last)) unmark(window, last);
 
-  /* The visit before it in the window is no longer the last one of its piece. */
+  /* The earlier visit of its piece finds the piece on the cord from now on. */
   if (earlier > window->first && earlier < window->fold && !is_marked(window, earlier))
     mark(window, earlier, mark_before(window, earlier));
 

@@ -31,91 +31,97 @@ typedef struct {
   double removed, record,
       room; /* length left off now, in the best choice; that edges can still do without */
   long choices;
-} trimming;
+} trim_search;
 
 /* Returns the k-th half-edge from an end, going inwards. */
-static int pass_from(const trimming *t, int end, int k)
+static int pass_from(const trim_search *trimming, int end, int k)
 {
-  const thr_cord *cord = &t->plan->cord[end / 2];
+  const thr_cord *cord = &trimming->plan->cord[end / 2];
   return end % 2 ? cord->half[cord->n_passes - 1 - k] : cord->half[k];
 }
 
 /* Returns the node where a cord ends once k passes are left off at an end. */
-static int node_after(const trimming *t, int end, int k)
+static int node_after(const trim_search *trimming, int end, int k)
 {
-  const int half = pass_from(t, end, k);
-  return end % 2 ? thr_head(&t->plan->frame, half) : thr_tail(&t->plan->frame, half);
+  const int half = pass_from(trimming, end, k);
+  return end % 2 ? thr_head(&trimming->plan->frame, half) : thr_tail(&trimming->plan->frame, half);
 }
 
 /* Chooses how much goes at this end and all later ones. */
-static void choose(trimming *t, int end)
+static void choose(trim_search *trimming, int end)
 {
-  const thr_frame *frame = &t->plan->frame;
-  if (t->removed > t->record * (1 + 1e-12)) {
-    t->record = t->removed;
-    memcpy(t->best, t->cut, 2 * (size_t)t->plan->n_cords * sizeof *t->best);
-    memset(t->best + end, 0, (2 * (size_t)t->plan->n_cords - (size_t)end) * sizeof *t->best);
+  const thr_frame *frame = &trimming->plan->frame;
+  if (trimming->removed > trimming->record * (1 + 1e-12)) {
+    trimming->record = trimming->removed;
+    memcpy(trimming->best, trimming->cut,
+           2 * (size_t)trimming->plan->n_cords * sizeof *trimming->best);
+    memset(trimming->best + end, 0,
+           (2 * (size_t)trimming->plan->n_cords - (size_t)end) * sizeof *trimming->best);
   }
-  while (end < 2 * t->plan->n_cords && t->most[end] == 0)
+  while (end < 2 * trimming->plan->n_cords && trimming->most[end] == 0)
     end++;
-  if (end == 2 * t->plan->n_cords || t->choices++ > MOST_CHOICES) return;
-  if (t->removed + fmin(t->rest[end], t->room) <= t->record * (1 + 1e-12)) return;
+  if (end == 2 * trimming->plan->n_cords || trimming->choices++ > MOST_CHOICES) return;
+  if (trimming->removed + fmin(trimming->rest[end], trimming->room) <=
+      trimming->record * (1 + 1e-12))
+    return;
 
   /* Leaves off as much as the edges can do without; the cord keeps one pass. */
-  const int keep = t->plan->cord[end / 2].n_passes - 1 - (end % 2 ? t->cut[end - 1] : 0);
-  const double removed = t->removed, room = t->room;
+  const int keep =
+      trimming->plan->cord[end / 2].n_passes - 1 - (end % 2 ? trimming->cut[end - 1] : 0);
+  const double removed = trimming->removed, room = trimming->room;
   int k = 0;
-  for (; k < t->most[end] && k < keep; k++) {
-    const int e = pass_from(t, end, k) >> 1;
-    if (t->spare[e] == 0) break;
-    t->spare[e]--;
-    t->removed += frame->length[e];
-    t->room -= frame->length[e];
+  for (; k < trimming->most[end] && k < keep; k++) {
+    const int e = pass_from(trimming, end, k) >> 1;
+    if (trimming->spare[e] == 0) break;
+    trimming->spare[e]--;
+    trimming->removed += frame->length[e];
+    trimming->room -= frame->length[e];
   }
 
   /* Takes passes back one by one, and goes on wherever the cord may end. */
   for (;; k--) {
     if (k == 0) {
-      t->removed = removed;
-      t->room = room;
+      trimming->removed = removed;
+      trimming->room = room;
     }
-    if (k == 0 || thr_plan_end_allowed(frame, &t->plan->options, node_after(t, end, k))) {
-      t->cut[end] = k;
-      choose(t, end + 1);
+    if (k == 0 ||
+        thr_plan_end_allowed(frame, &trimming->plan->options, node_after(trimming, end, k))) {
+      trimming->cut[end] = k;
+      choose(trimming, end + 1);
     }
     if (k == 0) break;
-    const int e = pass_from(t, end, k - 1) >> 1;
-    t->spare[e]++;
-    t->removed -= frame->length[e];
-    t->room += frame->length[e];
+    const int e = pass_from(trimming, end, k - 1) >> 1;
+    trimming->spare[e]++;
+    trimming->removed -= frame->length[e];
+    trimming->room += frame->length[e];
   }
-  t->cut[end] = 0;
+  trimming->cut[end] = 0;
 }
 
 /* Counts what edges can do without, and what each end can leave off by that. */
-static void prepare(trimming *t)
+static void prepare(trim_search *trimming)
 {
-  const thr_frame *frame = &t->plan->frame;
+  const thr_frame *frame = &trimming->plan->frame;
 
   /* Count the passes that no edge needs. */
-  thr_cords_add_passes(t->plan->cord, t->plan->n_cords, 1, t->spare);
+  thr_cords_add_passes(trimming->plan->cord, trimming->plan->n_cords, 1, trimming->spare);
   for (int e = 0; e < frame->n_edges; e++) {
-    t->spare[e] -= thr_plan_cover(frame, &t->plan->options, e);
-    if (t->spare[e] > 0) t->room += t->spare[e] * frame->length[e];
+    trimming->spare[e] -= thr_plan_cover(frame, &trimming->plan->options, e);
+    if (trimming->spare[e] > 0) trimming->room += trimming->spare[e] * frame->length[e];
   }
 
   /* From the last end to the first: how many passes up to the core, and how much length
    * together. */
-  for (int end = 2 * t->plan->n_cords - 1, deep = 0; end >= 0; end--) {
+  for (int end = 2 * trimming->plan->n_cords - 1, deep = 0; end >= 0; end--) {
     double length = 0;
     int k = 0;
-    for (; deep < MOST_DEEP && k + 1 < t->plan->cord[end / 2].n_passes &&
-           t->spare[pass_from(t, end, k) >> 1] > 0;
+    for (; deep < MOST_DEEP && k + 1 < trimming->plan->cord[end / 2].n_passes &&
+           trimming->spare[pass_from(trimming, end, k) >> 1] > 0;
          k++)
-      length += frame->length[pass_from(t, end, k) >> 1];
-    t->most[end] = k;
+      length += frame->length[pass_from(trimming, end, k) >> 1];
+    trimming->most[end] = k;
     deep += k > 0;
-    t->rest[end] = t->rest[end + 1] + length;
+    trimming->rest[end] = trimming->rest[end + 1] + length;
   }
 }
 
@@ -143,20 +149,21 @@ thr_status thr_plan_trim(thr_plan *plan, bool *trimmed, thr_err *err)
     return THR_OK;
 
   const size_t ends = 2 * (size_t)plan->n_cords;
-  trimming t = {.plan = plan,
-                .spare = thr_scratch_array(&scratch, (size_t)plan->frame.n_edges, sizeof *t.spare),
-                .cut = thr_scratch_array(&scratch, ends, sizeof *t.cut),
-                .best = thr_scratch_array(&scratch, ends, sizeof *t.best),
-                .most = thr_scratch_array(&scratch, ends, sizeof *t.most),
-                .rest = thr_scratch_array(&scratch, ends + 1, sizeof *t.rest)};
+  trim_search trimming = {
+      .plan = plan,
+      .spare = thr_scratch_array(&scratch, (size_t)plan->frame.n_edges, sizeof *trimming.spare),
+      .cut = thr_scratch_array(&scratch, ends, sizeof *trimming.cut),
+      .best = thr_scratch_array(&scratch, ends, sizeof *trimming.best),
+      .most = thr_scratch_array(&scratch, ends, sizeof *trimming.most),
+      .rest = thr_scratch_array(&scratch, ends + 1, sizeof *trimming.rest)};
 
   thr_status st = thr_scratch_check(&scratch, err);
   if (!st) {
-    prepare(&t);
-    choose(&t, 0);
-    *trimmed = t.record > 1e-12 * plan->metrics.length;
+    prepare(&trimming);
+    choose(&trimming, 0);
+    *trimmed = trimming.record > 1e-12 * plan->metrics.length;
   }
-  if (*trimmed) cut_cords(plan, t.best);
+  if (*trimmed) cut_cords(plan, trimming.best);
   thr_scratch_free(&scratch);
   return st || !*trimmed ? st : thr_planner_prove_again(plan, err);
 }
