@@ -82,8 +82,8 @@ static bool is_copy(const advice_search *adviser, const thr_cord *cord, const th
   return false;
 }
 
-/* Passes of the cords that are copies of none before them, and their ends where those may be
- * anywhere. */
+/* Counts the steps to learn: the passes of the cords that are copies of none before them, and their
+ * ends where cords may end anywhere. */
 static int learned(const advice_search *adviser, const thr_plan *plan)
 {
   const thr_cord *cord = plan->cord;
@@ -176,8 +176,8 @@ static void measure_row(advice_search *adviser, const ends_kind *kind, const thr
   adviser->out->base_length = plan->metrics.base_length;
 }
 
-/* The row of cuts->plan cut into so many: what measure_row would say of the cords, none of which is
- * a copy. */
+/* Fills the row of cuts->plan cut into so many parts: what measure_row would say of the cords, none
+ * of which is a copy. */
 static void measure_cuts(advice_search *adviser, const ends_kind *kind, int cords,
                          thr_advice_row *row)
 {
@@ -209,8 +209,8 @@ static void settle_row(advice_search *adviser, ends_kind *kind, bool added, thr_
   if (adviser->options->row) adviser->options->row(adviser->options->user, row, plan);
 }
 
-/* A row for the cords of plan, or in the place of a row whose cord that turns most turns more.
- * claim: NULL = they were not searched. */
+/* Adds a row for the cords of plan, or improves the row of this number if the cord that turns most
+ * turns less. claim: NULL = the cords were not searched. */
 static thr_status set_row(advice_search *adviser, ends_kind *kind, const thr_plan *plan,
                           const thr_turning_claim *claim, thr_err *err)
 {
@@ -230,7 +230,7 @@ static thr_status set_row(advice_search *adviser, ends_kind *kind, const thr_pla
   return THR_OK;
 }
 
-/* The fewest cords that stay within the hand; 0 = none do. */
+/* Returns the fewest cords that stay within the hand's force; 0 = none do. */
 static int within(const advice_search *adviser, const ends_kind *kind)
 {
   int fewest = 0;
@@ -243,7 +243,7 @@ static int within(const advice_search *adviser, const ends_kind *kind)
   return fewest;
 }
 
-/* The most cords that do not, of fewer than that. */
+/* Returns the most cords, fewer than `fewest`, that have a row. */
 static int beyond(const advice_search *adviser, const ends_kind *kind, int fewest)
 {
   int most = 0;
@@ -262,8 +262,8 @@ static thr_request request_of(const advice_search *adviser, const ends_kind *kin
   return request;
 }
 
-/* The better of the cords cut from one, and of the symmetric ones if there are any of that number.
- * It may stay empty. */
+/* Takes the better of the cords cut from one cord, and of the symmetric ones if there are any of
+ * this number. seed may stay empty. */
 static thr_status find_seed(const advice_search *adviser, ends_kind *kind,
                             const thr_request *request, const thr_limits *limits, thr_plan *seed,
                             thr_err *err)
@@ -293,8 +293,8 @@ static thr_status find_seed(const advice_search *adviser, ends_kind *kind,
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
 }
 
-/* A row without a search where no cords can be copies, or symmetric: without looking at the cords
- * themselves. */
+/* Adds a row without a search where no cords can be copies, or symmetric: the cords themselves are
+ * never laid out. */
 static thr_status cut_large(advice_search *adviser, ends_kind *kind, int cords, thr_err *err)
 {
   const thr_request request = request_of(adviser, kind, cords);
@@ -311,7 +311,7 @@ static thr_status cut_large(advice_search *adviser, ends_kind *kind, int cords, 
   return THR_OK;
 }
 
-/* A row without a search, if there are cords for one. */
+/* Adds a row without a search, if there are cords for one. */
 static thr_status cut_cords(advice_search *adviser, ends_kind *kind, int cords, thr_err *err)
 {
   if (!adviser->searches) return cut_large(adviser, kind, cords, err);
@@ -324,7 +324,7 @@ static thr_status cut_cords(advice_search *adviser, ends_kind *kind, int cords, 
   return st;
 }
 
-/* A row by a search, from the cords that there are without one. */
+/* Adds a row by a search, which begins with the cords that need no search. */
 static thr_status search_cords(advice_search *adviser, ends_kind *kind, int cords, double part,
                                thr_err *err)
 {
@@ -363,8 +363,8 @@ static thr_status search_cords(advice_search *adviser, ends_kind *kind, int cord
 
 /* ---- closed cords opened ---- */
 
-/* The plan with one closed cord is one with both ends at a node: it takes the place of the first if
- * that turns more. */
+/* Opens the plan with one closed cord to one with both ends at a node, which takes the place of the
+ * first plan if that turns more. */
 static thr_status take_closed(advice_search *adviser, ends_kind *kind, const thr_plan *closed,
                               thr_err *err)
 {
@@ -401,7 +401,7 @@ static thr_status find_symmetric(const advice_search *adviser, ends_kind *kind, 
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves no rows */
 }
 
-/* 1, 2, 3, 4, 6, 8, 12, 16, 24, .. */
+/* Returns the number to try after this one: 1, 2, 3, 4, 6, 8, 12, 16, 24, .. */
 static int next_number(int cords)
 {
   int power = 1;
@@ -419,7 +419,7 @@ static bool is_over(const advice_search *adviser, const ends_kind *kind, int cor
          (fewest && cords > TIMES * fewest);
 }
 
-/* The time is over: what was to be tried still is not. */
+/* Tells whether the time is over; what was to be tried is then left out. */
 static bool stopped(advice_search *adviser)
 {
   bool stop = thr_limits_stop(adviser->limits);
@@ -427,7 +427,8 @@ static bool stopped(advice_search *adviser)
   return stop;
 }
 
-/* Rows without a search: all numbers in turn, and where the hand is enough first, by halves. */
+/* Adds rows without a search: all numbers in turn, and then by halves down to the fewest cords
+ * within the hand's force. */
 static thr_status cut_numbers(advice_search *adviser, ends_kind *kind, thr_err *err)
 {
   thr_status st = THR_OK;
@@ -450,8 +451,8 @@ static thr_status cut_numbers(advice_search *adviser, ends_kind *kind, thr_err *
   return st;
 }
 
-/* The fewest that stay within the hand, and one fewer as long as a search finds that they do, too.
- */
+/* Searches for the fewest cords that stay within the hand's force, and for one fewer as long as a
+ * search finds that these do, too. */
 static thr_status search_fewest(advice_search *adviser, ends_kind *kind, thr_err *err)
 {
   int fewest = within(adviser, kind);
@@ -464,7 +465,8 @@ static thr_status search_fewest(advice_search *adviser, ends_kind *kind, thr_err
   return st;
 }
 
-/* Of rows that wait for a search, and of the time, so that each has as much. */
+/* Returns the part of the time for one row, so that all rows that wait for a search have as
+ * much. */
 static double part_of_rows(const advice_search *adviser)
 {
   int waiting = 0;
@@ -539,7 +541,7 @@ static thr_status search_all(advice_search *adviser, ends_kind *kinds, int n_kin
   return st ? st : search_numbers(adviser, kinds, n_kinds, err);
 }
 
-/* Of a framework that is too large for searches the shortest closed cords are cut. */
+/* Cuts the shortest closed cords of a framework that is too large for searches. */
 static thr_status cut_shortest(advice_search *adviser, ends_kind *kinds, int n_kinds,
                                const thr_plan *plan, thr_err *err)
 {

@@ -32,7 +32,8 @@ static void rounds_destroy(round_walk *rounds)
   free(rounds->walk);
 }
 
-/* *fits: every edge has room for an even number of passes. */
+/* Allocates and counts the passes of each direction. *fits: every edge has room for an even number
+ * of passes. */
 static thr_status rounds_init(round_walk *rounds, const thr_request *options, bool *fits,
                               thr_err *err)
 {
@@ -58,8 +59,8 @@ static thr_status rounds_init(round_walk *rounds, const thr_request *options, bo
   return rounds->stack && rounds->walk ? THR_OK : thr_nomem(err);
 }
 
-/* A half-edge that leads on from v with passes left, not straight back where there is another; -1
- * if there is none. */
+/* Returns a half-edge that leads on from v with passes left, not straight back where there is
+ * another; -1: there is none. */
 static int next_from(round_walk *rounds, int v, int back)
 {
   const thr_frame *frame = rounds->frame;
@@ -100,8 +101,8 @@ static int walk_all(round_walk *rounds)
   }
 }
 
-/* One cord through every edge of a component an even number of times; *n = 0 where there is no room
- * for that. */
+/* Makes one cord through every edge of a component an even number of times; *n = 0 where there is
+ * no room for it. */
 static thr_status even_cord(const thr_frame *frame, const thr_request *options, const int *given,
                             thr_cord **cord, int *n, thr_err *err)
 {
@@ -121,8 +122,7 @@ static thr_status even_cord(const thr_frame *frame, const thr_request *options, 
   return st;
 }
 
-/* The matching has the shortest cords about as soon as these are written, unless more is asked of
- * them. */
+/* Tells whether the matching has the shortest cords about as soon as these cords are written. */
 static bool is_quick(const thr_request *options)
 {
   bool shortest =

@@ -100,7 +100,8 @@ static thr_status trace(channel_tree *search, int x, bool *seen, thr_cord *cord)
   return THR_OK;
 }
 
-/* What an aim of turning is about: all turns of the cords, or those of the cord with most. */
+/* Returns what an aim of turning is about: all turns of the cords, or those of the cord with
+ * most. */
 static double turning_of(const thr_plan *plan, const thr_cord *cord, double so_far)
 {
   const double own = thr_cord_price(&plan->frame, &plan->options, cord);

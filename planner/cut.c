@@ -106,7 +106,7 @@ static bool cut_within(cord_cutter *cutter, const thr_parts_measures *limit)
   return true;
 }
 
-/* One part more: the part that turns most is cut near its middle. False where no part can be. */
+/* Makes one part more: cuts the part that turns most near its middle. False: no part can be cut. */
 static bool cut_once_more(cord_cutter *cutter)
 {
   int part = -1, at = -1;
@@ -136,7 +136,7 @@ static bool cut_once_more(cord_cutter *cutter)
   return true;
 }
 
-/* Into exactly so many parts. */
+/* Cuts the cord into exactly so many parts. */
 static bool cut_evenly(cord_cutter *cutter, int parts)
 {
   enum { HALVINGS = 60 };
@@ -162,7 +162,7 @@ static bool cut_evenly(cord_cutter *cutter, int parts)
   return done;
 }
 
-/* The parts as cords of seed, behind those that it has. */
+/* Appends the parts as cords to seed. */
 static thr_status add_parts(const cord_cutter *cutter, const thr_cord *cord, thr_plan *seed,
                             thr_err *err)
 {
@@ -233,8 +233,8 @@ thr_parts_measures thr_parts_measure(const thr_parts *cuts)
 
 /* ---- the shortest cords, opened and cut ---- */
 
-/* The closed cord begins where it turned most, of the nodes where an end may be. False: there is
- * none. */
+/* Begins the closed cord where it turned most, among the nodes that may hold an end. False: there
+ * is none. */
 static bool open_cord(const thr_frame *frame, const thr_request *request, thr_cord *cord,
                       int *scratch)
 {

@@ -20,7 +20,7 @@
 
 /* ---- as many cords as every edge needs: each passes all edges ---- */
 
-/* The cords of plan several times over, component by component. */
+/* Repeats the cords of plan so many times, component by component. */
 static thr_status repeat_cords(thr_plan *plan, int times, thr_err *err)
 {
   thr_cord *cord = thr_calloc((size_t)plan->n_cords * (size_t)times, sizeof *cord), *copy;
@@ -47,8 +47,8 @@ static thr_status repeat_cords(thr_plan *plan, int times, thr_err *err)
   return THR_OK;
 }
 
-/* One cord in every component, as good as can be, and the others alike: what is proved of it is
- * proved of each. */
+/* Plans one cord in every component as well as can be, and makes the others alike: what is proved
+ * of one is proved of each. */
 static thr_status plan_alike(const thr_frame *frame, const thr_request *options,
                              const thr_request *one, const thr_limits *limits, thr_plan *plan,
                              thr_report *report, thr_err *err)
@@ -181,7 +181,7 @@ static thr_status plan_covers(const distinct_maker *maker, const thr_request *op
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves none */
 }
 
-/* Any cords with these passes over every edge. */
+/* Plans any cords with so many passes over every edge. */
 static thr_status plan_any(const distinct_maker *maker, const thr_request *options,
                            const thr_limits *limits, thr_plan *plan, thr_err *why)
 {
@@ -195,7 +195,7 @@ static thr_status plan_any(const distinct_maker *maker, const thr_request *optio
   return st == THR_ELIMIT && plan->n_cords > 0 ? THR_OK : st;
 }
 
-/* Of any length and pull, for their proof of length alone. */
+/* Plans cords of any length and pull, for their proof of length alone. */
 static thr_status plan_free(const distinct_maker *maker, thr_plan *plan, thr_err *err)
 {
   thr_request any = *maker->request;
@@ -277,7 +277,7 @@ static thr_status make_different(distinct_maker *maker, const thr_request *optio
   return st ? st : offer(maker, &from->cord, &from->n_cords, err);
 }
 
-/* So many cords in every component, in a part of the time. */
+/* Tries so many cords in every component, in a part of the time. */
 static thr_status try_number(distinct_maker *maker, int n, thr_err *err)
 {
   const thr_limits share = thr_dispatch_share(maker->limits, THR_STEP_DIFFERENT),
@@ -294,7 +294,7 @@ static thr_status try_number(distinct_maker *maker, int n, thr_err *err)
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* others may do */
 }
 
-/* Covers of their own cords, as many as it takes. */
+/* Offers covers by cords of their own, as many as every edge needs. */
 static thr_status try_covers(distinct_maker *maker, thr_err *err)
 {
   thr_cord *covers = NULL;
@@ -348,7 +348,8 @@ static thr_status search_fewest(distinct_maker *maker, int from, thr_err *err)
   return !st && !tried ? try_number(maker, found, err) : st;
 }
 
-/* Any number serves the aims: those next to that of `from`, which do so without different cords. */
+/* Tries the numbers next to `from`, which serves the aims best without different cords: any number
+ * is allowed. */
 static thr_status search_near(distinct_maker *maker, int from, thr_err *err)
 {
   enum { NEAR = 3 };
@@ -366,7 +367,8 @@ static thr_status search_near(distinct_maker *maker, int from, thr_err *err)
   return st;
 }
 
-/* Of few edges the shortest cords, where that is all that is asked for. */
+/* Offers the shortest cords of a framework with few edges, where nothing but length is asked
+ * for. */
 static thr_status try_few(distinct_maker *maker, thr_err *err)
 {
   thr_cord *cord;
@@ -377,7 +379,7 @@ static thr_status try_few(distinct_maker *maker, thr_err *err)
   return st;
 }
 
-/* One component: from is any cords of it. */
+/* Finds the cords of one component. from: any cords of it. */
 static thr_status make_component(distinct_maker *maker, const thr_plan *from, thr_err *err)
 {
   thr_plan start = {0};
@@ -397,7 +399,7 @@ static thr_status make_component(distinct_maker *maker, const thr_plan *from, th
   return st ? st : try_few(maker, err);
 }
 
-/* One component after the other, where each has a number of cords of its own. */
+/* Plans one component after the other, where each has a number of cords of its own. */
 static thr_status make_components(distinct_maker *maker, thr_err *err)
 {
   thr_components components;
@@ -440,8 +442,8 @@ static thr_status make_components(distinct_maker *maker, thr_err *err)
 
 /* ---- what is proved ---- */
 
-/* What is proved of any cords with these passes over every edge, which bridges need, too; nothing
- * is the least where edges lack cords. */
+/* States what is proved of any cords with these passes over every edge, which bridges need, too.
+ * Nothing is claimed to be the least where edges lack cords. */
 static thr_status prove(distinct_maker *maker, thr_plan *from, thr_plan *plan, thr_err *err)
 {
   /* The bounds hold for passes that bridges need, too, so the plan is judged with these. */
@@ -469,7 +471,7 @@ static thr_status prove(distinct_maker *maker, thr_plan *from, thr_plan *plan, t
   return THR_OK;
 }
 
-/* What was not found, or not proved, in the order of what was asked. */
+/* Tells what was not found, or not proved, in the order of what was asked. */
 static thr_status judge(const distinct_maker *maker, const thr_plan *plan, thr_err *err)
 {
   const int n = maker->frame->n_edges, met = plan->metrics.distinct;
@@ -497,7 +499,7 @@ static thr_status judge(const distinct_maker *maker, const thr_plan *plan, thr_e
   return thr_planner_verdict(plan, err);
 }
 
-/* Passes that bridges need have to fit. */
+/* Checks that the passes that bridges need fit. */
 static thr_status check_room(const distinct_maker *maker, thr_err *err)
 {
   for (int e = 0; e < maker->frame->n_edges && maker->needed.cover != maker->frame->cover; e++) {

@@ -24,7 +24,7 @@ static bool is_asked(const thr_frame *frame, const thr_request *options)
          options->cover <= options->distinct && !frame->cover;
 }
 
-/* The shortest cord that passes the edges of the set. */
+/* Finds the shortest cord that passes the edges of the set. */
 static thr_status walk_over(thr_frame *covered, const thr_request *one, unsigned set,
                             const thr_limits *limits, thr_cord *cord, bool *found, thr_err *err)
 {

@@ -17,8 +17,8 @@
 
 static const double near = 1e-9; /* of the bound: rounding */
 
-/* Other cords, which are the caller's, take the place of the plan's. The walks that it has are
- * about any cords. */
+/* Puts other cords, which are the caller's, in the place of the plan's. The walks of the proof
+ * stay, as these are about any cords. */
 static thr_status take_cords(thr_plan *plan, thr_cord *cord, thr_err *err)
 
 {
@@ -35,7 +35,7 @@ static thr_status take_cords(thr_plan *plan, thr_cord *cord, thr_err *err)
   return st;
 }
 
-/* What is proved of the cords that the plan has now. */
+/* States what is proved of the cords that the plan has now. */
 static thr_status judge(thr_plan *plan, thr_err *err)
 {
   const thr_length_proof *proof = &plan->proof;
@@ -64,14 +64,15 @@ static bool has_room(const thr_frame *frame, const thr_request *options, const t
 
 /* ---- all sets of edges ---- */
 
-/* The cords over chosen sets; more of them are copies of the first. *cord is the caller's. */
+/* Makes the cords over the chosen sets; cords without one take the first set of all. *cord is the
+ * caller's. */
 static thr_status walk_over(const thr_short_cords *cords, const int *chosen, int n, thr_cord **cord,
                             thr_err *err)
 {
   thr_status st = THR_OK;
   if (!(*cord = thr_calloc((size_t)n, sizeof **cord))) return thr_nomem(err);
 
-  /* Copies of a walk stand for sets that were not chosen. */
+  /* From the last on, as the sets are chosen from the end. */
   for (int k = n - 1; k >= 0 && !st; k--) { /* the last are the first that are chosen */
     st = thr_short_cords_walk(cords, chosen[k] >= 0 ? chosen[k] : 0, &(*cord)[n - 1 - k], err);
     if (!st) thr_cord_id(n - 1 - k, (*cord)[n - 1 - k].id);
@@ -121,7 +122,7 @@ static thr_status try_sets(thr_plan *plan, const thr_limits *limits, double *bou
 
 /* ---- the programme over walks ---- */
 
-/* The plan's cords annealed, in part of the time that a user gives. */
+/* Anneals the plan's cords, in a part of the time that a user gives. */
 static thr_status anneal(thr_plan *plan, const thr_turning_columns *columns,
                          const thr_limits *limits, thr_err *err)
 {
@@ -153,7 +154,7 @@ static thr_status anneal(thr_plan *plan, const thr_turning_columns *columns,
   return st;
 }
 
-/* *improved: the component of the longest cord has others. */
+/* Prices walks for the component of the longest cord. *improved: the plan has other cords now. */
 static thr_status improve(thr_plan *plan, const thr_turning_columns *columns,
                           const thr_limits *limits, bool *improved, thr_err *err)
 {

@@ -77,7 +77,7 @@ static thr_status seed_fits(const thr_frame *frame, const thr_least *least, cons
   return st;
 }
 
-/* Nothing is left to look for. */
+/* Tells whether nothing is left to look for: the bound is attained, or the pull is small enough. */
 static bool is_done(const thr_frame *frame, const thr_least *least, const thr_max_turning *found,
                     double enough, const thr_limits *limits)
 {

@@ -79,7 +79,8 @@ static thr_status shorten(const thr_frame *frame, const thr_least_options *searc
   return THR_OK;
 }
 
-/* The least turning and, with time left, the shorter of those that turn equally little. */
+/* Finds the least turning and, with time left, the shorter ones of the cords that turn equally
+ * little. */
 static thr_status find_least(const thr_frame *frame, const thr_least_options *search,
                              const thr_limits *limits, thr_least *least, thr_err *err)
 {
@@ -130,7 +131,8 @@ static thr_status find_shortest(const thr_frame *frame, const thr_request *optio
   return thr_postman_shortest(frame, options, &all, &shortest->solid, err);
 }
 
-/* From the shortest tied cords, which may need more passes than are looked at otherwise. */
+/* Begins the search with the shortest tied cords, which may need more passes than are looked at
+ * otherwise. */
 static void begin_with(const thr_frame *frame, const thr_tube *tied, thr_least_options *search)
 {
   int most = thr_turning_most_passes(frame, search->cover);
@@ -139,9 +141,8 @@ static void begin_with(const thr_frame *frame, const thr_tube *tied, thr_least_o
   search->most_passes = tied->most_passes > most ? tied->most_passes : most;
 }
 
-/* Cords of a plan for the least length: as many ends as given, as many closed cords as asked for
- * that tie the nodes, which the shortest passes alone may not hold. None if there is no such plan:
- * the search may find what that did not. */
+/* Takes the cords of a plan for the least length, with the given ends or number of closed cords,
+ * which the shortest passes alone may not hold. *start stays empty if there is no such plan. */
 static thr_status cords_by_length(const thr_frame *frame, const thr_request *options,
                                   const thr_limits *limits, thr_least_start *start, thr_err *err)
 {
@@ -164,7 +165,7 @@ static thr_status cords_by_length(const thr_frame *frame, const thr_request *opt
 
 enum { N_STARTS = 3 };
 
-/* A classical tour through the shortest passes, if they hold one. */
+/* Walks a classical tour through the shortest passes, if they hold one. */
 static thr_status walk_tour(const thr_frame *frame, const thr_least_options *search, thr_tour tour,
                             const int *passes, thr_least_start *start, thr_err *err)
 {
@@ -264,8 +265,8 @@ static thr_status find_from_shortest(const thr_frame *frame, const thr_request *
   return st;
 }
 
-/* The least turning of all cords together; of several closed ones through few edges the table knows
- * it. */
+/* Finds the least turning of all cords together; a table knows the least of several closed cords
+ * through few edges. */
 static thr_status find_together(const thr_frame *frame, const thr_request *options,
                                 const shortest_plan *shortest, const thr_limits *limits,
                                 thr_least *least, thr_err *err)
@@ -316,7 +317,8 @@ static thr_status find_cords(const thr_frame *frame, const thr_request *options,
 
 /* ---- claims ---- */
 
-/* What the checker says of cords and the proof of least, which found then holds. */
+/* Fills found with what the checker says of the cords and of the proof of least, which found then
+ * holds. */
 static thr_status judge(const thr_frame *frame, const thr_request *options, const thr_cord *cord,
                         int n_cords, thr_least *least, thr_turning_claim *found, thr_err *err)
 {
@@ -370,14 +372,14 @@ static thr_status assemble(const thr_frame *frame, const thr_request *options,
   return st;
 }
 
-/* The search's own reason; none if it only just believes that it is proved, and the checker does
- * not. */
+/* Returns the search's own reason why the proof is open; rounding, where the search believes to be
+ * done and the checker does not. */
 static const char *why_open(const thr_least *least)
 {
   return least->open ? least->open : "rounding left a gap";
 }
 
-/* What was to be minimized, and how far the proof got. */
+/* Tells how far the proof of what was to be minimized got. */
 static thr_status verdict(const thr_plan *plan, const thr_least *least, thr_err *err)
 {
   const thr_turning_claim *claim = &plan->turning;
@@ -792,8 +794,8 @@ static thr_status make_different_point(frontier_sweep *sweep, const thr_limits *
   return st;
 }
 
-/* The least turning with that much more cord than the shortest (< 0: any length), as one more point
- * if there is a plan. */
+/* Adds the least turning within this slack above the shortest (< 0: any length) as a point, if
+ * there is a plan. */
 static thr_status add_point(frontier_sweep *sweep, double slack, thr_err *err)
 {
   const thr_limits share = thr_limits_part(&sweep->limits, 1.0 / sweep->left--);

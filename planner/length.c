@@ -19,8 +19,8 @@ typedef thr_status component_planner(const thr_frame *frame, const thr_request *
 
 /* ---- several components ---- */
 
-/* One component by itself, in its part of the time: it may need more cords than another, or hold
- * fewer. */
+/* Plans one component by itself, in its part of the time: a component may need more cords than
+ * another, or hold fewer. */
 static thr_status plan_component(const thr_components *components, int k, component_planner *one,
                                  const thr_limits *limits, thr_plan *made, thr_cords_word *all,
                                  thr_err *err)
@@ -47,7 +47,7 @@ static thr_status plan_component(const thr_components *components, int k, compon
                                                         : THR_OK;
 }
 
-/* The certificates of the components' plans, and how often GLPK agreed. */
+/* Takes the certificates of the components' plans, and counts how often GLPK agreed. */
 static thr_status take_certificates(const thr_components *components, thr_plan *made,
                                     thr_length_proof *proof, thr_err *err)
 {
@@ -103,7 +103,7 @@ static thr_status count_components(const thr_frame *frame, int *n, thr_err *err)
 
 /* ---- solid joints ---- */
 
-/* What the components' certificates prove of all cords together. */
+/* States what the components' certificates prove of all cords together. */
 static thr_status prove_solid(thr_plan *plan, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
@@ -125,13 +125,14 @@ static thr_status prove_solid(thr_plan *plan, thr_err *err)
   return thr_check_own(st, &found, err);
 }
 
-/* One cord in each component is a problem that falls apart by itself. */
+/* Tells whether there is to be one cord in each component, which is a problem that falls apart by
+ * itself. */
 static bool one_each(const thr_request *options)
 {
   return options->cords == 1 && options->max_length == 0 && options->ends != THR_ENDS_COUNTS;
 }
 
-/* A framework of one component. */
+/* Plans a framework of one component. */
 static thr_status one_component(const thr_frame *frame, const thr_request *options,
                                 const thr_limits *limits, thr_plan *plan, thr_cords_word *word,
                                 thr_err *err)
@@ -173,7 +174,7 @@ static thr_status plan_solid(const thr_frame *frame, const thr_request *options,
 
 /* ---- tube joints ---- */
 
-/* The proof of tied length is one for the whole framework. */
+/* Proves the length of tied cords, for the whole framework at once. */
 static thr_status prove_tied(thr_tube *tube, thr_plan *plan, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;

@@ -69,8 +69,8 @@ static bool says_more(const thr_request *options, const thr_turning_claim *a,
   return a->lower_bound > b->lower_bound;
 }
 
-/* What the tree of plan proves of any plan with the request's numbers of cords: the better one is
- * kept. */
+/* Keeps what the tree of plan proves of any plan with the request's numbers of cords, if that is
+ * better than the claim so far. */
 static thr_status keep_tree(mixed_search *mixed, thr_plan *plan, thr_err *err)
 {
   thr_turning_claim found, claim = plan->turning;
@@ -102,7 +102,8 @@ static thr_status keep_tree(mixed_search *mixed, thr_plan *plan, thr_err *err)
   return THR_OK;
 }
 
-/* slack: of the length above the least, < 0 = any. */
+/* Plans n cords in every component without the limits, and offers them. slack: of the length above
+ * the least, < 0 = any. */
 static thr_status try_number(mixed_search *mixed, int n, double slack, const thr_limits *share,
                              thr_err *err)
 {
@@ -134,7 +135,7 @@ static thr_status try_number(mixed_search *mixed, int n, double slack, const thr
   return st;
 }
 
-/* Most cords first: open ones turn less the more they are. */
+/* Tries all numbers of cords, the most first: open cords turn less the more they are. */
 static thr_status try_numbers(mixed_search *mixed, thr_err *err)
 {
   enum { MOST_NUMBERS = 12 };
@@ -231,7 +232,7 @@ static thr_status assemble(mixed_search *mixed, thr_plan *shortest, thr_plan *pl
   return st;
 }
 
-/* The plan of the least length that keeps to what is asked of its cords. THR_EINFEASIBLE: no cords
+/* Plans the least length that keeps to what is asked of single cords. THR_EINFEASIBLE: no cords
  * whatever are short enough. */
 static thr_status plan_limited(mixed_search *mixed, thr_plan *plan, thr_err *why)
 {
@@ -243,7 +244,7 @@ static thr_status plan_limited(mixed_search *mixed, thr_plan *plan, thr_err *why
   return st == THR_ENOMEM ? st : THR_OK; /* plans for other aims may do */
 }
 
-/* The seed, whose tree is one of these options' if its turns have the same price. */
+/* Offers the seed, whose tree is one of this request if its turns have the same price. */
 static thr_status take_seed(mixed_search *mixed, thr_plan *seed, thr_err *err)
 {
   if (!seed || seed->n_cords == 0) return THR_OK;

@@ -67,7 +67,7 @@ static bool has_slack(const thr_request *request)
 
 /* ---- beginnings ---- */
 
-/* Shorter chains come first, all within limit being alike. */
+/* Tells whether chains a are shorter than b, all chains within limit being alike. */
 static bool is_better(thr_chains a, thr_chains b, int limit)
 {
   a.longest = a.longest > limit ? a.longest : limit;
@@ -121,8 +121,8 @@ static thr_status add_chains(work_order *work, int c, bool backwards, thr_chains
   return st;
 }
 
-/* Which starts the cords may have: those within their room, and of these only feet, if there are
- * some. */
+/* Marks the starts that the cords may have: those within their room, and of these only feet, if
+ * there are some. */
 static thr_status allow_starts(work_order *work, alike cords, thr_err *err)
 {
   const thr_frame *frame = &work->plan->frame;
@@ -186,8 +186,8 @@ static void begin(work_order *work, thr_cord *cord, const beginning *at)
   memcpy(cord->half, work->half, (size_t)cord->n_passes * sizeof *cord->half);
 }
 
-/* Cord c as the next one: begun where that is best, and run otherwise in parts if its chains stay
- * long. */
+/* Threads cord c next: begins it where that is best, and runs parts of it otherwise if its chains
+ * stay long. */
 static thr_status thread_next(work_order *work, int c, thr_err *err)
 {
   beginning at;
@@ -276,7 +276,7 @@ static thr_status order_few(work_order *work, int *cord, int n, thr_err *err)
   return THR_OK;
 }
 
-/* That of cord[from .. n - 1] whose chains are the least comes to from. */
+/* Moves the one of cord[from .. n - 1] whose chains are the least to place from. */
 static thr_status choose_next(work_order *work, int *cord, int from, int n, thr_err *err)
 {
   thr_status st = THR_OK;
@@ -311,8 +311,8 @@ static void find_room(work_order *work, int c)
   work->room[c].pulled = part * thr_cord_pulled_turning(&plan->frame, cord);
 }
 
-/* The cords cord[n] of one component, of so many passes in all: threads them, and permutes the list
- * to their order. */
+/* Threads the cords cord[n] of one component, with so many passes in all, and permutes the list to
+ * their order. */
 static thr_status thread_cords(work_order *work, int *cord, int n, int64_t passes, thr_err *err)
 {
   bool few = n > 1 && n <= FEW_CORDS && passes << n <= MOST_VISITS;
@@ -330,7 +330,8 @@ static thr_status thread_cords(work_order *work, int *cord, int n, int64_t passe
   return st;
 }
 
-/* Component by component; the cords of one take the places that they had, in their new order. */
+/* Threads component by component; the cords of one take the places that they had, in their new
+ * order. */
 static thr_status thread_all(work_order *work, int *cord, thr_cord *ordered, thr_err *err)
 {
   thr_plan *plan = work->plan;
@@ -375,7 +376,7 @@ static thr_status order_cords(work_order *work, thr_err *err)
 
 /* ---- symmetric plans ---- */
 
-/* Passes of copy c become those of its path, one by one. */
+/* Replaces the passes of copy c by the images of its path's. */
 static void follow_path(const thr_plan *plan, int c)
 {
   const thr_frame *frame = &plan->frame;
@@ -561,7 +562,7 @@ static thr_status order_if_worth(thr_plan *plan, bool by_hand, bool *changed, th
   return st;
 }
 
-/* Classical tours are to be compared as they were found. */
+/* Returns the order of work to be made: classical tours stay as they were found, to be compared. */
 static thr_order order_of(const thr_request *request)
 {
   bool classical = thr_wants_turning(request) && request->turning.tour != THR_TOUR_LEAST;

@@ -81,7 +81,7 @@ static bool has_angles(cord_annealer *annealer)
   return true;
 }
 
-/* thr_turn_angle, worked out once. */
+/* Returns thr_turn_angle, which is computed once. */
 static double angle_of(const cord_annealer *annealer, int in, int out)
 {
   int v = thr_tail(annealer->frame, out);
@@ -94,7 +94,7 @@ static double angle_of(const cord_annealer *annealer, int in, int out)
   return *angle;
 }
 
-/* thr_cord_pulled_turning of the cord as it is. */
+/* Returns thr_cord_pulled_turning of the cord as it is. */
 static double pulled_turning(const cord_annealer *annealer)
 {
   const int *half = annealer->now.half;
@@ -163,15 +163,16 @@ typedef struct {
   double turning; /* more, rad */
 } cord_change;
 
-/* The turn from half-edge in to out, if there is one; INFINITY if a cord would turn back into its
- * edge. */
+/* Returns the turn from half-edge in to out, 0 at an end; INFINITY if a cord would turn back into
+ * its edge. */
 static double turn(const cord_annealer *annealer, int in, int out)
 {
   if (in < 0 || out < 0) return 0;
   return out == (in ^ 1) ? INFINITY : angle_of(annealer, in, out);
 }
 
-/* Half-edge of the pass before visit k, of the one after it; -1 where the cord ends. */
+/* Returns the half-edge of the pass before visit k, or of the one after it (out_of); -1 where the
+ * cord ends. */
 static int into(const cord_annealer *annealer, int k)
 {
   return k > 0             ? annealer->now.half[k - 1]
@@ -269,8 +270,8 @@ static void take_back(cord_annealer *annealer, const cord_change *change)
 
 /* ---- at random ---- */
 
-/* Another visit of the piece of visit k, of those from .. end - 1, from a random one on; -1: there
- * is none. */
+/* Returns another visit of the piece of visit k among from .. end - 1, searched from a random one
+ * on; -1: there is none. */
 static int other_visit(cord_annealer *annealer, int k, int from, int end)
 {
   int n = end - from, first = n > 0 ? thr_random_below(&annealer->state, n) : 0;
@@ -282,7 +283,7 @@ static int other_visit(cord_annealer *annealer, int k, int from, int end)
   return -1;
 }
 
-/* A pass that the cord may begin with, from a random one on. */
+/* Returns a pass that the cord may begin with, searched from a random one on. */
 static int choose_start(cord_annealer *annealer)
 {
   int n = annealer->now.n_passes, s = thr_random_below(&annealer->state, n);
@@ -292,7 +293,7 @@ static int choose_start(cord_annealer *annealer)
   return s;
 }
 
-/* False: there is no such change where it was looked for. */
+/* Chooses a change at random. False: there is none where it was looked for. */
 static bool choose(cord_annealer *annealer, cord_change *change)
 {
   int n = annealer->now.n_passes;
@@ -329,7 +330,8 @@ static bool choose(cord_annealer *annealer, cord_change *change)
 
 /* ---- crossings ---- */
 
-/* The channel of visit k of the cord as it is; without two arms at its ends. */
+/* Returns the channel of visit k of the cord as it is; at the cord's ends one of the arms is
+ * missing. */
 static thr_channel channel_at(const cord_annealer *annealer, int k)
 {
   int in = into(annealer, k);
@@ -342,8 +344,8 @@ static int count_visits(const cord_annealer *annealer)
   return annealer->now.n_passes + !annealer->turns;
 }
 
-/* Pairs of channels of node v that cross, one of them or both of the cord; piece is up to date.
- * O(passes + channels^2). */
+/* Counts the pairs of channels of node v that cross, one of them or both of the cord; piece is up
+ * to date. O(passes + channels^2). */
 static int crossings_in(const cord_annealer *annealer, int v)
 {
   int n = 0;
@@ -369,8 +371,8 @@ static int crossings_in(const cord_annealer *annealer, int v)
   return n;
 }
 
-/* Those in the nodes v and w whose channels a change changes; none for a cord that is only begun
- * elsewhere. */
+/* Counts the crossings in the nodes v and w, whose channels a change changes; 0 for a cord that
+ * only begins elsewhere. */
 static int crossings_of(const cord_annealer *annealer, const cord_change *change, int v, int w)
 {
   if (!annealer->channels.rank || change->kind == BEGIN) return 0;

@@ -27,7 +27,7 @@ thr_status thr_planner_some_cords(const thr_frame *frame, const thr_request *opt
   return thr_planner_length(frame, &any, &quiet, some, NULL, err);
 }
 
-/* Those of a component become the last of the plan. *found false: there are none. */
+/* Appends the cords of a component to the plan. *found false: there are none. */
 static thr_status add_component(const thr_turning_columns *columns, const thr_plan *some,
                                 int component, const thr_limits *limits, thr_plan *plan,
                                 bool *found, thr_err *err)
@@ -70,7 +70,7 @@ int thr_planner_most_cords(const thr_plan *plan, int *component)
   return most;
 }
 
-/* Every component's cords. *found false: not of all. */
+/* Finds the cords of every component. *found false: some component has none. */
 static thr_status find_cords(const thr_turning_columns *columns, const thr_plan *some,
                              const thr_limits *limits, thr_plan *plan, bool *found, thr_err *err)
 {

@@ -11,7 +11,7 @@
 
 #include <stdlib.h>
 
-/* The component with most cord. */
+/* Finds the component with most cord. */
 static thr_status largest_component(const thr_plan *plan, const thr_turning_columns *columns,
                                     int *component, thr_err *err)
 {

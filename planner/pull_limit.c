@@ -90,7 +90,8 @@ static thr_status rule_out(fewest_search *search, int n, thr_turning_claim *made
   return THR_OK;
 }
 
-/* Single edges, and all sets of cords through few edges, need no proof. */
+/* Excludes the numbers that need no proof: the checker knows them by single edges, and by all sets
+ * of cords through few edges. */
 static thr_status rule_out_few(fewest_search *search, thr_err *err)
 {
   const thr_pull_claim none = {0};
@@ -113,7 +114,8 @@ static thr_status rule_out_few(fewest_search *search, thr_err *err)
 
 /* ---- plans of one number ---- */
 
-/* n cords in every component for an aim, in a part of the time. THR_OK with or without a plan. */
+/* Plans n cords in every component for an aim, in a part of the time. THR_OK with or without a
+ * plan. */
 static thr_status plan_number(const fewest_search *search, int n, thr_aim aim, thr_step step,
                               thr_plan *plan, thr_err *err)
 {
@@ -140,8 +142,8 @@ static thr_status plan_number(const fewest_search *search, int n, thr_aim aim, t
   return THR_OK; /* what else fails leaves no plan */
 }
 
-/* What the turning of so many cords is at least, on average; and whether they are too few. 0: not
- * known. */
+/* Bounds the turning of so many cords from below, on average (*each, 0: not known), and excludes
+ * numbers that are too few by it. */
 static thr_status bound_number(fewest_search *search, int n, double *each, thr_err *err)
 {
   thr_plan plan;
@@ -213,8 +215,8 @@ static thr_status exclude_by_walks(fewest_search *search, const thr_plan *some, 
   return st;
 }
 
-/* Fewer cords by the programme over walks than were found without, unless these are proved to be
- * few enough. */
+/* Finds fewer cords by the programme over walks than were found without, unless these are proved to
+ * be few enough. */
 static thr_status use_walks(fewest_search *search, thr_err *err)
 {
   enum { MOST_EDGES = 500 }; /* no walks that serve are found in larger frameworks in the time */
@@ -243,7 +245,8 @@ static thr_status use_walks(fewest_search *search, thr_err *err)
   return st;
 }
 
-/* Cords of which the one that turns most turns little enough, or a proof that there are none. */
+/* Looks for n cords of which the one that turns most turns little enough, or for a proof that there
+ * are none. */
 static thr_status try_number(fewest_search *search, int n, thr_step step, bool *fits, thr_err *err)
 {
   thr_plan plan;
@@ -380,7 +383,7 @@ static thr_status anneal_fewer(fewest_search *search, const thr_limits *limits, 
 
 /* ---- the plan ---- */
 
-/* Why there is no plan: of any cords, or of cords within the pull. */
+/* Tells why there is no plan: of any cords, or of cords within the pull. */
 static thr_status not_found(const fewest_search *search, const thr_err *why, thr_err *err)
 {
   const thr_request *request = search->request;
@@ -433,7 +436,7 @@ static void count_cords(const thr_plan *plan, int *cords, int *n)
   }
 }
 
-/* What is proved of the number; said only where it was free. */
+/* Claims what is proved of the number of cords, where the number was free. */
 static thr_status claim_number(fewest_search *search, thr_plan *plan, thr_err *err)
 {
   thr_pull_claim *claim = &search->claim;
@@ -471,7 +474,7 @@ static thr_status claim_number(fewest_search *search, thr_plan *plan, thr_err *e
                   plan->n_cords, plan->pull_claim.fewest);
 }
 
-/* The fewest cords, by all means in turn. */
+/* Finds the fewest cords, by all means in turn. */
 static thr_status find_fewest(fewest_search *search, const thr_limits *limits, thr_err *err)
 {
   double work = work_to_find * search->request->time_limit,

@@ -160,7 +160,7 @@ static thr_status make_cut(thr_plan *plan, const cut *chosen, thr_err *err)
   return THR_OK;
 }
 
-/* Of a component the longest cord that none has looked at yet; -1: there is none. */
+/* Returns the longest cord of a component that is not seen yet; -1: there is none. */
 static int longest_left(const thr_recut *recut, const thr_plan *plan, int component,
                         const bool *seen)
 {

@@ -44,7 +44,8 @@ static thr_status take(few_search *search, thr_plan *even, thr_err *err)
   return THR_OK;
 }
 
-/* n cords in every component that keep to the limit become the plan. *fits: there are some. */
+/* Looks for n cords in every component that keep to the limit, which become the plan. *fits: there
+ * are some. */
 static thr_status try_number(few_search *search, int n, bool *fits, thr_err *err)
 {
   thr_request options = *search->request;
@@ -72,7 +73,8 @@ static thr_status try_number(few_search *search, int n, bool *fits, thr_err *err
   return st;
 }
 
-/* In every component; where there are no cords yet, what the shortest passes need. */
+/* Returns a number of cords in every component that is too few: by the claim, or by what the
+ * shortest passes need. */
 static int too_few(const few_search *search)
 {
   if (search->plan->n_cords > 0) return search->plan->cords_claim.fewest - 1;
@@ -82,7 +84,8 @@ static int too_few(const few_search *search)
          1;
 }
 
-/* From the number that is too few upwards in growing steps, up to the first that fits. */
+/* Tries numbers from the one that is too few upwards in growing steps, up to the first that
+ * fits. */
 static thr_status find_some(few_search *search, int *failed, thr_err *err)
 {
   const int most = (int)fmin(search->request->cords, 2.0 * search->frame->n_edges);

@@ -113,7 +113,7 @@ static int mark_before(const chain_window *window, int p)
 
 /* ---- moving on ---- */
 
-/* The fold moves on by a place. Its piece is the left needle's now, and is not on the cord where
+/* Moves the fold on by a place. Its piece is the left needle's now, and is not on the cord where
  * the right one comes by again. */
 static void move_fold(chain_window *window)
 {
@@ -125,7 +125,7 @@ static void move_fold(chain_window *window)
     unmark(window, again);
 }
 
-/* The window moves on by a place; the fold is in it before and afterwards. */
+/* Moves the window on by a place; the fold is in it before and afterwards. */
 static void move_window(chain_window *window)
 {
   int last = ++window->last, earlier = last - window->before[last % window->n];
@@ -144,7 +144,7 @@ static void move_window(chain_window *window)
   if (!is_marked(window, first)) mark(window, first, outside);
 }
 
-/* Where the fold is of the cord begun at first: as thr_cord_fold says. */
+/* Returns the place of the fold of the cord begun at first, as thr_cord_fold does. */
 static int fold_of(const chain_window *window, int first, bool folded)
 {
   const double whole = window->along[window->n] * (1 - THR_FOLD_ROUNDING), *along = window->along;

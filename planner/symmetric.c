@@ -12,8 +12,8 @@
 #include "planner/planner_parts.h"
 #include "symmetry/lift/lift.h"
 
-/* Cords of the least length, or of the shortest longest cord, that keep to what is asked; none: the
- * plan is empty, and why says it. */
+/* Plans cords of the least length, or with the shortest longest cord, that keep to what is asked.
+ * The plan is empty if there are none; why says the reason. */
 static thr_status plan_length(const thr_frame *frame, const thr_request *asked,
                               const thr_limits *limits, thr_plan *plan, thr_err *why)
 {
@@ -40,7 +40,8 @@ static thr_status plan_length(const thr_frame *frame, const thr_request *asked,
   return st == THR_ENOMEM ? st : THR_OK;
 }
 
-/* What is proved of the cords one by one, where something is asked of them. */
+/* Proves the length of tied cords, and states what is proved of single cords where something is
+ * asked of them. */
 static thr_status prove_tied(thr_plan *plan, const thr_limits *limits, thr_err *err)
 {
   thr_status st = thr_planner_prove_tied(plan, limits, err);
@@ -73,7 +74,7 @@ static thr_status take_request(thr_plan *plan, int cords, thr_err *err)
   return st;
 }
 
-/* What takes the place of a plan: another with its table, if there is one to be told. */
+/* Replaces a plan by another one, and the table by the other's rows if a table is wanted. */
 static void replace(thr_plan *plan, thr_plan *next, thr_symmetries *table, thr_symmetries *rows)
 {
   thr_plan_destroy(plan);

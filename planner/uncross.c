@@ -43,7 +43,7 @@ typedef struct {
   double more; /* turning, rad */
 } channel_change;
 
-/* Which channels there are in the node now. */
+/* Lists the channels that the node has now. */
 static void list_channels(uncross_state *uncrossing)
 {
   const thr_plan *plan = uncrossing->plan;
@@ -59,7 +59,7 @@ static void list_channels(uncross_state *uncrossing)
   }
 }
 
-/* By how much the cords would turn more, rad. */
+/* Returns by how much the cords would turn more, rad. */
 static double more_turning(const thr_frame *frame, way how, const thr_channel *a,
                            const thr_channel *b)
 {
@@ -71,7 +71,7 @@ static double more_turning(const thr_frame *frame, way how, const thr_channel *a
   return thr_turn_angle(frame, a->in ^ 1, b->in) + thr_turn_angle(frame, a->out ^ 1, b->out) - now;
 }
 
-/* Passes of the longer of two cords that exchange their ends. */
+/* Counts the passes of the longer of two cords that exchange their ends. */
 static int longer_of(const thr_plan *plan, way how, const thr_channel *a, const thr_channel *b)
 {
   int all = plan->cord[a->cord].n_passes + plan->cord[b->cord].n_passes, before = b->pass + 1;
@@ -82,7 +82,7 @@ static int longer_of(const thr_plan *plan, way how, const thr_channel *a, const 
   return first > all - first ? first : all - first;
 }
 
-/* Those of one cord first; of two the most even, then what turns least. */
+/* Orders changes: those of one cord first, of two the most even, then what turns least. */
 static bool is_less(const channel_change *a, const channel_change *b)
 {
   return a->longer != b->longer ? a->longer < b->longer : a->more < b->more;
@@ -174,7 +174,8 @@ static thr_status uncross_pair(uncross_state *uncrossing, bool *changed, thr_err
   return *changed ? make(uncrossing->plan, &best, err) : THR_OK;
 }
 
-/* Node by node; once more where cords changed, as channels of two cords may be of one then. */
+/* Goes node by node, and once more where cords changed, as channels of two cords may then be of
+ * one. */
 static thr_status uncross_nodes(uncross_state *uncrossing, thr_err *err)
 {
   const int *first = uncrossing->channels->first;
@@ -198,8 +199,8 @@ static thr_status uncross_nodes(uncross_state *uncrossing, thr_err *err)
   return st;
 }
 
-/* Different cords may be led otherwise where a plan is short; or in any case, if no crossing is
- * allowed. */
+/* Tells whether different cords may exchange ends: in short plans, and in all plans if no crossing
+ * is allowed. */
 static bool may_exchange(const thr_request *request)
 {
   return (thr_wants_length(request) || request->crossings == THR_CROSSINGS_FORBID) &&
@@ -288,7 +289,7 @@ static thr_status uncross(thr_plan *plan, const thr_cord *before, int n, thr_err
   return st ? st : measure(plan, err);
 }
 
-/* How many cross, and in how many pieces. */
+/* Counts the channels that cross, and the pieces in which some do. */
 static thr_status count(thr_plan *plan, int *crossed, thr_err *err)
 {
   thr_channels channels;
@@ -323,7 +324,7 @@ static thr_status refuse(const thr_plan *plan, int crossed, thr_err *err)
       plan->metrics.crossings, crossed, plan->frame.n_nodes);
 }
 
-/* Another cord may be the longest now; what bounds it holds of any cords. */
+/* Measures the longest cord again, which may be another one now; the bound is about any cords. */
 static void claim_longest(thr_plan *plan)
 {
   thr_cords_claim *claim = &plan->cords_claim;
@@ -343,7 +344,7 @@ static thr_status search_again(thr_plan *plan, const thr_cord *before, int n_bef
   return !st && changed ? measure(plan, err) : st;
 }
 
-/* *others: the cords pass some edge more or less often than before. */
+/* Compares the passes over every edge. *others: some edge has more or fewer than before. */
 static thr_status compare_passes(const thr_plan *plan, const thr_cord *before, int n_before,
                                  bool *others, thr_err *err)
 {

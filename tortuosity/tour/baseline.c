@@ -56,7 +56,7 @@ static int head_of(const tour_walker *walker, int d)
   return walker->join->g.tail[d ^ 1];
 }
 
-/* An unused dart that leaves v, or -1. */
+/* Returns an unused dart that leaves v, or -1. */
 static int unused_at(tour_walker *walker, int v)
 {
   const thr_multigraph *multigraph = &walker->join->g;
@@ -66,7 +66,7 @@ static int unused_at(tour_walker *walker, int v)
   return walker->cursor[v] < multigraph->first[v + 1] ? multigraph->dart[walker->cursor[v]] : -1;
 }
 
-/* What Hierholzer walks after the dart, or -1. */
+/* Returns what Hierholzer walks after the dart, or -1. */
 static int next_in_circuit(tour_walker *walker, int dart)
 {
   int partner = walker->partner ? walker->partner[dart ^ 1] : -1;
@@ -124,7 +124,7 @@ static bool leads_back(tour_walker *walker, int dart, int v)
   return false;
 }
 
-/* How early Fleury tries dart e after the other dart. */
+/* Returns how early Fleury tries dart e after the other dart. */
 static double rank_of(const tour_walker *walker, int dart, int e)
 {
   if (!walker->partner) return 0;
@@ -167,7 +167,7 @@ static int fleury(tour_walker *walker, int start)
   return n;
 }
 
-/* Pairs along the walk; at end nodes nothing is paired. */
+/* Pairs the darts along the walk; at end nodes nothing is paired. */
 static void take_pairs(tour_walker *walker, int n)
 {
   thr_join *join = walker->join;
