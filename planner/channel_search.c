@@ -398,9 +398,6 @@ static void replace(thr_plan *plan, const int *component, int k, channel_tree *s
 
 /* Looks for other cords of component k, which crosses or is longer than before. Of one that does
  * not cross they may not spoil what was asked for first. */
-
-/* A component without crossings is searched for shorter cords, one with crossings for cords
- * that are not much longer than before. */
 static thr_status search_component(thr_plan *plan, const int *component, int k, const int *rank,
                                    const measured *before, const measured *now, bool crosses,
                                    bool *changed, thr_err *err)
@@ -410,6 +407,9 @@ static thr_status search_component(thr_plan *plan, const int *component, int k, 
   const thr_frame *frame = &plan->frame;
   const thr_request *request = &plan->options;
   const bool turns = thr_wants_turning(request);
+
+  /* A component without crossings is searched for shorter cords, one with crossings for cords that
+   * are not much longer than before. */
   double limit = now->length * (1 - 1e-9);
   if (crosses) limit = before->length * (turns ? 1 + 1e-9 : most_longer);
 

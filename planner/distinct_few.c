@@ -72,8 +72,9 @@ static thr_status walk_over_all(const thr_frame *frame, const thr_request *optio
   return st;
 }
 
-/* The sets of edges that the cords pass: together the cheapest; or, even, of which the dearest is
- * as cheap as can be, and together the cheapest of these if there are few enough to tell. */
+/* Chooses the sets of edges that the cords pass: together the cheapest; or, with balance, sets of
+ * which the most expensive is as cheap as can be, and together the cheapest of these if there are
+ * few enough to tell. */
 static thr_status choose_sets(thr_few_edges *few, const thr_request *options, bool even,
                               unsigned *set, bool *found, thr_err *err)
 {

@@ -80,8 +80,8 @@ static thr_status walk_over(const thr_short_cords *cords, const int *chosen, int
   return st;
 }
 
-/* Where cords are short all sets of edges that one of them can pass are few: then the longest is as
- * short as can be. Raises *bound to what they prove of it. */
+/* Makes the longest cord as short as can be where cords are so short that the sets of edges that
+ * one of them can pass are few. Raises *bound to what these sets prove. */
 static thr_status try_sets(thr_plan *plan, const thr_limits *limits, double *bound, thr_err *err)
 {
   const double part = .15; /* of the time; the checker's search takes as long */

@@ -38,9 +38,9 @@ static thr_least_options search_options(const thr_request *options)
 
 /* ---- cords ---- */
 
-/* Among cords that turn no more, shorter ones: the search once more, of solid joints with a small
- * tree, with a price on length that is far below any turn's. What is proved of the turning stays;
- * that no shorter cords turn as little is not proved. */
+/* Looks for shorter cords among those that turn no more: searches once more, with solid joints in a
+ * small tree, with a price on length that is far below any turn's. What is proved of the turning
+ * stays; that no shorter cords turn as little is not proved. */
 static thr_status shorten(const thr_frame *frame, const thr_least_options *search,
                           const thr_limits *limits, thr_least *least, thr_err *err)
 {
@@ -180,8 +180,8 @@ static thr_status walk_tour(const thr_frame *frame, const thr_least_options *sea
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
 }
 
-/* The shortest cords, with their pairings of little turning, and of single cords both classical
- * tours. A small framework has a second for the first at least. */
+/* Finds incumbents: the shortest cords, with their pairings of little turning, and of single cords
+ * in a small framework both classical tours. */
 static thr_status find_starts(const thr_frame *frame, const thr_request *options,
                               const shortest_plan *shortest, const thr_limits *limits,
                               const thr_least_options *search, thr_least_start *start, thr_err *err)

@@ -191,8 +191,8 @@ static thr_status try_few(mixed_search *mixed, double shortest, thr_err *err)
 
 /* ---- length ---- */
 
-/* Cords of the least length: with the limit, or even, as one of the plans to choose from; without
- * either for their proof. */
+/* Plans the least length: with the limit, or for a short longest cord, as one of the plans to
+ * choose from; without either for the proof. */
 static thr_status plan_length(const mixed_search *mixed, bool limited, thr_plan *plan, thr_err *why)
 {
   thr_request options = *mixed->request;

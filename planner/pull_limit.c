@@ -186,8 +186,8 @@ static bool keeps(const fewest_search *search, const thr_plan *plan)
          thr_cords_within_pull(search->frame, search->request, plan->cord, plan->n_cords);
 }
 
-/* How many cords are too few by walks, if that is more than is known; where none were found that
- * may be all that are allowed. some: any cords. */
+/* Excludes numbers of cords by walks, if these prove more than is known; where no cords were found
+ * they may exclude all numbers that are allowed. some: any cords. */
 static thr_status exclude_by_walks(fewest_search *search, const thr_plan *some, thr_err *err)
 {
   const thr_limits share = thr_dispatch_share(search->limits, THR_STEP_FEW_WALKS);
@@ -328,9 +328,8 @@ static thr_status bound_all(fewest_search *search, thr_err *err)
   return st;
 }
 
-/* From the number that is not excluded upwards, in growing steps while nothing is proved of the
- * numbers tried, by as much as their cords turn too much; then down again.
- */
+/* Searches from the number that is not excluded upwards, in growing steps while nothing is proved
+ * of the numbers tried, by as much as their cords turn too much; then down again. */
 static thr_status search_numbers(fewest_search *search, thr_err *err)
 {
   const int most =
@@ -358,8 +357,8 @@ static thr_status search_numbers(fewest_search *search, thr_err *err)
   return st;
 }
 
-/* One cord less at a time as long as there are some, or of a given number cords at all: each number
- * with as much work as cords take without a limit on the pull, and some numbers at most. */
+/* Tries one cord less at a time as long as there are some, or cords of a given number at all: each
+ * number with as much work as cords take without a limit on the pull, and some numbers at most. */
 static thr_status anneal_fewer(fewest_search *search, const thr_limits *limits, thr_err *err)
 {
   enum { MOST_NUMBERS = 4 };

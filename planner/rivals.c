@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-/* Where there is no such plan, or none was found, that is said; what else fails is an error. */
+/* Notes whether there is such a plan: that there is none, or none was found, is no error. */
 static thr_status close_rival(thr_rival *rival, thr_status st, thr_err *err)
 {
   rival->made = rival->plan.n_cords > 0 && (!st || st == THR_ELIMIT);

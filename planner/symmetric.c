@@ -87,10 +87,10 @@ static void replace(thr_plan *plan, thr_plan *next, thr_symmetries *table, thr_s
   *rows = (thr_symmetries){0};
 }
 
-/* With a limit on the pull, or the length, the fewest cords come first: symmetric plans of fewer
- * cords than this one's as long as there are some under a group that has more than the identity,
- * each in a part of the time. table: of the last, NULL = not wanted. found, why: what was said of
- * the plan, and then of the last. */
+/* Looks for symmetric plans of fewer cords than this one's, which come first with a limit on the
+ * pull or the length, as long as there are some under a group that has more than the identity, each
+ * in a part of the time. table: of the last, NULL = not wanted. found, why: what was said of the
+ * plan, and then of the last. */
 static thr_status take_fewer(const thr_frame *frame, const thr_request *options,
                              const thr_plan *shortest, const thr_limits *limits,
                              thr_symmetries *table, thr_plan *plan, thr_status found, thr_err *why)

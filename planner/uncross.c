@@ -104,8 +104,8 @@ static void try_ways(const uncross_state *uncrossing, const thr_channel *a, cons
   }
 }
 
-/* Two cords go on, after passes i of a and j of b, as the other did; owned passes take the place of
- * those that they had. */
+/* Lets two cords go on, after passes i of a and j of b, as the other did; new passes take the place
+ * of those that they had. */
 static thr_status exchange(thr_plan *plan, thr_cord *a, int i, thr_cord *b, int j, thr_err *err)
 {
   /* Each cord takes its own passes up to the crossing and the other's after it. */
@@ -259,9 +259,8 @@ static bool serves(const thr_plan *plan, int n_cords, int distinct, double longe
          thr_cords_longest(&plan->frame, plan->cord, plan->n_cords) <= limit * (1 + 1e-12);
 }
 
-/* Each cord by itself, and those of different cords too if what is asked of single cords is kept.
- * before[n]: a copy of the cords.
- */
+/* Uncrosses each cord by itself, and different cords with each other if what is asked of single
+ * cords is kept. before[n]: a copy of the cords. */
 static thr_status uncross(thr_plan *plan, const thr_cord *before, int n, thr_err *err)
 {
   const int distinct = plan->metrics.distinct;
