@@ -332,8 +332,8 @@ static thr_status plan_parts(const thr_parts *cuts, const thr_request *options, 
 thr_status thr_cut_few(const thr_frame *frame, const thr_request *options, const thr_plan *closed,
                        thr_plan *seed, thr_err *err)
 {
-  const bool is_range = options->cords_least<options->cords, is_limited = options->max_pull> 0 ||
-                        options->max_length > 0;
+  const bool is_range = options->cords_least < options->cords;
+  const bool is_limited = options->max_pull > 0 || options->max_length > 0;
   thr_plan opened = {0};
   thr_parts cuts = {0};
   *seed = (thr_plan){0};
