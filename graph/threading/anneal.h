@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Simulated annealing of several cords: the one that is longest, or turns most, as short as can be.
- */
+/* Simulated annealing of several cords, which makes the largest length, or the largest sum of
+ * turns, of a cord small.
+ *
+ * Read anneal.c first: the runs, the temperatures and which changes are taken. Then anneal_walks.c:
+ * the walks, what is known of them, and how a change is made. anneal_exchange.c and anneal_route.c
+ * propose the changes: exchanges, which keep all passes, and routes, which do not. */
 #ifndef THR_ANNEAL_H
 #define THR_ANNEAL_H
 
@@ -13,13 +17,15 @@
 
 /* ---- walk_price.c: Computes what one cord counts for, by length, turning or pull. */
 
-/* Price of the turns of a cord, its pulled turning, or its length; which one has most. */
+/* Returns the price of the turns of a cord, its pulled turning, or its length, as measure says; the
+ * second one the number of the cord with the largest price, the first of equals. */
 double thr_walk_price(const thr_turning_columns *columns, thr_walk_measure measure,
                       const thr_cord *cord);
 int thr_walk_dearest(const thr_turning_columns *columns, thr_walk_measure measure,
                      const thr_cord *cord, int n_cords);
 
-/* The summands of thr_walk_price: what the pass after number k adds, k = -1 .. so many - 1. */
+/* Return the summands of thr_walk_price: what the pass after number k adds, for k = -1 .. n - 1,
+ * and this n. */
 double thr_walk_pass_price(const thr_turning_columns *columns, thr_walk_measure measure,
                            const thr_cord *cord, int k);
 int thr_walk_priced_passes(const thr_turning_columns *columns, thr_walk_measure measure,
@@ -106,43 +112,43 @@ typedef struct {
   uint64_t state; /* of the random numbers */
 } thr_annealer;
 
-/* Price of a turn from half-edge in to half-edge out; THR_FORBIDDEN: that is not done. */
-static inline double thr_anneal_turn(const thr_annealer *x, int in, int out)
+/* Returns the price of a turn from half-edge in to half-edge out; THR_FORBIDDEN: such a turn is not
+ * allowed. */
+static inline double thr_anneal_turn(const thr_annealer *annealer, int in, int out)
 {
-  const thr_turning_columns *c = x->c;
+  const thr_turning_columns *c = annealer->c;
   const int v = c->f->edge[out >> 1][out & 1];
   const int degree = c->f->first[v + 1] - c->f->first[v];
-  return x->price[x->pair_first[v] + c->position[in ^ 1] * degree + c->position[out]];
+  return annealer->price[annealer->pair_first[v] + c->position[in ^ 1] * degree + c->position[out]];
 }
 
-/* With the cords as walks. Random numbers begin at 1. On failure the annealer is to be destroyed
- * too. O(passes + turns). */
-thr_status thr_annealer_init(thr_annealer *x, const thr_turning_columns *columns,
+/* Copies the cords as walks into an annealer. The state of the random numbers becomes 1. On failure
+ * the annealer is to be destroyed too. O(passes + turns). */
+thr_status thr_annealer_init(thr_annealer *annealer, const thr_turning_columns *columns,
                              thr_walk_measure measure, const thr_cord *cord, int n_cords,
                              thr_err *err) THR_MUST_CHECK;
-void thr_annealer_destroy(thr_annealer *x);
+void thr_annealer_destroy(thr_annealer *annealer);
 
 /* Makes a change, unless edges would no longer keep to their covers and limits, or tube joints
  * would no longer be tied. O(passes of its cords, and the squares of the degrees where turns go).
  */
-thr_status thr_anneal_make(thr_annealer *x, const thr_anneal_change *change,
+thr_status thr_anneal_make(thr_annealer *annealer, const thr_anneal_change *change,
                            thr_err *err) THR_MUST_CHECK;
 
-/* Passes from .. end - 1 of half[], turned round if backwards, are put at the end of what is made
- * of a change's cord i. */
-void thr_anneal_put(thr_annealer *x, thr_anneal_change *change, int i, const int *half, int from,
-                    int end, bool backwards);
+/* Appends the passes from .. end - 1 of half[], turned round if backwards, to what is made of a
+ * change's cord i. */
+void thr_anneal_put(thr_annealer *annealer, thr_anneal_change *change, int i, const int *half,
+                    int from, int end, bool backwards);
 
-/* What the passes that are made for cord i of a change turn by; THR_FORBIDDEN or more: they turn
- * back. O(passes). */
-double thr_anneal_total(const thr_annealer *x, const thr_anneal_change *change, int i);
+/* Computes the price of the passes that are made for cord i of a change; THR_FORBIDDEN or more:
+ * they have a turn that is not allowed. O(passes). */
+double thr_anneal_total(const thr_annealer *annealer, const thr_anneal_change *change, int i);
 
-/* Are the passes from .. end - 1 of a cord covered without it, too? */
-bool thr_anneal_spare(thr_annealer *x, const thr_anneal_walk *walk, int from, int end);
+/* Returns whether every edge keeps its cover without the passes from .. end - 1 of a cord. */
+bool thr_anneal_spare(thr_annealer *annealer, const thr_anneal_walk *walk, int from, int end);
 
-/* Each proposes a change of cord a and says whether there is one. Those of the first kind know its
- * totals at once, and call thr_anneal_build to put it together if it is taken; those of the second
- * have done so. */
+/* An exchange of sections whose totals are known from running sums; thr_anneal_build puts the walks
+ * together if the exchange is taken. */
 typedef struct {
   thr_anneal_change change;
   enum { THR_ANNEAL_TAILS, THR_ANNEAL_REVERSE, THR_ANNEAL_LOOP, THR_ANNEAL_MIDDLES } kind;
@@ -150,18 +156,20 @@ typedef struct {
   bool turned;         /* the part of the second cord, or the loop, runs backwards */
 } thr_anneal_exchange;
 
-bool thr_anneal_exchanges(thr_annealer *x, int a, thr_anneal_exchange *exchange);
-void thr_anneal_build(thr_annealer *x, thr_anneal_exchange *exchange);
-bool thr_anneal_drop_loop(thr_annealer *x, int a, thr_anneal_change *change);
-bool thr_anneal_end_elsewhere(thr_annealer *x, int a, thr_anneal_change *change);
-bool thr_anneal_reroute(thr_annealer *x, int a, thr_anneal_change *change);
+/* Each proposes a change of cord number `cord` and returns whether there is one. All but
+ * thr_anneal_exchanges have put the walks together when they return. */
+bool thr_anneal_exchanges(thr_annealer *annealer, int cord, thr_anneal_exchange *exchange);
+void thr_anneal_build(thr_annealer *annealer, thr_anneal_exchange *exchange);
+bool thr_anneal_drop_loop(thr_annealer *annealer, int cord, thr_anneal_change *change);
+bool thr_anneal_end_elsewhere(thr_annealer *annealer, int cord, thr_anneal_change *change);
+bool thr_anneal_reroute(thr_annealer *annealer, int cord, thr_anneal_change *change);
 
-/* A visit to a node, drawn from all; cord -1: there is none. */
-thr_anneal_visit thr_anneal_visit_at(thr_annealer *x, int node);
+/* Returns a visit to a node, drawn from all of them; cord -1: there is none. */
+thr_anneal_visit thr_anneal_visit_at(thr_annealer *annealer, int node);
 
-/* One run of a task, with random numbers of its own. Of lengths odd ones begin hotter, and pass
- * over more of what is good to get there; of turnings even ones stay near the best cords if the
- * task says so. */
+/* Makes one run of a task, with random numbers of its own. Of lengths odd ones begin hotter, and
+ * pass over more of what is good to get there; of turnings even ones stay near the best cords if
+ * the task says so. */
 thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_task *task,
                           int number, const thr_limits *limits, thr_cord *cord, int n_cords,
                           bool *better, thr_err *err) THR_MUST_CHECK;
