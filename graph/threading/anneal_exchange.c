@@ -145,8 +145,8 @@ static bool change_middles(thr_annealer *annealer, thr_anneal_exchange *exchange
     exchange->j2 = j2 > j ? j2 : j;
     exchange->j = j2 > j ? j : j2;
 
-    /* The first and last passes of the sections, before and after they change cords (a: of walk, b: of
-     * other). */
+    /* The first and last passes of the sections, before and after they change cords (a: of walk, b:
+     * of other). */
     const int ends_a[2] = {walk->half[exchange->i], walk->half[exchange->i2 - 1]},
               ends_b[2] = {other->half[exchange->j], other->half[exchange->j2 - 1]};
     const int new_a[2] = {exchange->turned ? ends_b[1] ^ 1 : ends_b[0],

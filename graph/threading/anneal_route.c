@@ -120,8 +120,8 @@ static int take_cheapest(thr_annealer *annealer, int *n)
 
 /* Searches a route of few passes between passes `from` and `to`, which is cheap but for chance, and
  * writes it into route; n_route -1: none was found. The search settles
- * half-edges in the order of their prices, which are disturbed at random, as Dijkstra's method does,
- * but keeps the first price of each, and stops when a few half-edges are settled. */
+ * half-edges in the order of their prices, which are disturbed at random, as Dijkstra's method
+ * does, but keeps the first price of each, and stops when a few half-edges are settled. */
 static void find_route(thr_annealer *annealer, int from, int to)
 {
   enum { MOST_SETTLED = 60, MOST_HOPS = 6 };

@@ -1,6 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The junction graph of every node (graph/plan/plan_measures.h) while it is still open which cord
- * takes which passes: the turns of all walks, counted, so that a change of turns can be tried. */
+/* Counts the turns of walks at every node, so that a change of turns can be tried while it is still
+ * open which cord takes which passes.
+ *
+ * The turns at a node are the edges of its junction graph (graph/plan/plan_measures.h), whose nodes
+ * are the half-edges there. A change is allowed if the junction graphs that it touches stay
+ * connected, which ties the nodes, and have no turn back.
+ *
+ * Example: a node with three edges and the turns ab, bc is tied; without bc it is not. */
 #include "graph/threading/threading.h"
 
 #include <stdlib.h>
@@ -16,15 +22,18 @@ void thr_junction_graphs_destroy(thr_junction_graphs *graphs)
   *graphs = (thr_junction_graphs){0};
 }
 
+/* Counts a turn up or down, in both orders of its half-edges. */
 static void count_turn(thr_junction_graphs *graphs, int in, int out, int by)
 {
   int v = thr_tail(graphs->f, out);
-  size_t d = (size_t)thr_degree(graphs->f, v), a = (size_t)graphs->place[in ^ 1],
+  size_t degree = (size_t)thr_degree(graphs->f, v), a = (size_t)graphs->place[in ^ 1],
          b = (size_t)graphs->place[out];
-  graphs->count[graphs->first[v] + a * d + b] += by;
-  if (a != b) graphs->count[graphs->first[v] + b * d + a] += by;
+
+  graphs->count[graphs->first[v] + a * degree + b] += by;
+  if (a != b) graphs->count[graphs->first[v] + b * degree + a] += by;
 }
 
+/* Counts the turns of all walks, with those that close cyclic ones. */
 static void count_walks(thr_junction_graphs *graphs, const thr_walks *walks)
 {
   for (int i = 0; i < walks->n_walks; i++) {
@@ -43,14 +52,16 @@ thr_status thr_junction_graphs_init(thr_junction_graphs *graphs, const thr_frame
       (thr_junction_graphs){.f = frame,
                             .first = thr_calloc((size_t)frame->n_nodes, sizeof *graphs->first),
                             .place = thr_calloc(2 * (size_t)frame->n_edges, sizeof *graphs->place)};
+
   for (int v = 0; v < frame->n_nodes && graphs->first && graphs->place; v++) {
-    int d = thr_degree(frame, v);
+    int degree = thr_degree(frame, v);
     graphs->first[v] = sum;
-    sum += (size_t)d * (size_t)d;
-    if (d > most) most = d;
-    for (int i = 0; i < d; i++)
+    sum += (size_t)degree * (size_t)degree;
+    if (degree > most) most = degree;
+    for (int i = 0; i < degree; i++)
       graphs->place[frame->half[frame->first[v] + i]] = i;
   }
+
   graphs->count = thr_calloc(sum, sizeof *graphs->count);
   graphs->queue = thr_calloc((size_t)most, sizeof *graphs->queue);
   graphs->seen = thr_calloc((size_t)most, sizeof *graphs->seen);
@@ -58,22 +69,26 @@ thr_status thr_junction_graphs_init(thr_junction_graphs *graphs, const thr_frame
     thr_junction_graphs_destroy(graphs);
     return thr_nomem(err);
   }
+
   count_walks(graphs, walks);
   return THR_OK;
 }
 
-/* Half-edges at node v that hang together with its first one; -1: something turns back. */
+/* Returns how many half-edges at node v are connected with the first one, by breadth-first search;
+ * -1 if something turns back. */
 static int reached(thr_junction_graphs *graphs, int v)
 {
-  int d = thr_degree(graphs->f, v), n = 1;
+  int degree = thr_degree(graphs->f, v), n = 1;
   const int *count = graphs->count + graphs->first[v];
-  memset(graphs->seen, 0, (size_t)d * sizeof *graphs->seen);
+
+  memset(graphs->seen, 0, (size_t)degree * sizeof *graphs->seen);
   graphs->queue[0] = 0;
   graphs->seen[0] = true;
+
   for (int at = 0; at < n; at++) {
-    const int *row = count + (size_t)graphs->queue[at] * (size_t)d;
+    const int *row = count + (size_t)graphs->queue[at] * (size_t)degree;
     if (row[graphs->queue[at]] > 0) return -1;
-    for (int b = 0; b < d; b++)
+    for (int b = 0; b < degree; b++)
       if (row[b] > 0 && !graphs->seen[b]) {
         graphs->seen[b] = true;
         graphs->queue[n++] = b;
@@ -102,11 +117,15 @@ bool thr_junction_graphs_allow(thr_junction_graphs *graphs, const thr_turn_chang
   for (int i = 0; i < change->n && allowed; i++)
     allowed = change->turn[i].by < 0 || change->turn[i].in != (change->turn[i].out ^ 1);
   if (!allowed) return false;
+
+  /* Make the change, look at all its nodes, and take it back. */
   thr_junction_graphs_make(graphs, change);
+
   for (int i = 0; i < change->n && allowed; i++) {
     int v = thr_tail(graphs->f, change->turn[i].out);
     allowed = reached(graphs, v) == thr_degree(graphs->f, v);
   }
+
   for (int i = 0; i < change->n; i++)
     count_turn(graphs, change->turn[i].in, change->turn[i].out, -change->turn[i].by);
   return allowed;

@@ -45,6 +45,7 @@ thr_status thr_threading_init(thr_threading *threading, const thr_frame *frame,
   size_t passes = (size_t)multigraph->n_darts / 2; /* no fewer than cords, or places */
   *threading = (thr_threading){
       .f = frame, .g = multigraph, .mate = mate, .price = price, .of = of, .tied = tied};
+
   threading->first = thr_calloc(passes + 1, sizeof *threading->first);
   threading->place = thr_calloc(passes, sizeof *threading->place);
   threading->at = thr_calloc((size_t)multigraph->n_darts, sizeof *threading->at);
@@ -60,16 +61,22 @@ thr_status thr_threading_init(thr_threading *threading, const thr_frame *frame,
 
 enum { NOT_SEEN = -1, END = -2 };
 
+/* Returns the price of pairing two half-edges; 0 where nothing has a price. */
 static double price_of(const thr_threading *threading, int a, int b)
 {
   return threading->price ? threading->price(threading->of, a, b) : 0;
 }
 
+/* Follows the cord that starts along a half-edge, and appends its places with their running sums.
+ */
 static void follow_cord(thr_threading *threading, int start)
 {
   int k = threading->n_cords++, d = start, first = threading->first[k] = threading->n_places;
+
   double sum = 0;
   if (threading->mate[start] < 0) threading->at[start] = END;
+
+  /* From pair to pair, until the cord ends or comes back to its start. */
   for (int next; (next = threading->mate[d ^ 1]) >= 0; d = next) {
     thr_place *p = &threading->place[threading->n_places];
     *p = (thr_place){k,   threading->n_places - first,     d ^ 1, next,
@@ -78,6 +85,7 @@ static void follow_cord(thr_threading *threading, int start)
     sum += p->price;
     if (next == start) break;
   }
+
   if (threading->mate[d ^ 1] < 0) threading->at[d ^ 1] = END;
   threading->total[k] = sum;
 }
@@ -86,19 +94,25 @@ bool thr_threading_follow(thr_threading *threading, int most)
 {
   const thr_multigraph *multigraph = threading->g;
   threading->n_cords = threading->n_places = 0;
+
   for (int d = 0; d < multigraph->n_darts; d++)
     threading->at[d] = NOT_SEEN;
+
+  /* Open cords start from the half-edges that have no mate, closed ones anywhere. */
   for (int i = multigraph->first[threading->f->n_nodes]; i < multigraph->n_darts; i++)
     if (threading->mate[multigraph->dart[i]] < 0 && threading->at[multigraph->dart[i]] == NOT_SEEN)
       follow_cord(threading, multigraph->dart[i]);
+
   bool all = threading->n_cords <= most;
   for (int d = 0; d < multigraph->n_darts && all; d++)
     if (threading->at[d] == NOT_SEEN && (all = threading->n_cords < most))
       follow_cord(threading, d);
+
   threading->first[threading->n_cords] = threading->n_places;
   return all;
 }
 
+/* Gives all half-edges of a cord its number, from the start on. */
 static void label_cord(const int *mate, int start, int label, int *cord)
 {
   for (int d = start; d >= 0 && cord[d] < 0; d = mate[d ^ 1])
@@ -108,6 +122,7 @@ static void label_cord(const int *mate, int start, int label, int *cord)
 int thr_threading_label(const thr_multigraph *multigraph, const int *mate, int *cord)
 {
   int n = 0;
+
   for (int d = 0; d < multigraph->n_darts; d++)
     cord[d] = -1;
   for (int d = 0; d < multigraph->n_darts; d++)
@@ -124,6 +139,7 @@ int thr_threading_places(const thr_threading *threading, int v, int *place)
   const thr_multigraph *multigraph = threading->g;
   int n = 0;
   for (int i = multigraph->first[v]; i < multigraph->first[v + 1]; i++) {
+    /* A place is listed by one of its two half-edges only. */
     int p = threading->at[multigraph->dart[i]];
     if (threading->place[p].in == multigraph->dart[i]) place[n++] = p;
   }
@@ -135,14 +151,18 @@ bool thr_threading_tied(const thr_threading *threading, int v)
   const thr_frame *frame = threading->f;
   const thr_multigraph *multigraph = threading->g;
   int apart = thr_degree(frame, v) - 1;
+
   for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
     threading->parent[frame->half[i] >> 1] = frame->half[i] >> 1;
+
+  /* Every pair joins two edges; the node is tied when one part is left. */
   for (int i = multigraph->first[v]; i < multigraph->first[v + 1] && apart > 0; i++) {
     int a = multigraph->dart[i], b = threading->mate[a];
     if (b > a && multigraph->half[a] >= 0 && multigraph->half[b] >= 0)
       apart -=
           thr_disjoint_join(threading->parent, multigraph->half[a] >> 1, multigraph->half[b] >> 1);
   }
+
   return apart == 0;
 }
 
@@ -153,6 +173,7 @@ void thr_threading_pair(thr_threading *threading, int a, int b, int c, int d, th
     old->pair[old->n][0] = one;
     old->pair[old->n++][1] = threading->mate[one];
   }
+
   thr_set_pair(threading->mate, a, b);
   thr_set_pair(threading->mate, c, d);
 }
@@ -179,14 +200,18 @@ bool thr_threading_keep(thr_threading *threading, thr_broken *old)
 thr_exchange thr_threading_exchange(const thr_threading *threading, int i, int k, bool crossed)
 {
   const thr_place *p = &threading->place[i], *q = &threading->place[k];
-  int b = crossed ? q->in : q->out, d = crossed ? q->out : q->in, change = crossed ? 0 : 1;
+  int p_mate = crossed ? q->in : q->out, q_mate = crossed ? q->out : q->in,
+      change = crossed ? 0 : 1;
+
+  /* Two closed cords, or one with an open one, become one cord, whichever half-edges are paired. */
   if (p->cord != q->cord)
     change = thr_threading_closed(threading, p->cord) || thr_threading_closed(threading, q->cord)
                  ? -1
                  : 0;
+
   double old = p->price + q->price,
-         now = price_of(threading, p->in, b) + price_of(threading, p->out, d);
-  return (thr_exchange){{p->in, b, p->out, d}, now - old, change};
+         now = price_of(threading, p->in, p_mate) + price_of(threading, p->out, q_mate);
+  return (thr_exchange){{p->in, p_mate, p->out, q_mate}, now - old, change};
 }
 
 void thr_threading_make(thr_threading *threading, const thr_exchange *x, thr_broken *old)
@@ -199,6 +224,8 @@ bool thr_threading_allows(thr_threading *threading, const thr_exchange *x)
   thr_broken old = {0};
   if (x->extra >= THR_FORBIDDEN / 2) return false;
   if (!threading->tied) return true;
+
+  /* Try the exchange, and take it back. */
   thr_threading_make(threading, x, &old);
   if (!thr_threading_keep(threading, &old)) return false;
   thr_threading_take_back(threading, &old);

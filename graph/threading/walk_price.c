@@ -7,7 +7,8 @@
 
 #include <math.h>
 
-/* What the pass after number k of a cord, or the first one for k = -1, adds to it. */
+/* Returns what the pass after number k of a cord, or the first pass for k = -1, adds to its price.
+ */
 double thr_walk_pass_price(const thr_turning_columns *columns, thr_walk_measure measure,
                            const thr_cord *cord, int k)
 {
@@ -16,8 +17,8 @@ double thr_walk_pass_price(const thr_turning_columns *columns, thr_walk_measure 
   return k < 0 ? 0 : thr_turn_price(columns->f, columns->task->cost, cord->half[k], out);
 }
 
-/* Of the passes from number -1 on that have a price: closed cords turn where they close, too, if
- * that is not at their ends. */
+/* Returns how many passes have a price, counted from number -1 on. Closed cords also turn where
+ * they close, unless cords have ends. */
 int thr_walk_priced_passes(const thr_turning_columns *columns, thr_walk_measure measure,
                            const thr_cord *cord)
 {
