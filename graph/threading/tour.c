@@ -2,8 +2,8 @@
 /* Makes one cord from the number of passes of every edge and the ends of the cord, through the walk
  * that graph/threading/walks.c traces.
  *
- * A closed cord is started where closing leaves out most: a cord is not threaded on over its ends,
- * so that the sharpest turn of the circuit is saved if the ends are there.
+ * A closed cord starts at the sharpest turn of its circuit, because the cord does not make the turn
+ * from its last pass into its first.
  *
  * Example: a square ABCD with a tail DE, passed twice, closed: the turn at E is the sharpest. */
 #include "graph/angle.h"

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How the passes of a component are shared out among several cords (docs/method.md).
+/* Shares out the passes of a component among several cords (docs/method.md).
  *
- * Open cords: one walk, cut where cords may end, costs nothing. Closed cords: a walk that comes
- * twice past a node falls into two there; where no node is passed twice, further passes make more
- * circuits.
+ * Open cords: one walk is cut where cords may end, which costs nothing. Closed cords: a walk that
+ * visits a node twice is split there into two; where no node is visited twice, further passes make
+ * more circuits (decomposition_circuits.c, decomposition_chord.c, decomposition_tied.c).
  *
- * Example: a figure of eight, two closed cords: cut at its middle. */
+ * Example: a figure of eight, two closed cords: it is cut at its middle. */
 #include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
 #include "graph/threading/anneal.h"
@@ -33,170 +33,196 @@ void thr_decomposition_destroy(thr_decomposition *decomposition)
 
 /* ---- cutting ---- */
 
-/* A place to cut: before pass number at of a walk. */
+/* A place where a walk can be cut: before its pass number at. */
 typedef struct {
   double turn; /* that the cut leaves out, rad */
   int walk, at, node;
-} place;
+} cut_place;
 
+/* The places of all walks. */
 typedef struct {
-  thr_decomposition *s;
-  thr_walks *w; /* its walks */
-  int *left;    /* [n_nodes] THR_ENDS_COUNTS: cuts that are still to be made there; else NULL */
-  place *list;
+  thr_decomposition *decomposition;
+  thr_walks *walks; /* its walks */
+  int *left;        /* [n_nodes] THR_ENDS_COUNTS: cuts that are still to be made there; else NULL */
+  cut_place *list;
   int n, capacity;
-} places;
+} cut_places;
 
-static bool may_cut(const places *p, int v)
+/* Returns whether a walk may still be cut at node v. */
+static bool may_cut(const cut_places *places, int v)
 {
-  return p->left ? p->left[v] > 0 : thr_plan_end_allowed(p->s->f, p->s->o, v);
+  return places->left ? places->left[v] > 0
+                      : thr_plan_end_allowed(places->decomposition->f, places->decomposition->o, v);
 }
 
-/* Every cut adds two ends: what the counts ask for beyond the ends that the walks have. */
-static thr_status count_cuts(places *p, int *cuts, thr_err *err)
+/* Computes how many cuts each node still needs where ends are counted. Every cut adds two ends;
+ * some ends are there already, at the open walks' ends. */
+static thr_status count_cuts(cut_places *places, int *cuts, thr_err *err)
 {
-  const thr_frame *frame = p->s->f;
+  const thr_frame *frame = places->decomposition->f;
   *cuts = 0;
-  if (!(p->left = thr_calloc((size_t)frame->n_nodes, sizeof *p->left))) return thr_nomem(err);
+  if (!(places->left = thr_calloc((size_t)frame->n_nodes, sizeof *places->left)))
+    return thr_nomem(err);
+
   for (int v = 0; v < frame->n_nodes; v++)
-    p->left[v] = p->s->o->end_count[v];
-  for (int i = 0; i < p->w->n_walks; i++) {
-    const thr_walk *x = &p->w->walk[i];
-    if (x->cyclic) continue;
-    p->left[thr_tail(frame, x->half[0])]--;
-    p->left[thr_head(frame, x->half[x->n - 1])]--;
+    places->left[v] = places->decomposition->o->end_count[v];
+
+  for (int i = 0; i < places->walks->n_walks; i++) {
+    const thr_walk *walk = &places->walks->walk[i];
+    if (walk->cyclic) continue;
+    places->left[thr_tail(frame, walk->half[0])]--;
+    places->left[thr_head(frame, walk->half[walk->n - 1])]--;
   }
+
   for (int v = 0; v < frame->n_nodes; v++) {
-    if (p->left[v] < 0 || p->left[v] % 2)
+    if (places->left[v] < 0 || places->left[v] % 2)
       return thr_fail(err, THR_ESOLVER,
                       "the passes do not leave as many ends at node %s as asked for",
                       frame->name[v]);
-    p->left[v] /= 2;
-    *cuts += p->left[v];
+    places->left[v] /= 2;
+    *cuts += places->left[v];
   }
   return THR_OK;
 }
 
-static thr_status find_places(places *p, thr_err *err)
+/* Lists all places where walks may be cut. */
+static thr_status find_places(cut_places *places, thr_err *err)
 {
-  const thr_frame *frame = p->s->f;
-  p->n = 0;
-  for (int i = 0; i < p->w->n_walks; i++) {
-    const thr_walk *x = &p->w->walk[i];
-    for (int at = x->cyclic ? 0 : 1; at < x->n; at++) {
-      int v = thr_tail(frame, x->half[at]);
-      if (!may_cut(p, v)) continue;
-      thr_status st = thr_grow(&p->list, p->n, &p->capacity, sizeof *p->list, err);
+  const thr_frame *frame = places->decomposition->f;
+  places->n = 0;
+  for (int i = 0; i < places->walks->n_walks; i++) {
+    const thr_walk *walk = &places->walks->walk[i];
+    for (int at = walk->cyclic ? 0 : 1; at < walk->n; at++) {
+      int v = thr_tail(frame, walk->half[at]);
+      if (!may_cut(places, v)) continue;
+
+      thr_status st =
+          thr_grow(&places->list, places->n, &places->capacity, sizeof *places->list, err);
       if (st) return st;
-      p->list[p->n++] =
-          (place){thr_walk_turn(frame, thr_walk_before(x, at), x->half[at]), i, at, v};
+      places->list[places->n++] =
+          (cut_place){thr_walk_turn(frame, thr_walk_before(walk, at), walk->half[at]), i, at, v};
     }
   }
   return THR_OK;
 }
 
-static int by_turn(const void *pa, const void *pb)
+/* Orders places by falling turn; those that turn alike by walk and place, whatever the rounding. */
+static int by_turn(const void *a, const void *b)
 {
-  const place *a = pa, *b = pb;
-  if (fabs(a->turn - b->turn) > 1e-9)
-    return a->turn > b->turn ? -1 : 1; /* equal ones in order, whatever the rounding */
-  if (a->walk != b->walk) return a->walk < b->walk ? -1 : 1;
-  return (a->at > b->at) - (a->at < b->at);
+  const cut_place *one = a, *other = b;
+  if (fabs(one->turn - other->turn) > 1e-9)
+    return one->turn > other->turn ? -1 : 1; /* equal ones in order, whatever the rounding */
+  if (one->walk != other->walk) return one->walk < other->walk ? -1 : 1;
+  return (one->at > other->at) - (one->at < other->at);
 }
 
-/* The last place of a walk first. */
-static int by_place(const void *pa, const void *pb)
+/* Orders places by walk, the last place of a walk first: a cut leaves what is before it in its
+ * walk. */
+static int by_place(const void *a, const void *b)
 {
-  const place *a = pa, *b = pb;
-  if (a->walk != b->walk) return a->walk < b->walk ? -1 : 1;
-  return (a->at < b->at) - (a->at > b->at);
+  const cut_place *one = a, *other = b;
+  if (one->walk != other->walk) return one->walk < other->walk ? -1 : 1;
+  return (one->at < other->at) - (one->at > other->at);
 }
 
 /* Cuts at all places of the list. */
-static thr_status cut_all(places *p, thr_err *err)
+static thr_status cut_all(cut_places *places, thr_err *err)
 {
   thr_status st = THR_OK;
-  if (p->n) qsort(p->list, (size_t)p->n, sizeof *p->list, by_place);
-  for (int i = 0, end; i < p->n && !st; i = end) {
-    thr_walk *x = &p->w->walk[p->list[i].walk];
-    for (end = i; end < p->n && p->list[end].walk == p->list[i].walk;)
+  if (places->n) qsort(places->list, (size_t)places->n, sizeof *places->list, by_place);
+  for (int i = 0, end; i < places->n && !st; i = end) {
+    thr_walk *walk = &places->walks->walk[places->list[i].walk];
+
+    for (end = i; end < places->n && places->list[end].walk == places->list[i].walk;)
       end++;
+
     int last = end, shift = 0;
-    if (x->cyclic) { /* the first place opens it */
-      shift = p->list[--last].at;
-      x->cyclic = false;
-      st = thr_walk_rotate(x, shift, err);
+
+    if (walk->cyclic) { /* the first cut_place opens it */
+      shift = places->list[--last].at;
+      walk->cyclic = false;
+      st = thr_walk_rotate(walk, shift, err);
     }
+
     for (int j = i; j < last && !st; j++)
-      st = thr_splice_cut(p->w, p->s->f, p->list[j].walk, p->list[j].at - shift, err);
+      st = thr_splice_cut(places->walks, places->decomposition->f, places->list[j].walk,
+                          places->list[j].at - shift, err);
   }
   return st;
 }
 
-static thr_status too_few(const places *p, int wanted, thr_err *err)
+/* Says that there are too few places for the ends of so many cords. */
+static thr_status too_few(const cut_places *places, int wanted, thr_err *err)
 {
-  const thr_frame *frame = p->s->f;
+  const thr_frame *frame = places->decomposition->f;
   return thr_fail(err, THR_EINFEASIBLE,
                   "the component with node %s has too few places for the ends of %d cords",
-                  frame->name[thr_tail(frame, p->w->walk[0].half[0])], wanted);
+                  frame->name[thr_tail(frame, places->walks->walk[0].half[0])], wanted);
 }
 
-static thr_status cut_sharpest(places *p, int cuts, int wanted, thr_err *err)
+/* Makes so many cuts, where the walks turn most. wanted: the number of cords, for the message. */
+static thr_status cut_sharpest(cut_places *places, int cuts, int wanted, thr_err *err)
 {
   int taken = 0;
-  thr_status st = find_places(p, err);
+  thr_status st = find_places(places, err);
   if (st) return st;
-  if (p->n) qsort(p->list, (size_t)p->n, sizeof *p->list, by_turn);
-  for (int i = 0; i < p->n && taken < cuts; i++) {
-    if (!may_cut(p, p->list[i].node)) continue;
-    if (p->left) p->left[p->list[i].node]--;
-    p->list[taken++] = p->list[i];
+
+  if (places->n) qsort(places->list, (size_t)places->n, sizeof *places->list, by_turn);
+  for (int i = 0; i < places->n && taken < cuts; i++) {
+    if (!may_cut(places, places->list[i].node)) continue;
+    if (places->left) places->left[places->list[i].node]--;
+    places->list[taken++] = places->list[i];
   }
-  if (taken < cuts) return too_few(p, wanted, err);
-  p->n = taken;
-  return cut_all(p, err);
+
+  if (taken < cuts) return too_few(places, wanted, err);
+  places->n = taken;
+  return cut_all(places, err);
 }
 
-/* Where an open walk is cut into the most equal parts; 0 = nowhere. A cyclic one: where it may be
- * opened; -1 = nowhere. */
-static int middle(const places *p, const thr_walk *x)
+/* Returns where an open walk is cut into the most equal parts; 0 = nowhere. A cyclic one: where it
+ * may be opened; -1 = nowhere. */
+static int middle(const cut_places *places, const thr_walk *walk)
 {
   double sum = 0, best = INFINITY;
-  int at = x->cyclic ? -1 : 0;
-  for (int i = 0; i < x->n; i++) {
-    if ((x->cyclic || i) && may_cut(p, thr_tail(p->s->f, x->half[i]))) {
-      double off = x->cyclic ? 0 : fabs(sum - x->length / 2);
+  int at = walk->cyclic ? -1 : 0;
+  for (int i = 0; i < walk->n; i++) {
+    if ((walk->cyclic || i) && may_cut(places, thr_tail(places->decomposition->f, walk->half[i]))) {
+      double off = walk->cyclic ? 0 : fabs(sum - walk->length / 2);
       if (off < best) {
         best = off;
         at = i;
       }
     }
-    sum += p->s->f->length[x->half[i] >> 1];
+    sum += places->decomposition->f->length[walk->half[i] >> 1];
   }
   return at;
 }
 
-/* The longest walk that can be cut, in the middle; again and again. */
-static thr_status cut_longest(places *p, int cuts, int wanted, thr_err *err)
+/* Cuts the longest walk that can be cut in its middle; again and again. */
+static thr_status cut_longest(cut_places *places, int cuts, int wanted, thr_err *err)
 {
   thr_status st = THR_OK;
   for (int done = 0; done < cuts && !st; done++) {
     int best = -1, best_at = 0;
-    for (int i = 0; i < p->w->n_walks; i++) {
-      thr_walk *x = &p->w->walk[i];
-      if (best >= 0 && x->length <= p->w->walk[best].length * (1 + 1e-12)) continue;
-      int at = middle(p, x);
-      if (at < (x->cyclic ? 0 : 1)) continue;
+    for (int i = 0; i < places->walks->n_walks; i++) {
+      thr_walk *walk = &places->walks->walk[i];
+      if (best >= 0 && walk->length <= places->walks->walk[best].length * (1 + 1e-12)) continue;
+
+      int at = middle(places, walk);
+      if (at < (walk->cyclic ? 0 : 1)) continue;
       best = i;
       best_at = at;
     }
-    if (best < 0) return too_few(p, wanted, err);
-    thr_walk *x = &p->w->walk[best];
-    if (x->cyclic) {
-      st = thr_walk_rotate(x, best_at, err);
-      x->cyclic = false;
+
+    if (best < 0) return too_few(places, wanted, err);
+    thr_walk *walk = &places->walks->walk[best];
+
+    /* The first cut of a cyclic walk opens it. */
+    if (walk->cyclic) {
+      st = thr_walk_rotate(walk, best_at, err);
+      walk->cyclic = false;
     } else {
-      st = thr_splice_cut(p->w, p->s->f, best, best_at, err);
+      st = thr_splice_cut(places->walks, places->decomposition->f, best, best_at, err);
     }
   }
   return st;
@@ -205,45 +231,54 @@ static thr_status cut_longest(places *p, int cuts, int wanted, thr_err *err)
 thr_status thr_decomposition_cut(thr_decomposition *decomposition, int n, bool even, thr_err *err)
 {
   const thr_walks *walks = &decomposition->walks;
-  places p = {.s = decomposition, .w = &decomposition->walks};
+  cut_places places = {.decomposition = decomposition, .walks = &decomposition->walks};
   bool counts = decomposition->o->ends == THR_ENDS_COUNTS;
   int open = 0, cuts = 0;
   thr_status st = THR_OK;
+
+  /* Every open walk is a cord already. */
   for (int i = 0; i < walks->n_walks; i++)
     open += !walks->walk[i].cyclic;
-  if (counts) st = count_cuts(&p, &cuts, err);
+  if (counts) st = count_cuts(&places, &cuts, err);
   if (!counts && n > open) cuts = n - open;
+
   if (!st && cuts)
-    st = even && !counts ? cut_longest(&p, cuts, n, err) : cut_sharpest(&p, cuts, open + cuts, err);
-  free(p.left);
-  free(p.list);
+    st = even && !counts ? cut_longest(&places, cuts, n, err)
+                         : cut_sharpest(&places, cuts, open + cuts, err);
+
+  free(places.left);
+  free(places.list);
   return st;
 }
 
 /* ---- evening out ---- */
 
-/* What the table knows better, where the framework is small. With a goal only if it was missed, and
- * then the fewest cords. */
+/* Takes the cords of the exact table, where the framework is small. With a goal only if it was
+ * missed, and then the fewest cords. */
 static thr_status make_exact(thr_decomposition *decomposition, double goal, thr_err *err)
 {
   const thr_request *options = decomposition->o;
   bool certain, counts = options->ends == THR_ENDS_COUNTS;
   const int n = decomposition->walks.n_walks;
+
   thr_decomposition_ask ask = {counts ? n : options->cords_least, counts ? n : options->cords, true,
                                INFINITY};
+
   if (goal > 0 && (decomposition->asked ||
                    thr_decomposition_within(thr_walks_most(&decomposition->walks), goal)))
     return THR_OK;
+
   if (goal > 0) ask = (thr_decomposition_ask){ask.least, ask.most, false, goal};
   decomposition->asked = goal > 0;
   thr_status st = thr_decomposition_table(decomposition, &ask, &certain, err);
+
   decomposition->certain &= certain;
   decomposition->none =
       goal > 0 && certain && !thr_decomposition_within(thr_walks_most(&decomposition->walks), goal);
   return st;
 }
 
-/* The annealed cords as the walks. */
+/* Makes the annealed cords the walks, and counts their passes. */
 static thr_status take_cords(thr_decomposition *decomposition, const thr_cord *cord, int n,
                              thr_err *err)
 {
@@ -252,10 +287,12 @@ static thr_status take_cords(thr_decomposition *decomposition, const thr_cord *c
   thr_status st = THR_OK;
   for (int i = 0; i < n && !st; i++)
     st = thr_walks_copy(&walks, decomposition->f, cord[i].half, cord[i].n_passes, closed, err);
+
   if (st) {
     thr_walks_destroy(&walks);
     return st;
   }
+
   thr_walks_destroy(&decomposition->walks);
   decomposition->walks = walks;
   memset(decomposition->passes, 0, (size_t)decomposition->f->n_edges * sizeof(int));
@@ -274,7 +311,9 @@ static thr_status anneal(thr_decomposition *decomposition, double goal, thr_err 
   thr_cord *cord = NULL;
   int n = walks->n_walks;
   bool better = false;
+
   if (n < 2) return THR_OK;
+
   bool *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
   if (!end_allowed) return thr_nomem(err);
 
@@ -304,6 +343,7 @@ static thr_status anneal(thr_decomposition *decomposition, double goal, thr_err 
     st = thr_anneal(&columns, &annealing, decomposition->limits, cord, n, &fell, err);
     better |= fell;
   }
+
   if (!st && better) st = take_cords(decomposition, cord, n, err);
   thr_cords_destroy(cord, cord ? n : 0);
   thr_walks_destroy(&copy);
