@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Euler tours: a multigraph of passes, pairings at its nodes, and tours that keep to a pairing. */
+/* Euler tours: a multigraph of passes, pairings at its nodes, and tours that keep to a pairing.
+ * This is the first header of the room to read; threading.h builds on it. multigraph.c comes first,
+ * then pairing.c for one node and tour.c for one cord. */
 #ifndef THR_EULER_H
 #define THR_EULER_H
 

@@ -1,6 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Threadings as objects that change: turns at nodes, cords from them, exchanges, walks and sets of
- * walks. */
+/* Threadings as objects that change: which pass continues into which at every node, the cords that
+ * follow, and the changes that searches make.
+ *
+ * Planners use this room to turn numbers of passes into cords and to improve these. Read euler.h
+ * first: passes as a multigraph, and pairings at one node. Then here: transition.c makes pairings
+ * at all nodes, walks.c and splice.c keep walks and cut and join them, threading.c exchanges pairs,
+ * and junction_graphs.c counts turns, so that nodes stay tied. even.c and anneal.h even cords out.
+ * subsets.c, items.c and small_cords.c solve small frameworks exactly. */
 #ifndef THR_THREADING_H
 #define THR_THREADING_H
 
@@ -12,7 +18,7 @@
  * system), the cords that this makes, in order, with running sums of a price, and exchanges of
  * pairs that are tried and taken back. */
 
-/* What is not to be done at any price. */
+/* The price of what is not allowed. */
 #define THR_FORBIDDEN 1e9
 
 /* Price of pairing half-edges a and b of one node: THR_FORBIDDEN or more if they must not be. */
@@ -42,15 +48,16 @@ typedef struct {
   int *parent;      /* [n_edges] scratch */
 } thr_threading;
 
-/* Nothing is followed yet. On failure threading is to be destroyed too. */
+/* Allocates a threading whose cords are not followed yet. On failure threading is to be destroyed
+ * too. */
 thr_status thr_threading_init(thr_threading *threading, const thr_frame *frame,
                               const thr_multigraph *multigraph, int *mate, thr_pair_price *price,
                               const void *of, bool tied, thr_err *err) THR_MUST_CHECK;
 void thr_threading_destroy(thr_threading *threading);
 
-/* All places from the pairs: open cords from the lower of their last half-edges, in that order,
- * then closed ones from their lowest. false: there are more than most cords, not all of which are
- * followed. O(darts). */
+/* Fills in all places from the pairs: open cords from the lower of their last half-edges, in that
+ * order, then closed ones from their lowest. false: there are more than most cords, not all of
+ * which are followed. O(darts). */
 bool thr_threading_follow(thr_threading *threading, int most);
 
 /* The same half-edges without an order: cord[n_darts] receives the number of the cord of each.
@@ -58,16 +65,17 @@ bool thr_threading_follow(thr_threading *threading, int most);
  */
 int thr_threading_label(const thr_multigraph *multigraph, const int *mate, int *cord);
 
-/* Does cord k come back to its start, where no end is? */
+/* Returns whether cord k comes back to its start, where no end is. */
 static inline bool thr_threading_closed(const thr_threading *threading, int k)
 {
   return threading->g->half[threading->place[threading->first[k]].in] >= 0;
 }
 
-/* The places at node v, each once, in the order of the half-edges that cords arrive against. */
+/* Lists the places at node v, each once, in the order of the half-edges that cords arrive against,
+ * and returns their number. */
 int thr_threading_places(const thr_threading *threading, int v, int *place);
 
-/* Do the pairs at node v tie its edges? One with a single edge is tied. */
+/* Returns whether the pairs at node v tie its edges. A node with a single edge is tied. */
 bool thr_threading_tied(const thr_threading *threading, int v);
 
 /* Pairs that were broken up, to be made again. {0}: none. */
@@ -95,10 +103,10 @@ typedef struct {
  * way. */
 thr_exchange thr_threading_exchange(const thr_threading *threading, int i, int k, bool crossed);
 
-/* Is nothing forbidden by it, and does its node stay tied if it must be? */
+/* Returns whether an exchange makes no forbidden pair and leaves its node tied if it must be. */
 bool thr_threading_allows(thr_threading *threading, const thr_exchange *x);
 
-/* Afterwards the cords are to be followed again. */
+/* Makes an exchange. Afterwards the cords are to be followed again. */
 void thr_threading_make(thr_threading *threading, const thr_exchange *x, thr_broken *old);
 
 /* Makes one change at node v that improves, and follows the cords again; false: there is none. */
@@ -184,11 +192,11 @@ thr_status thr_walks_follow(thr_walks *walks, const thr_frame *frame,
 thr_status thr_walks_add(thr_walks *walks, const thr_frame *frame, thr_walk walk,
                          thr_err *err) THR_MUST_CHECK;
 
-/* Appends a copy of half[n]. */
+/* Appends a copy of half[n] as a walk. */
 thr_status thr_walks_copy(thr_walks *walks, const thr_frame *frame, const int *half, int n,
                           bool cyclic, thr_err *err) THR_MUST_CHECK;
 
-/* The number of passes that the walks make of each edge is added to passes[n_edges]. */
+/* Adds the number of passes that the walks make of each edge to passes[n_edges]. */
 void thr_walks_count(const thr_walks *walks, int *passes);
 
 double thr_walk_length(const thr_frame *frame, const int *half, int n);
@@ -199,22 +207,23 @@ double thr_walks_length(const thr_walks *walks);
 int thr_walks_longest(const thr_walks *walks);
 double thr_walks_most(const thr_walks *walks);
 
-/* The node before pass number at; with at = n, after the last one. */
+/* Returns the node before pass number at; with at = n, the node after the last pass. */
 int thr_walk_node(const thr_frame *frame, const thr_walk *w, int at);
 
-/* The half-edge before pass number at of a cyclic walk, or of an open one if at > 0. */
+/* Returns the half-edge before pass number at of a cyclic walk, or of an open one if at > 0. */
 static inline int thr_walk_before(const thr_walk *w, int at)
 {
   return w->half[at ? at - 1 : w->n - 1];
 }
 
-/* The half-edges of a walk the other way round. */
+/* Reverses the half-edges of a walk. */
 void thr_walk_reverse(int *half, int n);
 
 /* Turns a cyclic walk round so that it starts with what was its pass number at. */
 thr_status thr_walk_rotate(thr_walk *w, int at, thr_err *err) THR_MUST_CHECK;
 
-/* Price of going on from half-edge in with out: the turn in rad, and much more for a turn back. */
+/* Returns the price of going on from half-edge in with out: the turn in rad, and much more for a
+ * turn back. */
 double thr_walk_turn(const thr_frame *frame, int in, int out);
 
 /* The visits that walks pay to nodes, walk by walk, at positions 0 .. n of each; the last position

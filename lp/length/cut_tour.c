@@ -1,129 +1,157 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cords of limited length at once: what there is before a search has found any. Internal to lp/ and
- * whoever keeps the best. */
+/* Computes cords of limited length at once, so that there are some before a search has found any.
+ *
+ * A tour passes each edge an even number of times and is cut into sections. Each section is a cord
+ * together with the shortest paths from and to places where cords may end, or back to its start (G.
+ * N. Frederickson, M. S. Hecht & C. E. Kim 1978). Sections are as long as the limit allows, and
+ * passes that earlier cords made already are skipped where a section begins.
+ *
+ * Example: a path of edges 1, 1, 1 long, ends anywhere, limit 2: the first cord has two edges. */
 #include "lp/length/postman.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* The tour and what is left of it. */
 typedef struct {
   const thr_frame *f;
   const thr_request *o;
   int *left; /* [n_edges] passes still to be made */
   thr_walks tour, cords;
   thr_paths home; /* to where cords may end, or to the start of the one at hand */
-} cutting;
+} tour_cutting;
 
-static void cutting_destroy(cutting *x)
+static void cutting_destroy(tour_cutting *cutting)
 {
-  thr_walks_destroy(&x->tour);
-  thr_walks_destroy(&x->cords);
-  thr_paths_destroy(&x->home);
-  free(x->left);
+  thr_walks_destroy(&cutting->tour);
+  thr_walks_destroy(&cutting->cords);
+  thr_paths_destroy(&cutting->home);
+  free(cutting->left);
 }
 
-static bool closed_cords(const cutting *x)
+static bool closed_cords(const tour_cutting *cutting)
 {
-  return x->o->ends == THR_ENDS_CLOSED;
+  return cutting->o->ends == THR_ENDS_CLOSED;
 }
 
-static thr_status trace_tour(cutting *x, thr_err *err)
+/* Traces a tour that passes each edge as often as its cover, or once more if this is odd. */
+static thr_status trace_tour(tour_cutting *cutting, thr_err *err)
 {
-  int *even = thr_calloc((size_t)x->f->n_edges, sizeof *even);
+  int *even = thr_calloc((size_t)cutting->f->n_edges, sizeof *even);
   if (!even) return thr_nomem(err);
-  for (int e = 0; e < x->f->n_edges; e++)
-    even[e] = x->left[e] + x->left[e] % 2;
-  thr_status st = thr_walks_trace(x->f, even, &x->tour, err);
+
+  for (int e = 0; e < cutting->f->n_edges; e++)
+    even[e] = cutting->left[e] + cutting->left[e] % 2;
+
+  thr_status st = thr_walks_trace(cutting->f, even, &cutting->tour, err);
   free(even);
   return st;
 }
 
-static thr_status cutting_init(cutting *x, thr_err *err)
+/* Allocates the arrays, computes the paths to where cords may end, and traces the tour. */
+static thr_status cutting_init(tour_cutting *cutting, thr_err *err)
 {
-  const thr_frame *frame = x->f;
-  thr_status st = thr_paths_init(&x->home, frame, err);
+  const thr_frame *frame = cutting->f;
+  thr_status st = thr_paths_init(&cutting->home, frame, err);
   if (st) return st;
-  if (!(x->left = thr_calloc((size_t)frame->n_edges, sizeof *x->left))) return thr_nomem(err);
+  if (!(cutting->left = thr_calloc((size_t)frame->n_edges, sizeof *cutting->left)))
+    return thr_nomem(err);
+
   for (int e = 0; e < frame->n_edges; e++)
-    x->left[e] = thr_plan_cover(frame, x->o, e);
-  for (int v = 0; v < frame->n_nodes && !st && !closed_cords(x); v++)
-    if (thr_plan_end_allowed(frame, x->o, v)) st = thr_paths_start(&x->home, v, err);
-  if (!st) st = thr_paths_spread(&x->home, x->o, NULL, 0, INFINITY, err);
-  return st ? st : trace_tour(x, err);
+    cutting->left[e] = thr_plan_cover(frame, cutting->o, e);
+
+  for (int v = 0; v < frame->n_nodes && !st && !closed_cords(cutting); v++)
+    if (thr_plan_end_allowed(frame, cutting->o, v)) st = thr_paths_start(&cutting->home, v, err);
+  if (!st) st = thr_paths_spread(&cutting->home, cutting->o, NULL, 0, INFINITY, err);
+  return st ? st : trace_tour(cutting, err);
 }
 
-/* Closed cords: the paths to node v. */
-static thr_status begin_at(cutting *x, int v, thr_err *err)
+/* Computes for closed cords the paths to node v, where the next cord begins. */
+static thr_status begin_at(tour_cutting *cutting, int v, thr_err *err)
 {
-  if (!closed_cords(x)) return THR_OK;
-  thr_paths_clear(&x->home);
-  thr_status st = thr_paths_start(&x->home, v, err);
-  return st ? st : thr_paths_spread(&x->home, x->o, NULL, 0, x->o->max_length, err);
+  if (!closed_cords(cutting)) return THR_OK;
+  thr_paths_clear(&cutting->home);
+  thr_status st = thr_paths_start(&cutting->home, v, err);
+  return st ? st
+            : thr_paths_spread(&cutting->home, cutting->o, NULL, 0, cutting->o->max_length, err);
 }
 
-/* Where the section of tour walk that begins at pass `from` ends: after the last pass that still
- * has to be made with which the cord is no longer than it may be; `from`: there is none. */
-static int section_end(const cutting *x, const thr_walk *walk, int from)
+/* Returns where the section that begins at pass `from` of the tour ends: after the last pass still
+ * to be made with which the cord keeps to the limit; `from`: there is none. */
+static int section_end(const tour_cutting *cutting, const thr_walk *walk, int from)
 {
-  const thr_frame *frame = x->f;
-  double most = x->o->max_length * (1 + 1e-12),
-         length = x->home.far[thr_walk_node(frame, walk, from)];
+  const thr_frame *frame = cutting->f;
+  double most = cutting->o->max_length * (1 + 1e-12),
+         length = cutting->home.far[thr_walk_node(frame, walk, from)];
+
   int end = from;
   for (int i = from; i < walk->n && length <= most; i++) {
     int e = walk->half[i] >> 1;
     length += frame->length[e];
-    if (x->left[e] > 0 && length + x->home.far[thr_head(frame, walk->half[i])] <= most) end = i + 1;
+    if (cutting->left[e] > 0 && length + cutting->home.far[thr_head(frame, walk->half[i])] <= most)
+      end = i + 1;
   }
   return end;
 }
 
-/* Passes from .. end - 1 of walk, and the paths to and from them. */
-static thr_status add_cord(cutting *x, const thr_walk *walk, int from, int end, thr_err *err)
+/* Makes a cord of passes from .. end - 1 of the tour, and the paths to and from them. */
+static thr_status add_cord(tour_cutting *cutting, const thr_walk *walk, int from, int end,
+                           thr_err *err)
 {
-  int a = thr_walk_node(x->f, walk, from), b = thr_walk_node(x->f, walk, end);
-  int n_to = thr_paths_back(&x->home, a, -1, NULL), n_back = thr_paths_back(&x->home, b, -1, NULL),
-      section = end - from;
-  thr_walk cord = {n_to + section + n_back, NULL, 0, closed_cords(x)};
+  int a = thr_walk_node(cutting->f, walk, from), b = thr_walk_node(cutting->f, walk, end);
+  int n_to = thr_paths_back(&cutting->home, a, -1, NULL),
+      n_back = thr_paths_back(&cutting->home, b, -1, NULL), section = end - from;
+
+  thr_walk cord = {n_to + section + n_back, NULL, 0, closed_cords(cutting)};
   if (!(cord.half = thr_calloc((size_t)cord.n, sizeof *cord.half))) return thr_nomem(err);
-  thr_paths_to(&x->home, a, cord.half);
+
+  thr_paths_to(&cutting->home, a, cord.half);
   memcpy(cord.half + n_to, walk->half + from, (size_t)section * sizeof *cord.half);
-  thr_paths_back(&x->home, b, -1, cord.half + n_to + section);
+  thr_paths_back(&cutting->home, b, -1, cord.half + n_to + section);
+
   for (int i = 0; i < cord.n; i++)
-    x->left[cord.half[i] >> 1]--;
-  return thr_walks_add(&x->cords, x->f, cord, err);
+    cutting->left[cord.half[i] >> 1]--;
+  return thr_walks_add(&cutting->cords, cutting->f, cord, err);
 }
 
-/* *found: no cord would be too long, and there are not too many. */
-static thr_status cut(cutting *x, bool *found, thr_err *err)
+/* Cuts the tour into cords. *found: none is too long, and there are neither too many nor too few.
+ */
+static thr_status cut(tour_cutting *cutting, bool *found, thr_err *err)
 {
   thr_status st = THR_OK;
-  const thr_walk *walk = x->tour.walk;
+  const thr_walk *walk = cutting->tour.walk;
+
   *found = true;
   for (int i = 0, end; i < walk->n && !st && *found; i = end) {
     end = i + 1;
-    if (x->left[walk->half[i] >> 1] <= 0) continue;
-    st = begin_at(x, thr_walk_node(x->f, walk, i), err);
-    if (!st) end = section_end(x, walk, i);
-    *found = end > i && x->cords.n_walks < x->o->cords;
-    if (!st && *found) st = add_cord(x, walk, i, end, err);
+
+    if (cutting->left[walk->half[i] >> 1] <= 0) continue;
+
+    st = begin_at(cutting, thr_walk_node(cutting->f, walk, i), err);
+    if (!st) end = section_end(cutting, walk, i);
+    *found = end > i && cutting->cords.n_walks < cutting->o->cords;
+    if (!st && *found) st = add_cord(cutting, walk, i, end, err);
   }
-  *found &= x->cords.n_walks >= x->o->cords_least;
+
+  *found &= cutting->cords.n_walks >= cutting->o->cords_least;
   return st;
 }
 
 thr_status thr_cut_tour(const thr_frame *frame, const thr_request *options, const int *passes,
                         thr_cord **cord, int *n_cords, thr_err *err)
 {
-  cutting x = {.f = frame, .o = options};
+  tour_cutting cutting = {.f = frame, .o = options};
   bool found = false;
   (void)passes;
   *cord = NULL;
   *n_cords = 0;
+
   if (options->ends == THR_ENDS_COUNTS) return THR_OK;
-  thr_status st = cutting_init(&x, err);
-  if (!st) st = cut(&x, &found, err);
-  if (!st && found) st = thr_walks_cords(&x.cords, frame, options, cord, n_cords, err);
-  cutting_destroy(&x);
+
+  thr_status st = cutting_init(&cutting, err);
+  if (!st) st = cut(&cutting, &found, err);
+  if (!st && found) st = thr_walks_cords(&cutting.cords, frame, options, cord, n_cords, err);
+  cutting_destroy(&cutting);
   return st;
 }

@@ -1,5 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Extra passes where cord ends need more of them: a perfect matching of ports. */
+/* Finds the shortest extra passes where cord ends need more passes: a minimum-weight perfect
+ * matching of ports, after Edmonds and Johnson's reduction of degree constraints.
+ *
+ * Every possible extra pass has a port at each of its nodes. The two ports are matched with each
+ * other if the pass is made, otherwise each one with a core of its group. A group of p ports that
+ * needs d passes, or 2, 4, .. more, has p - d cores, which may be matched with each other. A group
+ * is a node; or all nodes where cords may end, if ends are free to be at any of them.
+ *
+ * Example: a node with three ports that needs one pass has two cores: one port is left for its
+ * pass, or all three, when the cores are matched with each other. */
 #include "graph/check/check.h"
 #include "graph/scratch.h"
 #include "lp/length/postman.h"
@@ -8,13 +17,10 @@
 
 enum { MOST_EDGES = 2000000 }; /* of a matching */
 
-/* Every possible extra pass has a port at each of its nodes: the two are matched with each other if
- * the pass is made, else each with a core of its group. A group of p ports that needs d passes, or
- * 2, 4, .. more, has p - d cores, which may be matched with each other. A group is a node; or all
- * nodes where cords may end, if ends are free to be at any of them. */
+/* The matching problem. */
 typedef struct {
-  const thr_decomposition *s;
-  const thr_certificate *c;
+  const thr_decomposition *decomposition;
+  const thr_certificate *certificate;
   thr_scratch own; /* the arrays */
   int n_groups;
   int *group;       /* [n_nodes] */
@@ -26,8 +32,9 @@ typedef struct {
   int n_edges, n_passes;
   int (*edge)[2]; /* the passes come first */
   int64_t *weight;
-} ports;
+} port_graph;
 
+/* Returns the number of passes at a node. */
 static int passes_at(const thr_frame *frame, const int *passes, int v)
 {
   int sum = 0;
@@ -36,6 +43,7 @@ static int passes_at(const thr_frame *frame, const int *passes, int v)
   return sum;
 }
 
+/* Returns the sum of the covers of the edges at a node. */
 static int covers_at(const thr_decomposition *decomposition, int v)
 {
   int sum = 0;
@@ -44,11 +52,13 @@ static int covers_at(const thr_decomposition *decomposition, int v)
   return sum;
 }
 
+/* Returns whether the passes arrive often enough where cords may end for the ends of n cords. */
 static bool enough_places(const thr_decomposition *decomposition, int n)
 {
   int free_places = 0;
   for (int v = 0; v < decomposition->f->n_nodes; v++) {
     if (!thr_plan_end_allowed(decomposition->f, decomposition->o, v)) continue;
+
     int at = passes_at(decomposition->f, decomposition->passes, v);
     if (decomposition->o->ends == THR_ENDS_COUNTS && at < decomposition->o->end_count[v])
       return false;
@@ -57,145 +67,179 @@ static bool enough_places(const thr_decomposition *decomposition, int n)
   return decomposition->o->ends == THR_ENDS_COUNTS || free_places >= 2 * n;
 }
 
-/* Groups, and the passes that they need beyond the cover. */
-static void find_groups(ports *p, int n)
+/* Finds the groups, and the passes that they need beyond the cover for n cords. */
+static void find_groups(port_graph *ports, int n)
 {
-  const thr_decomposition *decomposition = p->s;
+  const thr_decomposition *decomposition = ports->decomposition;
   bool counts = decomposition->o->ends == THR_ENDS_COUNTS;
   int joint = -1; /* the group of all places where ends are free to be */
   for (int v = 0; v < decomposition->f->n_nodes; v++) {
     bool end = thr_plan_end_allowed(decomposition->f, decomposition->o, v);
-    int g = !counts && end && joint >= 0 ? joint : p->n_groups++;
+    int group = !counts && end && joint >= 0 ? joint : ports->n_groups++;
     if (!counts && end && joint < 0) {
-      joint = g;
-      p->need[g] = 2 * n;
+      joint = group;
+      ports->need[group] = 2 * n;
     } else if (counts) {
-      p->need[g] = decomposition->o->end_count[v];
+      ports->need[group] = decomposition->o->end_count[v];
     }
-    p->group[v] = g;
-    p->need[g] -= covers_at(decomposition, v);
+
+    ports->group[v] = group;
+    ports->need[group] -= covers_at(decomposition, v);
   }
-  for (int g = 0; g < p->n_groups; g++)
-    if (p->need[g] < 0) p->need[g] = -p->need[g] % 2;
+
+  /* A group with more than enough passes only has to keep their number even. */
+  for (int group = 0; group < ports->n_groups; group++)
+    if (ports->need[group] < 0) ports->need[group] = -ports->need[group] % 2;
 }
 
-/* More than so many extra passes of an edge are more than its groups need. */
-static thr_status count_ports(ports *p, thr_err *err)
+/* Counts the ports of all groups. An edge has no more of them than its groups may need extra passes
+ * of it. */
+static thr_status count_ports(port_graph *ports, thr_err *err)
 {
-  const thr_decomposition *decomposition = p->s;
+  const thr_decomposition *decomposition = ports->decomposition;
   int64_t edges = 0;
   for (int e = 0; e < decomposition->f->n_edges; e++) {
-    int a = p->group[decomposition->f->edge[e][0]], b = p->group[decomposition->f->edge[e][1]];
-    int most = a == b ? (p->need[a] + 1) / 2 : p->need[a] > p->need[b] ? p->need[a] : p->need[b];
+    int a = ports->group[decomposition->f->edge[e][0]],
+        b = ports->group[decomposition->f->edge[e][1]];
+    int most = a == b                            ? (ports->need[a] + 1) / 2
+               : ports->need[a] > ports->need[b] ? ports->need[a]
+                                                 : ports->need[b];
+
     int room = thr_plan_capacity(decomposition->f, decomposition->o, e) -
                thr_plan_cover(decomposition->f, decomposition->o, e);
+
     if (most < 1) most = 1;
-    p->copies[e] = most < room ? most : room;
-    p->n_ports[a] += p->copies[e];
-    p->n_ports[b] += p->copies[e];
-    p->n_passes += p->copies[e];
+    ports->copies[e] = most < room ? most : room;
+    ports->n_ports[a] += ports->copies[e];
+    ports->n_ports[b] += ports->copies[e];
+    ports->n_passes += ports->copies[e];
   }
-  for (int g = 0; g < p->n_groups; g++) {
-    int64_t cores = p->n_ports[g] - p->need[g];
-    if (cores >= 0) edges += cores * p->n_ports[g] + cores * (cores - 1) / 2;
+
+  for (int group = 0; group < ports->n_groups; group++) {
+    int64_t cores = ports->n_ports[group] - ports->need[group];
+    if (cores >= 0) edges += cores * ports->n_ports[group] + cores * (cores - 1) / 2;
   }
-  if (edges + p->n_passes > MOST_EDGES)
+
+  if (edges + ports->n_passes > MOST_EDGES)
     return thr_fail(
         err, THR_ELIMIT,
         "too many ends, at nodes with too many edges, to find the shortest extra passes for them");
-  p->n_edges = (int)edges + p->n_passes;
+  ports->n_edges = (int)edges + ports->n_passes;
   return THR_OK;
 }
 
-static thr_status no_room(const ports *p, int g, thr_err *err)
+/* Fails, and names a node of a group that has too few ports. */
+static thr_status no_room(const port_graph *ports, int group, thr_err *err)
 {
   int v = 0;
-  while (p->group[v] != g)
+  while (ports->group[v] != group)
     v++;
   return thr_fail(err, THR_EINFEASIBLE,
                   "the edges at node %s%s have no room for enough passes: their capacity allows "
                   "fewer cord ends than asked for",
-                  p->s->f->name[v],
-                  p->s->o->ends == THR_ENDS_COUNTS ? "" : " and wherever else its cords may end");
+                  ports->decomposition->f->name[v],
+                  ports->decomposition->o->ends == THR_ENDS_COUNTS
+                      ? ""
+                      : " and wherever else its cords may end");
 }
 
-static void add_edge(ports *p, int *n, int a, int b, int64_t weight)
+/* Appends an edge of the matching problem. */
+static void add_edge(port_graph *ports, int *n, int a, int b, int64_t weight)
 {
-  p->edge[*n][0] = a;
-  p->edge[*n][1] = b;
-  p->weight[(*n)++] = weight;
+  ports->edge[*n][0] = a;
+  ports->edge[*n][1] = b;
+  ports->weight[(*n)++] = weight;
 }
 
-static thr_status build(ports *p, thr_err *err)
+/* Makes the matching problem: an edge for each pass, and for each core edges of weight 0 to the
+ * ports and the cores before it. */
+static thr_status build(port_graph *ports, thr_err *err)
 {
-  const thr_frame *frame = p->s->f;
+  const thr_frame *frame = ports->decomposition->f;
   int n = 0;
-  for (int g = 0; g < p->n_groups; g++) {
-    if (p->n_ports[g] < p->need[g]) return no_room(p, g, err);
-    p->top[g] = p->first[g];
-    p->first[g + 1] = p->first[g] + 2 * p->n_ports[g] - p->need[g];
+
+  for (int group = 0; group < ports->n_groups; group++) {
+    if (ports->n_ports[group] < ports->need[group]) return no_room(ports, group, err);
+    ports->top[group] = ports->first[group];
+    ports->first[group + 1] = ports->first[group] + 2 * ports->n_ports[group] - ports->need[group];
   }
-  p->edge = thr_scratch_array(&p->own, (size_t)p->n_edges, sizeof *p->edge);
-  p->weight = thr_scratch_array(&p->own, (size_t)p->n_edges, sizeof *p->weight);
-  thr_status st = thr_scratch_check(&p->own, err);
+
+  ports->edge = thr_scratch_array(&ports->own, (size_t)ports->n_edges, sizeof *ports->edge);
+  ports->weight = thr_scratch_array(&ports->own, (size_t)ports->n_edges, sizeof *ports->weight);
+
+  thr_status st = thr_scratch_check(&ports->own, err);
   if (st) return st;
+
   for (int e = 0; e < frame->n_edges; e++)
-    for (int i = 0; i < p->copies[e]; i++) {
-      int a = p->top[p->group[frame->edge[e][0]]]++, b = p->top[p->group[frame->edge[e][1]]]++;
-      add_edge(p, &n, a, b, thr_certificate_weight(frame, p->c, e));
+    for (int i = 0; i < ports->copies[e]; i++) {
+      int a = ports->top[ports->group[frame->edge[e][0]]]++,
+          b = ports->top[ports->group[frame->edge[e][1]]]++;
+      add_edge(ports, &n, a, b, thr_certificate_weight(frame, ports->certificate, e));
     }
-  for (int g = 0; g < p->n_groups; g++)
-    for (int core = p->first[g] + p->n_ports[g]; core < p->first[g + 1]; core++)
-      for (int other = p->first[g]; other < core; other++)
-        add_edge(p, &n, other, core, 0);
+
+  for (int group = 0; group < ports->n_groups; group++)
+    for (int core = ports->first[group] + ports->n_ports[group]; core < ports->first[group + 1];
+         core++)
+      for (int other = ports->first[group]; other < core; other++)
+        add_edge(ports, &n, other, core, 0);
   return THR_OK;
 }
 
-static thr_status ports_init(ports *p, int n, thr_err *err)
+/* Allocates the arrays and makes the matching problem for n cords. */
+static thr_status ports_init(port_graph *ports, int n, thr_err *err)
 {
-  size_t nodes = (size_t)p->s->f->n_nodes;
-  p->group = thr_scratch_array(&p->own, nodes, sizeof *p->group);
-  p->need = thr_scratch_array(&p->own, nodes, sizeof *p->need);
-  p->first = thr_scratch_array(&p->own, nodes + 1, sizeof *p->first);
-  p->top = thr_scratch_array(&p->own, nodes, sizeof *p->top);
-  p->n_ports = thr_scratch_array(&p->own, nodes, sizeof *p->n_ports);
-  p->copies = thr_scratch_array(&p->own, (size_t)p->s->f->n_edges, sizeof *p->copies);
-  thr_status st = thr_scratch_check(&p->own, err);
+  size_t nodes = (size_t)ports->decomposition->f->n_nodes;
+  ports->group = thr_scratch_array(&ports->own, nodes, sizeof *ports->group);
+  ports->need = thr_scratch_array(&ports->own, nodes, sizeof *ports->need);
+  ports->first = thr_scratch_array(&ports->own, nodes + 1, sizeof *ports->first);
+  ports->top = thr_scratch_array(&ports->own, nodes, sizeof *ports->top);
+  ports->n_ports = thr_scratch_array(&ports->own, nodes, sizeof *ports->n_ports);
+  ports->copies = thr_scratch_array(&ports->own, (size_t)ports->decomposition->f->n_edges,
+                                    sizeof *ports->copies);
+
+  thr_status st = thr_scratch_check(&ports->own, err);
   if (st) return st;
-  find_groups(p, n);
-  st = count_ports(p, err);
-  return st ? st : build(p, err);
+
+  find_groups(ports, n);
+  st = count_ports(ports, err);
+  return st ? st : build(ports, err);
 }
 
-static void take(const ports *p, const thr_matching *matching, thr_decomposition *decomposition)
+/* Makes the passes that are matched, beyond the covers. */
+static void take(const port_graph *ports, const thr_matching *matching,
+                 thr_decomposition *decomposition)
 {
   for (int e = 0, n = 0; e < decomposition->f->n_edges; e++) {
     decomposition->passes[e] = thr_plan_cover(decomposition->f, decomposition->o, e);
-    for (int i = 0; i < p->copies[e]; i++, n++)
-      decomposition->passes[e] += matching->mate_edge[p->edge[n][0]] == n;
+    for (int i = 0; i < ports->copies[e]; i++, n++)
+      decomposition->passes[e] += matching->mate_edge[ports->edge[n][0]] == n;
   }
 }
 
 thr_status thr_decomposition_places(thr_decomposition *decomposition, int n,
                                     const thr_certificate *certificate, thr_err *err)
 {
-  ports p = {.s = decomposition, .c = certificate};
+  port_graph ports = {.decomposition = decomposition, .certificate = certificate};
   thr_matching matching = {0};
   if (decomposition->o->ends == THR_ENDS_CLOSED || enough_places(decomposition, n)) return THR_OK;
+
   thr_err why = {0};
-  thr_status st = ports_init(&p, n, &why);
+  thr_status st = ports_init(&ports, n, &why);
+
   if (!st) {
-    thr_matching_problem problem = {p.first[p.n_groups], p.n_edges, (const int(*)[2])p.edge,
-                                    p.weight};
+    thr_matching_problem problem = {ports.first[ports.n_groups], ports.n_edges,
+                                    (const int(*)[2])ports.edge, ports.weight};
     st = thr_matching_solve(&problem, decomposition->limits, &matching, &why);
     if (st == THR_EINFEASIBLE) why = (thr_err){0};
   }
-  if (!st) take(&p, &matching, decomposition);
+
+  if (!st) take(&ports, &matching, decomposition);
   if (st == THR_EINFEASIBLE && !why.code)
     thr_fail(&why, st,
              "the capacities of the edges leave no room for as many cord ends as asked for");
   if (st) thr_fail(err, st, "%s", why.text);
+
   thr_matching_destroy(&matching);
-  thr_scratch_free(&p.own);
+  thr_scratch_free(&ports.own);
   return st;
 }

@@ -1,6 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The shortest passes over all edges (route inspection, the Chinese postman), and the cords that
- * they are cut into. */
+ * they are cut into.
+ *
+ * Read postman.c first: the shortest passes, by minimum T-joins, with certificates; postman_plan.c
+ * makes a plan of one cord of them. Then cords.c: plans of several cords. Its parts are
+ * decomposition.c (cutting open cords, evening out), decomposition_places.c (room for their ends),
+ * decomposition_circuits.c, decomposition_chord.c and decomposition_tied.c (closed cords),
+ * decomposition_table.c (small frameworks, exactly) and decomposition_prices.c (lower bounds).
+ * cut_tour.c makes cords of limited length without a search. */
 #ifndef THR_POSTMAN_H
 #define THR_POSTMAN_H
 
@@ -71,26 +78,26 @@ typedef struct {
   thr_queue queue; /* entry is owned */
 } thr_paths;
 
-thr_status thr_paths_init(thr_paths *x, const thr_frame *frame, thr_err *err) THR_MUST_CHECK;
-void thr_paths_destroy(thr_paths *x);
+thr_status thr_paths_init(thr_paths *paths, const thr_frame *frame, thr_err *err) THR_MUST_CHECK;
+void thr_paths_destroy(thr_paths *paths);
 
-/* Forgets all starts and paths. */
-void thr_paths_clear(thr_paths *x);
-thr_status thr_paths_start(thr_paths *x, int v, thr_err *err) THR_MUST_CHECK;
+/* Removes all starts and paths. */
+void thr_paths_clear(thr_paths *paths);
+thr_status thr_paths_start(thr_paths *paths, int v, thr_err *err) THR_MUST_CHECK;
 
-/* From the starts, over edges whose capacity leaves room for so many passes beyond passes[n_edges]
- * (NULL: over all), no further than most. O(m log m).
+/* Computes the shortest paths from the starts, over edges whose capacity leaves room for so many
+ * passes beyond passes[n_edges] (NULL: over all), no further than most. O(m log m).
  */
-thr_status thr_paths_spread(thr_paths *x, const thr_request *options, const int *passes, int room,
-                            double most, thr_err *err) THR_MUST_CHECK;
+thr_status thr_paths_spread(thr_paths *paths, const thr_request *options, const int *passes,
+                            int room, double most, thr_err *err) THR_MUST_CHECK;
 
 /* The half-edges of the shortest path to v, walked back from v to node `to` on it (-1: to its
  * start), into half (NULL: they are only counted); returns how many. */
-int thr_paths_back(const thr_paths *x, int v, int to, int *half);
+int thr_paths_back(const thr_paths *paths, int v, int to, int *half);
 
 /* The half-edges of the shortest path to v, from its start on, into half[n_nodes]; returns how
  * many. */
-int thr_paths_to(const thr_paths *x, int v, int *half);
+int thr_paths_to(const thr_paths *paths, int v, int *half);
 
 /* ---- decomposition.c: How the passes of a component are shared out among several cords
  * (docs/method.md). */

@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tube joints, whose edges the turns of a node must tie together: searches, and cords that keep to
- * them. */
+/* Tube joints, whose edges the turns of a node must tie together: searches for passes that can be
+ * tied, and cords that tie every node.
+ *
+ * Read tie.c first: which passes can be tied. tie_knot.c pairs the passes at one node, tie_round.c
+ * rounds a fractional solution to passes that can be tied, tie_walk.c changes passes along closed
+ * walks, and tie_improve.c searches with such walks. On these build the shortest cords of tube.c,
+ * several cords in tube_cords.c, and tube_first.c, which makes some cords without a search. */
 #ifndef THR_TIE_H
 #define THR_TIE_H
 
