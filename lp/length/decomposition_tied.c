@@ -4,10 +4,7 @@
  * Walks are split where the nodes stay tied; where no split is left, sections of a walk are turned
  * round at random, which keeps the passes and gives other splits. After this, each further cord
  * costs passes: two more over one edge, there and back, which part a walk (a chord), or a cord of
- * its own round a short circuit.
- *
- * Example: two nodes joined by three edges, all passed by one walk four times: the chord of one
- * edge parts a walk at its two ends. */
+ * its own round a short circuit. */
 #include "graph/random.h"
 #include "lp/length/postman_parts.h"
 

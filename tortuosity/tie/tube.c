@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The shortest cords for tube joints: Graph Threading (Demaine, Kirkpatrick & Lin, ITCS 2024) with
- * ends, covers, capacities.
+/* Computes the shortest cords for tube joints: Graph Threading (Demaine, Kirkpatrick & Lin, ITCS
+ * 2024) with ends, covers, capacities.
  *
- * Minimize the length with, at every node of degree d: passes that arrive, less ends, at least 2 (d
- * - 1), no edge with more of them than all others together, and an even number; these are the
- * passes whose node can be tied (tortuosity/tie/tie.h).
+ * The length is minimized with, at every node of degree d: passes that arrive, less ends, at least
+ * 2 (d - 1), no edge with more of them than all others together, and an even number; these are the
+ * passes whose node can be tied (tortuosity/tie/tie.h). A first search has no turns in its model;
+ * where it leaves a gap, a second one has them.
  *
  * Example: an octahedron: 6 passes arrive at every node of degree 4, so it takes 18 over its twelve
- * edges, where solid joints take 12.
- *
- * The shortest tied cords: a search without turns, then one with them where that leaves a gap. */
+ * edges, where solid joints take 12. */
 #include "graph/plan/plan_measures.h"
 #include "tortuosity/cords/join.h"
 #include "tortuosity/proof/branch.h"
@@ -24,26 +23,31 @@ void thr_tube_destroy(thr_tube *tube)
   *tube = (thr_tube){0};
 }
 
-static thr_status take_cords(const thr_join *j, thr_tube *tube, thr_err *err)
+/* Takes the cords of a join, with their length and the largest number of passes of an edge. */
+static thr_status take_cords(const thr_join *join, thr_tube *tube, thr_err *err)
 {
-  int n = thr_join_count(j);
+  int n = thr_join_count(join);
   if (!(tube->cord = thr_calloc((size_t)n, sizeof *tube->cord))) return thr_nomem(err);
-  thr_status st = thr_join_cords(j, tube->cord, n, err);
+  thr_status st = thr_join_cords(join, tube->cord, n, err);
   if (st) return st;
+
   tube->n_cords = n;
   tube->length = 0;
   tube->most_passes = 0;
-  for (int d = 0, same = 0; d < j->g.n_darts && j->g.half[d] >= 0;
+
+  for (int d = 0, same = 0; d < join->g.n_darts && join->g.half[d] >= 0;
        d += 2) { /* passes of an edge follow each other */
-    same = d > 0 && j->g.half[d] == j->g.half[d - 2] ? same + 1 : 1;
+    same = d > 0 && join->g.half[d] == join->g.half[d - 2] ? same + 1 : 1;
     if (same > tube->most_passes) tube->most_passes = same;
   }
+
   for (int i = 0; i < n; i++)
-    tube->length += thr_cord_length(j->c->f, &tube->cord[i]);
+    tube->length += thr_cord_length(join->c->f, &tube->cord[i]);
   return THR_OK;
 }
 
-/* Cords to begin with: those in tube, or without a search. */
+/* Gives a search the cords to begin with: those in tube, or cords that are found without a search.
+ */
 static thr_status begin(thr_branch *branch, const thr_tube *tube, thr_err *err)
 {
   bool found;
@@ -52,8 +56,8 @@ static thr_status begin(thr_branch *branch, const thr_tube *tube, thr_err *err)
   return st || !found ? st : thr_branch_try(branch, branch->passes, branch->ends, err);
 }
 
-/* One search, without turns or with them, from the cords in tube if there are any. Leaves its own
- * in tube, and its proof if that proves more. */
+/* Makes one search, with turns in its model or (projected) without, from the cords in tube if there
+ * are any. Leaves its own cords in tube, and its proof if that proves more. */
 static thr_status search(const thr_turning_columns *turning_columns, const thr_request *options,
                          bool projected, int most_nodes, const thr_limits *limits, thr_tube *tube,
                          thr_err *err)
@@ -63,15 +67,19 @@ static thr_status search(const thr_turning_columns *turning_columns, const thr_r
   double bound = 0;
   thr_status st = thr_branch_init(&branch, turning_columns, most_nodes, limits, err);
   if (st) return st;
+
   branch.projected = projected;
   st = begin(&branch, tube, err);
   if (!st) st = thr_branch_run(&branch, err);
+
   if (!st && branch.found) {
     thr_cords_destroy(tube->cord, tube->n_cords);
     tube->cord = NULL;
     tube->n_cords = 0;
     st = take_cords(&branch.best, tube, err);
   }
+
+  /* The better of both proofs stays. */
   if (!st) st = thr_branch_proof(&branch, &proof, err);
   if (!st) st = thr_tied_least(turning_columns->f, options, &proof, &bound, err);
   if (!st && bound > tube->bound) {
@@ -80,16 +88,19 @@ static thr_status search(const thr_turning_columns *turning_columns, const thr_r
     proof = (thr_turning_proof){0};
     tube->bound = bound;
   }
+
   thr_turning_proof_destroy(&proof);
   thr_branch_destroy(&branch);
   return st;
 }
 
+/* Returns whether the cords are proved to be the shortest. */
 static bool proved(const thr_tube *tube)
 {
   return tube->n_cords > 0 && tube->bound >= tube->length * (1 - 1e-9);
 }
 
+/* Makes the search without turns, and the one with them where the first leaves a gap. */
 static thr_status search_both(const thr_turning_columns *turning_columns,
                               const thr_request *options, const thr_limits *limits, thr_tube *tube,
                               thr_err *err)
@@ -102,6 +113,7 @@ static thr_status search_both(const thr_turning_columns *turning_columns,
   return st;
 }
 
+/* Makes cords without a search. */
 static thr_status only_begin(const thr_turning_columns *turning_columns, const thr_limits *limits,
                              thr_tube *tube, thr_err *err)
 {
@@ -109,13 +121,14 @@ static thr_status only_begin(const thr_turning_columns *turning_columns, const t
   thr_status st = thr_tie_possible(turning_columns, err);
   if (!st) st = thr_branch_init(&branch, turning_columns, 1, limits, err);
   if (st) return st;
+
   st = begin(&branch, tube, err);
   if (!st && branch.found) st = take_cords(&branch.best, tube, err);
   thr_branch_destroy(&branch);
   return st;
 }
 
-/* With a search, or without. */
+/* Makes cords, with a search or without. */
 static thr_status make(const thr_frame *frame, const thr_request *options, bool searched,
                        const thr_limits *limits, thr_tube *out, thr_err *err)
 {
@@ -123,16 +136,20 @@ static thr_status make(const thr_frame *frame, const thr_request *options, bool 
   thr_turning_task task;
   thr_tube tube = {0};
   *out = (thr_tube){0};
+
   bool *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
   if (!end_allowed) return thr_nomem(err);
   thr_tied_task(frame, options, end_allowed, &task);
+
   thr_status st = thr_turning_columns_init(&turning_columns, frame, &task, err);
   if (!st)
     st = searched ? search_both(&turning_columns, options, limits, &tube, err)
                   : only_begin(&turning_columns, limits, &tube, err);
+
   if (!st && tube.n_cords == 0)
     st = thr_fail(err, THR_EINFEASIBLE,
                   "no cords were found that tie all joints; allow more passes, or ends elsewhere");
+
   if (st)
     thr_tube_destroy(&tube);
   else
@@ -146,10 +163,12 @@ thr_status thr_tube_shortest(const thr_frame *frame, const thr_request *options,
                              const thr_limits *limits, thr_tube *out, thr_err *err)
 {
   *out = (thr_tube){0};
+
   if (options->ends == THR_ENDS_CLOSED && !thr_wants_length(options) && options->cords > 1)
     return thr_fail(err, THR_EINPUT,
                     "tube joints take one closed cord in every component; let the cords end "
                     "somewhere, or ask for one");
+
   thr_status st = make(frame, options, true, limits, out, err);
   if (st || proved(out)) return st;
   return thr_not_proved(err, "the length", out->length, out->bound);
