@@ -98,6 +98,7 @@ thr_status thr_tie_holds(const thr_turning_columns *turning_columns, const int *
   int *parent = thr_calloc(2 * (size_t)frame->n_edges, sizeof *parent), apart = 0;
   if (!parent) return thr_nomem(err);
 
+  /* Half-edges are parts of their own; the turns join them. */
   for (int h = 0; h < 2 * frame->n_edges; h++)
     parent[h] = h;
   for (int v = 0; v < frame->n_nodes; v++)
@@ -121,6 +122,7 @@ static thr_status count_ends(const thr_turning_columns *turning_columns, const i
   if (!sum) return thr_nomem(err);
   *fit = true;
 
+  /* Ends at nodes where none are allowed do not fit. */
   for (int v = 0; v < turning_columns->f->n_nodes; v++) {
     int n = ends ? ends[v] : 0;
     sum[turning_columns->end_group[v]] += n;
@@ -129,6 +131,7 @@ static thr_status count_ends(const thr_turning_columns *turning_columns, const i
         turning_columns->end_column[turning_columns->f->half[turning_columns->f->first[v]]] >= 0;
   }
 
+  /* Neither does a component with too few or too many of them. */
   for (int k = 0; k < turning_columns->n_ends; k++)
     *fit &= sum[k] >= turning_columns->supply[k][0] && sum[k] <= turning_columns->supply[k][1];
   free(sum);
@@ -168,6 +171,7 @@ thr_status thr_tie_pair(const thr_turning_columns *turning_columns, const int *p
   thr_knot knot = {0};
   int most = 0;
 
+  /* Can all nodes be tied, and how many passes are there at most? */
   thr_status st = count_ends(turning_columns, ends, found, err);
   for (int v = 0; v < frame->n_nodes && !st && *found; v++) {
     int n = count_knot(turning_columns, v, passes, ends);
@@ -176,10 +180,12 @@ thr_status thr_tie_pair(const thr_turning_columns *turning_columns, const int *p
   }
   if (st || !*found) return st;
 
+  /* All turns, ends and U-turns begin at 0; extra passes stay as they are. */
   memset(x, 0, (size_t)turning_columns->first_extra * sizeof *x);
   memset(x + turning_columns->first_end, 0,
          (size_t)(turning_columns->n_columns - turning_columns->first_end) * sizeof *x);
 
+  /* Tie node by node. */
   st = thr_knot_init(&knot, turning_columns, most, err);
   for (int v = 0; v < frame->n_nodes && !st && *found; v++) {
     *found = thr_knot_tie(&knot, v, passes, ends);

@@ -23,11 +23,14 @@ static void descend(thr_walker *walker, const thr_limits *limits)
   bool saved = isfinite(walker->total);
   while (saved) {
     saved = false;
+
+    /* Walks may begin with any half-edge, and with a pass more or less. */
     for (int step = 0; step < 4 * n_edges && !thr_limits_stop(limits); step++) {
       thr_walker_search(walker, step, saving);
       if (walker->last >= 0) thr_walker_take(walker);
       saved |= walker->last >= 0;
 
+      /* Two passes over one edge are tried once per edge. */
       if (step % 4 == 0)
         saved |=
             thr_walker_double(walker, step >> 2, 1) || thr_walker_double(walker, step >> 2, -1);
@@ -74,6 +77,7 @@ static void cool(thr_walker *walker, uint64_t *state, const thr_limits *limits, 
     double temperature = u_turn * hot * pow(cold / hot, (double)i / (double)n);
     double luck = ((double)(thr_random(state) >> 11) + 1) * 0x1p-53;
 
+    /* The walk may cost up to -temperature * log(luck) more. */
     thr_walker_search(walker, (int)(thr_random(state) % (uint64_t)steps), -temperature * log(luck));
 
     if (walker->last < 0) continue;
@@ -93,6 +97,7 @@ static thr_status improve(const thr_turning_columns *turning_columns, const thr_
   thr_status st = thr_walker_init(&walker, turning_columns, passes, ends, err);
   if (st) return st;
 
+  /* Passes and ends of the best plan are one array. */
   best.passes = thr_calloc(m + n, sizeof *best.passes);
   if (!best.passes) {
     thr_walker_destroy(&walker);
@@ -100,6 +105,7 @@ static thr_status improve(const thr_turning_columns *turning_columns, const thr_
   }
   best.ends = best.passes + m;
 
+  /* The first descent; then rounds, each from the best passes so far. */
   descend(&walker, limits);
   keep(&best, &walker);
   for (int i = 0; i < rounds && isfinite(best.total) && !thr_limits_stop(limits); i++) {

@@ -49,9 +49,11 @@ static thr_status rank_turns(thr_knot *knot, thr_err *err)
   const thr_turning_columns *turning_columns = knot->c;
   ranked *list = thr_calloc((size_t)turning_columns->first_extra, sizeof *list);
   if (!list) return thr_nomem(err);
+
   for (int j = 0; j < turning_columns->first_extra; j++)
     list[j] = (ranked){turning_columns->weight[j], j};
 
+  /* Turns of one node are consecutive columns. */
   for (int v = 0; v < turning_columns->f->n_nodes; v++) {
     int d = thr_degree(turning_columns->f, v);
     qsort(list + turning_columns->pair_first[v], (size_t)d * (size_t)(d - 1) / 2, sizeof *list,
@@ -76,6 +78,7 @@ thr_status thr_knot_init(thr_knot *knot, const thr_turning_columns *turning_colu
     return thr_fail(err, THR_EINPUT, "a node with %d passes is too large to tie",
                     most > degree ? most : degree);
 
+  /* The edges of the largest node, and the place of the ends. */
   size_t places = (size_t)degree + 1;
   knot->pair = thr_calloc((size_t)knot->most, sizeof *knot->pair);
   knot->parent = thr_calloc(3 * places, sizeof *knot->parent);
@@ -143,6 +146,8 @@ static void grow_tree(thr_knot *knot, int v)
 {
   const thr_turning_columns *turning_columns = knot->c;
   const int *order = knot->order + turning_columns->pair_first[v];
+
+  /* Rounds over the turns, the cheapest first: a turn that was refused may be allowed later. */
   for (int parts = knot->d, turns = knot->d * (knot->d - 1) / 2; parts > 1;)
     for (int q = 0; q < turns && parts > 1; q++) {
       int i = turning_columns->position[turning_columns->half[order[q]][0]],
@@ -150,6 +155,7 @@ static void grow_tree(thr_knot *knot, int v)
 
       if (knot->left[i] == 0 || knot->left[j] == 0) continue;
 
+      /* Two parts may only be joined if the new part has a pass left, or is the last one. */
       int a = thr_disjoint_find(knot->parent, i), b = thr_disjoint_find(knot->parent, j),
           room = knot->room[a] + knot->room[b] - 2;
       if (a == b || (room == 0 && parts > 2)) continue;
@@ -169,6 +175,7 @@ static void pair_rest(thr_knot *knot, int v)
   const int *order = knot->order + turning_columns->pair_first[v],
             turns = knot->d * (knot->d - 1) / 2;
 
+  /* Ends take passes of the edge that has most left. */
   while (knot->left[knot->d] > 0) {
     int most = knot->d;
     for (int i = knot->d - 1; i >= 0; i--)
@@ -176,6 +183,7 @@ static void pair_rest(thr_knot *knot, int v)
     add_pair(knot, most, knot->d);
   }
 
+  /* Then the turns, from the cheapest on, as often as both edges allow. */
   for (int q = 0; q < turns; q++) {
     int i = turning_columns->position[turning_columns->half[order[q]][0]],
         j = turning_columns->position[turning_columns->half[order[q]][1]];
@@ -183,6 +191,7 @@ static void pair_rest(thr_knot *knot, int v)
       add_pair(knot, i, j);
   }
 
+  /* What is left over turns back, at a price that exchanges will avoid. */
   for (int i = 0; i < knot->d; i++)
     while (knot->left[i] > 0)
       add_pair(knot, i, i);
@@ -202,6 +211,8 @@ static int connects(thr_knot *knot, thr_knot_pair knot_pair)
 static bool stays_tied(thr_knot *knot, int n, const int *out, const thr_knot_pair *in)
 {
   int parts = knot->d, skipped = 0;
+
+  /* Join the edges by all pairs that stay, then by the new ones. */
   for (int i = 0; i < knot->d; i++)
     knot->parent[i] = i;
 
@@ -229,6 +240,7 @@ static bool exchange_two(thr_knot *knot, int i)
   thr_knot_pair knot_pair = knot->pair[i], better[2] = {knot_pair, knot_pair};
   int with = -1;
 
+  /* Each other pair, in both directions. */
   for (int j = 0; j < knot->n; j++)
     for (int way = 0; way < 2; way++) {
       thr_knot_pair other = turned(knot->pair[j], way),
@@ -239,6 +251,7 @@ static bool exchange_two(thr_knot *knot, int i)
       if (j == i || more >= best ||
           !stays_tied(knot, 2, (const int[2]){i < j ? i : j, i < j ? j : i}, in))
         continue;
+
       best = more;
       with = j;
       memcpy(better, in, sizeof better);
@@ -258,6 +271,7 @@ static bool exchange_these(thr_knot *knot, const int *out)
   double before = price_of(knot, first) + price_of(knot, knot->pair[out[1]]) +
                   price_of(knot, knot->pair[out[2]]);
 
+  /* The first pair keeps its place in the ring; 8 ways to turn the pairs round. */
   for (int way = 0; way < 8; way++) {
     thr_knot_pair knot_pair = turned(first, way & 1), second = turned(knot->pair[out[1]], way & 2),
                   third = turned(knot->pair[out[2]], way & 4);
@@ -303,6 +317,7 @@ bool thr_knot_tie(thr_knot *knot, int v, const int *passes, const int *ends)
   int sum = ends ? ends[v] : 0;
   knot->turning = INFINITY;
 
+  /* An edge without passes, or numbers that no turns tie, end the attempt. */
   for (int i = frame->first[v]; i < frame->first[v + 1]; i++) {
     sum += passes[frame->half[i] >> 1];
     if (passes[frame->half[i] >> 1] < 1) return false;

@@ -79,6 +79,7 @@ static thr_status push(pass_router *router, int half, int by, double length, thr
   router->length[half] = length;
   router->by[half] = by;
 
+  /* Sift up. */
   int i = router->n_heap++;
   for (; i > 0 && router->heap[(i - 1) / 2].length > length; i = (i - 1) / 2)
     router->heap[i] = router->heap[(i - 1) / 2];
@@ -91,6 +92,8 @@ static reached pop(pass_router *router)
 {
   reached top = router->heap[0], last = router->heap[--router->n_heap];
   int i = 0, n = router->n_heap;
+
+  /* Sift the last entry down from the root. */
   for (int child; (child = 2 * i + 1) < n; i = child) {
     if (child + 1 < n && router->heap[child + 1].length < router->heap[child].length) child++;
     if (router->heap[child].length >= last.length) break;
@@ -133,11 +136,14 @@ static thr_status walk_from(pass_router *router, int v, int *last, thr_err *err)
   router->searches++;
   *last = -1;
 
+  /* The first half-edges leave node v. */
   thr_status st = step(router, v, -1, 0, err);
   while (!st && router->n_heap > 0) {
+    /* An entry that was replaced by a shorter walk is skipped. */
     reached at = pop(router);
     if (at.length > router->length[at.half]) continue;
 
+    /* A walk may end where a pass is needed; at v itself it takes two. */
     int head = thr_head(frame, at.half);
     if (router->need[head] > (head == v) && fits(router, head, at.half >> 1, 1)) {
       *last = at.half;
@@ -214,10 +220,13 @@ static void place_ends(pass_router *router, const double *x, int k)
   const thr_turning_columns *turning_columns = router->c;
   int placed = 0;
   double wish;
+
+  /* The whole part of what each node would have. */
   for (int v = 0; v < turning_columns->f->n_nodes; v++)
     if (turning_columns->end_group[v] == k)
       placed += router->ends[v] = end_wish(router, x, v, &wish);
 
+  /* One more end at a time, at the node that misses most of one. */
   while (placed < turning_columns->supply[k][0] || placed % 2) {
     int best = -1;
     double most = -INFINITY;
@@ -251,6 +260,7 @@ static void start_at(pass_router *router, const double *x)
       router->sum[frame->edge[e][side]] += router->passes[e];
   }
 
+  /* Ends as counted, or placed by x in each component. */
   for (int v = 0; v < frame->n_nodes; v++)
     router->ends[v] = turning_columns->task->end_count ? turning_columns->task->end_count[v] : 0;
   for (int k = 0; k < turning_columns->n_ends && turning_columns->task->end_allowed &&
@@ -258,6 +268,7 @@ static void start_at(pass_router *router, const double *x)
        k++)
     place_ends(router, x, k);
 
+  /* Last, what each node needs. */
   for (int v = 0; v < frame->n_nodes; v++)
     router->need[v] = thr_tie_need(turning_columns, v, router->passes, router->ends);
 }
@@ -290,10 +301,12 @@ thr_status thr_tie_round(const thr_turning_columns *turning_columns, const doubl
   *found = true;
   if (!st) start_at(&router, x);
 
+  /* Walks leave every node that needs passes. */
   for (int v = 0; v < turning_columns->f->n_nodes && !st && *found;
        v++) /* nodes with few ways out first would be no better */
     st = serve(&router, v, found, err);
 
+  /* A later walk may have given an earlier node a need. */
   for (int v = 0; v < turning_columns->f->n_nodes && !st && *found; v++)
     *found = router.need[v] == 0;
 

@@ -97,11 +97,13 @@ void thr_walker_reset(thr_walker *walker)
   const thr_turning_columns *turning_columns = walker->c;
   walker->total = walker->extra = 0;
 
+  /* Prices of the nodes, by the passes as they are. */
   for (int v = 0; v < turning_columns->f->n_nodes; v++) {
     walker->total += walker->price[v] = price_node(walker, v);
     forget(walker, v);
   }
 
+  /* Prices and lengths of the extra passes. */
   for (int e = 0; e < turning_columns->f->n_edges; e++) {
     walker->total += (walker->passes[e] - turning_columns->cover[e]) * weight_of(walker, e);
     walker->extra +=
@@ -144,6 +146,7 @@ thr_status thr_walker_init(thr_walker *walker, const thr_turning_columns *turnin
              4 * (size_t)turning_columns->f->n_edges + 2 * (size_t)turning_columns->n_ends + 2 * n;
 
   *walker = (thr_walker){.c = turning_columns, .passes = passes, .ends = ends, .last = -1};
+
   walker->price = thr_calloc(n, sizeof *walker->price);
   walker->known = thr_calloc((size_t)1 << KNOWN_BITS, sizeof *walker->known);
   walker->first = thr_calloc(n, sizeof *walker->first);
@@ -151,6 +154,7 @@ thr_status thr_walker_init(thr_walker *walker, const thr_turning_columns *turnin
   walker->reached = thr_calloc(steps, sizeof *walker->reached);
   walker->label = thr_calloc(THR_WALK_LABELS, sizeof *walker->label);
 
+  /* The table of changes is allocated last, as its size follows from first. */
   bool all = walker->price && walker->known && walker->first && walker->seen && walker->reached &&
              walker->label;
   if (all)
@@ -217,6 +221,7 @@ static double change_at(thr_walker *walker, int v, int i, int a, int j, int b)
   double *cell = walker->first[v] < 0 ? NULL : walker->change + walker->first[v];
   if (cell && !isnan(cell[row * wide + column])) return cell[row * wide + column];
 
+  /* Try both changes, price the node, and take them back. */
   bump(walker, v, i, a);
   bump(walker, v, j, b);
   double change = price_node(walker, v) - walker->price[v];
@@ -258,6 +263,7 @@ static void close_walk(thr_walker *walker, int label, int v, int place)
       walker->label[label].gain + change_at(walker, v, place, sign_of(walker->label[label].step),
                                             walker->c->position[begin >> 1], sign_of(begin));
 
+  /* It must save more than the best so far, within the limit on the length. */
   if (!(gain < walker->saved) ||
       (task->extra_limit >= 0 && walker->extra + walker->label[label].longer > task->extra_limit))
     return;
@@ -275,6 +281,7 @@ static void step_from_node(thr_walker *walker, int label, int v, int start)
   int place = place_after(walker, from.step, v), sign = sign_of(from.step),
       degree = thr_degree(frame, v);
 
+  /* Over each other edge, with a pass more or less, to a node not passed yet. */
   for (int j = 0; j < degree; j++) {
     int h = frame->half[frame->first[v] + j], e = h >> 1, to = thr_head(frame, h);
 
@@ -288,6 +295,7 @@ static void step_from_node(thr_walker *walker, int label, int v, int start)
               from.longer + by * frame->length[e]);
   }
 
+  /* Or to the ends of this node, once in a walk. */
   if (place == degree || !may_end(walker, v)) return;
 
   for (int earlier = label; earlier >= 0; earlier = walker->label[earlier].before)
@@ -323,6 +331,8 @@ void thr_walker_search(thr_walker *walker, int step, double allowed)
   walker->saved = allowed;
 
   if (!room(walker, e, sign_of(step))) return;
+
+  /* The first partial walk is the step alone; its price at the start comes in at the end. */
   walker->label[walker->n_labels++] = (thr_walk_label){
       sign_of(step) * weight_of(walker, e), sign_of(step) * walker->c->f->length[e], step, -1, 0};
 

@@ -35,6 +35,7 @@ static thr_status take_cords(const thr_join *join, thr_tube *tube, thr_err *err)
   tube->length = 0;
   tube->most_passes = 0;
 
+  /* Passes of an edge follow each other among the darts. */
   for (int d = 0, same = 0; d < join->g.n_darts && join->g.half[d] >= 0;
        d += 2) { /* passes of an edge follow each other */
     same = d > 0 && join->g.half[d] == join->g.half[d - 2] ? same + 1 : 1;
@@ -68,10 +69,12 @@ static thr_status search(const thr_turning_columns *turning_columns, const thr_r
   thr_status st = thr_branch_init(&branch, turning_columns, most_nodes, limits, err);
   if (st) return st;
 
+  /* Prices and cuts first; cords to begin with only where they leave a gap. */
   branch.projected = projected;
   st = begin(&branch, tube, err);
   if (!st) st = thr_branch_run(&branch, err);
 
+  /* Take the cords that were found in place of those before. */
   if (!st && branch.found) {
     thr_cords_destroy(tube->cord, tube->n_cords);
     tube->cord = NULL;
@@ -139,6 +142,8 @@ static thr_status make(const thr_frame *frame, const thr_request *options, bool 
 
   bool *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
   if (!end_allowed) return thr_nomem(err);
+
+  /* The model is that of least turning, in which only the length costs. */
   thr_tied_task(frame, options, end_allowed, &task);
 
   thr_status st = thr_turning_columns_init(&turning_columns, frame, &task, err);

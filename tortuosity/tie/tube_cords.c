@@ -76,6 +76,7 @@ static thr_status split(tied_cords *cords, int n, bool even, bool *found, bool *
   double least = cords->shortest->length * (1 + 1e-12);
   *certain = false;
 
+  /* A search first; the table where the search found too few walks, or longer ones. */
   thr_status st = thr_decomposition_tied(&cords->decomposition, n, even, found, err);
   if (st || (*found && (even || thr_walks_length(&cords->decomposition.walks) <= least))) return st;
 
@@ -130,6 +131,7 @@ static thr_status make_even(tied_cords *cords, thr_err *err)
   bool none = true;
   thr_status st = THR_OK;
 
+  /* From the largest number of cords down. */
   for (int n = cords->decomposition.o->cords; n >= least && none;
        n = n > 2 * least && n > IN_SINGLE_STEPS ? n / 2 : n - 1) {
     why = (thr_err){0};
@@ -138,6 +140,7 @@ static thr_status make_even(tied_cords *cords, thr_err *err)
     none = st == THR_EINFEASIBLE || st == THR_ELIMIT;
   }
 
+  /* At last the number of the shortest cords, which is known to be possible. */
   if (none && !closed_cords(cords)) st = even_shortest(cords, &why);
   return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
@@ -153,6 +156,7 @@ static thr_status try_number(thr_decomposition *decomposition, void *of, int n, 
   bool found = false, certain;
   thr_err why = {0};
 
+  /* Keep the walks at hand, in case that no better ones are found. */
   thr_walks before = decomposition->walks;
   decomposition->walks = (thr_walks){0};
 
@@ -162,6 +166,7 @@ static thr_status try_number(thr_decomposition *decomposition, void *of, int n, 
                  fmax(n, decomposition->walks.n_walks) * decomposition->o->max_length * (1 + 1e-9))
     st = make_walks(cords, n, true, decomposition->o->max_length, &found, &certain, &why);
 
+  /* Put them back. */
   if (st || !found) {
     thr_walks new = decomposition->walks;
     decomposition->walks = before;
@@ -182,6 +187,7 @@ static thr_status none_found(const tied_cords *cords, thr_err *err)
 
   bool proved = cords->shortest->bound > cords->decomposition.o->cords * limit * (1 + 1e-9) ||
                 cords->decomposition.none;
+
   if (proved)
     return thr_fail(err, THR_EINFEASIBLE,
                     "the component with node %s: of up to %d cords that tie its joints one is "
@@ -257,11 +263,13 @@ thr_status thr_tube_cords(thr_tube *tube, const thr_limits *limits, thr_plan *pl
   tied_cords cords = {.shortest = tube, .work = 1};
   *word = (thr_cords_word){0};
 
+  /* The shortest cords are what is asked for. */
   if (!thr_tube_shares(options)) {
     move_cords(tube, plan);
     return THR_OK;
   }
 
+  /* Otherwise the lengths are shared out anew. */
   thr_status st = thr_decomposition_init(&cords.decomposition, &plan->frame, options, limits, err);
   if (!st) st = make_some(&cords, plan, err);
   if (!st)

@@ -41,6 +41,7 @@ static thr_status first_init(first_cords *first, thr_err *err)
   const thr_frame *frame = first->f;
   int *passes = thr_calloc((size_t)frame->n_edges, sizeof *passes);
   if (!passes) return thr_nomem(err);
+
   for (int e = 0; e < frame->n_edges; e++)
     passes[e] = first->passes;
 
@@ -139,6 +140,7 @@ static thr_status add_circuit(first_cords *first, const thr_paths *paths, int e,
 
     if (!(walk.half = thr_calloc((size_t)walk.n, sizeof *walk.half))) return thr_nomem(err);
 
+    /* Over edge e, from its second node to the fork, and back to its first node. */
     walk.half[0] = 2 * e;
     thr_paths_back(paths, b, fork, walk.half + 1);
     thr_paths_back(paths, a, fork, walk.half + 1 + from_b);
@@ -248,6 +250,7 @@ thr_status thr_tube_first(const thr_frame *frame, const thr_request *options, co
 
   if (!is_possible(&first)) return THR_OK;
 
+  /* One circuit through all passes, with every node tied. */
   thr_status st = first_init(&first, err);
   if (!st) pair_in_rings(&first);
   if (!st) st = join_circuits(&first, err);
