@@ -53,6 +53,7 @@ static thr_status straighten(thr_decomposition *decomposition, int *passes, thr_
     int node = thr_walk_node(frame, walk, 0);
     bool cyclic = walk->cyclic;
 
+    /* The passes of this walk alone. */
     memset(passes, 0, (size_t)frame->n_edges * sizeof *passes);
     for (int j = 0; j < walk->n; j++)
       passes[walk->half[j] >> 1]++;
@@ -80,6 +81,7 @@ static thr_status tell(const thr_decomposition *decomposition, thr_err *err)
   thr_status st = THR_OK;
   if (!decomposition->limits->found) return THR_OK;
 
+  /* Cords take the walks over, so that they are made of a copy. */
   for (int i = 0; i < decomposition->walks.n_walks && !st; i++) {
     const thr_walk *walk = &decomposition->walks.walk[i];
     st = thr_walks_copy(&copy, decomposition->f, walk->half, walk->n, walk->cyclic, err);
@@ -153,6 +155,7 @@ static thr_status share_out(thr_decomposition *decomposition, int n,
   thr_status st =
       passes ? thr_decomposition_places(decomposition, n, certificate, err) : thr_nomem(err);
 
+  /* Trace the passes, and cut or split them into n walks. */
   thr_walks_destroy(&decomposition->walks);
   if (!st)
     st = thr_walks_trace(decomposition->f, decomposition->passes, &decomposition->walks, err);
@@ -161,6 +164,7 @@ static thr_status share_out(thr_decomposition *decomposition, int n,
              ? make_closed(decomposition, n, even, passes, err)
              : thr_decomposition_cut(decomposition, n, even, err);
 
+  /* Even the walks out, and straighten the cords afterwards. */
   if (!st && even) st = tell(decomposition, err);
   if (!st && even) st = thr_decomposition_even(decomposition, goal, err);
   if (!st && even) st = straighten(decomposition, passes, err);
@@ -201,6 +205,7 @@ static int choose_number(const thr_decomposition *decomposition)
   if (options->ends == THR_ENDS_COUNTS) return counted_cords(decomposition);
   if (!thr_wants_balance(options)) return options->cords_least;
 
+  /* No more cords than the passes have places for. */
   int room = most_cords(decomposition);
   return room < options->cords_least ? options->cords_least
          : room < options->cords     ? room
@@ -333,6 +338,7 @@ static thr_status try_number(thr_decomposition *decomposition, void *with, int n
   thr_status st = shortest_of(decomposition, n, &shortest, &found, err);
   if (st || !found) return st;
 
+  /* Do the shortest passes of n cords fit into n limits? */
   if (length_of(decomposition, shortest.passes) <= n * decomposition->o->max_length * (1 + 1e-9)) {
     memcpy(decomposition->passes, shortest.passes,
            (size_t)decomposition->f->n_edges * sizeof *decomposition->passes);
@@ -357,18 +363,22 @@ static thr_status none_found(const thr_decomposition *decomposition, double leas
              *up_to = decomposition->o->cords_least == most ? "" : "up to ";
 
   double limit = decomposition->o->max_length;
+
+  /* All cords together are too short. */
   if (least > most * limit * (1 + 1e-9))
     return thr_fail(err, THR_EINFEASIBLE,
                     "the component with node %s needs %g %s of cord: %d %s of at most %g "
                     "%s are too few",
                     decomposition->f->name[0], least, units, most, cords, limit, units);
 
+  /* The table knows that there are none. */
   if (decomposition->none)
     return thr_fail(
         err, THR_EINFEASIBLE,
         "the component with node %s: of %s%d %s one is longer than %g %s (all were tried)",
         decomposition->f->name[0], up_to, most, cords, limit, units);
 
+  /* Nothing is proved, with walks or without. */
   if (decomposition->walks.n_walks == 0)
 
     return thr_fail(err, THR_ELIMIT,
@@ -516,9 +526,11 @@ thr_status thr_cords_plan(const thr_frame *frame, const thr_request *options,
   bool one = options->cords == 1 && options->max_length == 0 && options->ends != THR_ENDS_COUNTS;
   if (one) return thr_postman_plan(frame, options, limits, plan, err);
 
+  /* The shortest passes, even if they are not proved to be. */
   thr_status proved = thr_postman_shortest(frame, options, limits, &shortest, &why);
   if (proved && proved != THR_ELIMIT) return thr_fail(err, proved, "%s", why.text);
 
+  /* Walks, cords, and what is proved of them. */
   thr_status st = thr_plan_request(plan, frame, options, err);
   if (!st) st = thr_decomposition_init(&decomposition, &plan->frame, &plan->options, limits, err);
   if (!st) st = make(&decomposition, &known, err);

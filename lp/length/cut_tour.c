@@ -106,6 +106,7 @@ static thr_status add_cord(tour_cutting *cutting, const thr_walk *walk, int from
   thr_walk cord = {n_to + section + n_back, NULL, 0, closed_cords(cutting)};
   if (!(cord.half = thr_calloc((size_t)cord.n, sizeof *cord.half))) return thr_nomem(err);
 
+  /* To the section, along it, and from its end. */
   thr_paths_to(&cutting->home, a, cord.half);
   memcpy(cord.half + n_to, walk->half + from, (size_t)section * sizeof *cord.half);
   thr_paths_back(&cutting->home, b, -1, cord.half + n_to + section);
@@ -126,6 +127,7 @@ static thr_status cut(tour_cutting *cutting, bool *found, thr_err *err)
   for (int i = 0, end; i < walk->n && !st && *found; i = end) {
     end = i + 1;
 
+    /* Passes that need not be made again begin no section. */
     if (cutting->left[walk->half[i] >> 1] <= 0) continue;
 
     st = begin_at(cutting, thr_walk_node(cutting->f, walk, i), err);

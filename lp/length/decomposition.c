@@ -64,9 +64,11 @@ static thr_status count_cuts(cut_places *places, int *cuts, thr_err *err)
   if (!(places->left = thr_calloc((size_t)frame->n_nodes, sizeof *places->left)))
     return thr_nomem(err);
 
+  /* All ends that are asked for, */
   for (int v = 0; v < frame->n_nodes; v++)
     places->left[v] = places->decomposition->o->end_count[v];
 
+  /* less those that the open walks have, */
   for (int i = 0; i < places->walks->n_walks; i++) {
     const thr_walk *walk = &places->walks->walk[i];
     if (walk->cyclic) continue;
@@ -74,6 +76,7 @@ static thr_status count_cuts(cut_places *places, int *cuts, thr_err *err)
     places->left[thr_head(frame, walk->half[walk->n - 1])]--;
   }
 
+  /* in pairs, as a cut makes two ends at one node. */
   for (int v = 0; v < frame->n_nodes; v++) {
     if (places->left[v] < 0 || places->left[v] % 2)
       return thr_fail(err, THR_ESOLVER,
@@ -133,6 +136,7 @@ static thr_status cut_all(cut_places *places, thr_err *err)
   for (int i = 0, end; i < places->n && !st; i = end) {
     thr_walk *walk = &places->walks->walk[places->list[i].walk];
 
+    /* All places of one walk. */
     for (end = i; end < places->n && places->list[end].walk == places->list[i].walk;)
       end++;
 
@@ -144,6 +148,7 @@ static thr_status cut_all(cut_places *places, thr_err *err)
       st = thr_walk_rotate(walk, shift, err);
     }
 
+    /* Cut from the last place on, so that the earlier ones keep their numbers. */
     for (int j = i; j < last && !st; j++)
       st = thr_splice_cut(places->walks, places->decomposition->f, places->list[j].walk,
                           places->list[j].at - shift, err);
@@ -168,6 +173,8 @@ static thr_status cut_sharpest(cut_places *places, int cuts, int wanted, thr_err
   if (st) return st;
 
   if (places->n) qsort(places->list, (size_t)places->n, sizeof *places->list, by_turn);
+
+  /* A node with counted ends is only cut as often as it has ends to give. */
   for (int i = 0; i < places->n && taken < cuts; i++) {
     if (!may_cut(places, places->list[i].node)) continue;
     if (places->left) places->left[places->list[i].node]--;
@@ -208,6 +215,7 @@ static thr_status cut_longest(cut_places *places, int cuts, int wanted, thr_err 
       thr_walk *walk = &places->walks->walk[i];
       if (best >= 0 && walk->length <= places->walks->walk[best].length * (1 + 1e-12)) continue;
 
+      /* Only a walk that has a place for a cut counts. */
       int at = middle(places, walk);
       if (at < (walk->cyclic ? 0 : 1)) continue;
       best = i;
@@ -242,6 +250,7 @@ thr_status thr_decomposition_cut(thr_decomposition *decomposition, int n, bool e
   if (counts) st = count_cuts(&places, &cuts, err);
   if (!counts && n > open) cuts = n - open;
 
+  /* Counted ends leave no choice of a middle. */
   if (!st && cuts)
     st = even && !counts ? cut_longest(&places, cuts, n, err)
                          : cut_sharpest(&places, cuts, open + cuts, err);
@@ -264,6 +273,7 @@ static thr_status make_exact(thr_decomposition *decomposition, double goal, thr_
   thr_decomposition_ask ask = {counts ? n : options->cords_least, counts ? n : options->cords, true,
                                INFINITY};
 
+  /* The table is asked once, and only where the goal was missed. */
   if (goal > 0 && (decomposition->asked ||
                    thr_decomposition_within(thr_walks_most(&decomposition->walks), goal)))
     return THR_OK;
@@ -288,6 +298,7 @@ static thr_status take_cords(thr_decomposition *decomposition, const thr_cord *c
   for (int i = 0; i < n && !st; i++)
     st = thr_walks_copy(&walks, decomposition->f, cord[i].half, cord[i].n_passes, closed, err);
 
+  /* On failure the walks stay. */
   if (st) {
     thr_walks_destroy(&walks);
     return st;

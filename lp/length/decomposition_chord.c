@@ -28,6 +28,7 @@ static thr_status best_chord(thr_paths *paths, const thr_decomposition *decompos
   thr_status st = THR_OK;
   *best = (chord){walk->length * (1 - 1e-9), 0, 0};
 
+  /* From the node before pass i the paths go no further than half of the walk. */
   for (int i = 0; i < walk->n && !st; i++) {
     double part = 0;
     thr_paths_clear(paths);
@@ -75,6 +76,7 @@ static thr_status split(thr_paths *paths, thr_decomposition *decomposition, int 
   int *path = thr_calloc((size_t)frame->n_nodes, sizeof *path);
   if (!path) return thr_nomem(err);
 
+  /* The best path again, now with its half-edges. */
   thr_paths_clear(paths);
   thr_status st = thr_paths_start(paths, thr_walk_node(frame, &walks->walk[i], best->from), err);
   if (!st)
@@ -100,6 +102,7 @@ static thr_status dissolve(thr_decomposition *decomposition, int i, int n, bool 
 
   *made = size > 1 && walks->n_walks + size - 1 <= n;
 
+  /* Every edge there and back must be shorter than the walk, with room for one more pass. */
   for (int k = 0; k < size && *made; k++) {
     int e = walk->half[k] >> 1;
     *made = 2 * frame->length[e] < walk->length * (1 - 1e-9) &&
@@ -109,6 +112,7 @@ static thr_status dissolve(thr_decomposition *decomposition, int i, int n, bool 
   if (!*made) return THR_OK;
   thr_status st = THR_OK;
 
+  /* A walk for each pass but the first. */
   for (int k = 1; k < size && !st; k++) {
     int h = walks->walk[i].half[k];
     passes[h >> 1]++;
@@ -134,6 +138,7 @@ thr_status thr_decomposition_chords(thr_decomposition *decomposition, int n, thr
 
   thr_status st = thr_paths_init(&paths, decomposition->f, err);
 
+  /* Split the longest walk; if no path is good, replace it by walks over its edges. */
   while (!st && more && walks->n_walks < n) {
     int longest = thr_walks_longest(walks);
     st = best_chord(&paths, decomposition, &walks->walk[longest], &best, err);

@@ -98,6 +98,7 @@ static thr_status best_half(const thr_decomposition *decomposition, thr_junction
   if (!tried) return thr_nomem(err);
   *best = (section){INFINITY, -1, 0, 0};
 
+  /* By falling length, until a walk has a node twice. */
   for (int round = 0; round < walks->n_walks && best->walk < 0 && !st; round++) {
     int longest = -1;
     for (int i = 0; i < walks->n_walks; i++)
@@ -151,6 +152,7 @@ static int way_back(peeling *peeled, int h, int most)
   peeled->queue[tail++] = thr_head(peeled->f, h);
   peeled->depth[peeled->queue[0]] = 1;
 
+  /* A breadth-first search, level by level. */
   for (; at < tail && !found; at++) {
     int v = peeled->queue[at];
     if (peeled->depth[v] > most) break;
@@ -179,6 +181,7 @@ static thr_status peel(peeling *peeled, int h, int back, thr_walks *walks, thr_e
   if (!circuit.half) return thr_nomem(err);
   circuit.half[0] = h;
 
+  /* Read the way back from its end. */
   for (int i = back, v = thr_tail(peeled->f, h); i > 0; i--) {
     circuit.half[i] = peeled->from[v];
     v = thr_tail(peeled->f, peeled->from[v]);
@@ -265,6 +268,7 @@ static thr_status best_junction(const thr_decomposition *decomposition, junction
   thr_status st = thr_walk_visits_init(&visits, decomposition->f, walks->walk, walks->n_walks, err);
   if (st) return st;
 
+  /* Every visit with the earlier ones of other walks to the same node. */
   for (int j = 0; j < visits.n; j++)
     for (int i = visits.next[j], seen = 0; i >= 0 && seen < MOST_VISITS; i = visits.next[i])
       if (visits.walk[i] != visits.walk[j]) {
@@ -313,9 +317,11 @@ thr_status thr_decomposition_circuits(thr_decomposition *decomposition, int n, b
   *enough = walks->n_walks >= n;
   if (st || *enough) return st;
 
+  /* Splitting did not suffice: take the passes apart. */
   if ((st = short_circuits(decomposition, &many, err))) return st;
   bool better = many.n_walks > walks->n_walks;
 
+  /* Put the circuits in the place of the walks, and merge what is too many. */
   if (better) {
     thr_walks keep = *walks;
     *walks = many;

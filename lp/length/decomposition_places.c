@@ -108,6 +108,7 @@ static thr_status count_ports(port_graph *ports, thr_err *err)
     int room = thr_plan_capacity(decomposition->f, decomposition->o, e) -
                thr_plan_cover(decomposition->f, decomposition->o, e);
 
+    /* One extra pass at least, for parity. */
     if (most < 1) most = 1;
     ports->copies[e] = most < room ? most : room;
     ports->n_ports[a] += ports->copies[e];
@@ -115,6 +116,7 @@ static thr_status count_ports(port_graph *ports, thr_err *err)
     ports->n_passes += ports->copies[e];
   }
 
+  /* The edges of the matching problem, which may become too many. */
   for (int group = 0; group < ports->n_groups; group++) {
     int64_t cores = ports->n_ports[group] - ports->need[group];
     if (cores >= 0) edges += cores * ports->n_ports[group] + cores * (cores - 1) / 2;
@@ -158,6 +160,7 @@ static thr_status build(port_graph *ports, thr_err *err)
   const thr_frame *frame = ports->decomposition->f;
   int n = 0;
 
+  /* Number the ports and the cores of each group. */
   for (int group = 0; group < ports->n_groups; group++) {
     if (ports->n_ports[group] < ports->need[group]) return no_room(ports, group, err);
     ports->top[group] = ports->first[group];
@@ -170,6 +173,7 @@ static thr_status build(port_graph *ports, thr_err *err)
   thr_status st = thr_scratch_check(&ports->own, err);
   if (st) return st;
 
+  /* An edge of the matching for each possible pass. */
   for (int e = 0; e < frame->n_edges; e++)
     for (int i = 0; i < ports->copies[e]; i++) {
       int a = ports->top[ports->group[frame->edge[e][0]]]++,
@@ -177,6 +181,7 @@ static thr_status build(port_graph *ports, thr_err *err)
       add_edge(ports, &n, a, b, thr_certificate_weight(frame, ports->certificate, e));
     }
 
+  /* Each core with the ports, and with the cores before it. */
   for (int group = 0; group < ports->n_groups; group++)
     for (int core = ports->first[group] + ports->n_ports[group]; core < ports->first[group + 1];
          core++)
@@ -223,6 +228,7 @@ thr_status thr_decomposition_places(thr_decomposition *decomposition, int n,
   thr_matching matching = {0};
   if (decomposition->o->ends == THR_ENDS_CLOSED || enough_places(decomposition, n)) return THR_OK;
 
+  /* The matching may be too large, or not exist; the passes then stay. */
   thr_err why = {0};
   thr_status st = ports_init(&ports, n, &why);
 

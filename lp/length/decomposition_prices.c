@@ -344,6 +344,7 @@ static thr_status try_prices(place_pricing *pricing, const int64_t *price, int n
   size_t n = (size_t)pricing->n_nodes + 1, m = (size_t)pricing->n_edges;
   bool *odd = thr_calloc(n, sizeof *odd), *in_join = thr_calloc(m, sizeof *in_join);
 
+  /* The trial starts without cuts. */
   thr_certificate_destroy(certificate);
   *certificate = (thr_certificate){pricing->certificate->component, pricing->certificate->scale,
                                    pricing->unit * THR_DUAL_DENOMINATOR,
@@ -351,6 +352,7 @@ static thr_status try_prices(place_pricing *pricing, const int64_t *price, int n
   certificate->place_price = thr_calloc((size_t)n_prices, sizeof *certificate->place_price);
   thr_status st = odd && in_join && certificate->place_price ? THR_OK : thr_nomem(err);
 
+  /* The set T and what the cheapest passes cost, then the join of every part. */
   if (!st) {
     thr_wide bound;
     for (int i = 0; i < n_prices; i++)
@@ -364,6 +366,7 @@ static thr_status try_prices(place_pricing *pricing, const int64_t *price, int n
     if (!st) measure(pricing, in_join, weight, places);
     if (!st &&
         bound * pricing->certificate->denominator > pricing->bound * certificate->denominator) {
+      /* The trial is better: exchange it for the certificate. */
       thr_certificate keep = *pricing->certificate;
       *pricing->certificate = *certificate;
       *certificate = keep;
@@ -461,6 +464,7 @@ static thr_status find_short(price_programme *programme, thr_err *err)
   thr_status st = thr_scratch_check(&programme->own, err);
   if (st) return st;
 
+  /* A node with enough passes by its covers needs no price. */
   for (int v = 0; v < pricing->n_nodes; v++) {
     int places = 0;
     for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
@@ -482,11 +486,14 @@ static thr_status build(price_programme *programme, thr_err *err)
   thr_status st = cost && upper ? THR_OK : thr_nomem(err);
 
   int64_t usual;
+
+  /* No price is above the highest one. */
   for (int i = 0; i <= programme->n && !st; i++)
     upper[i] = (double)highest_price(pricing, &usual) / (double)pricing->unit;
   if (!st) cost[programme->n] = 1;
   if (!st) st = thr_lp_create(&programme->lp, programme->n + 1, cost, upper, err);
 
+  /* The prices at both ends of an edge are no more than its weight, if it may have any passes. */
   for (int e = 0; e < pricing->n_edges && !st; e++) {
     int n = 0;
     for (int s = 0; s < 2; s++) {
@@ -527,10 +534,12 @@ static void take_prices(price_programme *programme, int64_t *price)
 {
   const place_pricing *pricing = programme->pricing;
   thr_lp_primal(programme->lp, programme->solution);
+
   for (int i = 0; i < programme->n; i++)
     price[programme->node[i]] =
         (int64_t)nearbyint(fmax(0, programme->solution[i]) * (double)pricing->unit);
 
+  /* An edge without a limit must not weigh less than nothing. */
   for (int i = 0; i < pricing->n_edges; i++) {
     const int *end = pricing->decomposition->f->edge[i];
     int64_t *a = &price[pricing->local[end[0]]], *b = &price[pricing->local[end[1]]];

@@ -22,6 +22,7 @@ static thr_status take(thr_decomposition *decomposition, thr_small_cords *cords,
     st = thr_walks_add(&new, frame, walk, err);
   }
 
+  /* On failure the walks stay. */
   if (st) {
     thr_walks_destroy(&new);
     return st;
@@ -48,6 +49,7 @@ thr_status thr_decomposition_table(thr_decomposition *decomposition,
                              thr_walks_most(walks),
                              thr_walks_length(walks)};
 
+  /* The walks at hand are the known cords, which must be beaten. */
   thr_status st = thr_small_cords_find(decomposition->f, decomposition->o, &all,
                                        decomposition->limits, &cords, certain, err);
   if (!st && cords.n > 0) st = take(decomposition, &cords, err);

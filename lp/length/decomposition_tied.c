@@ -48,6 +48,7 @@ static thr_status shuffle(tied_splitting *splitting, thr_walk *walk, uint64_t *r
     thr_status st = thr_walk_visits_init(&visits, splitting->decomposition->f, walk, 1, err);
     if (st) return st;
 
+    /* The section between a random visit and the one before of the same node. */
     const int j = (int)(thr_random(random) % (uint64_t)walk->n), i = visits.next[j];
     thr_walk_visits_destroy(&visits);
 
@@ -98,6 +99,7 @@ static void offer_chords(const tied_splitting *splitting, const thr_walk_visits 
 {
   const thr_frame *frame = splitting->decomposition->f;
 
+  /* The visit where the chord leaves, then the later one where it arrives. */
   for (int i = visits->first[thr_tail(frame, h)], seen = 0; i >= 0 && seen < THR_MOST_VISITS;
        i = visits->next[i], seen++) {
     const thr_walk *walk = &splitting->decomposition->walks.walk[visits->walk[i]];
@@ -193,6 +195,7 @@ static thr_status best_circuit(const tied_splitting *splitting, thr_paths *paths
       int a = frame->edge[e][0], b = frame->edge[e][1];
       double length = paths->far[a] + paths->far[b] + frame->length[e];
 
+      /* The paths must not use the edge, and must leave node v differently. */
       if (!(length < best->length) || on_way(paths, a, e) || on_way(paths, b, e)) continue;
       if (splitting->decomposition->passes[e] <
               thr_plan_capacity(frame, splitting->decomposition->o, e) &&
@@ -278,6 +281,7 @@ thr_status thr_decomposition_tied(thr_decomposition *decomposition, int n, bool 
   if (!st) st = thr_paths_init(&paths, decomposition->f, err);
   if (!st) st = split_shuffled(&splitting, n, err);
 
+  /* Each further cord costs passes. */
   while (!st && made && walks->n_walks < n) {
     st = add_one(&splitting, &paths, n, &made, err);
     if (!st) st = thr_decomposition_split(decomposition, n, even, &splitting.ties, err);

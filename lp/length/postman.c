@@ -253,6 +253,7 @@ static thr_status solve_closed(postman_problem *postman, int number, const domai
              taken = THR_OK;
   if (!st) st = thr_confirmations_add(counter(postman), &tjoin_problem, &tjoin, err);
 
+  /* A join that is not proved is taken, too, with what its cuts prove. */
   if (!st || st == THR_ELIMIT) {
     take_join(postman, domain, tjoin.in_join, certificate);
     taken = take_cuts(postman, number, &tjoin.cut, &tjoin.n_cuts,
@@ -280,6 +281,7 @@ static thr_status solve_open(postman_problem *postman, int number, const domain_
   endjoin_problem.far++;
   if (!st) st = thr_endjoin_solve(&endjoin_problem, postman->limits, &endjoin, err);
 
+  /* A join that is not proved is taken, too, with what its cuts prove. */
   if (!st || st == THR_ELIMIT) {
     take_join(postman, domain, endjoin.in_join, certificate);
     certificate->end_price = endjoin.end_price;
@@ -355,11 +357,13 @@ static thr_status check_parts(const postman_problem *postman, thr_err *err)
   int *ends = thr_calloc(n, sizeof *ends);
   thr_status st = odd && open && ends ? THR_OK : thr_nomem(err);
 
+  /* Each part: whether its number of odd nodes is odd, and whether a cord may end there. */
   for (int v = 0; v < frame->n_nodes && !st; v++) {
     odd[postman->part[v]] ^= postman->odd[v];
     open[postman->part[v]] |= ends_free(postman) && thr_plan_end_allowed(frame, postman->o, v);
   }
 
+  /* A part that is odd takes one end. */
   for (int v = 0; v < frame->n_nodes && !st; v++) {
     if (!odd[v]) continue; /* only roots are marked */
     if (!open[v])
@@ -383,6 +387,7 @@ static thr_status check_ends(const postman_problem *postman, thr_err *err)
       *first = thr_calloc((size_t)postman->n_components, sizeof *first);
   thr_status st = ends && first ? THR_OK : thr_nomem(err);
 
+  /* How many ends there can be, or are given, in each component. */
   for (int v = frame->n_nodes - 1; v >= 0 && !st; v--) {
     first[postman->component[v]] = v;
     ends[postman->component[v]] += postman->o->ends == THR_ENDS_COUNTS
@@ -390,6 +395,7 @@ static thr_status check_ends(const postman_problem *postman, thr_err *err)
                                        : thr_plan_end_allowed(frame, postman->o, v);
   }
 
+  /* Counted ends have to be two for each of as many cords as asked for. */
   for (int k = 0; k < postman->n_components && !st; k++) {
     const char *name = frame->name[first[k]];
     if (ends[k] == 0)
@@ -516,14 +522,17 @@ static thr_status postman_init(postman_problem *postman, thr_err *err)
     for (int e = 0; e < frame->n_edges; e++)
       key[e] = postman->component[frame->edge[e][0]];
 
+    /* Edges by component. */
     group(frame->n_edges, key, postman->n_components, postman->edge_start, postman->edge);
 
+    /* Nodes by domain, and the position of each in its domain. */
     find_domains(postman, key);
     group(frame->n_nodes, key, postman->n_domains, postman->start, postman->node);
     for (int d = 0; d < postman->n_domains; d++)
       for (int j = postman->start[d]; j < postman->start[d + 1]; j++)
         postman->local[postman->node[j]] = j - postman->start[d];
 
+    /* A counted end makes its node odd, and so does each pass of a cover. */
     for (int v = 0; v < frame->n_nodes; v++)
       postman->odd[v] = postman->o->ends == THR_ENDS_COUNTS && postman->o->end_count[v] % 2;
     for (int e = 0; e < frame->n_edges; e++) {

@@ -25,6 +25,7 @@ static thr_status weigh_joins(const thr_frame *frame, const thr_request *options
   for (int k = 0; k < shortest->n_certificates; k++)
     shortest->certificate[k].join = 0;
 
+  /* Less the covers, plus all passes. */
   for (int e = 0; e < frame->n_edges && !st; e++) {
     thr_certificate *certificate = &shortest->certificate[component[frame->edge[e][0]]];
     certificate->join -=
@@ -54,6 +55,7 @@ thr_status thr_postman_prove(const thr_frame *frame, const thr_request *options,
   thr_status st = weigh_joins(frame, options, cord, n_cords, shortest, err);
   if (st) return st;
 
+  /* The proof owns the certificates from here on. */
   proof->certificate = shortest->certificate;
   proof->n_certificates = shortest->n_certificates;
   shortest->certificate = NULL;
@@ -62,6 +64,7 @@ thr_status thr_postman_prove(const thr_frame *frame, const thr_request *options,
   for (int i = 0; i < n_cords; i++)
     length += thr_cord_length(frame, &cord[i]);
 
+  /* The checker says what they prove of these cords. */
   st = thr_check_own(thr_check_length_proof(frame, options, cord, n_cords, proof->certificate,
                                             proof->n_certificates, &proof->optimal,
                                             &proof->lower_bound, &found),
