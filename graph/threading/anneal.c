@@ -109,6 +109,7 @@ static thr_status step(thr_annealer *annealer, const cooling_schedule *schedule,
       other = thr_random_below(&annealer->state, annealer->n_cords);
   if (annealer->walk[other].total > annealer->walk[number].total) number = other;
 
+  /* Most changes are exchanges; the others change passes. */
   const double kind = thr_random_unit(&annealer->state), exchanges = .82, drops = .83,
                ends = .92; /* kinds below that */
   thr_anneal_exchange exchange = {0};
@@ -170,6 +171,7 @@ thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_t
   if (!st) schedule.best = largest(&annealer);
   annealer.state = (uint64_t)number + 1;
 
+  /* The time that a step is counted to take depends on the passes of a cord. */
   const int passes = thr_cords_passes(cord, n_cords), cycles = cycles_of(task, near, passes);
   const double all = left_of(limits), per_step = 3.6e-8 + 3e-10 * passes / n_cords; /* s, counted */
   for (int i = 0; i < task->steps && !st && schedule.best > task->enough; i++) {
@@ -180,6 +182,7 @@ thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_t
       if (thr_limits_left(limits, 1) <= 0) break;
       thr_limits_spend(limits, LOOK * per_step);
 
+      /* Of steps and time, what is used up first. */
       double done = (double)i / task->steps;
       if (all > 0) done = fmax(done, 1 - left_of(limits) / all);
       done = fmin(done, .999) * cycles;
@@ -243,6 +246,7 @@ static thr_status run_round(annealing_round *round, const thr_limits *limits, th
   thr_status st = THR_OK;
   int best = -1;
 
+  /* Every run changes cords of its own. */
   for (int k = 0; k < n && !st; k++)
     st = thr_cords_copy(cord, round->n_cords, &round->cord[k], err);
   if (!st) st = thr_threads_beside(n, run_one, round, limits, err);
@@ -276,6 +280,7 @@ thr_status thr_anneal(const thr_turning_columns *columns, const thr_anneal_task 
   thr_status st = THR_OK;
   *better = false;
 
+  /* Until the cords are good enough, or many rounds in turn were in vain. */
   for (int i = 0, vain = 0;
        i < task->rounds && vain < VAIN && !st && largest_price(&round, cord) > task->enough;
        i++, round.round++) {

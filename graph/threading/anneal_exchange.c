@@ -63,11 +63,14 @@ static bool draw_place(thr_annealer *annealer, int except, int node, thr_anneal_
 {
   const thr_frame *frame = annealer->c->f;
   const int n = annealer->n_visits[node];
+
+  /* All visits and one draw of an end are equally likely. */
   if (n > 0 && thr_random_below(&annealer->state, n + 1) < n) {
     *at = thr_anneal_visit_at(annealer, node);
     return true;
   }
 
+  /* A random cord that ends at the node, at either end. */
   const int number = thr_random_below(&annealer->state, annealer->n_cords);
   const thr_anneal_walk *walk = &annealer->walk[number];
   if (number == except) return false;
@@ -94,6 +97,7 @@ static bool change_tails(thr_annealer *annealer, thr_anneal_exchange *exchange)
   exchange->turned = thr_random_below(&annealer->state, 2);
   change->n_cords = 2;
 
+  /* Head to head and tail to tail, or each head to the other tail. */
   if (exchange->turned) {
     change->total[0] = ahead(walk, i) +
                        turn(annealer, before(annealer, walk, i), back(before(annealer, other, j))) +
@@ -267,6 +271,7 @@ static void build_tails(thr_annealer *annealer, thr_anneal_exchange *exchange)
                         *other = &annealer->walk[change->cord[1]];
 
   thr_anneal_put(annealer, change, 0, walk->half, 0, exchange->i, false);
+
   if (exchange->turned) {
     thr_anneal_put(annealer, change, 0, other->half, 0, exchange->j, true);
     thr_anneal_put(annealer, change, 1, walk->half, exchange->i, walk->n, true);

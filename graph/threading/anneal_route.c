@@ -25,6 +25,7 @@ bool thr_anneal_drop_loop(thr_annealer *annealer, int cord, thr_anneal_change *c
       thr_anneal_visit_at(annealer, thr_tail(annealer->c->f, walk->half[i]));
   if (at.cord != cord || at.at == i) return false;
 
+  /* The loop runs between the two visits. */
   const int i2 = at.at > i ? at.at : i;
   if (at.at < i) i = at.at;
 
@@ -143,6 +144,7 @@ static void find_route(thr_annealer *annealer, int from, int to)
       break;
     }
 
+    /* Routes have few passes. */
     if (hops >= MOST_HOPS) continue;
     for (int i = frame->first[v]; i < frame->first[v + 1]; i++) {
       const int next = frame->half[i];
@@ -182,6 +184,7 @@ bool thr_anneal_reroute(thr_annealer *annealer, int cord, thr_anneal_change *cha
       memcmp(annealer->route, walk->half + i, (size_t)(j - i) * sizeof *annealer->route) == 0)
     return false;
 
+  /* The cord in the direction of the end that is drawn. */
   *change = (thr_anneal_change){.n_cords = 1, .cord = {cord}};
   thr_anneal_put(annealer, change, 0, walk->half, 0, i, false);
   thr_anneal_put(annealer, change, 0, annealer->route, 0, annealer->n_route, false);

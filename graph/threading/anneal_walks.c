@@ -194,6 +194,8 @@ static void fill_prices(thr_annealer *annealer)
 
   /* A route is disturbed by at most an average edge, or by a small angle. */
   annealer->noise = annealer->measure == THR_WALK_LENGTH ? sum / frame->n_edges : angle;
+
+  /* The price of each turn at each node. */
   for (int v = 0; v < frame->n_nodes; v++) {
     const int degree = thr_degree(frame, v), *half = frame->half + frame->first[v];
     for (int i = 0; i < degree * degree; i++) {
@@ -340,6 +342,7 @@ thr_status thr_annealer_init(thr_annealer *annealer, const thr_turning_columns *
   for (int e = 0; e < frame->n_edges; e++)
     annealer->extra -= columns->cover[e] * frame->length[e];
 
+  /* Each cord becomes a walk, with its visits, passes and turns. */
   for (int i = 0; i < n_cords && !st; i++) {
     st = set_walk(annealer, i, cord[i].half, cord[i].n_passes, err);
     if (st) break;
@@ -420,6 +423,7 @@ static bool recount_passes(thr_annealer *annealer, const thr_anneal_change *chan
   const double extra = annealer->extra;
   bool right = true;
 
+  /* Count the new walks in place of the old ones. */
   for (int i = 0; i < change->n_cords; i++)
     add_passes(annealer, annealer->walk[change->cord[i]].half, annealer->walk[change->cord[i]].n,
                -1);

@@ -82,6 +82,7 @@ static bool change_tails(thr_evener *evener, const thr_place *p, const thr_place
     if (thr_threading_keep(evener->t, &old)) return true;
   }
 
+  /* Otherwise the heads. */
   const double heads[2] = {price(evener, p->in, q->in), price(evener, p->out, q->out)};
   if (!better(evener, p->cord, q->cord, p->before + heads[0] + q->before,
               after(evener, p) + heads[1] + after(evener, q)))
@@ -132,6 +133,7 @@ static bool hand_over(thr_evener *evener, const thr_place *p, const thr_place *q
           price(evener, other->in, meeting->in) + price(evener, meeting->out, other->out);
       if (!better(evener, k, other->cord, rest, base + fmin(same, turned))) continue;
 
+      /* Close the part, and open it at the place where it joins the other cord. */
       thr_threading_pair(threading, q->in, p->out, p->in, q->out, &old);
       thr_threading_pair(threading, other->in, same <= turned ? meeting->out : meeting->in,
                          other->out, same <= turned ? meeting->in : meeting->out, &old);
@@ -157,11 +159,13 @@ static bool exchange_at(thr_evener *evener, int v)
        */
       if (p == q || p->in != multigraph->dart[i] || q->in != multigraph->dart[k]) continue;
 
+      /* Two open cords exchange tails. */
       if (p->cord != q->cord) {
         if (!closed(evener) && change_tails(evener, p, q)) return true;
         continue;
       }
 
+      /* Within one cord the earlier place comes first. */
       if (p->index > q->index) {
         const thr_place *later = p;
         p = q;
@@ -373,6 +377,7 @@ static void try_change(thr_evener *evener, double heat, double *now)
 
   if (!make(evener, &proposed, &old)) return;
 
+  /* Follow all cords: a change whose totals were not known is judged now. */
   const double next = thr_evener_follow(evener) ? thr_evener_value(evener) : (double)INFINITY;
   if (next < INFINITY && (known || is_taken(evener, *now, next, heat))) {
     *now = next;
@@ -391,6 +396,7 @@ void thr_evener_anneal(thr_evener *evener, int steps, double bound, int *best)
   double now = thr_evener_value(evener), least = now, heat = hot;
   memcpy(best, evener->t->mate, bytes);
 
+  /* The heat falls by equal factors, and is set now and then. */
   for (int i = 0; i < steps && evener->t->n_places > 1; i++) {
     if (i % 64 == 0) {
       if (thr_limits_stop(evener->limits) || thr_evener_largest(evener) <= bound * (1 + 1e-9))

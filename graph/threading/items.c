@@ -233,12 +233,14 @@ thr_status thr_items_model(thr_items *items, bool *small, thr_err *err)
 
   if (!*small) return THR_OK;
 
+  /* Items first: too many of them end the attempt. */
   add_cuts(items);
   add_passes(items);
   if (items->o->ends == THR_ENDS_COUNTS) add_ends(items);
   *small = items->m.n_items <= THR_SUBSETS_MOST_ITEMS;
   if (!*small) return THR_OK;
 
+  /* Then steps, starts and ends, which collect them. */
   thr_status st = add_steps(items, err);
   if (!st) st = add_starts(items, err);
   return st ? st : items->m.closed ? add_closings(items, err) : add_open_ends(items, err);
@@ -285,6 +287,7 @@ static bool add_missing(thr_items *items, int *part)
         size++;
       }
 
+      /* The smallest part, which is not all of the node. */
       if (size == 0 || size >= fewest) continue;
       fewest = size;
       best = members;
@@ -326,6 +329,7 @@ thr_status thr_items_refine(thr_items *items, int n_walks, int *const *state, co
   uint32_t full;
   const int cuts = items->n_cuts;
 
+  /* Capacities, and with tube joints the nodes. */
   thr_status st = find_full(items, n_walks, state, n_passes, &full, err);
   if (!st && tube(items)) st = tie(items, n_walks, state, n_passes, &tied, err);
   if (st) return st;

@@ -53,6 +53,7 @@ thr_status thr_junction_graphs_init(thr_junction_graphs *graphs, const thr_frame
                             .first = thr_calloc((size_t)frame->n_nodes, sizeof *graphs->first),
                             .place = thr_calloc(2 * (size_t)frame->n_edges, sizeof *graphs->place)};
 
+  /* Places of the half-edges, and where the counts of each node begin. */
   for (int v = 0; v < frame->n_nodes && graphs->first && graphs->place; v++) {
     int degree = thr_degree(frame, v);
     graphs->first[v] = sum;
@@ -85,6 +86,7 @@ static int reached(thr_junction_graphs *graphs, int v)
   graphs->queue[0] = 0;
   graphs->seen[0] = true;
 
+  /* The queue holds what is reached; a turn back is on the diagonal. */
   for (int at = 0; at < n; at++) {
     const int *row = count + (size_t)graphs->queue[at] * (size_t)degree;
     if (row[graphs->queue[at]] > 0) return -1;

@@ -84,6 +84,7 @@ static bool exchange_pairs(int n, const double *price, int *mate)
       int b = mate[a], d = mate[c];
       if (b == c) continue;
 
+      /* Both other pairings of the four points. */
       double old = price[a * n + b] + price[c * n + d];
       double straight = price[a * n + c] + price[b * n + d],
              cross = price[a * n + d] + price[b * n + c];

@@ -35,8 +35,10 @@ static bool is_better(const thr_small_ask *ask, int n, double largest, double su
       ask->known_dearest > ask->limit * (1 + 1e-12) + (ask->turning ? 1e-9 : 0))
     return true;
 
+  /* With a limit, fewer cords are better. */
   if (ask->limit < INFINITY && n != ask->known) return n < ask->known;
 
+  /* Then the largest cost where it counts, and the sum. */
   if (ask->even && less(largest, ask->known_dearest)) return true;
   return less(sum, ask->known_sum) && (!ask->even || !less(ask->known_dearest, largest));
 }
@@ -52,6 +54,7 @@ static thr_status take_cords(thr_subsets *subsets, int n, thr_small_cords *out, 
   out->n_passes = thr_calloc((size_t)n, sizeof *out->n_passes);
   if (!out->half || !out->n_passes) return thr_nomem(err);
 
+  /* out->n counts the walks that were taken, also where one fails. */
   for (; out->n < n && !st; out->n++) {
     double cost;
     st = thr_subsets_walk(subsets, out->n, &out->half[out->n], &out->n_passes[out->n], &cost, err);
@@ -124,6 +127,7 @@ thr_status thr_small_cords_find(const thr_frame *frame, const thr_request *optio
   thr_status st = thr_items_init(&items, frame, options, ask->turning, err);
   if (st) return st;
 
+  /* Again with more items, as long as these count. */
   while (!st && answer == MORE_COUNTS) {
     thr_small_cords_destroy(out);
     st = try_items(&items, ask, limits, &work, out, &answer, &why);

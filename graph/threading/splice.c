@@ -135,6 +135,7 @@ static thr_status join(const thr_splice *splice, const thr_frame *frame, int i, 
   for (int k = i; k < end; k++)
     n += splice->section[k].end - splice->section[k].from;
 
+  /* Copy the sections one after the other. */
   if (!(out->half = thr_calloc((size_t)n, sizeof *out->half))) return thr_nomem(err);
 
   for (; i < end; i++) {
@@ -172,6 +173,7 @@ thr_status thr_splice_make(const thr_splice *splice, const thr_frame *frame, thr
     return st;
   }
 
+  /* From here on nothing fails: count turns and passes, and put the walks in place. */
   if (ties) make_turns(splice, ties);
 
   for (int i = 0; i < splice->n; i++)

@@ -180,6 +180,7 @@ static bool make_run(thr_subsets *subsets, int run, const int *first, bool *done
   const thr_subsets_model *subsets_model = subsets->model;
   subsets->run = run;
 
+  /* Enter the first states. */
   for (int i = 0; i < subsets_model->n_starts; i++) {
     uint32_t set = 0;
     if ((!subsets_model->closed || subsets_model->start[i].to == run) &&
@@ -296,6 +297,7 @@ static thr_status make_table(thr_subsets *subsets, bool *all, thr_err *err)
       !subsets->own_run || !subsets->like)
     return thr_nomem(err);
 
+  /* No walk is known yet. */
   for (size_t i = 0; i < n; i++)
     subsets->f[i] = INFINITY;
   thr_status st =
@@ -455,6 +457,7 @@ thr_status thr_subsets_dearest(thr_subsets *subsets, int at_least, int most, dou
 
   thr_status st = make_room(subsets, levels, err);
   for (int k = 1; k <= levels && !st; k++) {
+    /* Each number of walks needs one more level. */
     if (k > 1 && !fill(subsets, by, k - 1)) {
       *cost = NAN;
       return THR_OK;
@@ -510,6 +513,7 @@ thr_status thr_subsets_find(thr_subsets *subsets, int at_least, int most, bool f
 
   thr_status st = make_room(subsets, levels, err);
   for (int k = 1; k <= levels && !st && !(fewest && best_k); k++) {
+    /* Each number of walks needs one more level. */
     if (k > 1 && !fill(subsets, by, k - 1)) {
       *n = -1;
       return THR_OK;
@@ -518,6 +522,7 @@ thr_status thr_subsets_find(thr_subsets *subsets, int at_least, int most, bool f
     /* Walks beyond k have no item of their own: each costs as much as the cheapest walk. */
     if (k < at_least && k < levels) continue;
     int others = k < at_least ? at_least - k : 0;
+
     double sum = least(subsets, by, k, &all) + (others ? others * more : 0);
 
     if (!(sum < *cost * (1 - 1e-12))) continue;

@@ -48,6 +48,8 @@ static thr_status take_cord(const thr_frame *frame, const thr_request *options, 
 
   bool closed = ends[0] == ends[1];
   int start = thr_walk_node(frame, walk, 0), end = thr_walk_node(frame, walk, walk->n);
+
+  /* Is the walk closed or open as the ends say, and between them? */
   bool fit = closed ? walk->cyclic
                     : !walk->cyclic && start + end == ends[0] + ends[1] &&
                           (start == ends[0] || end == ends[0]);
@@ -56,6 +58,7 @@ static thr_status take_cord(const thr_frame *frame, const thr_request *options, 
     return thr_fail(err, THR_EINPUT, "node %s has an odd number of passes and ends",
                     frame->name[walk->cyclic || end == ends[0] || end == ends[1] ? start : end]);
 
+  /* Turn the cord to its first end, or to the best start. */
   if (!closed && start != ends[0]) thr_walk_reverse(walk->half, walk->n);
   if (closed)
     st = thr_walk_rotate(walk, best_start(frame, options, walk->half, walk->n, ends[0]), err);

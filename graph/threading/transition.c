@@ -28,6 +28,7 @@ static void price_pairs(const thr_frame *frame, const thr_multigraph *multigraph
 {
   double out[EXACT_DARTS][3], in[EXACT_DARTS][3];
   for (int i = 0; i < n; i++) {
+    /* A virtual dart has no direction, and no turn costs anything there. */
     const int half = multigraph->half[dart[i]];
     if (half >= 0) thr_direction(frame, half, out[i]);
     for (int k = 0; k < 3 && half >= 0; k++)
@@ -91,6 +92,8 @@ thr_status thr_transition_pair(const thr_frame *frame, const thr_multigraph *mul
 {
   double unused[3] = {0};
   thr_status st = THR_OK;
+
+  /* Two darts have one pairing, four have three; larger nodes need a search. */
   for (int v = 0; v < multigraph->n_nodes && !st; v++) {
     const int *dart = multigraph->dart + multigraph->first[v];
 
@@ -186,6 +189,7 @@ static thr_status collect(const thr_frame *frame, const thr_multigraph *multigra
   int n = multigraph->first[v + 1] - multigraph->first[v];
   const int *dart = multigraph->dart + multigraph->first[v];
 
+  /* Each pair is named by its lower dart. */
   for (int i = 0; i < n; i++) {
     if (mate[dart[i]] < dart[i]) continue;
     for (int j = i + 1, seen = 0; j < n && (n <= EXACT_DARTS || seen < 1); j++) {
@@ -216,6 +220,7 @@ static int apply_cheapest(exchanges *collected, int *mate, const int *circuit, i
   if (collected->count)
     qsort(collected->list, (size_t)collected->count, sizeof *collected->list, by_extra);
 
+  /* Kruskal: an exchange whose circuits are joined already is left out. */
   for (int i = 0; i < collected->count && applied < most; i++) {
     int a = collected->list[i].a, c = collected->list[i].c, b = mate[a], d = mate[c];
 

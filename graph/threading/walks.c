@@ -112,6 +112,7 @@ static thr_status break_circuit(const thr_frame *frame, const thr_multigraph *mu
   thr_status st = THR_OK;
   bool cyclic = multigraph->half[dart[0]] >= 0;
 
+  /* The parts between virtual darts. */
   for (int from = cyclic ? 0 : 1, end; from < n && !st; from = end + 1) {
     for (end = from; end < n && multigraph->half[dart[end]] >= 0;)
       end++;
@@ -233,6 +234,7 @@ thr_status thr_walk_visits_init(thr_walk_visits *visits, const thr_frame *frame,
     return thr_nomem(err);
   }
 
+  /* Every first visit is -1 before the walks are listed. */
   memset(visits->first, 0xff, nodes * sizeof *visits->first);
   for (int i = 0; i < n_walks; i++)
     list_walk(visits, i);
@@ -296,6 +298,7 @@ thr_status thr_walks_cords(thr_walks *walks, const thr_frame *frame, const thr_r
     thr_cord_id(i, (*cord)[i].id);
   }
 
+  /* On failure the cords that were made are released, too. */
   if (st) {
     thr_cords_destroy(*cord, n);
     *cord = NULL;
