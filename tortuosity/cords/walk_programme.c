@@ -1,15 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A linear programme over the walks that the cords of one component can be, below a limit on their
- * turning or their length. Internal to tortuosity/.
+ * turning, their length or their pull. Internal to tortuosity/.
  *
- * A column for every walk between nodes where cords may end, or every closed one, at the cost of 1:
- * a cord. Every edge needs its passes; at a node where their number is odd, passes and ends are one
- * more; all cords together turn by the least that cords do, or are as long as they must be. What is
- * solved is the dual, whose variables are prices (graph/plan/walk_proof.h) and whose rows, one for
- * every walk, are found by the recursion that checks the proof (P. C. Gilmore & R. E. Gomory 1961).
- * It goes by prices between the last optimum and the best so far, where optima alone would swing
- * (P. Wentges 1997); any prices give a valid bound (A. A. Farley 1990), which ends most searches
- * early. Optima are corners, by the simplex method, or near the middle
+ * The primal programme has a column for every walk between two nodes where cords may end, or for
+ * every closed walk. A column costs 1, because a walk is a cord. Rows say that every edge has the
+ * passes that it needs; that a node at which an odd number of passes is needed has one more, as
+ * passes and cord ends together are even; and that all cords together turn by at least the proved
+ * minimum, or are at least as long as the proved minimum. If the optimum is more than the number of
+ * cords that there may be, no plan stays below the limit.
+ *
+ * This file solves the dual: its variables are prices (graph/plan/walk_proof.h), and its rows, one
+ * for every walk, are separated by the recursion that checks the proof (column generation: P. C.
+ * Gilmore & R. E. Gomory 1961). Rows are separated at prices between the last optimum and the best
+ * prices so far, because optima alone swing from round to round (stabilisation: P. Wentges 1997).
+ * Any prices give a valid bound once they are scaled (A. A. Farley 1990), and this bound ends most
+ * searches early. Optima are vertices from the simplex method, or near the middle
  * (tortuosity/cords/walk_centre.c). */
 #include "graph/framework/frame.h"
 #include "lp/solver/lp.h"
@@ -38,21 +43,27 @@ static const double per_step = 1e-9;       /* seconds */
 
 /* ---- set up ---- */
 
-/* A unit of which at most so many make up the whole, and of those up to twice as large the one of
- * which most turns, or edges, of the cord are nearly whole numbers; of lengths no longer than any
- * edge. */
-static int64_t choose_unit(const thr_walk_programme *p, thr_walk_measure measure,
+/* Returns the unit in which the recursion counts, such that about `units` of them make up the
+ * whole. Of candidates up to twice as large the unit is taken that loses least when the turns, or
+ * the edges, of the cord are rounded down to whole units. A unit of length is no longer than any
+ * edge of the component, so that every pass takes a unit at least. */
+static int64_t choose_unit(const thr_walk_programme *programme, thr_walk_measure measure,
                            const thr_cord *cord, double whole, int units)
 {
   enum { CANDIDATES = 256 };
-  const thr_frame *frame = p->c->f;
+  const thr_frame *frame = programme->c->f;
   double smallest = whole / units, least_loss = INFINITY, unit = smallest, most = INFINITY;
+
+  /* Lengths: no candidate may be longer than the shortest edge. */
   for (int e = 0; e < frame->n_edges && measure == THR_WALK_LENGTH; e++)
-    if (p->c->component[frame->edge[e][0]] == p->component) most = fmin(most, frame->length[e]);
+    if (programme->c->component[frame->edge[e][0]] == programme->component)
+      most = fmin(most, frame->length[e]);
+
+  /* Take the candidate with the smallest sum of rounding losses over the cord's passes. */
   for (int i = 0; i < CANDIDATES; i++) {
     double candidate = fmin(smallest * (1 + (double)i / CANDIDATES), most), loss = 0;
-    for (int k = -1; k < thr_walk_priced_passes(p->c, measure, cord); k++) {
-      double part = thr_walk_pass_price(p->c, measure, cord, k) / candidate;
+    for (int k = -1; k < thr_walk_priced_passes(programme->c, measure, cord); k++) {
+      double part = thr_walk_pass_price(programme->c, measure, cord, k) / candidate;
       loss += candidate * (part + 1e-9 - floor(part + 1e-9));
     }
     if (loss < least_loss) {
@@ -60,14 +71,21 @@ static int64_t choose_unit(const thr_walk_programme *p, thr_walk_measure measure
       unit = candidate;
     }
   }
+
+  /* Slightly less than the unit, so that turns of exactly so many units are not rounded down by
+   * one. */
   return (int64_t)floor(ldexp(unit, thr_walk_exponent(frame, measure)) * (1 - 1e-9));
 }
 
-/* As many as the recursions take in a moment. */
+/* Returns the largest number of units for which the table fits into MOST_ENTRIES and all recursions
+ * for one look at the prices take no more than most_steps steps; at most MOST_UNITS. */
 static int most_units(const thr_turning_columns *columns, thr_walk_measure measure, int component)
 {
   double halves = 0, squares = 0, nodes = 0;
   bool length = measure == THR_WALK_LENGTH, pull = measure == THR_WALK_PULL;
+
+  /* A place is a half-edge, or of lengths a node; the steps from all places are the squares of the
+   * degrees, or of lengths the degrees. */
   for (int v = 0; v < columns->f->n_nodes; v++) {
     double degree = thr_degree(columns->f, v);
     if (columns->component[v] != component) continue;
@@ -75,6 +93,8 @@ static int most_units(const thr_turning_columns *columns, thr_walk_measure measu
     halves += degree;
     squares += degree * degree;
   }
+
+  /* Open walks take one recursion; closed walks one for every place where they may begin. */
   double runs = columns->task->end_allowed ? 1 : length || pull ? nodes : halves / 2;
   double steps = pull ? most_pull_steps : most_steps;
   double units =
@@ -82,110 +102,147 @@ static int most_units(const thr_turning_columns *columns, thr_walk_measure measu
   return (int)fmin(units, MOST_UNITS);
 }
 
-/* The variable that the lowest of its images has, or a new one (of -1); more stands on its right
- * side. */
-static int number_of(thr_walk_programme *p, int lowest, double right)
+/* Returns the variable that the lowest image of an edge or node has, or a new variable if `lowest`
+ * is -1, and adds `right` to the variable's right side. */
+static int number_of(thr_walk_programme *programme, int lowest, double right)
 {
-  const int j = lowest < 0 ? p->n_variables++ : lowest;
-  p->right[j] = (lowest < 0 ? 0 : p->right[j]) + right;
+  const int j = lowest < 0 ? programme->n_variables++ : lowest;
+  programme->right[j] = (lowest < 0 ? 0 : programme->right[j]) + right;
   return j;
 }
 
-/* edge, node: as for thr_walk_programme_merge, or NULL. */
-static void number_variables(thr_walk_programme *p, const int *edge, const int *node)
+/* Numbers the variables: edges first, then nodes at which an odd number of passes is needed, then
+ * the variable of all turning or length (if least > 0), then the price of a cord (if lengths
+ * count). Images share a variable: edge and node as for thr_walk_programme_merge, or NULL. */
+static void number_variables(thr_walk_programme *programme, const int *edge, const int *node)
 {
-  const thr_frame *frame = p->c->f;
-  p->n_variables = 0;
+  const thr_frame *frame = programme->c->f;
+  programme->n_variables = 0;
+
+  /* Edges: the right side is the number of needed passes. */
   for (int e = 0; e < frame->n_edges; e++) {
     const int lowest = edge ? edge[e] : e;
-    const bool here = p->c->component[frame->edge[e][0]] == p->component;
-    p->edge[e] = here ? number_of(p, lowest < e ? p->edge[lowest] : -1, p->c->cover[e]) : -1;
+    const bool here = programme->c->component[frame->edge[e][0]] == programme->component;
+    programme->edge[e] = here ? number_of(programme, lowest < e ? programme->edge[lowest] : -1,
+                                          programme->c->cover[e])
+                              : -1;
   }
-  p->n_edges = p->n_variables;
+
+  /* Nodes where this number is odd: one more pass or cord end than needed. */
+  programme->n_edges = programme->n_variables;
   for (int v = 0; v < frame->n_nodes; v++) {
-    const int64_t needed = thr_walk_needed_at(p->c, v);
+    const int64_t needed = thr_walk_needed_at(programme->c, v);
     const int lowest = node ? node[v] : v;
-    const bool here = p->c->component[v] == p->component && needed % 2;
-    p->node[v] = here ? number_of(p, lowest < v ? p->node[lowest] : -1, (double)needed + 1) : -1;
+    const bool here = programme->c->component[v] == programme->component && needed % 2;
+    programme->node[v] =
+        here ? number_of(programme, lowest < v ? programme->node[lowest] : -1, (double)needed + 1)
+             : -1;
   }
-  if (p->least > 0) p->right[p->n_variables++] = 1;
-  if (p->lengths) p->right[p->n_variables++] = -p->cords;
+
+  /* The variable of all cords together is scaled to least; a cord's price counts against the
+   * objective, once for every cord. */
+  if (programme->least > 0) programme->right[programme->n_variables++] = 1;
+  if (programme->lengths) programme->right[programme->n_variables++] = -programme->cords;
 }
 
-static thr_status allocate(thr_walk_programme *p, thr_err *err)
+/* Allocates the arrays for at most n_nodes + n_edges + 1 variables, the recursion's table for
+ * most_units, and the proof in trial. */
+static thr_status allocate(thr_walk_programme *programme, thr_err *err)
 {
-  size_t n = (size_t)p->c->f->n_nodes, m = (size_t)p->c->f->n_edges, most = n + m + 1,
-         places = (size_t)p->steps.n;
-  p->edge = thr_scratch_array(&p->own, m, sizeof *p->edge);
-  p->node = thr_scratch_array(&p->own, n, sizeof *p->node);
-  p->right = thr_scratch_array(&p->own, most, sizeof *p->right);
-  p->upper = thr_scratch_array(&p->own, most, sizeof *p->upper);
-  p->passed = thr_scratch_array(&p->own, m, sizeof *p->passed);
-  p->x = thr_scratch_array(&p->own, most, sizeof *p->x);
-  p->middle = thr_scratch_array(&p->own, most, sizeof *p->middle);
-  p->try = thr_scratch_array(&p->own, most, sizeof *p->try);
-  p->start = thr_scratch_array(&p->own, MOST_STARTS, sizeof *p->start);
-  size_t entries =
-      (size_t)thr_walk_levels(p->most_units) * places * thr_walk_tables(p->steps.measure);
-  p->value = thr_calloc(entries, sizeof *p->value);
-  p->half = thr_scratch_array(&p->own, entries, sizeof *p->half);
-  p->trial.edge = thr_calloc(m, sizeof *p->trial.edge);
-  p->trial.node = thr_calloc(n, sizeof *p->trial.node);
-  if (!p->value || !p->trial.edge || !p->trial.node) return thr_nomem(err);
-  return thr_scratch_check(&p->own, err);
+  size_t n = (size_t)programme->c->f->n_nodes, m = (size_t)programme->c->f->n_edges,
+         most = n + m + 1, places = (size_t)programme->steps.n;
+
+  /* Variables and points. */
+  programme->edge = thr_scratch_array(&programme->own, m, sizeof *programme->edge);
+  programme->node = thr_scratch_array(&programme->own, n, sizeof *programme->node);
+  programme->right = thr_scratch_array(&programme->own, most, sizeof *programme->right);
+  programme->upper = thr_scratch_array(&programme->own, most, sizeof *programme->upper);
+  programme->passed = thr_scratch_array(&programme->own, m, sizeof *programme->passed);
+  programme->x = thr_scratch_array(&programme->own, most, sizeof *programme->x);
+  programme->middle = thr_scratch_array(&programme->own, most, sizeof *programme->middle);
+  programme->try = thr_scratch_array(&programme->own, most, sizeof *programme->try);
+  programme->start = thr_scratch_array(&programme->own, MOST_STARTS, sizeof *programme->start);
+
+  /* The table, in which a walk has at most as many passes as there are entries. */
+  size_t entries = (size_t)thr_walk_levels(programme->most_units) * places *
+                   thr_walk_tables(programme->steps.measure);
+  programme->value = thr_calloc(entries, sizeof *programme->value);
+  programme->half = thr_scratch_array(&programme->own, entries, sizeof *programme->half);
+  programme->trial.edge = thr_calloc(m, sizeof *programme->trial.edge);
+  programme->trial.node = thr_calloc(n, sizeof *programme->trial.node);
+  if (!programme->value || !programme->trial.edge || !programme->trial.node) return thr_nomem(err);
+  return thr_scratch_check(&programme->own, err);
 }
 
-static thr_status init(thr_walk_programme *p, const thr_turning_columns *columns,
+/* Sets up the programme of the component that the cord `most` belongs to, with a unit such that
+ * `whole` is just below the largest number of units. THR_ELIMIT: the component is too large, or the
+ * unit has steps of no units that go round in a circle. */
+static thr_status init(thr_walk_programme *programme, const thr_turning_columns *columns,
                        thr_walk_measure measure, const thr_cord *cord, int n_cords,
                        const thr_cord *most, double whole, double least, bool lengths,
                        const thr_limits *limits, thr_err *err)
 {
   int component = columns->component[thr_tail(columns->f, most->half[0])], here = 0;
-  *p = (thr_walk_programme){
+  *programme = (thr_walk_programme){
       .c = columns, .limits = limits, .component = component, .scale = one, .lengths = lengths};
+
+  /* The number of cords in the component, at most: as the task says, or where the ends at every
+   * node are given, as the plan has them (of turning all cords of the plan are counted). */
   for (int i = 0; i < n_cords; i++)
     here += columns->component[thr_tail(columns->f, cord[i].half[0])] == component;
-  p->cords = !columns->task->end_count    ? columns->task->cords
-             : measure == THR_WALK_LENGTH ? here
-                                          : n_cords;
-  p->least = least * (1 - 1e-10);
-  p->most_units = most_units(columns, measure, component);
-  if (p->most_units < FEWEST_UNITS)
+  programme->cords = !columns->task->end_count    ? columns->task->cords
+                     : measure == THR_WALK_LENGTH ? here
+                                                  : n_cords;
+
+  /* Rounding errors of the proved minimum must not make the bound too high. */
+  programme->least = least * (1 - 1e-10);
+
+  /* A unit in which the recursions stay small enough. */
+  programme->most_units = most_units(columns, measure, component);
+  if (programme->most_units < FEWEST_UNITS)
     return thr_fail(err, THR_ELIMIT, "the component is too large for walks");
-  p->unit = choose_unit(p, measure, most, whole, p->most_units - 1);
-  thr_status st = thr_walk_steps_init(&p->steps, columns, measure, component, p->unit, err);
+  programme->unit = choose_unit(programme, measure, most, whole, programme->most_units - 1);
+
+  /* The recursion's steps, the arrays, and an empty pool of walks. */
+  thr_status st =
+      thr_walk_steps_init(&programme->steps, columns, measure, component, programme->unit, err);
   if (st) return st == THR_EVIOLATED ? THR_ELIMIT : st;
-  if ((st = allocate(p, err))) return st;
-  p->trial.unit = p->unit;
-  p->trial.pulled = measure == THR_WALK_PULL;
-  number_variables(p, NULL, NULL);
-  return thr_pool_init(&p->walks, p->n_variables, err);
+  if ((st = allocate(programme, err))) return st;
+  programme->trial.unit = programme->unit;
+  programme->trial.pulled = measure == THR_WALK_PULL;
+  number_variables(programme, NULL, NULL);
+  return thr_pool_init(&programme->walks, programme->n_variables, err);
 }
 
-thr_status thr_walk_programme_init(thr_walk_programme *p, const thr_turning_columns *columns,
-                                   thr_walk_measure measure, const thr_cord *cord, int n_cords,
-                                   double least, const thr_limits *limits, thr_err *err)
+thr_status thr_walk_programme_init(thr_walk_programme *programme,
+                                   const thr_turning_columns *columns, thr_walk_measure measure,
+                                   const thr_cord *cord, int n_cords, double least,
+                                   const thr_limits *limits, thr_err *err)
 {
   const thr_cord *most = &cord[thr_walk_dearest(columns, measure, cord, n_cords)];
-  return init(p, columns, measure, cord, n_cords, most, thr_walk_price(columns, measure, most),
-              least, false, limits, err);
+  return init(programme, columns, measure, cord, n_cords, most,
+              thr_walk_price(columns, measure, most), least, false, limits, err);
 }
 
-/* Prices, of which a pass costs at most most lengths of the longest edge, have as many bits as
- * their sums leave room for. */
-static void choose_bits(thr_walk_programme *p, double most)
+/* Chooses how many bits a price has in the proof, so that a walk's sum of prices fits 64 bits.
+ * most: the highest price of a pass, in lengths of the longest edge. */
+static void choose_bits(thr_walk_programme *programme, double most)
 {
   const int all = 61; /* in 64 bits */
   int passes, price;
-  frexp(((double)p->units + 2) * (p->steps.n + 1), &passes);
+  frexp(((double)programme->units + 2) * (programme->steps.n + 1), &passes);
   frexp(5 * most, &price); /* a pass, its nodes, an end, and a length */
+
+  /* What is left of the bits after the largest price and the number of summands. */
   const int bits = all - price - passes;
-  p->trial.bits = bits < THR_TURNING_BITS ? bits : THR_TURNING_BITS;
-  p->scale = ldexp(p->longest,
-                   thr_walk_exponent(p->c->f, THR_WALK_LENGTH) - THR_TURNING_BITS + p->trial.bits);
+  programme->trial.bits = bits < THR_TURNING_BITS ? bits : THR_TURNING_BITS;
+  programme->scale = ldexp(programme->longest, thr_walk_exponent(programme->c->f, THR_WALK_LENGTH) -
+                                                   THR_TURNING_BITS + programme->trial.bits);
 }
 
-thr_status thr_walk_programme_init_pull(thr_walk_programme *p, const thr_turning_columns *columns,
+/* The unit is chosen by the cord of the component that is hardest to pull. */
+thr_status thr_walk_programme_init_pull(thr_walk_programme *programme,
+                                        const thr_turning_columns *columns,
                                         const thr_request *options, const thr_cord *cord,
                                         int n_cords, int component, bool lengths,
                                         const thr_limits *limits, thr_err *err)
@@ -196,44 +253,50 @@ thr_status thr_walk_programme_init_pull(thr_walk_programme *p, const thr_turning
         (!most || thr_walk_price(columns, THR_WALK_PULL, &cord[i]) >
                       thr_walk_price(columns, THR_WALK_PULL, most)))
       most = &cord[i];
-  *p = (thr_walk_programme){0};
+  *programme = (thr_walk_programme){0};
   if (!most) return THR_ELIMIT;
+
+  /* At either side of its cut turn a cord turns by at most this much. */
   const double half = thr_request_most_pulled(options);
   thr_status st =
-      init(p, columns, THR_WALK_PULL, cord, n_cords, most, half, 0, lengths, limits, err);
+      init(programme, columns, THR_WALK_PULL, cord, n_cords, most, half, 0, lengths, limits, err);
   if (st) return st;
-  p->units = thr_walk_pull_units(options, p->unit);
+
+  /* Prices are lengths in units of the longest edge. */
+  programme->units = thr_walk_pull_units(options, programme->unit);
   for (int e = 0; e < columns->f->n_edges; e++)
-    if (p->edge[e] >= 0) p->longest = fmax(p->longest, columns->f->length[e]);
-  p->dearest = MOST_PRICE;
-  if (lengths) choose_bits(p, p->dearest);
-  if (p->units > p->most_units || (lengths && p->trial.bits < FEWEST_BITS))
+    if (programme->edge[e] >= 0)
+      programme->longest = fmax(programme->longest, columns->f->length[e]);
+  programme->dearest = MOST_PRICE;
+  if (lengths) choose_bits(programme, programme->dearest);
+  if (programme->units > programme->most_units || (lengths && programme->trial.bits < FEWEST_BITS))
     return thr_fail(err, THR_ELIMIT, "the component is too large for walks");
   return THR_OK;
 }
 
-thr_status thr_walk_programme_merge(thr_walk_programme *p, const int *edge, const int *node,
+/* The variables are fewer than before, and so the pool of walks is made anew. */
+thr_status thr_walk_programme_merge(thr_walk_programme *programme, const int *edge, const int *node,
                                     thr_err *err)
 {
-  number_variables(p, edge, node);
-  thr_pool_destroy(&p->walks);
-  return thr_pool_init(&p->walks, p->n_variables, err);
+  number_variables(programme, edge, node);
+  thr_pool_destroy(&programme->walks);
+  return thr_pool_init(&programme->walks, programme->n_variables, err);
 }
 
-void thr_walk_programme_destroy(thr_walk_programme *p)
+void thr_walk_programme_destroy(thr_walk_programme *programme)
 {
-  thr_walk_steps_destroy(&p->steps);
-  thr_walk_proof_destroy(&p->trial);
-  thr_search_destroy(&p->search);
-  thr_pool_destroy(&p->walks);
-  thr_walk_memory_free(p->memory, p->n_memories);
-  free(p->value);
-  thr_scratch_free(&p->own);
+  thr_walk_steps_destroy(&programme->steps);
+  thr_walk_proof_destroy(&programme->trial);
+  thr_search_destroy(&programme->search);
+  thr_pool_destroy(&programme->walks);
+  thr_walk_memory_free(programme->memory, programme->n_memories);
+  free(programme->value);
+  thr_scratch_free(&programme->own);
 }
 
-double thr_walk_programme_price(const thr_walk_programme *p, int units)
+double thr_walk_programme_price(const thr_walk_programme *programme, int units)
 {
-  return ldexp((double)p->unit * units, -p->steps.exponent) * (1 - 1e-15);
+  return ldexp((double)programme->unit * units, -programme->steps.exponent) * (1 - 1e-15);
 }
 
 /* ---- walks at given prices ---- */
@@ -243,58 +306,70 @@ static int64_t whole(double price, double scale)
   return price > 0 ? (int64_t)floor(price * scale) : 0;
 }
 
-/* The variables as the prices of a proof. */
-static thr_status set_trial(thr_walk_programme *p, const double *x, thr_err *err)
+/* Makes prices x[n_variables] those of the proof in trial, as whole numbers rounded down, and hands
+ * them to the recursion. THR_EVIOLATED: they might not fit 64 bits. */
+static thr_status set_trial(thr_walk_programme *programme, const double *x, thr_err *err)
 {
-  for (int e = 0; e < p->c->f->n_edges; e++)
-    p->trial.edge[e] = p->edge[e] >= 0 ? whole(x[p->edge[e]], p->scale) : 0;
-  for (int v = 0; v < p->c->f->n_nodes; v++)
-    p->trial.node[v] = p->node[v] >= 0 ? whole(x[p->node[v]], p->scale) : 0;
-  p->trial.all =
-      p->least > 0
-          ? whole(ldexp(x[p->n_variables - 1] / p->least, THR_TURNING_BITS - p->steps.exponent),
-                  one)
-          : 0;
-  p->trial.units = p->units;
-  return thr_walk_steps_price(&p->steps, &p->trial, err);
+  for (int e = 0; e < programme->c->f->n_edges; e++)
+    programme->trial.edge[e] =
+        programme->edge[e] >= 0 ? whole(x[programme->edge[e]], programme->scale) : 0;
+  for (int v = 0; v < programme->c->f->n_nodes; v++)
+    programme->trial.node[v] =
+        programme->node[v] >= 0 ? whole(x[programme->node[v]], programme->scale) : 0;
+
+  /* The price of all turning is a price per unit of 2^-exponent. */
+  programme->trial.all = programme->least > 0
+                             ? whole(ldexp(x[programme->n_variables - 1] / programme->least,
+                                           THR_TURNING_BITS - programme->steps.exponent),
+                                     one)
+                             : 0;
+  programme->trial.units = programme->units;
+  return thr_walk_steps_price(&programme->steps, &programme->trial, err);
 }
 
-/* Worth of the best walk with a first pass; below 0: there is none. */
-static int64_t worth_of(const thr_walk_programme *p, const thr_walk_step *first)
+/* Returns the largest sum of prices of a walk with this first pass; thr_walk_is_none: there is no
+ * such walk. */
+static int64_t worth_of(const thr_walk_programme *programme, const thr_walk_step *first)
 {
-  return thr_walk_worth(first, p->units, thr_walk_levels(p->units), p->value);
+  return thr_walk_worth(first, programme->units, thr_walk_levels(programme->units),
+                        programme->value);
 }
 
-/* Of the recursion; last: after the cut turn, if a pull counts. */
-static const int64_t *table_of(const thr_walk_programme *p, bool last)
+/* Returns the recursion's table. With a pull there are two: before the cut turn, and after it
+ * (`last`). */
+static const int64_t *table_of(const thr_walk_programme *programme, bool last)
 {
-  const size_t entries = (size_t)thr_walk_levels(p->units) * (size_t)p->steps.n;
-  return p->value + (last && p->steps.measure == THR_WALK_PULL ? entries : 0);
+  const size_t entries = (size_t)thr_walk_levels(programme->units) * (size_t)programme->steps.n;
+  return programme->value + (last && programme->steps.measure == THR_WALK_PULL ? entries : 0);
 }
 
-/* What a walk of a recursion is worth from place i on that goes no further there, or not before its
- * cut turn; last: after that turn, if a pull counts. */
-static int64_t end_worth(const thr_walk_programme *p, int run, int i, bool last)
+/* Returns what a walk of a recursion gains by going no further than place i: the price of a cord
+ * end there, or with a pull and before the cut turn (not `last`) the most over the cut turn. A
+ * closed walk may only end where it began: INT64_MIN elsewhere. */
+static int64_t end_worth(const thr_walk_programme *programme, int run, int i, bool last)
 {
-  const thr_walk_steps *steps = &p->steps;
+  const thr_walk_steps *steps = &programme->steps;
   if (!last) return steps->cut[i];
   if (!steps->closed) return steps->end[i];
-  bool home = steps->n_homes > 0
-                  ? steps->group[i] == thr_tail(p->c->f, steps->begin[steps->from[run]].half)
-                  : steps->spot[i] == steps->spot[steps->begin[run].to];
+
+  /* With a pull a closed walk comes home to a node, else to the place of its first pass. */
+  bool home = steps->n_homes > 0 ? steps->group[i] == thr_tail(programme->c->f,
+                                                               steps->begin[steps->from[run]].half)
+                                 : steps->spot[i] == steps->spot[steps->begin[run].to];
   return home ? 0 : INT64_MIN;
 }
 
-/* The step that the best walk takes from place i with so many units left; NULL: it ends there, or
- * its cut turn is there. */
-static const thr_walk_step *best_step(const thr_walk_programme *p, int run, int i, int units,
-                                      bool last)
+/* Returns the step that the best walk takes from place i with `units` units left; NULL: the walk
+ * ends there, or has its cut turn there. */
+static const thr_walk_step *best_step(const thr_walk_programme *programme, int run, int i,
+                                      int units, bool last)
 {
-  const thr_walk_steps *steps = &p->steps;
-  const int64_t *table = table_of(p, last);
-  const int levels = thr_walk_levels(p->units);
+  const thr_walk_steps *steps = &programme->steps;
+  const int64_t *table = table_of(programme, last);
+  const int levels = thr_walk_levels(programme->units);
   const thr_walk_step *best = NULL;
-  int64_t most = end_worth(p, run, i, last);
+  int64_t most = end_worth(programme, run, i, last);
+
   for (int k = steps->first[i]; k < steps->first[i + 1]; k++) {
     const thr_walk_step *step = &steps->step[k];
     if (step->units > units) continue;
@@ -306,15 +381,17 @@ static const thr_walk_step *best_step(const thr_walk_programme *p, int run, int 
   return best;
 }
 
-/* The step of the best walk over its cut turn at place i; NULL: it ends there. */
-static const thr_walk_step *cut_step(const thr_walk_programme *p, int run, int i)
+/* Returns the step of the best walk over its cut turn at place i, which takes no units: after the
+ * cut turn all units are left again. NULL: the walk ends there. */
+static const thr_walk_step *cut_step(const thr_walk_programme *programme, int run, int i)
 {
-  const thr_walk_steps *steps = &p->steps;
+  const thr_walk_steps *steps = &programme->steps;
   const thr_walk_step *best = NULL;
-  int64_t most = end_worth(p, run, i, true);
+  int64_t most = end_worth(programme, run, i, true);
+
   for (int k = steps->first[i]; k < steps->first[i + 1]; k++) {
-    const int64_t on =
-        table_of(p, true)[thr_walk_entry(steps->step[k].to, p->units, thr_walk_levels(p->units))];
+    const int64_t on = table_of(programme, true)[thr_walk_entry(steps->step[k].to, programme->units,
+                                                                thr_walk_levels(programme->units))];
     if (thr_walk_is_none(on) || on + steps->step[k].worth <= most) continue;
     most = on + steps->step[k].worth;
     best = &steps->step[k];
@@ -322,21 +399,25 @@ static const thr_walk_step *cut_step(const thr_walk_programme *p, int run, int i
   return best;
 }
 
-static void put_node(const thr_walk_programme *p, thr_pool *pool, int v)
+/* Counts a pass or cord end at node v in the draft of a row. */
+static void put_node(const thr_walk_programme *programme, thr_pool *pool, int v)
 {
-  if (p->node[v] >= 0) thr_pool_put(pool, p->node[v], -1);
+  if (programme->node[v] >= 0) thr_pool_put(pool, programme->node[v], -1);
 }
 
-/* The place of a walk before its pass number first that may be known. */
-static int place_before(const thr_walk_programme *p, const int *half, int n, int first)
+/* Returns the place of a walk ahead of its pass number `first`, which is the first pass that may be
+ * remembered. */
+static int place_before(const thr_walk_programme *programme, const int *half, int n, int first)
 {
-  return first ? thr_walk_begun(&p->steps, half[0]) : thr_walk_closed(&p->steps, half[n - 1]);
+  return first ? thr_walk_begun(&programme->steps, half[0])
+               : thr_walk_closed(&programme->steps, half[n - 1]);
 }
 
-/* Goes on from a place over a half-edge; is that a pass that the walk knows of? */
-static bool go_on(const thr_walk_programme *p, int half, int *place)
+/* Moves *place over a half-edge and says whether the walk remembers that it passed this edge
+ * before; such a pass does not earn the edge's price. */
+static bool go_on(const thr_walk_programme *programme, int half, int *place)
 {
-  const thr_walk_steps *steps = &p->steps;
+  const thr_walk_steps *steps = &programme->steps;
   int k = steps->first[*place];
   while (steps->step[k].half != half)
     k++;
@@ -344,207 +425,256 @@ static bool go_on(const thr_walk_programme *p, int half, int *place)
   return steps->step[k].known;
 }
 
-thr_row thr_walk_programme_row(const thr_walk_programme *p, thr_pool *pool, const int *half, int n)
+/* A row says that the prices of the walk's passes, nodes and ends are at most 1, or with lengths at
+ * most the walk's length and the price of a cord: coefficients are -1 for each. */
+thr_row thr_walk_programme_row(const thr_walk_programme *programme, thr_pool *pool, const int *half,
+                               int n)
 {
-  const thr_frame *frame = p->c->f;
-  const int first = p->steps.closed && p->steps.n_homes == 0 ? 0 : 1;
+  const thr_frame *frame = programme->c->f;
+  const int first = programme->steps.closed && programme->steps.n_homes == 0 ? 0 : 1;
   thr_row row = {.lower = -1, .member = (int *)half, .n_members = n}; /* copied by the pool */
-  int place = p->n_memories > 0 ? place_before(p, half, n, first) : -1;
+  int place = programme->n_memories > 0 ? place_before(programme, half, n, first) : -1;
   double length = 0;
+
+  /* Every pass counts for its edge, unless it is remembered, and for both its nodes. */
   for (int k = 0; k < n; k++) {
-    const bool known = place >= 0 && k >= first && go_on(p, half[k], &place);
-    if (!known) thr_pool_put(pool, p->edge[half[k] >> 1], -1);
-    put_node(p, pool, thr_tail(frame, half[k]));
-    put_node(p, pool, thr_head(frame, half[k]));
+    const bool known = place >= 0 && k >= first && go_on(programme, half[k], &place);
+    if (!known) thr_pool_put(pool, programme->edge[half[k] >> 1], -1);
+    put_node(programme, pool, thr_tail(frame, half[k]));
+    put_node(programme, pool, thr_head(frame, half[k]));
     length += frame->length[half[k] >> 1];
   }
-  if (!p->steps.closed) {
-    put_node(p, pool, thr_tail(frame, half[0]));
-    put_node(p, pool, thr_head(frame, half[n - 1]));
+
+  /* Cord ends count at the first and the last node. */
+  if (!programme->steps.closed) {
+    put_node(programme, pool, thr_tail(frame, half[0]));
+    put_node(programme, pool, thr_head(frame, half[n - 1]));
   }
-  if (!p->lengths) return row;
-  row.lower = -length / p->longest;
-  thr_pool_put(pool, p->n_variables - 1, 1);
+
+  /* With lengths: minus the prices plus that of a cord is at least minus the length. */
+  if (!programme->lengths) return row;
+  row.lower = -length / programme->longest;
+  thr_pool_put(pool, programme->n_variables - 1, 1);
   return row;
 }
 
 typedef struct {
-  int n, units;  /* passes, in p->half; with a pull units are those of the larger side of the cut
-                    turn */
+  int n, units; /* passes, in programme->half; with a pull units are those of the larger side of the
+                   cut turn */
   double weight; /* of its turns, or its length */
-} traced;
+} traced_walk;
 
-/* The best walk of a recursion with a first pass. */
-static traced trace_walk(thr_walk_programme *p, int run, const thr_walk_step *step)
+/* Follows the best walk of a recursion with a given first pass through the table, and writes its
+ * half-edges to programme->half. */
+static traced_walk trace_walk(thr_walk_programme *programme, int run, const thr_walk_step *step)
 {
-  traced walk = {0};
-  int left = p->units;
-  bool last = p->steps.measure != THR_WALK_PULL;
+  traced_walk walk = {0};
+  int left = programme->units;
+  bool last = programme->steps.measure != THR_WALK_PULL;
   while (step) {
     const int i = step->to;
-    p->half[walk.n++] = step->half;
+    programme->half[walk.n++] = step->half;
     left -= step->units;
-    if (p->units - left > walk.units) walk.units = p->units - left;
+    if (programme->units - left > walk.units) walk.units = programme->units - left;
     walk.weight += (double)step->weight;
-    step = best_step(p, run, i, left, last);
+
+    /* With a pull the walk goes over its cut turn once, and has all units afresh behind it. */
+    step = best_step(programme, run, i, left, last);
     if (step || last) continue;
     last = true;
-    step = cut_step(p, run, i);
-    left = p->units + (step ? step->units : 0);
+    step = cut_step(programme, run, i);
+    left = programme->units + (step ? step->units : 0);
   }
   return walk;
 }
 
-/* Its row, put together. */
-static thr_row row_of(thr_walk_programme *p, const traced *walk)
+/* Puts together the row of a traced walk, whose index is the number of units, so that later
+ * limits can leave the row out. */
+static thr_row row_of(thr_walk_programme *programme, const traced_walk *walk)
 {
-  thr_row row = thr_walk_programme_row(p, &p->search.pool, p->half, walk->n);
+  thr_row row =
+      thr_walk_programme_row(programme, &programme->search.pool, programme->half, walk->n);
   row.index = walk->units;
-  if (p->least > 0)
-    thr_pool_put(&p->search.pool, p->n_variables - 1,
-                 -ldexp(walk->weight, -p->steps.exponent) / p->least);
+  if (programme->least > 0)
+    thr_pool_put(&programme->search.pool, programme->n_variables - 1,
+                 -ldexp(walk->weight, -programme->steps.exponent) / programme->least);
   return row;
 }
 
-/* Of a recursion, the first passes of the walks that are worth most, in that order; returns their
- * number. */
-static int sort_starts(thr_walk_programme *p, int run, int most)
+/* Lists the first passes of a recursion by the sum of prices of their best walks, largest first, in
+ * programme->start; at most `most`. Returns their number. */
+static int sort_starts(thr_walk_programme *programme, int run, int most)
 {
   const thr_walk_step *first;
-  int n = 0, count = thr_walk_firsts(&p->steps, run, &first);
+  int n = 0, count = thr_walk_firsts(&programme->steps, run, &first);
   for (int i = 0; i < count; i++) {
-    const thr_walk_start here = {worth_of(p, &first[i]), &first[i]};
+    const thr_walk_start here = {worth_of(programme, &first[i]), &first[i]};
+
+    /* Insertion from the end; the last one drops out of a full list. */
     int k = n < most ? n++ : most;
-    for (; k > 0 && p->start[k - 1].worth < here.worth; k--)
-      if (k < most) p->start[k] = p->start[k - 1];
-    if (k < most) p->start[k] = here;
+    for (; k > 0 && programme->start[k - 1].worth < here.worth; k--)
+      if (k < most) programme->start[k] = programme->start[k - 1];
+    if (k < most) programme->start[k] = here;
   }
   return n;
 }
 
-/* What they prove of the length of all cords within a limit on the pull. */
-static void judge_lengths(thr_walk_programme *p, const double *x, int64_t worth)
+/* Computes what prices x prove of the length of all cords within a limit on the pull, no walk's
+ * prices being more than `worth` above its length. Keeps the prices if they prove more than the
+ * best so far. */
+static void judge_lengths(thr_walk_programme *programme, const double *x, int64_t worth)
 {
-  const double bound = thr_walk_pull_bound(&p->steps, &p->trial, p->cords, worth);
-  if (bound <= p->best) return;
-  p->best = bound;
-  for (int j = 0; j < p->n_variables; j++)
-    p->middle[j] = x[j];
-  p->excluded = bound >= p->enough * (1 - 1e-9);
+  const double bound =
+      thr_walk_pull_bound(&programme->steps, &programme->trial, programme->cords, worth);
+  if (bound <= programme->best) return;
+  programme->best = bound;
+  for (int j = 0; j < programme->n_variables; j++)
+    programme->middle[j] = x[j];
+  programme->excluded = bound >= programme->enough * (1 - 1e-9);
 }
 
-/* What the best walk is said to be worth where none is: a small part of what a pass may cost, so
- * that more cords are too few than any plan has. */
-static double least_worth(const thr_walk_programme *p)
+/* Returns the value that is assumed for the best walk if no walk earns more: a small part of what a
+ * pass may cost, so that the quotient in judge_prices stays finite and still exceeds the number of
+ * cords of any plan. */
+static double least_worth(const thr_walk_programme *programme)
 {
-  return 0x1p-12 * one * p->upper[0];
+  return 0x1p-12 * one * programme->upper[0];
 }
 
-/* What these prices, of which a walk is worth so much at most, prove. Where none is worth anything
- * they prove it at any scale. */
-static void judge_prices(thr_walk_programme *p, const double *x, double worth)
+/* Computes the bound that prices x prove: what every plan earns at these prices, divided by what
+ * one walk earns at most, is a lower bound on the number of cords (A. A. Farley 1990). Keeps the
+ * prices, scaled so that the best walk earns 1, if the bound is the best so far. If no walk earns
+ * anything, any scale proves the bound. */
+static void judge_prices(thr_walk_programme *programme, const double *x, double worth)
 {
-  const double scale = worth > least_worth(p) ? worth : one * p->upper[0];
-  double needed = thr_walk_needed(&p->steps, &p->trial, p->least);
-  p->excluded =
-      needed > p->cords * worth * (1 + 1e-9) && thr_walk_component(p->c, &p->trial) == p->component;
-  if (needed / worth <= p->best) return;
-  p->best = needed / worth;
-  for (int j = 0; j < p->n_variables; j++)
-    p->middle[j] = x[j] * one / scale;
+  const double scale = worth > least_worth(programme) ? worth : one * programme->upper[0];
+  double needed = thr_walk_needed(&programme->steps, &programme->trial, programme->least);
+  programme->excluded = needed > programme->cords * worth * (1 + 1e-9) &&
+                        thr_walk_component(programme->c, &programme->trial) == programme->component;
+
+  if (needed / worth <= programme->best) return;
+  programme->best = needed / worth;
+  for (int j = 0; j < programme->n_variables; j++)
+    programme->middle[j] = x[j] * one / scale;
 }
 
-/* Notes the passes of a walk; are less than a tenth of them new? Then it is much like those of this
- * look. */
-static bool is_like_others(thr_walk_programme *p, int n)
+/* Says whether more than nine tenths of a walk's passes are over edges that earlier walks of this
+ * look have; if not, notes the walk's edges. */
+static bool is_like_others(thr_walk_programme *programme, int n)
 {
   int old = 0;
   for (int k = 0; k < n; k++)
-    old += p->passed[p->edge[p->half[k] >> 1]];
+    old += programme->passed[programme->edge[programme->half[k] >> 1]];
+
   if (10 * old > 9 * n) return true;
   for (int k = 0; k < n; k++)
-    p->passed[p->edge[p->half[k] >> 1]] = true;
+    programme->passed[programme->edge[programme->half[k] >> 1]] = true;
   return false;
 }
 
-/* The walks of a recursion that are worth most, as far as the last optimum does not know them.
- * *most: what any is worth. */
-static thr_status price_run(thr_walk_programme *p, int run, int64_t *most, int *added, thr_err *err)
+/* Runs one recursion at the prices in trial and offers its best walks to the pool, as far as the
+ * last optimum programme->x violates their rows. *most grows to the largest sum of prices of a
+ * walk. */
+static thr_status price_run(thr_walk_programme *programme, int run, int64_t *most, int *added,
+                            thr_err *err)
 {
   thr_status st = THR_OK;
-  thr_walk_run(&p->steps, run, p->units, thr_walk_levels(p->units), p->value);
-  thr_limits_spend(p->limits, per_step * p->units * p->steps.first[p->steps.n] *
-                                  (double)thr_walk_tables(p->steps.measure));
-  const int n = sort_starts(p, run, p->steps.closed ? 1 : MOST_STARTS);
-  if (n > 0 && p->start[0].worth > *most) *most = p->start[0].worth;
-  memset(p->passed, 0, (size_t)p->c->f->n_edges * sizeof *p->passed);
-  for (int i = 0, taken = 0; i < n && taken < MOST_WALKS && !st && p->start[i].worth > 0; i++) {
-    const traced walk = trace_walk(p, run, p->start[i].first);
-    if (is_like_others(p, walk.n)) continue;
-    st = thr_pool_offer(&p->search.pool, row_of(p, &walk), p->x, 1e-6, added, err);
+  thr_walk_run(&programme->steps, run, programme->units, thr_walk_levels(programme->units),
+               programme->value);
+  thr_limits_spend(programme->limits, per_step * programme->units *
+                                          programme->steps.first[programme->steps.n] *
+                                          (double)thr_walk_tables(programme->steps.measure));
+
+  /* There are many recursions of closed walks: the best walk of each is enough. */
+  const int n = sort_starts(programme, run, programme->steps.closed ? 1 : MOST_STARTS);
+  if (n > 0 && programme->start[0].worth > *most) *most = programme->start[0].worth;
+
+  /* Rows are taken in the order of their violation, but only of walks that differ. */
+  memset(programme->passed, 0, (size_t)programme->c->f->n_edges * sizeof *programme->passed);
+  for (int i = 0, taken = 0; i < n && taken < MOST_WALKS && !st && programme->start[i].worth > 0;
+       i++) {
+    const traced_walk walk = trace_walk(programme, run, programme->start[i].first);
+    if (is_like_others(programme, walk.n)) continue;
+    st = thr_pool_offer(&programme->search.pool, row_of(programme, &walk), programme->x, 1e-6,
+                        added, err);
     taken++;
   }
   return st;
 }
 
-/* All recursions say what the prices prove; or those from where the last look ended until there are
- * some walks. */
-thr_status thr_walk_programme_look(thr_walk_programme *p, const double *x, int *added, thr_err *err)
+/* A bound needs all recursions. They are gone through from where the last look ended; if some walks
+ * were found on the way, the look ends without a bound. */
+thr_status thr_walk_programme_look(thr_walk_programme *programme, const double *x, int *added,
+                                   thr_err *err)
 {
-  thr_status st = set_trial(p, x, err);
-  int64_t most = p->lengths ? 0 : (int64_t)least_worth(p);
+  thr_status st = set_trial(programme, x, err);
+  int64_t most = programme->lengths ? 0 : (int64_t)least_worth(programme);
   if (st) return st == THR_EVIOLATED ? THR_OK : st;
-  const int runs = thr_walk_runs(&p->steps);
+
+  const int runs = thr_walk_runs(&programme->steps);
   for (int i = 0; i < runs && !st; i++) {
-    p->run = (p->run + 1) % runs;
-    st = price_run(p, p->run, &most, added, err);
+    programme->run = (programme->run + 1) % runs;
+    st = price_run(programme, programme->run, &most, added, err);
     if (*added >= SOME_WALKS && i + 1 < runs) return st;
   }
-  if (p->to_exclude && !st && p->lengths) judge_lengths(p, x, most);
-  if (p->to_exclude && !st && !p->lengths) judge_prices(p, x, (double)most);
+
+  /* All recursions have run: the prices prove something. */
+  if (programme->to_exclude && !st && programme->lengths) judge_lengths(programme, x, most);
+  if (programme->to_exclude && !st && !programme->lengths) judge_prices(programme, x, (double)most);
   return st;
 }
 
-thr_status thr_walk_programme_find(thr_walk_programme *p, int *added, thr_err *err)
+/* Prices between the best so far and the last optimum are tried first (P. Wentges 1997). If they
+ * separate no row, prices x themselves decide. */
+thr_status thr_walk_programme_find(thr_walk_programme *programme, int *added, thr_err *err)
 {
   thr_status st = THR_OK;
-  if (p->to_exclude && p->best > 0) {
-    for (int j = 0; j < p->n_variables; j++)
-      p->try[j] = .3 * p->x[j] + .7 * p->middle[j];
-    st = thr_walk_programme_look(p, p->try, added, err);
+  if (programme->to_exclude && programme->best > 0) {
+    for (int j = 0; j < programme->n_variables; j++)
+      programme->try[j] = .3 * programme->x[j] + .7 * programme->middle[j];
+    st = thr_walk_programme_look(programme, programme->try, added, err);
   }
-  return st || p->excluded || *added > 0 ? st : thr_walk_programme_look(p, p->x, added, err);
+  return st || programme->excluded || *added > 0
+             ? st
+             : thr_walk_programme_look(programme, programme->x, added, err);
 }
 
+/* Adapts thr_walk_programme_find to a separator of the search. */
 static thr_status find_walks(void *user, int *added, thr_err *err)
 {
   return thr_walk_programme_find(user, added, err);
 }
 
-void thr_walk_programme_round_up(thr_walk_programme *p, double per_cord)
+/* Rounds the units of all steps up instead of down, so that a walk within the units keeps to the
+ * limit for certain. */
+void thr_walk_programme_round_up(thr_walk_programme *programme, double per_cord)
 {
-  thr_walk_steps *steps = &p->steps;
+  thr_walk_steps *steps = &programme->steps;
   const double rounding = 2e-9; /* twice what the unit is less than turns of whole numbers of it */
-  for (int d = 0; d < 2 * p->c->f->n_edges; d++) {
+
+  for (int d = 0; d < 2 * programme->c->f->n_edges; d++) {
     const int i = steps->place[d];
     for (int k = i < 0 ? 0 : steps->first[i]; i >= 0 && k < steps->first[i + 1]; k++) {
       thr_walk_step *step = &steps->step[k];
-      step->units = (int)ceil((double)step->weight / (double)p->unit * (1 - rounding));
+      step->units = (int)ceil((double)step->weight / (double)programme->unit * (1 - rounding));
     }
   }
-  p->per_cord = per_cord;
-  p->dearest = 2 * per_cord;
-  choose_bits(p, p->dearest);
+
+  /* A pass may cost more than a cord: then an edge is rather passed by a cord of its own. */
+  programme->per_cord = per_cord;
+  programme->dearest = 2 * per_cord;
+  choose_bits(programme, programme->dearest);
 }
 
-thr_status thr_walk_programme_middle(thr_walk_programme *p, thr_err *err)
+thr_status thr_walk_programme_middle(thr_walk_programme *programme, thr_err *err)
 {
-  return set_trial(p, p->middle, err);
+  return set_trial(programme, programme->middle, err);
 }
 
 /* ---- a limit ---- */
 
-/* Rows of walks of at most so many units from pool to pool. */
+/* Copies the rows of walks of at most `units` units from one pool to another, except those that are
+ * there already. */
 static thr_status carry_walks(const thr_pool *from, int units, thr_pool *to, thr_err *err)
 {
   thr_status st = THR_OK;
@@ -564,55 +694,74 @@ static thr_status carry_walks(const thr_pool *from, int units, thr_pool *to, thr
   return st;
 }
 
-thr_status thr_walk_programme_begin(thr_walk_programme *p, int units, double price, thr_err *err)
+/* The search minimises minus the right sides, which maximises the dual objective. */
+thr_status thr_walk_programme_begin(thr_walk_programme *programme, int units, double price,
+                                    thr_err *err)
 {
-  double *cost = thr_calloc((size_t)p->n_variables, sizeof *cost);
-  thr_status st = cost ? thr_search_init(&p->search, p->n_variables, p->x, err) : thr_nomem(err);
-  p->units = units;
-  p->excluded = false;
-  p->best = 0;
-  for (int j = 0; j < p->n_variables && !st; j++) {
-    cost[j] = -p->right[j];
-    p->upper[j] = j + 1 == p->n_variables && p->least > 0 ? 2 * p->cords : price;
+  double *cost = thr_calloc((size_t)programme->n_variables, sizeof *cost);
+  thr_status st =
+      cost ? thr_search_init(&programme->search, programme->n_variables, programme->x, err)
+           : thr_nomem(err);
+  programme->units = units;
+  programme->excluded = false;
+  programme->best = 0;
+
+  /* Costs and upper bounds of the dual variables. */
+  for (int j = 0; j < programme->n_variables && !st; j++) {
+    cost[j] = -programme->right[j];
+    programme->upper[j] =
+        j + 1 == programme->n_variables && programme->least > 0 ? 2 * programme->cords : price;
   }
-  if (!st) st = thr_lp_create(&p->search.lp, p->n_variables, cost, p->upper, err);
-  if (!st && p->per_cord > 0)
-    st = thr_lp_set_bounds(p->search.lp, p->n_variables - 1, p->per_cord, p->per_cord, err);
-  if (!st) st = carry_walks(&p->walks, units, &p->search.pool, err);
-  if (!st) thr_search_use(&p->search, find_walks, p, THR_SLOW);
+
+  /* The programme; with a given price of a cord its variable is fixed. Rows: the walks that are
+   * known. */
+  if (!st)
+    st = thr_lp_create(&programme->search.lp, programme->n_variables, cost, programme->upper, err);
+  if (!st && programme->per_cord > 0)
+    st = thr_lp_set_bounds(programme->search.lp, programme->n_variables - 1, programme->per_cord,
+                           programme->per_cord, err);
+  if (!st) st = carry_walks(&programme->walks, units, &programme->search.pool, err);
+  if (!st) thr_search_use(&programme->search, find_walks, programme, THR_SLOW);
   free(cost);
   return st;
 }
 
-/* No more cords are needed than there are? */
+/* Ends the rounds when the known walks already suffice for the cords that there may be, so that the
+ * limit cannot be excluded; with lengths, when the bound has met the optimum. */
 static thr_status look(void *user, thr_err *err)
 {
-  thr_walk_programme *p = user;
-  const double value = -p->search.objective, near = 1e-9;
+  thr_walk_programme *programme = user;
+  const double value = -programme->search.objective, near = 1e-9;
   (void)err;
-  const double most =
-      p->enough > 0 ? p->enough : p->cords; /* of cords, where their number counts */
-  const bool enough =
-      p->lengths ? p->best >= value * p->longest * (1 - near) : value <= most * (1 + near);
-  p->search.enough = p->to_exclude && p->search.outcome == THR_LP_OPTIMAL && enough;
+  const double most = programme->enough > 0
+                          ? programme->enough
+                          : programme->cords; /* of cords, where their number counts */
+
+  const bool enough = programme->lengths
+                          ? programme->best >= value * programme->longest * (1 - near)
+                          : value <= most * (1 + near);
+
+  programme->search.enough =
+      programme->to_exclude && programme->search.outcome == THR_LP_OPTIMAL && enough;
   return THR_OK;
 }
 
-thr_status thr_walk_programme_add(thr_walk_programme *p, const thr_cord *cord, thr_err *err)
+thr_status thr_walk_programme_add(thr_walk_programme *programme, const thr_cord *cord, thr_err *err)
 {
-  return thr_pool_add(&p->search.pool,
-                      thr_walk_programme_row(p, &p->search.pool, cord->half, cord->n_passes), err);
+  return thr_pool_add(
+      &programme->search.pool,
+      thr_walk_programme_row(programme, &programme->search.pool, cord->half, cord->n_passes), err);
 }
 
-thr_status thr_walk_programme_rounds(thr_walk_programme *p, int most_rounds, thr_err *err)
+thr_status thr_walk_programme_rounds(thr_walk_programme *programme, int most_rounds, thr_err *err)
 {
-  const thr_search_calls calls = {.user = p, .look = look, .most_rounds = most_rounds};
-  return thr_search_rounds(&p->search, &calls, p->limits, err);
+  const thr_search_calls calls = {.user = programme, .look = look, .most_rounds = most_rounds};
+  return thr_search_rounds(&programme->search, &calls, programme->limits, err);
 }
 
-thr_status thr_walk_programme_end(thr_walk_programme *p, thr_err *err)
+thr_status thr_walk_programme_end(thr_walk_programme *programme, thr_err *err)
 {
-  thr_status st = carry_walks(&p->search.pool, p->units, &p->walks, err);
-  thr_search_destroy(&p->search);
+  thr_status st = carry_walks(&programme->search.pool, programme->units, &programme->walks, err);
+  thr_search_destroy(&programme->search);
   return st;
 }
