@@ -1,6 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the walks of a programme remember, so that they are not worth going round and round.
- * Internal to tortuosity/. */
+/* What the walks of a programme remember, so that a walk does not earn an edge's price again and
+ * again by going round the edge. Internal to tortuosity/.
+ *
+ * The recursion over walks is a relaxation: a walk that passes an edge twice counts as two of the
+ * passes that plans need, although an edge with one needed pass is served by the first. Where the
+ * optimum uses such a walk, the edge is remembered from now on at all places between its two
+ * passes, and the second pass does not earn anything there (ng-routes that grow: R. Roberti & A.
+ * Mingozzi, Transportation Science 48, 2014; graph/plan/walk_proof.h). The recursion, its table and
+ * the rows of all known walks are then made anew.
+ *
+ * Example: a walk passes the edges a b c a d. Edge a is remembered at the places after a, b and c,
+ * and the second pass of a earns 0. */
 #include "graph/framework/frame.h"
 #include "tortuosity/cords/walk_model.h"
 
@@ -17,7 +27,7 @@ static const double most_pull_steps = 12e7; /* with a pull */
 
 /* ---- lists ---- */
 
-/* *to: a copy, the caller's. */
+/* Copies n lists to *to, the caller's. */
 static thr_status copy_memory(const thr_walk_memory *from, int n, thr_walk_memory **to,
                               thr_err *err)
 {
@@ -36,38 +46,48 @@ static thr_status copy_memory(const thr_walk_memory *from, int n, thr_walk_memor
   return THR_OK;
 }
 
-thr_status thr_walk_take_proof(thr_walk_programme *p, thr_walk_proof *proof, thr_err *err)
+/* The prices and arrays of trial move to the proof; trial gets new arrays. */
+thr_status thr_walk_take_proof(thr_walk_programme *programme, thr_walk_proof *proof, thr_err *err)
 {
   thr_walk_memory *memory = NULL;
-  thr_status st = copy_memory(p->memory, p->n_memories, &memory, err);
+  thr_status st = copy_memory(programme->memory, programme->n_memories, &memory, err);
   if (st) return st;
+
   thr_walk_proof_destroy(proof);
-  *proof = p->trial;
+  *proof = programme->trial;
   proof->memory = memory;
-  proof->n_memories = p->n_memories;
-  p->trial = (thr_walk_proof){.unit = proof->unit, .bits = proof->bits, .pulled = proof->pulled};
-  p->trial.edge = thr_calloc((size_t)p->c->f->n_edges, sizeof *p->trial.edge);
-  p->trial.node = thr_calloc((size_t)p->c->f->n_nodes, sizeof *p->trial.node);
-  return p->trial.edge && p->trial.node ? THR_OK : thr_nomem(err);
+  proof->n_memories = programme->n_memories;
+
+  programme->trial =
+      (thr_walk_proof){.unit = proof->unit, .bits = proof->bits, .pulled = proof->pulled};
+  programme->trial.edge =
+      thr_calloc((size_t)programme->c->f->n_edges, sizeof *programme->trial.edge);
+  programme->trial.node =
+      thr_calloc((size_t)programme->c->f->n_nodes, sizeof *programme->trial.node);
+  return programme->trial.edge && programme->trial.node ? THR_OK : thr_nomem(err);
 }
 
-/* The list of an edge; begun if there is none. NULL: memory runs out. */
-static thr_walk_memory *list_of(thr_walk_programme *p, int edge)
+/* Returns the list of an edge, in ascending order of edges; an empty list is inserted if there is
+ * none. NULL: memory runs out. */
+static thr_walk_memory *list_of(thr_walk_programme *programme, int edge)
 {
   int i = 0;
-  while (i < p->n_memories && p->memory[i].edge < edge)
+  while (i < programme->n_memories && programme->memory[i].edge < edge)
     i++;
-  if (i < p->n_memories && p->memory[i].edge == edge) return &p->memory[i];
-  thr_walk_memory *longer = thr_realloc(p->memory, (size_t)p->n_memories + 1, sizeof *longer);
+  if (i < programme->n_memories && programme->memory[i].edge == edge) return &programme->memory[i];
+
+  thr_walk_memory *longer =
+      thr_realloc(programme->memory, (size_t)programme->n_memories + 1, sizeof *longer);
   if (!longer) return NULL;
-  memmove(longer + i + 1, longer + i, (size_t)(p->n_memories - i) * sizeof *longer);
+  memmove(longer + i + 1, longer + i, (size_t)(programme->n_memories - i) * sizeof *longer);
   longer[i] = (thr_walk_memory){.edge = edge};
-  p->memory = longer;
-  p->n_memories++;
+  programme->memory = longer;
+  programme->n_memories++;
   return &longer[i];
 }
 
-/* *is_new: it was not there before. */
+/* Inserts a place into a list in ascending order. *is_new: the list did not hold the place before.
+ */
 static thr_status add_place(thr_walk_memory *list, int place, bool *is_new, thr_err *err)
 {
   int i = 0;
@@ -75,6 +95,7 @@ static thr_status add_place(thr_walk_memory *list, int place, bool *is_new, thr_
     i++;
   *is_new = i == list->n || list->place[i] != place;
   if (!*is_new) return THR_OK;
+
   int *longer = thr_realloc(list->place, (size_t)list->n + 1, sizeof *longer);
   if (!longer) return thr_nomem(err);
   memmove(longer + i + 1, longer + i, (size_t)(list->n - i) * sizeof *longer);
@@ -91,63 +112,70 @@ typedef struct {
   const int *half;
   int from, to;
   double weight; /* of the walk's column */
-} around;
+} walk_round;
 
+/* Orders rounds: shortest first, then those of the largest column, then by their first edge. */
 static int compare(const void *a, const void *b)
 {
-  const around *x = a, *y = b;
-  const int more = (x->to - x->from) - (y->to - y->from);
+  const walk_round *first = a, *second = b;
+  const int more = (first->to - first->from) - (second->to - second->from);
   if (more) return more;
-  if (x->weight != y->weight) return x->weight > y->weight ? -1 : 1;
-  return (x->half[x->from] > y->half[y->from]) - (x->half[x->from] < y->half[y->from]);
+  if (first->weight != second->weight) return first->weight > second->weight ? -1 : 1;
+  return (first->half[first->from] > second->half[second->from]) -
+         (first->half[first->from] < second->half[second->from]);
 }
 
-/* Where a walk is after a pass. */
-static int place_after(const thr_walk_programme *p, int half)
+/* Returns the place of a walk after a pass: its node if lengths count, else its half-edge. */
+static int place_after(const thr_walk_programme *programme, int half)
 {
-  return p->steps.measure == THR_WALK_LENGTH ? thr_head(p->c->f, half) : half;
+  return programme->steps.measure == THR_WALK_LENGTH ? thr_head(programme->c->f, half) : half;
 }
 
-/* Those of the walks in the last optimum, each from the last pass of an edge to the next; returns
- * their number. last: [n_edges]. list: NULL, or as many. */
-static int find_rounds(const thr_walk_programme *p, int *last, around *list)
+/* Finds the rounds of the walks in the last optimum: from each pass of an edge to the next pass of
+ * the same edge, for edges that need one pass. Returns their number. last: [n_edges] scratch. list:
+ * NULL, or receives the rounds. */
+static int find_rounds(const thr_walk_programme *programme, int *last, walk_round *list)
 {
-  const thr_search *search = &p->search;
+  const thr_search *search = &programme->search;
   const double little = 1e-3;
   int n = 0;
   for (int i = 0; i < search->pool.count && i < search->n_dual; i++) {
     const thr_row *row = &search->pool.row[i];
     if (search->dual[i] < little) continue;
-    for (int e = 0; e < p->c->f->n_edges; e++)
+
+    for (int e = 0; e < programme->c->f->n_edges; e++)
       last[e] = -1;
     for (int k = 0; k < row->n_members; k++) {
       const int e = row->member[k] >> 1, before = last[e];
       last[e] = k;
-      if (before < 0 || p->c->cover[e] != 1) continue;
+      if (before < 0 || programme->c->cover[e] != 1) continue;
       if (list)
-        list[n] = (around){.half = row->member, .from = before, .to = k, .weight = search->dual[i]};
+        list[n] =
+            (walk_round){.half = row->member, .from = before, .to = k, .weight = search->dual[i]};
       n++;
     }
   }
   return n;
 }
 
-/* Is there room at every place of a round? */
-static bool has_room(const thr_walk_programme *p, const around *round, const int *there)
+/* Says whether every place of a round remembers fewer edges than it may; there[place]: their
+ * number. */
+static bool has_room(const thr_walk_programme *programme, const walk_round *round, const int *there)
 {
   for (int k = round->from; k < round->to; k++)
-    if (there[place_after(p, round->half[k])] >= MOST_THERE) return false;
+    if (there[place_after(programme, round->half[k])] >= MOST_THERE) return false;
   return true;
 }
 
-/* *added grows by the places at which its edge is remembered now, and was not. */
-static thr_status add_round(thr_walk_programme *p, const around *round, int *there, int *added,
-                            thr_err *err)
+/* Remembers the edge of a round at all of the round's places. *added grows by the number of places
+ * that did not remember the edge before. */
+static thr_status add_round(thr_walk_programme *programme, const walk_round *round, int *there,
+                            int *added, thr_err *err)
 {
-  thr_walk_memory *list = list_of(p, round->half[round->from] >> 1);
+  thr_walk_memory *list = list_of(programme, round->half[round->from] >> 1);
   thr_status st = list ? THR_OK : thr_nomem(err);
   for (int k = round->from; k < round->to && !st; k++) {
-    const int place = place_after(p, round->half[k]);
+    const int place = place_after(programme, round->half[k]);
     bool is_new = false;
     st = add_place(list, place, &is_new, err);
     if (st || !is_new) continue;
@@ -157,24 +185,33 @@ static thr_status add_round(thr_walk_programme *p, const around *round, int *the
   return st;
 }
 
-static thr_status add_rounds(thr_walk_programme *p, int *added, thr_err *err)
+/* Remembers the shortest rounds of the last optimum, at most MOST_ROUNDS, as far as their places
+ * have room. */
+static thr_status add_rounds(thr_walk_programme *programme, int *added, thr_err *err)
 {
   thr_scratch own = {0};
-  const size_t m = (size_t)p->c->f->n_edges, n = (size_t)p->c->f->n_nodes;
+  const size_t m = (size_t)programme->c->f->n_edges, n = (size_t)programme->c->f->n_nodes;
   int *last = thr_scratch_array(&own, m, sizeof *last),
       *there = thr_scratch_array(&own, 2 * m + n, sizeof *there);
   thr_status st = thr_scratch_check(&own, err);
-  const int count = st ? 0 : find_rounds(p, last, NULL);
-  around *list = thr_scratch_array(&own, (size_t)count, sizeof *list);
+
+  /* Count the rounds, then list and sort them. */
+  const int count = st ? 0 : find_rounds(programme, last, NULL);
+  walk_round *list = thr_scratch_array(&own, (size_t)count, sizeof *list);
   if (!st) st = thr_scratch_check(&own, err);
-  if (!st) find_rounds(p, last, list);
+  if (!st) find_rounds(programme, last, list);
   if (!st && count > 0) qsort(list, (size_t)count, sizeof *list, compare);
-  for (int i = 0; i < p->n_memories && !st; i++)
-    for (int k = 0; k < p->memory[i].n; k++)
-      there[p->memory[i].place[k]]++;
+
+  /* Number of edges that every place remembers already. */
+  for (int i = 0; i < programme->n_memories && !st; i++)
+    for (int k = 0; k < programme->memory[i].n; k++)
+      there[programme->memory[i].place[k]]++;
+
+  /* Rounds that are remembered already add nothing and do not count. */
   for (int i = 0, rounds = 0; i < count && rounds < MOST_ROUNDS && !st; i++) {
     const int before = *added;
-    if (has_room(p, &list[i], there)) st = add_round(p, &list[i], there, added, err);
+    if (has_room(programme, &list[i], there))
+      st = add_round(programme, &list[i], there, added, err);
     rounds += *added > before;
   }
   thr_scratch_free(&own);
@@ -183,83 +220,97 @@ static thr_status add_rounds(thr_walk_programme *p, int *added, thr_err *err)
 
 /* ---- the recursion anew ---- */
 
-static bool has_table(const thr_walk_programme *p)
+/* Says whether the recursion with its memory is small enough, in entries of its table and in steps.
+ */
+static bool has_table(const thr_walk_programme *programme)
 {
-  const double steps = (double)p->units * p->steps.first[p->steps.n] * thr_walk_runs(&p->steps);
-  const double tables = (double)thr_walk_tables(p->steps.measure);
-  return tables * thr_walk_levels(p->most_units) * p->steps.n <= MOST_ENTRIES &&
-         steps <= (p->steps.measure == THR_WALK_PULL ? most_pull_steps : most_steps);
+  const double steps = (double)programme->units * programme->steps.first[programme->steps.n] *
+                       thr_walk_runs(&programme->steps);
+  const double tables = (double)thr_walk_tables(programme->steps.measure);
+  return tables * thr_walk_levels(programme->most_units) * programme->steps.n <= MOST_ENTRIES &&
+         steps <= (programme->steps.measure == THR_WALK_PULL ? most_pull_steps : most_steps);
 }
 
-/* Steps, and a table, with what is remembered now. THR_ELIMIT: they are too many. */
-static thr_status make_steps(thr_walk_programme *p, thr_err *err)
+/* Makes the recursion's steps and table anew with what is remembered now. THR_ELIMIT: they would be
+ * too large. */
+static thr_status make_steps(thr_walk_programme *programme, thr_err *err)
 {
-  const thr_walk_measure measure = p->steps.measure;
+  const thr_walk_measure measure = programme->steps.measure;
   thr_err why = {0};
   thr_walk_steps steps;
-  thr_status st = thr_walk_steps_init(&steps, p->c, measure, p->component, p->unit, err);
+  thr_status st = thr_walk_steps_init(&steps, programme->c, measure, programme->component,
+                                      programme->unit, err);
   if (st) return st;
-  thr_walk_steps_destroy(&p->steps);
-  p->steps = steps;
-  st = thr_walk_steps_remember(&p->steps, p->memory, p->n_memories, &why);
-  if (st == THR_EVIOLATED || (!st && !has_table(p)))
+  thr_walk_steps_destroy(&programme->steps);
+  programme->steps = steps;
+
+  /* A text about the memory is for the caller only if it is not a matter of size. */
+  st = thr_walk_steps_remember(&programme->steps, programme->memory, programme->n_memories, &why);
+  if (st == THR_EVIOLATED || (!st && !has_table(programme)))
     return thr_fail(err, THR_ELIMIT, "walks remember too much");
   if (st) return thr_fail(err, st, "%s", why.text);
-  int64_t *value = thr_calloc((size_t)thr_walk_levels(p->most_units) * (size_t)p->steps.n *
-                                  thr_walk_tables(measure),
+
+  int64_t *value = thr_calloc((size_t)thr_walk_levels(programme->most_units) *
+                                  (size_t)programme->steps.n * thr_walk_tables(measure),
                               sizeof *value);
   if (!value) return thr_nomem(err);
-  free(p->value);
-  p->value = value;
+  free(programme->value);
+  programme->value = value;
   return THR_OK;
 }
 
-/* The rows of all known walks with the passes that count now. */
-static thr_status count_anew(thr_walk_programme *p, thr_err *err)
+/* Makes the rows of all known walks anew: passes that are remembered now do not count any more. */
+static thr_status count_anew(thr_walk_programme *programme, thr_err *err)
 {
   thr_pool counted;
-  thr_status st = thr_pool_init(&counted, p->n_variables, err);
-  for (int i = 0; i < p->walks.count && !st; i++) {
-    const thr_row *row = &p->walks.row[i];
-    thr_row anew = thr_walk_programme_row(p, &counted, row->member, row->n_members);
+  thr_status st = thr_pool_init(&counted, programme->n_variables, err);
+  for (int i = 0; i < programme->walks.count && !st; i++) {
+    const thr_row *row = &programme->walks.row[i];
+
+    thr_row anew = thr_walk_programme_row(programme, &counted, row->member, row->n_members);
     anew.index = row->index;
     st = thr_pool_add(&counted, anew, err);
   }
-  thr_pool_destroy(&p->walks);
-  p->walks = counted;
+  thr_pool_destroy(&programme->walks);
+  programme->walks = counted;
   return st;
 }
 
-/* Without what was added: there is no room. */
-static thr_status take_back(thr_walk_programme *p, thr_walk_memory **before, int n_before,
+/* Restores the memory before the last addition, for which there is no room. */
+static thr_status take_back(thr_walk_programme *programme, thr_walk_memory **before, int n_before,
                             thr_err *err)
 {
-  thr_walk_memory *more = p->memory;
-  const int n_more = p->n_memories;
-  p->memory = *before;
-  p->n_memories = n_before;
+  thr_walk_memory *more = programme->memory;
+  const int n_more = programme->n_memories;
+  programme->memory = *before;
+  programme->n_memories = n_before;
   *before = NULL;
   thr_walk_memory_free(more, n_more);
-  return make_steps(p, err);
+  return make_steps(programme, err);
 }
 
-thr_status thr_walk_remember(thr_walk_programme *p, bool *grown, thr_err *err)
+/* If the larger recursion is too large, the memory stays as it was and *grown is false. */
+thr_status thr_walk_remember(thr_walk_programme *programme, bool *grown, thr_err *err)
 {
   thr_walk_memory *before = NULL;
   thr_err why = {0};
-  const int n_before = p->n_memories;
+  const int n_before = programme->n_memories;
   int added = 0;
   *grown = false;
-  thr_status st = copy_memory(p->memory, n_before, &before, err);
-  if (!st && p->search.outcome == THR_LP_OPTIMAL) st = add_rounds(p, &added, err);
-  if (!st) st = thr_walk_programme_end(p, err);
+  thr_status st = copy_memory(programme->memory, n_before, &before, err);
+
+  /* The optimum is needed for the rounds; after that the search ends. */
+  if (!st && programme->search.outcome == THR_LP_OPTIMAL) st = add_rounds(programme, &added, err);
+  if (!st) st = thr_walk_programme_end(programme, err);
+
+  /* The recursion follows the memory, and so do the known walks. */
   if (!st && added > 0) {
-    st = make_steps(p, &why);
+    st = make_steps(programme, &why);
     *grown = !st;
     if (st == THR_ELIMIT)
-      st = take_back(p, &before, n_before, err);
+      st = take_back(programme, &before, n_before, err);
     else
-      st = st ? thr_fail(err, st, "%s", why.text) : count_anew(p, err);
+      st = st ? thr_fail(err, st, "%s", why.text) : count_anew(programme, err);
   }
   thr_walk_memory_free(before, n_before);
   return st;

@@ -1,6 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cords near others: some of them are taken away, and a programme over walks chooses what takes
- * their place. Internal to tortuosity/. */
+/* Cords near known ones: large neighbourhood search around the most expensive cord. Internal to
+ * tortuosity/.
+ *
+ * The most expensive cord of a component and one to three others that share nodes with it are
+ * removed, and a dive (walk_dive.c) chooses as many new walks for the edges that these cords
+ * passed, below a limit between the mean price of the removed cords and the highest one. The new
+ * cords are kept if the most expensive of them costs less. (P. Shaw, "Using constraint programming
+ * and local search methods to solve vehicle routing problems", CP 1998.) */
 #include "graph/framework/frame.h"
 #include "graph/random.h"
 #include "tortuosity/cords/walk_model.h"
@@ -9,47 +15,52 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_ANEW = 4, MOST_MISSES = 60 };
+enum { MOST_REMOVED = 4, MOST_MISSES = 60 };
 
 typedef struct {
-  thr_walk_programme *p;
-  thr_cord *cord; /* [p->cords] */
+  thr_walk_programme *programme;
+  thr_cord *cord; /* [programme->cords] */
   thr_scratch own;
-  double *price; /* [p->cords] */
-  int *meets;    /* [p->cords] nodes that a cord has with the dearest one */
-  int *order;    /* [p->cords] those that are kept, then those that are dived for */
+  double *price; /* [programme->cords] */
+  int *meets;    /* [programme->cords] nodes that a cord has with the dearest one */
+  int *order;    /* [programme->cords] those that are kept, then those that are dived for */
   bool *seen;    /* [n_nodes] */
-  thr_cord *try; /* [p->cords] in that order */
+  thr_cord *try; /* [programme->cords] in that order */
   uint64_t random;
-} near;
+} neighbourhood_search;
 
-static double price_of(const near *x, const thr_cord *cord)
+/* Returns the turning, length or pull of a cord, as the programme measures it. */
+static double price_of(const neighbourhood_search *search, const thr_cord *cord)
 {
-  return thr_walk_price(x->p->c, x->p->steps.measure, cord);
+  return thr_walk_price(search->programme->c, search->programme->steps.measure, cord);
 }
 
-static int dearest(const near *x)
+/* Returns the number of the most expensive cord. */
+static int dearest(const neighbourhood_search *search)
 {
   int most = 0;
-  for (int i = 1; i < x->p->cords; i++)
-    if (x->price[i] > x->price[most]) most = i;
+  for (int i = 1; i < search->programme->cords; i++)
+    if (search->price[i] > search->price[most]) most = i;
   return most;
 }
 
-static void count_meetings(near *x, int with)
+/* Counts for every cord how often it comes to a node of the cord `with`. */
+static void count_meetings(neighbourhood_search *search, int with)
 {
-  const thr_frame *frame = x->p->c->f;
-  memset(x->seen, 0, (size_t)frame->n_nodes * sizeof *x->seen);
-  for (int k = 0; k < x->cord[with].n_passes; k++)
-    x->seen[thr_tail(frame, x->cord[with].half[k])] =
-        x->seen[thr_head(frame, x->cord[with].half[k])] = true;
-  for (int i = 0; i < x->p->cords; i++) {
-    x->meets[i] = 0;
-    for (int k = 0; k < x->cord[i].n_passes; k++)
-      x->meets[i] += x->seen[thr_head(frame, x->cord[i].half[k])];
+  const thr_frame *frame = search->programme->c->f;
+  memset(search->seen, 0, (size_t)frame->n_nodes * sizeof *search->seen);
+  for (int k = 0; k < search->cord[with].n_passes; k++)
+    search->seen[thr_tail(frame, search->cord[with].half[k])] =
+        search->seen[thr_head(frame, search->cord[with].half[k])] = true;
+
+  for (int i = 0; i < search->programme->cords; i++) {
+    search->meets[i] = 0;
+    for (int k = 0; k < search->cord[i].n_passes; k++)
+      search->meets[i] += search->seen[thr_head(frame, search->cord[i].half[k])];
   }
 }
 
+/* Exchanges two entries of the order. */
 static void exchange(int *order, int i, int k)
 {
   int at_i = order[i];
@@ -57,101 +68,126 @@ static void exchange(int *order, int i, int k)
   order[k] = at_i;
 }
 
-/* The dearest cord goes to the end of the order, before it anew - 1 others that meet it, drawn as
- * often as they do and as there is room below the dearest. Returns their number with it. */
-static int choose(near *x, int anew)
+/* Chooses which cords are removed: the most expensive one goes to the end of the order, and before
+ * it come up to `removed` - 1 others, drawn with a probability that grows with the nodes that they
+ * share with it and with how much cheaper they are. Returns the number of removed cords. */
+static int choose(neighbourhood_search *search, int removed)
 {
-  const int n = x->p->cords, most = dearest(x);
+  const int n = search->programme->cords, most = dearest(search);
   int chosen = 1;
-  count_meetings(x, most);
+  count_meetings(search, most);
   for (int i = 0; i < n; i++)
-    x->order[i] = i;
-  exchange(x->order, most, n - 1);
-  for (; chosen < anew; chosen++) {
+    search->order[i] = i;
+
+  exchange(search->order, most, n - 1);
+  for (; chosen < removed; chosen++) {
     double sum = 0;
     int pick = -1;
+
+    /* Draw one of the cords that are not chosen yet from a stream of weights. */
     for (int i = 0; i < n - chosen; i++) {
-      const int k = x->order[i];
-      const double worth = x->meets[k] * (x->price[most] * 1.02 - x->price[k]);
+      const int k = search->order[i];
+      const double worth = search->meets[k] * (search->price[most] * 1.02 - search->price[k]);
       sum += worth;
-      if (worth > 0 && thr_random_unit(&x->random) * sum < worth) pick = i;
+      if (worth > 0 && thr_random_unit(&search->random) * sum < worth) pick = i;
     }
+
+    /* No other cord shares a node. */
     if (pick < 0) break;
-    exchange(x->order, pick, n - 1 - chosen);
+    exchange(search->order, pick, n - 1 - chosen);
   }
   return chosen;
 }
 
-/* Units below which the new cords are to stay: between the mean of the old ones and the dearest. */
-static int limit_of(const near *x, int anew, double part)
+/* Returns the units that the new cords may have: at a given part of the way from the mean price of
+ * the removed cords to the highest one, and below the highest. */
+static int limit_of(const neighbourhood_search *search, int removed, double part)
 {
-  const int n = x->p->cords;
-  double sum = 0, most = x->price[x->order[n - 1]];
-  for (int i = n - anew; i < n; i++)
-    sum += x->price[x->order[i]];
-  double limit = sum / anew + part * (most - sum / anew), unit = thr_walk_programme_price(x->p, 1);
+  const int n = search->programme->cords;
+  double sum = 0, most = search->price[search->order[n - 1]];
+  for (int i = n - removed; i < n; i++)
+    sum += search->price[search->order[i]];
+  double limit = sum / removed + part * (most - sum / removed),
+         unit = thr_walk_programme_price(search->programme, 1);
+
   int units = (int)floor(fmin(limit, most * (1 - 1e-3)) / unit);
-  return units < x->p->most_units ? units : x->p->most_units;
+  return units < search->programme->most_units ? units : search->programme->most_units;
 }
 
-/* Takes the new cords over if the dearest of them costs less than before. */
-static void keep_better(near *x, int anew, bool *better)
+/* Takes the new cords over if the most expensive of them costs less than the most expensive removed
+ * one, and frees the cords that are not needed. *better says which. */
+static void keep_better(neighbourhood_search *search, int removed, bool *better)
 {
-  const int n = x->p->cords;
+  const int n = search->programme->cords;
   double largest = 0;
-  for (int i = n - anew; i < n; i++)
-    largest = fmax(largest, price_of(x, &x->try[i]));
-  *better = largest < x->price[x->order[n - 1]] * (1 - 1e-9);
-  for (int i = n - anew; i < n; i++) {
-    thr_cord *old = &x->cord[x->order[i]];
+  for (int i = n - removed; i < n; i++)
+    largest = fmax(largest, price_of(search, &search->try[i]));
+  *better = largest < search->price[search->order[n - 1]] * (1 - 1e-9);
+
+  /* Old and new cords change places, so that the losers are those in `try`. */
+  for (int i = n - removed; i < n; i++) {
+    thr_cord *old = &search->cord[search->order[i]];
     if (*better) {
       const thr_cord before = *old;
-      *old = x->try[i];
-      x->try[i] = before;
-      x->price[x->order[i]] = price_of(x, old);
+      *old = search->try[i];
+      search->try[i] = before;
+      search->price[search->order[i]] = price_of(search, old);
     }
-    free(x->try[i].half);
-    x->try[i] = (thr_cord){0};
+    free(search->try[i].half);
+    search->try[i] = (thr_cord){0};
   }
 }
 
-static thr_status look(near *x, int anew, double part, bool draw, bool *better, thr_err *err)
+/* Removes and replaces cords once. part: as for limit_of. draw: the dive draws its columns at
+ * random. *better: the new cords were kept. */
+static thr_status look(neighbourhood_search *search, int removed, double part, bool draw,
+                       bool *better, thr_err *err)
 {
-  const int n = x->p->cords;
+  const int n = search->programme->cords;
   bool found = false;
   *better = false;
-  if ((anew = choose(x, anew)) < 2 && n > 1) return THR_OK;
-  for (int i = 0; i < n - anew; i++)
-    x->try[i] = x->cord[x->order[i]]; /* borrowed */
-  thr_status st = thr_walk_dive(x->p, limit_of(x, anew, part), draw ? &x->random : NULL, n - anew,
-                                x->try, &found, err);
-  if (!st && found) keep_better(x, anew, better);
+  if ((removed = choose(search, removed)) < 2 && n > 1) return THR_OK;
+
+  /* The dive finds the cords that stay at the front. */
+  for (int i = 0; i < n - removed; i++)
+    search->try[i] = search->cord[search->order[i]]; /* borrowed */
+  thr_status st =
+      thr_walk_dive(search->programme, limit_of(search, removed, part),
+                    draw ? &search->random : NULL, n - removed, search->try, &found, err);
+  if (!st && found) keep_better(search, removed, better);
   return st;
 }
 
-thr_status thr_walk_near(thr_walk_programme *p, double enough, thr_cord *cord, bool *improved,
-                         thr_err *err)
+/* Numbers of removed cords, limits and draws take turns; MOST_MISSES attempts in a row without gain
+ * end the search. */
+thr_status thr_walk_near(thr_walk_programme *programme, double enough, thr_cord *cord,
+                         bool *improved, thr_err *err)
 {
   static const double part[] = {.5, .8, .2, .95};
-  near x = {.p = p, .cord = cord, .random = 1};
-  size_t n = (size_t)p->cords;
-  x.price = thr_scratch_array(&x.own, n, sizeof *x.price);
-  x.meets = thr_scratch_array(&x.own, n, sizeof *x.meets);
-  x.order = thr_scratch_array(&x.own, n, sizeof *x.order);
-  x.seen = thr_scratch_array(&x.own, (size_t)p->c->f->n_nodes, sizeof *x.seen);
-  x.try = thr_scratch_array(&x.own, n, sizeof *x.try);
+  neighbourhood_search search = {.programme = programme, .cord = cord, .random = 1};
+  size_t n = (size_t)programme->cords;
+  search.price = thr_scratch_array(&search.own, n, sizeof *search.price);
+  search.meets = thr_scratch_array(&search.own, n, sizeof *search.meets);
+  search.order = thr_scratch_array(&search.own, n, sizeof *search.order);
+  search.seen =
+      thr_scratch_array(&search.own, (size_t)programme->c->f->n_nodes, sizeof *search.seen);
+  search.try = thr_scratch_array(&search.own, n, sizeof *search.try);
   *improved = false;
-  thr_status st = thr_scratch_check(&x.own, err);
-  for (int i = 0; i < p->cords && !st; i++)
-    x.price[i] = price_of(&x, &cord[i]);
-  for (int misses = 0, i = 0; !st && misses < MOST_MISSES && !thr_limits_stop(p->limits); i++) {
+  thr_status st = thr_scratch_check(&search.own, err);
+
+  for (int i = 0; i < programme->cords && !st; i++)
+    search.price[i] = price_of(&search, &cord[i]);
+
+  /* Replace cords until the price is low enough or nothing helps. */
+  for (int misses = 0, i = 0; !st && misses < MOST_MISSES && !thr_limits_stop(programme->limits);
+       i++) {
     bool better;
-    if (x.price[dearest(&x)] <= enough) break;
-    const int most = p->cords < MOST_ANEW ? p->cords : MOST_ANEW;
-    st = look(&x, 2 + i % (most - 1), part[i / 3 % 4], i % 2, &better, err);
+    if (search.price[dearest(&search)] <= enough) break;
+    const int most = programme->cords < MOST_REMOVED ? programme->cords : MOST_REMOVED;
+    st = look(&search, 2 + i % (most - 1), part[i / 3 % 4], i % 2, &better, err);
     misses = better ? 0 : misses + 1;
     *improved |= better;
   }
-  thr_scratch_free(&x.own);
+  thr_scratch_free(&search.own);
   return st;
 }
