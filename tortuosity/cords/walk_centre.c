@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Whether a limit leaves too few walks, decided at prices near the middle of the best ones.
+/* Decides whether a limit leaves too few walks, at prices near the middle of the optimal ones.
  * Internal to tortuosity/.
  *
- * The programme over walks that are known is solved by an interior point method, roughly at first,
- * and its multipliers are the prices at which more walks are looked for (primal-dual column
- * generation: J. Gondzio, P. Gonzalez-Brevis & P. Munari, European J. Operational Research 224,
- * 2013). Corners of the programme, which the simplex method gives, swing from look to look: with 12
- * cords on the creased shell (222 variables) they took 121 looks for what the middle gives in 78.
- * Factors are dense: of many variables they take longer than corners do. */
+ * The programme over the known walks is solved by an interior point method, roughly at first, and
+ * its multipliers are the prices at which more walks are separated (primal-dual column generation:
+ * J. Gondzio, P. Gonzalez-Brevis & P. Munari, European J. Operational Research 224, 2013). Vertices
+ * of the programme, which the simplex method gives, swing from look to look: with 12 cords on the
+ * creased shell (222 variables) they took 121 looks for what the middle gives in 78. Factors are
+ * dense: with many variables they take longer than vertices do. */
 #include "tortuosity/cords/walk_model.h"
 #include "lp/solver/lp.h"
 #include "lp/solver/solver.h"
@@ -22,59 +22,69 @@ typedef struct {
   thr_scratch own;
   int n_columns, n_entries, *start, *row;
   double *value, *cost;
-} equations;
+} equation_system;
 
 typedef struct {
-  thr_walk_programme *p;
+  thr_walk_programme *programme;
   double goal;   /* relative error of the next look */
   double needed; /* cords that the known walks need */
   thr_interior found;
-} centre;
+} centre_search;
 
-static thr_status allocate(equations *e, const thr_walk_programme *p, thr_err *err)
+/* Allocates the equations for all walks of the pool and two single entries for each variable. */
+static thr_status allocate(equation_system *system, const thr_walk_programme *programme,
+                           thr_err *err)
 {
-  const thr_pool *pool = &p->search.pool;
-  const size_t singles = 2 * (size_t)p->n_variables, columns = (size_t)pool->count + singles;
+  const thr_pool *pool = &programme->search.pool;
+  const size_t singles = 2 * (size_t)programme->n_variables,
+               columns = (size_t)pool->count + singles;
   size_t entries = singles;
   for (int i = 0; i < pool->count; i++)
     entries += (size_t)pool->row[i].n;
-  e->start = thr_scratch_array(&e->own, columns + 1, sizeof *e->start);
-  e->row = thr_scratch_array(&e->own, entries, sizeof *e->row);
-  e->value = thr_scratch_array(&e->own, entries, sizeof *e->value);
-  e->cost = thr_scratch_array(&e->own, columns, sizeof *e->cost);
-  return thr_scratch_check(&e->own, err);
+  system->start = thr_scratch_array(&system->own, columns + 1, sizeof *system->start);
+  system->row = thr_scratch_array(&system->own, entries, sizeof *system->row);
+  system->value = thr_scratch_array(&system->own, entries, sizeof *system->value);
+  system->cost = thr_scratch_array(&system->own, columns, sizeof *system->cost);
+  return thr_scratch_check(&system->own, err);
 }
 
-static void put_entry(equations *e, int row, double value)
+/* Appends an entry to the column that is being made. */
+static void put_entry(equation_system *system, int row, double value)
 {
-  e->row[e->n_entries] = row;
-  e->value[e->n_entries++] = value;
+  system->row[system->n_entries] = row;
+  system->value[system->n_entries++] = value;
 }
 
-static void end_column(equations *e, double cost)
+/* Ends the column that is being made. */
+static void end_column(equation_system *system, double cost)
 {
-  e->cost[e->n_columns++] = cost;
-  e->start[e->n_columns] = e->n_entries;
+  system->cost[system->n_columns++] = cost;
+  system->start[system->n_columns] = system->n_entries;
 }
 
-static void fill(equations *e, const thr_walk_programme *p)
+/* Fills in the columns of all known walks, whose costs are the right sides of the pool's rows, and
+ * then those of passes that no walk makes, which cost the upper bound of a price, and of passes
+ * that are too many, which cost nothing. */
+static void fill(equation_system *system, const thr_walk_programme *programme)
 {
-  const thr_pool *pool = &p->search.pool;
+  const thr_pool *pool = &programme->search.pool;
   for (int i = 0; i < pool->count; i++) {
     const thr_row *row = &pool->row[i];
     for (int k = 0; k < row->n; k++)
-      put_entry(e, row->column[k], row->value ? -row->value[k] : -1);
-    end_column(e, -row->lower);
+      put_entry(system, row->column[k], row->value ? -row->value[k] : -1);
+    end_column(system, -row->lower);
   }
-  for (int j = 0; j < p->n_variables; j++) {
-    put_entry(e, j, 1);
-    end_column(e, p->upper[j]);
-    put_entry(e, j, -1);
-    end_column(e, 0);
+
+  for (int j = 0; j < programme->n_variables; j++) {
+    put_entry(system, j, 1);
+    end_column(system, programme->upper[j]);
+    put_entry(system, j, -1);
+    end_column(system, 0);
   }
 }
 
-/* Their weights as the search has them after a solve. */
+/* Hands the columns' values to the search as the multipliers of its rows, as a solve would have
+ * left them. */
 static thr_status keep_weights(thr_search *search, const double *x, thr_err *err)
 {
   double *dual = thr_realloc(search->dual, (size_t)search->pool.count + 1, sizeof *dual);
@@ -86,94 +96,113 @@ static thr_status keep_weights(thr_search *search, const double *x, thr_err *err
   return THR_OK;
 }
 
-/* Dense factors of so many rows, and their sum over the columns. */
-static void spend(const thr_walk_programme *p, const equations *e, int iterations)
+/* Charges the work of dense factors of n_variables rows, and of their sum over the columns. */
+static void spend(const thr_walk_programme *programme, const equation_system *system,
+                  int iterations)
 {
-  const double each = 1.6e-10, of_entry = 30, rows = p->n_variables;
-  thr_limits_spend(p->limits,
-                   each * iterations * (rows * rows * rows / 3 + of_entry * e->n_entries));
+  const double each = 1.6e-10, of_entry = 30, rows = programme->n_variables;
+  thr_limits_spend(programme->limits,
+                   each * iterations * (rows * rows * rows / 3 + of_entry * system->n_entries));
 }
 
-/* The middle for the walks that are known: prices in p->x. */
-static thr_status solve(centre *c, thr_err *err)
+/* Solves the programme over the known walks to the goal. programme->x receives the prices,
+ * centre->needed the number of cords that the known walks need. */
+static thr_status solve(centre_search *centre, thr_err *err)
 {
   const double met = 1e-3; /* by the weights, which prove nothing */
-  thr_walk_programme *p = c->p;
-  equations e = {0};
-  thr_status st = allocate(&e, p, err);
-  if (!st) fill(&e, p);
-  c->found = (thr_interior){
-      .x = thr_scratch_array(&e.own, (size_t)e.n_columns, sizeof *c->found.x),
-      .dual = thr_scratch_array(&e.own, (size_t)p->n_variables, sizeof *c->found.dual)};
-  if (!st) st = thr_scratch_check(&e.own, err);
-  const thr_equations all = {.a = {.n_rows = p->n_variables,
-                                   .n_columns = e.n_columns,
-                                   .start = e.start,
-                                   .row = e.row,
-                                   .value = e.value},
-                             .rhs = p->right,
-                             .cost = e.cost,
-                             .goal = c->goal,
+  thr_walk_programme *programme = centre->programme;
+  equation_system system = {0};
+  thr_status st = allocate(&system, programme, err);
+  if (!st) fill(&system, programme);
+
+  centre->found = (thr_interior){
+      .x = thr_scratch_array(&system.own, (size_t)system.n_columns, sizeof *centre->found.x),
+      .dual = thr_scratch_array(&system.own, (size_t)programme->n_variables,
+                                sizeof *centre->found.dual)};
+  if (!st) st = thr_scratch_check(&system.own, err);
+
+  const thr_equations all = {.a = {.n_rows = programme->n_variables,
+                                   .n_columns = system.n_columns,
+                                   .start = system.start,
+                                   .row = system.row,
+                                   .value = system.value},
+                             .rhs = programme->right,
+                             .cost = system.cost,
+                             .goal = centre->goal,
                              .met = met};
-  if (!st) st = thr_interior_solve(&all, p->limits, &c->found, err);
-  if (!st) st = keep_weights(&p->search, c->found.x, err);
-  c->needed = 0;
-  for (int i = 0; i < e.n_columns && !st; i++)
-    c->needed += e.cost[i] * c->found.x[i];
-  for (int j = 0; j < p->n_variables && !st; j++)
-    p->x[j] = fmax(0, c->found.dual[j]);
-  if (!st) spend(p, &e, c->found.iterations);
-  thr_scratch_free(&e.own);
+
+  if (!st) st = thr_interior_solve(&all, programme->limits, &centre->found, err);
+  if (!st) st = keep_weights(&programme->search, centre->found.x, err);
+
+  /* The objective, and prices without the negative ones that an interior point may have by
+   * rounding. */
+  centre->needed = 0;
+  for (int i = 0; i < system.n_columns && !st; i++)
+    centre->needed += system.cost[i] * centre->found.x[i];
+  for (int j = 0; j < programme->n_variables && !st; j++)
+    programme->x[j] = fmax(0, centre->found.dual[j]);
+  if (!st) spend(programme, &system, centre->found.iterations);
+  thr_scratch_free(&system.own);
   return st;
 }
 
-/* Walks that go with those of number first on: the passes of the best of these are worth nothing,
- * and so on. */
-static thr_status look_beside(thr_walk_programme *p, int first, int *added, thr_err *err)
+/* Finds walks that complement those from row number `first` on: the edges of the first of these
+ * walks get the price 0, so that the next look finds walks over other edges, and so on. */
+static thr_status look_beside(thr_walk_programme *programme, int first, int *added, thr_err *err)
 {
   enum { TIMES = 4 };
   thr_status st = THR_OK;
-  memcpy(p->try, p->x, (size_t)p->n_variables * sizeof *p->try);
-  for (int i = 0; i < TIMES && first < p->search.pool.count && !st && !thr_limits_stop(p->limits);
+  memcpy(programme->try, programme->x, (size_t)programme->n_variables * sizeof *programme->try);
+  for (int i = 0; i < TIMES && first < programme->search.pool.count && !st &&
+                  !thr_limits_stop(programme->limits);
        i++) {
-    const thr_row *row = &p->search.pool.row[first];
+    const thr_row *row = &programme->search.pool.row[first];
     for (int k = 0; k < row->n; k++)
-      if (row->column[k] < p->n_edges) p->try[row->column[k]] = 0;
-    first = p->search.pool.count;
+      if (row->column[k] < programme->n_edges) programme->try[row->column[k]] = 0;
+    first = programme->search.pool.count;
     int more = 0;
-    st = thr_walk_programme_look(p, p->try, &more, err);
+    st = thr_walk_programme_look(programme, programme->try, &more, err);
     *added += more;
   }
   return st;
 }
 
-/* Is it decided? If not, how near the next look is to come. */
-static bool is_decided(centre *c, int added)
+/* Says whether the limit is excluded, or the known walks are enough for the cords that there may
+ * be, or nothing more can be found. If not, sets the accuracy of the next solve: a part of what is
+ * open between the needed cords and the proved ones. */
+static bool is_decided(centre_search *centre, int added)
 {
   const double least = 1e-8, part = .3; /* of what is open */
-  const thr_walk_programme *p = c->p;
-  const double open = (c->needed - p->best) / c->needed;
-  if (p->excluded || (c->needed <= p->cords && c->found.error <= c->goal)) return true;
-  if (added == 0 && c->goal <= 10 * least) return true;
-  const double next = added == 0 ? part * c->goal : c->goal;
-  c->goal = fmax(least, fmin(next, part * open));
+  const thr_walk_programme *programme = centre->programme;
+  const double open = (centre->needed - programme->best) / centre->needed;
+
+  if (programme->excluded ||
+      (centre->needed <= programme->cords && centre->found.error <= centre->goal))
+    return true;
+  if (added == 0 && centre->goal <= 10 * least) return true;
+
+  /* No walk was found at prices of this accuracy: they have to be more accurate. */
+  const double next = added == 0 ? part * centre->goal : centre->goal;
+  centre->goal = fmax(least, fmin(next, part * open));
   return false;
 }
 
-thr_status thr_walk_centre(thr_walk_programme *p, int most_looks, thr_err *err)
+/* While the known walks are far from enough, each look also finds walks that complement the new
+ * ones, if there is only one recursion to run. */
+thr_status thr_walk_centre(thr_walk_programme *programme, int most_looks, thr_err *err)
 {
   const double rough = .1, far = 1.1; /* error of the first look; of the cords that are needed,
                                          times those that there are */
-  centre c = {.p = p, .goal = rough};
+  centre_search centre = {.programme = programme, .goal = rough};
   thr_status st = THR_OK;
-  for (int i = 0; i < most_looks && !st && !thr_limits_stop(p->limits); i++) {
-    const int before = p->search.pool.count;
+  for (int i = 0; i < most_looks && !st && !thr_limits_stop(programme->limits); i++) {
+    const int before = programme->search.pool.count;
     int added = 0;
-    st = solve(&c, err);
-    if (!st) st = thr_walk_programme_find(p, &added, err);
-    if (!st && is_decided(&c, added)) break;
-    if (!st && c.needed > far * p->cords && thr_walk_runs(&p->steps) == 1)
-      st = look_beside(p, before, &added, err);
+    st = solve(&centre, err);
+    if (!st) st = thr_walk_programme_find(programme, &added, err);
+    if (!st && is_decided(&centre, added)) break;
+    if (!st && centre.needed > far * programme->cords && thr_walk_runs(&programme->steps) == 1)
+      st = look_beside(programme, before, &added, err);
   }
   return st;
 }

@@ -1,6 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The walk model: columns are walks within a limit, measured by length, turning or pull; prices,
- * bounds, dives and searches around them. */
+/* The walk model: linear programmes whose columns are the walks that cords can be within a limit on
+ * their turning, their length or their pull.
+ *
+ * The programmes serve plans of several cords in two ways. Their dual prices prove that a limit is
+ * too low, and hence bound the largest turning, the longest cord, the number of cords, or the total
+ * length within a pull (graph/plan/walk_proof.h has the proof and its theorem). Their columns are
+ * good cords, from which dives choose plans.
+ *
+ * Reading order: graph/plan/walk_proof.h first; walk_programme.c (the programme, and pricing by the
+ * recursion over walks), walk_centre.c (prices near the middle) and walk_memory.c (stronger
+ * programmes); then walk_dive.c and walk_near.c (cords from columns); last what others call,
+ * walk_bound.c (turning and length) and walk_pull.c (pull). walk_search.c stands alone: single
+ * short walks, by graph search. */
 #ifndef THR_WALK_MODEL_H
 #define THR_WALK_MODEL_H
 
@@ -17,8 +28,8 @@
 
 #include <stdint.h>
 
-/* ---- walk_bound.c: How much some cord has to turn, or how long it must be, and cords little above
- * that: the programme over walks. */
+/* ---- walk_bound.c: lower bounds on the largest turning, length or pull of a cord, and cords
+ * little above the bound ---- */
 
 typedef struct {
   thr_walk_measure measure;
@@ -43,10 +54,10 @@ thr_status thr_walk_bound(const thr_turning_columns *columns, const thr_walk_ask
                           const thr_limits *limits, thr_walk_proof *proof, double *bound,
                           thr_cord **better, thr_err *err) THR_MUST_CHECK;
 
-/* ---- walk_programme.c: A linear programme over the walks that the cords of one component can be,
- * below a limit on their turning or their length. */
+/* ---- walk_programme.c: the linear programme over the walks that the cords of one component can be
+ * below a limit ---- */
 
-/* A first pass, and what the best walk from there is worth. */
+/* A first pass, and the sum of prices of the best walk that begins with this pass. */
 typedef struct {
   int64_t worth;
   const thr_walk_step *first;
@@ -118,11 +129,11 @@ void thr_walk_programme_destroy(thr_walk_programme *programme);
 thr_status thr_walk_programme_merge(thr_walk_programme *programme, const int *edge, const int *node,
                                     thr_err *err) THR_MUST_CHECK;
 
-/* Price of so many units, rounded down. */
+/* Returns the price (of turns, or length) of so many units, rounded down. */
 double thr_walk_programme_price(const thr_walk_programme *programme, int units);
 
-/* Starts with the walks of at most so many units that are known. price: of a pass that no walk
- * makes. */
+/* Begins the search for a limit of `units` units, with the known walks that keep to the limit.
+ * price: of a pass that no walk makes. */
 thr_status thr_walk_programme_begin(thr_walk_programme *programme, int units, double price,
                                     thr_err *err) THR_MUST_CHECK;
 
@@ -135,15 +146,15 @@ thr_status thr_walk_programme_add(thr_walk_programme *programme, const thr_cord 
 thr_status thr_walk_programme_rounds(thr_walk_programme *programme, int most_rounds,
                                      thr_err *err) THR_MUST_CHECK;
 
-/* Adds the walks that are worth most at prices x[n_variables], as far as the pool has none like
- * them and the last optimum does not know them, counted in *added. Where limits are to be excluded,
- * what the prices prove: best, middle and excluded. Of closed walks a look goes through the
- * recursions only until it has some. */
+/* Separates: adds the walks with the largest sums of prices x[n_variables], as far as they differ
+ * and the last optimum violates their rows, and counts them in *added. Where limits are to be
+ * excluded, also computes what the prices prove: best, middle and excluded. With closed walks,
+ * which take many recursions, ends as soon as there are some walks. */
 thr_status thr_walk_programme_look(thr_walk_programme *programme, const double *x, int *added,
                                    thr_err *err) THR_MUST_CHECK;
 
-/* The same at prices between the last optimum, x, and the best so far; where these find none, at x.
- */
+/* Separates at prices between the last optimum, x, and the best so far; if no walk is found there,
+ * at x. */
 thr_status thr_walk_programme_find(thr_walk_programme *programme, int *added,
                                    thr_err *err) THR_MUST_CHECK;
 
@@ -162,85 +173,81 @@ thr_row thr_walk_programme_row(const thr_walk_programme *programme, thr_pool *po
 /* Keeps the walks for the next limit. */
 thr_status thr_walk_programme_end(thr_walk_programme *programme, thr_err *err) THR_MUST_CHECK;
 
-/* ---- walk_pull.c: How long all cords together must be if each keeps to a limit on the pull: the
- * programme over walks. */
+/* ---- walk_pull.c: total length, and number of cords, within a limit on the pull ---- */
 
-/* *bound: what the cords of a component have together at least, in units of length; 0: nothing was
- * proved. proof, empty at first, receives the prices that prove it. cord: of a plan within the
- * pull. Nothing is done where places and units are more than the recursion takes in a moment. */
+/* Bounds the total length of the cords of a component from below: *bound, in units of length; 0:
+ * nothing was proved. proof, empty at first, receives the prices that prove the bound. cord: of a
+ * plan within the pull. Does nothing where the recursion would have too many places and units. */
 thr_status thr_walk_pull_length(const thr_turning_columns *columns, const thr_request *options,
                                 const thr_cord *cord, int n_cords, int component,
                                 const thr_limits *limits, thr_walk_proof *proof, double *bound,
                                 thr_err *err) THR_MUST_CHECK;
 
-/* Few cords of a component within options.max_pull, short ones where as few may be: by diving on
+/* Finds few cords of a component within options.max_pull, and among as few short ones, by diving on
  * the columns of a programme that prices cords. some, of all components: any cords. cord[most]
- * receives n cords without names; the caller's. *n is 0 if none were found, or more than most. */
+ * receives n cords without names; the caller's. *n is 0 if no such cords were found, or only more
+ * than `most`. */
 thr_status thr_walk_pull_few(const thr_turning_columns *columns, const thr_request *options,
                              const thr_cord *some, int n_some, int component,
                              const thr_limits *limits, int most, thr_cord *cord, int *n,
                              thr_err *err) THR_MUST_CHECK;
 
-/* *excluded: so many cords of the component, at most `cords`, are proved to be too few for
- * options.max_pull; 0: none are that were not known to be. proof, empty at first, receives the
- * prices that prove it. cord: of a plan within the pull, or of any. */
+/* Proves that *excluded cords of the component, at most `cords`, are too few for options.max_pull;
+ * 0: only numbers are that were known to be. proof, empty at first, receives the prices. cord: of a
+ * plan within the pull, or of any plan. */
 thr_status thr_walk_pull_too_few(const thr_turning_columns *columns, const thr_request *options,
                                  const thr_cord *cord, int n_cords, int component, int known,
                                  int cords, const thr_limits *limits, thr_walk_proof *proof,
                                  int *excluded, thr_err *err) THR_MUST_CHECK;
 
-/* ---- walk_centre.c: Whether a limit leaves too few walks, decided at prices near the middle of
- * the best ones. */
+/* ---- walk_centre.c: whether a limit leaves too few walks, by an interior point method ---- */
 
-/* Of a programme that has begun, and asks whether its limit is excluded: adds walks until it is, or
- * until those that are known are enough for the programme's cords; at most so many looks.
- * programme->search then has the walks' weights. */
+/* Adds walks to a programme that has begun and asks whether its limit is excluded, until the limit
+ * is, or until the known walks are enough for the programme's cords; looks for walks at most
+ * most_looks times. programme->search then has the walks' weights. */
 thr_status thr_walk_centre(thr_walk_programme *programme, int most_looks,
                            thr_err *err) THR_MUST_CHECK;
 
-/* ---- walk_dive.c: Cords that a programme over walks chooses: by diving, and among all its walks.
- */
+/* ---- walk_dive.c: cords from the columns of a programme ---- */
 
-/* Below so many units: columns of value 1 are fixed, or else the largest, or one drawn at random
- * (NULL: none is), and what is left is solved again with few new walks, until the edges have their
- * passes. cord[programme->cords] receives the walks, *found whether there were enough. kept: so
- * many of them are there already, at the front of cord, and stay. The search is begun and ended
- * here. */
+/* Dives for cords of at most `units` units: fixes the columns of value 1, or else the largest
+ * column, or one drawn at random (random not NULL), and solves what is left again with few new
+ * walks, until the edges have their passes. cord[programme->cords] receives the walks, *found
+ * whether there were enough. kept: number of cords at the front of cord[] that stay. Begins and
+ * ends the programme's search. */
 thr_status thr_walk_dive(thr_walk_programme *programme, int units, uint64_t *random, int kept,
                          thr_cord *cord, bool *found, thr_err *err) THR_MUST_CHECK;
 
-/* The same by an integer programme over the walks that are known, in a part of the time. */
+/* Chooses cords by an integer programme over the known walks, in a part of the time. Parameters as
+ * for thr_walk_dive. */
 thr_status thr_walk_choose(thr_walk_programme *programme, int units, thr_cord *cord, bool *found,
                            thr_err *err) THR_MUST_CHECK;
 
-/* ---- walk_memory.c: What the walks of a programme remember, so that they are not worth going
- * round and round. */
+/* ---- walk_memory.c: edges that walks remember, so that repeated passes earn nothing ---- */
 
-/* Of the walks in the last optimum of a programme that has begun, the shortest rounds in which an
- * edge is passed again are remembered from now on; *grown: there were some, and there was room. The
- * recursion and the known walks change with it. Takes the place of thr_walk_programme_end. (R.
- * Roberti & A. Mingozzi, Transportation Science 48, 2014.) */
+/* Makes the walks remember, from now on, the shortest rounds of the last optimum in which an edge
+ * is passed again; *grown: there were some, and there was room. The recursion and the rows of the
+ * known walks are made anew. To be called in place of thr_walk_programme_end. (R. Roberti & A.
+ * Mingozzi, Transportation Science 48, 2014.) */
 thr_status thr_walk_remember(thr_walk_programme *programme, bool *grown,
                              thr_err *err) THR_MUST_CHECK;
 
-/* The prices in trial, and what the walks remember, become the proof; what it held is released.
- * trial is as after thr_walk_programme_init. */
+/* Moves the prices in trial, and what the walks remember, to the proof, whose former content is
+ * released. trial is as after thr_walk_programme_init. */
 thr_status thr_walk_take_proof(thr_walk_programme *programme, thr_walk_proof *proof,
                                thr_err *err) THR_MUST_CHECK;
 
-/* ---- walk_near.c: Cords near others: some of them are taken away, and a programme over walks
- * chooses what takes their place. */
+/* ---- walk_near.c: large neighbourhood search ---- */
 
-/* Lowers the price of the dearest of the cords of the programme's component,
- * cord[programme->cords], which are replaced: that cord and one to three that meet it are dived for
- * anew, with the others kept, as long as that helps or the limits allow, and until none costs more
- * than enough (P. Shaw, "Using constraint programming and local search methods to solve vehicle
- * routing problems", CP 1998). *improved: some were. */
+/* Lowers the price of the most expensive of the cords cord[programme->cords] of the programme's
+ * component: dives for this cord and one to three that meet it anew, with the others kept, as long
+ * as that helps or the limits allow, and until no cord costs more than enough (P. Shaw, "Using
+ * constraint programming and local search methods to solve vehicle routing problems", CP 1998).
+ * *improved: some cords were replaced. */
 thr_status thr_walk_near(thr_walk_programme *programme, double enough, thr_cord *cord,
                          bool *improved, thr_err *err) THR_MUST_CHECK;
 
-/* ---- walk_search.c: Short walks that make one more cord: without U-turns but at nodes with one
- * edge. */
+/* ---- walk_search.c: single short walks without U-turns, except at nodes with one edge ---- */
 
 typedef struct {
   const thr_turning_columns *c;
@@ -255,12 +262,13 @@ thr_status thr_walk_search_init(thr_walk_search *walk_search,
                                 thr_err *err) THR_MUST_CHECK;
 void thr_walk_search_destroy(thr_walk_search *walk_search);
 
-/* A closed walk of fewest edges through half-edge h. O(sum of the squares of the degrees). */
+/* Finds a closed walk of fewest edges through half-edge h. O(sum of the squares of the degrees). */
 void thr_walk_search_closed(thr_walk_search *walk_search, int h);
 
-/* The shortest walk of a component between nodes where cords may end, or back to the same one, over
- * edges with less than most_passes; with them its passes can be paired without U-turns if these
- * could. It may turn back where other passes take its own up. O(edges * sum of the squares of the
+/* Finds the shortest walk of a component between two nodes where cords may end, or back to the same
+ * one, over edges with fewer passes than they may have. If the given passes can be paired without
+ * U-turns, they can be with the walk's passes added: the walk turns back only where other passes
+ * can be paired with its own. O(edges * sum of the squares of the
  * degrees) at worst. */
 void thr_walk_search_open(thr_walk_search *walk_search, int component, const int *passes);
 

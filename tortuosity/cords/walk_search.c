@@ -1,6 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Short walks that make one more cord: without U-turns but at nodes with one edge. Internal to
- * tortuosity/. */
+/* Short walks that make one more cord, without U-turns except at nodes with one edge. Internal to
+ * tortuosity/.
+ *
+ * A closed walk of fewest edges through a given half-edge is found by breadth-first search over
+ * half-edges, which forbids U-turns by construction. A shortest open walk between two nodes where
+ * cords may end is found by label correction (Bellman, Ford, Moore) over half-edges.
+ *
+ * Example: on a square with a diagonal the shortest closed walk through a side is a triangle. */
 #include "graph/framework/frame.h"
 #include "tortuosity/cords/walk_model.h"
 
@@ -32,12 +38,14 @@ void thr_walk_search_destroy(thr_walk_search *walk_search)
   free(walk_search->half);
 }
 
+/* Says whether half-edge `out` after `in` is a U-turn at a node with other edges. */
 static bool turns_back(const thr_frame *frame, int in, int out)
 {
   return out == (in ^ 1) && thr_degree(frame, thr_tail(frame, out)) > 1;
 }
 
-/* The walk that ends with half-edge h, back to the one before which stands first. */
+/* Writes the walk that ends with half-edge h to walk_search->half, back to the half-edge after
+ * `first`, in order. */
 static void trace(thr_walk_search *walk_search, int h, int first)
 {
   int at = h;
@@ -45,6 +53,8 @@ static void trace(thr_walk_search *walk_search, int h, int first)
     walk_search->half[walk_search->n++] = at;
     at = walk_search->by[at];
   } while (at != first);
+
+  /* Predecessors give the walk from its end: reverse it. */
   for (int i = 0, k = walk_search->n - 1; i < k; i++, k--) {
     int swap = walk_search->half[i];
     walk_search->half[i] = walk_search->half[k];
@@ -52,7 +62,7 @@ static void trace(thr_walk_search *walk_search, int h, int first)
   }
 }
 
-/* Breadth-first from h until it comes back into h. */
+/* Breadth-first search from h until h is reached again. */
 void thr_walk_search_closed(thr_walk_search *walk_search, int h)
 {
   const thr_frame *frame = walk_search->c->f;
@@ -74,13 +84,15 @@ void thr_walk_search_closed(thr_walk_search *walk_search, int h)
 
 enum { QUEUED = -1 }; /* in stamp, which no number of a search is */
 
-/* A shorter way to go over half-edge out, coming from in. The queue is a ring. */
+/* Lowers the label of half-edge `out`, reached from `in` at the length `before`, and queues the
+ * half-edge again. The queue is a ring. */
 static void reach(thr_walk_search *walk_search, int out, int in, double before)
 {
   double length = before + walk_search->c->f->length[out >> 1];
   if (length >= walk_search->length[out]) return;
   walk_search->length[out] = length;
   walk_search->by[out] = in;
+
   if (walk_search->stamp[out] == QUEUED) return;
   walk_search->stamp[out] = QUEUED;
   walk_search
@@ -88,6 +100,7 @@ static void reach(thr_walk_search *walk_search, int out, int in, double before)
       out;
 }
 
+/* Takes the next half-edge out of the ring. */
 static int next_queued(thr_walk_search *walk_search)
 {
   int h = walk_search->queue[walk_search->head];
@@ -97,9 +110,8 @@ static int next_queued(thr_walk_search *walk_search)
   return h;
 }
 
-/* May a walk turn back at the head of in, because the passes over the other edges there are enough
- * to pair all over this one with?
- */
+/* Says whether a walk may turn back at the head of `in`: the passes of the other edges at the node
+ * are enough to pair every pass of this edge, with two more, to one of theirs. */
 static bool absorbs(const thr_frame *frame, const int *passes, int in)
 {
   int v = thr_head(frame, in), others = -passes[in >> 1];
@@ -108,7 +120,7 @@ static bool absorbs(const thr_frame *frame, const int *passes, int in)
   return others >= passes[in >> 1] + 2;
 }
 
-/* Label correcting (Bellman, Ford, Moore) from all nodes where cords may end. */
+/* Label correction from all nodes where cords may end. */
 void thr_walk_search_open(thr_walk_search *walk_search, int component, const int *passes)
 {
   const thr_frame *frame = walk_search->c->f;
@@ -116,14 +128,20 @@ void thr_walk_search_open(thr_walk_search *walk_search, int component, const int
   const int *most = walk_search->c->most;
   int best = -1;
   walk_search->n = walk_search->head = walk_search->n_queued = 0;
+
+  /* No half-edge is reached or queued yet. */
   for (int h = 0; h < 2 * frame->n_edges; h++) {
     walk_search->length[h] = INFINITY;
     walk_search->stamp[h] = 0;
   }
+
+  /* First passes: edges that may be passed once more, at nodes with cord ends. */
   for (int h = 0; h < 2 * frame->n_edges; h++)
     if (walk_search->c->component[thr_tail(frame, h)] == component &&
         turning_task->end_allowed[thr_tail(frame, h)] && passes[h >> 1] < most[h >> 1])
       reach(walk_search, h, -1, 0);
+
+  /* A walk ends at the first node where it may end: no longer walk over this node is shorter. */
   while (walk_search->n_queued > 0) {
     int in = next_queued(walk_search), v = thr_head(frame, in);
     if (turning_task->end_allowed[v]) {
@@ -137,9 +155,11 @@ void thr_walk_search_open(thr_walk_search *walk_search, int component, const int
         reach(walk_search, out, in, walk_search->length[in]);
     }
   }
+
   if (best >= 0) trace(walk_search, best, -1);
 }
 
+/* Passes are taken back if an edge would have too many. */
 bool thr_walk_search_add(const thr_walk_search *walk_search, int *passes)
 {
   bool room = walk_search->n > 0;
