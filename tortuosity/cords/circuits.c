@@ -36,6 +36,7 @@ static void circuits_destroy(circuits *s)
   free(s->list);
 }
 
+/* Follows all circuits again, and counts them by components. */
 static void follow(circuits *s)
 {
   const thr_turning_columns *turning_columns = s->j->c;
@@ -45,6 +46,7 @@ static void follow(circuits *s)
     s->count[turning_columns->component[s->t.g->tail[s->t.place[s->t.first[k]].in]]]++;
 }
 
+/* Follows the circuits of j, whose pairs change with them. */
 static thr_status circuits_init(circuits *s, thr_join *j, const thr_limits *limits, thr_err *err)
 {
   size_t n = (size_t)j->g.n_darts;
@@ -58,21 +60,23 @@ static thr_status circuits_init(circuits *s, thr_join *j, const thr_limits *limi
   return st;
 }
 
+/* Makes an exchange, whose broken pairs go to `old`, and follows the circuits again. */
 static void make(circuits *s, const thr_exchange *x, thr_broken *old)
 {
   thr_threading_make(&s->t, x, old);
   follow(s);
 }
 
-/* Of n transitions, the step from one partner to the next: all pairs of a few, about PAIRS of very
- * many. */
+/* Returns the step from one partner to the next, such that all pairs of a few transitions are
+ * tried, and about PAIRS of very many. */
 static int partner_step(int n)
 {
   enum { PAIRS = 20000 };
   return 1 + (int)((int64_t)n * n / 2 / PAIRS);
 }
 
-/* The better of best and what changes the number of circuits so at node v. */
+/* Replaces *best by the cheapest allowed exchange at node v that changes the number of circuits by
+ * `change`, if this one is cheaper. */
 static void consider_node(circuits *s, int v, int change, thr_exchange *best)
 {
   int n = thr_threading_places(&s->t, v, s->list), step = partner_step(n);
@@ -85,8 +89,8 @@ static void consider_node(circuits *s, int v, int change, thr_exchange *best)
       }
 }
 
-/* The cheapest exchange in a component that changes the number of its circuits so, as far as the
- * limits let it look; extra is infinite if there is none. */
+/* Returns the cheapest exchange in a component that changes the number of its circuits by `change`,
+ * as far as the limits let it look; extra is infinite if there is none. */
 static thr_exchange cheapest(circuits *s, int component, int change)
 {
   const thr_turning_columns *turning_columns = s->j->c;
@@ -99,7 +103,7 @@ static thr_exchange cheapest(circuits *s, int component, int change)
   return best;
 }
 
-/* An allowed exchange anywhere in the component. */
+/* Makes an allowed exchange drawn at random in the component, if one is found in a few tries. */
 static void exchange_any(circuits *s, int component)
 {
   enum { TRIES = 20 };
@@ -111,6 +115,8 @@ static void exchange_any(circuits *s, int component)
     assert(n > 0); /* i is one of them */
     int other = s->list[thr_random(&s->state) % (uint64_t)n];
     if (other == i) continue;
+
+    /* The exchange may change the number of circuits, too. */
     thr_exchange x = thr_threading_exchange(&s->t, i, other, thr_random(&s->state) % 2);
     if (!thr_threading_allows(&s->t, &x)) continue;
     make(s, &x, NULL);
@@ -118,8 +124,9 @@ static void exchange_any(circuits *s, int component)
   }
 }
 
-/* Until the component has so many circuits. Stopped, no more are joined or split than cords were
- * asked for. */
+/* Exchanges pairs until the component has as many circuits as cords are asked for; says whether
+ * that was reached. Where no exchange helps, some are made at random first. Once the limits say
+ * stop, gives up if more circuits would have to be joined or cut than cords are asked for. */
 static bool reach(circuits *s, int component)
 {
   enum { SHAKES = 100 };
@@ -132,13 +139,16 @@ static bool reach(circuits *s, int component)
       make(s, &x, NULL);
       continue;
     }
+
+    /* No circuit can be cut, or none meet: change some pairs. */
     if (shakes++ == SHAKES || thr_limits_stop(s->limits)) return false;
     exchange_any(s, component);
   }
 }
 
-/* One exchange at node v that saves and keeps the number, or one that saves with one anywhere that
- * puts the number right. */
+/* Tries to save at node v by one exchange that keeps the number of circuits, or by one that changes
+ * the number and a second one, anywhere in the component, that restores it. Says whether something
+ * was saved. */
 static bool improve_at(void *of, int v)
 {
   circuits *s = of;
@@ -152,11 +162,15 @@ static bool improve_at(void *of, int v)
         if (x.extra >= -enough || !thr_threading_allows(&s->t, &x)) continue;
         make(s, &x, &old);
         if (x.change == 0) return true;
+
+        /* The cheapest exchange that restores the number, given the first one. */
         thr_exchange y = cheapest(s, component, -x.change);
         if (x.extra + y.extra < -enough) {
           make(s, &y, NULL);
           return true;
         }
+
+        /* Both together save nothing. */
         thr_threading_take_back(&s->t, &old);
         follow(s);
       }
@@ -192,6 +206,7 @@ static void adder_destroy(adder *s)
   thr_walk_search_destroy(&s->walks);
 }
 
+/* Makes an adder with room for n_cords cords. passes[n_edges] counts their passes. */
 static thr_status adder_init(adder *s, const thr_turning_columns *turning_columns, int *passes,
                              int n_cords, thr_err *err)
 {
@@ -200,7 +215,7 @@ static thr_status adder_init(adder *s, const thr_turning_columns *turning_column
   return s->cord ? thr_walk_search_init(&s->walks, turning_columns, err) : thr_nomem(err);
 }
 
-/* Price of the walk found last; infinite if it needs more passes than allowed. */
+/* Returns the price of the walk found last; infinite if the walk needs more passes than allowed. */
 static double walk_price(const adder *s)
 {
   const thr_turning_task *turning_task = s->c->task;
@@ -217,7 +232,7 @@ static double walk_price(const adder *s)
   return price;
 }
 
-/* The walk found last as a cord; its passes are counted already. */
+/* Appends the walk found last to the cords; its passes are counted already. */
 static thr_status take_walk(adder *s, thr_err *err)
 {
   thr_cord *c = &s->cord[s->made];
@@ -229,7 +244,7 @@ static thr_status take_walk(adder *s, thr_err *err)
   return THR_OK;
 }
 
-/* One more closed cord in the component. */
+/* Adds the cheapest of the shortest closed walks through the component's edges as a cord. */
 static thr_status add_walk(adder *s, int component, const thr_limits *limits, bool *found,
                            thr_err *err)
 {
@@ -243,6 +258,8 @@ static thr_status add_walk(adder *s, int component, const thr_limits *limits, bo
     if (price < least - 1e-12) least = price, best = h;
     if (best >= 0 && thr_limits_stop(limits)) break;
   }
+
+  /* The search keeps one walk only: find the cheapest again. */
   *found = best >= 0;
   if (best < 0) return THR_OK;
   thr_walk_search_closed(&s->walks, best);
@@ -250,7 +267,7 @@ static thr_status add_walk(adder *s, int component, const thr_limits *limits, bo
   return *found ? take_walk(s, err) : THR_OK;
 }
 
-/* Circuit number k as a cord. */
+/* Copies circuit number k as a cord, and counts its passes. */
 static thr_status copy_circuit(adder *s, const thr_threading *from, int k, thr_err *err)
 {
   const thr_place *place = from->place + from->first[k];
@@ -293,8 +310,8 @@ thr_status thr_circuits_add(const thr_join *j, const thr_limits *limits, thr_joi
   return st;
 }
 
-/* A closed walk through each edge that too few go over yet, beginning with number first. Stops
- * where one has no room. */
+/* Adds a closed walk of fewest edges through each edge that has too few passes yet, beginning with
+ * edge number `first`. *found becomes false where a walk has no room. */
 static thr_status cover_edges(adder *s, int first, bool *found, thr_err *err)
 {
   const int m = s->c->f->n_edges, *cover = s->c->cover;

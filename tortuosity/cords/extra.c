@@ -41,6 +41,8 @@ static void instance_destroy(instance *in)
   free(in->odd);
 }
 
+/* Sets up the T-join problem of component k: its nodes, its edges, and slots, one for each cord end
+ * that may be anywhere. THR_EINFEASIBLE: ends are needed and allowed nowhere. */
 static thr_status instance_init(instance *in, const thr_turning_columns *turning_columns, int k,
                                 bool given, thr_err *err)
 {
@@ -61,6 +63,7 @@ static thr_status instance_init(instance *in, const thr_turning_columns *turning
     in->local[v] = in->n_nodes;
     in->node[in->n_nodes++] = v;
   }
+
   if (in->n_slots && !allowed)
     return thr_fail(err, THR_EINFEASIBLE,
                     "the component with node %s has no node where a cord may end; name one with "
@@ -96,8 +99,8 @@ static int covers_at(const thr_turning_columns *turning_columns, int v)
   return sum;
 }
 
-/* Weights add up to a power of 2 such that the slots' edges, each dearer than all of them, stay
- * within what lp/tjoin/tjoin.h takes. */
+/* Fills in edges, weights and odd nodes. Weights add up to a power of 2 such that the slots' edges,
+ * each more expensive than all others together, stay within what lp/tjoin/tjoin.h takes. */
 static void fill(instance *in, const double *weight, const double *end_weight, const int *ends)
 {
   const thr_frame *frame = in->c->f;
@@ -111,11 +114,15 @@ static void fill(instance *in, const double *weight, const double *end_weight, c
     full += in->c->most[e] == in->c->cover[e];
     if (in->c->most[e] > in->c->cover[e]) sum += weight[e];
   }
+
+  /* The scale from weights to integers. */
   const double dear = sum > 0 ? 2 * sum : 1;
   sum += full * dear;
   const double scale = sum > 0 ? exp2(floor(log2(whole / sum))) : 0; /* powers of 2 keep ties */
   for (int i = 0; end_weight && i < in->n_nodes; i++)
     most = fmax(most, end_weight[in->node[i]]);
+
+  /* The component's own edges, each once. */
   for (int i = 0; i < in->n_nodes; i++)
     for (int k = frame->first[in->node[i]]; k < frame->first[in->node[i] + 1]; k++) {
       int h = frame->half[k];
@@ -125,6 +132,9 @@ static void fill(instance *in, const double *weight, const double *end_weight, c
                      (in->c->most[h >> 1] > in->c->cover[h >> 1] ? weight[h >> 1] : dear) * scale),
                  h >> 1);
     }
+
+  /* A slot is odd: it is joined to a node where an end may be, or to another slot, which stands for
+   * a cord whose two ends are at one node. */
   int64_t slot = (int64_t)whole + 1;
   for (int s = 0; s < in->n_slots; s++) {
     for (int i = 0; i < in->n_nodes; i++)
@@ -141,7 +151,7 @@ static void fill(instance *in, const double *weight, const double *end_weight, c
     in->odd[i] = (covers_at(in->c, in->node[i]) + (in->n_slots ? 0 : ends[in->node[i]])) % 2 != 0;
 }
 
-/* Both ends of a cord that comes out where it went in: at the allowed node of least weight. */
+/* Returns the allowed node of least weight, for a cord whose two ends are at one node. */
 static int closing_node(const instance *in, const double *end_weight)
 {
   int best = -1;
@@ -154,8 +164,8 @@ static int closing_node(const instance *in, const double *end_weight)
   return best;
 }
 
-/* The least join, or, stopped, one that keeps the slots at one edge each, which the matching's
- * quick join need not. */
+/* Computes the minimum T-join; when the limits stop that, a T-join in which every slot has one
+ * edge, which the matching's quick join does not ensure. */
 static thr_status solve_join(const thr_tjoin_problem *tjoin_problem, const thr_limits *limits,
                              thr_tjoin *tjoin, thr_err *err)
 {
@@ -171,6 +181,7 @@ static thr_status solve_join(const thr_tjoin_problem *tjoin_problem, const thr_l
   return st ? thr_fail(err, st, "%s", stopped.text) : THR_OK;
 }
 
+/* Adds the least extra passes of component k to passes, and its ends to ends. */
 static thr_status solve_component(const thr_turning_columns *turning_columns, int k,
                                   const double *weight, const double *end_weight, bool given,
                                   const thr_limits *limits, int *passes, int *ends, thr_err *err)
@@ -188,6 +199,8 @@ static thr_status solve_component(const thr_turning_columns *turning_columns, in
                                        in.n_slots};
     st = solve_join(&tjoin_problem, limits, &tjoin, err);
   }
+
+  /* Edges of the join are extra passes; edges of slots are ends. */
   for (int i = 0; !st && i < in.n_edges; i++) {
     if (!tjoin.in_join[i]) continue;
     if (i < in.n_own)
@@ -204,7 +217,7 @@ static thr_status solve_component(const thr_turning_columns *turning_columns, in
 
 /* ---- ends that the passes hold ---- */
 
-/* Passes at node v less the cord ends there. */
+/* Returns the number of passes at node v less the cord ends there. */
 static int room_at(const thr_frame *frame, int v, const int *passes, const int *ends)
 {
   int room = -ends[v];
@@ -213,8 +226,8 @@ static int room_at(const thr_frame *frame, int v, const int *passes, const int *
   return room;
 }
 
-/* Moves two ends at a time, so that every node stays even, from where there are more than passes to
- * the node with most room. Returns how many have none; they are left out. */
+/* Moves ends, two at a time, so that every node stays even, from nodes with more ends than passes
+ * to the node with most passes to spare. Returns how many ends no node takes; they are left out. */
 static int move_ends(const thr_turning_columns *turning_columns, int k, const int *passes,
                      int *ends)
 {
@@ -224,6 +237,7 @@ static int move_ends(const thr_turning_columns *turning_columns, int k, const in
     if (turning_columns->component[v] != k || !turning_columns->task->end_allowed[v]) continue;
     int over = -room_at(frame, v, passes, ends);
     for (; over > 0; over -= 2) {
+      /* The node that can take two more ends, with most passes to spare. */
       int best = -1, most = 1;
       for (int u = 0; u < frame->n_nodes; u++) {
         if (turning_columns->component[u] != k || !turning_columns->task->end_allowed[u]) continue;
@@ -240,9 +254,9 @@ static int move_ends(const thr_turning_columns *turning_columns, int k, const in
   return homeless;
 }
 
-/* No more ends at a node than passes: others have room, or there are more passes, along the
- * shortest walk between nodes where cords may end. Where none is left within most_passes there are
- * ends too many, which no pairing holds. */
+/* Makes sure that no node has more ends than passes: ends move, or passes are added along the
+ * shortest walk between nodes where cords may end. If edges have no passes left for such a walk,
+ * the last allowed node gets too many ends, which no pairing holds. */
 static thr_status fit_ends(const thr_turning_columns *turning_columns, int k, int *passes,
                            int *ends, thr_err *err)
 {
@@ -256,6 +270,8 @@ static thr_status fit_ends(const thr_turning_columns *turning_columns, int k, in
     ends[thr_tail(turning_columns->f, walk_search.half[0])]++;
     ends[thr_head(turning_columns->f, walk_search.half[walk_search.n - 1])]++;
   }
+
+  /* No walk is left. */
   for (int v = 0; v < turning_columns->f->n_nodes && homeless > 0; v++)
     if (turning_columns->component[v] == k && turning_columns->task->end_allowed[v]) last = v;
   if (last >= 0) ends[last] += homeless;
@@ -283,6 +299,7 @@ thr_status thr_extra_passes(const thr_turning_columns *turning_columns, const do
   return st;
 }
 
+/* An end is placed where the fewest are, nodes with an odd number of passes and ends first. */
 void thr_extra_spread_ends(const thr_turning_columns *turning_columns, int *ends)
 {
   const thr_frame *frame = turning_columns->f;

@@ -1,5 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bouchet's greedy on a multigraph of passes. */
+/* Bouchet's greedy algorithm (Math. Programming 38, 1987) on the multigraph of passes: a pairing of
+ * the passes at every node such that all passes of a component are one circuit.
+ *
+ * Every node has a cheapest pairing of its passes. Nodes are taken by decreasing regret, which is
+ * how much more than the cheapest pairing the next one costs, and get the cheapest pairing that
+ * keeps the graph connected, where nodes that are paired already are split. Example: at a node of 4
+ * passes one of the three pairings may cut the graph apart; the node takes the better of the two
+ * others. */
 #include "graph/disjoint.h"
 #include "graph/scratch.h"
 #include "tortuosity/cords/join.h"
@@ -38,6 +45,7 @@ typedef struct {
   thr_scratch own; /* the arrays */
 } greedy;
 
+/* Allocates the arrays for the largest node, and starts with single passes as chains. */
 static thr_status greedy_init(greedy *s, thr_join *j, int apart, thr_err *err)
 {
   const thr_multigraph *multigraph = &j->g;
@@ -72,6 +80,7 @@ static thr_status greedy_init(greedy *s, thr_join *j, int apart, thr_err *err)
   return THR_OK;
 }
 
+/* Fills the matrix of the prices of pairing any two of n darts. */
 static void fill_prices(greedy *s, const int *dart, int n)
 {
   for (int i = 0; i < n; i++)
@@ -79,7 +88,8 @@ static void fill_prices(greedy *s, const int *dart, int n)
       s->price[i * n + k] = i == k ? thr_join_forbidden : thr_join_price(s->j, dart[i], dart[k]);
 }
 
-/* Price of the best exchange of pairs (a, b) and (c, d); *cross says which. */
+/* Returns the price of the better exchange of pairs (a, b) and (c, d); *cross says whether it pairs
+ * a with d. */
 static double exchange_price(const double *price, int n, int a, int b, int c, int d, bool *cross)
 {
   double straight = price[a * n + c] + price[b * n + d],
@@ -88,8 +98,8 @@ static double exchange_price(const double *price, int n, int a, int b, int c, in
   return fmin(straight, crossed) - price[a * n + b] - price[c * n + d];
 }
 
-/* What the cheapest other pairing costs more, as far as one exchange goes (all of them at a node of
- * 4). */
+/* Returns how much more the cheapest other pairing costs, among those that one exchange makes (all
+ * of them at a node of 4). */
 static double regret(const double *price, int n, const int *pair)
 {
   double least = INFINITY;
@@ -101,6 +111,7 @@ static double regret(const double *price, int n, const int *pair)
   return least;
 }
 
+/* Orders nodes by decreasing regret, then by number. */
 static int by_regret(const void *pa, const void *pb)
 {
   const ranked *a = pa, *b = pb;
@@ -108,8 +119,8 @@ static int by_regret(const void *pa, const void *pb)
   return (a->node > b->node) - (a->node < b->node);
 }
 
-/* The cheapest pairing of node v, by itself, into pair; hubs come last, as if no other pairing of
- * them cost more. */
+/* Computes the cheapest pairing of node v alone, and its regret. Hubs get the regret -1, which
+ * makes them come last; very large ones are not priced. */
 static thr_status pair_node(greedy *s, int v, thr_err *err)
 {
   const thr_multigraph *multigraph = &s->j->g;
@@ -127,7 +138,7 @@ static thr_status pair_node(greedy *s, int v, thr_err *err)
   return st;
 }
 
-/* The best pairing of every node into mate, and the nodes by decreasing regret. */
+/* Fills mate with the cheapest pairing of every node, and sorts the nodes by decreasing regret. */
 static thr_status rank_nodes(greedy *s, thr_err *err)
 {
   const thr_multigraph *multigraph = &s->j->g;
@@ -143,8 +154,8 @@ static thr_status rank_nodes(greedy *s, thr_err *err)
   return st;
 }
 
-/* Joins in port[] the darts of v that hang together without v: a search from all of them at once,
- * over chains, until they are one or nothing is left to see. */
+/* Joins in port[] the darts of v that are connected without v: a breadth-first search over chains
+ * from all of them at the same time, until they are one set or nothing is left to see. */
 static void find_ports(greedy *s, int v, const int *dart, int n)
 {
   const thr_multigraph *multigraph = &s->j->g;
@@ -180,7 +191,8 @@ static void find_ports(greedy *s, int v, const int *dart, int n)
   }
 }
 
-/* Components of the darts under ports and pairs, as disjoint sets in trial. */
+/* Counts the connected sets of the node's darts, given the ports and the pairs, as disjoint sets in
+ * trial. */
 static int join_pairs(greedy *s, int n, const int *pair)
 {
   int left = 0;
@@ -193,8 +205,8 @@ static int join_pairs(greedy *s, int n, const int *pair)
   return left;
 }
 
-/* All pairings of the darts that are free in pair (-1), the cheapest of those that leave few enough
- * pieces into best. */
+/* Enumerates all pairings of the darts that are free in pair (-1), by branch and bound, and keeps
+ * the cheapest of those that leave few enough pieces in best. */
 static void try_pairings(greedy *s, int n, int pieces, int *pair, double price, double *least,
                          int *best)
 {
@@ -216,7 +228,7 @@ static void try_pairings(greedy *s, int n, int pieces, int *pair, double price, 
   }
 }
 
-/* Exchanges pairs of different pieces, cheapest first, until there are few enough. */
+/* Exchanges pairs of different pieces, cheapest first, until there are few enough pieces. */
 static void exchange_until_few(greedy *s, int n, int pieces)
 {
   while (join_pairs(s, n, s->pair) > pieces) {
@@ -238,8 +250,8 @@ static void exchange_until_few(greedy *s, int n, int pieces)
   }
 }
 
-/* The cheapest pairing of the n darts of node v that leaves at most so many pieces, which the one
- * in pair does not. */
+/* Computes the cheapest pairing of the n darts of node v that leaves at most `pieces` pieces:
+ * exactly for few darts, by exchanges for many. */
 static void pair_joined(greedy *s, int v, int n, int pieces)
 {
   enum { ENUMERATED = 8 };
@@ -254,8 +266,8 @@ static void pair_joined(greedy *s, int v, int n, int pieces)
     exchange_until_few(s, n, pieces);
 }
 
-/* Gives node v the cheapest pairing that keeps enough connected, and joins the chains that it
- * pairs. */
+/* Gives node v the cheapest pairing that keeps the component in few enough pieces, and joins the
+ * chains that the node pairs. */
 static void settle_node(greedy *s, int v)
 {
   const thr_multigraph *multigraph = &s->j->g;
