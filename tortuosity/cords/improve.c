@@ -3,12 +3,10 @@
  * transitions (as S. Lin, Bell System Technical Journal 44, 1965, on tours).
  *
  * Turns (a b)(c d) at a node become (a c)(b d), with the part between run backwards, if the price
- * falls.
+ * falls (2-opt). Or a part of a cord is cut off at one node and joined again, cheaper, at the same
+ * or another node (3-opt).
  *
- * Example: a cord that turns by 90 degrees twice at a crossing goes straight on twice.
- *
- * Exchanges on a tour: reversals, and cuts that are joined elsewhere (2- and 3-opt on transitions).
- */
+ * Example: a cord that turns by 90 degrees twice at a crossing goes straight on twice. */
 #include "tortuosity/cords/join.h"
 
 #include <math.h>
@@ -55,6 +53,8 @@ static void close_ring(tour *t, int v)
   for (int i = multigraph->first[v]; i < multigraph->first[v + 1]; i++) {
     int near = multigraph->dart[i], d = near;
     if (ring[near] >= 0 || near == far) continue;
+
+    /* Follow the cord to its far end. */
     while (mate[d ^ 1] >= 0)
       d = mate[d ^ 1];
     if (first < 0)
@@ -63,9 +63,12 @@ static void close_ring(tour *t, int v)
       thr_set_pair(ring, far, near);
     far = d ^ 1;
   }
+
+  /* The last cord's far end closes the ring. */
   if (first >= 0) thr_set_pair(ring, far, first);
 }
 
+/* Closes the cords to rings at the end nodes, and follows the rings. */
 static void follow(tour *t)
 {
   const thr_multigraph *multigraph = &t->j->g;
@@ -81,8 +84,8 @@ static void make(tour *t, const thr_exchange *x)
   thr_set_pair(t->j->mate, x->made[2], x->made[3]);
 }
 
-/* Runs the part between two places of one node the other way round where that saves. true: the tour
- * has changed. */
+/* Runs the part between two places of one node the other way round if that saves. Says whether the
+ * tour has changed. */
 static bool reverse_part(tour *t, int i, int k)
 {
   thr_exchange x = thr_threading_exchange(&t->ring, i, k, true);
@@ -91,8 +94,8 @@ static bool reverse_part(tour *t, int i, int k)
   return true;
 }
 
-/* The cheapest way to join the part i < .. < k, once cut off, to the rest again, at any node. The
- * cut itself does not count. */
+/* Returns the cheapest exchange, at any node, that joins the part i < .. < k, once cut off, to the
+ * rest again; its extra is `most` if none costs less. */
 static thr_exchange cheapest_joint(const tour *t, int i, int k, double most)
 {
   const thr_threading *threading = &t->ring;
@@ -100,6 +103,8 @@ static thr_exchange cheapest_joint(const tour *t, int i, int k, double most)
   for (int p = i + 1; p < k && (p % 64 || !thr_limits_stop(t->limits)); p++) {
     int v = threading->g->tail[threading->place[p].in];
     if (v >= threading->f->n_nodes) continue;
+
+    /* Pairs of a place in the part with a place outside of the part. */
     int n = thr_threading_places(threading, v, t->list);
     for (int y = 0; y < n; y++)
       for (int crossed = 1; crossed >= 0 && (t->list[y] < i || t->list[y] > k); crossed--) {
@@ -110,8 +115,8 @@ static thr_exchange cheapest_joint(const tour *t, int i, int k, double most)
   return best;
 }
 
-/* Cuts the part between two places of one node off where that saves more than joining it again
- * costs. */
+/* Cuts the part between two places of one node off if that saves more than joining the part again
+ * costs. Says whether the tour has changed. */
 static bool cut_and_join(tour *t, int i, int k)
 {
   thr_exchange x = thr_threading_exchange(&t->ring, i, k, false);
@@ -123,7 +128,7 @@ static bool cut_and_join(tour *t, int i, int k)
   return true;
 }
 
-/* One improvement anywhere at node v. */
+/* Makes one improvement at node v: reversals first, which are cheaper to find. */
 static bool improve_node(tour *t, int v)
 {
   int n = thr_threading_places(&t->ring, v, t->here);
@@ -156,7 +161,7 @@ thr_status thr_improve(thr_join *j, const thr_limits *limits, thr_err *err)
   return st;
 }
 
-/* Exchanges a forbidden pair of node v for others. */
+/* Exchanges a forbidden pair of node v, if another pair makes both allowed. */
 static bool exchange_back(tour *t, int v)
 {
   int n = thr_threading_places(&t->ring, v, t->here);
@@ -170,6 +175,7 @@ static bool exchange_back(tour *t, int v)
   return false;
 }
 
+/* After a change the same dart is looked at again. */
 thr_status thr_improve_backs(thr_join *j, thr_err *err)
 {
   const thr_limits no_limit = {0};

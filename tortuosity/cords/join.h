@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cords from turns: circuits that are joined, cut and improved by exchanges, at the least extra
- * turning. */
+/* Cords from passes: circuits that are joined, cut and improved by exchanges, at the least extra
+ * turning.
+ *
+ * Reading order: extra.c (which passes and ends), join.c (the multigraph of passes, and cords from
+ * pairings), greedy.c (pairings that keep the passes connected), improve.c (exchanges of pairs),
+ * circuits.c (a given number of closed cords); short_cycles.c stands alone. */
 #ifndef THR_JOIN_H
 #define THR_JOIN_H
 
