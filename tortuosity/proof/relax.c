@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The linear programme over the columns of graph/plan/turning_proof.h, with its odd, group,
- * partition and junction rows added as a point violates them. Where turns cost nothing the columns
- * of the turns may be left out (tortuosity/proof/project.c).
+/* The turning relaxation: a linear programme over the columns of graph/plan/turning_proof.h (turns,
+ * extra passes, ends, turns back) whose value no plan can undercut.
  *
- * Minimize the sum of price x turns, subject at every half-edge to: passes = turns + ends there.
- * Odd sets, like those of matchings (Edmonds 1965), groups (what is chosen in a set of edges must
- * leave it) and partitions (b blocks need b - 1 links) are separated.
+ * It minimizes the sum of price x column, subject at every half-edge to: passes = turns + ends
+ * there. Four families of inequalities that every plan keeps are added as a point violates them:
+ * odd sets, as for matchings (Edmonds 1965); groups (what is chosen in a set of edges must leave
+ * the set); partitions (b blocks need b - 1 links); and junctions, of single tied nodes. Where
+ * turns cost nothing the columns of the turns may be left out (tortuosity/proof/project.c). The
+ * equations are made in equations.c; this file holds bounds, reduced costs, and copies.
  *
- * Example: a node with four edges passed once: two turns, each edge in one of them; the straight
- * ones cost 0. */
+ * Example: a node with four edges, each passed once, has two turns, and each edge is in one of
+ * them; if the two pairs of opposite edges are straight, both turns cost 0. */
 #include "lp/solver/lp.h"
 #include "tortuosity/proof/relax_parts.h"
 
@@ -16,14 +18,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The first column of the programme. */
+/* Returns the number of the column that is the programme's column 0. */
 static int first_column(const thr_relax *relax)
 {
   return relax->projected ? relax->c->first_extra : 0;
 }
 
-/* The limit on the extra length, in units of the longest edge; then it is one of the equations as
- * far as rows are counted. */
+/* Adds the limit on the length of the extra passes, in units of the longest edge:
+ * -length + artificial >= -limit. The artificial column is the last one, which all added rows
+ * share. The row counts as one of the fixed rows. */
 static thr_status add_length_row(thr_relax *relax, thr_err *err)
 {
   const thr_turning_columns *turning_columns = relax->c;
@@ -31,6 +34,7 @@ static thr_status add_length_row(thr_relax *relax, thr_err *err)
   int *column = thr_calloc((size_t)m + 1, sizeof *column);
   double *value = thr_calloc((size_t)m + 1, sizeof *value);
   thr_status st = column && value ? THR_OK : thr_nomem(err);
+
   for (int e = 0; e < m && !st; e++) {
     column[e] = turning_columns->first_extra + e;
     value[e] = -ldexp((double)turning_columns->length[e], -THR_LENGTH_BITS);
@@ -42,11 +46,16 @@ static thr_status add_length_row(thr_relax *relax, thr_err *err)
                         -ldexp((double)turning_columns->extra_limit, -THR_LENGTH_BITS), err);
     relax->search.n_fixed++;
   }
+
   free(column);
   free(value);
   return st;
 }
 
+/* Makes the graph in which odd sets are looked for. Its nodes are the half-edges and, behind these,
+ * the end groups; its edges are the columns: turns and extra passes join two half-edges, an end
+ * joins a half-edge and the group of its node. A node is odd if the columns at it must have an odd
+ * sum in every plan. */
 static thr_status init_graph(thr_relax *relax, thr_err *err)
 {
   const thr_turning_columns *turning_columns = relax->c;
@@ -57,6 +66,7 @@ static thr_status init_graph(thr_relax *relax, thr_err *err)
   relax->problem =
       (thr_tjoin_problem){.n_nodes = n, .n_edges = m, .edge = (const int(*)[2])edge, .odd = odd};
   if (!edge || !odd) return thr_nomem(err);
+
   for (int j = 0; j < m; j++) {
     edge[j][0] = turning_columns->half[j][0];
     edge[j][1] =
@@ -65,6 +75,7 @@ static thr_status init_graph(thr_relax *relax, thr_err *err)
             : darts + turning_columns
                           ->end_group[thr_tail(turning_columns->f, turning_columns->half[j][0])];
   }
+
   for (int h = 0; h < darts; h++)
     relax->any_odd |= odd[h] = turning_columns->cover[h >> 1] % 2;
   for (int k = 0; k < turning_columns->n_ends; k++)
@@ -72,8 +83,8 @@ static thr_status init_graph(thr_relax *relax, thr_err *err)
   return thr_oddcut_graph_init(&relax->graph, &relax->problem, err);
 }
 
-/* The first odd sets: the half-edges of one node, an extra pass or an end at every node of odd
- * degree. */
+/* Adds the first odd sets, the half-edges of each node: a node of odd degree, passed once by every
+ * edge, has at least one extra pass or end. */
 static thr_status add_node_sets(thr_relax *relax, thr_err *err)
 {
   const thr_frame *frame = relax->c->f;
@@ -84,6 +95,8 @@ static thr_status add_node_sets(thr_relax *relax, thr_err *err)
   return st;
 }
 
+/* Sets the bounds of a column. A turn at its largest value gets no upper bound, because the
+ * equations of its half-edges bound it already. */
 thr_status thr_relax_set(thr_relax *relax, int column, int low, int high, thr_err *err)
 {
   bool unbounded = column < relax->c->first_extra && high == thr_turning_most(relax->c, column);
@@ -93,7 +106,9 @@ thr_status thr_relax_set(thr_relax *relax, int column, int low, int high, thr_er
 
 /* ---- the search ---- */
 
-/* What the equations leave of the costs. */
+/* Subtracts from the costs what the multipliers of the equations pay: each column stands in the
+ * equations of its two half-edges, or of its half-edge and its end group. An extra pass stands on
+ * the other side of the equation, hence its opposite sign. */
 static void reduce_by_equations(thr_relax *relax)
 {
   const thr_turning_columns *turning_columns = relax->c;
@@ -110,6 +125,8 @@ static void reduce_by_equations(thr_relax *relax)
   }
 }
 
+/* Computes the sum of the artificial columns and the reduced costs of all others but turns back,
+ * from the multipliers of equations and pool. */
 void thr_relax_look(thr_relax *relax)
 {
   const thr_turning_columns *turning_columns = relax->c;
@@ -117,6 +134,7 @@ void thr_relax_look(thr_relax *relax)
   relax->artificial = 0;
   for (int j = turning_columns->n_columns; j < relax->n_all; j++)
     relax->artificial += relax->x[j];
+
   for (int j = first; j < turning_columns->first_back; j++)
     relax->reduced[j] = ldexp((double)turning_columns->weight[j], -THR_TURNING_BITS);
   if (!relax->projected) reduce_by_equations(relax);
@@ -127,7 +145,9 @@ void thr_relax_look(thr_relax *relax)
 
 /* ---- all ---- */
 
-/* Without programme and rows. */
+/* Allocates a relaxation whose programme has no columns and rows yet. Two artificial columns for
+ * every equation, one of either sign, and one for all rows that are added later keep every branch
+ * feasible. */
 static thr_status begin(thr_relax *relax, const thr_turning_columns *turning_columns,
                         bool projected, thr_err *err)
 {
@@ -136,19 +156,23 @@ static thr_status begin(thr_relax *relax, const thr_turning_columns *turning_col
   int equations = 2 * turning_columns->f->n_edges +
                   (turning_columns->task->end_allowed ? turning_columns->n_ends : 0);
   if (projected) equations = 0;
+
   relax->n_all = turning_columns->n_columns + 2 * equations + 1;
   relax->x = thr_calloc((size_t)relax->n_all, sizeof *relax->x);
   relax->reduced = thr_calloc(n, sizeof *relax->reduced);
   thr_status st = relax->x && relax->reduced ? THR_OK : thr_nomem(err);
   int columns = projected ? turning_columns->first_back - turning_columns->first_extra
                           : turning_columns->n_columns;
+
+  /* The search sees the programme's own columns, which begin with the extra passes if projected. */
   if (!st) st = thr_search_init(&relax->search, columns, relax->x + first_column(relax), err);
   relax->search.n_fixed = equations;
   relax->search.help = projected ? columns : relax->n_all - 1;
   return st;
 }
 
-/* What odd sets are looked for in. */
+/* Makes the graph of odd sets and the state of their separator, which reads point and reduced costs
+ * from the relaxation and adds rows to its pool. */
 static thr_status add_graph(thr_relax *relax, thr_err *err)
 {
   relax->odd = (thr_oddcuts){.graph = &relax->graph,
@@ -160,6 +184,8 @@ static thr_status add_graph(thr_relax *relax, thr_err *err)
   return relax->projected ? thr_project_graph(relax, err) : init_graph(relax, err);
 }
 
+/* Makes the programme with its fixed rows, a basis to start from, and the first odd sets. Turns
+ * have no bounds, because their equations bound them. On failure the relaxation is empty. */
 thr_status thr_relax_init(thr_relax *relax, const thr_turning_columns *turning_columns,
                           bool projected, double penalty, const thr_limits *limits, thr_err *err)
 {
@@ -168,10 +194,11 @@ thr_status thr_relax_init(thr_relax *relax, const thr_turning_columns *turning_c
     st =
         projected ? thr_project_create(relax, penalty, err) : thr_relax_create(relax, penalty, err);
   if (!st && turning_columns->extra_limit >= 0) st = add_length_row(relax, err);
-  for (int j = turning_columns->first_extra; j < turning_columns->n_columns && !st;
-       j++) /* turns: by their equations */
+  for (int j = turning_columns->first_extra; j < turning_columns->n_columns && !st; j++)
     st = thr_lp_set_bounds(relax->search.lp, j - first_column(relax), 0,
                            thr_turning_most(turning_columns, j), err);
+
+  /* The basis comes before the odd sets: thr_relax_crash knows only the equations. */
   if (!st && !projected) st = thr_relax_crash(relax, limits, err);
   if (!st) st = add_graph(relax, err);
   if (!st && !projected) st = add_node_sets(relax, err);
@@ -179,6 +206,8 @@ thr_status thr_relax_init(thr_relax *relax, const thr_turning_columns *turning_c
   return st;
 }
 
+/* Copies programme, basis and pool. The graph of odd sets is made anew, because its arrays are
+ * owned by each relaxation. On failure the copy is empty. */
 thr_status thr_relax_copy(thr_relax *relax, const thr_relax *from, thr_err *err)
 {
   thr_status st = begin(relax, from->c, from->projected, err);
@@ -190,6 +219,7 @@ thr_status thr_relax_copy(thr_relax *relax, const thr_relax *from, thr_err *err)
   return st;
 }
 
+/* Releases all that a relaxation owns, also one that was left half made. */
 void thr_relax_destroy(thr_relax *relax)
 {
   thr_search_destroy(&relax->search);
