@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Nodes that are solved at once, in lanes: the search itself, and copies of its programme in other
- * threads. */
+/* Solves several nodes of the branching tree in parallel, each in a lane. Lane 0 is the search
+ * itself; every other lane is a search of its own with a copy of the relaxation, in the thread that
+ * made the copy. Bounds and plans are taken over in the order of the lanes, so that they are the
+ * same whatever the number of threads. */
 #include "tortuosity/proof/branch.h"
 
 #include <stdlib.h>
@@ -19,6 +21,7 @@ static thr_branch *lane_of(thr_branch *branch, int k)
   return k > 0 ? &branch->lane[k - 1] : branch;
 }
 
+/* Gives a new lane the search's decisions, and a copy of its programme with separators. */
 static thr_status fill_lane(thr_branch *lane, const thr_branch *branch, thr_err *err)
 {
   const size_t n = (size_t)branch->c->n_columns;
@@ -83,7 +86,8 @@ static thr_status open_lanes(thr_branch *branch, int n, thr_err *err)
   return st ? st : thr_team_run(branch->team, n, open_lane, branch, err);
 }
 
-/* What a lane is told, the same whatever the others come to meanwhile. */
+/* Sets the bound of the lane's node and the best price as they are before the batch: what another
+ * lane finds meanwhile does not reach this one. */
 static void brief_lane(thr_branch *lane, const thr_branch *branch, int node)
 {
   lane->tree.node[0].bound = branch->tree.node[node].bound;
@@ -94,6 +98,7 @@ static void brief_lane(thr_branch *lane, const thr_branch *branch, int node)
   lane->best_length = branch->best_length;
 }
 
+/* Puts the decisions of the lane's node in force there, and solves the node: a job of the team. */
 static thr_status solve_lane(void *user, int k, const thr_limits *limits, thr_err *err)
 {
   const batch *of = user;
@@ -105,7 +110,8 @@ static thr_status solve_lane(void *user, int k, const thr_limits *limits, thr_er
   return st ? st : thr_branch_solve_node(lane, k > 0 ? 0 : of->node[k], &until, err);
 }
 
-/* The better bound and plan. */
+/* Takes over what lane has found for a node: counts, the bound with its multipliers if the lane
+ * proved a better one, and the plan if it is the best. */
 static thr_status take_lane(thr_branch *branch, thr_branch *lane, int node, thr_err *err)
 {
   thr_status st = THR_OK;
@@ -114,6 +120,7 @@ static thr_status take_lane(thr_branch *branch, thr_branch *lane, int node, thr_
   lane->more_rounds = lane->rounds;
   branch->checking += lane->checking;
   lane->checking = 0;
+
   if (lane->n_duals > 0) {
     st = thr_grow(&branch->dual, branch->n_duals, &branch->duals_capacity, sizeof *branch->dual,
                   err);
@@ -126,6 +133,7 @@ static thr_status take_lane(thr_branch *branch, thr_branch *lane, int node, thr_
   return thr_branch_take(branch, lane, err);
 }
 
+/* Solves n nodes in as many lanes until the deadline, and takes over what they found. */
 thr_status thr_branch_solve_all(thr_branch *branch, int n, const int *node, double deadline,
                                 thr_err *err)
 {
