@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Does every edge have no more passes than it may, and the plan no more extra length? */
 static bool within_limits(const thr_turning_columns *turning_columns, const int *passes)
 {
   const thr_turning_task *turning_task = turning_columns->task;
@@ -28,7 +29,7 @@ static int64_t price_of_passes(const thr_branch *branch, const int *passes)
   return price;
 }
 
-/* For whoever keeps the best cords so far. */
+/* Hands the cords of a plan to the caller's function for the best cords so far, if there is one. */
 static thr_status tell(const thr_branch *branch, const thr_join *j, thr_err *err)
 {
   int n = thr_join_count(j);
@@ -40,18 +41,21 @@ static thr_status tell(const thr_branch *branch, const thr_join *j, thr_err *err
   return st;
 }
 
-/* Takes over a joined multigraph if it is the best so far; releases it otherwise. */
+/* Takes over a joined multigraph if its plan is the best so far; releases it otherwise. Plans are
+ * compared by price or, where the search is for the shortest plan, by length first. */
 static thr_status keep_better(thr_branch *branch, thr_join *j, const int *passes, thr_err *err)
 {
   bool forbidden = j->price >= thr_join_forbidden;
   int64_t price = forbidden ? INT64_MAX : (int64_t)nearbyint(ldexp(j->price, THR_TURNING_BITS));
   if (!forbidden) price += price_of_passes(branch, passes);
+
   double length = thr_extra_length(branch->c, passes);
   bool by_length = branch->shortest && fabs(length - branch->best_length) > 1e-9 * (1 + length);
   if (forbidden || (by_length ? length > branch->best_length : price >= branch->best_price)) {
     thr_join_destroy(j);
     return THR_OK;
   }
+
   if (branch->found) thr_join_destroy(&branch->best);
   branch->best = *j;
   branch->found = true;
@@ -249,6 +253,7 @@ thr_status thr_branch_anneal(thr_branch *branch, const thr_limits *limits, int r
   return st ? st : thr_branch_try(branch, branch->passes, branch->ends, err);
 }
 
+/* Tube joints: rounds the relaxation's point to passes and ends, and tries these. */
 static thr_status round_tied(thr_branch *branch, thr_err *err)
 {
   bool found;
