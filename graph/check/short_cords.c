@@ -1,22 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The least longest of several cords that pass few edges each, without a proof: all sets of edges
- * that a cord below a limit passes are looked at. Private to the checker and the planner.
+/* Computes how short the longest of K cords can be that pass few edges each. Gives no certificate.
+ * Private to the checker and the planner.
  *
- *   States are (set passed so far, node); Dijkstra's method settles them by length, and goes on
- * only where the way back, or to an end, stays below the limit. Few are left where a cord passes
- * some dozen edges of a framework whose nodes have three or four. Whether K cords below a limit do
- * is decided by depth first search: the next one passes the edge that is lacking and in the fewest
- * sets; sets that are part of others are left out, and what failed before. What is lacking cannot
- * be passed by j cords
- *   - where it weighs more than j times the heaviest set, for weights of the edges that make many
- * cords (any would be right), and
- *   - where its length, and what its odd nodes add (half of the shortest edge there, but for 2 j of
- * them if cords may end there: half an edge from either side are odd cuts), is more than j times
- * the limit. A table over the sets of few edges (graph/check/few_edges.c) has no limit on the
- * cords; this one has none on the framework.
+ * First, Dijkstra's method lists the sets of edges that one cord within a limit can pass. Its
+ * labels are (set of edges passed so far, node), settled by length. A label is dropped if the
+ * shortest path from its node to a possible end makes the cord longer than the limit. There are few
+ * labels if a cord passes some dozen edges and nodes have three or four.
  *
- * Example: four closed cords through robarch_tree_S, 45 edges of three at a node: 37,260 sets of at
- * most 780 mm, none of which four pass all. Least length over four is 741.5. */
+ * Second, a depth-first search decides whether K of these sets cover all edges. It branches over
+ * the sets that hold the uncovered edge with the fewest sets; only maximal sets are tried, and
+ * uncovered sets that failed are kept in a hash table. j cords cannot cover a set of edges
+ *   - if its weight is more than j times that of the heaviest listed set. Any weights are valid;
+ * those used come from the multiplicative updates of S. Plotkin, D. Shmoys & E. Tardos (1995).
+ *   - if the length of its edges and half of the shortest edge at each of its odd nodes are
+ * together more than j times the limit. (The half edges round a node are an odd cut.) Of the odd
+ * nodes where cords may end, the 2 j with the longest halves do not count.
+ *
+ * The tables in graph/check/few_edges.c limit the number of edges of the framework, but not of a
+ * cord; this file limits the edges of a cord.
+ *
+ * Example: four closed cords through robarch_tree_S (45 edges, three at each node) have 37,260 sets
+ * of at most 780 mm, and no four of them cover all edges. A quarter of the least total length is
+ * only 741.5 mm. */
 #include "graph/check/edge_sets.h"
 #include "graph/sort.h"
 
@@ -25,18 +30,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NONE = -1, PLACES = 2 * THR_SHORT_STATES, LOOK = 1024 };
+enum { NONE = -1, SLOTS = 2 * THR_SHORT_STATES, STATES_PER_CHECK = 1024 };
 
+/* Returns whether the set holds edge e. */
 static bool holds(thr_edge_set set, int e)
 {
   return set >> e & 1u;
 }
 
+/* Returns the set that holds edge e alone. */
 static thr_edge_set edge_set(int e)
 {
   return (thr_edge_set)1 << e;
 }
 
+/* Returns the number of edges in the set. */
 static int count_edges(thr_edge_set set)
 {
   int n = 0;
@@ -45,163 +53,199 @@ static int count_edges(thr_edge_set set)
   return n;
 }
 
-static size_t place_of(thr_edge_set set, int node)
+/* Returns the slot of a hash table where probing for (set, node) begins. */
+static size_t slot_of(thr_edge_set set, int node)
 {
   uint64_t low = (uint64_t)set + (uint64_t)node, high = (uint64_t)(set >> 64);
   low = (low ^ low >> 29) * UINT64_C(0xBF58476D1CE4E5B9) + high * UINT64_C(0x9E3779B97F4A7C15);
-  return (size_t)((low ^ low >> 32) % PLACES);
+  return (size_t)((low ^ low >> 32) % SLOTS);
 }
 
-/* ---- all sets ---- */
+/* ---- listing the sets of edges of single cords ---- */
 
-/* Cords from one node, closed, through nodes from there on; or open ones from all ends. */
+/* The search for all sets. Closed cords take one run for each node `first`, which then is the
+ * lowest node of the cord; open cords take a single run from all ends. */
 typedef struct {
   thr_short_cords *out;
   bool closed;
-  int first;           /* closed: where they begin */
-  int n_before;        /* states of runs before */
-  double *back;        /* [n_nodes] length of the way to where a cord may end */
-  int *place;          /* [PLACES] states; those of runs before stand for empty places */
-  int *in_sets;        /* [PLACES] sets */
-  int n_queue, *queue; /* [THR_SHORT_STATES] a heap of states */
-  bool full;
-} walker;
+  int first;               /* closed: the node where cords begin and end; open: 0 */
+  int n_before;            /* labels of earlier runs */
+  double *distance_to_end; /* [n_nodes] from a node to the nearest one where a cord may end */
+  int *state_at;       /* [SLOTS] hash table of labels; one of an earlier run is an empty slot */
+  int *set_at;         /* [SLOTS] hash table of the sets found */
+  int n_queue, *queue; /* [THR_SHORT_STATES] a binary heap of labels by length */
+  bool given_up;       /* there are too many labels, or the limits stopped the search */
+} set_search;
 
-static bool ends_at(const walker *x, int v)
+/* Returns whether a cord of this run may end at node v. */
+static bool ends_at(const set_search *search, int v)
 {
-  return x->closed ? v == x->first : thr_plan_end_allowed(x->out->f, x->out->o, v);
+  return search->closed ? v == search->first
+                        : thr_plan_end_allowed(search->out->f, search->out->o, v);
 }
 
-/* By Bellman's iteration: there are few nodes. */
-static void find_ways_back(walker *x)
+/* Computes the distance from every node to the nearest node where a cord may end. Uses Bellman's
+ * iteration, which is enough for so few nodes. */
+static void compute_distances_to_ends(set_search *search)
 {
-  const thr_frame *frame = x->out->f;
+  const thr_frame *frame = search->out->f;
   bool changed = true;
   for (int v = 0; v < frame->n_nodes; v++)
-    x->back[v] = ends_at(x, v) ? 0 : INFINITY;
+    search->distance_to_end[v] = ends_at(search, v) ? 0 : INFINITY;
+
+  /* Relax every half-edge until nothing changes. Nodes below `first` belong to earlier runs. */
   while (changed) {
     changed = false;
     for (int h = 0; h < 2 * frame->n_edges; h++) {
       const int v = thr_tail(frame, h);
-      const double length = x->back[thr_head(frame, h)] + frame->length[h >> 1];
-      if (v < x->first || length >= x->back[v]) continue;
-      x->back[v] = length;
+      const double length = search->distance_to_end[thr_head(frame, h)] + frame->length[h >> 1];
+      if (v < search->first || length >= search->distance_to_end[v]) continue;
+      search->distance_to_end[v] = length;
       changed = true;
     }
   }
 }
 
-static void put(walker *x, int i, int state)
+/* Puts a label at position i of the heap. */
+static void place_in_heap(set_search *search, int i, int state)
 {
-  x->queue[i] = state;
-  x->out->state[state].at = i;
+  search->queue[i] = state;
+  search->out->state[state].at = i;
 }
 
-static void rise(walker *x, int i)
+/* Moves the label at position i of the heap up as long as its parent is longer. */
+static void sift_up(set_search *search, int i)
 {
-  const thr_short_state *state = x->out->state;
-  const int s = x->queue[i];
-  for (; i > 0 && state[s].length < state[x->queue[(i - 1) / 2]].length; i = (i - 1) / 2)
-    put(x, i, x->queue[(i - 1) / 2]);
-  put(x, i, s);
+  const thr_short_state *state = search->out->state;
+  const int number = search->queue[i];
+  for (; i > 0 && state[number].length < state[search->queue[(i - 1) / 2]].length; i = (i - 1) / 2)
+    place_in_heap(search, i, search->queue[(i - 1) / 2]);
+  place_in_heap(search, i, number);
 }
 
-static int take_shortest(walker *x)
+/* Takes the shortest label out of the heap and returns it. */
+static int pop_shortest(set_search *search)
 {
-  const thr_short_state *state = x->out->state;
-  const int top = x->queue[0], last = x->queue[--x->n_queue];
+  const thr_short_state *state = search->out->state;
+  const int top = search->queue[0], last = search->queue[--search->n_queue];
+
+  /* Sift the last label down from the top, into which a hole was made. */
   int i = 0;
-  for (int child; (child = 2 * i + 1) < x->n_queue; i = child) {
-    if (child + 1 < x->n_queue && state[x->queue[child + 1]].length < state[x->queue[child]].length)
+  for (int child; (child = 2 * i + 1) < search->n_queue; i = child) {
+    if (child + 1 < search->n_queue &&
+        state[search->queue[child + 1]].length < state[search->queue[child]].length)
       child++;
-    if (state[last].length <= state[x->queue[child]].length) break;
-    put(x, i, x->queue[child]);
+    if (state[last].length <= state[search->queue[child]].length) break;
+    place_in_heap(search, i, search->queue[child]);
   }
-  put(x, i, last);
-  x->out->state[top].at = NONE;
+
+  place_in_heap(search, i, last);
+  search->out->state[top].at = NONE;
   return top;
 }
 
-/* A walk with this set is here, so long. */
-static void reach(walker *x, thr_edge_set set, int node, double length, int from, int half)
+/* Relaxes the label (set, node): a walk of this length, which continues label `from` by a
+ * half-edge, passes the set and ends at the node. */
+static void relax(set_search *search, thr_edge_set set, int node, double length, int from, int half)
 {
-  thr_short_cords *out = x->out;
-  size_t at = place_of(set, node);
-  if (length + x->back[node] > out->limit) return;
-  for (; x->place[at] >= x->n_before; at = (at + 1) % PLACES) {
-    thr_short_state *known = &out->state[x->place[at]];
+  thr_short_cords *out = search->out;
+  size_t at = slot_of(set, node);
+  if (length + search->distance_to_end[node] > out->limit) return;
+
+  /* A known label of this run keeps the shorter walk. */
+  for (; search->state_at[at] >= search->n_before; at = (at + 1) % SLOTS) {
+    thr_short_state *known = &out->state[search->state_at[at]];
     if (known->set != set || known->node != node) continue;
     if (length >= known->length) return;
     *known = (thr_short_state){set, length, node, from, half, known->at};
-    rise(x, known->at);
+    sift_up(search, known->at);
     return;
   }
-  if ((x->full |= out->n_states == THR_SHORT_STATES)) return;
-  x->place[at] = out->n_states;
-  out->state[out->n_states] = (thr_short_state){set, length, node, from, half, x->n_queue};
-  x->queue[x->n_queue++] = out->n_states++;
-  rise(x, x->n_queue - 1);
+
+  /* Otherwise the label is new. */
+  if ((search->given_up |= out->n_states == THR_SHORT_STATES)) return;
+  search->state_at[at] = out->n_states;
+  out->state[out->n_states] = (thr_short_state){set, length, node, from, half, search->n_queue};
+  search->queue[search->n_queue++] = out->n_states++;
+  sift_up(search, search->n_queue - 1);
 }
 
-/* A cord may end here. */
-static void note_set(walker *x, int s)
+/* Records that a cord can pass the set of a settled label and end there; keeps the shortest cord of
+ * each set. */
+static void record_set(set_search *search, int number)
 {
-  thr_short_cords *out = x->out;
-  const thr_short_state *state = &out->state[s];
-  size_t at = place_of(state->set, 0);
-  while (x->in_sets[at] != NONE && out->set[x->in_sets[at]].set != state->set)
-    at = (at + 1) % PLACES;
-  thr_short_set *set = &out->set[x->in_sets[at] == NONE ? out->n : x->in_sets[at]];
-  if (x->in_sets[at] == NONE)
-    x->in_sets[at] = out->n++;
+  thr_short_cords *out = search->out;
+  const thr_short_state *state = &out->state[number];
+  size_t at = slot_of(state->set, 0);
+
+  /* Find the set's slot, or the empty one where the set belongs. */
+  while (search->set_at[at] != NONE && out->set[search->set_at[at]].set != state->set)
+    at = (at + 1) % SLOTS;
+  thr_short_set *set = &out->set[search->set_at[at] == NONE ? out->n : search->set_at[at]];
+  if (search->set_at[at] == NONE)
+    search->set_at[at] = out->n++;
   else if (set->length <= state->length)
     return;
-  *set = (thr_short_set){state->set, state->length, s};
+
+  *set = (thr_short_set){state->set, state->length, number};
 }
 
-static void walk_on(walker *x)
+/* Settles labels in ascending order of length until none is left, and records the sets of all
+ * cords. */
+static void run_dijkstra(set_search *search)
 {
-  thr_short_cords *out = x->out;
+  thr_short_cords *out = search->out;
   const thr_frame *frame = out->f;
-  while (x->n_queue > 0 && !x->full) {
-    const int s = take_shortest(x);
-    x->full |= s % LOOK == 0 && out->limits && thr_limits_stop(out->limits);
-    const thr_short_state here = out->state[s];
-    if (here.set != 0 && ends_at(x, here.node)) note_set(x, s);
+  while (search->n_queue > 0 && !search->given_up) {
+    const int number = pop_shortest(search);
+    search->given_up |=
+        number % STATES_PER_CHECK == 0 && out->limits && thr_limits_stop(out->limits);
+
+    /* A settled label is a cord if a cord may end here. */
+    const thr_short_state here = out->state[number];
+    if (here.set != 0 && ends_at(search, here.node)) record_set(search, number);
+
+    /* Continue along every half-edge to nodes of this run. */
     for (int i = frame->first[here.node]; i < frame->first[here.node + 1]; i++) {
       const int half = frame->half[i], to = thr_head(frame, half);
-      if (to >= x->first)
-        reach(x, here.set | edge_set(half >> 1), to, here.length + frame->length[half >> 1], s,
-              half);
+      if (to >= search->first)
+        relax(search, here.set | edge_set(half >> 1), to, here.length + frame->length[half >> 1],
+              number, half);
     }
   }
 }
 
-static void find_sets(walker *x)
+/* Lists the sets of edges that cords within the limit pass; none if there are too many. */
+static void find_sets(set_search *search)
 {
-  thr_short_cords *out = x->out;
-  for (size_t i = 0; i < PLACES; i++)
-    x->place[i] = x->in_sets[i] = NONE;
-  const int runs = x->closed ? out->f->n_nodes : 1;
-  for (int run = 0; run < runs && !x->full; run++) {
-    x->first = x->closed ? run : 0;
-    x->n_before = out->n_states;
-    find_ways_back(x);
+  thr_short_cords *out = search->out;
+  for (size_t i = 0; i < SLOTS; i++)
+    search->state_at[i] = search->set_at[i] = NONE;
+
+  /* One run for each lowest node of closed cords, or one for all open cords. */
+  const int runs = search->closed ? out->f->n_nodes : 1;
+  for (int run = 0; run < runs && !search->given_up; run++) {
+    search->first = search->closed ? run : 0;
+    search->n_before = out->n_states;
+    compute_distances_to_ends(search);
     for (int v = 0; v < out->f->n_nodes; v++)
-      if (ends_at(x, v)) reach(x, 0, v, 0, NONE, NONE);
-    walk_on(x);
+      if (ends_at(search, v)) relax(search, 0, v, 0, NONE, NONE);
+    run_dijkstra(search);
   }
-  if (x->full) out->n = 0;
+
+  if (search->given_up) out->n = 0;
 }
 
-static thr_status is_asked(const thr_frame *frame, const thr_request *options, bool *asked,
-                           thr_err *err)
+/* Finds whether this search serves the request: one component of at most THR_SHORT_EDGES edges,
+ * solid joints, and no numbers of ends. */
+static thr_status is_supported(const thr_frame *frame, const thr_request *options, bool *supported,
+                               thr_err *err)
 {
   int n = 0, *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
   thr_status st = component ? thr_frame_components(frame, component, &n, err) : thr_nomem(err);
   free(component);
-  *asked = n == 1 && frame->n_edges <= THR_SHORT_EDGES && options->joint == THR_JOINT_SOLID &&
-           options->ends != THR_ENDS_COUNTS;
+  *supported = n == 1 && frame->n_edges <= THR_SHORT_EDGES && options->joint == THR_JOINT_SOLID &&
+               options->ends != THR_ENDS_COUNTS;
   return st;
 }
 
@@ -209,21 +253,25 @@ thr_status thr_short_cords_init(thr_short_cords *cords, const thr_frame *frame,
                                 const thr_request *options, double limit, const thr_limits *limits,
                                 thr_err *err)
 {
-  walker x = {.out = cords, .closed = options->ends == THR_ENDS_CLOSED};
+  set_search search = {.out = cords, .closed = options->ends == THR_ENDS_CLOSED};
   thr_scratch own = {0};
-  bool asked;
+  bool supported;
   *cords = (thr_short_cords){.f = frame, .o = options, .limits = limits, .limit = limit};
-  thr_status st = is_asked(frame, options, &asked, err);
-  if (st || !asked) return st;
+  thr_status st = is_supported(frame, options, &supported, err);
+  if (st || !supported) return st;
+
+  /* The sets and labels belong to the result, the rest to the search. */
   cords->set = thr_scratch_array(&cords->own, THR_SHORT_STATES, sizeof *cords->set);
   cords->state = thr_scratch_array(&cords->own, THR_SHORT_STATES, sizeof *cords->state);
-  x.back = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *x.back);
-  x.place = thr_scratch_array(&own, PLACES, sizeof *x.place);
-  x.in_sets = thr_scratch_array(&own, PLACES, sizeof *x.in_sets);
-  x.queue = thr_scratch_array(&own, THR_SHORT_STATES, sizeof *x.queue);
+  search.distance_to_end =
+      thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *search.distance_to_end);
+  search.state_at = thr_scratch_array(&own, SLOTS, sizeof *search.state_at);
+  search.set_at = thr_scratch_array(&own, SLOTS, sizeof *search.set_at);
+  search.queue = thr_scratch_array(&own, THR_SHORT_STATES, sizeof *search.queue);
+
   st = thr_scratch_check(&cords->own, err);
   if (!st) st = thr_scratch_check(&own, err);
-  if (!st) find_sets(&x);
+  if (!st) find_sets(&search);
   thr_scratch_free(&own);
   return st;
 }
@@ -236,316 +284,386 @@ void thr_short_cords_destroy(thr_short_cords *cords)
 
 thr_status thr_short_cords_walk(const thr_short_cords *cords, int i, thr_cord *cord, thr_err *err)
 {
+  /* Count the half-edges back to the label where the walk began. */
   int n = 0;
-  for (int s = cords->set[i].state; cords->state[s].from != NONE; s = cords->state[s].from)
+  for (int number = cords->set[i].state; cords->state[number].from != NONE;
+       number = cords->state[number].from)
     n++;
+
+  /* The labels name the half-edges from the last to the first. */
   *cord = (thr_cord){.n_passes = n, .half = thr_calloc((size_t)n, sizeof *cord->half)};
   if (!cord->half) return thr_nomem(err);
-  for (int s = cords->set[i].state; n > 0; s = cords->state[s].from)
-    cord->half[--n] = cords->state[s].half;
+  for (int number = cords->set[i].state; n > 0; number = cords->state[number].from)
+    cord->half[--n] = cords->state[number].half;
+
   cord->closed = thr_cord_start(cords->f, cord) == thr_cord_end(cords->f, cord);
   return THR_OK;
 }
 
-/* ---- are so many enough? ---- */
+/* ---- deciding whether so many cords cover all edges ---- */
 
-/* What is looked at, for one limit and for all; what is not decided then stays open. */
-static const double most_work = 1 << 23, most_in_all = 1 << 25;
+/* How many steps a decision may take for one limit, and for all limits together; what is not
+ * decided by then stays open. */
+static const double max_work = 1 << 23, max_total_work = 1 << 25;
 
+/* A set of edges with its size. */
 typedef struct {
   thr_edge_set set;
   int count; /* edges */
-} counted;
+} sized_set;
 
-/* What so many cords cannot pass; cords 0: an empty place. */
+/* A set of uncovered edges that so many cords cannot cover. cords = 0 marks an empty slot. */
 typedef struct {
   thr_edge_set lacking;
   int cords;
 } failure;
 
+/* An element of the list of the sets that hold an edge. */
 typedef struct {
-  int set, next; /* NONE: the list ends */
-} link;
+  int set, next; /* next: link number, or NONE at the end of the list */
+} set_link;
 
+/* The depth-first search for sets that cover all edges. */
 typedef struct {
-  const thr_short_cords *all;
-  const thr_frame *f;
+  const thr_short_cords *table;
+  const thr_frame *frame;
   bool closed;
-  double limit, work, in_all;
-  double *half;  /* [n_nodes] of the shortest edge there: what an odd node adds */
-  double *odd;   /* [n_nodes] */
-  int *degree;   /* [n_nodes] */
-  int n_most;    /* sets below the limit that are part of no other */
-  counted *most; /* [all->n] */
-  link *link;    /* lists of the sets that hold an edge */
-  int last[THR_SHORT_EDGES],
-      holders[THR_SHORT_EDGES]; /* of an edge: the last one of its list, and their number */
-  int64_t weight[THR_SHORT_EDGES / 8][256], heaviest; /* of eight edges at a time */
-  counted *next;   /* [room] the sets that are tried, of one cord after the other */
-  failure *failed; /* [PLACES] */
+  double limit, work, total_work; /* steps for this limit, and for earlier ones */
+  double *half_shortest;          /* [n_nodes] half of the shortest edge at a node */
+  double *odd_term;               /* [n_nodes] scratch of least_length */
+  int *degree;                    /* [n_nodes] scratch of least_length */
+  int n_maximal;
+  sized_set *maximal; /* [table->n] sets within the limit that are part of no other one */
+  set_link *link;     /* for every edge a list of the maximal sets that hold the edge */
+  int first_link[THR_SHORT_EDGES], holders[THR_SHORT_EDGES]; /* head and length of an edge's list */
+  int64_t weight[THR_SHORT_EDGES / 8][256]; /* of the subsets of eight edges at a time */
+  int64_t heaviest;                         /* weight of the heaviest maximal set */
+  sized_set *candidates; /* [(n_maximal + 1) * (cords + 1)] those tried at every depth, in turn */
+  failure *failed;       /* [SLOTS] hash table */
   int n_failed;
-  thr_edge_set *chosen;   /* [cords] the last cord first */
-  thr_scratch own, tried; /* tried: what is for one limit */
-} decision;
+  thr_edge_set *chosen; /* [cords] the sets of the cords, the last cord first */
+  thr_scratch own;      /* arrays for all limits */
+  thr_scratch tried;    /* arrays for one limit */
+} cover_search;
 
-static int more_first(const void *pa, const void *pb)
+/* Orders sets by size, the largest first, then by their bits. */
+static int compare_sizes(const void *first_set, const void *second_set)
 {
-  const counted *a = pa, *b = pb;
+  const sized_set *a = first_set, *b = second_set;
   if (a->count != b->count) return b->count - a->count;
   return a->set < b->set ? -1 : a->set > b->set;
 }
 
-/* Leaves out what is part of another. */
-static int keep_largest(decision *x, counted *list, int n)
+/* Removes the sets that are part of another one from list[n], and sorts the others by size.
+ * Returns how many are left.
+ */
+static int keep_maximal(cover_search *search, sized_set *list, int n)
 {
   int kept = 0;
-  qsort(list, (size_t)n, sizeof *list, more_first);
+  qsort(list, (size_t)n, sizeof *list, compare_sizes);
+
+  /* A set can only be part of a larger one, which comes before. */
   for (int i = 0; i < n; i++) {
     bool part = false;
     int k = 0;
     for (; k < kept && !part; k++)
       part = (list[i].set & ~list[k].set) == 0;
-    x->work += k;
+    search->work += k;
     if (!part) list[kept++] = list[i];
   }
   return kept;
 }
 
-/* The set joins the lists of its edges. */
-static void add_most(decision *x, int i, int *n_links)
+/* Appends maximal set number i to the lists of its edges. */
+static void link_set(cover_search *search, int i, int *n_links)
 {
-  for (int e = 0; e < x->f->n_edges; e++) {
-    if (!holds(x->most[i].set, e)) continue;
-    x->link[*n_links] = (link){i, x->last[e]};
-    x->last[e] = (*n_links)++;
-    x->holders[e]++;
+  for (int e = 0; e < search->frame->n_edges; e++) {
+    if (!holds(search->maximal[i].set, e)) continue;
+    search->link[*n_links] = (set_link){i, search->first_link[e]};
+    search->first_link[e] = (*n_links)++;
+    search->holders[e]++;
   }
 }
 
-/* Of the edges of a set, which is not empty, one that is in the fewest sets. */
-static int rarest_edge(const decision *x, thr_edge_set set)
+/* Returns the edge of a nonempty set that the fewest maximal sets hold. */
+static int rarest_edge(const cover_search *search, thr_edge_set set)
 {
   int best = NONE;
-  for (int e = 0; e < x->f->n_edges; e++)
-    if (holds(set, e) && (best == NONE || x->holders[e] < x->holders[best])) best = e;
+  for (int e = 0; e < search->frame->n_edges; e++)
+    if (holds(set, e) && (best == NONE || search->holders[e] < search->holders[best])) best = e;
   return best;
 }
 
-static thr_status list_most(decision *x, thr_err *err)
+/* Lists the sets within the limit that are part of no other one, and the lists of the sets that
+ * hold an edge. */
+static thr_status list_maximal_sets(cover_search *search, thr_err *err)
 {
-  const int m = x->f->n_edges;
+  const int m = search->frame->n_edges;
   size_t n_all = 0, n = 0;
   int n_links = 0;
-  for (int i = 0; i < x->all->n; i++) {
-    if (x->all->set[i].length > x->limit) continue;
-    x->most[n] = (counted){x->all->set[i].set, count_edges(x->all->set[i].set)};
-    n_all += (size_t)x->most[n++].count;
+
+  /* Collect all sets within the limit, and count their edges for the links. */
+  for (int i = 0; i < search->table->n; i++) {
+    if (search->table->set[i].length > search->limit) continue;
+    search->maximal[n] =
+        (sized_set){search->table->set[i].set, count_edges(search->table->set[i].set)};
+    n_all += (size_t)search->maximal[n++].count;
   }
-  if (!(x->link = thr_scratch_array(&x->tried, n_all + 1, sizeof *x->link))) return thr_nomem(err);
-  qsort(x->most, n, sizeof *x->most, more_first);
+  if (!(search->link = thr_scratch_array(&search->tried, n_all + 1, sizeof *search->link)))
+    return thr_nomem(err);
+
+  qsort(search->maximal, n, sizeof *search->maximal, compare_sizes);
   for (int e = 0; e < m; e++) {
-    x->holders[e] = 0;
-    x->last[e] = NONE;
+    search->holders[e] = 0;
+    search->first_link[e] = NONE;
   }
-  x->n_most = 0;
+
+  /* Keep a set, from the largest on, unless a set that was kept holds all of its edges. That one
+   * would be in the list of its rarest edge. */
+  search->n_maximal = 0;
   for (size_t i = 0; i < n; i++) {
-    const counted set = x->most[i];
-    int k = x->last[rarest_edge(x, set.set)];
-    while (k != NONE && (set.set & ~x->most[x->link[k].set].set) != 0)
-      k = x->link[k].next;
+    const sized_set set = search->maximal[i];
+    int k = search->first_link[rarest_edge(search, set.set)];
+    while (k != NONE && (set.set & ~search->maximal[search->link[k].set].set) != 0)
+      k = search->link[k].next;
     if (k != NONE) continue; /* part of another */
-    x->most[x->n_most] = set;
-    add_most(x, x->n_most++, &n_links);
+    search->maximal[search->n_maximal] = set;
+    link_set(search, search->n_maximal++, &n_links);
   }
   return THR_OK;
 }
 
-static int64_t weight_of(const decision *x, thr_edge_set set)
+/* Returns the weight of a set of edges, by bytes of the set. */
+static int64_t weight_of(const cover_search *search, thr_edge_set set)
 {
   int64_t sum = 0;
   for (int i = 0; set != 0; i++, set >>= 8)
-    sum += x->weight[i][(unsigned)set & 255];
+    sum += search->weight[i][(unsigned)set & 255];
   return sum;
 }
 
-static void set_weights(decision *x, const int64_t *weight)
+/* Adds up the weights of all subsets of each eight edges. weight[THR_SHORT_EDGES]: of the edges.
+ */
+static void tabulate_weights(cover_search *search, const int64_t *weight)
 {
-  for (int i = 0; 8 * i < x->f->n_edges; i++)
+  for (int i = 0; 8 * i < search->frame->n_edges; i++)
     for (unsigned k = 1; k < 256; k++) {
       int bit = 0;
       while (!(k >> bit & 1u))
         bit++;
-      x->weight[i][k] = x->weight[i][k & (k - 1)] + weight[8 * i + bit];
+      search->weight[i][k] = search->weight[i][k & (k - 1)] + weight[8 * i + bit];
     }
 }
 
-/* Edges of the heaviest set get lighter, again and again (S. Plotkin, D. Shmoys & E. Tardos 1995).
- */
-static void weigh(decision *x, thr_edge_set needed)
+/* Finds weights of the edges by which many cords are needed: lowers those of the heaviest set
+ * again and again, and keeps the weights for which the needed edges weigh most in units of the
+ * heaviest set (S. Plotkin, D. Shmoys & E. Tardos 1995). */
+static void weigh(cover_search *search, thr_edge_set needed)
 {
   enum { ROUNDS = 400, LOOKS = 1 << 22, FIRST = 1 << 30, PART = 32 };
-  const int looks = LOOKS / (x->n_most + 1), rounds = looks < ROUNDS ? looks : ROUNDS;
+  const int looks = LOOKS / (search->n_maximal + 1), rounds = looks < ROUNDS ? looks : ROUNDS;
   int64_t weight[THR_SHORT_EDGES] = {0}, kept[THR_SHORT_EDGES];
   double best = -1;
-  for (int e = 0; e < x->f->n_edges; e++)
+  for (int e = 0; e < search->frame->n_edges; e++)
     weight[e] = holds(needed, e) ? FIRST : 0;
+
   for (int round = 0; round <= rounds; round++) {
     int64_t most = 0;
     thr_edge_set heaviest = 0;
-    set_weights(x, weight);
-    for (int i = 0; i < x->n_most; i++) {
-      const int64_t sum = weight_of(x, x->most[i].set);
+    tabulate_weights(search, weight);
+
+    /* Find the heaviest set. */
+    for (int i = 0; i < search->n_maximal; i++) {
+      const int64_t sum = weight_of(search, search->maximal[i].set);
       if (sum <= most) continue;
       most = sum;
-      heaviest = x->most[i].set;
+      heaviest = search->maximal[i].set;
     }
-    const double cords = most > 0 ? (double)weight_of(x, needed) / (double)most : 0;
+
+    /* No fewer cords cover the needed edges: keep the best weights. */
+    const double cords = most > 0 ? (double)weight_of(search, needed) / (double)most : 0;
     if (cords > best) {
       best = cords;
-      x->heaviest = most;
+      search->heaviest = most;
       memcpy(kept, weight, sizeof kept);
     }
-    for (int e = 0; e < x->f->n_edges; e++)
+
+    for (int e = 0; e < search->frame->n_edges; e++)
       if (holds(heaviest, e)) weight[e] -= weight[e] / PART;
   }
-  set_weights(x, kept);
+
+  tabulate_weights(search, kept);
 }
 
-/* No so many cords over these edges are shorter together. */
-static double least_length(const decision *x, thr_edge_set lacking, int cords)
+/* Returns a lower bound on the length of so many cords together that cover the lacking edges. */
+static double least_length(const cover_search *search, thr_edge_set lacking, int cords)
 {
-  const thr_frame *frame = x->f;
+  const thr_frame *frame = search->frame;
   double sum = 0;
   int n = 0;
-  memset(x->degree, 0, (size_t)frame->n_nodes * sizeof *x->degree);
+
+  /* Add up the lengths, and count the degree of each node among these edges. */
+  memset(search->degree, 0, (size_t)frame->n_nodes * sizeof *search->degree);
   for (int e = 0; e < frame->n_edges; e++) {
     if (!holds(lacking, e)) continue;
     sum += frame->length[e];
-    x->degree[frame->edge[e][0]]++;
-    x->degree[frame->edge[e][1]]++;
+    search->degree[frame->edge[e][0]]++;
+    search->degree[frame->edge[e][1]]++;
   }
+
+  /* At an odd node an edge is passed once more, unless a cord ends there. Half of this edge counts
+   * here. */
   for (int v = 0; v < frame->n_nodes; v++) {
-    if (x->degree[v] % 2 == 0) continue;
-    if (!x->closed && thr_plan_end_allowed(frame, x->all->o, v))
-      x->odd[n++] = x->half[v];
+    if (search->degree[v] % 2 == 0) continue;
+    if (!search->closed && thr_plan_end_allowed(frame, search->table->o, v))
+      search->odd_term[n++] = search->half_shortest[v];
     else
-      sum += x->half[v];
+      sum += search->half_shortest[v];
   }
-  thr_sort_doubles(x->odd, (size_t)n);
+
+  /* The ends of the cords save the 2 * cords largest terms at most. */
+  thr_sort_doubles(search->odd_term, (size_t)n);
   for (int i = 0; i < n - 2 * cords; i++)
-    sum += x->odd[i];
+    sum += search->odd_term[i];
   return sum;
 }
 
-static bool is_too_much(decision *x, thr_edge_set lacking, int cords)
+/* Returns whether weights or lengths prove that so many cords cannot cover the lacking edges. */
+static bool exceeds_bounds(cover_search *search, thr_edge_set lacking, int cords)
 {
-  x->work++;
-  if (weight_of(x, lacking) > cords * x->heaviest) return true;
-  x->work += x->f->n_edges;
-  return least_length(x, lacking, cords) > cords * x->limit * (1 + 1e-9);
+  search->work++;
+  if (weight_of(search, lacking) > cords * search->heaviest) return true;
+  search->work += search->frame->n_edges;
+  return least_length(search, lacking, cords) > cords * search->limit * (1 + 1e-9);
 }
 
-/* Where this is known to fail, or would be noted. */
-static failure *find_failure(const decision *x, thr_edge_set lacking)
+/* Returns the slot of the hash table that holds these uncovered edges, or the empty one where
+ * they belong. */
+static failure *find_failure(const cover_search *search, thr_edge_set lacking)
 {
-  size_t at = place_of(lacking, 0);
-  while (x->failed[at].cords > 0 && x->failed[at].lacking != lacking)
-    at = (at + 1) % PLACES;
-  return &x->failed[at];
+  size_t at = slot_of(lacking, 0);
+  while (search->failed[at].cords > 0 && search->failed[at].lacking != lacking)
+    at = (at + 1) % SLOTS;
+  return &search->failed[at];
 }
 
-/* The sets of the lacking edges, one of which is in the fewest, that a cord may pass and leave not
- * too much to so many others. */
-static int list_next(decision *x, thr_edge_set lacking, int others, counted *next)
+/* Lists in candidates what the next cord may cover: the maximal subsets of the lacking edges that
+ * hold the lacking edge with the fewest sets, and leave edges which the bounds do not forbid
+ * `others` cords to cover. Returns how many there are. */
+static int list_candidates(cover_search *search, thr_edge_set lacking, int others,
+                           sized_set *candidates)
 {
   int n = 0;
-  for (int k = x->last[rarest_edge(x, lacking)]; k != NONE; k = x->link[k].next) {
-    const thr_edge_set set = x->most[x->link[k].set].set & lacking;
-    if (others == 0 ? set == lacking : !is_too_much(x, lacking & ~set, others))
-      next[n++] = (counted){set, count_edges(set)};
+  for (int k = search->first_link[rarest_edge(search, lacking)]; k != NONE;
+       k = search->link[k].next) {
+    const thr_edge_set set = search->maximal[search->link[k].set].set & lacking;
+    if (others == 0 ? set == lacking : !exceeds_bounds(search, lacking & ~set, others))
+      candidates[n++] = (sized_set){set, count_edges(set)};
   }
-  return keep_largest(x, next, n);
+  return keep_maximal(search, candidates, n);
 }
 
-/* Do so many cords pass what is lacking? False also where that is too much work. next: room for the
- * sets that are tried. */
-static bool suffice(decision *x, thr_edge_set lacking, int cords, counted *next)
+/* Returns whether so many cords cover the lacking edges, with their sets in chosen. Returns
+ * false, too, if this takes too much work. candidates: space for those of this depth and the
+ * following ones. */
+static bool can_cover(cover_search *search, thr_edge_set lacking, int cords, sized_set *candidates)
 {
   if (lacking == 0) {
-    memset(x->chosen, 0, (size_t)cords * sizeof *x->chosen);
+    memset(search->chosen, 0, (size_t)cords * sizeof *search->chosen);
     return true;
   }
-  if (cords == 0 || find_failure(x, lacking)->cords >= cords) return false;
-  if (x->all->limits && thr_limits_stop(x->all->limits)) x->work = INFINITY;
-  const int n = list_next(x, lacking, cords - 1, next);
-  for (int i = 0; i < n && x->work <= most_work; i++) {
-    x->chosen[cords - 1] = next[i].set;
-    if (suffice(x, lacking & ~next[i].set, cords - 1, next + n)) return true;
+
+  /* Stop where this is known to fail, or where time is up. */
+  if (cords == 0 || find_failure(search, lacking)->cords >= cords) return false;
+  if (search->table->limits && thr_limits_stop(search->table->limits)) search->work = INFINITY;
+
+  /* Branch over what the next cord covers. */
+  const int n = list_candidates(search, lacking, cords - 1, candidates);
+  for (int i = 0; i < n && search->work <= max_work; i++) {
+    search->chosen[cords - 1] = candidates[i].set;
+    if (can_cover(search, lacking & ~candidates[i].set, cords - 1, candidates + n)) return true;
   }
-  failure *at = find_failure(x, lacking);
-  if (x->work <= most_work && (at->cords > 0 || 2 * ++x->n_failed < PLACES))
+
+  /* Remember the failure, or that more cords failed, while the table is at most half full. */
+  failure *at = find_failure(search, lacking);
+  if (search->work <= max_work && (at->cords > 0 || 2 * ++search->n_failed < SLOTS))
     *at = (failure){lacking, cords};
   return false;
 }
 
+/* What a decision finds: OPEN if the work did not suffice. */
 typedef enum { IMPOSSIBLE, POSSIBLE, OPEN } verdict;
 
-static thr_status decide(decision *x, double limit, thr_edge_set needed, int cords, verdict *found,
-                         thr_err *err)
+/* Decides whether so many cords of at most this length cover the needed edges. */
+static thr_status decide(cover_search *search, double limit, thr_edge_set needed, int cords,
+                         verdict *found, thr_err *err)
 {
   *found = OPEN;
-  if (x->in_all > most_in_all) return THR_OK;
-  x->limit = limit;
-  x->work = 0;
-  x->n_failed = 0;
-  thr_status st = list_most(x, err);
-  x->next =
-      thr_scratch_array(&x->tried, (size_t)(x->n_most + 1) * (size_t)(cords + 1), sizeof *x->next);
-  if (!st) st = thr_scratch_check(&x->tried, err);
+  if (search->total_work > max_total_work) return THR_OK;
+  search->limit = limit;
+  search->work = 0;
+  search->n_failed = 0;
+
+  /* The sets that count depend on the limit. */
+  thr_status st = list_maximal_sets(search, err);
+  search->candidates =
+      thr_scratch_array(&search->tried, (size_t)(search->n_maximal + 1) * (size_t)(cords + 1),
+                        sizeof *search->candidates);
+  if (!st) st = thr_scratch_check(&search->tried, err);
+
+  /* Bounds first; then the search, with no failures known. */
   if (!st) {
-    weigh(x, needed);
-    memset(x->failed, 0, PLACES * sizeof *x->failed);
-    const bool enough = !is_too_much(x, needed, cords) && suffice(x, needed, cords, x->next);
-    *found = enough ? POSSIBLE : x->work <= most_work ? IMPOSSIBLE : OPEN;
+    weigh(search, needed);
+    memset(search->failed, 0, SLOTS * sizeof *search->failed);
+    const bool enough = !exceeds_bounds(search, needed, cords) &&
+                        can_cover(search, needed, cords, search->candidates);
+    *found = enough ? POSSIBLE : search->work <= max_work ? IMPOSSIBLE : OPEN;
   }
-  x->in_all += x->work;
-  thr_scratch_free(&x->tried);
+
+  search->total_work += search->work;
+  thr_scratch_free(&search->tried);
   return st;
 }
 
-static thr_status decision_init(decision *x, int cords, thr_err *err)
+/* Allocates the arrays for all limits, and finds half of the shortest edge at every node. */
+static thr_status cover_search_init(cover_search *search, int cords, thr_err *err)
 {
-  const thr_frame *frame = x->f;
+  const thr_frame *frame = search->frame;
   const size_t n = (size_t)frame->n_nodes;
-  x->half = thr_scratch_array(&x->own, n, sizeof *x->half);
-  x->odd = thr_scratch_array(&x->own, n, sizeof *x->odd);
-  x->degree = thr_scratch_array(&x->own, n, sizeof *x->degree);
-  x->most = thr_scratch_array(&x->own, (size_t)x->all->n, sizeof *x->most);
-  x->failed = thr_scratch_array(&x->own, PLACES, sizeof *x->failed);
-  x->chosen = thr_scratch_array(&x->own, (size_t)cords, sizeof *x->chosen);
-  thr_status st = thr_scratch_check(&x->own, err);
+  search->half_shortest = thr_scratch_array(&search->own, n, sizeof *search->half_shortest);
+  search->odd_term = thr_scratch_array(&search->own, n, sizeof *search->odd_term);
+  search->degree = thr_scratch_array(&search->own, n, sizeof *search->degree);
+  search->maximal =
+      thr_scratch_array(&search->own, (size_t)search->table->n, sizeof *search->maximal);
+  search->failed = thr_scratch_array(&search->own, SLOTS, sizeof *search->failed);
+  search->chosen = thr_scratch_array(&search->own, (size_t)cords, sizeof *search->chosen);
+  thr_status st = thr_scratch_check(&search->own, err);
+
+  /* Either side of an edge may be counted at its nodes. */
   for (int v = 0; v < frame->n_nodes && !st; v++) {
-    x->half[v] = INFINITY;
+    search->half_shortest[v] = INFINITY;
     for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
-      x->half[v] = fmin(x->half[v], frame->length[frame->half[i] >> 1] / 2);
+      search->half_shortest[v] =
+          fmin(search->half_shortest[v], frame->length[frame->half[i] >> 1] / 2);
   }
   return st;
 }
 
-/* Numbers of the shortest sets that hold what was chosen. */
-static void number_chosen(const decision *x, int cords, double limit, int *chosen)
+/* Finds for each cord the number of the shortest listed set that holds the edges chosen for the
+ * cord; NONE if there are no such edges. */
+static void number_chosen(const cover_search *search, int cords, double limit, int *chosen)
 {
   for (int k = 0; k < cords; k++) {
     chosen[k] = NONE;
-    for (int i = 0; i < x->all->n && x->chosen[k] != 0; i++) {
-      const thr_short_set *set = &x->all->set[i];
-      if ((x->chosen[k] & ~set->set) != 0 || set->length > limit) continue;
-      if (chosen[k] == NONE || set->length < x->all->set[chosen[k]].length) chosen[k] = i;
+    for (int i = 0; i < search->table->n && search->chosen[k] != 0; i++) {
+      const thr_short_set *set = &search->table->set[i];
+      if ((search->chosen[k] & ~set->set) != 0 || set->length > limit) continue;
+      if (chosen[k] == NONE || set->length < search->table->set[chosen[k]].length) chosen[k] = i;
     }
   }
 }
 
-/* Lengths of sets, ascending. */
+/* Lists the lengths of all sets in ascending order; the caller owns *value. */
 static thr_status list_lengths(const thr_short_cords *cords, double **value, thr_err *err)
 {
   if (!(*value = thr_calloc((size_t)cords->n, sizeof **value))) return thr_nomem(err);
@@ -558,37 +676,48 @@ static thr_status list_lengths(const thr_short_cords *cords, double **value, thr
 thr_status thr_short_cords_longest(const thr_short_cords *cords, int n, double known, int *chosen,
                                    double *proved, double *found, thr_err *err)
 {
-  decision x = {.all = cords, .f = cords->f, .closed = cords->o->ends == THR_ENDS_CLOSED};
+  cover_search search = {
+      .table = cords, .frame = cords->f, .closed = cords->o->ends == THR_ENDS_CLOSED};
   double *value = NULL;
   thr_edge_set needed = 0;
   int low = 0, open = cords->n, probe = 0;
   *proved = 0;
   *found = INFINITY;
   if (cords->n == 0) return THR_OK;
+
+  /* Edges that need no pass need not be covered. */
   for (int e = 0; e < cords->f->n_edges; e++)
     if (thr_plan_cover(cords->f, cords->o, e) > 0) needed |= edge_set(e);
   for (int k = 0; k < n && chosen; k++)
     chosen[k] = NONE;
   if (n > cords->f->n_edges) n = cords->f->n_edges; /* more cords than edges are no shorter */
-  thr_status st = decision_init(&x, n, err);
+
+  thr_status st = cover_search_init(&search, n, err);
   if (!st) st = list_lengths(cords, &value, err);
+
+  /* Try first whether anything is just below the known length: mostly nothing is. */
   while (!st && probe < cords->n && value[probe] < known * (1 - 1e-9))
     probe++;
+
+  /* Bisect: lengths below number low are impossible, and from number open on possible or
+   * undecided. */
   while (!st && low < open) {
     const int middle = probe > 0 ? probe - 1 : low + (open - low) / 2;
     verdict is;
     probe = 0;
-    st = decide(&x, value[middle], needed, n, &is, err);
+    st = decide(&search, value[middle], needed, n, &is, err);
     if (is == IMPOSSIBLE)
       low = middle + 1;
     else
       open = middle;
+
     if (st || is != POSSIBLE) continue;
     *found = value[middle];
-    if (chosen) number_chosen(&x, n, value[middle], chosen);
+    if (chosen) number_chosen(&search, n, value[middle], chosen);
   }
+
   if (!st) *proved = low < cords->n ? value[low] : cords->limit;
   free(value);
-  thr_scratch_free(&x.own);
+  thr_scratch_free(&search.own);
   return st;
 }
