@@ -1,299 +1,368 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cords led over edges that lack them, and circuits left out that are no longer needed. */
+/* Changes the passes of cords such that more different cords pass the edges: leads cords over edges
+ * that lack cords by shortest detours, and removes circuits that are no longer needed.
+ *
+ * A detour leaves a cord at a node, passes the edge once and comes back to the node. It consists of
+ * two shortest walks, one from either side of the edge to the node, the first of them reversed.
+ *
+ * Example: the faces of a cube as cords pass every edge by two different cords. If three are asked
+ * for, a face that meets an edge at one of its nodes only is led round another face that has the
+ * edge. */
 #include "tortuosity/cords/several.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* The cords, and how often they pass each edge. All arrays but cord are owned. */
 typedef struct {
-  const thr_frame *f;
-  const thr_request *o;
+  const thr_frame *frame;
+  const thr_request *request;
   thr_cord *cord;
   int n_cords, most_passes;
-  int *passes,
-      *different; /* [n_edges] of all cords; how many there are; owned, as are all that follow */
-  int *own;       /* [n_edges] passes of one cord */
-  double *far[2]; /* [2 n_edges] from the edge on in both directions: least length up to this
-                     half-edge's end */
-  int *from[2];   /* [2 n_edges] half-edge before; -1 for the first */
-  int *queue;     /* [4 n_edges] half-edges that wait, or a detour */
-  bool *queued;   /* [2 n_edges] */
-} cover;
+  int *passes;         /* [n_edges] of all cords */
+  int *different;      /* [n_edges] number of different cords that pass the edge */
+  int *own_passes;     /* [n_edges] passes of one cord */
+  double *distance[2]; /* [2 n_edges] least length of a walk from an edge to the end of this
+                          half-edge, without the edge itself; for both directions of the edge */
+  int *previous[2];    /* [2 n_edges] half-edge before on this walk; -1 for the first */
+  int *queue;          /* [4 n_edges] half-edges that wait, or those of a detour */
+  bool *queued;        /* [2 n_edges] is the half-edge waiting? */
+} cord_cover;
 
-static void cover_destroy(cover *x)
+static void cover_destroy(cord_cover *cover)
 {
-  free(x->passes);
-  free(x->different);
-  free(x->own);
+  free(cover->passes);
+  free(cover->different);
+  free(cover->own_passes);
   for (int i = 0; i < 2; i++) {
-    free(x->far[i]);
-    free(x->from[i]);
+    free(cover->distance[i]);
+    free(cover->previous[i]);
   }
-  free(x->queue);
-  free(x->queued);
+  free(cover->queue);
+  free(cover->queued);
 }
 
-/* x->own becomes the passes of this cord; adds by to the number of cords of its edges. */
-static void count_cord(cover *x, const thr_cord *cord, int by)
+/* Computes own_passes of this cord, and adds `by` to the number of cords of each of its edges. */
+static void count_cord(cord_cover *cover, const thr_cord *cord, int by)
 {
-  memset(x->own, 0, (size_t)x->f->n_edges * sizeof *x->own);
+  memset(cover->own_passes, 0, (size_t)cover->frame->n_edges * sizeof *cover->own_passes);
   for (int k = 0; k < cord->n_passes; k++)
-    if (x->own[cord->half[k] >> 1]++ == 0) x->different[cord->half[k] >> 1] += by;
+    if (cover->own_passes[cord->half[k] >> 1]++ == 0) cover->different[cord->half[k] >> 1] += by;
 }
 
-static thr_status cover_init(cover *x, thr_err *err)
+/* Allocates the arrays, and counts passes and cords of every edge. */
+static thr_status cover_init(cord_cover *cover, thr_err *err)
 {
-  size_t m = (size_t)x->f->n_edges;
-  x->most_passes = thr_turning_most_passes(x->f, x->o->cover);
-  x->passes = thr_calloc(m, sizeof *x->passes);
-  x->different = thr_calloc(m, sizeof *x->different);
-  x->own = thr_calloc(m, sizeof *x->own);
-  x->queue = thr_calloc(4 * m, sizeof *x->queue);
-  x->queued = thr_calloc(2 * m, sizeof *x->queued);
-  bool done = x->passes && x->different && x->own && x->queue && x->queued;
+  size_t n_edges = (size_t)cover->frame->n_edges;
+  cover->most_passes = thr_turning_most_passes(cover->frame, cover->request->cover);
+  cover->passes = thr_calloc(n_edges, sizeof *cover->passes);
+  cover->different = thr_calloc(n_edges, sizeof *cover->different);
+  cover->own_passes = thr_calloc(n_edges, sizeof *cover->own_passes);
+  cover->queue = thr_calloc(4 * n_edges, sizeof *cover->queue);
+  cover->queued = thr_calloc(2 * n_edges, sizeof *cover->queued);
+
+  bool done =
+      cover->passes && cover->different && cover->own_passes && cover->queue && cover->queued;
   for (int i = 0; i < 2; i++) {
-    x->far[i] = thr_calloc(2 * m, sizeof *x->far[i]);
-    x->from[i] = thr_calloc(2 * m, sizeof *x->from[i]);
-    done = done && x->far[i] && x->from[i];
+    cover->distance[i] = thr_calloc(2 * n_edges, sizeof *cover->distance[i]);
+    cover->previous[i] = thr_calloc(2 * n_edges, sizeof *cover->previous[i]);
+    done = done && cover->distance[i] && cover->previous[i];
   }
   if (!done) return thr_nomem(err);
-  for (int i = 0; i < x->n_cords; i++) {
-    count_cord(x, &x->cord[i], 1);
-    for (int k = 0; k < x->cord[i].n_passes; k++)
-      x->passes[x->cord[i].half[k] >> 1]++;
+
+  for (int i = 0; i < cover->n_cords; i++) {
+    count_cord(cover, &cover->cord[i], 1);
+    for (int k = 0; k < cover->cord[i].n_passes; k++)
+      cover->passes[cover->cord[i].half[k] >> 1]++;
   }
   return THR_OK;
 }
 
-/* May a cord go on from half-edge in with out? One that is below 0 is an end. */
-static bool goes_on(const cover *x, int in, int out)
+/* Returns whether a cord may pass half-edge out after half-edge in (in < 0: the cord begins with
+ * out). U-turns are allowed at nodes with one edge, with solid joints. */
+static bool may_follow(const cord_cover *cover, int in, int out)
 {
   return in < 0 || out != (in ^ 1) ||
-         (thr_degree(x->f, thr_head(x->f, in)) == 1 && x->o->joint == THR_JOINT_SOLID);
+         (thr_degree(cover->frame, thr_head(cover->frame, in)) == 1 &&
+          cover->request->joint == THR_JOINT_SOLID);
 }
 
 /* ---- detours ---- */
 
-/* Shortest walks from half-edge start on. (R. Bellman 1958, E. F. Moore 1959: a queue of what
- * became shorter.) */
-static void reach(cover *x, int start, double *far, int *from)
+/* Computes the lengths of shortest walks without forbidden U-turns from half-edge start to all
+ * half-edges, and the half-edge before each. Uses the queue of R. Bellman (1958) and E. F. Moore
+ * (1959). */
+static void compute_distances(cord_cover *cover, int start, double *distance, int *previous)
 {
-  const thr_frame *frame = x->f;
+  const thr_frame *frame = cover->frame;
   const int n = 2 * frame->n_edges;
   int head = 0, waiting = 1;
+
   for (int h = 0; h < n; h++)
-    far[h] = INFINITY;
-  far[start] = 0;
-  from[start] = -1;
-  x->queue[0] = start;
+    distance[h] = INFINITY;
+  distance[start] = 0;
+  previous[start] = -1;
+  cover->queue[0] = start;
+
+  /* Take half-edges out of the ring buffer until none waits. */
   while (waiting > 0) {
-    int h = x->queue[head], v = thr_head(frame, h);
+    int h = cover->queue[head], v = thr_head(frame, h);
     head = (head + 1) % n;
     waiting--;
-    x->queued[h] = false;
+    cover->queued[h] = false;
+
+    /* Relax the half-edges that may follow. */
     for (int i = frame->first[v]; i < frame->first[v + 1]; i++) {
       int next = frame->half[i];
-      double length = far[h] + frame->length[next >> 1];
-      if (!goes_on(x, h, next) || length >= far[next] * (1 - 1e-12)) continue;
-      far[next] = length;
-      from[next] = h;
-      if (x->queued[next]) continue;
-      x->queued[next] = true;
-      x->queue[(head + waiting++) % n] = next;
+      double length = distance[h] + frame->length[next >> 1];
+      if (!may_follow(cover, h, next) || length >= distance[next] * (1 - 1e-12)) continue;
+      distance[next] = length;
+      previous[next] = h;
+      if (cover->queued[next]) continue;
+      cover->queued[next] = true;
+      cover->queue[(head + waiting++) % n] = next;
     }
   }
 }
 
-/* A detour of a cord before its pass number at (n_passes: after the last): back along the walk to
- * half-edge arrive[0], and on along that to arrive[1], from side and the other side of the edge. */
+/* A detour of cord number `cord` before pass number `at` (n_passes: after the last): back along the
+ * walk from one side of the edge to half-edge arrive[0], and on along the walk from the other side
+ * to half-edge arrive[1]. */
 typedef struct {
   int cord, at, side, arrive[2];
-  double length; /* INFINITY: none */
+  double length; /* INFINITY: there is no detour */
 } detour;
 
-/* Half-edges that lead from a node to the edge and back, in order, into out; how many. */
-static int trace(const cover *x, const detour *way, int *out)
+/* Writes the half-edges of a detour into out, in order. Returns how many there are. */
+static int trace(const cord_cover *cover, const detour *way, int *out)
 {
   int n = 0;
-  for (int h = way->arrive[0]; h >= 0; h = x->from[way->side][h])
+
+  /* The first walk, reversed, from the node to the edge. */
+  for (int h = way->arrive[0]; h >= 0; h = cover->previous[way->side][h])
     out[n++] = h ^ 1;
-  int middle = n - 1; /* the edge, which is the first of both walks */
-  for (int h = way->arrive[1]; h >= 0; h = x->from[!way->side][h])
+
+  /* The second walk, from its end; both walks begin with the edge, which is written once. */
+  int middle = n - 1;
+  for (int h = way->arrive[1]; h >= 0; h = cover->previous[!way->side][h])
     n++;
-  for (int h = way->arrive[1], k = n - 1; h >= 0 && --k >= middle; h = x->from[!way->side][h])
+  for (int h = way->arrive[1], k = n - 1; h >= 0 && --k >= middle;
+       h = cover->previous[!way->side][h])
     out[k] = h;
   return n - 1;
 }
 
-/* With tube joints: do others go from in to out as well, or does nothing? */
-static bool may_part(const cover *x, int in, int out)
+/* Returns whether a cord may leave out the turn from half-edge in to half-edge out. With tube
+ * joints another pass has to tie these edges. */
+static bool may_separate(const cord_cover *cover, int in, int out)
 {
   int n = 0;
-  if (x->o->joint == THR_JOINT_SOLID || in < 0 || out < 0) return true;
-  for (int i = 0; i < x->n_cords; i++)
-    for (int k = 0; k < thr_cord_turns(x->o, &x->cord[i]); k++) {
-      int a = x->cord[i].half[k], b = x->cord[i].half[(k + 1) % x->cord[i].n_passes];
+  if (cover->request->joint == THR_JOINT_SOLID || in < 0 || out < 0) return true;
+
+  /* Count the passes from in to out, in either direction. */
+  for (int i = 0; i < cover->n_cords; i++)
+    for (int k = 0; k < thr_cord_turns(cover->request, &cover->cord[i]); k++) {
+      int a = cover->cord[i].half[k], b = cover->cord[i].half[(k + 1) % cover->cord[i].n_passes];
       n += (a == in && b == out) || (a == (out ^ 1) && b == (in ^ 1));
     }
+
   return n > 1;
 }
 
-static bool has_room(cover *x, const detour *way)
+/* Returns whether no edge is passed more often with the detour than its capacity and most_passes
+ * allow. */
+static bool fits_capacity(cord_cover *cover, const detour *way)
 {
-  int n = trace(x, way, x->queue);
-  bool room = true;
+  int n = trace(cover, way, cover->queue);
+  bool fits = true;
+
+  /* Count the passes of the detour while its edges are compared. */
   for (int k = 0; k < n; k++)
-    x->passes[x->queue[k] >> 1]++;
-  for (int k = 0; k < n && room; k++) {
-    int e = x->queue[k] >> 1;
-    room = x->passes[e] <= thr_plan_capacity(x->f, x->o, e) && x->passes[e] <= x->most_passes;
+    cover->passes[cover->queue[k] >> 1]++;
+  for (int k = 0; k < n && fits; k++) {
+    int e = cover->queue[k] >> 1;
+    fits = cover->passes[e] <= thr_plan_capacity(cover->frame, cover->request, e) &&
+           cover->passes[e] <= cover->most_passes;
   }
   for (int k = 0; k < n; k++)
-    x->passes[x->queue[k] >> 1]--;
-  return room;
+    cover->passes[cover->queue[k] >> 1]--;
+
+  return fits;
 }
 
-/* The best detour there becomes *best if it is shorter. */
-static void look_at(cover *x, int cord, int at, double edge, detour *best)
+/* Replaces *best by the shortest detour of a cord before pass number `at`, if it is shorter. edge:
+ * length of the edge of the detour. */
+static void try_detours_at(cord_cover *cover, int cord, int at, double edge, detour *best)
 {
-  const thr_frame *frame = x->f;
-  const thr_cord *c = &x->cord[cord];
-  bool cyclic = x->o->ends == THR_ENDS_CLOSED;
-  int in = at > 0   ? c->half[at - 1]
-           : cyclic ? c->half[c->n_passes - 1]
+  const thr_frame *frame = cover->frame;
+  const thr_cord *path = &cover->cord[cord];
+  bool cyclic = cover->request->ends == THR_ENDS_CLOSED;
+  int in = at > 0   ? path->half[at - 1]
+           : cyclic ? path->half[path->n_passes - 1]
                     : -1,
-      out = at < c->n_passes ? c->half[at] : -1;
+      out = at < path->n_passes ? path->half[at] : -1;
+
+  /* A detour may turn back no more often than the cord does here now. */
   int v = out >= 0 ? thr_tail(frame, out) : thr_head(frame, in),
-      now = out >= 0 && !goes_on(x, in, out); /* turns back */
+      now = out >= 0 && !may_follow(cover, in, out); /* turns back */
+
+  /* Try all pairs of half-edges that arrive at node v. */
   for (int side = 0; side < 2; side++)
     for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
       for (int k = frame->first[v]; k < frame->first[v + 1]; k++) {
         detour way = {cord, at, side, {frame->half[i] ^ 1, frame->half[k] ^ 1}, edge};
-        way.length += x->far[side][way.arrive[0]] + x->far[!side][way.arrive[1]];
-        int back =
-            !goes_on(x, in, way.arrive[0] ^ 1) + (out >= 0 && !goes_on(x, way.arrive[1], out));
-        if (back <= now && way.length < best->length * (1 - 1e-12) && has_room(x, &way) &&
-            may_part(x, in, out))
+        way.length += cover->distance[side][way.arrive[0]] + cover->distance[!side][way.arrive[1]];
+        int back = !may_follow(cover, in, way.arrive[0] ^ 1) +
+                   (out >= 0 && !may_follow(cover, way.arrive[1], out));
+        if (back <= now && way.length < best->length * (1 - 1e-12) && fits_capacity(cover, &way) &&
+            may_separate(cover, in, out))
           *best = way;
       }
 }
 
-static thr_status lead_over(cover *x, const detour *way, thr_err *err)
+/* Inserts a detour into its cord, and updates the counts. */
+static thr_status insert_detour(cord_cover *cover, const detour *way, thr_err *err)
 {
-  thr_cord *cord = &x->cord[way->cord];
-  int n = trace(x, way, x->queue), old = cord->n_passes;
-  count_cord(x, cord, -1);
+  thr_cord *cord = &cover->cord[way->cord];
+  int n = trace(cover, way, cover->queue), old = cord->n_passes;
+  count_cord(cover, cord, -1);
+
   int *half = thr_realloc(cord->half, (size_t)(old + n), sizeof *half);
   if (!half) return thr_nomem(err);
   cord->half = half;
+
+  /* Make a gap before pass number way->at, and fill it with the detour. */
   memmove(half + way->at + n, half + way->at, (size_t)(old - way->at) * sizeof *half);
-  memcpy(half + way->at, x->queue, (size_t)n * sizeof *half);
+  memcpy(half + way->at, cover->queue, (size_t)n * sizeof *half);
+
   cord->n_passes += n;
   for (int k = 0; k < n; k++)
-    x->passes[x->queue[k] >> 1]++;
-  count_cord(x, cord, 1);
+    cover->passes[cover->queue[k] >> 1]++;
+  count_cord(cover, cord, 1);
   return THR_OK;
 }
 
-/* One cord more over edge e; *done is false where there is no room. */
-static thr_status detour_over(cover *x, int e, bool *done, thr_err *err)
+/* Leads one more cord over edge e, by the shortest detour of any cord that does not pass the edge.
+ * *done is false if there is none. */
+static thr_status detour_over(cord_cover *cover, int e, bool *done, thr_err *err)
 {
   detour best = {.length = INFINITY};
-  int closed = x->o->ends == THR_ENDS_CLOSED;
-  reach(x, 2 * e + 1, x->far[0], x->from[0]);
-  reach(x, 2 * e, x->far[1], x->from[1]);
-  for (int i = 0; i < x->n_cords; i++) {
+  int closed = cover->request->ends == THR_ENDS_CLOSED;
+
+  /* Walks from both sides of the edge. */
+  compute_distances(cover, 2 * e + 1, cover->distance[0], cover->previous[0]);
+  compute_distances(cover, 2 * e, cover->distance[1], cover->previous[1]);
+
+  /* Look for the shortest detour before all passes of these cords. */
+  for (int i = 0; i < cover->n_cords; i++) {
     bool passes = false;
-    for (int k = 0; k < x->cord[i].n_passes && !passes; k++)
-      passes = x->cord[i].half[k] >> 1 == e;
-    for (int at = 0; at <= x->cord[i].n_passes - closed && !passes; at++)
-      look_at(x, i, at, x->f->length[e], &best);
+    for (int k = 0; k < cover->cord[i].n_passes && !passes; k++)
+      passes = cover->cord[i].half[k] >> 1 == e;
+    for (int at = 0; at <= cover->cord[i].n_passes - closed && !passes; at++)
+      try_detours_at(cover, i, at, cover->frame->length[e], &best);
   }
+
   *done = best.length < INFINITY;
-  return *done ? lead_over(x, &best, err) : THR_OK;
+  return *done ? insert_detour(cover, &best, err) : THR_OK;
 }
 
 thr_status thr_distinct_detours(const thr_frame *frame, const thr_request *options, thr_cord *cord,
                                 int n_cords, int most, int *done, thr_err *err)
 {
-  cover x = {.f = frame, .o = options, .cord = cord, .n_cords = n_cords};
-  thr_status st = cover_init(&x, err);
+  cord_cover cover = {.frame = frame, .request = options, .cord = cord, .n_cords = n_cords};
+  thr_status st = cover_init(&cover, err);
   *done = 0;
+
+  /* Add cords to an edge until there are enough, or no detour is possible. */
   for (int e = 0; e < frame->n_edges && !st; e++)
-    for (bool found = true; x.different[e] < options->distinct && *done < most && !st && found;) {
-      st = detour_over(&x, e, &found, err);
+    for (bool found = true;
+         cover.different[e] < options->distinct && *done < most && !st && found;) {
+      st = detour_over(&cover, e, &found, err);
       *done += found;
     }
-  cover_destroy(&x);
+
+  cover_destroy(&cover);
   return st;
 }
 
 /* ---- circuits ---- */
 
-/* Of the circuits that begin with pass number `from` the longest that nothing needs: the number of
- * its passes, 0: none. own: the passes of the cord. */
-static int spare_from(cover *x, const thr_cord *cord, int from, double *length)
+/* Finds the longest circuit that begins with pass number `from` and is not needed. Returns the
+ * number of its passes, or 0 if there is none. own_passes must be those of the cord. */
+static int find_spare_circuit(cord_cover *cover, const thr_cord *cord, int from, double *length)
 {
-  const int start = thr_tail(x->f, cord->half[from]), in = from > 0 ? cord->half[from - 1] : -1;
+  const int start = thr_tail(cover->frame, cord->half[from]),
+            in = from > 0 ? cord->half[from - 1] : -1;
   int k = from, best = 0;
   double sum = 0;
   *length = 0;
+
+  /* Remove one pass after the other as long as its edge does not need the pass. */
   for (; k < cord->n_passes; k++) {
     int e = cord->half[k] >> 1, out = k + 1 < cord->n_passes ? cord->half[k + 1] : -1;
-    x->passes[e]--;
-    x->own[e]--;
-    sum += x->f->length[e];
-    bool needed = x->passes[e] < thr_plan_cover(x->f, x->o, e) ||
-                  (x->own[e] == 0 && x->different[e] <= x->o->distinct);
+    cover->passes[e]--;
+    cover->own_passes[e]--;
+    sum += cover->frame->length[e];
+    bool needed = cover->passes[e] < thr_plan_cover(cover->frame, cover->request, e) ||
+                  (cover->own_passes[e] == 0 && cover->different[e] <= cover->request->distinct);
     bool last = needed || k + 1 == cord->n_passes;
-    if (!needed && thr_head(x->f, cord->half[k]) == start && in >= 0 && out >= 0 &&
-        goes_on(x, in, out)) {
+
+    /* Back at the start: the circuit may be removed if the rest makes no U-turn. */
+    if (!needed && thr_head(cover->frame, cord->half[k]) == start && in >= 0 && out >= 0 &&
+        may_follow(cover, in, out)) {
       best = k + 1 - from;
       *length = sum;
     }
     if (last) break;
   }
+
+  /* Restore the counts. */
   for (k = k < cord->n_passes ? k : cord->n_passes - 1; k >= from; k--) {
-    x->passes[cord->half[k] >> 1]++;
-    x->own[cord->half[k] >> 1]++;
+    cover->passes[cord->half[k] >> 1]++;
+    cover->own_passes[cord->half[k] >> 1]++;
   }
   return best;
 }
 
-static bool leave_out(cover *x, thr_cord *cord)
+/* Removes the longest circuit of a cord that is not needed. Returns false if there is none. */
+static bool remove_circuit(cord_cover *cover, thr_cord *cord)
 {
   int at = 0, n = 0;
   double most = 0;
-  count_cord(x, cord, 0);
+  count_cord(cover, cord, 0);
+
+  /* Find the longest one over all beginnings. */
   for (int from = 1; from < cord->n_passes; from++) {
     double length;
-    int spare = spare_from(x, cord, from, &length);
+    int spare = find_spare_circuit(cover, cord, from, &length);
     if (length <= most) continue;
     most = length;
     at = from;
     n = spare;
   }
   if (n == 0) return false;
-  count_cord(x, cord, -1);
+
+  /* Remove its passes, and update the counts. */
+  count_cord(cover, cord, -1);
   for (int k = at; k < at + n; k++)
-    x->passes[cord->half[k] >> 1]--;
+    cover->passes[cord->half[k] >> 1]--;
   memmove(cord->half + at, cord->half + at + n,
           (size_t)(cord->n_passes - at - n) * sizeof *cord->half);
   cord->n_passes -= n;
-  count_cord(x, cord, 1);
+  count_cord(cover, cord, 1);
   return true;
 }
 
 thr_status thr_distinct_shorten(const thr_frame *frame, const thr_request *options, thr_cord *cord,
                                 int n_cords, thr_err *err)
 {
-  cover x = {.f = frame, .o = options, .cord = cord, .n_cords = n_cords};
+  cord_cover cover = {.frame = frame, .request = options, .cord = cord, .n_cords = n_cords};
   if (options->joint == THR_JOINT_TUBE) return THR_OK;
-  thr_status st = cover_init(&x, err);
+  thr_status st = cover_init(&cover, err);
   for (int i = 0; i < n_cords && !st; i++)
-    while (leave_out(&x, &cord[i]))
+    while (remove_circuit(&cover, &cord[i]))
       ;
-  cover_destroy(&x);
+  cover_destroy(&cover);
   return st;
 }
