@@ -80,6 +80,7 @@ static bool is_small_enough(int each, int n, int *needs)
     sets *= 2 * each + 1;
     *needs *= each + 1;
   }
+
   return sets <= most;
 }
 
@@ -109,6 +110,7 @@ static thr_status tabulate_sums(needs_tables *tables, int most, double **best, t
     (*best)[i] = INFINITY;
   for (size_t n = 0; n < (size_t)most; n++)
     add_one_cord(tables, *best + n * needs, *best + (n + 1) * needs);
+
   return THR_OK;
 }
 
@@ -243,6 +245,7 @@ static unsigned find_heaviest(const cover_search *search, const int *weight, int
     *most = sum;
     heaviest = search->set[k];
   }
+
   return heaviest;
 }
 
@@ -395,6 +398,7 @@ static thr_status cover_search_init(cover_search *search, thr_err *err)
     } else
       search->offset[set] = search->offset[set & (set - 1)] + search->offset[set & (~set + 1)];
   }
+
   return st;
 }
 
@@ -454,6 +458,7 @@ thr_status thr_few_edges_different_dearest(const thr_few_edges *few, int each, i
     *proved = low < n ? value[low] : (double)INFINITY;
     *found = high < n ? value[high] : (double)INFINITY;
   }
+
   free(value);
   thr_scratch_free(&search.own);
   return st;

@@ -68,6 +68,7 @@ static double step_cost(const table_builder *builder, int from, int to)
   if (back && (tube || (builder->turning && !builder->u_turns_anywhere &&
                         thr_degree(builder->frame, v) > 1)))
     return INFINITY;
+
   return builder->turning ? thr_check_price(builder->frame, builder->request->turning.cost, a, b)
                           : builder->frame->length[builder->edge[to >> 1]];
 }
@@ -310,6 +311,7 @@ static bool can_cover(set_families *families, const thr_few_edges *few, int cord
   if (cords % 2) unite(families, false);
   for (size_t set = 0; set < families->sets; set++)
     if (families->half[set] && families->all[families->sets - 1 - set]) return true;
+
   return false;
 }
 
@@ -325,6 +327,7 @@ thr_status thr_few_edges_costs(const thr_few_edges *few, double **value, size_t 
   thr_sort_doubles(*value, all);
   for (size_t k = 0; k < all; k++)
     if (*n == 0 || (*value)[k] > (*value)[*n - 1]) (*value)[(*n)++] = (*value)[k];
+
   return THR_OK;
 }
 
@@ -397,6 +400,7 @@ static thr_status compute_sums(const thr_few_edges *few, int most, double *least
     best = more;
     more = swap;
   }
+
   thr_scratch_free(&own);
   return st;
 }
@@ -414,6 +418,7 @@ thr_status thr_few_edges_sum(const thr_few_edges *few, int least, int most, doub
     *cost = fmin(*cost, k > n ? least_cost[n] + (k - n) * few->one[0] : least_cost[k]);
     if (k > n) break; /* more cords than edges only cost more */
   }
+
   return st;
 }
 
@@ -479,6 +484,7 @@ thr_status thr_few_edges_lengths(const thr_frame *frame, const thr_request *opti
 
     thr_few_edges_destroy(&few);
   }
+
   free(edges);
   return st;
 }
@@ -665,6 +671,7 @@ thr_status thr_few_edges_within(const thr_frame *frame, const thr_request *optio
     sets += ldexp(options->ends == THR_ENDS_CLOSED ? nodes : 1, pull.builder.n);
     if (sets <= THR_PULL_SETS) st = component_within(&pull, enough[c], &fewest[c], err);
   }
+
   thr_scratch_free(&own);
   return st;
 }

@@ -371,6 +371,7 @@ static int keep_maximal(cover_search *search, sized_set *list, int n)
     search->work += k;
     if (!part) list[kept++] = list[i];
   }
+
   return kept;
 }
 
@@ -430,6 +431,7 @@ static thr_status list_maximal_sets(cover_search *search, thr_err *err)
     search->maximal[search->n_maximal] = set;
     link_set(search, search->n_maximal++, &n_links);
   }
+
   return THR_OK;
 }
 
@@ -525,6 +527,7 @@ static double least_length(const cover_search *search, thr_edge_set lacking, int
   thr_sort_doubles(search->odd_term, (size_t)n);
   for (int i = 0; i < n - 2 * cords; i++)
     sum += search->odd_term[i];
+
   return sum;
 }
 
@@ -560,6 +563,7 @@ static int list_candidates(cover_search *search, thr_edge_set lacking, int other
     if (others == 0 ? set == lacking : !exceeds_bounds(search, lacking & ~set, others))
       candidates[n++] = (sized_set){set, count_edges(set)};
   }
+
   return keep_maximal(search, candidates, n);
 }
 
@@ -588,6 +592,7 @@ static bool can_cover(cover_search *search, thr_edge_set lacking, int cords, siz
   failure *at = find_failure(search, lacking);
   if (search->work <= max_work && (at->cords > 0 || 2 * ++search->n_failed < SLOTS))
     *at = (failure){lacking, cords};
+
   return false;
 }
 
@@ -646,6 +651,7 @@ static thr_status cover_search_init(cover_search *search, int cords, thr_err *er
       search->half_shortest[v] =
           fmin(search->half_shortest[v], frame->length[frame->half[i] >> 1] / 2);
   }
+
   return st;
 }
 
@@ -685,7 +691,7 @@ thr_status thr_short_cords_longest(const thr_short_cords *cords, int n, double k
   *found = INFINITY;
   if (cords->n == 0) return THR_OK;
 
-  /* Edges that need no pass need not be covered. */
+  /* The edges that need passes have to be covered. */
   for (int e = 0; e < cords->f->n_edges; e++)
     if (thr_plan_cover(cords->f, cords->o, e) > 0) needed |= edge_set(e);
   for (int k = 0; k < n && chosen; k++)

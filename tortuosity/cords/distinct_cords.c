@@ -53,6 +53,8 @@ static thr_status search_init(distinct_search *search, thr_err *err)
 
   for (int v = 0; v < frame->n_nodes; v++)
     search->end_allowed[v] = thr_plan_end_allowed(frame, request, v);
+
+  /* The task of turns: without an aim of turning, turns cost their angles. */
   search->task = (thr_turning_task){
       .cover = request->cover,
       .capacity = request->capacity,
@@ -104,6 +106,7 @@ static int count_lacking(distinct_search *search, const thr_threading *threading
     for (int k = first; k < d; k++)
       search->lacking_dart[search->n_lacking++] = k;
   }
+
   return sum;
 }
 
@@ -158,6 +161,7 @@ static double pulled_turning(const distinct_search *search, const thr_threading 
             &walk,
             angle_at(search, threading, &threading->place[first + (closed ? (start + i) % n : i)])))
       break;
+
   return walk.larger;
 }
 
@@ -206,6 +210,7 @@ static cost_terms evaluate(distinct_search *search, const thr_threading *threadi
         each * threading->n_cords * smoothed(lengths, value.longest, threading->n_cords) / length;
   if (search->length_limit >= 0 && length > search->length_limit)
     value.excess += length / search->length_limit - 1;
+
   return value;
 }
 
@@ -350,6 +355,7 @@ static int steps_for(const thr_cord *cord, int n_cords)
 {
   enum { MOST_STEPS = 300000, WORK = 100000000, EACH = 2000 };
   const int passes = thr_cords_passes(cord, n_cords);
+
   int most = passes > WORK / MOST_STEPS ? WORK / passes : MOST_STEPS;
   return passes < most / EACH ? EACH * passes : most;
 }
@@ -370,6 +376,7 @@ static thr_status try_from(distinct_search *search, const thr_cord *from, int de
   if (!st && detours > 0)
     st = thr_distinct_detours(search->frame, search->request, cord, search->n_cords, detours, &done,
                               err);
+
   int steps = st ? 0 : steps_for(cord, search->n_cords);
   if (!st) st = exchange(search, first * pow(2, tries % 4), steps, cord, &found, err);
 
@@ -430,6 +437,7 @@ static thr_status try_all(distinct_search *search, const thr_cord *start, const 
                   best->objective.length > length_of(search, start) * (1 + 1e-9);
        i++)
     st = try_from(search, best->cord, 0, best, err);
+
   return st;
 }
 

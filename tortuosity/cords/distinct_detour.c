@@ -30,6 +30,7 @@ typedef struct {
   bool *queued;        /* [2 n_edges] is the half-edge waiting? */
 } cord_cover;
 
+/* Releases all arrays but the cords. */
 static void cover_destroy(cord_cover *cover)
 {
   free(cover->passes);
@@ -39,6 +40,7 @@ static void cover_destroy(cord_cover *cover)
     free(cover->distance[i]);
     free(cover->previous[i]);
   }
+
   free(cover->queue);
   free(cover->queued);
 }
@@ -71,11 +73,13 @@ static thr_status cover_init(cord_cover *cover, thr_err *err)
   }
   if (!done) return thr_nomem(err);
 
+  /* A cord counts once at an edge in `different`, and with each pass in `passes`. */
   for (int i = 0; i < cover->n_cords; i++) {
     count_cord(cover, &cover->cord[i], 1);
     for (int k = 0; k < cover->cord[i].n_passes; k++)
       cover->passes[cover->cord[i].half[k] >> 1]++;
   }
+
   return THR_OK;
 }
 
@@ -150,6 +154,7 @@ static int trace(const cord_cover *cover, const detour *way, int *out)
   for (int h = way->arrive[1], k = n - 1; h >= 0 && --k >= middle;
        h = cover->previous[!way->side][h])
     out[k] = h;
+
   return n - 1;
 }
 
@@ -322,6 +327,7 @@ static int find_spare_circuit(cord_cover *cover, const thr_cord *cord, int from,
     cover->passes[cord->half[k] >> 1]++;
     cover->own_passes[cord->half[k] >> 1]++;
   }
+
   return best;
 }
 
