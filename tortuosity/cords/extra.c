@@ -1,7 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Extra passes and ends of least weight under any prices of edges: where the search for the least
- * turning starts, and how its points are rounded. A minimum T-join (lp/tjoin/engine.c) with slots
- * for the ends. */
+/* Finds extra passes and cord ends of least weight under any prices of edges, with which every node
+ * is even. The search for the least turning starts from them, and rounds its fractional points with
+ * them.
+ *
+ * In every component this is a minimum T-join (J. Edmonds & E. L. Johnson 1973; lp/tjoin/engine.c):
+ * T holds the nodes with an odd number of passes. Each cord end that may be anywhere is a further
+ * odd node, a slot, with edges to all nodes where a cord may end, and to the other slots.
+ *
+ * Example: a path of three edges, one open cord: the two slots join the path's odd end nodes, and
+ * no pass is added. */
 #include "graph/framework/frame.h"
 #include "lp/tjoin/tjoin.h"
 #include "tortuosity/cords/join.h"
@@ -23,7 +30,8 @@ double thr_extra_length(const thr_turning_columns *turning_columns, const int *p
  * between slots. */
 typedef struct {
   const thr_turning_columns *c;
-  int k, n_nodes, n_own, n_edges, n_slots;
+  int component;
+  int n_nodes, n_own, n_edges, n_slots; /* n_own: edges of the component */
   int *local, *node; /* [frame nodes] position in the component; [n_nodes] frame node */
   int (*edge)[2];
   int64_t *weight;
@@ -31,66 +39,72 @@ typedef struct {
   bool *odd;
 } instance;
 
-static void instance_destroy(instance *in)
+static void instance_destroy(instance *join)
 {
-  free(in->local);
-  free(in->node);
-  free(in->edge);
-  free(in->weight);
-  free(in->what);
-  free(in->odd);
+  free(join->local);
+  free(join->node);
+  free(join->edge);
+  free(join->weight);
+  free(join->what);
+  free(join->odd);
 }
 
 /* Sets up the T-join problem of component k: its nodes, its edges, and slots, one for each cord end
  * that may be anywhere. THR_EINFEASIBLE: ends are needed and allowed nowhere. */
-static thr_status instance_init(instance *in, const thr_turning_columns *turning_columns, int k,
+static thr_status instance_init(instance *join, const thr_turning_columns *turning_columns, int k,
                                 bool given, thr_err *err)
 {
   const thr_frame *frame = turning_columns->f;
   size_t n = (size_t)frame->n_nodes;
   int allowed = 0;
-  *in = (instance){.c = turning_columns,
-                   .k = k,
-                   .n_slots = turning_columns->task->end_allowed && !given
-                                  ? 2 * turning_columns->task->cords
-                                  : 0};
-  in->local = thr_calloc(n, sizeof *in->local);
-  in->node = thr_calloc(n, sizeof *in->node);
-  if (!in->local || !in->node) return thr_nomem(err);
+  *join = (instance){.c = turning_columns,
+                     .component = k,
+                     .n_slots = turning_columns->task->end_allowed && !given
+                                    ? 2 * turning_columns->task->cords
+                                    : 0};
+  join->local = thr_calloc(n, sizeof *join->local);
+  join->node = thr_calloc(n, sizeof *join->node);
+  if (!join->local || !join->node) return thr_nomem(err);
+
+  /* The component's nodes, and how many of them may have ends. */
   for (int v = 0; v < frame->n_nodes; v++) {
     if (turning_columns->component[v] != k) continue;
     allowed += turning_columns->task->end_allowed && turning_columns->task->end_allowed[v];
-    in->local[v] = in->n_nodes;
-    in->node[in->n_nodes++] = v;
+    join->local[v] = join->n_nodes;
+    join->node[join->n_nodes++] = v;
   }
 
-  if (in->n_slots && !allowed)
+  if (join->n_slots && !allowed)
     return thr_fail(err, THR_EINFEASIBLE,
                     "the component with node %s has no node where a cord may end; name one with "
                     "--feet (try --feet lowest) or --ends, or use "
                     "--ends closed",
-                    frame->name[in->node[0]]);
+                    frame->name[join->node[0]]);
+
+  /* Edges: those of the component, slots with nodes, slots with slots. */
   for (int e = 0; e < frame->n_edges; e++)
-    in->n_own += turning_columns->component[frame->edge[e][0]] == k;
-  size_t edges = (size_t)in->n_own + (size_t)in->n_slots * ((size_t)allowed + (size_t)in->n_slots);
+    join->n_own += turning_columns->component[frame->edge[e][0]] == k;
+  size_t edges =
+      (size_t)join->n_own + (size_t)join->n_slots * ((size_t)allowed + (size_t)join->n_slots);
   if (edges > (1u << 20))
     return thr_fail(err, THR_EINPUT, "too many cords for so many nodes where they may end");
-  in->edge = thr_calloc(edges, sizeof *in->edge);
-  in->weight = thr_calloc(edges, sizeof *in->weight);
-  in->what = thr_calloc(edges, sizeof *in->what);
-  in->odd = thr_calloc((size_t)in->n_nodes + (size_t)in->n_slots, sizeof *in->odd);
-  return in->edge && in->weight && in->what && in->odd ? THR_OK : thr_nomem(err);
+  join->edge = thr_calloc(edges, sizeof *join->edge);
+  join->weight = thr_calloc(edges, sizeof *join->weight);
+  join->what = thr_calloc(edges, sizeof *join->what);
+  join->odd = thr_calloc((size_t)join->n_nodes + (size_t)join->n_slots, sizeof *join->odd);
+  return join->edge && join->weight && join->what && join->odd ? THR_OK : thr_nomem(err);
 }
 
-static void add_edge(instance *in, int a, int b, int64_t weight, int what)
+/* Appends an edge; `what` is its frame edge, the frame node of an end, or -1. */
+static void add_edge(instance *join, int a, int b, int64_t weight, int what)
 {
-  in->edge[in->n_edges][0] = a;
-  in->edge[in->n_edges][1] = b;
-  in->weight[in->n_edges] = weight;
-  in->what[in->n_edges++] = what;
+  join->edge[join->n_edges][0] = a;
+  join->edge[join->n_edges][1] = b;
+  join->weight[join->n_edges] = weight;
+  join->what[join->n_edges++] = what;
 }
 
-/* Passes that the edges at node v need. */
+/* Returns the number of passes that the edges at node v need. */
 static int covers_at(const thr_turning_columns *turning_columns, int v)
 {
   int sum = 0;
@@ -101,63 +115,69 @@ static int covers_at(const thr_turning_columns *turning_columns, int v)
 
 /* Fills in edges, weights and odd nodes. Weights add up to a power of 2 such that the slots' edges,
  * each more expensive than all others together, stay within what lp/tjoin/tjoin.h takes. */
-static void fill(instance *in, const double *weight, const double *end_weight, const int *ends)
+static void fill(instance *join, const double *weight, const double *end_weight, const int *ends)
 {
-  const thr_frame *frame = in->c->f;
-  assert(in->edge && in->weight && in->what && in->odd);
+  const thr_frame *frame = join->c->f;
+  assert(join->edge && join->weight && join->what && join->odd);
   const double whole =
-      exp2(fmin(44, floor(50 - log2(2 + 2.0 * in->n_slots * (in->n_nodes + in->n_slots)))));
+      exp2(fmin(44, floor(50 - log2(2 + 2.0 * join->n_slots * (join->n_nodes + join->n_slots)))));
   double sum = 0, most = 0;
-  int full = 0; /* edges with no room for an extra pass: each dearer than all others together */
+
+  /* The sum of all weights. */
+  int full = 0; /* edges that may have no extra pass: each costs more than all others together */
   for (int e = 0; e < frame->n_edges; e++) {
-    if (in->c->component[frame->edge[e][0]] != in->k) continue;
-    full += in->c->most[e] == in->c->cover[e];
-    if (in->c->most[e] > in->c->cover[e]) sum += weight[e];
+    if (join->c->component[frame->edge[e][0]] != join->component) continue;
+    full += join->c->most[e] == join->c->cover[e];
+    if (join->c->most[e] > join->c->cover[e]) sum += weight[e];
   }
 
   /* The scale from weights to integers. */
-  const double dear = sum > 0 ? 2 * sum : 1;
-  sum += full * dear;
+  const double forbidden = sum > 0 ? 2 * sum : 1;
+  sum += full * forbidden;
   const double scale = sum > 0 ? exp2(floor(log2(whole / sum))) : 0; /* powers of 2 keep ties */
-  for (int i = 0; end_weight && i < in->n_nodes; i++)
-    most = fmax(most, end_weight[in->node[i]]);
+  for (int i = 0; end_weight && i < join->n_nodes; i++)
+    most = fmax(most, end_weight[join->node[i]]);
 
   /* The component's own edges, each once. */
-  for (int i = 0; i < in->n_nodes; i++)
-    for (int k = frame->first[in->node[i]]; k < frame->first[in->node[i] + 1]; k++) {
+  for (int i = 0; i < join->n_nodes; i++)
+    for (int k = frame->first[join->node[i]]; k < frame->first[join->node[i] + 1]; k++) {
       int h = frame->half[k];
       if (h % 2 == 0)
-        add_edge(in, i, in->local[thr_head(frame, h)],
+        add_edge(join, i, join->local[thr_head(frame, h)],
                  (int64_t)nearbyint(
-                     (in->c->most[h >> 1] > in->c->cover[h >> 1] ? weight[h >> 1] : dear) * scale),
+                     (join->c->most[h >> 1] > join->c->cover[h >> 1] ? weight[h >> 1] : forbidden) *
+                     scale),
                  h >> 1);
     }
 
   /* A slot is odd: it is joined to a node where an end may be, or to another slot, which stands for
    * a cord whose two ends are at one node. */
   int64_t slot = (int64_t)whole + 1;
-  for (int s = 0; s < in->n_slots; s++) {
-    for (int i = 0; i < in->n_nodes; i++)
-      if (in->c->task->end_allowed[in->node[i]])
-        add_edge(in, i, in->n_nodes + s,
-                 slot +
-                     (end_weight && most > 0 ? (int64_t)(end_weight[in->node[i]] / most * 64) : 0),
-                 in->node[i]);
-    for (int t = s + 1; t < in->n_slots; t++)
-      add_edge(in, in->n_nodes + s, in->n_nodes + t, 2 * slot, -1);
-    in->odd[in->n_nodes + s] = true;
+  for (int s = 0; s < join->n_slots; s++) {
+    for (int i = 0; i < join->n_nodes; i++)
+      if (join->c->task->end_allowed[join->node[i]])
+        add_edge(
+            join, i, join->n_nodes + s,
+            slot + (end_weight && most > 0 ? (int64_t)(end_weight[join->node[i]] / most * 64) : 0),
+            join->node[i]);
+    for (int t = s + 1; t < join->n_slots; t++)
+      add_edge(join, join->n_nodes + s, join->n_nodes + t, 2 * slot, -1);
+    join->odd[join->n_nodes + s] = true;
   }
-  for (int i = 0; i < in->n_nodes; i++)
-    in->odd[i] = (covers_at(in->c, in->node[i]) + (in->n_slots ? 0 : ends[in->node[i]])) % 2 != 0;
+
+  /* T: nodes whose passes and ends together are odd. */
+  for (int i = 0; i < join->n_nodes; i++)
+    join->odd[i] =
+        (covers_at(join->c, join->node[i]) + (join->n_slots ? 0 : ends[join->node[i]])) % 2 != 0;
 }
 
 /* Returns the allowed node of least weight, for a cord whose two ends are at one node. */
-static int closing_node(const instance *in, const double *end_weight)
+static int closing_node(const instance *join, const double *end_weight)
 {
   int best = -1;
-  for (int i = 0; i < in->n_nodes; i++) {
-    int v = in->node[i];
-    if (in->c->task->end_allowed[v] &&
+  for (int i = 0; i < join->n_nodes; i++) {
+    int v = join->node[i];
+    if (join->c->task->end_allowed[v] &&
         (best < 0 || (end_weight && end_weight[v] < end_weight[best])))
       best = v;
   }
@@ -173,6 +193,8 @@ static thr_status solve_join(const thr_tjoin_problem *tjoin_problem, const thr_l
   thr_limits quiet = *limits; /* the join's best and bound are not those of the turning */
   quiet.progress = NULL;
   thr_status st = thr_tjoin_minimum(tjoin_problem, THR_ENGINE_AUTO, &quiet, tjoin, &stopped);
+
+  /* Stopped: a join that uses every slot once. */
   if (st == THR_ELIMIT && tjoin_problem->n_leaves) {
     thr_tjoin_destroy(tjoin);
     st = thr_tjoin_solve(tjoin_problem, &quiet, tjoin, &stopped);
@@ -186,44 +208,45 @@ static thr_status solve_component(const thr_turning_columns *turning_columns, in
                                   const double *weight, const double *end_weight, bool given,
                                   const thr_limits *limits, int *passes, int *ends, thr_err *err)
 {
-  instance in;
+  instance join;
   thr_tjoin tjoin = {0};
-  thr_status st = instance_init(&in, turning_columns, k, given, err);
+  thr_status st = instance_init(&join, turning_columns, k, given, err);
+
   if (!st) {
-    fill(&in, weight, end_weight, ends);
-    thr_tjoin_problem tjoin_problem = {in.n_nodes + in.n_slots,
-                                       in.n_edges,
-                                       (const int(*)[2])in.edge,
-                                       in.weight,
-                                       in.odd,
-                                       in.n_slots};
+    fill(&join, weight, end_weight, ends);
+    thr_tjoin_problem tjoin_problem = {join.n_nodes + join.n_slots,
+                                       join.n_edges,
+                                       (const int(*)[2])join.edge,
+                                       join.weight,
+                                       join.odd,
+                                       join.n_slots};
     st = solve_join(&tjoin_problem, limits, &tjoin, err);
   }
 
   /* Edges of the join are extra passes; edges of slots are ends. */
-  for (int i = 0; !st && i < in.n_edges; i++) {
+  for (int i = 0; !st && i < join.n_edges; i++) {
     if (!tjoin.in_join[i]) continue;
-    if (i < in.n_own)
-      passes[in.what[i]]++;
-    else if (in.what[i] >= 0)
-      ends[in.what[i]]++;
+    if (i < join.n_own)
+      passes[join.what[i]]++;
+    else if (join.what[i] >= 0)
+      ends[join.what[i]]++;
     else
-      ends[closing_node(&in, end_weight)] += 2;
+      ends[closing_node(&join, end_weight)] += 2;
   }
   thr_tjoin_destroy(&tjoin);
-  instance_destroy(&in);
+  instance_destroy(&join);
   return st;
 }
 
 /* ---- ends that the passes hold ---- */
 
 /* Returns the number of passes at node v less the cord ends there. */
-static int room_at(const thr_frame *frame, int v, const int *passes, const int *ends)
+static int spare_at(const thr_frame *frame, int v, const int *passes, const int *ends)
 {
-  int room = -ends[v];
+  int spare = -ends[v];
   for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
-    room += passes[frame->half[i] >> 1];
-  return room;
+    spare += passes[frame->half[i] >> 1];
+  return spare;
 }
 
 /* Moves ends, two at a time, so that every node stays even, from nodes with more ends than passes
@@ -232,26 +255,27 @@ static int move_ends(const thr_turning_columns *turning_columns, int k, const in
                      int *ends)
 {
   const thr_frame *frame = turning_columns->f;
-  int homeless = 0;
+  int left_out = 0;
   for (int v = 0; v < frame->n_nodes; v++) {
     if (turning_columns->component[v] != k || !turning_columns->task->end_allowed[v]) continue;
-    int over = -room_at(frame, v, passes, ends);
+    int over = -spare_at(frame, v, passes, ends);
     for (; over > 0; over -= 2) {
       /* The node that can take two more ends, with most passes to spare. */
       int best = -1, most = 1;
       for (int u = 0; u < frame->n_nodes; u++) {
         if (turning_columns->component[u] != k || !turning_columns->task->end_allowed[u]) continue;
-        int room = room_at(frame, u, passes, ends);
-        if (room > most) most = room, best = u;
+        int spare = spare_at(frame, u, passes, ends);
+        if (spare > most) most = spare, best = u;
       }
+
       ends[v] -= 2;
       if (best >= 0)
         ends[best] += 2;
       else
-        homeless += 2;
+        left_out += 2;
     }
   }
-  return homeless;
+  return left_out;
 }
 
 /* Makes sure that no node has more ends than passes: ends move, or passes are added along the
@@ -260,21 +284,23 @@ static int move_ends(const thr_turning_columns *turning_columns, int k, const in
 static thr_status fit_ends(const thr_turning_columns *turning_columns, int k, int *passes,
                            int *ends, thr_err *err)
 {
-  int homeless = move_ends(turning_columns, k, passes, ends), last = -1;
-  if (homeless == 0) return THR_OK;
+  int left_out = move_ends(turning_columns, k, passes, ends), last = -1;
+  if (left_out == 0) return THR_OK;
+
+  /* A walk brings two ends with it. */
   thr_walk_search walk_search;
   thr_status st = thr_walk_search_init(&walk_search, turning_columns, err);
-  for (; homeless > 0 && !st; homeless -= 2) {
+  for (; left_out > 0 && !st; left_out -= 2) {
     thr_walk_search_open(&walk_search, k, passes);
     if (!thr_walk_search_add(&walk_search, passes)) break;
     ends[thr_tail(turning_columns->f, walk_search.half[0])]++;
     ends[thr_head(turning_columns->f, walk_search.half[walk_search.n - 1])]++;
   }
 
-  /* No walk is left. */
-  for (int v = 0; v < turning_columns->f->n_nodes && homeless > 0; v++)
+  /* No walk is left for the others. */
+  for (int v = 0; v < turning_columns->f->n_nodes && left_out > 0; v++)
     if (turning_columns->component[v] == k && turning_columns->task->end_allowed[v]) last = v;
-  if (last >= 0) ends[last] += homeless;
+  if (last >= 0) ends[last] += left_out;
   thr_walk_search_destroy(&walk_search);
   return st;
 }
@@ -286,10 +312,13 @@ thr_status thr_extra_passes(const thr_turning_columns *turning_columns, const do
   thr_status st = THR_OK;
   for (int e = 0; e < turning_columns->f->n_edges; e++)
     passes[e] = turning_columns->cover[e];
+
+  /* Ends that the task counts, or the caller gives, stay where they are. */
   const int *count = turning_columns->task->end_count;
   given |= count != NULL;
   for (int v = 0; v < turning_columns->f->n_nodes && (!given || count); v++)
     ends[v] = count ? count[v] : 0;
+
   for (int k = 0; k < turning_columns->n_components && !st; k++)
     st = solve_component(turning_columns, k, weight, end_weight, given, limits, passes, ends, err);
   for (int k = 0;
@@ -299,7 +328,6 @@ thr_status thr_extra_passes(const thr_turning_columns *turning_columns, const do
   return st;
 }
 
-/* An end is placed where the fewest are, nodes with an odd number of passes and ends first. */
 void thr_extra_spread_ends(const thr_turning_columns *turning_columns, int *ends)
 {
   const thr_frame *frame = turning_columns->f;
@@ -307,6 +335,8 @@ void thr_extra_spread_ends(const thr_turning_columns *turning_columns, int *ends
     ends[v] = 0;
   for (int k = 0; k < turning_columns->n_components && turning_columns->task->end_allowed; k++)
     for (int i = 0; i < 2 * turning_columns->task->cords; i++) {
+      /* The node with fewest ends; one with an odd number of passes and ends counts one end less.
+       */
       int best = -1;
       for (int v = 0; v < frame->n_nodes; v++) {
         int own = covers_at(turning_columns, v) + ends[v];

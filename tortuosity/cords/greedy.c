@@ -21,18 +21,20 @@ enum {
   MOST_PRICED = 2048 /* passes and ends of a hub whose prices are all looked at */
 };
 
+/* A node with its regret, to be sorted. */
 typedef struct {
   double regret;
   int node;
 } ranked;
 
+/* The state of the greedy algorithm, and its scratch arrays. */
 typedef struct {
   thr_join *j;
   int *place;   /* [n_darts] number of a dart at its node */
   int *link;    /* [n_darts] dart at the other end of the chain of passes that starts with this one;
                    pairs made are inside chains */
   int *stamp;   /* [n_nodes] search that saw the node last */
-  int *class;   /* [n_nodes] port whose search reached it */
+  int *origin;  /* [n_nodes] port whose search reached it */
   int *queue;   /* [n_nodes] */
   int *spare;   /* [n_components] pieces that the component may still fall into */
   int searches; /* so far */
@@ -47,46 +49,54 @@ typedef struct {
 } greedy;
 
 /* Allocates the arrays for the largest node, and starts with single passes as chains. */
-static thr_status greedy_init(greedy *s, thr_join *j, int apart, thr_err *err)
+static thr_status greedy_init(greedy *search, thr_join *j, int apart, thr_err *err)
 {
   const thr_multigraph *multigraph = &j->g;
   size_t n = (size_t)multigraph->n_nodes;
-  *s = (greedy){.j = j};
+  *search = (greedy){.j = j};
+
+  /* The largest node, and the largest one whose prices are all looked at. */
   for (int v = 0; v < j->c->f->n_nodes; v++) {
     int darts = multigraph->first[v + 1] - multigraph->first[v];
-    if (darts > s->most) s->most = darts;
-    if (darts > s->most_priced && darts <= MOST_PRICED) s->most_priced = darts;
+    if (darts > search->most) search->most = darts;
+    if (darts > search->most_priced && darts <= MOST_PRICED) search->most_priced = darts;
   }
-  size_t k = (size_t)s->most, priced = (size_t)s->most_priced;
-  s->place = thr_scratch_array(&s->own, (size_t)multigraph->n_darts, sizeof *s->place);
-  s->link = thr_scratch_array(&s->own, (size_t)multigraph->n_darts, sizeof *s->link);
-  s->stamp = thr_scratch_array(&s->own, n, sizeof *s->stamp);
-  s->class = thr_scratch_array(&s->own, n, sizeof *s->class);
-  s->queue = thr_scratch_array(&s->own, n, sizeof *s->queue);
-  s->spare = thr_scratch_array(&s->own, (size_t)j->c->n_components, sizeof *s->spare);
-  s->order = thr_scratch_array(&s->own, n, sizeof *s->order);
-  s->price = thr_scratch_array(&s->own, priced * priced, sizeof *s->price);
-  s->pair = thr_scratch_array(&s->own, k, sizeof *s->pair);
-  s->port = thr_scratch_array(&s->own, k, sizeof *s->port);
-  s->trial = thr_scratch_array(&s->own, 2 * k, sizeof *s->trial);
-  thr_status st = thr_scratch_check(&s->own, err);
+
+  size_t k = (size_t)search->most, priced = (size_t)search->most_priced;
+  search->place =
+      thr_scratch_array(&search->own, (size_t)multigraph->n_darts, sizeof *search->place);
+  search->link = thr_scratch_array(&search->own, (size_t)multigraph->n_darts, sizeof *search->link);
+  search->stamp = thr_scratch_array(&search->own, n, sizeof *search->stamp);
+  search->origin = thr_scratch_array(&search->own, n, sizeof *search->origin);
+  search->queue = thr_scratch_array(&search->own, n, sizeof *search->queue);
+  search->spare =
+      thr_scratch_array(&search->own, (size_t)j->c->n_components, sizeof *search->spare);
+  search->order = thr_scratch_array(&search->own, n, sizeof *search->order);
+  search->price = thr_scratch_array(&search->own, priced * priced, sizeof *search->price);
+  search->pair = thr_scratch_array(&search->own, k, sizeof *search->pair);
+  search->port = thr_scratch_array(&search->own, k, sizeof *search->port);
+  search->trial = thr_scratch_array(&search->own, 2 * k, sizeof *search->trial);
+  thr_status st = thr_scratch_check(&search->own, err);
   if (st) return st;
+
+  /* No node is paired yet: every chain is one pass. */
   for (int i = 0; i < j->c->n_components; i++)
-    s->spare[i] = apart;
+    search->spare[i] = apart;
   for (int d = 0; d < multigraph->n_darts; d++)
-    s->link[d] = d ^ 1;
+    search->link[d] = d ^ 1;
   for (int v = 0; v < multigraph->n_nodes; v++)
     for (int i = multigraph->first[v]; i < multigraph->first[v + 1]; i++)
-      s->place[multigraph->dart[i]] = i - multigraph->first[v];
+      search->place[multigraph->dart[i]] = i - multigraph->first[v];
   return THR_OK;
 }
 
 /* Fills the matrix of the prices of pairing any two of n darts. */
-static void fill_prices(greedy *s, const int *dart, int n)
+static void fill_prices(greedy *search, const int *dart, int n)
 {
   for (int i = 0; i < n; i++)
     for (int k = 0; k < n; k++)
-      s->price[i * n + k] = i == k ? thr_join_forbidden : thr_join_price(s->j, dart[i], dart[k]);
+      search->price[i * n + k] =
+          i == k ? thr_join_forbidden : thr_join_price(search->j, dart[i], dart[k]);
 }
 
 /* Returns the price of the better exchange of pairs (a, b) and (c, d); *cross says whether it pairs
@@ -122,71 +132,83 @@ static int by_regret(const void *pa, const void *pb)
 
 /* Computes the cheapest pairing of node v alone, and its regret. Hubs get the regret -1, which
  * makes them come last; very large ones are not priced. */
-static thr_status pair_node(greedy *s, int v, thr_err *err)
+static thr_status pair_node(greedy *search, int v, thr_err *err)
 {
-  const thr_multigraph *multigraph = &s->j->g;
+  const thr_multigraph *multigraph = &search->j->g;
   const int *dart = multigraph->dart + multigraph->first[v];
   int n = multigraph->first[v + 1] - multigraph->first[v];
-  s->order[v] = (ranked){-1, v};
+  search->order[v] = (ranked){-1, v};
+
+  /* A very large node: the first half of its darts with the second half. */
   if (n > MOST_PRICED) {
     for (int i = 0; i < n / 2; i++)
-      thr_set_pair(s->pair, i, i + n / 2);
+      thr_set_pair(search->pair, i, i + n / 2);
     return THR_OK;
   }
-  fill_prices(s, dart, n);
-  thr_status st = thr_pairing_best(n, s->price, s->pair, err);
-  if (!st && n <= HUB) s->order[v].regret = regret(s->price, n, s->pair);
+
+  fill_prices(search, dart, n);
+  thr_status st = thr_pairing_best(n, search->price, search->pair, err);
+  if (!st && n <= HUB) search->order[v].regret = regret(search->price, n, search->pair);
   return st;
 }
 
 /* Fills mate with the cheapest pairing of every node, and sorts the nodes by decreasing regret. */
-static thr_status rank_nodes(greedy *s, thr_err *err)
+static thr_status rank_nodes(greedy *search, thr_err *err)
 {
-  const thr_multigraph *multigraph = &s->j->g;
+  const thr_multigraph *multigraph = &search->j->g;
   thr_status st = THR_OK;
-  for (int v = 0; v < s->j->c->f->n_nodes && !st; v++) {
+  for (int v = 0; v < search->j->c->f->n_nodes && !st; v++) {
     const int *dart = multigraph->dart + multigraph->first[v];
     int n = multigraph->first[v + 1] - multigraph->first[v];
-    st = pair_node(s, v, err);
+    st = pair_node(search, v, err);
+
+    /* From positions at the node to darts. */
     for (int i = 0; i < n && !st; i++)
-      s->j->mate[dart[i]] = dart[s->pair[i]];
+      search->j->mate[dart[i]] = dart[search->pair[i]];
   }
-  if (!st) qsort(s->order, (size_t)s->j->c->f->n_nodes, sizeof *s->order, by_regret);
+  if (!st) qsort(search->order, (size_t)search->j->c->f->n_nodes, sizeof *search->order, by_regret);
   return st;
 }
 
 /* Joins in port[] the darts of v that are connected without v: a breadth-first search over chains
  * from all of them at the same time, until they are one set or nothing is left to see. */
-static void find_ports(greedy *s, int v, const int *dart, int n)
+static void find_ports(greedy *search, int v, const int *dart, int n)
 {
-  const thr_multigraph *multigraph = &s->j->g;
-  int left = n, head = 0, tail = 0, now = ++s->searches;
-  s->stamp[v] = now;
+  const thr_multigraph *multigraph = &search->j->g;
+  int left = n, head = 0, tail = 0, now = ++search->searches;
+  search->stamp[v] = now;
   for (int i = 0; i < n; i++)
-    s->port[i] = i;
+    search->port[i] = i;
+
+  /* The far ends of the chains that start at v. A chain that comes back to v, or ends where another
+   * one has ended, joins two darts at once. */
   for (int i = 0; i < n; i++) {
-    int far = s->link[dart[i]], w = multigraph->tail[far];
+    int far = search->link[dart[i]], w = multigraph->tail[far];
     if (w == v) {
-      left -= thr_disjoint_join(s->port, i, s->place[far]);
-    } else if (s->stamp[w] == now) {
-      left -= thr_disjoint_join(s->port, i, s->class[w]);
+      left -= thr_disjoint_join(search->port, i, search->place[far]);
+    } else if (search->stamp[w] == now) {
+      left -= thr_disjoint_join(search->port, i, search->origin[w]);
     } else {
-      s->stamp[w] = now;
-      s->class[w] = i;
-      s->queue[tail++] = w;
+      search->stamp[w] = now;
+      search->origin[w] = i;
+      search->queue[tail++] = w;
     }
   }
+
+  /* Breadth-first search; it ends early when all darts are one set. */
   while (head < tail && left > 1) {
-    int u = s->queue[head++];
+    int u = search->queue[head++];
     for (int i = multigraph->first[u]; i < multigraph->first[u + 1]; i++) {
-      int w = multigraph->tail[s->link[multigraph->dart[i]]];
+      int w = multigraph->tail[search->link[multigraph->dart[i]]];
       if (w == v) continue;
-      if (s->stamp[w] == now) {
-        left -= thr_disjoint_join(s->port, s->class[u], s -> class[w]);
+
+      /* The searches of two darts meet, or one of them gets on. */
+      if (search->stamp[w] == now) {
+        left -= thr_disjoint_join(search->port, search->origin[u], search->origin[w]);
       } else {
-        s->stamp[w] = now;
-        s->class[w] = s->class[u];
-        s->queue[tail++] = w;
+        search->stamp[w] = now;
+        search->origin[w] = search->origin[u];
+        search->queue[tail++] = w;
       }
     }
   }
@@ -194,101 +216,119 @@ static void find_ports(greedy *s, int v, const int *dart, int n)
 
 /* Counts the connected sets of the node's darts, given the ports and the pairs, as disjoint sets in
  * trial. */
-static int join_pairs(greedy *s, int n, const int *pair)
+static int join_pairs(greedy *search, int n, const int *pair)
 {
   int left = 0;
+
+  /* The sets of the ports, which the pairs join. */
   for (int i = 0; i < n; i++)
-    s->trial[i] = thr_disjoint_find(s->port, i);
+    search->trial[i] = thr_disjoint_find(search->port, i);
   for (int i = 0; i < n; i++)
-    left += s->trial[i] == i;
+    left += search->trial[i] == i;
   for (int i = 0; i < n; i++)
-    if (pair[i] > i) left -= thr_disjoint_join(s->trial, i, pair[i]);
+    if (pair[i] > i) left -= thr_disjoint_join(search->trial, i, pair[i]);
   return left;
 }
 
 /* Enumerates all pairings of the darts that are free in pair (-1), by branch and bound, and keeps
  * the cheapest of those that leave few enough pieces in best. */
-static void try_pairings(greedy *s, int n, int pieces, int *pair, double price, double *least,
+static void try_pairings(greedy *search, int n, int pieces, int *pair, double price, double *least,
                          int *best)
 {
   int i = 0;
+
+  /* Bound: prices are not negative. */
   if (price >= *least) return;
   while (i < n && pair[i] >= 0)
     i++;
+
+  /* A complete pairing that is cheaper: does it connect enough? */
   if (i == n) {
-    if (join_pairs(s, n, pair) > pieces) return;
+    if (join_pairs(search, n, pair) > pieces) return;
     *least = price;
     memcpy(best, pair, (size_t)n * sizeof *best);
     return;
   }
+
+  /* Branch: the first free dart with each other free one. */
   for (int k = i + 1; k < n; k++) {
     if (pair[k] >= 0) continue;
     thr_set_pair(pair, i, k);
-    try_pairings(s, n, pieces, pair, price + s->price[i * n + k], least, best);
+    try_pairings(search, n, pieces, pair, price + search->price[i * n + k], least, best);
     pair[i] = pair[k] = -1;
   }
 }
 
 /* Exchanges pairs of different pieces, cheapest first, until there are few enough pieces. */
-static void exchange_until_few(greedy *s, int n, int pieces)
+static void exchange_until_few(greedy *search, int n, int pieces)
 {
-  while (join_pairs(s, n, s->pair) > pieces) {
+  while (join_pairs(search, n, search->pair) > pieces) {
     int best_a = -1, best_c = -1;
     bool cross, best_cross = false;
     double least = INFINITY;
+
+    /* The cheapest exchange of two pairs that join_pairs has found in different sets. */
     for (int a = 0; a < n; a++)
       for (int c = a + 1; c < n; c++) {
-        if (s->pair[a] < a || s->pair[c] < c ||
-            thr_disjoint_find(s->trial, a) == thr_disjoint_find(s->trial, c))
+        if (search->pair[a] < a || search->pair[c] < c ||
+            thr_disjoint_find(search->trial, a) == thr_disjoint_find(search->trial, c))
           continue;
-        double extra = exchange_price(s->price, n, a, s->pair[a], c, s->pair[c], &cross);
+        double extra =
+            exchange_price(search->price, n, a, search->pair[a], c, search->pair[c], &cross);
         if (extra < least) least = extra, best_a = a, best_c = c, best_cross = cross;
       }
     if (best_a < 0) return;
-    int b = s->pair[best_a], d = s->pair[best_c];
-    thr_set_pair(s->pair, best_a, best_cross ? d : best_c);
-    thr_set_pair(s->pair, b, best_cross ? best_c : d);
+
+    int b = search->pair[best_a], d = search->pair[best_c];
+    thr_set_pair(search->pair, best_a, best_cross ? d : best_c);
+    thr_set_pair(search->pair, b, best_cross ? best_c : d);
   }
 }
 
 /* Computes the cheapest pairing of the n darts of node v that leaves at most `pieces` pieces:
  * exactly for few darts, by exchanges for many. */
-static void pair_joined(greedy *s, int v, int n, int pieces)
+static void pair_joined(greedy *search, int v, int n, int pieces)
 {
   enum { ENUMERATED = 8 };
   int free_darts[ENUMERATED];
   double least = INFINITY;
-  fill_prices(s, s->j->g.dart + s->j->g.first[v], n);
+  fill_prices(search, search->j->g.dart + search->j->g.first[v], n);
   for (int i = 0; i < n && i < ENUMERATED; i++)
     free_darts[i] = -1;
+
   if (n <= ENUMERATED)
-    try_pairings(s, n, pieces, free_darts, 0, &least, s->pair);
+    try_pairings(search, n, pieces, free_darts, 0, &least, search->pair);
   else
-    exchange_until_few(s, n, pieces);
+    exchange_until_few(search, n, pieces);
 }
 
 /* Gives node v the cheapest pairing that keeps the component in few enough pieces, and joins the
  * chains that the node pairs. */
-static void settle_node(greedy *s, int v)
+static void settle_node(greedy *search, int v)
 {
-  const thr_multigraph *multigraph = &s->j->g;
+  const thr_multigraph *multigraph = &search->j->g;
   const int *dart = multigraph->dart + multigraph->first[v];
   int n = multigraph->first[v + 1] - multigraph->first[v];
   for (int i = 0; i < n; i++)
-    s->pair[i] = s->place[s->j->mate[dart[i]]];
+    search->pair[i] = search->place[search->j->mate[dart[i]]];
+
+  /* Another pairing only if the cheapest one cuts off more pieces than the component has to spare.
+   */
   if (n <= HUB) {
-    find_ports(s, v, dart, n);
-    int *spare = &s->spare[s->j->c->component[v]], most = *spare < n ? *spare + 1 : n;
-    if (join_pairs(s, n, s->pair) > most) pair_joined(s, v, n, most);
-    *spare -= join_pairs(s, n, s->pair) - 1;
+    find_ports(search, v, dart, n);
+    int *spare = &search->spare[search->j->c->component[v]], most = *spare < n ? *spare + 1 : n;
+    if (join_pairs(search, n, search->pair) > most) pair_joined(search, v, n, most);
+    *spare -= join_pairs(search, n, search->pair) - 1;
   }
+
+  /* Two chains become one at each pair. */
   for (int i = 0; i < n; i++) {
-    int a = dart[i], b = dart[s->pair[i]];
-    s->j->mate[a] = b;
-    if (s->pair[i] < i) continue;
-    int p = s->link[a], q = s->link[b];
-    s->link[p] = q;
-    s->link[q] = p;
+    int a = dart[i], b = dart[search->pair[i]];
+    search->j->mate[a] = b;
+    if (search->pair[i] < i) continue;
+    int p = search->link[a], q = search->link[b];
+    search->link[p] = q;
+    search->link[q] = p;
   }
 }
 
@@ -299,9 +339,12 @@ static thr_status join_at_hubs(thr_join *j, int apart, thr_err *err)
   const thr_multigraph *multigraph = &j->g;
   const int n = multigraph->n_nodes, first = j->c->f->n_nodes, components = j->c->n_components;
   if (apart >= multigraph->n_darts / components) return THR_OK;
+
   for (int v = first; v < n; v++)
     for (int i = multigraph->first[v]; i + 1 < multigraph->first[v + 1]; i += 2)
       thr_set_pair(j->mate, multigraph->dart[i], multigraph->dart[i + 1]);
+
+  /* Join, then take the pairs of the ends apart again. */
   thr_status st =
       thr_transition_join(j->c->f, multigraph, j->mate, NULL, components * (1 + apart), err);
   for (int i = multigraph->first[first]; i < multigraph->first[n]; i++)
@@ -311,13 +354,15 @@ static thr_status join_at_hubs(thr_join *j, int apart, thr_err *err)
 
 thr_status thr_join_greedy(thr_join *j, int apart, thr_err *err)
 {
-  greedy s;
-  thr_status st = greedy_init(&s, j, apart, err);
-  if (!st) st = rank_nodes(&s, err);
+  greedy search;
+  thr_status st = greedy_init(&search, j, apart, err);
+  if (!st) st = rank_nodes(&search, err);
+
+  /* Nodes by decreasing regret; hubs come last. */
   for (int i = 0; i < j->c->f->n_nodes && !st; i++)
-    settle_node(&s, s.order[i].node);
-  if (!st && s.most > HUB) st = join_at_hubs(j, apart, err);
-  thr_scratch_free(&s.own);
+    settle_node(&search, search.order[i].node);
+  if (!st && search.most > HUB) st = join_at_hubs(j, apart, err);
+  thr_scratch_free(&search.own);
   if (!st) thr_join_measure(j);
   return st;
 }
