@@ -21,6 +21,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The search for cords whose largest turning is small: the bound, the best cords so far, and
+ * scratch. */
 typedef struct {
   const thr_turning_columns *c;
   const thr_limits *limits;
@@ -42,9 +44,12 @@ typedef struct {
 static void keep_better(turning_search *search, thr_join *j, const thr_evener *evener)
 {
   double value = thr_evener_value(evener), largest = thr_evener_largest(evener);
+
+  /* The largest first, then the powers, both with a tolerance for rounding. */
   if (largest > search->largest * (1 + 1e-12) ||
       (largest >= search->largest * (1 - 1e-12) && value >= search->value * (1 - 1e-12)))
     return;
+
   thr_join_destroy(&search->best);
   search->best = *j;
   *j = (thr_join){0};
@@ -110,6 +115,8 @@ static void scatter_ends(turning_search *search)
   const thr_turning_columns *turning_columns = search->c;
   int n = turning_columns->f->n_nodes;
   memset(search->ends, 0, (size_t)n * sizeof *search->ends);
+
+  /* Draw nodes until each component has its ends; a node may be drawn again. */
   for (int k = 0; k < turning_columns->n_components; k++)
     for (int placed = 0; placed < 2 * turning_columns->task->cords;) {
       int v = thr_random_below(&search->state, n);
@@ -127,16 +134,20 @@ static void spread_ends(turning_search *search, bool at_feet)
   thr_turning_task task = *search->c->task;
   thr_turning_columns turning_columns = *search->c; /* with the other task, nothing more */
   int total = 0;
+
+  /* Feet can take the place of all nodes only if an end is allowed at each foot. */
   for (int v = 0; v < frame->n_nodes; v++)
     at_feet &= !frame->foot[v] || task.end_allowed[v];
   if (at_feet) task.end_allowed = frame->foot;
 
   turning_columns.task = &task;
   thr_extra_spread_ends(&turning_columns, search->ends);
+
+  /* A component without feet has got no ends: then all nodes after all. */
   for (int v = 0; v < frame->n_nodes; v++)
     total += search->ends[v];
   if (total < 2 * task.cords * turning_columns.n_components)
-    thr_extra_spread_ends(search->c, search->ends); /* a component without feet */
+    thr_extra_spread_ends(search->c, search->ends);
 }
 
 /* Makes search->passes the shortest passes for search->ends, or passes that are shortest
@@ -158,6 +169,9 @@ static thr_status make_tied_passes(turning_search *search, bool shortest, bool *
 {
   const thr_turning_columns *turning_columns = search->c;
   const thr_frame *frame = turning_columns->f;
+
+  /* A point to round: no extra passes, or small random parts of some and now and then a whole one.
+   */
   for (int e = 0; e < frame->n_edges; e++)
     search->point[turning_columns->first_extra + e] =
         shortest ? 0
@@ -172,6 +186,8 @@ static thr_status make_tied_passes(turning_search *search, bool shortest, bool *
 
   thr_status st =
       thr_tie_round(turning_columns, search->point, search->passes, search->ends, found, err);
+
+  /* More passes for less turning, if the length may grow. */
   bool fewer_turns =
       *found && turning_columns->task->extra_limit != 0 && thr_random_below(&search->state, 2);
   return st || !fewer_turns
@@ -222,6 +238,8 @@ static thr_status try_passes(turning_search *search, bool shortest, int steps, t
   thr_status st = search->c->task->tube ? make_tied_passes(search, shortest, &found, err)
                                         : make_passes(search, shortest, err);
   if (st || !found || !within_limits(search)) return st;
+
+  /* Cords for these passes. */
   st = make_cords(search, &j, &found, err);
   if (!st && found) return improve_from(search, &j, steps, err);
   thr_join_destroy(&j);
@@ -243,6 +261,7 @@ static thr_status is_enough(const turning_search *search, double largest, bool *
   int n = thr_join_count(&search->best);
   if (search->enough <= 0 || largest > most_turning(search) + THR_PI)
     return THR_OK; /* a closed cord's last turn does not count */
+
   thr_cord *cord = thr_calloc((size_t)n, sizeof *cord);
   thr_status st = cord ? thr_join_cords(&search->best, cord, n, err) : thr_nomem(err);
   if (!st) *done = *done || thr_cords_pulled_turning(search->c->f, cord, n) <= search->enough;
@@ -260,6 +279,7 @@ static thr_status is_finished(const turning_search *search, bool *done, thr_err 
   thr_status st = thr_join_threading(&j, &threading, err);
   if (!st) thr_evener_follow(&evener);
 
+  /* Cords at the bound cannot be improved on. */
   *done = st || evener.n_cords == 1 || thr_limits_stop(search->limits) ||
           thr_evener_largest(&evener) <= search->bound * (1 + 1e-9);
   double largest = st ? 0 : thr_evener_largest(&evener);
@@ -297,6 +317,8 @@ static thr_status run(turning_search *search, thr_err *err)
   int rounds = ROUNDS + MORE / search->best.g.n_darts, steps = steps_of(search);
   bool done = false;
   thr_join j;
+
+  /* The plan itself. */
   thr_status st = copy_best(search, &j, err);
   if (!st) st = improve_from(search, &j, steps, err);
   if (!st) st = is_finished(search, &done, err);
@@ -315,6 +337,7 @@ static thr_status run(turning_search *search, thr_err *err)
     if (!st) st = is_finished(search, &done, err);
   }
 
+  /* The best of all once more, from other random numbers. */
   for (int i = 0; i < LAST && !st && !done; i++) {
     st = copy_best(search, &j, err);
     if (!st) st = improve_from(search, &j, steps, err);
@@ -431,11 +454,14 @@ static thr_status find_cords(turning_search *search, const thr_frame *frame, thr
 {
   bool found = false;
   thr_status st = THR_OK;
+
+  /* Some cord is proved to need more than the pull that is asked for: no search can help. */
   if (search->enough > 0 && search->bound > most_turning(search)) return THR_OK;
   if (search->bound < search->scale * (1 - 1e-9))
     st = thr_max_turning_small(search->c, plan->cord, plan->n_cords, true, search->limits,
                                &search->best, &found, err);
   if (!st && !found) st = run(search, err);
+
   return st ? st : keep_best(search, frame, plan, err);
 }
 
@@ -500,6 +526,7 @@ static thr_status anneal_cords(turning_search *search, const thr_frame *frame, t
   bool better = false;
 
   if (!may_anneal(search, frame, plan, &task)) return THR_OK;
+
   thr_status st = thr_cords_copy(plan->cord, plan->n_cords, &cord, err);
   if (!st) st = thr_anneal(search->c, &task, &share, cord, plan->n_cords, &better, err);
   if (!st && better) st = consider(search, frame, plan, cord, 0, err);
@@ -553,32 +580,36 @@ static thr_status use_walks(turning_search *search, const thr_frame *frame, thr_
   if (!st && both) st = thr_cords_copy(plan->cord, plan->n_cords, &jobs.cooled, err);
   if (!st) st = thr_threads_beside(both ? 2 : 1, do_one, &jobs, &share, err);
 
-  /* The better cords of both. */
+  /* The better cords of both; those of the programme as they are, and evened out. */
   if (!st && jobs.fell) st = consider(search, frame, plan, jobs.cooled, 0, err);
-  for (int steps = 0; steps >= 0 && !st && jobs.better;
-       steps = steps ? -1 : steps_of(search)) /* as they are, and evened out */
+  for (int steps = 0; steps >= 0 && !st && jobs.better; steps = steps ? -1 : steps_of(search))
     st = consider(search, frame, plan, jobs.better, steps, err);
 
   thr_cords_destroy(jobs.better, plan->n_cords);
   thr_cords_destroy(jobs.cooled, jobs.cooled ? plan->n_cords : 0);
+
+  /* Annealing in the time that is left. */
   if (!st)
     st = anneal_cords(search, frame, plan, 1, both ? SHORT + MANY : SHORT, timed ? MANY : SHORT,
                       err);
   return st;
 }
 
-typedef thr_status way(turning_search *search, const thr_frame *frame, thr_least *plan,
-                       thr_err *err);
+/* A method that improves the plan's cords, with the search set up. */
+typedef thr_status improver(turning_search *search, const thr_frame *frame, thr_least *plan,
+                            thr_err *err);
 
 /* Bounds the largest turning and lets `by` improve the plan's cords. out->bound: what is known
  * already, 0 = nothing. */
-static thr_status improve(way *by, const thr_frame *frame, double enough,
+static thr_status improve(improver *by, const thr_frame *frame, double enough,
                           thr_orbits_motions *motions, const thr_limits *limits, thr_least *plan,
                           thr_max_turning *out, thr_err *err)
 {
   thr_turning_columns turning_columns = {0};
   turning_search search = {0};
   double forced = 0;
+
+  /* An edge that some cord has to pass gives the first bound. */
   thr_status st = thr_turning_columns_init(&turning_columns, frame, &plan->task, err);
   if (!st) st = thr_walk_forced(&turning_columns, false, &forced, err);
   out->bound = fmax(out->bound, forced);
@@ -613,12 +644,15 @@ thr_status thr_max_turning_walks(const thr_frame *frame, double enough, thr_orbi
 
 /* Computes what the harder of two pulled ends of cord k has to overcome, rad. A closed cord begins
  * where it turns sharpest, as thr_join_cords has it. */
-static double pulled_turning(const thr_threading *t, int k)
+static double pulled_turning(const thr_threading *threading, int k)
 {
-  const thr_place *place = t->place + t->first[k];
-  const int n = t->first[k + 1] - t->first[k], closed = thr_threading_closed(t, k);
+  const thr_place *place = threading->place + threading->first[k];
+  const int n = threading->first[k + 1] - threading->first[k],
+            closed = thr_threading_closed(threading, k);
   int start = 0;
   double whole = 0;
+
+  /* All turns; the sharpest one of a closed cord is where the cord is cut. */
   for (int i = 0; i < n; i++) {
     whole += place[i].price;
     if (closed && place[i].price > place[start].price) start = i;
@@ -632,23 +666,23 @@ static double pulled_turning(const thr_threading *t, int k)
   return walk.larger;
 }
 
-/* The largest pulled turning of a cord, and a smooth measure of all of them, of which that makes up
- * most. */
+/* The largest pulled turning of a cord, and a smooth measure of all pulled turnings, which the
+ * largest dominates. */
 typedef struct {
   double largest, norm;
 } hardness;
 
 /* Computes the largest pulled turning and the norm: the 8th root of the sum of 8th powers. */
-static hardness measure_pulls(const thr_threading *t)
+static hardness measure_pulls(const thr_threading *threading)
 {
-  hardness h = {0, 0};
-  for (int k = 0; k < t->n_cords; k++) {
-    const double pulled = pulled_turning(t, k), two = pulled * pulled, four = two * two;
-    h.largest = fmax(h.largest, pulled);
-    h.norm += four * four;
+  hardness hard = {0, 0};
+  for (int k = 0; k < threading->n_cords; k++) {
+    const double pulled = pulled_turning(threading, k), two = pulled * pulled, four = two * two;
+    hard.largest = fmax(hard.largest, pulled);
+    hard.norm += four * four;
   }
-  h.norm = pow(h.norm, 1.0 / 8);
-  return h;
+  hard.norm = pow(hard.norm, 1.0 / 8);
+  return hard;
 }
 
 /* Compares the largest, and if these are equal the norms. */
@@ -664,33 +698,37 @@ static bool is_easier(hardness a, hardness b)
 static void anneal_pulls(thr_evener *evener, int steps, int *best)
 {
   static const double hot = 0.3, cold = 0.01; /* rad */
-  thr_threading *t = evener->t;
-  const size_t bytes = (size_t)t->g->n_darts * sizeof *best;
-  hardness now = measure_pulls(t), least = now;
-  memcpy(best, t->mate, bytes);
-  for (int i = 0; i < steps && t->n_places > 1; i++) {
+  thr_threading *threading = evener->t;
+  const size_t bytes = (size_t)threading->g->n_darts * sizeof *best;
+  hardness now = measure_pulls(threading), least = now;
+  memcpy(best, threading->mate, bytes);
+
+  for (int i = 0; i < steps && threading->n_places > 1; i++) {
     thr_broken old;
     if (i % 64 == 0 && thr_limits_stop(evener->limits)) break;
 
+    /* Propose an exchange at a place drawn at random. */
     const double heat = hot * pow(cold / hot, (double)i / steps);
-    thr_evener_propose(evener, thr_random_below(&evener->state, t->n_places), &old);
+    thr_evener_propose(evener, thr_random_below(&evener->state, threading->n_places), &old);
     if (old.n == 0) continue;
 
     /* An exchange that leaves no whole cords is taken back, as one that is rejected. */
     const bool cords = thr_evener_follow(evener);
-    const hardness next = cords ? measure_pulls(t) : now;
+    const hardness next = cords ? measure_pulls(threading) : now;
     if (cords && (next.norm <= now.norm ||
                   thr_random_unit(&evener->state) < exp((now.norm - next.norm) / heat))) {
+      /* Accepted by Metropolis's rule. */
       now = next;
       if (!is_easier(now, least)) continue;
       least = now;
-      memcpy(best, t->mate, bytes);
+      memcpy(best, threading->mate, bytes);
     } else {
-      thr_threading_take_back(t, &old);
+      thr_threading_take_back(threading, &old);
       thr_evener_follow(evener);
     }
   }
-  memcpy(t->mate, best, bytes);
+
+  memcpy(threading->mate, best, bytes);
   thr_evener_follow(evener);
 }
 
@@ -703,6 +741,8 @@ static thr_status ease_pulls(turning_search *search, const thr_frame *frame, thr
   const int steps = (int)fmin(MOST_STEPS, work / search->best.g.n_darts);
   thr_threading threading;
   thr_join j;
+
+  /* A copy of the best cords, whose pairs change. */
   thr_status st = copy_best(search, &j, err);
   if (st) return st;
   thr_evener evener = {&threading, search->limits, thr_join_count(&j), search->scale, 1};
@@ -721,6 +761,7 @@ static thr_status ease_pulls(turning_search *search, const thr_frame *frame, thr
       j = (thr_join){0};
     }
   }
+
   thr_threading_destroy(&threading);
   thr_join_destroy(&j);
   free(best);
@@ -731,8 +772,9 @@ thr_status thr_max_turning_pull(const thr_frame *frame, const thr_limits *limits
                                 thr_err *err)
 {
   thr_max_turning out = {0};
-  thr_limits quiet =
-      *limits; /* counted by itself: what was searched before may have used up time and work */
+
+  /* Steps are counted: what was searched before may have used up time and work. */
+  thr_limits quiet = *limits;
   quiet.deadline = 0;
   quiet.work = NULL;
   return improve(ease_pulls, frame, 0, NULL, &quiet, plan, &out, err);

@@ -24,6 +24,7 @@ typedef struct {
   double *value, *cost;
 } equation_system;
 
+/* The programme with the accuracy of its solves. */
 typedef struct {
   thr_walk_programme *programme;
   double goal;   /* relative error of the next look */
@@ -39,6 +40,8 @@ static thr_status allocate(equation_system *system, const thr_walk_programme *pr
   const size_t singles = 2 * (size_t)programme->n_variables,
                columns = (size_t)pool->count + singles;
   size_t entries = singles;
+
+  /* Entries of the walks, and one for each single. */
   for (int i = 0; i < pool->count; i++)
     entries += (size_t)pool->row[i].n;
   system->start = thr_scratch_array(&system->own, columns + 1, sizeof *system->start);
@@ -75,6 +78,7 @@ static void fill(equation_system *system, const thr_walk_programme *programme)
     end_column(system, -row->lower);
   }
 
+  /* Missing and surplus passes of each variable. */
   for (int j = 0; j < programme->n_variables; j++) {
     put_entry(system, j, 1);
     end_column(system, programme->upper[j]);
@@ -115,6 +119,7 @@ static thr_status solve(centre_search *centre, thr_err *err)
   thr_status st = allocate(&system, programme, err);
   if (!st) fill(&system, programme);
 
+  /* Arrays for the solution. */
   centre->found = (thr_interior){
       .x = thr_scratch_array(&system.own, (size_t)system.n_columns, sizeof *centre->found.x),
       .dual = thr_scratch_array(&system.own, (size_t)programme->n_variables,
@@ -131,6 +136,7 @@ static thr_status solve(centre_search *centre, thr_err *err)
                              .goal = centre->goal,
                              .met = met};
 
+  /* The columns' weights become the multipliers of the walks' rows. */
   if (!st) st = thr_interior_solve(&all, programme->limits, &centre->found, err);
   if (!st) st = keep_weights(&programme->search, centre->found.x, err);
 
@@ -141,6 +147,7 @@ static thr_status solve(centre_search *centre, thr_err *err)
     centre->needed += system.cost[i] * centre->found.x[i];
   for (int j = 0; j < programme->n_variables && !st; j++)
     programme->x[j] = fmax(0, centre->found.dual[j]);
+
   if (!st) spend(programme, &system, centre->found.iterations);
   thr_scratch_free(&system.own);
   return st;
@@ -157,6 +164,8 @@ static thr_status look_beside(thr_walk_programme *programme, int first, int *add
                   !thr_limits_stop(programme->limits);
        i++) {
     const thr_row *row = &programme->search.pool.row[first];
+
+    /* Passes over the edges of the first new walk earn nothing any more. */
     for (int k = 0; k < row->n; k++)
       if (row->column[k] < programme->n_edges) programme->try[row->column[k]] = 0;
     first = programme->search.pool.count;
@@ -176,6 +185,7 @@ static bool is_decided(centre_search *centre, int added)
   const thr_walk_programme *programme = centre->programme;
   const double open = (centre->needed - programme->best) / centre->needed;
 
+  /* Decided, if the solve is accurate enough for the number of cords to be relied on. */
   if (programme->excluded ||
       (centre->needed <= programme->cords && centre->found.error <= centre->goal))
     return true;
@@ -198,6 +208,8 @@ thr_status thr_walk_centre(thr_walk_programme *programme, int most_looks, thr_er
   for (int i = 0; i < most_looks && !st && !thr_limits_stop(programme->limits); i++) {
     const int before = programme->search.pool.count;
     int added = 0;
+
+    /* Solve, separate at the prices, and decide. */
     st = solve(&centre, err);
     if (!st) st = thr_walk_programme_find(programme, &added, err);
     if (!st && is_decided(&centre, added)) break;

@@ -32,6 +32,8 @@ static thr_status copy_memory(const thr_walk_memory *from, int n, thr_walk_memor
                               thr_err *err)
 {
   thr_walk_memory *made = thr_calloc((size_t)n, sizeof *made);
+
+  /* Each list with its places; on failure those before it are freed. */
   for (int i = 0; i < n && made; i++) {
     made[i] = from[i];
     made[i].place = thr_calloc((size_t)from[i].n, sizeof *made[i].place);
@@ -53,11 +55,13 @@ thr_status thr_walk_take_proof(thr_walk_programme *programme, thr_walk_proof *pr
   thr_status st = copy_memory(programme->memory, programme->n_memories, &memory, err);
   if (st) return st;
 
+  /* The programme keeps its own lists; the proof gets the copies. */
   thr_walk_proof_destroy(proof);
   *proof = programme->trial;
   proof->memory = memory;
   proof->n_memories = programme->n_memories;
 
+  /* An empty trial with the same units. */
   programme->trial =
       (thr_walk_proof){.unit = proof->unit, .bits = proof->bits, .pulled = proof->pulled};
   programme->trial.edge =
@@ -76,6 +80,7 @@ static thr_walk_memory *list_of(thr_walk_programme *programme, int edge)
     i++;
   if (i < programme->n_memories && programme->memory[i].edge == edge) return &programme->memory[i];
 
+  /* Insert an empty list at i. */
   thr_walk_memory *longer =
       thr_realloc(programme->memory, (size_t)programme->n_memories + 1, sizeof *longer);
   if (!longer) return NULL;
@@ -96,6 +101,7 @@ static thr_status add_place(thr_walk_memory *list, int place, bool *is_new, thr_
   *is_new = i == list->n || list->place[i] != place;
   if (!*is_new) return THR_OK;
 
+  /* Insert the place at i. */
   int *longer = thr_realloc(list->place, (size_t)list->n + 1, sizeof *longer);
   if (!longer) return thr_nomem(err);
   memmove(longer + i + 1, longer + i, (size_t)(list->n - i) * sizeof *longer);
@@ -107,7 +113,8 @@ static thr_status add_place(thr_walk_memory *list, int place, bool *is_new, thr_
 
 /* ---- rounds ---- */
 
-/* The passes number from + 1 to to of a walk bring it back over the edge of number from. */
+/* A part of a walk that comes back to an edge: passes number `from` and `to` are of the same edge.
+ */
 typedef struct {
   const int *half;
   int from, to;
@@ -143,6 +150,7 @@ static int find_rounds(const thr_walk_programme *programme, int *last, walk_roun
     const thr_row *row = &search->pool.row[i];
     if (search->dual[i] < little) continue;
 
+    /* Along a walk that the optimum uses, keep each edge's last pass. */
     for (int e = 0; e < programme->c->f->n_edges; e++)
       last[e] = -1;
     for (int k = 0; k < row->n_members; k++) {
@@ -241,6 +249,7 @@ static thr_status make_steps(thr_walk_programme *programme, thr_err *err)
   thr_status st = thr_walk_steps_init(&steps, programme->c, measure, programme->component,
                                       programme->unit, err);
   if (st) return st;
+
   thr_walk_steps_destroy(&programme->steps);
   programme->steps = steps;
 
@@ -250,6 +259,7 @@ static thr_status make_steps(thr_walk_programme *programme, thr_err *err)
     return thr_fail(err, THR_ELIMIT, "walks remember too much");
   if (st) return thr_fail(err, st, "%s", why.text);
 
+  /* The table. */
   int64_t *value = thr_calloc((size_t)thr_walk_levels(programme->most_units) *
                                   (size_t)programme->steps.n * thr_walk_tables(measure),
                               sizeof *value);
@@ -267,6 +277,7 @@ static thr_status count_anew(thr_walk_programme *programme, thr_err *err)
   for (int i = 0; i < programme->walks.count && !st; i++) {
     const thr_row *row = &programme->walks.row[i];
 
+    /* The walk's half-edges stay; its coefficients are counted again. */
     thr_row anew = thr_walk_programme_row(programme, &counted, row->member, row->n_members);
     anew.index = row->index;
     st = thr_pool_add(&counted, anew, err);
@@ -281,10 +292,13 @@ static thr_status take_back(thr_walk_programme *programme, thr_walk_memory **bef
                             thr_err *err)
 {
   thr_walk_memory *more = programme->memory;
+
   const int n_more = programme->n_memories;
   programme->memory = *before;
   programme->n_memories = n_before;
   *before = NULL;
+
+  /* The steps follow the memory. */
   thr_walk_memory_free(more, n_more);
   return make_steps(programme, err);
 }

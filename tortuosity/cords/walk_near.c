@@ -17,13 +17,14 @@
 
 enum { MOST_REMOVED = 4, MOST_MISSES = 60 };
 
+/* The cords, how they meet the most expensive one, and scratch. */
 typedef struct {
   thr_walk_programme *programme;
   thr_cord *cord; /* [programme->cords] */
   thr_scratch own;
   double *price; /* [programme->cords] */
-  int *meets;    /* [programme->cords] nodes that a cord has with the dearest one */
-  int *order;    /* [programme->cords] those that are kept, then those that are dived for */
+  int *meets;    /* [programme->cords] nodes that a cord shares with the most expensive one */
+  int *order;    /* [programme->cords] cords that stay, then those that are removed */
   bool *seen;    /* [n_nodes] */
   thr_cord *try; /* [programme->cords] in that order */
   uint64_t random;
@@ -36,7 +37,7 @@ static double price_of(const neighbourhood_search *search, const thr_cord *cord)
 }
 
 /* Returns the number of the most expensive cord. */
-static int dearest(const neighbourhood_search *search)
+static int most_expensive(const neighbourhood_search *search)
 {
   int most = 0;
   for (int i = 1; i < search->programme->cords; i++)
@@ -73,8 +74,10 @@ static void exchange(int *order, int i, int k)
  * share with it and with how much cheaper they are. Returns the number of removed cords. */
 static int choose(neighbourhood_search *search, int removed)
 {
-  const int n = search->programme->cords, most = dearest(search);
+  const int n = search->programme->cords, most = most_expensive(search);
   int chosen = 1;
+
+  /* The most expensive cord is the first. */
   count_meetings(search, most);
   for (int i = 0; i < n; i++)
     search->order[i] = i;
@@ -87,9 +90,9 @@ static int choose(neighbourhood_search *search, int removed)
     /* Draw one of the cords that are not chosen yet from a stream of weights. */
     for (int i = 0; i < n - chosen; i++) {
       const int k = search->order[i];
-      const double worth = search->meets[k] * (search->price[most] * 1.02 - search->price[k]);
-      sum += worth;
-      if (worth > 0 && thr_random_unit(&search->random) * sum < worth) pick = i;
+      const double weight = search->meets[k] * (search->price[most] * 1.02 - search->price[k]);
+      sum += weight;
+      if (weight > 0 && thr_random_unit(&search->random) * sum < weight) pick = i;
     }
 
     /* No other cord shares a node. */
@@ -107,6 +110,8 @@ static int limit_of(const neighbourhood_search *search, int removed, double part
   double sum = 0, most = search->price[search->order[n - 1]];
   for (int i = n - removed; i < n; i++)
     sum += search->price[search->order[i]];
+
+  /* From a price to units, rounded down. */
   double limit = sum / removed + part * (most - sum / removed),
          unit = thr_walk_programme_price(search->programme, 1);
 
@@ -122,6 +127,8 @@ static void keep_better(neighbourhood_search *search, int removed, bool *better)
   double largest = 0;
   for (int i = n - removed; i < n; i++)
     largest = fmax(largest, price_of(search, &search->try[i]));
+
+  /* The most expensive removed cord is the last in the order. */
   *better = largest < search->price[search->order[n - 1]] * (1 - 1e-9);
 
   /* Old and new cords change places, so that the losers are those in `try`. */
@@ -173,6 +180,8 @@ thr_status thr_walk_near(thr_walk_programme *programme, double enough, thr_cord 
       thr_scratch_array(&search.own, (size_t)programme->c->f->n_nodes, sizeof *search.seen);
   search.try = thr_scratch_array(&search.own, n, sizeof *search.try);
   *improved = false;
+
+  /* Prices of all cords. */
   thr_status st = thr_scratch_check(&search.own, err);
 
   for (int i = 0; i < programme->cords && !st; i++)
@@ -182,7 +191,7 @@ thr_status thr_walk_near(thr_walk_programme *programme, double enough, thr_cord 
   for (int misses = 0, i = 0; !st && misses < MOST_MISSES && !thr_limits_stop(programme->limits);
        i++) {
     bool better;
-    if (search.price[dearest(&search)] <= enough) break;
+    if (search.price[most_expensive(&search)] <= enough) break;
     const int most = programme->cords < MOST_REMOVED ? programme->cords : MOST_REMOVED;
     st = look(&search, 2 + i % (most - 1), part[i / 3 % 4], i % 2, &better, err);
     misses = better ? 0 : misses + 1;

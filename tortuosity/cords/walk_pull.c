@@ -17,7 +17,7 @@
 
 enum { MOST_ROUNDS = 400, MOST_LOOKS = 8 };
 
-/* Makes the best prices so far the proof; no proof is made if they prove nothing. */
+/* Moves the best prices so far to the proof, unless they prove nothing. */
 static thr_status take_proof(thr_walk_programme *programme, thr_walk_proof *proof, thr_err *err)
 {
   thr_status st = programme->best > 0 ? thr_walk_programme_middle(programme, err) : THR_OK;
@@ -59,6 +59,7 @@ static thr_status search(thr_walk_programme *programme, const thr_cord *cord, in
 {
   double *kept = thr_calloc((size_t)programme->n_variables, sizeof *kept), best = 0;
   bool grown = true;
+
   thr_status st = kept ? THR_OK : thr_nomem(err);
   programme->to_exclude = true;
   programme->enough = enough;
@@ -89,11 +90,15 @@ thr_status thr_walk_pull_length(const thr_turning_columns *columns, const thr_re
   thr_walk_programme programme;
   thr_err why = {0};
   *bound = 0;
+
+  /* Walks cost their length. */
   thr_status st = thr_walk_programme_init_pull(&programme, columns, options, cord, n_cords,
                                                component, true, limits, &why);
   if (!st)
     st = search(&programme, cord, n_cords, length_of(&programme, cord, n_cords), programme.dearest,
                 &why);
+
+  /* The prices are the proof of the bound. */
   if (!st) st = take_proof(&programme, proof, &why);
   if (!st) *bound = programme.best;
   thr_walk_programme_destroy(&programme);
@@ -131,6 +136,7 @@ thr_status thr_walk_pull_few(const thr_turning_columns *columns, const thr_reque
   thr_err why = {0};
   bool found = false;
   *n = 0;
+
   thr_status st = thr_walk_programme_init_pull(&programme, columns, options, some, n_some,
                                                component, true, limits, &why);
 
@@ -156,18 +162,18 @@ thr_status thr_walk_pull_too_few(const thr_turning_columns *columns, const thr_r
   thr_walk_programme programme;
   thr_err why = {0};
   double bound = 0;
-  const bool within =
-      thr_cords_within_pull(columns->f, options, cord, n_cords); /* their walks are columns */
+  const bool within = thr_cords_within_pull(columns->f, options, cord, n_cords);
 
+  /* Every walk costs 1. */
   *excluded = 0;
   thr_status st = thr_walk_programme_init_pull(&programme, columns, options, cord, n_cords,
                                                component, false, limits, &why);
   programme.cords = cords;
-  const double dearest =
-      within ? 1
-             : cords +
-                   1; /* no walk is worth more than 1; but what none passes may be worth them all */
-  if (!st) st = search(&programme, cord, within ? n_cords : 0, known + 1, dearest, &why);
+
+  /* The walks of cords within the pull are columns from the start, and then no price of a pass
+   * exceeds 1. Without them an edge may lie on no known walk, and have a price above all cords. */
+  const double most_price = within ? 1 : cords + 1;
+  if (!st) st = search(&programme, cord, within ? n_cords : 0, known + 1, most_price, &why);
 
   /* One cord less than the prices prove is certainly too few. */
   const int number = (int)fmin(cords, ceil(programme.best * (1 - 1e-9)) - 1);

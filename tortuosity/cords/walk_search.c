@@ -49,12 +49,14 @@ static bool turns_back(const thr_frame *frame, int in, int out)
 static void trace(thr_walk_search *walk_search, int h, int first)
 {
   int at = h;
+
+  /* From the walk's end to its beginning. */
   do {
     walk_search->half[walk_search->n++] = at;
     at = walk_search->by[at];
   } while (at != first);
 
-  /* Predecessors give the walk from its end: reverse it. */
+  /* Reverse the order. */
   for (int i = 0, k = walk_search->n - 1; i < k; i++, k--) {
     int swap = walk_search->half[i];
     walk_search->half[i] = walk_search->half[k];
@@ -62,12 +64,13 @@ static void trace(thr_walk_search *walk_search, int h, int first)
   }
 }
 
-/* Breadth-first search from h until h is reached again. */
 void thr_walk_search_closed(thr_walk_search *walk_search, int h)
 {
   const thr_frame *frame = walk_search->c->f;
   int head = 0, tail = 0, now = ++walk_search->searches;
   walk_search->n = 0;
+
+  /* Breadth-first search from h, which does not count as seen, until h is reached again. */
   walk_search->queue[tail++] = h;
   while (head < tail && walk_search->stamp[h] != now) {
     int in = walk_search->queue[head++], v = thr_head(frame, in);
@@ -79,6 +82,7 @@ void thr_walk_search_closed(thr_walk_search *walk_search, int h)
       if (out != h) walk_search->queue[tail++] = out;
     }
   }
+
   if (walk_search->stamp[h] == now) trace(walk_search, h, h);
 }
 
@@ -93,6 +97,7 @@ static void reach(thr_walk_search *walk_search, int out, int in, double before)
   walk_search->length[out] = length;
   walk_search->by[out] = in;
 
+  /* A half-edge is in the ring once at most, so that the ring holds them all. */
   if (walk_search->stamp[out] == QUEUED) return;
   walk_search->stamp[out] = QUEUED;
   walk_search
@@ -115,12 +120,13 @@ static int next_queued(thr_walk_search *walk_search)
 static bool absorbs(const thr_frame *frame, const int *passes, int in)
 {
   int v = thr_head(frame, in), others = -passes[in >> 1];
+
+  /* Passes of the other edges at the node. */
   for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
     others += passes[frame->half[i] >> 1];
   return others >= passes[in >> 1] + 2;
 }
 
-/* Label correction from all nodes where cords may end. */
 void thr_walk_search_open(thr_walk_search *walk_search, int component, const int *passes)
 {
   const thr_frame *frame = walk_search->c->f;
@@ -148,6 +154,8 @@ void thr_walk_search_open(thr_walk_search *walk_search, int component, const int
       if (best < 0 || walk_search->length[in] < walk_search->length[best]) best = in;
       continue;
     }
+
+    /* Go on over edges that may be passed once more. */
     for (int i = frame->first[v]; i < frame->first[v + 1]; i++) {
       int out = frame->half[i];
       if (passes[out >> 1] < most[out >> 1] &&
@@ -159,13 +167,14 @@ void thr_walk_search_open(thr_walk_search *walk_search, int component, const int
   if (best >= 0) trace(walk_search, best, -1);
 }
 
-/* Passes are taken back if an edge would have too many. */
 bool thr_walk_search_add(const thr_walk_search *walk_search, int *passes)
 {
-  bool room = walk_search->n > 0;
+  bool fits = walk_search->n > 0;
+
+  /* Count the passes; if an edge has too many then, take all of them back. */
   for (int i = 0; i < walk_search->n; i++)
-    room &= ++passes[walk_search->half[i] >> 1] <= walk_search->c->most[walk_search->half[i] >> 1];
-  for (int i = 0; i < walk_search->n && !room; i++)
+    fits &= ++passes[walk_search->half[i] >> 1] <= walk_search->c->most[walk_search->half[i] >> 1];
+  for (int i = 0; i < walk_search->n && !fits; i++)
     passes[walk_search->half[i] >> 1]--;
-  return room;
+  return fits;
 }

@@ -19,6 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The passes that are walked so far, and the walk. */
 typedef struct {
   thr_join *join;
   thr_scratch own; /* the arrays */
@@ -46,11 +47,14 @@ static thr_status walker_init(tour_walker *walker, thr_join *join, thr_err *err)
   walker->queue = thr_scratch_array(&walker->own, n, sizeof *walker->queue);
   thr_status st = thr_scratch_check(&walker->own, err);
   if (st) return st;
+
+  /* All darts are unused. */
   for (size_t v = 0; v < n; v++)
     walker->cursor[v] = join->g.first[v];
   return THR_OK;
 }
 
+/* Returns the node that dart d arrives at. */
 static int head_of(const tour_walker *walker, int d)
 {
   return walker->join->g.tail[d ^ 1];
@@ -102,7 +106,8 @@ static int hierholzer(tour_walker *walker, int start)
   return n;
 }
 
-/* Can v be reached from the head of the dart over unused passes other than its own? */
+/* Says whether v can be reached from the head of the dart over unused passes other than the dart's.
+ */
 static bool leads_back(tour_walker *walker, int dart, int v)
 {
   const thr_multigraph *multigraph = &walker->join->g;
@@ -114,6 +119,7 @@ static bool leads_back(tour_walker *walker, int dart, int v)
   while (head < tail) {
     int u = walker->queue[head++];
     if (u == v) return true;
+
     for (int i = multigraph->first[u]; i < multigraph->first[u + 1]; i++) {
       int e = multigraph->dart[i], to = head_of(walker, e);
       if (walker->used[e] || (e | 1) == (dart | 1) || walker->stamp[to] == now) continue;
@@ -149,6 +155,8 @@ static int next_but_bridges(tour_walker *walker, int dart)
       int e = multigraph->dart[i];
       if (walker->used[e]) continue;
       left++;
+
+      /* The cheapest turn but the bridge. */
       double rank = rank_of(walker, dart, e);
       if (e != bridge && rank < best) best = rank, next = e;
     }
@@ -281,6 +289,8 @@ thr_status thr_baseline_tour(const thr_frame *frame, const thr_least_options *op
   int *ends = thr_calloc((size_t)frame->n_nodes, sizeof *ends);
   thr_status st = ends ? thr_least_task(frame, options, &made, err) : thr_nomem(err);
   if (!st) st = thr_turning_columns_init(&turning_columns, frame, &made.task, err);
+
+  /* Walk, and follow the pairs. */
   if (!st) find_ends(&turning_columns, passes, ends);
   if (!st) st = thr_join_init(&join, &turning_columns, passes, made.end_allowed ? ends : NULL, err);
   if (!st) st = walk_all(&join, tour, ignore_pairings, err);
