@@ -25,6 +25,7 @@ static thr_status open_again(const thr_decomposition *decomposition, thr_walk *w
   int best = -1;
   double most = -1;
   for (int i = 0; i < walk->n; i++) {
+    /* Of equal turns the first. */
     double turn =
         thr_walk_turn(decomposition->f, walk->half[i ? i - 1 : walk->n - 1], walk->half[i]);
     if (thr_walk_node(decomposition->f, walk, i) != node || turn < most + 1e-9) continue;
@@ -47,6 +48,7 @@ static thr_status straighten(thr_decomposition *decomposition, int *passes, thr_
   thr_status st = THR_OK;
 
   if ((double)decomposition->walks.n_walks * frame->n_edges > most) return THR_OK;
+
   for (int i = 0; i < decomposition->walks.n_walks && !st; i++) {
     thr_walk *walk = &decomposition->walks.walk[i];
     thr_walks traced = {0};
@@ -61,6 +63,7 @@ static thr_status straighten(thr_decomposition *decomposition, int *passes, thr_
     st = thr_walks_trace(frame, passes, &traced, err);
     if (st) break;
 
+    /* The traced walk takes the place of the old one. */
     free(walk->half);
     *walk = traced.walk[0];
     traced.walk[0].half = NULL;
@@ -235,6 +238,7 @@ thr_status thr_cords_reach(const thr_frame *frame, const thr_request *options, t
     if (thr_plan_end_allowed(frame, options, v)) st = thr_paths_start(&paths, v, err);
   if (!st) st = thr_paths_spread(&paths, options, NULL, 0, INFINITY, err);
 
+  /* Every edge must lie on some cord within the limit. */
   for (int e = 0; e < frame->n_edges && !st; e++) {
     const int *end = frame->edge[e];
     if (closed && thr_decomposition_within(2 * frame->length[e], limit)) continue;
@@ -304,6 +308,7 @@ static thr_status shortest_of(const thr_decomposition *decomposition, int n, thr
   thr_request options = *decomposition->o;
   thr_err why = {0};
 
+  /* The same request with n cords; full edges may forbid so few. */
   options.cords = n;
   thr_status st =
       thr_postman_shortest(decomposition->f, &options, decomposition->limits, shortest, &why);
@@ -380,7 +385,6 @@ static thr_status none_found(const thr_decomposition *decomposition, double leas
 
   /* Nothing is proved, with walks or without. */
   if (decomposition->walks.n_walks == 0)
-
     return thr_fail(err, THR_ELIMIT,
                     "the component with node %s: did not find %s%d %s with none longer than %g %s",
                     decomposition->f->name[0], up_to, most, cords, limit, units);
@@ -481,11 +485,13 @@ static thr_status prove_number(thr_plan *plan, thr_certificate *few, thr_err *er
   if (!plan->cords_claim.fewest || plan->cords_claim.fewest_optimal || few->scale == 0)
     return THR_OK;
 
+  /* A join counts the passes of the cords, whichever certificate weighs them. */
   few->join = proof->certificate[0].join;
   swap_certificates(&proof->certificate[0], few);
   thr_status st = thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords,
                                   proof->certificate, proof->n_certificates, NULL, &claim, err);
 
+  /* Keep the one that proves more. */
   if (!st && claim.fewest > plan->cords_claim.fewest)
     plan->cords_claim = claim;
   else

@@ -30,6 +30,7 @@ static void cutting_destroy(tour_cutting *cutting)
   free(cutting->left);
 }
 
+/* Returns whether the cords are to be closed. */
 static bool closed_cords(const tour_cutting *cutting)
 {
   return cutting->o->ends == THR_ENDS_CLOSED;
@@ -41,6 +42,7 @@ static thr_status trace_tour(tour_cutting *cutting, thr_err *err)
   int *even = thr_calloc((size_t)cutting->f->n_edges, sizeof *even);
   if (!even) return thr_nomem(err);
 
+  /* An odd number of passes gets one more. */
   for (int e = 0; e < cutting->f->n_edges; e++)
     even[e] = cutting->left[e] + cutting->left[e] % 2;
 
@@ -61,9 +63,12 @@ static thr_status cutting_init(tour_cutting *cutting, thr_err *err)
   for (int e = 0; e < frame->n_edges; e++)
     cutting->left[e] = thr_plan_cover(frame, cutting->o, e);
 
+  /* Open cords: paths from all nodes where cords may end. Those of closed cords differ from cord to
+   * cord (begin_at). */
   for (int v = 0; v < frame->n_nodes && !st && !closed_cords(cutting); v++)
     if (thr_plan_end_allowed(frame, cutting->o, v)) st = thr_paths_start(&cutting->home, v, err);
   if (!st) st = thr_paths_spread(&cutting->home, cutting->o, NULL, 0, INFINITY, err);
+
   return st ? st : trace_tour(cutting, err);
 }
 
@@ -85,6 +90,7 @@ static int section_end(const tour_cutting *cutting, const thr_walk *walk, int fr
   double most = cutting->o->max_length * (1 + 1e-12),
          length = cutting->home.far[thr_walk_node(frame, walk, from)];
 
+  /* Lengthen the section pass by pass; the path from its end has to fit, too. */
   int end = from;
   for (int i = from; i < walk->n && length <= most; i++) {
     int e = walk->half[i] >> 1;
@@ -103,14 +109,15 @@ static thr_status add_cord(tour_cutting *cutting, const thr_walk *walk, int from
   int n_to = thr_paths_back(&cutting->home, a, -1, NULL),
       n_back = thr_paths_back(&cutting->home, b, -1, NULL), section = end - from;
 
+  /* The cord: a path to the section, the section, and a path back. */
   thr_walk cord = {n_to + section + n_back, NULL, 0, closed_cords(cutting)};
   if (!(cord.half = thr_calloc((size_t)cord.n, sizeof *cord.half))) return thr_nomem(err);
 
-  /* To the section, along it, and from its end. */
   thr_paths_to(&cutting->home, a, cord.half);
   memcpy(cord.half + n_to, walk->half + from, (size_t)section * sizeof *cord.half);
   thr_paths_back(&cutting->home, b, -1, cord.half + n_to + section);
 
+  /* Passes on the paths count, too, and need not be made by later cords. */
   for (int i = 0; i < cord.n; i++)
     cutting->left[cord.half[i] >> 1]--;
   return thr_walks_add(&cutting->cords, cutting->f, cord, err);
@@ -130,6 +137,7 @@ static thr_status cut(tour_cutting *cutting, bool *found, thr_err *err)
     /* Passes that need not be made again begin no section. */
     if (cutting->left[walk->half[i] >> 1] <= 0) continue;
 
+    /* The longest section that the limit allows. */
     st = begin_at(cutting, thr_walk_node(cutting->f, walk, i), err);
     if (!st) end = section_end(cutting, walk, i);
     *found = end > i && cutting->cords.n_walks < cutting->o->cords;

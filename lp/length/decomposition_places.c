@@ -59,6 +59,7 @@ static bool enough_places(const thr_decomposition *decomposition, int n)
   for (int v = 0; v < decomposition->f->n_nodes; v++) {
     if (!thr_plan_end_allowed(decomposition->f, decomposition->o, v)) continue;
 
+    /* Counted ends are needed at their nodes; free ones at any. */
     int at = passes_at(decomposition->f, decomposition->passes, v);
     if (decomposition->o->ends == THR_ENDS_COUNTS && at < decomposition->o->end_count[v])
       return false;
@@ -83,6 +84,7 @@ static void find_groups(port_graph *ports, int n)
       ports->need[group] = decomposition->o->end_count[v];
     }
 
+    /* What the cover gives counts for the need. */
     ports->group[v] = group;
     ports->need[group] -= covers_at(decomposition, v);
   }
@@ -101,6 +103,8 @@ static thr_status count_ports(port_graph *ports, thr_err *err)
   for (int e = 0; e < decomposition->f->n_edges; e++) {
     int a = ports->group[decomposition->f->edge[e][0]],
         b = ports->group[decomposition->f->edge[e][1]];
+
+    /* A pass between two nodes of one group serves the group twice. */
     int most = a == b                            ? (ports->need[a] + 1) / 2
                : ports->need[a] > ports->need[b] ? ports->need[a]
                                                  : ports->need[b];
@@ -205,6 +209,7 @@ static thr_status ports_init(port_graph *ports, int n, thr_err *err)
   thr_status st = thr_scratch_check(&ports->own, err);
   if (st) return st;
 
+  /* Groups, ports and the edges between them. */
   find_groups(ports, n);
   st = count_ports(ports, err);
   return st ? st : build(ports, err);
@@ -232,6 +237,7 @@ thr_status thr_decomposition_places(thr_decomposition *decomposition, int n,
   thr_err why = {0};
   thr_status st = ports_init(&ports, n, &why);
 
+  /* Match all ports and cores. */
   if (!st) {
     thr_matching_problem problem = {ports.first[ports.n_groups], ports.n_edges,
                                     (const int(*)[2])ports.edge, ports.weight};

@@ -15,6 +15,7 @@ static thr_status take(thr_decomposition *decomposition, thr_small_cords *cords,
   thr_walks new = {0};
   thr_status st = THR_OK;
 
+  /* The walks get their lengths as they are added. */
   for (int i = 0; i < cords->n && !st; i++) {
     thr_walk walk = {cords->n_passes[i], cords->half[i], 0,
                      decomposition->o->ends == THR_ENDS_CLOSED};

@@ -27,6 +27,7 @@ static void turn_round(tied_splitting *splitting, thr_walk *walk, int i, int j)
   thr_turn_change change = {.n = 0};
   int before = thr_walk_before(walk, i);
 
+  /* The turns before and behind the section change; of a whole walk none does. */
   if (j - i < walk->n) {
     thr_turn_change_note(&change, before, walk->half[i], -1);
     thr_turn_change_note(&change, walk->half[j - 1], walk->half[j], -1);
@@ -52,6 +53,7 @@ static thr_status shuffle(tied_splitting *splitting, thr_walk *walk, uint64_t *r
     const int j = (int)(thr_random(random) % (uint64_t)walk->n), i = visits.next[j];
     thr_walk_visits_destroy(&visits);
 
+    /* One in four is left as it is. */
     if (i >= 0 && (thr_random(random) & 3)) turn_round(splitting, walk, i, j);
   }
   return THR_OK;
@@ -111,6 +113,7 @@ static void offer_chords(const tied_splitting *splitting, const thr_walk_visits 
           passes_at(walk, visits->at[j], h >> 1))
         continue;
 
+      /* The chord parts the walk in two. The price: its edge, and if even the longer part. */
       double part =
           thr_walk_length(frame, walk->half + visits->at[i], visits->at[j] - visits->at[i]);
       double price = splitting->even ? fmax(part, walk->length - part) : 0;
@@ -135,6 +138,7 @@ static thr_status best_chord(const tied_splitting *splitting, chord *best, thr_e
                                        splitting->decomposition->walks.n_walks, err);
   if (st) return st;
 
+  /* Edges with room for two more passes; without even, only edges shorter than the best. */
   for (int h = 0; h < 2 * frame->n_edges; h++)
     if (splitting->decomposition->passes[h >> 1] <=
             thr_plan_capacity(frame, splitting->decomposition->o, h >> 1) - 2 &&
@@ -187,6 +191,7 @@ static thr_status best_circuit(const tied_splitting *splitting, thr_paths *paths
   const thr_frame *frame = splitting->decomposition->f;
   thr_status st = THR_OK;
 
+  /* Once there is a circuit, nodes are skipped if all of them would take too long. */
   int step = 1 + (int)((double)frame->n_nodes * frame->n_edges / most);
   *best = (circuit){INFINITY, -1, -1};
   for (int v = 0; v < frame->n_nodes && !st; v += best->start < 0 ? 1 : step) {
@@ -225,6 +230,7 @@ static thr_status add_circuit(tied_splitting *splitting, thr_paths *paths, const
 
   new.n = there + 1 + back;
 
+  /* Count its passes and turns. */
   for (int i = 0; i < new.n; i++) {
     thr_turn_change change = {.n = 0};
     thr_turn_change_note(&change, thr_walk_before(&new, i), new.half[i], 1);
@@ -262,6 +268,7 @@ static thr_status add_one(tied_splitting *splitting, thr_paths *paths, int n, bo
                        2 * splitting->decomposition->f->length[cut_by.half >> 1] <= round.length
                  : cut_by.price < thr_walks_most(&splitting->decomposition->walks) * (1 - 1e-9);
 
+  /* Whichever is possible, and cheaper. */
   *made = cut || round.length < INFINITY;
   if (cut)
     return thr_decomposition_chord(splitting->decomposition, cut_by.walk, cut_by.from, cut_by.end,
@@ -279,6 +286,8 @@ thr_status thr_decomposition_tied(thr_decomposition *decomposition, int n, bool 
 
   thr_status st = thr_junction_graphs_init(&splitting.ties, decomposition->f, walks, err);
   if (!st) st = thr_paths_init(&paths, decomposition->f, err);
+
+  /* First without further passes. */
   if (!st) st = split_shuffled(&splitting, n, err);
 
   /* Each further cord costs passes. */

@@ -85,15 +85,17 @@ static double common_measure(const thr_frame *frame, const int *edge, int n)
 {
   double measure = frame->length[edge[0]], shortest = measure;
 
+  /* What is so much below the shortest length is rounding. */
   for (int i = 1; i < n; i++)
     shortest = fmin(shortest, frame->length[edge[i]]);
 
+  /* Euclid's algorithm on the measure of the lengths so far and the next length. */
   for (int i = 1; i < n; i++)
     for (double a = frame->length[edge[i]], b = measure; b > 0;) {
-      double r = fmod(a, b);
-      if (r < 1e-6 * shortest || b - r < 1e-6 * shortest) r = 0;
+      double remainder = fmod(a, b);
+      if (remainder < 1e-6 * shortest || b - remainder < 1e-6 * shortest) remainder = 0;
       measure = a = b;
-      b = r;
+      b = remainder;
     }
   return measure;
 }
@@ -105,6 +107,8 @@ static double common_measure(const thr_frame *frame, const int *edge, int n)
 static double choose_scale(const thr_frame *frame, const int *edge, int n)
 {
   double sum = 0, units = 0, measure = common_measure(frame, edge, n), most = weight_sum(n);
+
+  /* All lengths together, in units of length and of the measure. */
   for (int i = 0; i < n; i++) {
     sum += frame->length[edge[i]];
     units += nearbyint(frame->length[edge[i]] / measure);
@@ -169,6 +173,7 @@ static thr_status instance_init(const postman_problem *postman, int number,
   int first = postman->start[number], halves = 0;
   *domain = (domain_problem){.n_nodes = postman->start[number + 1] - first};
 
+  /* No more edges than half-edges. */
   for (int j = 0; j < domain->n_nodes; j++)
     halves += thr_degree(frame, postman->node[first + j]);
 
@@ -182,6 +187,7 @@ static thr_status instance_init(const postman_problem *postman, int number,
   thr_status st = thr_scratch_check(&domain->own, err);
   if (st) return st;
 
+  /* Nodes in their order, and the edges between them that have room. */
   for (int j = 0; j < domain->n_nodes; j++) {
     int v = postman->node[first + j];
     domain->odd[j] = postman->odd[v];
@@ -209,14 +215,15 @@ static thr_status take_cuts(const postman_problem *postman, int number, thr_cut 
   if (!all) return thr_nomem(err);
   certificate->cut = all;
 
+  /* Nodes of the domain become nodes of the framework. They ascend within a domain, hence stay
+   * sorted. */
   for (int i = 0; i < *n; i++) {
     thr_cut *to = &certificate->cut[certificate->n_cuts + i];
     *to = (*cut)[i];
     to->value *= times;
     if (to->parent >= 0) to->parent += certificate->n_cuts;
     for (int j = 0; j < to->n_nodes; j++)
-      to->node[j] = postman->node[postman->start[number] +
-                                  to->node[j]]; /* nodes ascend within a domain: still sorted */
+      to->node[j] = postman->node[postman->start[number] + to->node[j]];
     certificate->sum += to->value;
   }
 
@@ -300,6 +307,7 @@ static thr_status solve_domain(postman_problem *postman, int number, thr_err *er
   thr_certificate *certificate =
       &postman->certificate[postman->component[postman->node[postman->start[number]]]];
 
+  /* One node where a cord may end is enough to make the domain an open one. */
   thr_status st = instance_init(postman, number, certificate, &domain, err);
   for (int v = 0; v < domain.n_nodes && !st; v++)
     open |= domain.end_allowed[v];
@@ -448,6 +456,7 @@ static void find_domains(postman_problem *postman, int *key)
   for (int v = 0; v < frame->n_nodes; v++)
     postman->part[v] = postman->domain[v] = v;
 
+  /* Edges with room join the nodes of a part. */
   for (int e = 0; e < frame->n_edges; e++) {
     if (!has_room(postman, e)) continue;
     thr_disjoint_join(postman->part, frame->edge[e][0], frame->edge[e][1]);
@@ -519,10 +528,9 @@ static thr_status postman_init(postman_problem *postman, thr_err *err)
 
   if (!st) st = postman_allocate(postman, err);
   if (!st) {
+    /* Edges by component. */
     for (int e = 0; e < frame->n_edges; e++)
       key[e] = postman->component[frame->edge[e][0]];
-
-    /* Edges by component. */
     group(frame->n_edges, key, postman->n_components, postman->edge_start, postman->edge);
 
     /* Nodes by domain, and the position of each in its domain. */
@@ -556,6 +564,7 @@ static thr_status judge(postman_problem *postman, thr_shortest *out, thr_err *er
                         .certificate = postman->certificate,
                         .confirmed = postman->confirmed};
 
+  /* They are the caller's from here on. */
   postman->passes = NULL;
   postman->certificate = NULL;
 
@@ -592,6 +601,7 @@ thr_status thr_postman_shortest(const thr_frame *frame, const thr_request *optio
   if (!st) st = thr_confirmations_run(counter(&postman), limits, err);
   if (!st) st = judge(&postman, out, err);
 
+  /* Say what is proved of passes that may not be the shortest. */
   if (!st && !out->optimal) {
     char what[sizeof unproved.text + 20];
     snprintf(what, sizeof what, "%s: the cord's length",

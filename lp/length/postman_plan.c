@@ -22,16 +22,18 @@ static thr_status weigh_joins(const thr_frame *frame, const thr_request *options
   thr_status st =
       component ? thr_frame_components(frame, component, &n_components, err) : thr_nomem(err);
 
+  /* The joins are computed anew: cords may have more passes than the shortest ones. */
   for (int k = 0; k < shortest->n_certificates; k++)
     shortest->certificate[k].join = 0;
 
-  /* Less the covers, plus all passes. */
+  /* Less the covers, */
   for (int e = 0; e < frame->n_edges && !st; e++) {
     thr_certificate *certificate = &shortest->certificate[component[frame->edge[e][0]]];
     certificate->join -=
         thr_plan_cover(frame, options, e) * thr_certificate_weight(frame, certificate, e);
   }
 
+  /* plus all passes of the cords. */
   for (int i = 0; i < n_cords && !st; i++)
     for (int k = 0; k < cord[i].n_passes; k++) {
       thr_certificate *certificate = &shortest->certificate[cord[i].component];
@@ -70,6 +72,7 @@ thr_status thr_postman_prove(const thr_frame *frame, const thr_request *options,
                                             &proof->lower_bound, &found),
                      &found, err);
 
+  /* The gap is relative to the cords' length. */
   proof->gap = (length - proof->lower_bound) / length;
   return st;
 }
@@ -85,6 +88,7 @@ static void find_ends(const thr_frame *frame, const int *passes, int *end)
     for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
       sum += passes[frame->half[i] >> 1];
 
+    /* The first odd node, then the second. */
     if (sum % 2) end[end[0] >= 0] = v;
   }
 }
@@ -100,6 +104,7 @@ static thr_status make_cord(const thr_frame *frame, const thr_request *options, 
   if (!(*cord = thr_calloc(1, sizeof **cord))) return thr_nomem(err);
   thr_status st = thr_tour_cord(frame, options, passes, end, *cord, err);
 
+  /* On failure nothing is left allocated. */
   *n_cords = !st;
   if (!st) return THR_OK;
   free(*cord);
@@ -141,9 +146,11 @@ thr_status thr_postman_plan(const thr_frame *frame, const thr_request *options,
     return thr_fail(err, THR_EINPUT,
                     "--cords above 1 needs --objective tortuosity in this version");
 
+  /* Passes that are not proved to be shortest make a plan, too. */
   thr_status proved = thr_postman_shortest(frame, options, limits, &shortest, &local), st = THR_OK;
   if (!proved || proved == THR_ELIMIT) st = assemble(frame, options, &shortest, plan, err);
 
+  /* THR_ELIMIT says why they are not proved. */
   if (!st && proved) st = thr_fail(err, proved, "%s", local.text);
   if (st && st != THR_ELIMIT) thr_plan_destroy(plan);
   thr_shortest_destroy(&shortest);

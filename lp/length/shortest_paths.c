@@ -11,11 +11,14 @@
 thr_status thr_paths_init(thr_paths *paths, const thr_frame *frame, thr_err *err)
 {
   size_t n = (size_t)frame->n_nodes;
+
+  /* Keys of the queue are whole multiples of a unit far below any edge. */
   *paths = (thr_paths){.f = frame,
                        .unit = thr_frame_total_length(frame) * 0x1p-50,
                        .far = thr_calloc(n, sizeof *paths->far),
                        .over = thr_calloc(n, sizeof *paths->over)};
   if (!paths->far || !paths->over) return thr_nomem(err);
+
   thr_paths_clear(paths);
   return THR_OK;
 }
@@ -39,6 +42,8 @@ void thr_paths_clear(thr_paths *paths)
 static thr_status reach(thr_paths *paths, int v, double far, int over, thr_err *err)
 {
   if (far >= paths->far[v]) return THR_OK;
+
+  /* The queue returns the largest key first: lengths are negated. */
   paths->far[v] = far;
   paths->over[v] = over;
   return thr_queue_push(&paths->queue, (thr_queued){-(int64_t)(far / paths->unit), v}, err);
@@ -54,11 +59,15 @@ thr_status thr_paths_spread(thr_paths *paths, const thr_request *options, const 
 {
   const thr_frame *frame = paths->f;
   thr_status st = THR_OK;
+
+  /* The nearest node in the queue first. */
   while (paths->queue.count > 0 && !st) {
     thr_queued at = thr_queue_pop(&paths->queue);
 
-    if (-at.key > (int64_t)(paths->far[at.place] / paths->unit))
-      continue; /* a shorter path was found since */
+    /* An entry is obsolete if a shorter path was found since. */
+    if (-at.key > (int64_t)(paths->far[at.place] / paths->unit)) continue;
+
+    /* Edges with room for so many more passes, as far as `most`. */
     for (int i = frame->first[at.place]; i < frame->first[at.place + 1] && !st; i++) {
       int h = frame->half[i], e = h >> 1;
       double far = paths->far[at.place] + frame->length[e];
@@ -72,6 +81,8 @@ thr_status thr_paths_spread(thr_paths *paths, const thr_request *options, const 
 int thr_paths_back(const thr_paths *paths, int v, int to, int *half)
 {
   int n = 0;
+
+  /* From v to `to`, or to a node where the paths began: each half-edge the other way. */
   for (; v != to && paths->over[v] >= 0; v = thr_tail(paths->f, paths->over[v]), n++)
     if (half) half[n] = paths->over[v] ^ 1;
   return n;
