@@ -82,6 +82,7 @@ static bool exchange(turn_annealer *annealer)
   const thr_frame *frame = annealer->state.c->f;
   const int v = thr_random_below(&annealer->random, frame->n_nodes), degree = thr_degree(frame, v);
   if (degree < 3) return false;
+
   const int a = frame->half[frame->first[v] + thr_random_below(&annealer->random, degree)];
   const int c = frame->half[frame->first[v] + thr_random_below(&annealer->random, degree)];
   const int b = random_partner(annealer, a), d = random_partner(annealer, c);
@@ -112,9 +113,13 @@ static void offer(turn_annealer *annealer, option *best, int less, int less_too,
 {
   const double *cost = annealer->state.cost;
   option offered = {{less, less_too}, {more, more_too}, 0};
+
+  /* The price that the option adds. */
   for (int k = 0; k < 2; k++)
     offered.value += (offered.more[k] >= 0 ? cost[offered.more[k]] : 0) -
                      (offered.less[k] >= 0 ? cost[offered.less[k]] : 0);
+
+  /* Gumbel's noise. */
   offered.value +=
       annealer->heat * log(-log(thr_random_unit(&annealer->random) + DBL_MIN) + DBL_MIN);
   if (offered.value < best->value) *best = offered;
@@ -197,12 +202,15 @@ static void offer_other(turn_annealer *annealer, int v, int p, int q, option *be
 static bool turn_at(turn_annealer *annealer, int v, int p, int by_p, int q, int by_q)
 {
   option best = {.value = INFINITY};
+
+  /* All changes that fit the two half-edges. */
   if (by_p > 0 && by_q > 0) offer_both(annealer, v, p, q, &best);
   if (by_p < 0 && by_q < 0) offer_neither(annealer, v, p, q, &best);
   if (by_p > 0 && by_q < 0) offer_other(annealer, v, p, q, &best);
   if (by_p < 0 && by_q > 0) offer_other(annealer, v, q, p, &best);
   if (best.value == INFINITY) return false;
 
+  /* Make the change that was drawn. */
   for (int k = 0; k < 2; k++) {
     if (best.less[k] >= 0) thr_turn_state_change(&annealer->state, best.less[k], -1);
     if (best.more[k] >= 0) thr_turn_state_change(&annealer->state, best.more[k], 1);
@@ -225,6 +233,7 @@ static bool go_round(turn_annealer *annealer)
 {
   const thr_turning_columns *columns = annealer->state.c;
   if (annealer->cycles->n == 0) return false;
+
   const int i = thr_random_below(&annealer->random, annealer->cycles->n),
             *half = annealer->cycles->half + annealer->cycles->first[i];
   const int n = annealer->cycles->first[i + 1] - annealer->cycles->first[i];
@@ -294,6 +303,7 @@ static void adapt_penalty(turn_annealer *annealer)
   enum { OFTEN = 1000 };
   annealer->whole += annealer->apart == 0;
   if (++annealer->steps < OFTEN) return;
+
   annealer->penalty *= (double)annealer->whole > whole_share * OFTEN ? 0.98 : 1.02;
   annealer->penalty =
       fmin(penalty_most * annealer->unit, fmax(penalty_least * annealer->unit, annealer->penalty));
@@ -306,12 +316,14 @@ static void run(turn_annealer *annealer, int64_t steps, const thr_limits *limits
 {
   enum { LOOK = 256 }; /* steps between two looks at the limits */
   for (int64_t i = 0; i < steps; i++) {
+    /* Look at the limits, and cool. */
     if (i % LOOK == 0) {
       if (thr_limits_stop(limits)) return;
       thr_limits_spend(limits, LOOK * 2e-6);
       annealer->heat =
           annealer->hot * pow(annealer->unit * cold / annealer->hot, (double)i / (double)steps);
     }
+
     step(annealer);
     adapt_penalty(annealer);
   }
@@ -339,9 +351,12 @@ thr_status thr_anneal_turns(const thr_turning_columns *columns, const thr_short_
       annealer.value += x[j] * annealer.state.cost[j];
     const double before = annealer.best_value = annealer.value;
     run(&annealer, steps, limits);
+
+    /* The best state takes the place of x. */
     *better = annealer.best_value < before;
     if (*better) memcpy(x, annealer.best, (size_t)columns->n_columns * sizeof *x);
   }
+
   thr_turn_state_destroy(&annealer.state);
   return st;
 }

@@ -116,6 +116,7 @@ static void reach(flood *search, int e, int source)
 static void begin(flood *search, int half)
 {
   if (half < 0 || search->state->label[half >> 1] >= 0) return;
+
   search->parent[search->n] = search->n;
   search->waiting[search->n] = 0;
   reach(search, half >> 1, search->n++);
@@ -127,6 +128,7 @@ static void meet(flood *search, int a, int b)
   const int waiting = search->waiting[a = thr_disjoint_find(search->parent, a)],
             other = search->waiting[b = thr_disjoint_find(search->parent, b)];
   if (a == b) return;
+
   thr_disjoint_join(search->parent, a, b);
 
   /* The lower root stays, and gets the unexpanded edges of both. */
@@ -140,6 +142,8 @@ static void spread(flood *search, int e, int h)
 {
   const thr_frame *frame = search->state->c->f;
   const int *half = frame->half + frame->first[thr_tail(frame, h)];
+
+  /* Each partner: an edge that is new, or one that some search has reached. */
   for (uint64_t left = search->state->partners[h]; left; left &= left - 1) {
     const int other = half[__builtin_ctzll(left)] >> 1;
     if (search->state->label[other] < 0)
@@ -155,7 +159,8 @@ int thr_turn_parts(thr_turn_state *state)
   flood search = {.state = state};
   for (int i = 0; i < state->n_changes; i++) {
     const int j = state->change[i][0];
-    if (j >= state->c->first_extra) continue;
+    if (j >= state->c->first_extra) continue; /* no turn */
+
     begin(&search, state->c->half[j][0]);
     begin(&search, state->c->half[j][1]);
   }

@@ -43,6 +43,7 @@ static void circuits_destroy(circuits *search)
 static void follow(circuits *search)
 {
   const thr_turning_columns *turning_columns = search->j->c;
+
   thr_threading_follow(&search->threading, search->threading.g->n_darts);
   memset(search->count, 0, (size_t)turning_columns->n_components * sizeof *search->count);
   for (int k = 0; k < search->threading.n_cords; k++) {
@@ -57,11 +58,13 @@ static thr_status circuits_init(circuits *search, thr_join *j, const thr_limits 
 {
   size_t n = (size_t)j->g.n_darts;
   *search = (circuits){.j = j, .limits = limits, .random = 1};
+
   search->count = thr_calloc((size_t)j->c->n_components, sizeof *search->count);
   search->here = thr_calloc(n, sizeof *search->here);
   search->list = thr_calloc(n, sizeof *search->list);
   thr_status st = thr_join_threading(j, &search->threading, err);
   if (!st && !(search->count && search->here && search->list)) st = thr_nomem(err);
+
   if (!st) follow(search);
   return st;
 }
@@ -86,6 +89,7 @@ static int partner_step(int n)
 static void consider_node(circuits *search, int v, int change, thr_exchange *best)
 {
   int n = thr_threading_places(&search->threading, v, search->list), step = partner_step(n);
+
   for (int i = 0; i < n; i++)
     for (int k = i + 1; k < n; k += step)
       for (int crossed = 0; crossed < 2; crossed++) { /* (a b)(c d) has two other pairings */
@@ -103,9 +107,12 @@ static thr_exchange cheapest(circuits *search, int component, int change)
 {
   const thr_turning_columns *turning_columns = search->j->c;
   thr_exchange best = {.extra = INFINITY};
+
   for (int v = 0; v < turning_columns->f->n_nodes; v++) {
     if (turning_columns->component[v] != component) continue;
     consider_node(search, v, change, &best);
+
+    /* Stopped: whatever was found is good enough. */
     if (isfinite(best.extra) && thr_limits_stop(search->limits)) break;
   }
   return best;
@@ -203,6 +210,7 @@ thr_status thr_circuits_make(thr_join *j, const thr_limits *limits, bool *found,
   for (int k = 0; k < j->c->n_components && *found; k++)
     *found = reach(&search, k);
   if (*found) thr_threading_descend(&search.threading, limits, improve_at, &search);
+
   if (!st) thr_join_measure(j);
   circuits_destroy(&search);
   return st;
@@ -297,6 +305,8 @@ static thr_status copy_circuit(adder *adding, const thr_threading *from, int k, 
   thr_cord *cord = &adding->cord[adding->made];
   int n = from->first[k + 1] - from->first[k];
   if (!(cord->half = thr_calloc((size_t)n, sizeof *cord->half))) return thr_nomem(err);
+
+  /* The half-edge that leaves each place. */
   for (int i = 0; i < n; i++) {
     cord->half[i] = from->g->half[place[i].out];
     adding->passes[cord->half[i] >> 1]++;
@@ -334,6 +344,7 @@ thr_status thr_circuits_add(const thr_join *j, const thr_limits *limits, thr_joi
 
   if (!st && *found)
     st = thr_join_from_cords(out, turning_columns, adding.cord, adding.n_cords, err);
+
   circuits_destroy(&from);
   adder_destroy(&adding);
   return st;
@@ -349,6 +360,8 @@ static thr_status cover_edges(adder *adding, int first, bool *found, thr_err *er
   for (int i = 0; i < m; i++)
     while (adding->passes[(first + i) % m] < cover[(first + i) % m]) {
       thr_walk_search_closed(&adding->walks, 2 * ((first + i) % m));
+
+      /* The walk's passes count for all edges that it passes. */
       if (!(*found = thr_walk_search_add(&adding->walks, adding->passes))) return THR_OK;
       thr_status st = take_walk(adding, err);
       if (st) return st;

@@ -174,6 +174,8 @@ static double excess_of_cord(const distinct_search *search, const thr_threading 
   double excess = longest > 0 && search->cord_length[k] > longest * (1 + rounding)
                       ? search->cord_length[k] / longest - 1
                       : 0;
+
+  /* The pull, where it is limited: turning takes longer to compute. */
   if (most == INFINITY) return excess;
   double turning = pulled_turning(search, threading, k);
   if (turning > most * (1 + rounding)) excess += most > 0 ? turning / most - 1 : turning;
@@ -228,6 +230,7 @@ static bool is_better(const distinct_search *search, cost_terms a, cost_terms b)
   int price = compare(a.price, b.price), length = compare(a.length, b.length),
       longest = compare(a.longest, b.longest);
 
+  /* Each term decides only between equals of the terms before. */
   if (a.excess != b.excess) return a.excess < b.excess;
   if (a.lacking != b.lacking) return a.lacking < b.lacking;
   if (thr_wants_balance(search->request) && longest) return longest < 0;
@@ -452,10 +455,13 @@ thr_status thr_distinct_make(const thr_frame *frame, const thr_request *options,
                             .n_cords = n_cords,
                             .random_state = 1};
   incumbent best = {.cord = cord, .objective = worst};
+
+  /* The search changes a copy; cord[] receives what is better. */
   thr_cord *start = NULL;
   thr_status st = thr_cords_copy(cord, n_cords, &start, err);
   if (!st) st = search_init(&search, err);
   if (!st) st = try_all(&search, start, other, &best, err);
+
   thr_cords_destroy(start, n_cords);
   search_destroy(&search);
   return st;

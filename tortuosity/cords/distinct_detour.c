@@ -365,10 +365,13 @@ thr_status thr_distinct_shorten(const thr_frame *frame, const thr_request *optio
 {
   cord_cover cover = {.frame = frame, .request = options, .cord = cord, .n_cords = n_cords};
   if (options->joint == THR_JOINT_TUBE) return THR_OK;
+
+  /* Cord by cord, one circuit after the other, until none can be spared. */
   thr_status st = cover_init(&cover, err);
   for (int i = 0; i < n_cords && !st; i++)
     while (remove_circuit(&cover, &cord[i]))
       ;
+
   cover_destroy(&cover);
   return st;
 }

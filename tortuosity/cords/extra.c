@@ -39,6 +39,7 @@ typedef struct {
   bool *odd;
 } instance;
 
+/* Releases all arrays. */
 static void instance_destroy(instance *join)
 {
   free(join->local);
@@ -84,6 +85,7 @@ static thr_status instance_init(instance *join, const thr_turning_columns *turni
   /* Edges: those of the component, slots with nodes, slots with slots. */
   for (int e = 0; e < frame->n_edges; e++)
     join->n_own += turning_columns->component[frame->edge[e][0]] == k;
+
   size_t edges =
       (size_t)join->n_own + (size_t)join->n_slots * ((size_t)allowed + (size_t)join->n_slots);
   if (edges > (1u << 20))
@@ -175,6 +177,7 @@ static void fill(instance *join, const double *weight, const double *end_weight,
 static int closing_node(const instance *join, const double *end_weight)
 {
   int best = -1;
+
   for (int i = 0; i < join->n_nodes; i++) {
     int v = join->node[i];
     if (join->c->task->end_allowed[v] &&
@@ -233,6 +236,7 @@ static thr_status solve_component(const thr_turning_columns *turning_columns, in
     else
       ends[closing_node(&join, end_weight)] += 2;
   }
+
   thr_tjoin_destroy(&tjoin);
   instance_destroy(&join);
   return st;
@@ -256,6 +260,7 @@ static int move_ends(const thr_turning_columns *turning_columns, int k, const in
 {
   const thr_frame *frame = turning_columns->f;
   int left_out = 0;
+
   for (int v = 0; v < frame->n_nodes; v++) {
     if (turning_columns->component[v] != k || !turning_columns->task->end_allowed[v]) continue;
     int over = -spare_at(frame, v, passes, ends);
@@ -310,6 +315,7 @@ thr_status thr_extra_passes(const thr_turning_columns *turning_columns, const do
                             int *passes, int *ends, thr_err *err)
 {
   thr_status st = THR_OK;
+
   for (int e = 0; e < turning_columns->f->n_edges; e++)
     passes[e] = turning_columns->cover[e];
 
@@ -321,6 +327,8 @@ thr_status thr_extra_passes(const thr_turning_columns *turning_columns, const do
 
   for (int k = 0; k < turning_columns->n_components && !st; k++)
     st = solve_component(turning_columns, k, weight, end_weight, given, limits, passes, ends, err);
+
+  /* Ends that are free must not be more than the passes at their nodes. */
   for (int k = 0;
        k < turning_columns->n_components && !st && turning_columns->task->end_allowed && !count;
        k++)
@@ -333,6 +341,8 @@ void thr_extra_spread_ends(const thr_turning_columns *turning_columns, int *ends
   const thr_frame *frame = turning_columns->f;
   for (int v = 0; v < frame->n_nodes; v++)
     ends[v] = 0;
+
+  /* One end after the other, component by component. */
   for (int k = 0; k < turning_columns->n_components && turning_columns->task->end_allowed; k++)
     for (int i = 0; i < 2 * turning_columns->task->cords; i++) {
       /* The node with fewest ends; one with an odd number of passes and ends counts one end less.
@@ -341,6 +351,7 @@ void thr_extra_spread_ends(const thr_turning_columns *turning_columns, int *ends
       for (int v = 0; v < frame->n_nodes; v++) {
         int own = covers_at(turning_columns, v) + ends[v];
         if (turning_columns->component[v] != k || !turning_columns->task->end_allowed[v]) continue;
+
         int than = best < 0 ? 0 : covers_at(turning_columns, best) + ends[best];
         if (best < 0 || ends[v] - own % 2 < ends[best] - than % 2) best = v;
       }

@@ -296,6 +296,7 @@ static void pair_joined(greedy *search, int v, int n, int pieces)
   for (int i = 0; i < n && i < ENUMERATED; i++)
     free_darts[i] = -1;
 
+  /* All pairings, or exchanges from the cheapest one. */
   if (n <= ENUMERATED)
     try_pairings(search, n, pieces, free_darts, 0, &least, search->pair);
   else

@@ -38,6 +38,7 @@ static thr_status tour_init(ring_tour *cords, thr_join *j, const thr_limits *lim
 {
   size_t n = (size_t)j->g.n_darts;
   *cords = (ring_tour){.j = j, .limits = limits};
+
   thr_status st = thr_join_threading(j, &cords->ring, err);
   cords->ring.mate = thr_calloc(n, sizeof *cords->ring.mate);
   cords->here = thr_calloc(n, sizeof *cords->here);
@@ -74,6 +75,7 @@ static void close_ring(ring_tour *cords, int v)
 static void follow(ring_tour *cords)
 {
   const thr_multigraph *multigraph = &cords->j->g;
+
   memcpy(cords->ring.mate, cords->j->mate, (size_t)multigraph->n_darts * sizeof *cords->ring.mate);
   for (int v = cords->j->c->f->n_nodes; v < multigraph->n_nodes; v++)
     close_ring(cords, v);
@@ -93,6 +95,7 @@ static bool reverse_part(ring_tour *cords, int i, int k)
 {
   thr_exchange x = thr_threading_exchange(&cords->ring, i, k, true);
   if (x.extra >= -enough) return false;
+
   make(cords, &x);
   return true;
 }
@@ -129,6 +132,7 @@ static bool cut_and_join(ring_tour *cords, int i, int k)
   /* The joint may cost what cutting saves, less what counts as a saving. */
   thr_exchange best = cheapest_joint(cords, i < k ? i : k, i < k ? k : i, -x.extra - enough);
   if (best.extra >= -x.extra - enough) return false;
+
   make(cords, &x);
   make(cords, &best);
   return true;
@@ -161,11 +165,14 @@ thr_status thr_improve(thr_join *j, const thr_limits *limits, thr_err *err)
 {
   ring_tour cords;
   thr_status st = tour_init(&cords, j, limits, err);
+
+  /* Node by node, until nothing saves. */
   if (!st) {
     follow(&cords);
     thr_threading_descend(&cords.ring, limits, improve_at, &cords);
   }
   tour_destroy(&cords);
+
   if (!st) thr_join_measure(j);
   return st;
 }

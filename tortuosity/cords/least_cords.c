@@ -54,6 +54,7 @@ static thr_status make_cords(const thr_threading *threading,
           component)
         continue;
 
+      /* Numbers and names are given in the order of the components. */
       st = make_cord(threading, k, &cord[made], err);
       cord[made].component = component;
       thr_cord_id(made, cord[made].id);

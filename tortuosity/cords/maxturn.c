@@ -75,6 +75,7 @@ static thr_status improve_from(turning_search *search, thr_join *j, int steps, t
     if (steps > 0) thr_evener_even(&evener);
     keep_better(search, j, &evener);
   }
+
   thr_threading_destroy(&threading);
   free(best);
   thr_join_destroy(j);
@@ -94,6 +95,7 @@ static void move_ends(turning_search *search)
   /* Virtual edges lead from the nodes with ends to the node of the component's ends. */
   for (int d = 0; d < multigraph->n_darts; d += 2)
     if (multigraph->half[d] < 0) search->ends[multigraph->tail[d]]++;
+
   for (int i = 0; i < moves; i++) {
     /* Draw an end of the best cords, and for the first one the node that both move to. */
     int end = multigraph->tail[multigraph->dart[multigraph->first[n] +
@@ -102,6 +104,8 @@ static void move_ends(turning_search *search)
     while (to < 0 || !turning_columns->task->end_allowed[to] ||
            (i == 0 && turning_columns->component[to] != turning_columns->component[end]))
       to = thr_random_below(&search->state, n);
+
+    /* Ends stay in their component. */
     if (search->ends[end] == 0 || turning_columns->component[to] != turning_columns->component[end])
       continue;
     search->ends[end]--;
@@ -293,6 +297,7 @@ static thr_status copy_best(const turning_search *search, thr_join *j, thr_err *
   thr_cord *cord = NULL;
   int n = thr_join_count(&search->best);
   *j = (thr_join){0};
+
   if (!(cord = thr_calloc((size_t)n, sizeof *cord))) return thr_nomem(err);
   thr_status st = thr_join_cords(&search->best, cord, n, err);
   if (!st) st = thr_join_from_cords(j, search->c, cord, n, err);
@@ -351,6 +356,8 @@ static thr_status take_cords(const thr_frame *frame, const thr_join *j, thr_leas
                              thr_err *err)
 {
   thr_least made = {.task = plan->task, .end_allowed = plan->end_allowed};
+
+  /* On failure the plan keeps its cords. */
   thr_status st = thr_least_cords(frame, j, &made, err);
   if (st) {
     free(made.cord);
@@ -419,6 +426,8 @@ static thr_status search_init(turning_search *search, const thr_turning_columns 
                               double bound, thr_err *err)
 {
   size_t m = (size_t)turning_columns->f->n_edges;
+
+  /* The plan's largest turning is the scale of the powers. */
   *search = (turning_search){.c = turning_columns,
                              .limits = limits,
                              .bound = bound,
@@ -426,6 +435,7 @@ static thr_status search_init(turning_search *search, const thr_turning_columns 
                              .largest = INFINITY,
                              .value = INFINITY,
                              .state = 1};
+
   search->passes = thr_calloc(m, sizeof *search->passes);
   search->weight = thr_calloc(m, sizeof *search->weight);
   search->point = thr_calloc((size_t)turning_columns->n_columns, sizeof *search->point);
@@ -433,11 +443,14 @@ static thr_status search_init(turning_search *search, const thr_turning_columns 
   search->bound_of = thr_calloc((size_t)turning_columns->n_components, sizeof *search->bound_of);
   if (!search->passes || !search->weight || !search->point || !search->ends || !search->bound_of)
     return thr_nomem(err);
+
+  /* Bounds, and the plan's cords as the best so far. */
   thr_status st = find_bounds(search, plan, err);
   if (st) return st;
   return thr_join_from_cords(&search->best, turning_columns, plan->cord, plan->n_cords, err);
 }
 
+/* Releases the arrays and the best cords. */
 static void search_destroy(turning_search *search)
 {
   thr_join_destroy(&search->best);
@@ -486,6 +499,7 @@ static thr_anneal_task annealing(const turning_search *search, int first, int ro
 {
   enum { MOST_STEPS = 10000000, STEPS = 33333 };       /* STEPS: for a pass */
   const double near = fmax(1e-9, search->limits->gap); /* of the bound */
+
   return (thr_anneal_task){
       .measure = THR_WALK_TURNING,
       .steps = (int)fmin(MOST_STEPS, (double)STEPS * search->best.g.n_darts),
@@ -527,6 +541,7 @@ static thr_status anneal_cords(turning_search *search, const thr_frame *frame, t
 
   if (!may_anneal(search, frame, plan, &task)) return THR_OK;
 
+  /* A copy, which is considered if it is better. */
   thr_status st = thr_cords_copy(plan->cord, plan->n_cords, &cord, err);
   if (!st) st = thr_anneal(search->c, &task, &share, cord, plan->n_cords, &better, err);
   if (!st && better) st = consider(search, frame, plan, cord, 0, err);
@@ -550,10 +565,13 @@ static thr_status do_one(void *user, int job, const thr_limits *limits, thr_err 
   side_by_side *jobs = user;
   turning_search *search = jobs->search;
   thr_least *plan = jobs->plan;
+
+  /* Annealing changes a copy of the plan's cords. */
   if (job == 1)
     return thr_anneal(search->c, &jobs->task, limits, jobs->cooled, plan->n_cords, &jobs->fell,
                       err);
 
+  /* The programme raises the bound, and offers cords. */
   const thr_walk_ask ask = {THR_WALK_TURNING, plan->cord,           plan->n_cords,
                             jobs->least,      most_turning(search), search->motions};
   return thr_walk_bound(search->c, &ask, limits, &plan->proof.walks, &search->bound, &jobs->better,

@@ -144,9 +144,12 @@ static thr_status replace_cords(const thr_walk_programme *programme, const thr_c
                                 int n_cords, thr_cord *walk, thr_cord **all, thr_err *err)
 {
   thr_status st = thr_cords_copy(cord, n_cords, all, err);
+
+  /* The walks take the places of the component's cords in their order. */
   for (int i = 0, k = 0; i < n_cords && !st; i++) {
     if (programme->c->component[thr_tail(programme->c->f, cord[i].half[0])] != programme->component)
       continue;
+
     free((*all)[i].half);
     (*all)[i].half = walk[k].half;
     (*all)[i].n_passes = walk[k].n_passes;
@@ -194,6 +197,8 @@ static thr_status look_below(thr_walk_programme *programme, const thr_cord *cord
   thr_cord *walk = thr_calloc((size_t)programme->cords, sizeof *walk);
   bool found = false, wide = largest > near_enough * bound;
   uint64_t random = 1;
+
+  /* First a dive that takes the largest columns. */
   thr_status st =
       walk ? thr_walk_dive(programme, units, NULL, 0, walk, &found, err) : thr_nomem(err);
 
@@ -202,6 +207,7 @@ static thr_status look_below(thr_walk_programme *programme, const thr_cord *cord
        i++)
     st = thr_walk_dive(programme, units, &random, 0, walk, &found, err);
   if (!st && !found && wide) st = thr_walk_choose(programme, units, walk, &found, err);
+
   if (!st && found) st = keep_better(programme, cord, n_cords, walk, largest, passes, better, err);
   thr_cords_destroy(walk, programme->cords);
   return st;
@@ -329,12 +335,15 @@ static thr_status merge_images(thr_walk_programme *programme, thr_orbits_motions
 {
   const thr_frame *frame = programme->c->f;
   if (!motions || programme->n_variables <= MOST_DENSE) return THR_OK;
+
+  /* The lowest image stands for all. */
   int *edge = thr_calloc((size_t)frame->n_edges, sizeof *edge),
       *node = thr_calloc((size_t)frame->n_nodes, sizeof *node);
   thr_status st = edge && node
                       ? thr_orbits_lowest(programme->c, motions, programme->limits, edge, node, err)
                       : thr_nomem(err);
   if (!st) st = thr_walk_programme_merge(programme, edge, node, err);
+
   free(edge);
   free(node);
   return st;

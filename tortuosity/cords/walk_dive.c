@@ -123,6 +123,7 @@ static thr_status fill_up(walk_dive *dive, const thr_pool *pool, thr_err *err)
 {
   const thr_row *least = NULL;
   thr_status st = THR_OK;
+
   for (int i = 0; i < pool->count; i++)
     if (!least || pool->row[i].n_members < least->n_members) least = &pool->row[i];
 
@@ -137,6 +138,7 @@ static void take_off(walk_dive *dive, const thr_cord *cord)
   const thr_walk_programme *programme = dive->programme;
   const thr_frame *frame = programme->c->f;
   double *left = dive->left;
+
   for (int i = 0; i < cord->n_passes; i++) {
     const int h = cord->half[i], end[] = {thr_tail(frame, h), thr_head(frame, h)};
 
@@ -168,6 +170,7 @@ static thr_status first_walks(thr_walk_programme *programme, thr_err *err)
   thr_status st = thr_walk_programme_rounds(programme, ROUNDS, err);
   programme->limits = limits;
 
+  /* The optimum over the walks that are known. */
   if (programme->search.outcome == THR_LP_STOPPED && !thr_limits_stop(limits))
     programme->search.outcome = THR_LP_OPTIMAL;
   return st;
@@ -182,6 +185,7 @@ static thr_status run(walk_dive *dive, bool *found, thr_err *err)
   thr_walk_programme *programme = dive->programme;
   const bool few = programme->per_cord > 0;
   thr_status st = THR_OK;
+
   for (int taken = 1, step = 0; taken > 0 && !st && !is_covered(dive); step++) {
     /* Solve for what is left; most walks are found in the first step. */
     for (int j = 0; j < programme->n_variables; j++)
@@ -197,6 +201,7 @@ static thr_status run(walk_dive *dive, bool *found, thr_err *err)
     if (!few && -programme->search.objective > programme->cords - dive->n_cords + 1e-6) break;
     st = take_some(dive, &taken, err);
   }
+
   /* What is kept may do all that is needed before a walk is known: then there is none to fill up
    * with. */
   *found = !st && is_covered(dive) &&
@@ -222,6 +227,7 @@ thr_status thr_walk_dive(thr_walk_programme *programme, int units, uint64_t *ran
   /* Kept cords have done their part before the dive begins. */
   for (int i = 0; i < kept && !st; i++)
     take_off(&dive, &cord[i]);
+
   programme->to_exclude = false;
   if (!st) st = thr_walk_programme_begin(programme, units, dear, err);
   if (!st) st = run(&dive, found, err);
@@ -232,6 +238,7 @@ thr_status thr_walk_dive(thr_walk_programme *programme, int units, uint64_t *ran
     free(cord[i].half);
     cord[i] = (thr_cord){0};
   }
+
   free(dive.left);
   free(dive.cost);
   return st;
@@ -247,6 +254,8 @@ static thr_status make_choice(const thr_walk_programme *programme, const int *wa
   double *cost = thr_calloc((size_t)n, sizeof *cost), *value = thr_calloc((size_t)n, sizeof *value);
   int *column = thr_calloc((size_t)n, sizeof *column);
   thr_status st = cost && value && column ? THR_OK : thr_nomem(err);
+
+  /* Every walk is one cord. */
   for (int i = 0; i < n && !st; i++)
     cost[i] = 1;
   if (!st) st = thr_lp_create(lp, n, cost, NULL, err);
@@ -254,6 +263,7 @@ static thr_status make_choice(const thr_walk_programme *programme, const int *wa
   /* The pool has walks as rows; edges are rows here. */
   for (int j = 0; j < programme->n_edges && !st; j++) {
     int entries = 0;
+
     for (int i = 0; i < n; i++) {
       const thr_row *row = &programme->walks.row[walk[i]];
       for (int k = 0; k < row->n; k++)
@@ -264,6 +274,7 @@ static thr_status make_choice(const thr_walk_programme *programme, const int *wa
     }
     st = thr_lp_add_row(*lp, entries, column, value, programme->right[j], err);
   }
+
   free(cost);
   free(value);
   free(column);
@@ -290,6 +301,8 @@ thr_status thr_walk_choose(thr_walk_programme *programme, int units, thr_cord *c
   /* Known walks of at most so many units. */
   for (int i = 0; i < programme->walks.count && !st; i++)
     if (programme->walks.row[i].index <= units) walk[n++] = i;
+
+  /* The relaxation first, then whole numbers; both in part of the time. */
   if (!st && n > 0) st = make_choice(programme, walk, n, &lp, err);
   if (!st && n > 0) st = thr_lp_solve(lp, &share, &outcome, err);
   if (!st && outcome == THR_LP_OPTIMAL) st = thr_lp_solve_integer(lp, &share, &outcome, err);
@@ -302,6 +315,7 @@ thr_status thr_walk_choose(thr_walk_programme *programme, int units, thr_cord *c
         st = take(&dive, &programme->walks.row[walk[i]], err);
     if (!st) st = fill_up(&dive, &programme->walks, err);
   }
+
   thr_lp_destroy(lp);
   free(dive.left);
   free(walk);

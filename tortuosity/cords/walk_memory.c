@@ -146,6 +146,7 @@ static int find_rounds(const thr_walk_programme *programme, int *last, walk_roun
   const thr_search *search = &programme->search;
   const double little = 1e-3;
   int n = 0;
+
   for (int i = 0; i < search->pool.count && i < search->n_dual; i++) {
     const thr_row *row = &search->pool.row[i];
     if (search->dual[i] < little) continue;
@@ -182,6 +183,8 @@ static thr_status add_round(thr_walk_programme *programme, const walk_round *rou
 {
   thr_walk_memory *list = list_of(programme, round->half[round->from] >> 1);
   thr_status st = list ? THR_OK : thr_nomem(err);
+
+  /* From behind the first pass of the edge to before the second. */
   for (int k = round->from; k < round->to && !st; k++) {
     const int place = place_after(programme, round->half[k]);
     bool is_new = false;

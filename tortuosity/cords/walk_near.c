@@ -49,11 +49,14 @@ static int most_expensive(const neighbourhood_search *search)
 static void count_meetings(neighbourhood_search *search, int with)
 {
   const thr_frame *frame = search->programme->c->f;
+
+  /* The nodes of the one cord. */
   memset(search->seen, 0, (size_t)frame->n_nodes * sizeof *search->seen);
   for (int k = 0; k < search->cord[with].n_passes; k++)
     search->seen[thr_tail(frame, search->cord[with].half[k])] =
         search->seen[thr_head(frame, search->cord[with].half[k])] = true;
 
+  /* How often each cord arrives at one of them. */
   for (int i = 0; i < search->programme->cords; i++) {
     search->meets[i] = 0;
     for (int k = 0; k < search->cord[i].n_passes; k++)

@@ -373,8 +373,11 @@ static const thr_walk_step *best_step(const thr_walk_programme *programme, int r
   for (int k = steps->first[i]; k < steps->first[i + 1]; k++) {
     const thr_walk_step *step = &steps->step[k];
     if (step->units > units) continue;
+
+    /* The sum of prices from the step on; equal ones leave the first. */
     const int64_t on = table[thr_walk_entry(step->to, units - step->units, levels)];
     if (thr_walk_is_none(on) || on + step->worth <= most) continue;
+
     most = on + step->worth;
     best = step;
   }
@@ -389,10 +392,12 @@ static const thr_walk_step *cut_step(const thr_walk_programme *programme, int ru
   const thr_walk_step *best = NULL;
   int64_t most = end_worth(programme, run, i, true);
 
+  /* Behind the cut turn the walk has all units of the limit. */
   for (int k = steps->first[i]; k < steps->first[i + 1]; k++) {
     const int64_t on = table_of(programme, true)[thr_walk_entry(steps->step[k].to, programme->units,
                                                                 thr_walk_levels(programme->units))];
     if (thr_walk_is_none(on) || on + steps->step[k].worth <= most) continue;
+
     most = on + steps->step[k].worth;
     best = &steps->step[k];
   }
@@ -458,6 +463,7 @@ thr_row thr_walk_programme_row(const thr_walk_programme *programme, thr_pool *po
   return row;
 }
 
+/* A walk that was traced through the table. */
 typedef struct {
   int n, units; /* passes, in programme->half; with a pull units are those of the larger side of the
                    cut turn */
@@ -471,8 +477,11 @@ static traced_walk trace_walk(thr_walk_programme *programme, int run, const thr_
   traced_walk walk = {0};
   int left = programme->units;
   bool last = programme->steps.measure != THR_WALK_PULL;
+
   while (step) {
     const int i = step->to;
+
+    /* The pass, its units and its price. */
     programme->half[walk.n++] = step->half;
     left -= step->units;
     if (programme->units - left > walk.units) walk.units = programme->units - left;
@@ -507,6 +516,7 @@ static int sort_starts(thr_walk_programme *programme, int run, int most)
 {
   const thr_walk_step *first;
   int n = 0, count = thr_walk_firsts(&programme->steps, run, &first);
+
   for (int i = 0; i < count; i++) {
     const thr_walk_start here = {worth_of(programme, &first[i]), &first[i]};
 
@@ -527,6 +537,7 @@ static void judge_lengths(thr_walk_programme *programme, const double *x, int64_
   const double bound =
       thr_walk_pull_bound(&programme->steps, &programme->trial, programme->cords, worth);
   if (bound <= programme->best) return;
+
   programme->best = bound;
   for (int j = 0; j < programme->n_variables; j++)
     programme->middle[j] = x[j];
@@ -552,6 +563,7 @@ static void judge_prices(thr_walk_programme *programme, const double *x, double 
   programme->excluded = needed > programme->cords * worth * (1 + 1e-9) &&
                         thr_walk_component(programme->c, &programme->trial) == programme->component;
 
+  /* Farley's bound: a fraction, which rounds up to a number of cords. */
   if (needed / worth <= programme->best) return;
   programme->best = needed / worth;
   for (int j = 0; j < programme->n_variables; j++)
@@ -629,11 +641,14 @@ thr_status thr_walk_programme_look(thr_walk_programme *programme, const double *
 thr_status thr_walk_programme_find(thr_walk_programme *programme, int *added, thr_err *err)
 {
   thr_status st = THR_OK;
+
+  /* Without a bound there are no best prices to smooth with. */
   if (programme->to_exclude && programme->best > 0) {
     for (int j = 0; j < programme->n_variables; j++)
       programme->try[j] = .3 * programme->x[j] + .7 * programme->middle[j];
     st = thr_walk_programme_look(programme, programme->try, added, err);
   }
+
   return st || programme->excluded || *added > 0
              ? st
              : thr_walk_programme_look(programme, programme->x, added, err);
@@ -678,9 +693,12 @@ thr_status thr_walk_programme_middle(thr_walk_programme *programme, thr_err *err
 static thr_status carry_walks(const thr_pool *from, int units, thr_pool *to, thr_err *err)
 {
   thr_status st = THR_OK;
+
   for (int i = 0; i < from->count && !st; i++) {
     const thr_row *row = &from->row[i];
     if (row->index > units || thr_pool_knows(to, row->name)) continue;
+
+    /* The entries first, then the row that owns them. */
     for (int k = 0; k < row->n; k++)
       thr_pool_put(to, row->column[k], row->value ? row->value[k] : 1);
     st = thr_pool_add(to,

@@ -18,11 +18,14 @@ thr_status thr_walk_search_init(thr_walk_search *walk_search,
 {
   size_t darts = 2 * (size_t)turning_columns->f->n_edges;
   *walk_search = (thr_walk_search){.c = turning_columns};
+
+  /* Labels of all half-edges; no stamp is a search's number yet. */
   walk_search->by = thr_calloc(darts, sizeof *walk_search->by);
   walk_search->stamp = thr_calloc(darts, sizeof *walk_search->stamp);
   walk_search->queue = thr_calloc(darts, sizeof *walk_search->queue);
   walk_search->length = thr_calloc(darts, sizeof *walk_search->length);
   walk_search->half = thr_calloc(darts, sizeof *walk_search->half);
+
   return walk_search->by && walk_search->stamp && walk_search->queue && walk_search->length &&
                  walk_search->half
              ? THR_OK
