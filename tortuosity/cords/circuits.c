@@ -70,9 +70,9 @@ static thr_status circuits_init(circuits *search, thr_join *j, const thr_limits 
 }
 
 /* Makes an exchange, whose broken pairs go to `old`, and follows the circuits again. */
-static void make(circuits *search, const thr_exchange *x, thr_broken *old)
+static void make(circuits *search, const thr_exchange *exchange, thr_broken *old)
 {
-  thr_threading_make(&search->threading, x, old);
+  thr_threading_make(&search->threading, exchange, old);
   follow(search);
 }
 
@@ -93,11 +93,11 @@ static void consider_node(circuits *search, int v, int change, thr_exchange *bes
   for (int i = 0; i < n; i++)
     for (int k = i + 1; k < n; k += step)
       for (int crossed = 0; crossed < 2; crossed++) { /* (a b)(c d) has two other pairings */
-        thr_exchange x =
+        thr_exchange exchange =
             thr_threading_exchange(&search->threading, search->list[i], search->list[k], crossed);
-        if (x.change == change && x.extra < best->extra - 1e-12 &&
-            thr_threading_allows(&search->threading, &x))
-          *best = x;
+        if (exchange.change == change && exchange.extra < best->extra - 1e-12 &&
+            thr_threading_allows(&search->threading, &exchange))
+          *best = exchange;
       }
 }
 
@@ -134,10 +134,10 @@ static void exchange_any(circuits *search, int component)
     if (other == i) continue;
 
     /* The exchange may change the number of circuits, too. */
-    thr_exchange x =
+    thr_exchange exchange =
         thr_threading_exchange(&search->threading, i, other, thr_random(&search->random) % 2);
-    if (!thr_threading_allows(&search->threading, &x)) continue;
-    make(search, &x, NULL);
+    if (!thr_threading_allows(&search->threading, &exchange)) continue;
+    make(search, &exchange, NULL);
     return;
   }
 }
@@ -154,9 +154,9 @@ static bool reach(circuits *search, int component)
     if (abs(change) > search->j->c->task->cords && thr_limits_stop(search->limits)) return false;
 
     /* Cut one circuit, or join two. */
-    thr_exchange x = cheapest(search, component, change > 0 ? 1 : -1);
-    if (isfinite(x.extra)) {
-      make(search, &x, NULL);
+    thr_exchange exchange = cheapest(search, component, change > 0 ? 1 : -1);
+    if (isfinite(exchange.extra)) {
+      make(search, &exchange, NULL);
       continue;
     }
 
@@ -177,19 +177,20 @@ static bool improve_at(void *of, int v)
   for (int i = 0; i < n && !thr_limits_stop(search->limits); i++)
     for (int k = i + 1; k < n; k += step)
       for (int crossed = 0; crossed < 2; crossed++) {
-        thr_exchange x =
+        thr_exchange exchange =
             thr_threading_exchange(&search->threading, search->here[i], search->here[k], crossed);
         thr_broken old = {0};
 
         /* The first exchange has to save by itself. */
-        if (x.extra >= -enough || !thr_threading_allows(&search->threading, &x)) continue;
-        make(search, &x, &old);
-        if (x.change == 0) return true;
+        if (exchange.extra >= -enough || !thr_threading_allows(&search->threading, &exchange))
+          continue;
+        make(search, &exchange, &old);
+        if (exchange.change == 0) return true;
 
         /* The cheapest exchange that restores the number, given the first one. */
-        thr_exchange y = cheapest(search, component, -x.change);
-        if (x.extra + y.extra < -enough) {
-          make(search, &y, NULL);
+        thr_exchange second = cheapest(search, component, -exchange.change);
+        if (exchange.extra + second.extra < -enough) {
+          make(search, &second, NULL);
           return true;
         }
 

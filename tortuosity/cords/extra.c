@@ -319,7 +319,7 @@ thr_status thr_extra_passes(const thr_turning_columns *turning_columns, const do
   for (int e = 0; e < turning_columns->f->n_edges; e++)
     passes[e] = turning_columns->cover[e];
 
-  /* Ends that the task counts, or the caller gives, stay where they are. */
+  /* Ends that the task counts, or the caller gives, are not chosen here. */
   const int *count = turning_columns->task->end_count;
   given |= count != NULL;
   for (int v = 0; v < turning_columns->f->n_nodes && (!given || count); v++)

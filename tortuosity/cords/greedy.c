@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bouchet's greedy algorithm on the multigraph of passes: a pairing of
- * the passes at every node such that all passes of a component are one circuit. See Math.
- * Programming 38, 1987.
+/* Pairs the passes at every node such that all passes of a component are one circuit, by Bouchet's
+ * greedy algorithm (Greedy algorithm and symmetric matroids, Math. Programming 38, 1987).
  *
  * Every node has a cheapest pairing of its passes. Nodes are taken by decreasing regret, which is
  * how much more than the cheapest pairing the next one costs, and get the cheapest pairing that

@@ -83,20 +83,20 @@ static void follow(ring_tour *cords)
 }
 
 /* Makes an exchange in j's own pairs; the rings are to be followed again. */
-static void make(ring_tour *cords, const thr_exchange *x)
+static void make(ring_tour *cords, const thr_exchange *exchange)
 {
-  thr_set_pair(cords->j->mate, x->made[0], x->made[1]);
-  thr_set_pair(cords->j->mate, x->made[2], x->made[3]);
+  thr_set_pair(cords->j->mate, exchange->made[0], exchange->made[1]);
+  thr_set_pair(cords->j->mate, exchange->made[2], exchange->made[3]);
 }
 
 /* Runs the part between two places of one node the other way round if that saves. Says whether the
  * tour has changed. */
 static bool reverse_part(ring_tour *cords, int i, int k)
 {
-  thr_exchange x = thr_threading_exchange(&cords->ring, i, k, true);
-  if (x.extra >= -enough) return false;
+  thr_exchange exchange = thr_threading_exchange(&cords->ring, i, k, true);
+  if (exchange.extra >= -enough) return false;
 
-  make(cords, &x);
+  make(cords, &exchange);
   return true;
 }
 
@@ -113,10 +113,11 @@ static thr_exchange cheapest_joint(const ring_tour *cords, int i, int k, double 
 
     /* Pairs of a place in the part with a place outside of the part. */
     int n = thr_threading_places(threading, v, cords->list);
-    for (int y = 0; y < n; y++)
-      for (int crossed = 1; crossed >= 0 && (cords->list[y] < i || cords->list[y] > k); crossed--) {
-        thr_exchange x = thr_threading_exchange(threading, p, cords->list[y], crossed);
-        if (x.extra < best.extra - 1e-12) best = x;
+    for (int other = 0; other < n; other++)
+      for (int crossed = 1; crossed >= 0 && (cords->list[other] < i || cords->list[other] > k);
+           crossed--) {
+        thr_exchange exchange = thr_threading_exchange(threading, p, cords->list[other], crossed);
+        if (exchange.extra < best.extra - 1e-12) best = exchange;
       }
   }
   return best;
@@ -126,14 +127,14 @@ static thr_exchange cheapest_joint(const ring_tour *cords, int i, int k, double 
  * costs. Says whether the tour has changed. */
 static bool cut_and_join(ring_tour *cords, int i, int k)
 {
-  thr_exchange x = thr_threading_exchange(&cords->ring, i, k, false);
-  if (x.extra >= -enough) return false;
+  thr_exchange exchange = thr_threading_exchange(&cords->ring, i, k, false);
+  if (exchange.extra >= -enough) return false;
 
   /* The joint may cost what cutting saves, less what counts as a saving. */
-  thr_exchange best = cheapest_joint(cords, i < k ? i : k, i < k ? k : i, -x.extra - enough);
-  if (best.extra >= -x.extra - enough) return false;
+  thr_exchange best = cheapest_joint(cords, i < k ? i : k, i < k ? k : i, -exchange.extra - enough);
+  if (best.extra >= -exchange.extra - enough) return false;
 
-  make(cords, &x);
+  make(cords, &exchange);
   make(cords, &best);
   return true;
 }
@@ -183,11 +184,12 @@ static bool exchange_back(ring_tour *cords, int v)
   int n = thr_threading_places(&cords->ring, v, cords->here);
   for (int i = 0; i < n; i++)
     for (int k = 0; k < n && cords->ring.place[cords->here[i]].price >= thr_join_forbidden; k++) {
-      thr_exchange x = thr_threading_exchange(&cords->ring, cords->here[i], cords->here[k], true);
+      thr_exchange exchange =
+          thr_threading_exchange(&cords->ring, cords->here[i], cords->here[k], true);
 
       /* Only an exchange that saves a forbidden pair lowers the price by so much. */
-      if (k == i || x.extra > -thr_join_forbidden / 2) continue;
-      make(cords, &x);
+      if (k == i || exchange.extra > -thr_join_forbidden / 2) continue;
+      make(cords, &exchange);
       return true;
     }
   return false;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The multigraph of passes and cord ends, and pairings of its darts from columns, from tied nodes
- * or from cords.
+/* Makes the multigraph of passes and cord ends, and pairs its darts as columns, tied nodes or cords
+ * say.
  *
  * Every pass is an edge of the multigraph; a cord end is a virtual edge to one more node, the end
  * node of its component. A pairing says at every node which pass continues into which; cords are

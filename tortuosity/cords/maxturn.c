@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The largest turning of any cord, which is what the hand feels with several cords, each pulled at
- * both ends: cords that make it small, and lower bounds.
+/* Lowers the largest turning of any cord, which is what the hand feels with several cords, each
+ * pulled at both ends, and bounds this turning from below.
  *
  * The largest of K sums whose total is at least T is at least T / K; an edge that some cord has to
  * pass gives another bound (thr_walk_forced), and the programme over walks a third (walk_bound.c).

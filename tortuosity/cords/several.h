@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Several cords: chosen together, the one that turns most as little as possible, different from
- * each other. */
+/* Several cords: plans to start from, cords whose largest turning or pull is small, and cords that
+ * differ over every edge.
+ *
+ * Read join.h first. several.c makes plans of several closed cords; maxturn.c lowers the largest
+ * turning by exchanges, annealing and the walk model (walk_model.h), maxturn_small.c does so
+ * exactly in small frameworks; distinct_cords.c and distinct_detour.c exchange passes between cords
+ * until enough different cords pass every edge. */
 #ifndef THR_SEVERAL_H
 #define THR_SEVERAL_H
 

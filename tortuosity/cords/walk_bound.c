@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lower bounds on the turning of the cord that turns most, on the length of the longest cord, or on
- * the largest pull, and cords little above such a bound.
+/* Computes lower bounds on the turning of the cord that turns most, on the length of the longest
+ * cord, or on the largest pull, and cords little above such a bound.
  *
  * A limit is excluded if the walks below it are too few for all edges: the programme over walks
  * (walk_programme.c) proves that. The bound is the highest limit that is excluded, found by

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cords chosen from the columns of a programme over walks: by a diving heuristic, and by an integer
- * programme over the known walks. Internal to tortuosity/.
+/* Chooses cords from the columns of a programme over walks: by a diving heuristic, and by an
+ * integer programme over the known walks. Internal to tortuosity/.
  *
  * A dive solves the programme, fixes the columns of value 1, or else one other column, subtracts
  * from the right sides what the walks of these columns do, and solves the programme again with a

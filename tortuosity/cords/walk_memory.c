@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the walks of a programme remember, so that a walk does not earn an edge's price again and
- * again by going round the edge. Internal to tortuosity/.
+/* Makes the walks of a programme remember edges, so that a walk does not earn an edge's price again
+ * and again by going round the edge. Internal to tortuosity/.
  *
  * The recursion over walks is a relaxation: a walk that passes an edge twice counts as two of the
  * passes that plans need, although an edge with one needed pass is served by the first. Where the

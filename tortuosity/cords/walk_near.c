@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cords near known ones: large neighbourhood search around the most expensive cord. Internal to
+/* Improves known cords by large neighbourhood search around the most expensive one. Internal to
  * tortuosity/.
  *
  * The most expensive cord of a component and one to three others that share nodes with it are

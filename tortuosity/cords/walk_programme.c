@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A linear programme over the walks that the cords of one component can be, below a limit on their
- * turning, their length or their pull. Internal to tortuosity/.
+/* Builds and solves a linear programme over the walks that the cords of one component can be, below
+ * a limit on their turning, their length or their pull. Internal to tortuosity/.
  *
  * The primal programme has a column for every walk between two nodes where cords may end, or for
  * every closed walk. A column costs 1, because a walk is a cord. Rows say that every edge has the

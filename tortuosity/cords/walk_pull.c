@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How long all cords together must be if each keeps to a limit on the pull, and how many cords such
- * a limit takes, by the programme over walks.
+/* Bounds from below the length of all cords together if each keeps to a limit on the pull, and the
+ * number of cords that such a limit takes, by the programme over walks.
  *
  * The programme (walk_programme.c) has a column for every walk within the limit. The cost of a
  * column is the walk's length where the total length is bounded, or where few and short cords are

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Short walks that make one more cord, without U-turns except at nodes with one edge. Internal to
- * tortuosity/.
+/* Finds short walks that make one more cord, without U-turns except at nodes with one edge.
+ * Internal to tortuosity/.
  *
  * A closed walk of fewest edges through a given half-edge is found by breadth-first search over
  * half-edges, which forbids U-turns by construction. A shortest open walk between two nodes where
