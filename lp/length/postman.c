@@ -30,8 +30,8 @@ static double weight_sum(int n)
 
 /* The whole problem: parts, domains and what is computed. */
 typedef struct {
-  const thr_frame *f;
-  const thr_request *o;
+  const thr_frame *frame;
+  const thr_request *request;
   const thr_limits *limits;
   int n_components;
   thr_scratch own;        /* what is no result */
@@ -51,22 +51,23 @@ typedef struct {
 /* Returns where confirmations are counted, or NULL if none are asked for. */
 static thr_confirmations *counter(postman_problem *postman)
 {
-  postman->confirmed.always = postman->o->confirm == THR_CONFIRM_ALWAYS;
-  bool asked = postman->o->confirm != THR_CONFIRM_NEVER && thr_wants_length(postman->o) &&
-               postman->o->joint == THR_JOINT_SOLID;
+  postman->confirmed.always = postman->request->confirm == THR_CONFIRM_ALWAYS;
+  bool asked = postman->request->confirm != THR_CONFIRM_NEVER &&
+               thr_wants_length(postman->request) && postman->request->joint == THR_JOINT_SOLID;
   return asked ? &postman->confirmed : NULL;
 }
 
 /* Returns whether cords may end at allowed nodes, with any number of ends at each. */
 static bool ends_free(const postman_problem *postman)
 {
-  return postman->o->ends != THR_ENDS_CLOSED && postman->o->ends != THR_ENDS_COUNTS;
+  return postman->request->ends != THR_ENDS_CLOSED && postman->request->ends != THR_ENDS_COUNTS;
 }
 
 /* Returns whether an edge may have more passes than its cover. */
 static bool has_room(const postman_problem *postman, int e)
 {
-  return thr_plan_capacity(postman->f, postman->o, e) > thr_plan_cover(postman->f, postman->o, e);
+  return thr_plan_capacity(postman->frame, postman->request, e) >
+         thr_plan_cover(postman->frame, postman->request, e);
 }
 
 /* The T-join problem of one domain, over the edges with room. */
@@ -148,12 +149,12 @@ static thr_status radius(const postman_problem *postman, int number,
     /* A breadth-first search in the part of the root. */
     for (int at = 0; at < tail; at++) {
       int v = postman->node[first + queue[at]];
-      for (int i = postman->f->first[v]; i < postman->f->first[v + 1]; i++) {
-        int h = postman->f->half[i], other = postman->local[thr_head(postman->f, h)];
+      for (int i = postman->frame->first[v]; i < postman->frame->first[v + 1]; i++) {
+        int h = postman->frame->half[i], other = postman->local[thr_head(postman->frame, h)];
 
         if (!has_room(postman, h >> 1) || far[other] >= 0) continue;
         queue[tail++] = other;
-        far[other] = far[queue[at]] + thr_certificate_weight(postman->f, certificate, h >> 1);
+        far[other] = far[queue[at]] + thr_certificate_weight(postman->frame, certificate, h >> 1);
         if (far[other] > *longest) *longest = far[other];
       }
     }
@@ -169,7 +170,7 @@ static thr_status instance_init(const postman_problem *postman, int number,
                                 const thr_certificate *certificate, domain_problem *domain,
                                 thr_err *err)
 {
-  const thr_frame *frame = postman->f;
+  const thr_frame *frame = postman->frame;
   int first = postman->start[number], halves = 0;
   *domain = (domain_problem){.n_nodes = postman->start[number + 1] - first};
 
@@ -191,7 +192,7 @@ static thr_status instance_init(const postman_problem *postman, int number,
   for (int j = 0; j < domain->n_nodes; j++) {
     int v = postman->node[first + j];
     domain->odd[j] = postman->odd[v];
-    domain->end_allowed[j] = ends_free(postman) && thr_plan_end_allowed(frame, postman->o, v);
+    domain->end_allowed[j] = ends_free(postman) && thr_plan_end_allowed(frame, postman->request, v);
     for (int i = frame->first[v]; i < frame->first[v + 1]; i++) {
       int h = frame->half[i];
 
@@ -255,8 +256,8 @@ static thr_status solve_closed(postman_problem *postman, int number, const domai
       domain->n_nodes, domain->n_edges, (const int(*)[2])domain->edge,
       domain->weight,  domain->odd,     0};
 
-  thr_status st = thr_tjoin_minimum(&tjoin_problem, postman->o->engine, postman->limits, &tjoin,
-                                    err),
+  thr_status st = thr_tjoin_minimum(&tjoin_problem, postman->request->engine, postman->limits,
+                                    &tjoin, err),
              taken = THR_OK;
   if (!st) st = thr_confirmations_add(counter(postman), &tjoin_problem, &tjoin, err);
 
@@ -280,9 +281,9 @@ static thr_status solve_open(postman_problem *postman, int number, const domain_
                                                    (const int(*)[2])domain->edge, domain->weight,
                                                    domain->odd, 0},
                                          .end_allowed = domain->end_allowed,
-                                         .engine = postman->o->engine,
+                                         .engine = postman->request->engine,
                                          .count = counter(postman),
-                                         .n_ends = 2 * postman->o->cords};
+                                         .n_ends = 2 * postman->request->cords};
 
   thr_status st = radius(postman, number, certificate, &endjoin_problem.far, err), taken = THR_OK;
   endjoin_problem.far++;
@@ -324,10 +325,10 @@ static thr_status solve_domain(postman_problem *postman, int number, thr_err *er
 /* Fails if an edge has a capacity below its cover. */
 static thr_status check_room(const postman_problem *postman, thr_err *err)
 {
-  const thr_frame *frame = postman->f;
+  const thr_frame *frame = postman->frame;
   for (int e = 0; e < frame->n_edges; e++) {
-    int least = thr_plan_cover(frame, postman->o, e),
-        most = thr_plan_capacity(frame, postman->o, e);
+    int least = thr_plan_cover(frame, postman->request, e),
+        most = thr_plan_capacity(frame, postman->request, e);
     if (least > most)
       return thr_fail(
           err, THR_EINFEASIBLE,
@@ -340,7 +341,7 @@ static thr_status check_room(const postman_problem *postman, thr_err *err)
 /* Fails, and names a full edge that leaves a part. */
 static thr_status no_room(const postman_problem *postman, int part, const char *why, thr_err *err)
 {
-  const thr_frame *frame = postman->f;
+  const thr_frame *frame = postman->frame;
   int e = 0;
   while (e + 1 < frame->n_edges &&
          (postman->part[frame->edge[e][0]] == part) == (postman->part[frame->edge[e][1]] == part))
@@ -350,16 +351,16 @@ static thr_status no_room(const postman_problem *postman, int part, const char *
                   "edge %s-%s is full with %d %s, as is every edge out of the part with node %s, "
                   "which needs one more pass %s",
                   frame->name[frame->edge[e][0]], frame->name[frame->edge[e][1]],
-                  thr_plan_cover(frame, postman->o, e),
-                  thr_plan_cover(frame, postman->o, e) == 1 ? "pass" : "passes", frame->name[part],
-                  why);
+                  thr_plan_cover(frame, postman->request, e),
+                  thr_plan_cover(frame, postman->request, e) == 1 ? "pass" : "passes",
+                  frame->name[part], why);
 }
 
 /* Fails where the odd nodes of a part are odd in number and no cord may end there, as extra passes
  * cannot leave a part; or where more cords would have to end than there are. */
 static thr_status check_parts(const postman_problem *postman, thr_err *err)
 {
-  const thr_frame *frame = postman->f;
+  const thr_frame *frame = postman->frame;
   size_t n = (size_t)frame->n_nodes;
   bool *odd = thr_calloc(n, sizeof *odd), *open = thr_calloc(n, sizeof *open);
   int *ends = thr_calloc(n, sizeof *ends);
@@ -368,7 +369,8 @@ static thr_status check_parts(const postman_problem *postman, thr_err *err)
   /* Each part: whether its number of odd nodes is odd, and whether a cord may end there. */
   for (int v = 0; v < frame->n_nodes && !st; v++) {
     odd[postman->part[v]] ^= postman->odd[v];
-    open[postman->part[v]] |= ends_free(postman) && thr_plan_end_allowed(frame, postman->o, v);
+    open[postman->part[v]] |=
+        ends_free(postman) && thr_plan_end_allowed(frame, postman->request, v);
   }
 
   /* A part that is odd takes one end. */
@@ -376,7 +378,7 @@ static thr_status check_parts(const postman_problem *postman, thr_err *err)
     if (!odd[v]) continue; /* only roots are marked */
     if (!open[v])
       st = no_room(postman, v, "to make their number even", err);
-    else if (++ends[postman->component[v]] > 2 * postman->o->cords)
+    else if (++ends[postman->component[v]] > 2 * postman->request->cords)
       st = no_room(postman, v, "or more cords to end there", err);
   }
 
@@ -390,7 +392,7 @@ static thr_status check_parts(const postman_problem *postman, thr_err *err)
  * many cords as asked for. */
 static thr_status check_ends(const postman_problem *postman, thr_err *err)
 {
-  const thr_frame *frame = postman->f;
+  const thr_frame *frame = postman->frame;
   int *ends = thr_calloc((size_t)postman->n_components, sizeof *ends),
       *first = thr_calloc((size_t)postman->n_components, sizeof *first);
   thr_status st = ends && first ? THR_OK : thr_nomem(err);
@@ -398,9 +400,9 @@ static thr_status check_ends(const postman_problem *postman, thr_err *err)
   /* How many ends there can be, or are given, in each component. */
   for (int v = frame->n_nodes - 1; v >= 0 && !st; v--) {
     first[postman->component[v]] = v;
-    ends[postman->component[v]] += postman->o->ends == THR_ENDS_COUNTS
-                                       ? postman->o->end_count[v]
-                                       : thr_plan_end_allowed(frame, postman->o, v);
+    ends[postman->component[v]] += postman->request->ends == THR_ENDS_COUNTS
+                                       ? postman->request->end_count[v]
+                                       : thr_plan_end_allowed(frame, postman->request, v);
   }
 
   /* Counted ends have to be two for each of as many cords as asked for. */
@@ -413,12 +415,13 @@ static thr_status check_ends(const postman_problem *postman, thr_err *err)
                     "--ends, or use "
                     "--ends closed",
                     name);
-    else if (postman->o->ends == THR_ENDS_COUNTS &&
-             (ends[k] % 2 || ends[k] / 2 > postman->o->cords ||
-              ends[k] / 2 < postman->o->cords_least))
+    else if (postman->request->ends == THR_ENDS_COUNTS &&
+             (ends[k] % 2 || ends[k] / 2 > postman->request->cords ||
+              ends[k] / 2 < postman->request->cords_least))
       st = thr_fail(err, THR_EINFEASIBLE,
                     "the component with node %s: %d cord ends do not make %d %s; each has two",
-                    name, ends[k], postman->o->cords, postman->o->cords == 1 ? "cord" : "cords");
+                    name, ends[k], postman->request->cords,
+                    postman->request->cords == 1 ? "cord" : "cords");
   }
 
   free(ends);
@@ -451,7 +454,7 @@ static void group(int n_items, const int *key, int n_keys, int *start, int *item
 /* Finds parts and domains; leaves in key[n_nodes] the number of each node's domain. */
 static void find_domains(postman_problem *postman, int *key)
 {
-  const thr_frame *frame = postman->f;
+  const thr_frame *frame = postman->frame;
 
   for (int v = 0; v < frame->n_nodes; v++)
     postman->part[v] = postman->domain[v] = v;
@@ -467,7 +470,7 @@ static void find_domains(postman_problem *postman, int *key)
   for (int k = 0; k < postman->n_components; k++)
     key[k] = -1; /* a node of this component where cords may end */
   for (int v = 0; v < frame->n_nodes && ends_free(postman); v++) {
-    if (!thr_plan_end_allowed(frame, postman->o, v)) continue;
+    if (!thr_plan_end_allowed(frame, postman->request, v)) continue;
     int *end = &key[postman->component[v]];
     if (*end >= 0) thr_disjoint_join(postman->domain, *end, v);
     *end = v;
@@ -484,7 +487,7 @@ static void find_domains(postman_problem *postman, int *key)
 /* Allocates the arrays. */
 static thr_status postman_allocate(postman_problem *postman, thr_err *err)
 {
-  size_t n = (size_t)postman->f->n_nodes, e = (size_t)postman->f->n_edges,
+  size_t n = (size_t)postman->frame->n_nodes, e = (size_t)postman->frame->n_edges,
          k = (size_t)postman->n_components;
   postman->edge_start = thr_scratch_array(&postman->own, k + 2, sizeof *postman->edge_start);
   postman->edge = thr_scratch_array(&postman->own, e, sizeof *postman->edge);
@@ -507,7 +510,7 @@ static void start_certificates(postman_problem *postman)
     thr_certificate *certificate = &postman->certificate[k];
     certificate->component = k;
     certificate->denominator = ends_free(postman) ? 2 * THR_DUAL_DENOMINATOR : THR_DUAL_DENOMINATOR;
-    certificate->scale = choose_scale(postman->f, postman->edge + postman->edge_start[k],
+    certificate->scale = choose_scale(postman->frame, postman->edge + postman->edge_start[k],
                                       postman->edge_start[k + 1] - postman->edge_start[k]);
   }
 }
@@ -515,7 +518,7 @@ static void start_certificates(postman_problem *postman)
 /* Finds components, parts, domains and odd nodes, with the covers as passes. */
 static thr_status postman_init(postman_problem *postman, thr_err *err)
 {
-  const thr_frame *frame = postman->f;
+  const thr_frame *frame = postman->frame;
 
   size_t most = (size_t)(frame->n_nodes > frame->n_edges ? frame->n_nodes : frame->n_edges);
 
@@ -542,9 +545,10 @@ static thr_status postman_init(postman_problem *postman, thr_err *err)
 
     /* A counted end makes its node odd, and so does each pass of a cover. */
     for (int v = 0; v < frame->n_nodes; v++)
-      postman->odd[v] = postman->o->ends == THR_ENDS_COUNTS && postman->o->end_count[v] % 2;
+      postman->odd[v] =
+          postman->request->ends == THR_ENDS_COUNTS && postman->request->end_count[v] % 2;
     for (int e = 0; e < frame->n_edges; e++) {
-      postman->passes[e] = thr_plan_cover(frame, postman->o, e);
+      postman->passes[e] = thr_plan_cover(frame, postman->request, e);
       for (int i = 0; i < 2; i++)
         postman->odd[frame->edge[e][i]] ^= postman->passes[e] % 2 != 0;
     }
@@ -568,9 +572,9 @@ static thr_status judge(postman_problem *postman, thr_shortest *out, thr_err *er
   postman->passes = NULL;
   postman->certificate = NULL;
 
-  for (int e = 0; e < postman->f->n_edges; e++)
-    out->length += out->passes[e] * postman->f->length[e];
-  return thr_check_own(thr_check_length_of_passes(postman->f, postman->o, out->passes,
+  for (int e = 0; e < postman->frame->n_edges; e++)
+    out->length += out->passes[e] * postman->frame->length[e];
+  return thr_check_own(thr_check_length_of_passes(postman->frame, postman->request, out->passes,
                                                   out->certificate, out->n_certificates,
                                                   &out->optimal, &out->lower_bound, &found),
                        &found, err);
@@ -579,7 +583,7 @@ static thr_status judge(postman_problem *postman, thr_shortest *out, thr_err *er
 thr_status thr_postman_shortest(const thr_frame *frame, const thr_request *options,
                                 const thr_limits *limits, thr_shortest *out, thr_err *err)
 {
-  postman_problem postman = {.f = frame, .o = options, .limits = limits};
+  postman_problem postman = {.frame = frame, .request = options, .limits = limits};
   *out = (thr_shortest){0};
   thr_err unproved = {0}; /* why the first unproved domain is not proved */
   thr_status st = postman_init(&postman, err);

@@ -23,7 +23,7 @@ static const double enough = 1e-9; /* smaller savings are rounding */
 
 /* A multigraph whose pairs are exchanged, and its circuits, followed. */
 typedef struct {
-  thr_join *j;
+  thr_join *join;
   thr_threading threading;
   const thr_limits *limits;
   int *count;       /* [n_components] circuits */
@@ -42,7 +42,7 @@ static void circuits_destroy(circuits *search)
 /* Follows all circuits again, and counts them by components. */
 static void follow(circuits *search)
 {
-  const thr_turning_columns *turning_columns = search->j->c;
+  const thr_turning_columns *turning_columns = search->join->c;
 
   thr_threading_follow(&search->threading, search->threading.g->n_darts);
   memset(search->count, 0, (size_t)turning_columns->n_components * sizeof *search->count);
@@ -57,7 +57,7 @@ static thr_status circuits_init(circuits *search, thr_join *j, const thr_limits 
                                 thr_err *err)
 {
   size_t n = (size_t)j->g.n_darts;
-  *search = (circuits){.j = j, .limits = limits, .random = 1};
+  *search = (circuits){.join = j, .limits = limits, .random = 1};
 
   search->count = thr_calloc((size_t)j->c->n_components, sizeof *search->count);
   search->here = thr_calloc(n, sizeof *search->here);
@@ -105,7 +105,7 @@ static void consider_node(circuits *search, int v, int change, thr_exchange *bes
  * as far as the limits let it look; extra is infinite if there is none. */
 static thr_exchange cheapest(circuits *search, int component, int change)
 {
-  const thr_turning_columns *turning_columns = search->j->c;
+  const thr_turning_columns *turning_columns = search->join->c;
   thr_exchange best = {.extra = INFINITY};
 
   for (int v = 0; v < turning_columns->f->n_nodes; v++) {
@@ -125,7 +125,7 @@ static void exchange_any(circuits *search, int component)
   for (int k = 0; k < TRIES; k++) {
     int i = (int)(thr_random(&search->random) % (uint64_t)search->threading.n_places),
         v = search->threading.g->tail[search->threading.place[i].in];
-    if (search->j->c->component[v] != component) continue;
+    if (search->join->c->component[v] != component) continue;
 
     /* Another place of the same node. */
     int n = thr_threading_places(&search->threading, v, search->list);
@@ -149,9 +149,9 @@ static bool reach(circuits *search, int component)
 {
   enum { SHAKES = 100 };
   for (int shakes = 0;;) {
-    int change = search->j->c->task->cords - search->count[component];
+    int change = search->join->c->task->cords - search->count[component];
     if (change == 0) return true;
-    if (abs(change) > search->j->c->task->cords && thr_limits_stop(search->limits)) return false;
+    if (abs(change) > search->join->c->task->cords && thr_limits_stop(search->limits)) return false;
 
     /* Cut one circuit, or join two. */
     thr_exchange exchange = cheapest(search, component, change > 0 ? 1 : -1);
@@ -172,7 +172,7 @@ static bool reach(circuits *search, int component)
 static bool improve_at(void *of, int v)
 {
   circuits *search = of;
-  int component = search->j->c->component[v],
+  int component = search->join->c->component[v],
       n = thr_threading_places(&search->threading, v, search->here), step = partner_step(n);
   for (int i = 0; i < n && !thr_limits_stop(search->limits); i++)
     for (int k = i + 1; k < n; k += step)
@@ -221,7 +221,7 @@ thr_status thr_circuits_make(thr_join *j, const thr_limits *limits, bool *found,
 
 /* Closed cords that are collected one after the other, with the passes of all of them. */
 typedef struct {
-  const thr_turning_columns *c;
+  const thr_turning_columns *columns;
   thr_cord *cord;    /* [n_cords] owned */
   int n_cords, made; /* room for cords; cords so far */
   int *passes;       /* [n_edges] borrowed */
@@ -238,7 +238,7 @@ static void adder_destroy(adder *adding)
 static thr_status adder_init(adder *adding, const thr_turning_columns *turning_columns, int *passes,
                              int n_cords, thr_err *err)
 {
-  *adding = (adder){.c = turning_columns, .n_cords = n_cords, .passes = passes};
+  *adding = (adder){.columns = turning_columns, .n_cords = n_cords, .passes = passes};
   adding->cord = thr_calloc((size_t)n_cords, sizeof *adding->cord);
   return adding->cord ? thr_walk_search_init(&adding->walks, turning_columns, err) : thr_nomem(err);
 }
@@ -246,7 +246,7 @@ static thr_status adder_init(adder *adding, const thr_turning_columns *turning_c
 /* Returns the price of the walk found last; infinite if the walk needs more passes than allowed. */
 static double walk_price(const adder *adding)
 {
-  const thr_turning_task *turning_task = adding->c->task;
+  const thr_turning_task *turning_task = adding->columns->task;
   const thr_walk_search *walk_search = &adding->walks;
   double price = 0;
   if (!thr_walk_search_add(walk_search, adding->passes)) return INFINITY;
@@ -254,9 +254,9 @@ static double walk_price(const adder *adding)
   /* Turns and passes; the passes are taken off again. */
   for (int i = 0; i < walk_search->n; i++) {
     int h = walk_search->half[i];
-    price += thr_turn_price(adding->c->f, turning_task->cost, h,
+    price += thr_turn_price(adding->columns->f, turning_task->cost, h,
                             walk_search->half[(i + 1) % walk_search->n]) +
-             turning_task->price_per_length * adding->c->f->length[h >> 1];
+             turning_task->price_per_length * adding->columns->f->length[h >> 1];
     adding->passes[h >> 1]--;
   }
   return price;
@@ -278,13 +278,13 @@ static thr_status take_walk(adder *adding, thr_err *err)
 static thr_status add_walk(adder *adding, int component, const thr_limits *limits, bool *found,
                            thr_err *err)
 {
-  const thr_frame *frame = adding->c->f;
+  const thr_frame *frame = adding->columns->f;
   double least = INFINITY;
   int best = -1;
 
   /* One walk for each edge. */
   for (int h = 0; h < 2 * frame->n_edges; h += 2) {
-    if (adding->c->component[thr_tail(frame, h)] != component) continue;
+    if (adding->columns->component[thr_tail(frame, h)] != component) continue;
     thr_walk_search_closed(&adding->walks, h);
     double price = walk_price(adding);
     if (price < least - 1e-12) least = price, best = h;
@@ -355,7 +355,7 @@ thr_status thr_circuits_add(const thr_join *j, const thr_limits *limits, thr_joi
  * edge number `first`. *found becomes false where a walk has no room. */
 static thr_status cover_edges(adder *adding, int first, bool *found, thr_err *err)
 {
-  const int m = adding->c->f->n_edges, *cover = adding->c->cover;
+  const int m = adding->columns->f->n_edges, *cover = adding->columns->cover;
   memset(adding->passes, 0, (size_t)m * sizeof *adding->passes);
 
   for (int i = 0; i < m; i++)

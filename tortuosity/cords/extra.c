@@ -29,7 +29,7 @@ double thr_extra_length(const thr_turning_columns *turning_columns, const int *p
 /* The T-join problem of one component: its edges, then edges from slots to end nodes, then edges
  * between slots. */
 typedef struct {
-  const thr_turning_columns *c;
+  const thr_turning_columns *columns;
   int component;
   int n_nodes, n_own, n_edges, n_slots; /* n_own: edges of the component */
   int *local, *node; /* [frame nodes] position in the component; [n_nodes] frame node */
@@ -58,7 +58,7 @@ static thr_status instance_init(instance *join, const thr_turning_columns *turni
   const thr_frame *frame = turning_columns->f;
   size_t n = (size_t)frame->n_nodes;
   int allowed = 0;
-  *join = (instance){.c = turning_columns,
+  *join = (instance){.columns = turning_columns,
                      .component = k,
                      .n_slots = turning_columns->task->end_allowed && !given
                                     ? 2 * turning_columns->task->cords
@@ -119,7 +119,7 @@ static int covers_at(const thr_turning_columns *turning_columns, int v)
  * each more expensive than all others together, stay within what lp/tjoin/tjoin.h takes. */
 static void fill(instance *join, const double *weight, const double *end_weight, const int *ends)
 {
-  const thr_frame *frame = join->c->f;
+  const thr_frame *frame = join->columns->f;
   assert(join->edge && join->weight && join->what && join->odd);
   const double whole =
       exp2(fmin(44, floor(50 - log2(2 + 2.0 * join->n_slots * (join->n_nodes + join->n_slots)))));
@@ -128,9 +128,9 @@ static void fill(instance *join, const double *weight, const double *end_weight,
   /* The sum of all weights. */
   int full = 0; /* edges that may have no extra pass: each costs more than all others together */
   for (int e = 0; e < frame->n_edges; e++) {
-    if (join->c->component[frame->edge[e][0]] != join->component) continue;
-    full += join->c->most[e] == join->c->cover[e];
-    if (join->c->most[e] > join->c->cover[e]) sum += weight[e];
+    if (join->columns->component[frame->edge[e][0]] != join->component) continue;
+    full += join->columns->most[e] == join->columns->cover[e];
+    if (join->columns->most[e] > join->columns->cover[e]) sum += weight[e];
   }
 
   /* The scale from weights to integers. */
@@ -146,9 +146,10 @@ static void fill(instance *join, const double *weight, const double *end_weight,
       int h = frame->half[k];
       if (h % 2 == 0)
         add_edge(join, i, join->local[thr_head(frame, h)],
-                 (int64_t)nearbyint(
-                     (join->c->most[h >> 1] > join->c->cover[h >> 1] ? weight[h >> 1] : forbidden) *
-                     scale),
+                 (int64_t)nearbyint((join->columns->most[h >> 1] > join->columns->cover[h >> 1]
+                                         ? weight[h >> 1]
+                                         : forbidden) *
+                                    scale),
                  h >> 1);
     }
 
@@ -157,7 +158,7 @@ static void fill(instance *join, const double *weight, const double *end_weight,
   int64_t slot = (int64_t)whole + 1;
   for (int s = 0; s < join->n_slots; s++) {
     for (int i = 0; i < join->n_nodes; i++)
-      if (join->c->task->end_allowed[join->node[i]])
+      if (join->columns->task->end_allowed[join->node[i]])
         add_edge(
             join, i, join->n_nodes + s,
             slot + (end_weight && most > 0 ? (int64_t)(end_weight[join->node[i]] / most * 64) : 0),
@@ -170,7 +171,8 @@ static void fill(instance *join, const double *weight, const double *end_weight,
   /* T: nodes whose passes and ends together are odd. */
   for (int i = 0; i < join->n_nodes; i++)
     join->odd[i] =
-        (covers_at(join->c, join->node[i]) + (join->n_slots ? 0 : ends[join->node[i]])) % 2 != 0;
+        (covers_at(join->columns, join->node[i]) + (join->n_slots ? 0 : ends[join->node[i]])) % 2 !=
+        0;
 }
 
 /* Returns the allowed node of least weight, for a cord whose two ends are at one node. */
@@ -180,7 +182,7 @@ static int closing_node(const instance *join, const double *end_weight)
 
   for (int i = 0; i < join->n_nodes; i++) {
     int v = join->node[i];
-    if (join->c->task->end_allowed[v] &&
+    if (join->columns->task->end_allowed[v] &&
         (best < 0 || (end_weight && end_weight[v] < end_weight[best])))
       best = v;
   }

@@ -28,7 +28,7 @@ typedef struct {
 
 /* The state of the greedy algorithm, and its scratch arrays. */
 typedef struct {
-  thr_join *j;
+  thr_join *join;
   int *place;   /* [n_darts] number of a dart at its node */
   int *link;    /* [n_darts] dart at the other end of the chain of passes that starts with this one;
                    pairs made are inside chains */
@@ -52,7 +52,7 @@ static thr_status greedy_init(greedy *search, thr_join *j, int apart, thr_err *e
 {
   const thr_multigraph *multigraph = &j->g;
   size_t n = (size_t)multigraph->n_nodes;
-  *search = (greedy){.j = j};
+  *search = (greedy){.join = j};
 
   /* The largest node, and the largest one whose prices are all looked at. */
   for (int v = 0; v < j->c->f->n_nodes; v++) {
@@ -95,7 +95,7 @@ static void fill_prices(greedy *search, const int *dart, int n)
   for (int i = 0; i < n; i++)
     for (int k = 0; k < n; k++)
       search->price[i * n + k] =
-          i == k ? thr_join_forbidden : thr_join_price(search->j, dart[i], dart[k]);
+          i == k ? thr_join_forbidden : thr_join_price(search->join, dart[i], dart[k]);
 }
 
 /* Returns the price of the better exchange of pairs (a, b) and (c, d); *cross says whether it pairs
@@ -133,7 +133,7 @@ static int by_regret(const void *pa, const void *pb)
  * makes them come last; very large ones are not priced. */
 static thr_status pair_node(greedy *search, int v, thr_err *err)
 {
-  const thr_multigraph *multigraph = &search->j->g;
+  const thr_multigraph *multigraph = &search->join->g;
   const int *dart = multigraph->dart + multigraph->first[v];
   int n = multigraph->first[v + 1] - multigraph->first[v];
   search->order[v] = (ranked){-1, v};
@@ -154,18 +154,19 @@ static thr_status pair_node(greedy *search, int v, thr_err *err)
 /* Fills mate with the cheapest pairing of every node, and sorts the nodes by decreasing regret. */
 static thr_status rank_nodes(greedy *search, thr_err *err)
 {
-  const thr_multigraph *multigraph = &search->j->g;
+  const thr_multigraph *multigraph = &search->join->g;
   thr_status st = THR_OK;
-  for (int v = 0; v < search->j->c->f->n_nodes && !st; v++) {
+  for (int v = 0; v < search->join->c->f->n_nodes && !st; v++) {
     const int *dart = multigraph->dart + multigraph->first[v];
     int n = multigraph->first[v + 1] - multigraph->first[v];
     st = pair_node(search, v, err);
 
     /* From positions at the node to darts. */
     for (int i = 0; i < n && !st; i++)
-      search->j->mate[dart[i]] = dart[search->pair[i]];
+      search->join->mate[dart[i]] = dart[search->pair[i]];
   }
-  if (!st) qsort(search->order, (size_t)search->j->c->f->n_nodes, sizeof *search->order, by_regret);
+  if (!st)
+    qsort(search->order, (size_t)search->join->c->f->n_nodes, sizeof *search->order, by_regret);
   return st;
 }
 
@@ -173,7 +174,7 @@ static thr_status rank_nodes(greedy *search, thr_err *err)
  * from all of them at the same time, until they are one set or nothing is left to see. */
 static void find_ports(greedy *search, int v, const int *dart, int n)
 {
-  const thr_multigraph *multigraph = &search->j->g;
+  const thr_multigraph *multigraph = &search->join->g;
   int left = n, head = 0, tail = 0, now = ++search->searches;
   search->stamp[v] = now;
   for (int i = 0; i < n; i++)
@@ -291,7 +292,7 @@ static void pair_joined(greedy *search, int v, int n, int pieces)
   enum { ENUMERATED = 8 };
   int free_darts[ENUMERATED];
   double least = INFINITY;
-  fill_prices(search, search->j->g.dart + search->j->g.first[v], n);
+  fill_prices(search, search->join->g.dart + search->join->g.first[v], n);
   for (int i = 0; i < n && i < ENUMERATED; i++)
     free_darts[i] = -1;
 
@@ -306,17 +307,17 @@ static void pair_joined(greedy *search, int v, int n, int pieces)
  * chains that the node pairs. */
 static void settle_node(greedy *search, int v)
 {
-  const thr_multigraph *multigraph = &search->j->g;
+  const thr_multigraph *multigraph = &search->join->g;
   const int *dart = multigraph->dart + multigraph->first[v];
   int n = multigraph->first[v + 1] - multigraph->first[v];
   for (int i = 0; i < n; i++)
-    search->pair[i] = search->place[search->j->mate[dart[i]]];
+    search->pair[i] = search->place[search->join->mate[dart[i]]];
 
   /* Another pairing only if the cheapest one cuts off more pieces than the component has to spare.
    */
   if (n <= HUB) {
     find_ports(search, v, dart, n);
-    int *spare = &search->spare[search->j->c->component[v]], most = *spare < n ? *spare + 1 : n;
+    int *spare = &search->spare[search->join->c->component[v]], most = *spare < n ? *spare + 1 : n;
     if (join_pairs(search, n, search->pair) > most) pair_joined(search, v, n, most);
     *spare -= join_pairs(search, n, search->pair) - 1;
   }
@@ -324,7 +325,7 @@ static void settle_node(greedy *search, int v)
   /* Two chains become one at each pair. */
   for (int i = 0; i < n; i++) {
     int a = dart[i], b = dart[search->pair[i]];
-    search->j->mate[a] = b;
+    search->join->mate[a] = b;
     if (search->pair[i] < i) continue;
     int p = search->link[a], q = search->link[b];
     search->link[p] = q;

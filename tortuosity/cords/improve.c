@@ -18,7 +18,7 @@ static const double enough = 1e-9; /* smaller savings are rounding */
 /* The cords, with their ends paired at the end nodes in the order of the cords, so that the open
  * cords of a component are one circuit, too. The pairs of ends are never exchanged. */
 typedef struct {
-  thr_join *j;
+  thr_join *join;
   thr_threading ring; /* its mates are owned: those of j, and pairs at the end nodes */
   const thr_limits *limits;
   int *here, *list; /* [n_darts] scratch */
@@ -37,7 +37,7 @@ static void tour_destroy(ring_tour *cords)
 static thr_status tour_init(ring_tour *cords, thr_join *j, const thr_limits *limits, thr_err *err)
 {
   size_t n = (size_t)j->g.n_darts;
-  *cords = (ring_tour){.j = j, .limits = limits};
+  *cords = (ring_tour){.join = j, .limits = limits};
 
   thr_status st = thr_join_threading(j, &cords->ring, err);
   cords->ring.mate = thr_calloc(n, sizeof *cords->ring.mate);
@@ -50,8 +50,8 @@ static thr_status tour_init(ring_tour *cords, thr_join *j, const thr_limits *lim
  * next. */
 static void close_ring(ring_tour *cords, int v)
 {
-  const thr_multigraph *multigraph = &cords->j->g;
-  const int *mate = cords->j->mate;
+  const thr_multigraph *multigraph = &cords->join->g;
+  const int *mate = cords->join->mate;
   int *ring = cords->ring.mate, first = -1, far = -1;
   for (int i = multigraph->first[v]; i < multigraph->first[v + 1]; i++) {
     int near = multigraph->dart[i], d = near;
@@ -74,10 +74,11 @@ static void close_ring(ring_tour *cords, int v)
 /* Closes the cords to rings at the end nodes, and follows the rings. */
 static void follow(ring_tour *cords)
 {
-  const thr_multigraph *multigraph = &cords->j->g;
+  const thr_multigraph *multigraph = &cords->join->g;
 
-  memcpy(cords->ring.mate, cords->j->mate, (size_t)multigraph->n_darts * sizeof *cords->ring.mate);
-  for (int v = cords->j->c->f->n_nodes; v < multigraph->n_nodes; v++)
+  memcpy(cords->ring.mate, cords->join->mate,
+         (size_t)multigraph->n_darts * sizeof *cords->ring.mate);
+  for (int v = cords->join->c->f->n_nodes; v < multigraph->n_nodes; v++)
     close_ring(cords, v);
   thr_threading_follow(&cords->ring, multigraph->n_darts);
 }
@@ -85,8 +86,8 @@ static void follow(ring_tour *cords)
 /* Makes an exchange in j's own pairs; the rings are to be followed again. */
 static void make(ring_tour *cords, const thr_exchange *exchange)
 {
-  thr_set_pair(cords->j->mate, exchange->made[0], exchange->made[1]);
-  thr_set_pair(cords->j->mate, exchange->made[2], exchange->made[3]);
+  thr_set_pair(cords->join->mate, exchange->made[0], exchange->made[1]);
+  thr_set_pair(cords->join->mate, exchange->made[2], exchange->made[3]);
 }
 
 /* Runs the part between two places of one node the other way round if that saves. Says whether the

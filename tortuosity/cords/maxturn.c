@@ -24,7 +24,7 @@
 /* The search for cords whose largest turning is small: the bound, the best cords so far, and
  * scratch. */
 typedef struct {
-  const thr_turning_columns *c;
+  const thr_turning_columns *columns;
   const thr_limits *limits;
   double bound, scale;
   double enough; /* rad that an end may have to overcome (thr_cord_pulled_turning); 0: the less the
@@ -86,7 +86,7 @@ static thr_status improve_from(turning_search *search, thr_join *j, int steps, t
  * may be, or two to the same one. */
 static void move_ends(turning_search *search)
 {
-  const thr_turning_columns *turning_columns = search->c;
+  const thr_turning_columns *turning_columns = search->columns;
   const thr_multigraph *multigraph = &search->best.g;
   int n = turning_columns->f->n_nodes, virtual_darts = multigraph->n_darts - multigraph->first[n],
       to = -1, moves = 1 + thr_random_below(&search->state, 2);
@@ -116,7 +116,7 @@ static void move_ends(turning_search *search)
 /* Fills search->ends with ends at random, two for each cord of every component. */
 static void scatter_ends(turning_search *search)
 {
-  const thr_turning_columns *turning_columns = search->c;
+  const thr_turning_columns *turning_columns = search->columns;
   int n = turning_columns->f->n_nodes;
   memset(search->ends, 0, (size_t)n * sizeof *search->ends);
 
@@ -134,9 +134,9 @@ static void scatter_ends(turning_search *search)
  * allowed, over the feet alone: often a symmetric choice. */
 static void spread_ends(turning_search *search, bool at_feet)
 {
-  const thr_frame *frame = search->c->f;
-  thr_turning_task task = *search->c->task;
-  thr_turning_columns turning_columns = *search->c; /* with the other task, nothing more */
+  const thr_frame *frame = search->columns->f;
+  thr_turning_task task = *search->columns->task;
+  thr_turning_columns turning_columns = *search->columns; /* with the other task, nothing more */
   int total = 0;
 
   /* Feet can take the place of all nodes only if an end is allowed at each foot. */
@@ -151,14 +151,14 @@ static void spread_ends(turning_search *search, bool at_feet)
   for (int v = 0; v < frame->n_nodes; v++)
     total += search->ends[v];
   if (total < 2 * task.cords * turning_columns.n_components)
-    thr_extra_spread_ends(search->c, search->ends);
+    thr_extra_spread_ends(search->columns, search->ends);
 }
 
 /* Makes search->passes the shortest passes for search->ends, or passes that are shortest
  * after every length is multiplied by a random factor between 1 and 2. */
 static thr_status make_passes(turning_search *search, bool shortest, thr_err *err)
 {
-  const thr_turning_columns *turning_columns = search->c;
+  const thr_turning_columns *turning_columns = search->columns;
   for (int e = 0; e < turning_columns->f->n_edges; e++)
     search->weight[e] =
         turning_columns->f->length[e] * (shortest ? 1 : 1 + thr_random_unit(&search->state));
@@ -171,7 +171,7 @@ static thr_status make_passes(turning_search *search, bool shortest, thr_err *er
  * passes that let the nodes turn less. *found: there are such passes. */
 static thr_status make_tied_passes(turning_search *search, bool shortest, bool *found, thr_err *err)
 {
-  const thr_turning_columns *turning_columns = search->c;
+  const thr_turning_columns *turning_columns = search->columns;
   const thr_frame *frame = turning_columns->f;
 
   /* A point to round: no extra passes, or small random parts of some and now and then a whole one.
@@ -203,7 +203,7 @@ static thr_status make_tied_passes(turning_search *search, bool shortest, bool *
  */
 static bool within_limits(const turning_search *search)
 {
-  const thr_turning_columns *turning_columns = search->c;
+  const thr_turning_columns *turning_columns = search->columns;
   for (int e = 0; e < turning_columns->f->n_edges; e++)
     if (search->passes[e] > turning_columns->most[e]) return false;
   return turning_columns->task->extra_limit < 0 ||
@@ -214,12 +214,12 @@ static bool within_limits(const turning_search *search)
  * destroyed too. */
 static thr_status make_cords(const turning_search *search, thr_join *j, bool *found, thr_err *err)
 {
-  const thr_turning_task *turning_task = search->c->task;
+  const thr_turning_task *turning_task = search->columns->task;
   bool open = turning_task->end_allowed != NULL;
   thr_status st =
       turning_task->tube
-          ? thr_join_tie(j, search->c, search->passes, search->ends, found, err)
-          : thr_join_init(j, search->c, search->passes, open ? search->ends : NULL, err);
+          ? thr_join_tie(j, search->columns, search->passes, search->ends, found, err)
+          : thr_join_init(j, search->columns, search->passes, open ? search->ends : NULL, err);
 
   /* Cheapest pairings that keep the passes connected, then exchanges. */
   if (!st && !turning_task->tube) {
@@ -239,8 +239,8 @@ static thr_status try_passes(turning_search *search, bool shortest, int steps, t
 {
   thr_join j = {0};
   bool found = true;
-  thr_status st = search->c->task->tube ? make_tied_passes(search, shortest, &found, err)
-                                        : make_passes(search, shortest, err);
+  thr_status st = search->columns->task->tube ? make_tied_passes(search, shortest, &found, err)
+                                              : make_passes(search, shortest, err);
   if (st || !found || !within_limits(search)) return st;
 
   /* Cords for these passes. */
@@ -268,7 +268,7 @@ static thr_status is_enough(const turning_search *search, double largest, bool *
 
   thr_cord *cord = thr_calloc((size_t)n, sizeof *cord);
   thr_status st = cord ? thr_join_cords(&search->best, cord, n, err) : thr_nomem(err);
-  if (!st) *done = *done || thr_cords_pulled_turning(search->c->f, cord, n) <= search->enough;
+  if (!st) *done = *done || thr_cords_pulled_turning(search->columns->f, cord, n) <= search->enough;
   thr_cords_destroy(cord, n);
   return st;
 }
@@ -300,7 +300,7 @@ static thr_status copy_best(const turning_search *search, thr_join *j, thr_err *
 
   if (!(cord = thr_calloc((size_t)n, sizeof *cord))) return thr_nomem(err);
   thr_status st = thr_join_cords(&search->best, cord, n, err);
-  if (!st) st = thr_join_from_cords(j, search->c, cord, n, err);
+  if (!st) st = thr_join_from_cords(j, search->columns, cord, n, err);
   thr_cords_destroy(cord, n);
   return st;
 }
@@ -318,7 +318,7 @@ static int steps_of(const turning_search *search)
 static thr_status run(turning_search *search, thr_err *err)
 {
   enum { ROUNDS = 48, LAST = 2, MORE = 20000 };
-  const thr_turning_columns *turning_columns = search->c;
+  const thr_turning_columns *turning_columns = search->columns;
   int rounds = ROUNDS + MORE / search->best.g.n_darts, steps = steps_of(search);
   bool done = false;
   thr_join j;
@@ -402,7 +402,7 @@ static double largest_price(const thr_frame *frame, const thr_least *plan)
  * raises search->bound to the largest mean over a component's cords. */
 static thr_status find_bounds(turning_search *search, const thr_least *plan, thr_err *err)
 {
-  const int n = search->c->n_components,
+  const int n = search->columns->n_components,
             cords = plan->task.end_count ? plan->n_cords : plan->task.cords;
   double all = plan->bound;
   thr_status st = THR_OK;
@@ -411,7 +411,8 @@ static thr_status find_bounds(turning_search *search, const thr_least *plan, thr
   if (n == 1)
     search->bound_of[0] = plan->bound;
   else if (plan->proof.n_nodes > 0)
-    st = thr_turning_proof_check_columns(search->c, &plan->proof, &all, search->bound_of, err);
+    st =
+        thr_turning_proof_check_columns(search->columns, &plan->proof, &all, search->bound_of, err);
 
   /* The cord that turns most turns at least by the mean. */
   for (int k = 0; k < n && !st; k++)
@@ -428,7 +429,7 @@ static thr_status search_init(turning_search *search, const thr_turning_columns 
   size_t m = (size_t)turning_columns->f->n_edges;
 
   /* The plan's largest turning is the scale of the powers. */
-  *search = (turning_search){.c = turning_columns,
+  *search = (turning_search){.columns = turning_columns,
                              .limits = limits,
                              .bound = bound,
                              .scale = fmax(1e-9, largest),
@@ -471,7 +472,7 @@ static thr_status find_cords(turning_search *search, const thr_frame *frame, thr
   /* Some cord is proved to need more than the pull that is asked for: no search can help. */
   if (search->enough > 0 && search->bound > most_turning(search)) return THR_OK;
   if (search->bound < search->scale * (1 - 1e-9))
-    st = thr_max_turning_small(search->c, plan->cord, plan->n_cords, true, search->limits,
+    st = thr_max_turning_small(search->columns, plan->cord, plan->n_cords, true, search->limits,
                                &search->best, &found, err);
   if (!st && !found) st = run(search, err);
 
@@ -514,8 +515,8 @@ static thr_anneal_task annealing(const turning_search *search, int first, int ro
 static bool may_anneal(const turning_search *search, const thr_frame *frame, const thr_least *plan,
                        const thr_anneal_task *task)
 {
-  return plan->n_cords >= 2 && !search->limits->brief && !search->c->task->tube &&
-         !search->c->task->end_count && largest_price(frame, plan) > task->enough;
+  return plan->n_cords >= 2 && !search->limits->brief && !search->columns->task->tube &&
+         !search->columns->task->end_count && largest_price(frame, plan) > task->enough;
 }
 
 /* Gives the plan these cords if they are better, after improving them with so many steps. */
@@ -523,7 +524,7 @@ static thr_status consider(turning_search *search, const thr_frame *frame, thr_l
                            const thr_cord *cord, int steps, thr_err *err)
 {
   thr_join j = {0};
-  thr_status st = thr_join_from_cords(&j, search->c, cord, plan->n_cords, err);
+  thr_status st = thr_join_from_cords(&j, search->columns, cord, plan->n_cords, err);
   if (!st) st = improve_from(search, &j, steps, err);
   return st ? st : keep_best(search, frame, plan, err);
 }
@@ -543,7 +544,7 @@ static thr_status anneal_cords(turning_search *search, const thr_frame *frame, t
 
   /* A copy, which is considered if it is better. */
   thr_status st = thr_cords_copy(plan->cord, plan->n_cords, &cord, err);
-  if (!st) st = thr_anneal(search->c, &task, &share, cord, plan->n_cords, &better, err);
+  if (!st) st = thr_anneal(search->columns, &task, &share, cord, plan->n_cords, &better, err);
   if (!st && better) st = consider(search, frame, plan, cord, 0, err);
   thr_cords_destroy(cord, plan->n_cords);
   return st;
@@ -568,14 +569,14 @@ static thr_status do_one(void *user, int job, const thr_limits *limits, thr_err 
 
   /* Annealing changes a copy of the plan's cords. */
   if (job == 1)
-    return thr_anneal(search->c, &jobs->task, limits, jobs->cooled, plan->n_cords, &jobs->fell,
-                      err);
+    return thr_anneal(search->columns, &jobs->task, limits, jobs->cooled, plan->n_cords,
+                      &jobs->fell, err);
 
   /* The programme raises the bound, and offers cords. */
   const thr_walk_ask ask = {THR_WALK_TURNING, plan->cord,           plan->n_cords,
                             jobs->least,      most_turning(search), search->motions};
-  return thr_walk_bound(search->c, &ask, limits, &plan->proof.walks, &search->bound, &jobs->better,
-                        err);
+  return thr_walk_bound(search->columns, &ask, limits, &plan->proof.walks, &search->bound,
+                        &jobs->better, err);
 }
 
 /* Raises the bound by the programme over walks, and takes the cords that it chooses, as they are
@@ -587,14 +588,14 @@ static thr_status use_walks(turning_search *search, const thr_frame *frame, thr_
   const bool timed = is_timed(search);
   thr_status st = anneal_cords(search, frame, plan, first, 0, SHORT, err);
   const thr_cord *dearest =
-      &plan->cord[thr_walk_dearest(search->c, THR_WALK_TURNING, plan->cord, plan->n_cords)];
+      &plan->cord[thr_walk_dearest(search->columns, THR_WALK_TURNING, plan->cord, plan->n_cords)];
   side_by_side jobs = {.search = search, .plan = plan, .task = annealing(search, SHORT, MANY)};
 
   /* Both jobs side by side, if the cords of a first annealing leave anything to gain. */
   const bool both = timed && goes_beside(search) && may_anneal(search, frame, plan, &jobs.task);
   const thr_limits share = both ? thr_limits_part(search->limits, most) : *search->limits;
   jobs.task.alone = true;
-  jobs.least = search->bound_of[search->c->component[thr_tail(frame, dearest->half[0])]];
+  jobs.least = search->bound_of[search->columns->component[thr_tail(frame, dearest->half[0])]];
   if (!st && both) st = thr_cords_copy(plan->cord, plan->n_cords, &jobs.cooled, err);
   if (!st) st = thr_threads_beside(both ? 2 : 1, do_one, &jobs, &share, err);
 
@@ -803,8 +804,8 @@ static thr_status use_table(turning_search *search, const thr_frame *frame, thr_
                             thr_err *err)
 {
   bool found = false;
-  thr_status st = thr_max_turning_small(search->c, plan->cord, plan->n_cords, false, search->limits,
-                                        &search->best, &found, err);
+  thr_status st = thr_max_turning_small(search->columns, plan->cord, plan->n_cords, false,
+                                        search->limits, &search->best, &found, err);
   return st || !found ? st : keep_best(search, frame, plan, err);
 }
 
