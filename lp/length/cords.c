@@ -140,10 +140,12 @@ static thr_status make_closed(thr_decomposition *decomposition, int n, bool even
   bool enough;
   int must = decomposition->o->cords_least;
 
+  /* Circuits of the walks, then chords: paths that are passed twice more and split a walk. */
   thr_status st = thr_decomposition_circuits(decomposition, n, even, &enough, err);
   if (!st && !enough && even) st = thr_decomposition_chords(decomposition, n, err);
   if (st || enough || (even && decomposition->walks.n_walks >= must)) return st;
 
+  /* More passes than the shortest ones. */
   st = make_more(decomposition, even ? must : n, err);
   return st ? st : straighten(decomposition, scratch, err);
 }
@@ -510,6 +512,7 @@ static thr_status prove(const thr_decomposition *decomposition, thr_plan *plan,
     st = thr_postman_prove(frame, options, plan->cord, plan->n_cords, known->best, &plan->proof,
                            err);
 
+  /* Claims, from certificates that prove as much as possible. */
   if (!st) st = prove_places(decomposition, plan, err);
   if (!st)
     st = thr_check_cords(frame, options, plan->cord, plan->n_cords, plan->proof.certificate,

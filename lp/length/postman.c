@@ -429,6 +429,7 @@ static thr_status check_ends(const postman_problem *postman, thr_err *err)
   return st;
 }
 
+/* Releases what is not moved to the results. */
 static void postman_destroy(postman_problem *postman)
 {
   for (int k = 0; postman->certificate && k < postman->n_components; k++)
@@ -497,6 +498,8 @@ static thr_status postman_allocate(postman_problem *postman, thr_err *err)
   postman->node = thr_scratch_array(&postman->own, n, sizeof *postman->node);
   postman->local = thr_scratch_array(&postman->own, n, sizeof *postman->local);
   postman->odd = thr_scratch_array(&postman->own, n, sizeof *postman->odd);
+
+  /* Results, which are moved out. */
   postman->passes = thr_calloc(e, sizeof *postman->passes);
   postman->certificate = thr_calloc(k, sizeof *postman->certificate);
   return postman->passes && postman->certificate ? thr_scratch_check(&postman->own, err)

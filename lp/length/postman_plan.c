@@ -123,6 +123,7 @@ static thr_status assemble(const thr_frame *frame, const thr_request *options,
                            thr_shortest *shortest, thr_plan *plan, thr_err *err)
 {
   thr_status st = thr_plan_request(plan, frame, options, err);
+
   if (!st)
     st = thr_postman_cords(&plan->frame, &plan->options, shortest->passes, &plan->cord,
                            &plan->n_cords, err);

@@ -18,21 +18,22 @@
  * covers by short circuits, the same number of passes everywhere, and in tiny frameworks all
  * choices of extra passes. */
 
-/* Tries short circuits over all edges, from each edge on in small frameworks; where nothing is
- * found the same even number of passes over all edges; and in very small ones all choices of at
- * most 3 extra passes of every edge. A framework of n edges that is small takes n covers, each of
- * O(n^2) exchanges at worst. With tube joints, whose nodes circuits alone do not tie, tied cords
- * take the place of the covers: of few passes, and the circuits missing through passes of their
- * own. */
+/* Tries covers by short circuits over all edges, beginning with each edge in small frameworks; if
+ * no plan is found, the same even number of passes over all edges; and in very small frameworks all
+ * choices of at most 3 extra passes of every edge. A small framework of n edges takes n covers,
+ * each of O(n^2) exchanges at worst. With tube joints, whose nodes circuits alone do not tie, cords
+ * of few passes that tie every node take the place of the covers, with further circuits through
+ * passes of their own. */
 thr_status thr_several_plans(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 
 /* ---- maxturn.c: The largest turning of any cord: what the hand feels with several cords, each
  * pulled at both ends. */
 
+/* The largest turning of a plan's cords, and what is proved of any plan's. */
 typedef struct {
   double largest; /* price of the turns of the cord that turns most */
-  double bound; /* no plan of the task has less: the proved least of a component's cords, shared out
-                   evenly, at least */
+  double bound;   /* lower bound for every plan of the task: at least the mean of what a component's
+                     cords are proved to turn together */
 } thr_max_turning;
 
 /* Evens out the turning of the cords in plan: of small components exactly
@@ -41,32 +42,32 @@ typedef struct {
  * moved to the other pass at their node; those that lower the sum of the 8th powers of the cords'
  * prices (so the largest counts most), and by simulated annealing a counted number at random. The
  * same from other ends, where the task allows them, and from other extra passes within its limits.
- * With tube joints all of them leave every node tied. Cords, prices, turning and length of plan
- * change; its proof (of the sum) still holds, its claim of optimality (of the sum) may not. Stops
- * when the largest is at the bound, when the count is used up, or by the limits (no error). The
- * same input gives the same cords. enough > 0, rad: it also stops as soon as that is no less than
- * any cord's thr_cord_pulled_turning, or at once if some cord is known to turn by more than twice
- * that and 180 degrees. */
+ * With tube joints all exchanges leave every node tied. Cords, prices, turning and length of plan
+ * change; the plan's proof (of the sum) still holds, the claim of optimality (of the sum) may not.
+ * Stops when the largest is at the bound, when the count is used up, or by the limits (no error).
+ * The same input gives the same cords. enough > 0, rad: the search also stops as soon as no cord's
+ * thr_cord_pulled_turning exceeds enough, or at once if some cord is proved to turn by more than
+ * twice enough and 180 degrees. */
 thr_status thr_max_turning_improve(const thr_frame *frame, double enough, const thr_limits *limits,
                                    thr_least *plan, thr_max_turning *out,
                                    thr_err *err) THR_MUST_CHECK;
 
-/* What the programme over walks adds for open cords (tortuosity/cords/walk_bound.c): raises
- * out->bound, of which plan.proof then has the walks, and changes the cords if it finds better
- * ones; also where the limits stop it. motions: near ones will do; NULL: none. */
+/* Raises out->bound by the programme over walks (tortuosity/cords/walk_bound.c), whose prices go to
+ * plan.proof, and replaces the cords if better ones are found, also when the limits stop the
+ * search. motions: of the framework, approximate ones are enough; NULL: none. */
 thr_status thr_max_turning_walks(const thr_frame *frame, double enough, thr_orbits_motions *motions,
                                  const thr_limits *limits, thr_least *plan, thr_max_turning *out,
                                  thr_err *err) THR_MUST_CHECK;
 
 /* Lowers what an end of the cord that is hardest to pull has to overcome (thr_cord_pulled_turning;
  * closed cords begin where they turn sharpest), by simulated annealing of exchanges that keep the
- * passes; a counted number, whatever the limits but for an interruption. The plan's cords stay
- * where none are better. O(passes) a step. */
+ * passes. The number of steps is counted: of the limits only an interruption stops them. The plan's
+ * cords stay if none are better. O(passes) a step. */
 thr_status thr_max_turning_pull(const thr_frame *frame, const thr_limits *limits, thr_least *plan,
                                 thr_err *err) THR_MUST_CHECK;
 
-/* Cords of small components that turn least together, where the plan's turn more: exactly, as
- * thr_max_turning_improve does it. */
+/* Replaces the plan's cords in small components by cords that turn least together, if the plan's
+ * cords turn more: exactly, from the table that thr_max_turning_improve uses. */
 thr_status thr_least_turning_small(const thr_frame *frame, const thr_limits *limits,
                                    thr_least *plan, thr_err *err) THR_MUST_CHECK;
 
@@ -81,8 +82,8 @@ thr_status thr_max_turning_small(const thr_turning_columns *turning_columns, con
                                  int n_cords, bool even, const thr_limits *limits, thr_join *j,
                                  bool *found, thr_err *err) THR_MUST_CHECK;
 
-/* ---- distinct.c: Different cords over every edge: which cord takes which passes is exchanged
- * until every edge is passed by enough of them. */
+/* ---- distinct_cords.c: Different cords over every edge: passes are exchanged between cords until
+ * enough different cords pass every edge. */
 
 /* Changes cord[n_cords], a plan of the options (whose array is owned) of just so many cords, so
  * that more edges are passed by options.distinct different cords: by exchanges at the nodes at
@@ -97,18 +98,18 @@ thr_status thr_distinct_make(const thr_frame *frame, const thr_request *options,
                              const thr_limits *limits, double length_limit, const thr_cord *other,
                              thr_cord *cord, int n_cords, thr_err *err) THR_MUST_CHECK;
 
-/* ---- What the files that look for different cords share. Private to them. */
+/* ---- distinct_detour.c: Detours and circuits. Private to the files for different cords. */
 
-/* Detours of some cords of cord[n_cords] over edges that are passed by fewer than options.distinct
- * different ones, at most so many detours; *done how many there are. A detour leaves a cord at a
- * node, turns back nowhere but at nodes with one edge, and comes back there. Every one is a
- * shortest for its edge. O(half-edges log half-edges + passes) each. */
+/* Leads some of the cords cord[n_cords] over edges that fewer than options.distinct different cords
+ * pass, by at most `most` detours; *done receives their number. A detour leaves a cord at a node,
+ * turns back nowhere but at nodes with one edge, and comes back to its node. Each is a shortest one
+ * for its edge. O(half-edges log half-edges + passes) each. */
 thr_status thr_distinct_detours(const thr_frame *frame, const thr_request *options, thr_cord *cord,
                                 int n_cords, int most, int *done, thr_err *err) THR_MUST_CHECK;
 
-/* Leaves out circuits between two visits of a cord to one node that neither cover nor distinct
- * needs, the longest first. Nothing of cords that tie joints. O(passes squared) of a cord for each.
- */
+/* Removes circuits between two visits of a cord to one node that neither cover nor distinct needs,
+ * the longest first; none with tube joints, which the circuits may tie. O(passes squared) of a cord
+ * for each circuit. */
 thr_status thr_distinct_shorten(const thr_frame *frame, const thr_request *options, thr_cord *cord,
                                 int n_cords, thr_err *err) THR_MUST_CHECK;
 

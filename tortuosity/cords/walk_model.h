@@ -35,8 +35,8 @@ typedef struct {
   thr_walk_measure measure;
   const thr_cord *cord; /* [n_cords] */
   int n_cords;
-  double least; /* proved: of the turning of all cords of the component of the dearest one, or their
-                   length */
+  double least;  /* proved: of the turning of all cords of the most expensive one's component, or
+                    their  length */
   double enough; /* > 0: asked is only whether some cord costs more; one limit is tried, and better
                     cords are looked for just below it */
   thr_orbits_motions *motions; /* near ones will do; NULL: none */
@@ -46,10 +46,10 @@ typedef struct {
  * hardest to pull, of which no better cords are looked for, or the length of the longest, as far as
  * the highest limit below which the walks are too few: by bisection, in the component of that cord.
  * proof receives the prices, if there are any; what it held is released. *better, NULL at first,
- * receives n_cords cords of which the dearest costs less, if the columns make some; the caller's.
- * Nothing is done for one cord in each component, or where places and units are more than the
- * recursion takes in a moment. A large framework that motions map onto itself is bounded by prices
- * that are the same for all images; then no cords are looked for. */
+ * receives n_cords cords of which the most expensive costs less, if the columns make some; the
+ * caller's. Nothing is done for one cord in each component, or where places and units are more than
+ * the recursion takes in a moment. A large framework that motions map onto itself is bounded by
+ * prices that are the same for all images; then no cords are looked for. */
 thr_status thr_walk_bound(const thr_turning_columns *columns, const thr_walk_ask *ask,
                           const thr_limits *limits, thr_walk_proof *proof, double *bound,
                           thr_cord **better, thr_err *err) THR_MUST_CHECK;
