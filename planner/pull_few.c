@@ -103,7 +103,7 @@ thr_status thr_planner_pull_few(const thr_frame *frame, const thr_request *optio
   *plan = (thr_plan){0};
 
   if (!end_allowed) return thr_nomem(err);
-  const thr_turning_task task = thr_walk_pull_task(frame, options, end_allowed);
+  const thr_turning_task task = thr_walk_length_task(frame, options, end_allowed);
 
   thr_status st = thr_plan_request(plan, frame, options, err);
   if (!st) st = thr_turning_columns_init(&columns, frame, &task, err);
@@ -148,7 +148,7 @@ thr_status thr_planner_pull_too_few(const thr_frame *frame, const thr_request *o
   *excluded = 0;
 
   if (!end_allowed) return thr_nomem(err);
-  const thr_turning_task task = thr_walk_pull_task(frame, options, end_allowed);
+  const thr_turning_task task = thr_walk_length_task(frame, options, end_allowed);
 
   thr_status st = thr_turning_columns_init(&columns, frame, &task, err);
   if (!st) st = exclude(&columns, options, plan, known, limits, walks, excluded, err);

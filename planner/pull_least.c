@@ -102,7 +102,8 @@ static thr_status price_walks(pull_bounding *bounding, const thr_limits *limits,
   if (!end_allowed) return thr_nomem(err);
 
   /* Build the columns of the programme, and price walks. */
-  const thr_turning_task task = thr_walk_pull_task(bounding->frame, bounding->request, end_allowed);
+  const thr_turning_task task =
+      thr_walk_length_task(bounding->frame, bounding->request, end_allowed);
   thr_status st = thr_turning_columns_init(&columns, bounding->frame, &task, err);
   if (!st) st = thr_walk_bound(&columns, &ask, &counted, &walks, &bound, &better, err);
 

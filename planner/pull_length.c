@@ -58,7 +58,7 @@ thr_status thr_planner_pull_length(thr_plan *plan, const thr_limits *limits, thr
   bool *end_allowed = thr_calloc((size_t)plan->frame.n_nodes, sizeof *end_allowed);
   if (!end_allowed) return thr_nomem(err);
 
-  const thr_turning_task task = thr_walk_pull_task(&plan->frame, options, end_allowed);
+  const thr_turning_task task = thr_walk_length_task(&plan->frame, options, end_allowed);
   thr_status st = thr_turning_columns_init(&columns, &plan->frame, &task, err);
 
   /* Price the walks of the largest component, and let the checker state what they prove. */

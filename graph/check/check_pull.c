@@ -70,7 +70,7 @@ static thr_status walks_bound(const thr_frame *frame, const thr_request *options
 
   /* The columns of the task give the turns with their weights, and the ends. */
   if (!st) {
-    const thr_turning_task task = thr_walk_pull_task(frame, options, end_allowed);
+    const thr_turning_task task = thr_walk_length_task(frame, options, end_allowed);
     thr_check_most_cords(frame, options, check_walked, most);
 
     st = thr_turning_columns_init(&columns, frame, &task, err);

@@ -786,12 +786,6 @@ thr_status thr_walk_proof_check(const thr_turning_columns *columns, thr_walk_mea
 
 /* ---- the length within a limit on the pull ---- */
 
-thr_turning_task thr_walk_pull_task(const thr_frame *frame, const thr_request *options,
-                                    bool *end_allowed)
-{
-  return thr_walk_length_task(frame, options, end_allowed); /* angles are what turns cost */
-}
-
 int thr_walk_pull_units(const thr_request *options, int64_t unit)
 {
   const double rounding = 1e-9, most = log(options->max_pull); /* twice what cords are allowed */

@@ -204,10 +204,6 @@ thr_status thr_walk_proof_check(const thr_turning_columns *columns, thr_walk_mea
                                 const thr_walk_proof *proof, int cords, double least, double *bound,
                                 thr_err *err) THR_MUST_CHECK;
 
-/* What the length within a limit on the pull is asked among, as thr_walk_length_task. */
-thr_turning_task thr_walk_pull_task(const thr_frame *frame, const thr_request *options,
-                                    bool *end_allowed);
-
 /* Units of turning that no cord within the pull has more of on either side of its cut turn. */
 int thr_walk_pull_units(const thr_request *options, int64_t unit);
 

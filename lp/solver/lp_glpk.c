@@ -125,7 +125,7 @@ static void forget_exact(thr_lp *lp)
 /* ---- building ---- */
 
 typedef struct {
-  thr_lp *lp;
+  thr_lp **lp;
   int n;
   const double *cost, *upper;
 } create_call;
@@ -134,7 +134,7 @@ typedef struct {
 static void do_create(void *argument)
 {
   create_call *call = argument;
-  glp_prob *problem = call->lp->problem = glp_create_prob();
+  glp_prob *problem = (*call->lp)->problem = glp_create_prob();
   glp_set_obj_dir(problem, GLP_MIN);
   if (call->n > 0) glp_add_cols(problem, call->n);
 
@@ -151,23 +151,25 @@ static void do_create(void *argument)
   glp_std_basis(problem);
 }
 
+/* Makes *lp, whose problem call(argument) then creates; NULL on failure. */
+static thr_status make(thr_lp **lp, void (*call)(void *), void *argument, thr_err *err)
+{
+  *lp = thr_calloc(1, sizeof **lp);
+  if (!*lp) return thr_nomem(err);
+  (*lp)->generation = generation;
+
+  thr_status st = guarded(call, argument, err);
+  if (st) {
+    free(*lp);
+    *lp = NULL;
+  }
+  return st;
+}
+
 thr_status thr_lp_create(thr_lp **lp, int n_columns, const double *cost, const double *upper,
                          thr_err *err)
 {
-  *lp = NULL;
-  thr_lp *made = thr_calloc(1, sizeof *made);
-  if (!made) return thr_nomem(err);
-  made->generation = generation;
-
-  create_call call = {made, n_columns, cost, upper};
-  thr_status st = guarded(do_create, &call, err);
-  if (st) {
-    free(made);
-    return st;
-  }
-
-  *lp = made;
-  return THR_OK;
+  return make(lp, do_create, &(create_call){lp, n_columns, cost, upper}, err);
 }
 
 static void do_destroy(void *argument)
@@ -184,38 +186,25 @@ void thr_lp_destroy(thr_lp *lp)
 }
 
 typedef struct {
-  thr_lp *lp;
-  glp_prob *from;
+  thr_lp **lp;
+  const thr_lp *from;
 } copy_call;
 
 static void do_copy(void *argument)
 {
   copy_call *call = argument;
-  call->lp->problem = glp_create_prob();
-  glp_copy_prob(call->lp->problem, call->from, GLP_OFF);
+  (*call->lp)->primal = call->from->primal;
+  (*call->lp)->problem = glp_create_prob();
+  glp_copy_prob((*call->lp)->problem, call->from->problem, GLP_OFF);
 }
 
 thr_status thr_lp_copy(thr_lp **lp, const thr_lp *from, thr_err *err)
 {
-  *lp = NULL;
-  thr_lp *made = thr_calloc(1, sizeof *made);
-  if (!made) return thr_nomem(err);
-  made->generation = generation;
-  made->primal = from->primal;
-
-  copy_call call = {made, from->problem};
-  thr_status st = guarded(do_copy, &call, err);
-  if (st) {
-    free(made);
-    return st;
-  }
-
-  *lp = made;
-  return THR_OK;
+  return make(lp, do_copy, &(copy_call){lp, from}, err);
 }
 
 typedef struct {
-  thr_lp *lp;
+  thr_lp **lp;
   int n_rows, n_columns;
   const double *rhs, *cost, *value;
   const bool *free;
@@ -228,7 +217,7 @@ typedef struct {
 static void do_create_equations(void *argument)
 {
   equations_call *call = argument;
-  glp_prob *problem = call->lp->problem = glp_create_prob();
+  glp_prob *problem = (*call->lp)->problem = glp_create_prob();
 
   /* x >= 0, or unbounded both ways. */
   glp_set_obj_dir(problem, GLP_MIN);
@@ -258,9 +247,7 @@ thr_status thr_lp_create_equations(thr_lp **lp, int n_rows, const double *rhs, i
                                    const double *cost, const bool *free_columns, const int *start,
                                    const int *row, const double *value, thr_err *err)
 {
-  *lp = NULL;
-  thr_lp *made = thr_calloc(1, sizeof *made);
-  equations_call call = {made,         n_rows, n_columns, rhs,  cost, value,
+  equations_call call = {lp,           n_rows, n_columns, rhs,  cost, value,
                          free_columns, start,  row,       NULL, NULL};
 
   /* Scratch for one column, from 1. */
@@ -270,22 +257,13 @@ thr_status thr_lp_create_equations(thr_lp **lp, int n_rows, const double *rhs, i
   call.index = thr_calloc((size_t)longest + 1, sizeof *call.index);
   call.entry = thr_calloc((size_t)longest + 1, sizeof *call.entry);
 
-  thr_status st = made && call.index && call.entry ? THR_OK : thr_nomem(err);
-  if (!st) {
-    made->generation = generation;
-    st = guarded(do_create_equations, &call, err);
-  }
+  *lp = NULL;
+  thr_status st =
+      call.index && call.entry ? make(lp, do_create_equations, &call, err) : thr_nomem(err);
 
   free(call.index);
   free(call.entry);
-
-  if (st) {
-    free(made);
-    return st;
-  }
-
-  *lp = made;
-  return THR_OK;
+  return st;
 }
 
 typedef struct {
