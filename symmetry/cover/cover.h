@@ -10,7 +10,7 @@
  * ruled_out.c the columns that no best cover needs; ties.c, tie_rows.c tube joints. relaxation.c is
  * the linear programme with its rows, folds.c one kind of them; cover_search.c the branch and cut.
  * contraction.c leaves turns out, so that most of the search is over few columns; start.c makes
- * first covers by a T-join, exchange.c improves covers, bounds.c and turning_bound.c prove bounds.
+ * first covers by a T-join, exchange.c joins their sets, bounds.c and turning_bound.c prove bounds.
  * cover.c puts the steps together; claims.c says what is proved of plans; solve.c solves all rows
  * of a table of groups. opening.c belongs to symmetry/lift/strands.c. */
 #ifndef THR_COVER_H
@@ -84,8 +84,7 @@ typedef struct {
  * terminals need or, where every cord is open, has more folds than ends can be led to. The aims
  * before turning are solved without the turns at most nodes (symmetry/cover/contraction.c) in at
  * most 7/10 of the time; before that a cover is made without any programme, copies made even by a
- * least T-join (symmetry/cover/start.c), and every one is improved by exchanges, so that a search
- * that is stopped has one. The T-join and that of the framework without symmetry prove overlap
+ * least T-join (symmetry/cover/start.c), so that a search that is stopped has one. The T-join and that of the framework without symmetry prove overlap
  * where they are as long (symmetry/cover/bounds.c). Odd sets are looked for exactly among at most
  * 4,000 dart types, beyond that by balls only. At most 2 * cover + 2 orbits of one copy type, with
  * tube joints 2 * (d - 1) more for the d tubes at either end; U-turns, at the price of their angle,
@@ -251,11 +250,6 @@ int thr_programme_compare(const thr_programme *p, const double *a, const double 
 /* In symmetry/cover/exchange.c: the partners of two turns at one node are exchanged, or those of a
  * turn and of an end or fold. */
 
-/* Exchanges that save turning, whatever they do to the connected sets, until there is none or the
- * limits stop it. */
-thr_status thr_programme_straighten(const thr_programme *p, const thr_limits *limits, int *value,
-                                    thr_err *err) THR_MUST_CHECK;
-
 /* Joins connected sets by exchanges, cheapest turning first, as long as a set has no terminal
  * (open: no end). */
 thr_status thr_programme_mend(const thr_programme *p, int *value, thr_err *err) THR_MUST_CHECK;
@@ -268,11 +262,6 @@ thr_status thr_programme_open(const thr_programme *p, int *value, thr_err *err) 
  * more); which is then taken back. */
 thr_status thr_programme_attempt(const thr_programme *p, int *value, bool level,
                                  thr_status (*attempt)(void *user, thr_err *err), void *user,
-                                 thr_err *err) THR_MUST_CHECK;
-
-/* Exchanges that make a valid solution better in the aims' order, until there is none or the limits
- * stop it. */
-thr_status thr_programme_improve(const thr_programme *p, const thr_limits *limits, int *value,
                                  thr_err *err) THR_MUST_CHECK;
 
 /* ---- contraction.c: The programme without the turns at most nodes: which orbits of copies, ends
