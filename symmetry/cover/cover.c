@@ -79,12 +79,7 @@ static thr_status fill_cover(thr_cover_search *search, thr_cover *out, thr_err *
   out->ends = thr_calloc((size_t)quotient->n_darts, sizeof *out->ends);
   if (!out->copies || !out->pairs || !out->ends) return thr_nomem(err);
 
-  memcpy(out->copies, search->best, (size_t)quotient->n_copies * sizeof *search->best);
-  if (quotient->n_pairs > 0)
-    memcpy(out->pairs, search->best + search->p->first_pair,
-           (size_t)quotient->n_pairs * sizeof *search->best);
-  memcpy(out->ends, search->best + search->p->first_end,
-         (size_t)quotient->n_darts * sizeof *search->best);
+  thr_programme_to_cover(search->p, search->best, out);
   return THR_OK;
 }
 
@@ -384,24 +379,16 @@ static thr_status search_whole(thr_cover_search *search, thr_err *err)
  * bounds. */
 static thr_status begin_search(thr_cover_search *search, const thr_cover *known, thr_err *err)
 {
-  const thr_quotient *quotient = search->p->q;
-  thr_status st = THR_OK;
   /* Nothing is known. */
   if (!known->copies) {
-    st = bound_first(search, err);
+    thr_status st = bound_first(search, err);
     if (!st) st = make_first_cover(search, err);
     return !st && search->found ? bound_ties(search, err) : st;
   }
 
   /* Take over bounds and cover. */
   memcpy(search->bound, known->bound, sizeof search->bound);
-  memcpy(search->other, known->copies, (size_t)quotient->n_copies * sizeof *search->other);
-  if (quotient->n_pairs > 0)
-    memcpy(search->other + search->p->first_pair, known->pairs,
-           (size_t)quotient->n_pairs * sizeof *search->other);
-  memcpy(search->other + search->p->first_end, known->ends,
-         (size_t)quotient->n_darts * sizeof *search->other);
-
+  thr_programme_from_cover(search->p, known, search->other);
   return thr_cover_search_offer(search, err);
 }
 

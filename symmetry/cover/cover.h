@@ -84,16 +84,17 @@ typedef struct {
  * terminals need or, where every cord is open, has more folds than ends can be led to. The aims
  * before turning are solved without the turns at most nodes (symmetry/cover/contraction.c) in at
  * most 7/10 of the time; before that a cover is made without any programme, copies made even by a
- * least T-join (symmetry/cover/start.c), so that a search that is stopped has one. The T-join and that of the framework without symmetry prove overlap
- * where they are as long (symmetry/cover/bounds.c). Odd sets are looked for exactly among at most
- * 4,000 dart types, beyond that by balls only. At most 2 * cover + 2 orbits of one copy type, with
- * tube joints 2 * (d - 1) more for the d tubes at either end; U-turns, at the price of their angle,
- * wherever a best cover may need them (symmetry/cover/ruled_out.c), and never with tube joints.
- * Those add the rows of symmetry/cover/relaxation.c that every node is tied, and GLPK's branch and
- * bound at the root. An element that moves no node of a component maps its cords to themselves.
- * THR_OK or THR_ELIMIT (out holds the best found, with bounds; if there is none yet, out is empty);
- * THR_EINFEASIBLE: a component has no node where a cord may end (named), or there is none of this
- * kind within the capacities and the number of ends; otherwise out is empty. */
+ * least T-join (symmetry/cover/start.c), so that a search that is stopped has one. The T-join and
+ * that of the framework without symmetry prove overlap where they are as long
+ * (symmetry/cover/bounds.c). Odd sets are looked for exactly among at most 4,000 dart types, beyond
+ * that by balls only. At most 2 * cover + 2 orbits of one copy type, with tube joints 2 * (d - 1)
+ * more for the d tubes at either end; U-turns, at the price of their angle, wherever a best cover
+ * may need them (symmetry/cover/ruled_out.c), and never with tube joints. Those add the rows of
+ * symmetry/cover/relaxation.c that every node is tied, and GLPK's branch and bound at the root. An
+ * element that moves no node of a component maps its cords to themselves. THR_OK or THR_ELIMIT (out
+ * holds the best found, with bounds; if there is none yet, out is empty); THR_EINFEASIBLE: a
+ * component has no node where a cord may end (named), or there is none of this kind within the
+ * capacities and the number of ends; otherwise out is empty. */
 thr_status thr_cover_find(const thr_quotient *quotient, const thr_cover_options *options,
                           const thr_limits *limits, thr_cover *out, thr_err *err) THR_MUST_CHECK;
 void thr_cover_destroy(thr_cover *c);
@@ -190,6 +191,11 @@ typedef struct {
 thr_status thr_programme_init(thr_programme *p, const thr_quotient *quotient,
                               const thr_cover_options *options, thr_err *err) THR_MUST_CHECK;
 void thr_programme_destroy(thr_programme *p);
+
+/* Copies the numbers of orbits of a cover to the columns value[p->n], but for the circles; or from
+ * there to the arrays of a cover. */
+void thr_programme_from_cover(const thr_programme *p, const thr_cover *cover, int *value);
+void thr_programme_to_cover(const thr_programme *p, const int *value, thr_cover *cover);
 
 /* Every node is to be tied from now on, where o->tube asks for it of the whole programme; p without
  * ties is what is left of the conditions then, and its bounds hold. */
