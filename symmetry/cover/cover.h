@@ -203,10 +203,10 @@ thr_status thr_programme_tie(thr_programme *p, thr_err *err) THR_MUST_CHECK;
 
 /* In symmetry/cover/ruled_out.c, the last step of thr_programme_init: most[] = 0 for copies that
  * come to where they can neither turn nor end, for those exchanged by elements that move no node of
- * their component, without which no cover has more overlap, and for copies and turns back that
- * others serve as well as; least[] for copy types that are alone in their edge orbit then.
- * THR_EINFEASIBLE: an edge has no copy type left that fits its capacity. O(types * longest chain +
- * order * nodes). */
+ * their component, without which no cover has more overlap, and for turns back that others serve
+ * as well as; least[] for copy types that are alone in their edge orbit then.
+ * THR_EINFEASIBLE: an edge has no copy type left that fits its capacity. O(types + order * nodes).
+ */
 thr_status thr_programme_rule_out(thr_programme *p, thr_err *err) THR_MUST_CHECK;
 
 bool thr_programme_end_allowed(const thr_programme *p, int node);
