@@ -252,13 +252,20 @@ thr_status thr_frame_near(const thr_frame *frame, thr_near *near, thr_err *err) 
 thr_status thr_frame_split(thr_frame *frame, int *n_cut, thr_read_report *report,
                            thr_err *err) THR_MUST_CHECK;
 
-/* ---- Gomory-Hu cut tree (Gomory & Hu 1961), by igraph. */
+/* ---- Flows and cuts of undirected graphs, by igraph: the Gomory-Hu cut tree (Gomory & Hu 1961),
+ * and a maximum flow (Goldberg & Tarjan 1988). */
 
 /* Graph with n nodes and m undirected edges of capacity >= 0; it should be connected. tree[0 ..
  * n-2] receives the tree's edges and flow[0 .. n-2] the minimum cut that each stands for: removing
  * the tree edge leaves the cut's two sides. n - 1 maximum flows. THR_ESOLVER if igraph fails. */
 thr_status thr_cut_tree(int n, int m, const int (*edge)[2], const double *capacity, int (*tree)[2],
                         double *flow, thr_err *err) THR_MUST_CHECK;
+
+/* Graph as above; loops do not matter. flow[e] receives how much a maximum flow from source to sink
+ * sends from edge[e][0] to edge[e][1], below 0 the other way. source_side[n] receives the source's
+ * side of a minimum cut. THR_ESOLVER if igraph fails. */
+thr_status thr_maximum_flow(int n, int m, const int (*edge)[2], const double *capacity, int source,
+                            int sink, double *flow, bool *source_side, thr_err *err) THR_MUST_CHECK;
 
 const char *thr_igraph_version(void);
 

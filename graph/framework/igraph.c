@@ -21,6 +21,7 @@
   F(igraph_layout_kamada_kawai)                                                                    \
   F(igraph_matrix_destroy)                                                                         \
   F(igraph_matrix_init)                                                                            \
+  F(igraph_maxflow)                                                                                \
   F(igraph_set_error_handler)                                                                      \
   F(igraph_strerror)                                                                               \
   F(igraph_vcount)                                                                                 \
@@ -80,6 +81,15 @@ static igraph_error_t list_ends(igraph_vector_int_t *ends, int m, const int (*ed
   return code;
 }
 
+/* Initializes weights with the capacities of the m edges. */
+static igraph_error_t list_capacities(igraph_vector_t *weights, int m, const double *capacity)
+{
+  igraph_error_t code = lib.igraph_vector_init(weights, m);
+  for (int e = 0; e < m && !code; e++)
+    VECTOR(*weights)[e] = capacity[e];
+  return code;
+}
+
 static igraph_error_t cut_tree(const igraph_vector_int_t *ends, int n,
                                const igraph_vector_t *capacity, int (*tree)[2], double *flow)
 {
@@ -112,10 +122,57 @@ thr_status thr_cut_tree(int n, int m, const int (*edge)[2], const double *capaci
   igraph_vector_t weights;
   igraph_error_t code = list_ends(&ends, m, edge);
   if (code) goto no_ends;
-  if ((code = lib.igraph_vector_init(&weights, m))) goto no_weights;
-  for (int e = 0; e < m; e++)
-    VECTOR(weights)[e] = capacity[e];
+  if ((code = list_capacities(&weights, m, capacity))) goto no_weights;
   code = cut_tree(&ends, n, &weights, tree, flow);
+  lib.igraph_vector_destroy(&weights);
+no_weights:
+  lib.igraph_vector_int_destroy(&ends);
+no_ends:
+  leave(old);
+  return code ? failed(code, err) : THR_OK;
+}
+
+/* flow: above 0 towards the higher node. side: the source's nodes. */
+static igraph_error_t maximum_flow(const igraph_vector_int_t *ends, int n, int source, int sink,
+                                   const igraph_vector_t *weights, igraph_vector_t *flow,
+                                   igraph_vector_int_t *side)
+{
+  igraph_t g;
+  igraph_real_t value;
+  igraph_error_t code = lib.igraph_create(&g, ends, n, IGRAPH_UNDIRECTED);
+  if (code) return code;
+  code = lib.igraph_maxflow(&g, &value, flow, NULL, side, NULL, source, sink, weights, NULL);
+  lib.igraph_destroy(&g);
+  return code;
+}
+
+thr_status thr_maximum_flow(int n, int m, const int (*edge)[2], const double *capacity, int source,
+                            int sink, double *flow, bool *source_side, thr_err *err)
+{
+  igraph_error_handler_t *old;
+  thr_status st = enter(&old, err);
+  if (st) return st;
+  igraph_vector_int_t ends, side;
+  igraph_vector_t weights, flows;
+  igraph_error_t code = list_ends(&ends, m, edge);
+  if (code) goto no_ends;
+  if ((code = list_capacities(&weights, m, capacity))) goto no_weights;
+  if ((code = lib.igraph_vector_init(&flows, 0))) goto no_flows;
+  if ((code = lib.igraph_vector_int_init(&side, 0))) goto no_side;
+
+  /* Flows along the edges as they are given; marks of the nodes on one side. */
+  code = maximum_flow(&ends, n, source, sink, &weights, &flows, &side);
+  for (int e = 0; e < m && !code; e++)
+    flow[e] = edge[e][0] < edge[e][1] ? VECTOR(flows)[e] : -VECTOR(flows)[e];
+  for (int v = 0; v < n && !code; v++)
+    source_side[v] = false;
+  for (const igraph_integer_t *v = side.stor_begin; v < side.end && !code; v++)
+    source_side[*v] = true;
+
+  lib.igraph_vector_int_destroy(&side);
+no_side:
+  lib.igraph_vector_destroy(&flows);
+no_flows:
   lib.igraph_vector_destroy(&weights);
 no_weights:
   lib.igraph_vector_int_destroy(&ends);

@@ -9,7 +9,7 @@
  * overlap (bounds.c);
  *   2. the aims before turning by branch and cut in the contracted programme, whose solution is
  * lifted (contraction.c, symmetry/lift/lift.c);
- *   3. a bound on the turning (turning_bound.c), and exchanges that lower the turning (exchange.c);
+ *   3. a bound on the turning (turning_bound.c);
  *   4. all aims by branch and cut in the whole programme (cover_search.c).
  * A search that is stopped has a cover from step 1 on, and bounds.
  *
@@ -79,12 +79,7 @@ static thr_status fill_cover(thr_cover_search *search, thr_cover *out, thr_err *
   out->ends = thr_calloc((size_t)quotient->n_darts, sizeof *out->ends);
   if (!out->copies || !out->pairs || !out->ends) return thr_nomem(err);
 
-  memcpy(out->copies, search->best, (size_t)quotient->n_copies * sizeof *search->best);
-  if (quotient->n_pairs > 0)
-    memcpy(out->pairs, search->best + search->p->first_pair,
-           (size_t)quotient->n_pairs * sizeof *search->best);
-  memcpy(out->ends, search->best + search->p->first_end,
-         (size_t)quotient->n_darts * sizeof *search->best);
+  thr_programme_to_cover(search->p, search->best, out);
   return THR_OK;
 }
 
@@ -93,24 +88,6 @@ static thr_status offer_joined(thr_cover_search *search, thr_err *err)
 {
   thr_status st = thr_programme_mend(search->p, search->other, err);
   if (!st) st = thr_programme_open(search->p, search->other, err);
-  return st ? st : thr_cover_search_offer(search, err);
-}
-
-/* Improves the best cover in two ways, and offers both results: with its turns as cheap as they can
- * be, then joined again; and by exchanges that keep it a valid cover. Each takes at most half of
- * the time that is left. */
-static thr_status offer_improved(thr_cover_search *search, thr_err *err)
-{
-  const thr_limits limits = thr_limits_part(search->limits, 0.5);
-
-  /* Cheapest turns first. */
-  memcpy(search->other, search->best, (size_t)search->p->n * sizeof *search->best);
-  thr_status st = thr_programme_straighten(search->p, &limits, search->other, err);
-  if (!st) st = offer_joined(search, err);
-
-  /* Exchanges that leave a cover. */
-  memcpy(search->other, search->best, (size_t)search->p->n * sizeof *search->best);
-  if (!st) st = thr_programme_improve(search->p, &limits, search->other, err);
   return st ? st : thr_cover_search_offer(search, err);
 }
 
@@ -207,8 +184,7 @@ static thr_status bar_copies(thr_cover_search *search, bool all, bool *barred, b
 
 /* Makes covers without the programme, of the kinds of thr_contraction_start: with least overlap;
  * then, as long as cords would be closed that have to be open, without folds and with freer copies
- * there; then, if need be, with the freest copies twice, which can always be lifted. The best of
- * them is improved. */
+ * there; then, if need be, with the freest copies twice, which can always be lifted. */
 static thr_status make_first_cover(thr_cover_search *search, thr_err *err)
 {
   const thr_programme *programme = search->p;
@@ -235,7 +211,6 @@ static thr_status make_first_cover(thr_cover_search *search, thr_err *err)
   /* The freest copies twice. */
   if (!search->found && !st)
     st = try_start(search, &contraction, THR_CONTRACTION_TWICE, barred, small, err);
-  if (search->found && !st && !programme->o->quick) st = offer_improved(search, err);
 
   free(small);
   free(barred);
@@ -354,7 +329,7 @@ static thr_status search_contracted(thr_cover_search *search, thr_err *err)
     thr_status searched = st ? st : thr_cover_search_aims(&small, n_aims, err);
     if (searched && searched != THR_ELIMIT) st = searched;
 
-    /* Lift what was found, join it and improve it. */
+    /* Lift what was found, and join it. */
     failed = 0;
     if (!st && small.found)
       st = thr_contraction_lift(&contraction, small.best, search->other, &failed, err);
@@ -362,7 +337,6 @@ static thr_status search_contracted(thr_cover_search *search, thr_err *err)
     if (!st && !failed) take_bounds(search, &small, n_aims);
     if (!st && !failed && search->found && !quick)
       st = bound_turning(search, &contraction, &small, err);
-    if (!st && search->found && !failed && !quick) st = offer_improved(search, err);
 
     /* Some cells could not be lifted: keep them. */
     thr_cover_search_destroy(&small);
@@ -405,26 +379,17 @@ static thr_status search_whole(thr_cover_search *search, thr_err *err)
  * bounds. */
 static thr_status begin_search(thr_cover_search *search, const thr_cover *known, thr_err *err)
 {
-  const thr_quotient *quotient = search->p->q;
-  thr_status st = THR_OK;
   /* Nothing is known. */
   if (!known->copies) {
-    st = bound_first(search, err);
+    thr_status st = bound_first(search, err);
     if (!st) st = make_first_cover(search, err);
     return !st && search->found ? bound_ties(search, err) : st;
   }
 
-  /* Take over bounds and cover; offer_improved may go on from there. */
+  /* Take over bounds and cover. */
   memcpy(search->bound, known->bound, sizeof search->bound);
-  memcpy(search->other, known->copies, (size_t)quotient->n_copies * sizeof *search->other);
-  if (quotient->n_pairs > 0)
-    memcpy(search->other + search->p->first_pair, known->pairs,
-           (size_t)quotient->n_pairs * sizeof *search->other);
-  memcpy(search->other + search->p->first_end, known->ends,
-         (size_t)quotient->n_darts * sizeof *search->other);
-
-  st = thr_cover_search_offer(search, err);
-  return !st && search->found && !search->p->o->quick ? offer_improved(search, err) : st;
+  thr_programme_from_cover(search->p, known, search->other);
+  return thr_cover_search_offer(search, err);
 }
 
 /* Fails with THR_ELIMIT, saying why the search did not do what it was to do. */

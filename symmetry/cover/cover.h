@@ -10,7 +10,7 @@
  * ruled_out.c the columns that no best cover needs; ties.c, tie_rows.c tube joints. relaxation.c is
  * the linear programme with its rows, folds.c one kind of them; cover_search.c the branch and cut.
  * contraction.c leaves turns out, so that most of the search is over few columns; start.c makes
- * first covers by a T-join, exchange.c improves covers, bounds.c and turning_bound.c prove bounds.
+ * first covers by a T-join, exchange.c joins their sets, bounds.c and turning_bound.c prove bounds.
  * cover.c puts the steps together; claims.c says what is proved of plans; solve.c solves all rows
  * of a table of groups. opening.c belongs to symmetry/lift/strands.c. */
 #ifndef THR_COVER_H
@@ -84,17 +84,17 @@ typedef struct {
  * terminals need or, where every cord is open, has more folds than ends can be led to. The aims
  * before turning are solved without the turns at most nodes (symmetry/cover/contraction.c) in at
  * most 7/10 of the time; before that a cover is made without any programme, copies made even by a
- * least T-join (symmetry/cover/start.c), and every one is improved by exchanges, so that a search
- * that is stopped has one. The T-join and that of the framework without symmetry prove overlap
- * where they are as long (symmetry/cover/bounds.c). Odd sets are looked for exactly among at most
- * 4,000 dart types, beyond that by balls only. At most 2 * cover + 2 orbits of one copy type, with
- * tube joints 2 * (d - 1) more for the d tubes at either end; U-turns, at the price of their angle,
- * wherever a best cover may need them (symmetry/cover/ruled_out.c), and never with tube joints.
- * Those add the rows of symmetry/cover/relaxation.c that every node is tied, and GLPK's branch and
- * bound at the root. An element that moves no node of a component maps its cords to themselves.
- * THR_OK or THR_ELIMIT (out holds the best found, with bounds; if there is none yet, out is empty);
- * THR_EINFEASIBLE: a component has no node where a cord may end (named), or there is none of this
- * kind within the capacities and the number of ends; otherwise out is empty. */
+ * least T-join (symmetry/cover/start.c), so that a search that is stopped has one. The T-join and
+ * that of the framework without symmetry prove overlap where they are as long
+ * (symmetry/cover/bounds.c). Odd sets are looked for exactly among at most 4,000 dart types, beyond
+ * that by balls only. At most 2 * cover + 2 orbits of one copy type, with tube joints 2 * (d - 1)
+ * more for the d tubes at either end; U-turns, at the price of their angle, wherever a best cover
+ * may need them (symmetry/cover/ruled_out.c), and never with tube joints. Those add the rows of
+ * symmetry/cover/relaxation.c that every node is tied, and GLPK's branch and bound at the root. An
+ * element that moves no node of a component maps its cords to themselves. THR_OK or THR_ELIMIT (out
+ * holds the best found, with bounds; if there is none yet, out is empty); THR_EINFEASIBLE: a
+ * component has no node where a cord may end (named), or there is none of this kind within the
+ * capacities and the number of ends; otherwise out is empty. */
 thr_status thr_cover_find(const thr_quotient *quotient, const thr_cover_options *options,
                           const thr_limits *limits, thr_cover *out, thr_err *err) THR_MUST_CHECK;
 void thr_cover_destroy(thr_cover *c);
@@ -192,16 +192,21 @@ thr_status thr_programme_init(thr_programme *p, const thr_quotient *quotient,
                               const thr_cover_options *options, thr_err *err) THR_MUST_CHECK;
 void thr_programme_destroy(thr_programme *p);
 
+/* Copies the numbers of orbits of a cover to the columns value[p->n], but for the circles; or from
+ * there to the arrays of a cover. */
+void thr_programme_from_cover(const thr_programme *p, const thr_cover *cover, int *value);
+void thr_programme_to_cover(const thr_programme *p, const int *value, thr_cover *cover);
+
 /* Every node is to be tied from now on, where o->tube asks for it of the whole programme; p without
  * ties is what is left of the conditions then, and its bounds hold. */
 thr_status thr_programme_tie(thr_programme *p, thr_err *err) THR_MUST_CHECK;
 
 /* In symmetry/cover/ruled_out.c, the last step of thr_programme_init: most[] = 0 for copies that
  * come to where they can neither turn nor end, for those exchanged by elements that move no node of
- * their component, without which no cover has more overlap, and for copies and turns back that
- * others serve as well as; least[] for copy types that are alone in their edge orbit then.
- * THR_EINFEASIBLE: an edge has no copy type left that fits its capacity. O(types * longest chain +
- * order * nodes). */
+ * their component, without which no cover has more overlap, and for turns back that others serve
+ * as well as; least[] for copy types that are alone in their edge orbit then.
+ * THR_EINFEASIBLE: an edge has no copy type left that fits its capacity. O(types + order * nodes).
+ */
 thr_status thr_programme_rule_out(thr_programme *p, thr_err *err) THR_MUST_CHECK;
 
 bool thr_programme_end_allowed(const thr_programme *p, int node);
@@ -251,11 +256,6 @@ int thr_programme_compare(const thr_programme *p, const double *a, const double 
 /* In symmetry/cover/exchange.c: the partners of two turns at one node are exchanged, or those of a
  * turn and of an end or fold. */
 
-/* Exchanges that save turning, whatever they do to the connected sets, until there is none or the
- * limits stop it. */
-thr_status thr_programme_straighten(const thr_programme *p, const thr_limits *limits, int *value,
-                                    thr_err *err) THR_MUST_CHECK;
-
 /* Joins connected sets by exchanges, cheapest turning first, as long as a set has no terminal
  * (open: no end). */
 thr_status thr_programme_mend(const thr_programme *p, int *value, thr_err *err) THR_MUST_CHECK;
@@ -268,11 +268,6 @@ thr_status thr_programme_open(const thr_programme *p, int *value, thr_err *err) 
  * more); which is then taken back. */
 thr_status thr_programme_attempt(const thr_programme *p, int *value, bool level,
                                  thr_status (*attempt)(void *user, thr_err *err), void *user,
-                                 thr_err *err) THR_MUST_CHECK;
-
-/* Exchanges that make a valid solution better in the aims' order, until there is none or the limits
- * stop it. */
-thr_status thr_programme_improve(const thr_programme *p, const thr_limits *limits, int *value,
                                  thr_err *err) THR_MUST_CHECK;
 
 /* ---- contraction.c: The programme without the turns at most nodes: which orbits of copies, ends

@@ -4,9 +4,8 @@
  * edges; it may join connected sets, or lower the turning.
  *
  * Exchanges are visited turn by turn, and a visitor says what becomes of each: thr_programme_mend
- * lists them, cheapest turning first, to join sets that lack a terminal; thr_programme_straighten
- * takes each that turns less; thr_programme_improve takes each that makes the solution better in
- * the order of the aims; thr_programme_attempt only tries them.
+ * lists them, cheapest turning first, to join sets that lack a terminal; thr_programme_attempt only
+ * tries them.
  *
  * Example: of the turns a-b and c-d, between four dart types of one node, there can be made a-c and
  * b-d. */
@@ -82,10 +81,6 @@ typedef struct exchange_visitor {
   /* mending */
   node_exchange *list;
   int n, capacity;
-  /* improving */
-  const thr_limits *limits;
-  double worth[THR_N_AIMS];
-  bool better;
   /* trying */
   bool level; /* only what turns no more */
   thr_status (*attempt)(void *user, thr_err *err);
@@ -297,114 +292,6 @@ thr_status thr_programme_open(const thr_programme *programme, int *value, thr_er
   }
 
   thr_programme_parts_destroy(parts);
-  free(visitor.parent);
-  return st;
-}
-
-/* ---- improving ---- */
-
-/* Takes an exchange that turns less (a visit). */
-static bool take_straighter(exchange_visitor *visitor, const node_exchange *exchange, thr_err *err,
-                            thr_status *st)
-{
-  (void)err;
-  (void)st;
-  if (exchange->turning >= -thr_programme_tolerance(visitor->programme, THR_AIM_TURNING))
-    return true;
-  apply_exchange(exchange, 1, visitor->value);
-  visitor->better = true;
-  return false;
-}
-
-/* Replaces the turns between two dart types by the cheapest ones between them, unless those leave a
- * node untied that was tied. */
-static void take_cheapest(exchange_visitor *visitor)
-{
-  const thr_programme *programme = visitor->programme;
-  for (int pair = 0; pair < programme->q->n_pairs; pair++) {
-    const thr_pair_type *pair_type = &programme->q->pair[pair];
-    int from = programme->first_pair + pair,
-        to = pair_between(programme, pair_type->dart[0], pair_type->dart[1], pair_type->self),
-        moved = visitor->value[from];
-    int star = programme->ties ? programme->ties->star[pair_type->dart[0]] : -1;
-
-    /* Move all of them, and move them back if the node needs them. */
-    if (moved == 0 || to < 0 || to == from) continue;
-    bool tied = star >= 0 && thr_ties_tied(programme->ties, star,
-                                           visitor->value + programme->first_pair, visitor->parent);
-    visitor->value[from] = 0;
-    visitor->value[to] += moved;
-    if (!tied || thr_ties_tied(programme->ties, star, visitor->value + programme->first_pair,
-                               visitor->parent))
-      continue;
-    visitor->value[from] = moved;
-    visitor->value[to] -= moved;
-  }
-}
-
-thr_status thr_programme_straighten(const thr_programme *programme, const thr_limits *limits,
-                                    int *value, thr_err *err)
-{
-  exchange_visitor visitor = {
-      .visit = take_straighter, .programme = programme, .value = value, .better = true};
-  thr_status st = visitor_init(&visitor, err);
-  if (!st) take_cheapest(&visitor);
-
-  /* Rounds over all turns, until nothing gets better. */
-  while (visitor.better && !st) {
-    visitor.better = false;
-    for (int pair = 0; pair < programme->q->n_pairs && !st && !thr_limits_stop(limits); pair++)
-      if (value[programme->first_pair + pair] > 0) st = visit_turn(&visitor, pair, err);
-  }
-
-  free(visitor.parent);
-  return st;
-}
-
-/* Takes an exchange that makes a valid solution better in the order of the aims (a visit). */
-static bool take_better(exchange_visitor *visitor, const node_exchange *exchange, thr_err *err,
-                        thr_status *st)
-{
-  double worth[THR_N_AIMS];
-  bool valid;
-  if (exchange->turning >= -thr_programme_tolerance(visitor->programme, THR_AIM_TURNING))
-    return true;
-  if (thr_limits_stop(visitor->limits)) return false;
-
-  /* Of the exchanges that turn less, keep one that makes the whole solution better. */
-  apply_exchange(exchange, 1, visitor->value);
-  *st = thr_programme_value(visitor->programme, visitor->value, worth, &valid, err);
-  if (!*st && valid && thr_programme_compare(visitor->programme, worth, visitor->worth) < 0) {
-    for (int a = 0; a < THR_N_AIMS; a++)
-      visitor->worth[a] = worth[a];
-    visitor->better = true;
-    return false;
-  }
-
-  apply_exchange(exchange, -1, visitor->value);
-  return !*st;
-}
-
-thr_status thr_programme_improve(const thr_programme *programme, const thr_limits *limits,
-                                 int *value, thr_err *err)
-{
-  exchange_visitor visitor = {.visit = take_better,
-                              .programme = programme,
-                              .value = value,
-                              .limits = limits,
-                              .better = true};
-  bool valid = true;
-  thr_status st = visitor_init(&visitor, err);
-  if (!st) take_cheapest(&visitor);
-  if (!st) st = thr_programme_value(programme, value, visitor.worth, &valid, err);
-
-  /* Rounds over all turns, until nothing gets better. */
-  while (visitor.better && !st && valid) {
-    visitor.better = false;
-    for (int pair = 0; pair < programme->q->n_pairs && !st && !thr_limits_stop(limits); pair++)
-      if (value[programme->first_pair + pair] > 0) st = visit_turn(&visitor, pair, err);
-  }
-
   free(visitor.parent);
   return st;
 }

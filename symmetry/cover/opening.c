@@ -11,10 +11,12 @@
  *
  * Example: one trail from fold to fold and one from end to end that share a dart type exchange what
  * follows there, and become two trails from a fold to an end. */
+#include "graph/framework/frame.h"
+#include "graph/scratch.h"
 #include "graph/status.h"
 #include "symmetry/lift/lift.h"
 
-#include <stdlib.h>
+#include <math.h>
 #include <string.h>
 
 typedef struct {
@@ -24,23 +26,15 @@ typedef struct {
 
 /* Arcs: `o` is orbit o's own from side to side, n_orbits + o that of its copy, 2 * n_orbits + o
  * that of its turn. Those of a copy or turn of two orbits stand with the lower one; the other place
- * is empty (both ends -1). */
+ * is empty (a loop at the sink). */
 typedef struct {
   const thr_strands *strands;
   int source, sink, n_nodes, n_arcs;
   arc *arc;
-  int *first, *list; /* arcs at node v: list[first[v] .. first[v + 1] - 1]; loops twice */
-  int *came, *queue; /* [n_nodes] arc that a search came by, -1 = not reached; [n_nodes] */
+  int *first, *list;   /* arcs at node v: list[first[v] .. first[v + 1] - 1]; loops twice */
+  int *next, *waiting; /* [n_nodes] scratch */
+  thr_scratch own;     /* the arrays */
 } trail_network;
-
-static void network_destroy(trail_network *network)
-{
-  free(network->arc);
-  free(network->first);
-  free(network->list);
-  free(network->came);
-  free(network->queue);
-}
 
 /* Makes the arcs of all orbits, without directions. */
 static void make_arcs(trail_network *network)
@@ -49,7 +43,7 @@ static void make_arcs(trail_network *network)
   for (int orbit = 0; orbit < strands->n_orbits; orbit++) {
     int copies = 2 * strands->type[orbit], turns = copies + 1, other = strands->other[orbit],
         partner = strands->partner[orbit];
-    const arc none = {{-1, -1}, -1};
+    const arc none = {{network->sink, network->sink}, -1};
 
     /* The orbit's own; its copy, which comes from the source if it is a fold; its turn or its end.
      */
@@ -66,7 +60,7 @@ static void make_arcs(trail_network *network)
   }
 }
 
-/* Initializes the network; the caller destroys it also on failure. */
+/* Initializes the network; the caller frees network->own also on failure. */
 static thr_status network_init(trail_network *network, const thr_strands *strands, thr_err *err)
 {
   *network = (trail_network){.strands = strands,
@@ -75,24 +69,24 @@ static thr_status network_init(trail_network *network, const thr_strands *strand
                              .n_arcs = 3 * strands->n_orbits};
   network->n_nodes = network->sink + 1;
 
-  network->arc = thr_calloc((size_t)network->n_arcs, sizeof *network->arc);
-  network->first = thr_calloc((size_t)network->n_nodes + 2, sizeof *network->first);
-  network->list = thr_calloc(2 * (size_t)network->n_arcs, sizeof *network->list);
-  network->came = thr_calloc((size_t)network->n_nodes, sizeof *network->came);
-  network->queue = thr_calloc((size_t)network->n_nodes, sizeof *network->queue);
-  if (!network->arc || !network->first || !network->list || !network->came || !network->queue)
-    return thr_nomem(err);
+  size_t n = (size_t)network->n_nodes, m = (size_t)network->n_arcs;
+  network->arc = thr_scratch_array(&network->own, m, sizeof *network->arc);
+  network->first = thr_scratch_array(&network->own, n + 2, sizeof *network->first);
+  network->list = thr_scratch_array(&network->own, 2 * m, sizeof *network->list);
+  network->next = thr_scratch_array(&network->own, n, sizeof *network->next);
+  network->waiting = thr_scratch_array(&network->own, n, sizeof *network->waiting);
+  thr_status st = thr_scratch_check(&network->own, err);
+  if (st) return st;
 
   make_arcs(network);
 
   /* Arcs by node: count, two places further on, and fill. */
   for (int i = 0; i < 2 * network->n_arcs; i++)
-    if (network->arc[i / 2].end[i % 2] >= 0) network->first[network->arc[i / 2].end[i % 2] + 2]++;
+    network->first[network->arc[i / 2].end[i % 2] + 2]++;
   for (int v = 0; v < network->n_nodes; v++)
     network->first[v + 2] += network->first[v + 1];
   for (int i = 0; i < 2 * network->n_arcs; i++)
-    if (network->arc[i / 2].end[i % 2] >= 0)
-      network->list[network->first[network->arc[i / 2].end[i % 2] + 1]++] = i / 2;
+    network->list[network->first[network->arc[i / 2].end[i % 2] + 1]++] = i / 2;
 
   return THR_OK;
 }
@@ -103,47 +97,36 @@ static int far_end(const arc *of, int node)
   return of->end[0] == node;
 }
 
-/* Directs one more path from the source to the sink, which may undo arcs that are directed the
- * other way. Returns false if there is none. */
-static bool augment(trail_network *network)
+/* Directs the arcs that a maximum flow of at most 1 on every arc leads along. */
+static thr_status direct_flow(trail_network *network, thr_err *err)
 {
-  int head = 0, tail = 0;
-  /* Breadth first from the source, not along arcs that are directed to where the search comes from.
-   */
-  for (int node = 0; node < network->n_nodes; node++)
-    network->came[node] = -1;
-  network->came[network->source] = network->n_arcs;
-  network->queue[tail++] = network->source;
+  thr_scratch own = {0};
+  size_t n = (size_t)network->n_nodes, m = (size_t)network->n_arcs;
+  int(*edge)[2] = thr_scratch_array(&own, m, sizeof *edge);
+  double *capacity = thr_scratch_array(&own, m, sizeof *capacity),
+         *flow = thr_scratch_array(&own, m, sizeof *flow);
+  bool *side = thr_scratch_array(&own, n, sizeof *side);
+  thr_status st = thr_scratch_check(&own, err);
 
-  while (head < tail && network->came[network->sink] < 0) {
-    int node = network->queue[head++];
-    for (int i = network->first[node]; i < network->first[node + 1]; i++) {
-      const arc *next_arc = &network->arc[network->list[i]];
-      int side = far_end(next_arc, node), next_node = next_arc->end[side];
-      if (network->came[next_node] >= 0 || next_arc->to == side) continue;
-      network->came[next_node] = network->list[i];
-      network->queue[tail++] = next_node;
-    }
+  for (int i = 0; i < network->n_arcs && !st; i++) {
+    memcpy(edge[i], network->arc[i].end, sizeof edge[i]);
+    capacity[i] = 1;
   }
+  if (!st)
+    st = thr_maximum_flow(network->n_nodes, network->n_arcs, (const int(*)[2])edge, capacity,
+                          network->source, network->sink, flow, side, err);
+  for (int i = 0; i < network->n_arcs && !st; i++)
+    if (edge[i][0] != edge[i][1] && fabs(flow[i]) > 0.5) network->arc[i].to = flow[i] > 0;
 
-  if (network->came[network->sink] < 0) return false;
-
-  /* Direct the arcs of the path, from the sink back; an arc that the path undoes has no direction
-   * again. */
-  for (int node = network->sink; node != network->source;) {
-    arc *next_arc = &network->arc[network->came[node]];
-    int side = far_end(next_arc, node); /* where the path comes from */
-    next_arc->to = next_arc->to < 0 ? 1 - side : -1;
-    node = next_arc->end[side];
-  }
-  return true;
+  thr_scratch_free(&own);
+  return st;
 }
 
 /* Directs all arcs that are left: from any node along arcs without direction until there is none,
  * which is at the node where the walk began, as numbers are even. */
 static void direct_circuits(trail_network *network)
 {
-  int *next = network->came;
+  int *next = network->next;
   memcpy(next, network->first, (size_t)network->n_nodes * sizeof *next);
   for (int start = 0; start < network->n_nodes; start++)
     for (int node = start; next[node] < network->first[node + 1];) {
@@ -175,7 +158,7 @@ static bool leads_away(const trail_network *network, int orbit)
  * that has no such partner yet; next: [n_orbits] the one after it. */
 static void match_places(const trail_network *network, thr_strands *strands, int *wrong, int *next)
 {
-  int *waiting = network->queue;
+  int *waiting = network->waiting;
 
   /* List the orbits where both arrive. */
   for (int type = 0; type < strands->q->n_darts; type++)
@@ -199,9 +182,8 @@ static void match_places(const trail_network *network, thr_strands *strands, int
 /* Directs all trails. THR_ESOLVER: a fold has no path to an end. */
 static thr_status direct_trails(trail_network *network, thr_err *err)
 {
-  /* A maximum flow. */
-  while (augment(network))
-    continue;
+  thr_status st = direct_flow(network, err);
+  if (st) return st;
 
   /* Every arc from the source must be in it. */
   for (int i = network->first[network->source]; i < network->first[network->source + 1]; i++) {
@@ -220,16 +202,14 @@ static thr_status direct_trails(trail_network *network, thr_err *err)
 thr_status thr_strands_open(thr_strands *strands, thr_err *err)
 {
   trail_network network;
-  int *wrong = thr_calloc((size_t)strands->n_orbits, sizeof *wrong),
-      *next = thr_calloc((size_t)strands->n_orbits, sizeof *next);
   thr_status st = network_init(&network, strands, err);
-  if (!st && (!wrong || !next)) st = thr_nomem(err);
+  int *wrong = thr_scratch_array(&network.own, (size_t)strands->n_orbits, sizeof *wrong),
+      *next = thr_scratch_array(&network.own, (size_t)strands->n_orbits, sizeof *next);
+  if (!st) st = thr_scratch_check(&network.own, err);
 
   if (!st) st = direct_trails(&network, err);
   if (!st) match_places(&network, strands, wrong, next);
 
-  network_destroy(&network);
-  free(wrong);
-  free(next);
+  thr_scratch_free(&network.own);
   return st;
 }

@@ -270,6 +270,28 @@ void thr_programme_destroy(thr_programme *programme)
   *programme = (thr_programme){0};
 }
 
+void thr_programme_from_cover(const thr_programme *programme, const thr_cover *cover, int *value)
+{
+  const thr_quotient *quotient = programme->q;
+  for (int copy = 0; copy < quotient->n_copies; copy++)
+    value[copy] = cover->copies[copy];
+  for (int pair = 0; pair < quotient->n_pairs; pair++)
+    value[programme->first_pair + pair] = cover->pairs[pair];
+  for (int dart = 0; dart < quotient->n_darts; dart++)
+    value[programme->first_end + dart] = cover->ends[dart];
+}
+
+void thr_programme_to_cover(const thr_programme *programme, const int *value, thr_cover *cover)
+{
+  const thr_quotient *quotient = programme->q;
+  for (int copy = 0; copy < quotient->n_copies; copy++)
+    cover->copies[copy] = value[copy];
+  for (int pair = 0; pair < quotient->n_pairs; pair++)
+    cover->pairs[pair] = value[programme->first_pair + pair];
+  for (int dart = 0; dart < quotient->n_darts; dart++)
+    cover->ends[dart] = value[programme->first_end + dart];
+}
+
 thr_status thr_programme_tie(thr_programme *programme, thr_err *err)
 {
   programme->ties = thr_calloc(1, sizeof *programme->ties);

@@ -6,7 +6,6 @@
  * Ruled out are, in this order:
  *   - copies that are exchanged by elements which move no node of their component;
  *   - where every cord is open, copies whose trails come to no node where a cord may end;
- *   - with solid beads, copies on a line in a mirror where trails would have to turn back;
  *   - with solid beads, turns back into an edge where other partners are certain;
  *   - copies whose trails get stuck: they can neither turn nor end.
  *
@@ -68,7 +67,7 @@ static thr_status rule_out_exchanged(thr_programme *programme, thr_err *err)
   return st;
 }
 
-/* ---- lines in a mirror ---- */
+/* ---- copy types by orbit ---- */
 
 /* Returns the first copy type of every orbit of edges (copy types of one orbit follow one another):
  * first[n_edge_orbits], owned by the caller, or NULL without memory. */
@@ -90,117 +89,6 @@ static bool is_copy_of(const thr_quotient *quotient, int c, int orbit)
 static int orbit_of(const thr_quotient *quotient, int dart)
 {
   return quotient->edge_orbit[quotient->dart[dart].half >> 1];
-}
-
-/* Returns the only copy type with a dart of this type, or -1; also -1 if that is a fold, or has
- * both darts of one type. */
-static int only_copy(const thr_programme *programme, const int *first, int dart)
-{
-  const int orbit = orbit_of(programme->q, dart);
-  int found = -1;
-  for (int c = first[orbit]; is_copy_of(programme->q, c, orbit); c++) {
-    const thr_copy_type *type = &programme->q->copy[c];
-    if (type->dart[0] != dart && type->dart[1] != dart) continue;
-    if (found >= 0 || type->fold || type->dart[0] == type->dart[1]) return -1;
-    found = c;
-  }
-  return found;
-}
-
-/* Returns the only dart type that darts of this type turn into, turns back excepted; the type
- * itself if there is none, or only a turn into its own image by an element that is its own inverse
- * (*self); and -1 if there are others. */
-static int only_partner(const thr_programme *programme, int dart, bool *self)
-{
-  const thr_group *group = programme->q->group;
-  int found = -1;
-  *self = false;
-  for (int k = programme->first[dart]; k < programme->first[dart + 1]; k++) {
-    const thr_pair_type *type = &programme->q->pair[programme->incident[k]];
-    if (!type->self && type->half[0] == type->half[1]) continue;
-
-    /* A second partner, another dart orbit of the same type, a turn back into its own image, or a
-     * longer rotation. */
-    if (found >= 0 || (type->dart[0] == type->dart[1] && !type->self)) return -1;
-    if (type->self && type->half[0] == type->half[1]) return -1;
-    if (type->self && group->product[(size_t)type->element * ((size_t)group->order + 1)] != 0)
-      return -1;
-
-    *self = type->self;
-    found = type->dart[type->dart[0] == dart];
-  }
-  return found < 0 ? dart : found;
-}
-
-/* Returns in how many ways trails may end at a dart type at the end of a line: as cord ends, and as
- * turns into their own images. */
-static int count_terminals(const thr_programme *programme, int dart)
-{
-  bool self;
-  return (only_partner(programme, dart, &self) >= 0 && self) +
-         (programme->most[programme->first_end + dart] != 0);
-}
-
-/* Tells whether two orbits of copies of this type can be replaced by one orbit of copies with a
- * trivial stabilizer, which covers the edge with no more passes. */
-static bool can_be_freed(const thr_programme *programme, const int *first, int copy)
-{
-  const int orbit = programme->q->copy[copy].edge_orbit;
-  for (int c = first[orbit]; is_copy_of(programme->q, c, orbit); c++)
-    if (programme->q->copy[c].stabilizer.order == 1 && programme->most[c] != 0)
-      return programme->cover[orbit] <= programme->q->copy[c].passes;
-  return false;
-}
-
-/* Returns the dart type at the other end of the line that begins at this dart type, or -1 if there
- * is no line, or cords may end at a node between its ends. */
-static int find_line_end(const thr_programme *programme, const int *first, int dart)
-{
-  /* Walk along the line: over the only copy, into the only partner. */
-  for (int from = dart;;) {
-    const int copy = only_copy(programme, first, from);
-    if (copy < 0 || !can_be_freed(programme, first, copy)) return -1;
-    bool self;
-    const int across = programme->q->copy[copy].dart[programme->q->copy[copy].dart[0] == from],
-              next = only_partner(programme, across, &self);
-
-    /* The line ends where nothing else follows. */
-    if (next == across) return across;
-    if (next < 0 || programme->most[programme->first_end + across] != 0 ||
-        programme->most[programme->first_end + next] != 0)
-      return -1;
-    from = next;
-  }
-}
-
-/* Rules out copies on a line that one element leaves where it is, if trails may end at no more than
- * one end of the line, in one way. A line begins at a dart type that turns into no other.
- *
- * Every trail on such a line turns back, and so passes its edges evenly. Two of its passes over an
- * edge become one orbit of copies that the element exchanges; a turn back becomes a fold, two other
- * turns one, two ends one. Overlap, turning and paths stay, and there are fewer steps. A trail that
- * turns back more often than it has to would get folds without an end. But it has four passes over
- * an edge where it turns back: without the two of that turn it is shorter, and turns no more. */
-static void rule_out_lines(thr_programme *programme, const int *first)
-{
-  const thr_quotient *quotient = programme->q;
-  bool self;
-  /* A line begins where a dart type of a mirror turns into no other. */
-  for (int dart = 0; dart < quotient->n_darts; dart++) {
-    if (quotient->dart[dart].stabilizer.order != 2 || only_partner(programme, dart, &self) != dart)
-      continue;
-    const int last = find_line_end(programme, first, dart);
-    if (last < 0 || count_terminals(programme, dart) + count_terminals(programme, last) > 1)
-      continue;
-
-    /* Rule out all copies from one end to the other. */
-    for (int from = dart, across = -1; across != last;
-         from = only_partner(programme, across, &self)) {
-      const int copy = only_copy(programme, first, from);
-      across = quotient->copy[copy].dart[quotient->copy[copy].dart[0] == from];
-      programme->most[copy] = 0;
-    }
-  }
 }
 
 /* ---- without ends ---- */
@@ -460,7 +348,6 @@ thr_status thr_programme_rule_out(thr_programme *programme, thr_err *err)
   thr_status st = first ? check_tubes(programme, err) : thr_nomem(err);
   if (!st) st = rule_out_exchanged(programme, err);
   if (!st && programme->open) st = rule_out_closed(programme, err);
-  if (!st && !programme->o->tube) rule_out_lines(programme, first);
   if (!st && !programme->o->tube) st = rule_out_turns_back(programme, first, err);
   free(first);
   if (!st) st = rule_out_stuck(programme, err);

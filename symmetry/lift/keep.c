@@ -456,14 +456,7 @@ static thr_status restate(const cord_keeper *keeper, thr_cover *cover, thr_err *
   cover->optimal = cover->optimal && at_bounds;
 
   /* The numbers of orbits. */
-  if (cover->copies && keeper->quotient->n_copies > 0)
-    memcpy(cover->copies, keeper->best, (size_t)keeper->quotient->n_copies * sizeof *keeper->best);
-  if (keeper->quotient->n_pairs > 0)
-    memcpy(cover->pairs, keeper->best + keeper->programme.first_pair,
-           (size_t)keeper->quotient->n_pairs * sizeof *keeper->best);
-  memcpy(cover->ends, keeper->best + keeper->programme.first_end,
-         (size_t)keeper->quotient->n_darts * sizeof *keeper->best);
-
+  if (!st) thr_programme_to_cover(&keeper->programme, keeper->best, cover);
   return st;
 }
 
@@ -480,12 +473,7 @@ static thr_status keeper_init(cord_keeper *keeper, const thr_cover *cover, thr_e
   keeper->base = thr_calloc((size_t)keeper->programme.n, sizeof *keeper->base);
   if (!keeper->value || !keeper->best || !keeper->base) return thr_nomem(err);
 
-  memcpy(keeper->value, cover->copies, (size_t)keeper->quotient->n_copies * sizeof *keeper->value);
-  if (keeper->quotient->n_pairs > 0)
-    memcpy(keeper->value + keeper->programme.first_pair, cover->pairs,
-           (size_t)keeper->quotient->n_pairs * sizeof *keeper->value);
-  memcpy(keeper->value + keeper->programme.first_end, cover->ends,
-         (size_t)keeper->quotient->n_darts * sizeof *keeper->value);
+  thr_programme_from_cover(&keeper->programme, cover, keeper->value);
   return THR_OK;
 }
 

@@ -179,12 +179,7 @@ static thr_status reader_init(reading_search *search, const thr_cover *cover, th
   if (!search->value || !search->best) return thr_nomem(err);
 
   /* The cover. */
-  memcpy(search->best, cover->copies, (size_t)quotient->n_copies * sizeof *search->best);
-  if (quotient->n_pairs > 0)
-    memcpy(search->best + search->programme.first_pair, cover->pairs,
-           (size_t)quotient->n_pairs * sizeof *search->best);
-  memcpy(search->best + search->programme.first_end, cover->ends,
-         (size_t)quotient->n_darts * sizeof *search->best);
+  thr_programme_from_cover(&search->programme, cover, search->best);
 
   /* The cords, and what is traced for one trial. */
   for (int i = 0; i < search->threading->n_cords; i++)
@@ -210,12 +205,7 @@ thr_status thr_legible_cords(const thr_quotient *quotient, const thr_cover_optio
 
   /* The cover becomes that of the cords. */
   if (!st) {
-    memcpy(cover->copies, search.best, (size_t)quotient->n_copies * sizeof *search.best);
-    if (quotient->n_pairs > 0)
-      memcpy(cover->pairs, search.best + search.programme.first_pair,
-             (size_t)quotient->n_pairs * sizeof *search.best);
-    memcpy(cover->ends, search.best + search.programme.first_end,
-           (size_t)quotient->n_darts * sizeof *search.best);
+    thr_programme_to_cover(&search.programme, search.best, cover);
     *instructions = search.instructions;
   }
 

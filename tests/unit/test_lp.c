@@ -850,6 +850,38 @@ START_TEST(cut_tree_holds_all_minimum_cuts)
 }
 END_TEST
 
+START_TEST(maximum_flow_is_as_large_as_its_cut)
+{
+  rng r = rng_make((uint64_t)_i + 1);
+  int n = rng_between(&r, 2, 9), source = rng_below(&r, n), sink = (source + 1) % n;
+  thr_frame f = random_frame(&r, n, rng_below(&r, 14), LENGTHS_EQUAL);
+  double capacity[32], flow[32], out[9] = {0};
+  bool side[9];
+  for (int e = 0; e < f.n_edges; e++)
+    capacity[e] = _i % 2 ? rng_unit(&r) : rng_below(&r, 4);
+  ck_assert_int_eq(thr_maximum_flow(n, f.n_edges, (const int(*)[2])f.edge, capacity, source, sink,
+                                    flow, side, NULL),
+                   THR_OK);
+
+  /* What flows is within the capacities, and leaves only the source. */
+  for (int e = 0; e < f.n_edges; e++) {
+    ck_assert_double_le(fabs(flow[e]), capacity[e] + 1e-9);
+    out[f.edge[e][0]] += flow[e];
+    out[f.edge[e][1]] -= flow[e];
+  }
+  for (int v = 0; v < n; v++)
+    if (v != source && v != sink) ck_assert_double_eq_tol(out[v], 0, 1e-9);
+
+  /* The sides are a cut of the same capacity. */
+  uint32_t cut = 0;
+  for (int v = 0; v < n; v++)
+    cut |= (uint32_t)side[v] << v;
+  ck_assert(side[source] && !side[sink]);
+  ck_assert_double_eq_tol(out[source], cut_value(&f, capacity, cut), 1e-9);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 START_TEST(cut_tree_of_nonsense_is_a_status)
 {
   thr_err err = {0};
@@ -950,6 +982,7 @@ int main(void)
   ADD_LOOP(s, 10, interior_finds_the_shortest_way, 0, 20);
   ADD_TEST(s, 10, interior_gives_up_and_stops);
   ADD_EXAMPLES(s, 20, cut_tree_holds_all_minimum_cuts, 60);
+  ADD_EXAMPLES(s, 20, maximum_flow_is_as_large_as_its_cut, 60);
   ADD_TEST(s, 10, cut_tree_of_nonsense_is_a_status);
   ADD_TEST(s, 10, libraries_tell_their_versions);
   ADD_TEST(s, 30, branch_and_bound_ends_in_time);
