@@ -22,14 +22,7 @@
 static thr_least_options search_options(const thr_request *options)
 {
   thr_least_options search = thr_least_options_default();
-  search.cover = options->cover;
-  search.capacity = options->capacity;
-  search.tube = options->joint == THR_JOINT_TUBE;
-  search.ends = options->ends;
-  search.end_node = options->end_node;
-  search.end_count = options->end_count;
-  search.cords = options->cords;
-  search.cost = options->turning.cost;
+  search.request = *options;
   search.length_slack = options->turning.length_slack;
   if (options->turning.nodes > 0) search.most_nodes = options->turning.nodes;
   search.motions = thr_planner_motions;
@@ -56,7 +49,7 @@ static thr_status shorten(const thr_frame *frame, const thr_least_options *searc
     return THR_OK;
 
   /* Search once more with the small price on length, in a part of the time that is left. */
-  if (!search->tube) with_length.most_nodes = FEW_NODES;
+  if (search->request.joint != THR_JOINT_TUBE) with_length.most_nodes = FEW_NODES;
   with_length.price_per_length = small * frame->n_edges / thr_frame_total_length(frame);
   thr_err unused = {0};
   thr_limits exact = thr_limits_part(limits, part);
@@ -66,8 +59,9 @@ static thr_status shorten(const thr_frame *frame, const thr_least_options *searc
   if (st && st != THR_ELIMIT) return THR_OK; /* what is proved stands without it */
 
   /* Take the price of the length out again, and keep the cords only if they turn no more. */
-  double price = other.price - with_length.price_per_length *
-                                   (other.length - thr_turning_base_length(frame, search->cover));
+  double price =
+      other.price - with_length.price_per_length *
+                        (other.length - thr_turning_base_length(frame, search->request.cover));
   if (price <= least->price + 1e-9 && other.length < least->length * (1 - 1e-9)) {
     thr_cord *cord = least->cord;
     least->cord = other.cord;
@@ -135,7 +129,7 @@ static thr_status find_shortest(const thr_frame *frame, const thr_request *optio
  * otherwise. */
 static void begin_with(const thr_frame *frame, const thr_tube *tied, thr_least_options *search)
 {
-  int most = thr_turning_most_passes(frame, search->cover);
+  int most = thr_turning_most_passes(frame, search->request.cover);
   search->start = tied->cord;
   search->n_start = tied->n_cords;
   search->most_passes = tied->most_passes > most ? tied->most_passes : most;
@@ -186,7 +180,8 @@ static thr_status find_starts(const thr_frame *frame, const thr_request *options
                               const shortest_plan *shortest, const thr_limits *limits,
                               const thr_least_options *search, thr_least_start *start, thr_err *err)
 {
-  const bool tours = !search->tube && search->cords == 1 && options->ends != THR_ENDS_COUNTS,
+  const bool tours = search->request.joint != THR_JOINT_TUBE && search->request.cords == 1 &&
+                     options->ends != THR_ENDS_COUNTS,
              quick = thr_planner_is_quick(frame, options);
   const thr_limits share = thr_planner_share(frame, options, limits, THR_STEP_BY_LENGTH);
 
@@ -197,8 +192,9 @@ static thr_status find_starts(const thr_frame *frame, const thr_request *options
   if (tours)
     st =
         thr_postman_cords(frame, options, shortest->solid.passes, &start[0].cord, &start[0].n, err);
-  else if (search->tube ? options->ends == THR_ENDS_CLOSED && options->cords > 1
-                        : quick || options->ends == THR_ENDS_COUNTS)
+  else if (search->request.joint == THR_JOINT_TUBE
+               ? options->ends == THR_ENDS_CLOSED && options->cords > 1
+               : quick || options->ends == THR_ENDS_COUNTS)
     st = cords_by_length(frame, options, &share, &start[0], err);
 
   /* A single cord is already a plan to show, and classical tours are further incumbents. */
@@ -219,7 +215,8 @@ static thr_status find_with_room(const thr_frame *frame, const thr_request *opti
                                  thr_least_options *search, const thr_limits *limits,
                                  thr_least *least, thr_err *err)
 {
-  const int room = 2 * search->cords, usual = thr_turning_most_passes(frame, search->cover);
+  const int room = 2 * search->request.cords,
+            usual = thr_turning_most_passes(frame, search->request.cover);
   const bool more = room > (search->most_passes > 0 ? search->most_passes : usual);
   thr_err why = {0};
 
@@ -227,7 +224,7 @@ static thr_status find_with_room(const thr_frame *frame, const thr_request *opti
    * to need them. */
   if (more && thr_wants_largest(options) && thr_request_most_passes(frame, options) >= room)
     search->most_passes = room;
-  if (more && options->ends == THR_ENDS_CLOSED && search->cords > frame->n_edges)
+  if (more && options->ends == THR_ENDS_CLOSED && search->request.cords > frame->n_edges)
     search->most_passes = room;
 
   /* Else allow them only where no cords were found within the usual number of passes. */
@@ -250,15 +247,16 @@ static thr_status find_from_shortest(const thr_frame *frame, const thr_request *
   thr_status st = find_starts(frame, options, shortest, limits, &search, start, err);
 
   /* Tied cords, and cords of the right number, are where the search itself begins. */
-  if (search.tube) begin_with(frame, &shortest->tube, &search);
-  if (start[0].n > 0 && (search.tube || search.cords <= 1 || options->ends == THR_ENDS_COUNTS)) {
+  if (search.request.joint == THR_JOINT_TUBE) begin_with(frame, &shortest->tube, &search);
+  if (start[0].n > 0 && (search.request.joint == THR_JOINT_TUBE || search.request.cords <= 1 ||
+                         options->ends == THR_ENDS_COUNTS)) {
     search.start = start[0].cord;
     search.n_start = start[0].n;
   }
 
   /* All starts are incumbents: the plan turns no more than any of them. */
   search.also = start;
-  search.n_also = search.tube ? 0 : N_STARTS;
+  search.n_also = search.request.joint == THR_JOINT_TUBE ? 0 : N_STARTS;
   if (!st) st = find_with_room(frame, options, &search, limits, least, err);
   for (int i = 0; i < N_STARTS; i++)
     thr_cords_destroy(start[i].cord, start[i].n);

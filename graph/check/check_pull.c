@@ -108,20 +108,14 @@ static thr_turning_task task_of(const thr_frame *frame, const thr_request *optio
                                 const thr_pull_claim *claim, bool *end_allowed)
 {
   const int least = thr_plan_cords_least(options);
-  for (int v = 0; v < frame->n_nodes; v++)
-    end_allowed[v] = thr_plan_end_allowed(frame, options, v);
+  thr_turning_task task = thr_turning_task_of(frame, options, end_allowed);
 
-  return (thr_turning_task){
-      .cover = options->cover,
-      .capacity = options->capacity,
-      .tube = options->joint == THR_JOINT_TUBE,
-      .most_passes = claim->tree.n_nodes > 0 ? claim->most_passes : THR_PULL_PASSES,
-      .cords = cords,
-      .cords_least = least < cords ? least : cords,
-      .end_allowed = options->ends == THR_ENDS_CLOSED ? NULL : end_allowed,
-      .end_count = options->ends == THR_ENDS_COUNTS ? options->end_count : NULL,
-      .extra_limit = -1,
-      .cut = claim->cut};
+  task.most_passes = claim->tree.n_nodes > 0 ? claim->most_passes : THR_PULL_PASSES;
+  task.cords = cords;
+  task.cords_least = least < cords ? least : cords;
+  task.cost = THR_TURN_ANGLE;
+  task.cut = claim->cut;
+  return task;
 }
 
 /* Raises *side to what the tree proves of the turns on one side of some cord's cut turn, rad. As no

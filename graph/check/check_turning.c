@@ -276,17 +276,9 @@ static thr_status judge_tree(const walked_cords *walked, const thr_turning_claim
   /* The cords must be among the plans that the proof is about, or a limit just below their length
    * would prove anything. */
   double limit = claim->length_limit < 0 ? -1 : fmax(claim->length_limit, length);
-  const thr_turning_task task = {
-      .cover = walked->request->cover,
-      .capacity = walked->request->capacity,
-      .tube = walked->request->joint == THR_JOINT_TUBE,
-      .most_passes = claim->most_passes,
-      .cords = walked->request->cords,
-      .cords_least = walked->request->cords_least,
-      .end_allowed = walked->request->ends == THR_ENDS_CLOSED ? NULL : walked->end_allowed,
-      .end_count = walked->request->ends == THR_ENDS_COUNTS ? walked->request->end_count : NULL,
-      .cost = walked->request->turning.cost,
-      .extra_limit = thr_turning_extra_limit(walked->frame, walked->request->cover, limit)};
+  thr_turning_task task = thr_turning_task_of(walked->frame, walked->request, walked->end_allowed);
+  task.most_passes = claim->most_passes;
+  task.extra_limit = thr_turning_extra_limit(walked->frame, walked->request->cover, limit);
 
   /* The tree, and whatever else bounds turns. */
   thr_turning_columns columns;

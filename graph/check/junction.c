@@ -61,23 +61,18 @@ void thr_tied_task(const thr_frame *frame, const thr_request *options, bool *end
     if (thr_plan_cover(frame, options, e) > cover) cover = thr_plan_cover(frame, options, e);
   }
 
-  for (int v = 0; v < frame->n_nodes; v++) {
-    end_allowed[v] = thr_plan_end_allowed(frame, options, v);
+  for (int v = 0; v < frame->n_nodes; v++)
     if (thr_degree(frame, v) > degree) degree = thr_degree(frame, v);
-  }
 
-  *task = (thr_turning_task){
-      .cover = options->cover,
-      .capacity = options->capacity,
-      .most_passes = 2 * (cover + degree + 2 * cords) + 1,
-      .cords = cords,
-      .cords_least = closed ? 1 : thr_plan_cords_least(options),
-      .end_allowed = closed ? NULL : end_allowed,
-      .end_count = options->ends == THR_ENDS_COUNTS ? options->end_count : NULL,
-      .tube = true,
-      .free_turns = true,
-      .price_per_length = fmin(frame->n_edges / thr_frame_total_length(frame), 5e3 / longest),
-      .extra_limit = -1};
+  /* Of the request's threadings those with tied joints, where length alone has a price. */
+  *task = thr_turning_task_of(frame, options, end_allowed);
+  task->most_passes = 2 * (cover + degree + 2 * cords) + 1;
+  task->cords = cords;
+  task->cords_least = closed ? 1 : thr_plan_cords_least(options);
+  task->tube = true;
+  task->free_turns = true;
+  task->cost = THR_TURN_ANGLE;
+  task->price_per_length = fmin(frame->n_edges / thr_frame_total_length(frame), 5e3 / longest);
 }
 
 thr_status thr_tied_least(const thr_frame *frame, const thr_request *options,

@@ -708,18 +708,13 @@ double thr_walk_needed(const thr_walk_steps *steps, const thr_walk_proof *proof,
 thr_turning_task thr_walk_length_task(const thr_frame *frame, const thr_request *options,
                                       bool *end_allowed)
 {
-  for (int v = 0; v < frame->n_nodes; v++)
-    end_allowed[v] = thr_plan_end_allowed(frame, options, v);
+  thr_turning_task task = thr_turning_task_of(frame, options, end_allowed);
 
-  return (thr_turning_task){.cover = options->cover,
-                            .capacity = options->capacity,
-                            .most_passes = thr_request_most_passes(frame, options),
-                            .cords = options->cords,
-                            .cords_least = options->cords_least,
-                            .end_allowed = options->ends == THR_ENDS_CLOSED ? NULL : end_allowed,
-                            .end_count =
-                                options->ends == THR_ENDS_COUNTS ? options->end_count : NULL,
-                            .extra_limit = -1};
+  /* Walks may turn anywhere, back too: tube joints only narrow that. */
+  task.tube = false;
+  task.cost = THR_TURN_ANGLE;
+  task.most_passes = thr_request_most_passes(frame, options);
+  return task;
 }
 
 int thr_walk_component(const thr_turning_columns *columns, const thr_walk_proof *proof)

@@ -432,3 +432,23 @@ bool thr_plan_end_allowed(const thr_frame *frame, const thr_request *options, in
   default: return true;
   }
 }
+
+thr_turning_task thr_turning_task_of(const thr_frame *frame, const thr_request *request,
+                                     bool *end_allowed)
+{
+  const bool closed = request->ends == THR_ENDS_CLOSED;
+  for (int v = 0; v < frame->n_nodes && !closed; v++)
+    end_allowed[v] = thr_plan_end_allowed(frame, request, v);
+
+  return (thr_turning_task){.cover = request->cover,
+                            .capacity = request->capacity,
+                            .tube = request->joint == THR_JOINT_TUBE,
+                            .most_passes = thr_turning_most_passes(frame, request->cover),
+                            .cords = request->cords,
+                            .cords_least = request->cords_least,
+                            .end_allowed = closed ? NULL : end_allowed,
+                            .end_count =
+                                request->ends == THR_ENDS_COUNTS ? request->end_count : NULL,
+                            .cost = request->turning.cost,
+                            .extra_limit = -1};
+}

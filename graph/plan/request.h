@@ -181,6 +181,13 @@ bool thr_wants_pull(const thr_request *options);     /* the latter */
  * both edges. O(edges). */
 int thr_request_most_passes(const thr_frame *frame, const thr_request *options);
 
+/* Returns what a request asks the least turning among, with any number of passes up to
+ * thr_turning_most_passes and any length. Whatever a request says of turns, ends and passes enters
+ * here, and the searches and their checks only narrow it. end_allowed: [n_nodes] filled, and
+ * borrowed by the task, as the request is. O(nodes + edges). */
+thr_turning_task thr_turning_task_of(const thr_frame *frame, const thr_request *request,
+                                     bool *end_allowed);
+
 /* The order of a symmetric plan's aims; the usual one where the aims name none of them. */
 void thr_aims_order(const thr_request *options, thr_aim order[THR_N_AIMS]);
 

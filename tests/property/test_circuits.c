@@ -185,10 +185,10 @@ static void compare(const thr_frame *f, const thr_least_options *o, tally *t)
 static thr_least_options closed_cords(rng *r, int cords, int cover)
 {
   thr_least_options o = thr_least_options_default();
-  o.cords = cords;
-  o.cover = cover;
+  o.request.cords = cords;
+  o.request.cover = cover;
   o.most_passes = cover + 1;
-  if (rng_below(r, 4) == 0) o.cost = (thr_turn_cost)rng_between(r, 1, 2);
+  if (rng_below(r, 4) == 0) o.request.turning.cost = (thr_turn_cost)rng_between(r, 1, 2);
   if (rng_below(r, 4) == 0) o.length_slack = rng_below(r, 3) * 0.1;
   return o;
 }
@@ -204,7 +204,7 @@ START_TEST(several_closed_cords_are_least)
         LENGTHS_EUCLID);
     thr_least_options o = closed_cords(&r, 2 + k % 2, cover);
     if (cover > 1) o.most_passes = cover;
-    if (f.n_edges * o.cover <= 12) compare(&f, &o, &t);
+    if (f.n_edges * o.request.cover <= 12) compare(&f, &o, &t);
     thr_frame_destroy(&f);
   }
   ck_assert_int_eq(t.found, t.possible); /* though passes and length are tight here */
@@ -241,7 +241,7 @@ static thr_least solve(const thr_frame *f, int cords, bool closes)
   thr_limits limits = {0};
   thr_least l;
   thr_err err = {0};
-  o.cords = cords;
+  o.request.cords = cords;
   thr_status st = thr_least_turning(f, &o, &limits, &l, &err);
   ck_assert_msg(st == (closes ? THR_OK : THR_ELIMIT), "%s", err.text);
   if (!closes) assert_one_line(&err, "no fewer cords");
@@ -287,7 +287,7 @@ START_TEST(too_many_cords_are_refused)
   thr_limits limits = {0};
   thr_least l;
   thr_err err = {0};
-  o.cords = 2;
+  o.request.cords = 2;
   o.most_passes = 3; /* twice there and back needs 4 */
   ck_assert_int_eq(thr_least_turning(&f, &o, &limits, &l, &err), THR_EINFEASIBLE);
   assert_one_line(&err, "no plan with 2 closed cords in every component and at most 3 passes of "
@@ -326,7 +326,7 @@ START_TEST(running_out_of_memory_leaves_nothing)
   thr_least_options o = thr_least_options_default();
   thr_limits limits = {0};
   thr_status st = THR_ENOMEM;
-  o.cords = 2;
+  o.request.cords = 2;
   for (long k = 1; st == THR_ENOMEM; k++) {
     thr_least l;
     thr_max_turning m;

@@ -241,11 +241,11 @@ static void compare(rng *r, const thr_frame *f, int cover, int more, int cords)
   static const thr_ends kinds[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
   for (int i = cords > 1; i < 3; i++) {
     thr_least_options o = thr_least_options_default();
-    o.cover = cover;
+    o.request.cover = cover;
     o.most_passes = cover + more;
-    o.ends = kinds[i];
-    o.cords = cords;
-    o.cost = (thr_turn_cost)(rng_below(r, 4) == 0 ? rng_between(r, 1, 2) : 0);
+    o.request.ends = kinds[i];
+    o.request.cords = cords;
+    o.request.turning.cost = (thr_turn_cost)(rng_below(r, 4) == 0 ? rng_between(r, 1, 2) : 0);
     if (rng_below(r, 4) == 0) o.length_slack = rng_below(r, 2) * 0.1;
     thr_least l;
     thr_err err = {0};
@@ -305,12 +305,12 @@ START_TEST(least_is_least_of_all_with_limits_of_edges)
       f.capacity[e] = rng_below(&r, 3) ? 0 : rng_between(&r, 2, 3);
     }
     o.most_passes = 3;
-    o.cords = rng_between(&r, 1, 2);
-    o.ends = rng_below(&r, 3) ? THR_ENDS_COUNTS : THR_ENDS_CLOSED;
-    if (o.ends == THR_ENDS_CLOSED) o.cords = 1;
-    for (int i = 0; i < 2 * o.cords; i++)
+    o.request.cords = rng_between(&r, 1, 2);
+    o.request.ends = rng_below(&r, 3) ? THR_ENDS_COUNTS : THR_ENDS_CLOSED;
+    if (o.request.ends == THR_ENDS_CLOSED) o.request.cords = 1;
+    for (int i = 0; i < 2 * o.request.cords; i++)
       count[rng_below(&r, n)]++;
-    o.end_count = count;
+    o.request.end_count = count;
     thr_least l;
     thr_err err = {0};
     thr_limits limits = {0};
@@ -388,8 +388,8 @@ START_TEST(larger_grids_are_proved)
   thr_least l = solve(&f, &o, true);
   ck_assert_int_eq(l.proof.n_nodes, 1);
   thr_least_destroy(&l);
-  o.ends = THR_ENDS_FEET;
-  o.cords = 2;
+  o.request.ends = THR_ENDS_FEET;
+  o.request.cords = 2;
   l = solve(&f, &o, true);
   ck_assert_int_eq(l.n_cords, 2);
   thr_least_destroy(&l);
@@ -510,8 +510,8 @@ START_TEST(cords_of_a_dome_turn_alike)
 {
   thr_frame f = shape_make(THR_MAKE_DOME, 6, 0);
   thr_least_options o = thr_least_options_default();
-  o.ends = THR_ENDS_FEET;
-  o.cords = _i;
+  o.request.ends = THR_ENDS_FEET;
+  o.request.cords = _i;
   thr_least l = solve(&f, &o, true);
   thr_max_turning m = even_out(&f, &l);
   ck_assert_double_eq_tol(m.largest, m.bound, 1e-6); /* its share of the least there is */
@@ -525,9 +525,9 @@ START_TEST(cords_stay_whole_while_evened_out)
   rng r = rng_make((uint64_t)_i + 1);
   thr_frame f = random_frame(&r, 14, 12, LENGTHS_EUCLID);
   thr_least_options o = thr_least_options_default();
-  o.ends = THR_ENDS_ANY;
-  o.cords = rng_between(&r, 1, 4);
-  o.cover = rng_between(&r, 1, 2);
+  o.request.ends = THR_ENDS_ANY;
+  o.request.cords = rng_between(&r, 1, 4);
+  o.request.cover = rng_between(&r, 1, 2);
   o.most_nodes = 1;
   thr_least l = solve(&f, &o, false);
   even_out(&f, &l);
@@ -543,7 +543,7 @@ START_TEST(running_out_of_memory_leaves_nothing)
   thr_frame f = _i ? star_make(5) : solid_make(OCTAHEDRON);
   thr_least_options o = thr_least_options_default();
   thr_limits limits = {0};
-  if (_i) o.ends = THR_ENDS_ANY, o.cords = 2;
+  if (_i) o.request.ends = THR_ENDS_ANY, o.request.cords = 2;
   thr_status st = THR_ENOMEM;
   for (long k = 1; st != THR_OK;
        k += 1 + _i * k / 32) { /* several cords: thousands of allocations */
@@ -569,8 +569,8 @@ START_TEST(requests_without_a_plan_are_refused)
   thr_least l;
   thr_err err = {0};
   bool nowhere[3] = {false};
-  o.ends = THR_ENDS_NODES;
-  o.end_node = nowhere;
+  o.request.ends = THR_ENDS_NODES;
+  o.request.end_node = nowhere;
   ck_assert_int_eq(thr_least_turning(&f, &o, &limits, &l, &err), THR_EINFEASIBLE);
   assert_one_line(&err, "no node where a cord may end");
   ck_assert_ptr_null(l.cord);
@@ -605,7 +605,7 @@ START_TEST(a_matching_proves_without_a_programme)
   thr_least_options o = thr_least_options_default();
   thr_limits limits = {0};
   thr_err err = {0};
-  if (_i % 4 == 3) o.ends = THR_ENDS_ANY;
+  if (_i % 4 == 3) o.request.ends = THR_ENDS_ANY;
   thr_least l, full = solve(&f, &o, true);
   o.most_nodes = 0;
   thr_status st = thr_least_turning(&f, &o, &limits, &l, &err);
@@ -624,7 +624,7 @@ START_TEST(large_frames_have_a_bound_without_time)
 {
   thr_frame f = shape_make(THR_MAKE_DOME, 40, 0);
   thr_least_options o = thr_least_options_default();
-  o.ends = _i ? THR_ENDS_FEET : THR_ENDS_CLOSED;
+  o.request.ends = _i ? THR_ENDS_FEET : THR_ENDS_CLOSED;
   thr_least l, full = solve(&f, &o, true);
   thr_err err = {0};
   thr_limits limits = {.deadline = thr_clock() - 1};
@@ -670,8 +670,8 @@ START_TEST(shuffled_frames_have_the_same_least)
   int to[32];
   thr_frame f = random_frame(&r, 10, 8, LENGTHS_EUCLID), g = shuffled_frame(&r, &f, to);
   thr_least_options o = thr_least_options_default();
-  o.ends = (thr_ends)(_i % 3);
-  o.cords = o.ends == THR_ENDS_CLOSED ? 1 : 1 + _i / 3 % 3;
+  o.request.ends = (thr_ends)(_i % 3);
+  o.request.cords = o.request.ends == THR_ENDS_CLOSED ? 1 : 1 + _i / 3 % 3;
   if (_i > 9) o.length_slack = 0.05;
   thr_least a = solve(&f, &o, true), b = solve(&g, &o, true);
   ck_assert_double_eq_tol(a.price, b.price, 1e-9);
@@ -715,8 +715,8 @@ START_TEST(altered_proofs_prove_no_more)
   rng r = rng_make((uint64_t)_i + 1);
   thr_frame f = _i == 0 ? solid_make(OCTAHEDRON) : random_frame(&r, 7, 6, LENGTHS_EUCLID);
   thr_least_options o = thr_least_options_default();
-  o.cords = 1 + _i % 2;
-  thr_least l = solve(&f, &o, o.cords == 1);
+  o.request.cords = 1 + _i % 2;
+  thr_least l = solve(&f, &o, o.request.cords == 1);
   assert_round_trip(&f, &l);
   for (int k = 0; k < 300; k++) {
     thr_turning_dual *d = &l.proof.dual[rng_below(&r, l.proof.n_duals)];

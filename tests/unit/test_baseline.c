@@ -26,8 +26,8 @@ static thr_least tour_make(const thr_frame *f, thr_ends ends, int cover, thr_tou
   thr_shortest s;
   thr_err err = {0};
   thr_least l;
-  o.ends = ends;
-  o.cover = cover;
+  o.request.ends = ends;
+  o.request.cover = cover;
   ck_assert_msg(thr_postman_shortest(f, &shortest, &(thr_limits){0}, &s, &err) == THR_OK, "%s",
                 err.text);
   ck_assert_msg(thr_baseline_tour(f, &o, tour, ignore, s.passes, &l, &err) == THR_OK, "%s",
@@ -341,8 +341,8 @@ START_TEST(what_is_no_classical_tour_is_refused)
   thr_err err = {0}, cords = {0};
   ck_assert_int_eq(thr_baseline_tour(&f, &o, THR_TOUR_LEAST, false, once, &l, &err), THR_EINPUT);
   assert_one_line(&err, "fleury");
-  o.ends = THR_ENDS_ANY;
-  o.cords = 2;
+  o.request.ends = THR_ENDS_ANY;
+  o.request.cords = 2;
   ck_assert_int_eq(thr_baseline_tour(&f, &o, THR_TOUR_FLEURY, false, once, &l, &cords), THR_EINPUT);
   assert_one_line(&cords, "--cords");
   ck_assert_ptr_null(l.cord);

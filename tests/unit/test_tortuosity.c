@@ -80,12 +80,12 @@ START_TEST(slack_is_measured_from_the_shortest_open_cords)
     bool end[8] = {false};
     for (int i = rng_between(&r, 1, 2); i > 0; i--)
       end[rng_below(&r, n)] = true;
-    o.ends = THR_ENDS_NODES;
-    o.end_node = end;
-    o.cords = rng_between(&r, 1, 4);
+    o.request.ends = THR_ENDS_NODES;
+    o.request.end_node = end;
+    o.request.cords = rng_between(&r, 1, 4);
     o.length_slack = 0;
     oracle best = {
-        .f = &f, .end_allowed = end, .cords = o.cords, .most_passes = 8, .best = INFINITY};
+        .f = &f, .end_allowed = end, .cords = o.request.cords, .most_passes = 8, .best = INFINITY};
     oracle crowds = best;
     crowds.crowds = true;
     try_passes(&best, 0, 0);
@@ -226,14 +226,14 @@ END_TEST
 START_TEST(running_out_of_memory_leaves_nothing)
 {
   thr_frame f = path_make(2);
-  static const bool end[] = {true, false};
+  static bool end[] = {true, false};
   thr_least_options o = thr_least_options_default();
   thr_limits limits = {0};
   thr_status st = THR_ENOMEM;
   o.length_slack = 0;
-  o.cords = 2 + (_i == 0);
-  o.ends = _i == 0 ? THR_ENDS_NODES : THR_ENDS_CLOSED;
-  o.end_node = end;
+  o.request.cords = 2 + (_i == 0);
+  o.request.ends = _i == 0 ? THR_ENDS_NODES : THR_ENDS_CLOSED;
+  o.request.end_node = end;
   for (long k = 1; st == THR_ENOMEM; k++) {
     thr_least l = {0};
     thr_frontier out = {0};

@@ -51,21 +51,9 @@ static thr_status search_init(distinct_search *search, thr_err *err)
   search->cord_length = thr_calloc((size_t)search->n_cords, sizeof *search->cord_length);
   if (!search->end_allowed || !search->last_edge || !search->cord_length) return thr_nomem(err);
 
-  for (int v = 0; v < frame->n_nodes; v++)
-    search->end_allowed[v] = thr_plan_end_allowed(frame, request, v);
-
   /* The task of turns: without an aim of turning, turns cost their angles. */
-  search->task = (thr_turning_task){
-      .cover = request->cover,
-      .capacity = request->capacity,
-      .tube = request->joint == THR_JOINT_TUBE,
-      .most_passes = thr_turning_most_passes(frame, request->cover),
-      .cords = request->cords,
-      .cords_least = request->cords_least,
-      .end_allowed = request->ends == THR_ENDS_CLOSED ? NULL : search->end_allowed,
-      .end_count = request->ends == THR_ENDS_COUNTS ? request->end_count : NULL,
-      .cost = thr_wants_turning(request) ? request->turning.cost : THR_TURN_ANGLE,
-      .extra_limit = -1};
+  search->task = thr_turning_task_of(frame, request, search->end_allowed);
+  if (!thr_wants_turning(request)) search->task.cost = THR_TURN_ANGLE;
 
   return thr_turning_columns_init(&search->columns, frame, &search->task, err);
 }

@@ -283,14 +283,11 @@ typedef struct {
 } thr_least_start;
 
 typedef struct {
-  int cover, capacity; /* as in thr_request */
-  bool tube;           /* tube joints; then start must be set, closed cords of any number */
-  thr_ends ends;
-  const bool *end_node; /* [n_nodes] THR_ENDS_NODES only; borrowed */
-  const int *end_count; /* [n_nodes] THR_ENDS_COUNTS only; borrowed */
-  int cords;            /* in every component, exactly, unless the ends are counted; 0 = 1 */
-  int most_passes;      /* of an edge; 0 = 4 * cover + 4 */
-  thr_turn_cost cost;
+  thr_request request; /* what threadings are looked for: covers, capacity, joints, ends, price of
+                          turns, exactly request.cords cords in every component unless the ends are
+                          counted; its arrays are borrowed. With tube joints start must be set,
+                          closed cords of any number */
+  int most_passes;     /* of an edge; 0 = 4 * cover + 4 */
   double length_slack; /* extra cord allowed above the shortest plan found, as a part of its length;
                           < 0 = any length */
   double price_per_length; /* of extra cord, in the turns' price per unit of length */

@@ -20,7 +20,7 @@
 thr_least_options thr_least_options_default(void)
 {
   return (thr_least_options){
-      .cover = 1, .ends = THR_ENDS_CLOSED, .length_slack = -1, .most_nodes = 10000};
+      .request = thr_request_default(), .length_slack = -1, .most_nodes = 10000};
 }
 
 void thr_least_destroy(thr_least *least)
@@ -36,33 +36,23 @@ const int thr_least_most_passes = 100000;
 thr_status thr_least_task(const thr_frame *frame, const thr_least_options *options, thr_least *out,
                           thr_err *err)
 {
-  int cords = options->cords ? options->cords : 1;
-  if (options->cover > thr_least_most_passes / frame->n_edges)
+  const thr_request *request = &options->request;
+
+  if (request->cover > thr_least_most_passes / frame->n_edges)
     return thr_fail(
         err, THR_EINPUT,
         "%d passes of %d edges are more than the %d that the search for the least turning takes",
-        options->cover, frame->n_edges, thr_least_most_passes);
-  if (options->ends != THR_ENDS_CLOSED) {
-    thr_request plan = {.ends = options->ends,
-                        .end_node = (bool *)options->end_node,
-                        .end_count = (int *)options->end_count};
-    if (!(out->end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *out->end_allowed)))
-      return thr_nomem(err);
-    for (int v = 0; v < frame->n_nodes; v++)
-      out->end_allowed[v] = thr_plan_end_allowed(frame, &plan, v);
-  }
-  out->task = (thr_turning_task){
-      .cover = options->cover,
-      .capacity = options->capacity,
-      .tube = options->tube,
-      .end_count = options->ends == THR_ENDS_COUNTS ? options->end_count : NULL,
-      .most_passes = options->most_passes ? options->most_passes
-                                          : thr_turning_most_passes(frame, options->cover),
-      .cords = cords,
-      .end_allowed = out->end_allowed,
-      .cost = options->cost,
-      .price_per_length = options->price_per_length,
-      .extra_limit = -1};
+        request->cover, frame->n_edges, thr_least_most_passes);
+
+  if (request->ends != THR_ENDS_CLOSED &&
+      !(out->end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *out->end_allowed)))
+    return thr_nomem(err);
+
+  /* The search makes exactly so many cords as there may be at most. */
+  out->task = thr_turning_task_of(frame, request, out->end_allowed);
+  out->task.cords_least = 0;
+  out->task.price_per_length = options->price_per_length;
+  if (options->most_passes) out->task.most_passes = options->most_passes;
   return THR_OK;
 }
 
@@ -136,11 +126,12 @@ static thr_status find_shortest(thr_turning_columns *turning_columns,
                                 thr_err *err)
 {
   const thr_frame *frame = turning_columns->f;
-  thr_status st = options->tube ? tied_passes(turning_columns, options, passes, ends, err)
-                                : thr_extra_passes(turning_columns, frame->length, NULL, false,
-                                                   limits, passes, ends, err);
+  thr_status st = options->request.joint == THR_JOINT_TUBE
+                      ? tied_passes(turning_columns, options, passes, ends, err)
+                      : thr_extra_passes(turning_columns, frame->length, NULL, false, limits,
+                                         passes, ends, err);
   double extra = st ? 0 : thr_extra_length(turning_columns, passes),
-         base = thr_turning_base_length(frame, options->cover), given = 0;
+         base = thr_turning_base_length(frame, options->request.cover), given = 0;
   bool several = !out->end_allowed && out->task.cords > 1;
   bool counts = options->n_start > 0 &&
                 (!several || options->n_start == out->task.cords * turning_columns->n_components);
@@ -151,7 +142,7 @@ static thr_status find_shortest(thr_turning_columns *turning_columns,
             !ends_fit(frame, passes, ends);
   out->shortest = counts ? given : base + extra;
   out->length_limit = options->length_slack < 0 ? -1 : out->shortest * (1 + options->length_slack);
-  out->task.extra_limit = thr_turning_extra_limit(frame, options->cover, out->length_limit);
+  out->task.extra_limit = thr_turning_extra_limit(frame, options->request.cover, out->length_limit);
   thr_turning_limit(turning_columns);
   return st;
 }
@@ -165,7 +156,9 @@ static thr_status other_plans(thr_branch *branch, const thr_least_options *optio
     st = thr_branch_try_cords(branch, options->start, options->n_start, err);
   if (!st && start->n) st = thr_branch_try_cords(branch, start->cord, start->n, err);
   if (!st && branch->several) st = thr_several_plans(branch, err);
-  if (st || !branch->c->task->end_allowed || options->tube || branch->c->task->end_count) return st;
+  if (st || !branch->c->task->end_allowed || options->request.joint == THR_JOINT_TUBE ||
+      branch->c->task->end_count)
+    return st;
   thr_extra_spread_ends(branch->c, ends);
   st = thr_extra_passes(branch->c, branch->c->f->length, NULL, true, branch->limits, passes, ends,
                         err);
@@ -304,7 +297,9 @@ static thr_status search(const thr_frame *frame, const thr_least_options *option
   if (!st) st = find_shortest(&turning_columns, options, limits, &made, passes, ends, &start, err);
   if (!st) st = thr_branch_init(&branch, &turning_columns, options->most_nodes, &inner, err);
   branch.motions = options->motions;
-  if (branch.dense) inner = without(limits, (options->tube ? CHECKS_TIED : CHECKS) * each);
+  if (branch.dense)
+    inner =
+        without(limits, (options->request.joint == THR_JOINT_TUBE ? CHECKS_TIED : CHECKS) * each);
   if (!st) st = begin(&branch, err);
   if (!st) st = first_plans(&branch, options, &start, passes, ends, err);
   if (!st) st = thr_branch_run(&branch, err);
@@ -346,8 +341,8 @@ static thr_status search_from_shortest(const thr_frame *frame, const thr_least_o
   thr_least_options again = *options;
   thr_err found = {0};
   again.length_slack = -1;
-  again.cost = THR_TURN_ANGLE;
-  again.price_per_length = dear_length(frame, options->cover);
+  again.request.turning.cost = THR_TURN_ANGLE;
+  again.price_per_length = dear_length(frame, options->request.cover);
   thr_limits exact = *limits;
   exact.gap = 0;
   thr_status st = search(frame, &again, &exact, &shortest, &found);
@@ -367,8 +362,8 @@ thr_status thr_least_turning(const thr_frame *frame, const thr_least_options *op
 {
   thr_err found = {0};
   thr_status st = search(frame, options, limits, out, &found);
-  if (st == THR_EINFEASIBLE && options->length_slack >= 0 && !options->tube &&
-      !options->slack_from_start) {
+  if (st == THR_EINFEASIBLE && options->length_slack >= 0 &&
+      options->request.joint != THR_JOINT_TUBE && !options->slack_from_start) {
     found = (thr_err){0};
     st = search_from_shortest(frame, options, limits, out, &found);
   }

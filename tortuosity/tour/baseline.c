@@ -281,7 +281,7 @@ thr_status thr_baseline_tour(const thr_frame *frame, const thr_least_options *op
     return thr_fail(err, THR_EINPUT,
                     "the least turning is no classical tour; name fleury or hierholzer");
 
-  if (options->cords > 1)
+  if (options->request.cords > 1)
     return thr_fail(err, THR_EINPUT,
                     "the classical tours make one cord per component; leave --cords out");
 
