@@ -33,7 +33,8 @@ static void set_prices(const thr_turning_columns *columns, int64_t *price)
 
 /* Fills a dual, all 0 before, with multipliers for the case that there is no time for a matching:
  * the potential of a half-edge is half of its cheapest turn, so that no turn has a negative reduced
- * cost, and the multiplier of an equation of ends is the lowest that leaves no end a negative one.
+ * cost, and the multiplier of an equation of ends is the largest, at most 0, that leaves no end a
+ * negative one.
  */
 static void halve_cheapest(const thr_turning_columns *columns, thr_turning_dual *dual)
 {

@@ -127,8 +127,8 @@ static bool is_ranked(const orbit_programme *programme, int v)
   return d >= 2 && d <= THR_RANK_DEGREE;
 }
 
-/* Subtracts multipliers from the price of the turn (a, b): adds `by` to their coefficients in row,
- * for the potentials of a and b and the groups that the turn leaves. */
+/* Adds `by` to the coefficients of the multipliers that the turn (a, b) pays: the potentials of a
+ * and b, and the groups that the turn leaves. */
 static void pay(const orbit_programme *programme, double *row, int a, int b, double by)
 {
   row[programme->half[a]] += by;

@@ -56,36 +56,37 @@ typedef struct {
   int *count;    /* [n_places] those in the blossom; zeros between blossoms */
   int *touched;  /* [n_places] places with a count */
   int64_t *more; /* [n_places] what blossoms add to the sum of the duals of those that must be */
-} sets;
+} blossom_sets;
 
 /* Counts the required passes of the blossom node[n] at every place. Returns the number of places
  * touched. */
-static int count_passes(sets *s, const int *node, int n)
+static int count_passes(blossom_sets *state, const int *node, int n)
 {
   int touched = 0;
   for (int i = 0; i < n; i++) {
-    int place = s->home[node[i]];
-    if (place >= 0 && s->count[place]++ == 0) s->touched[touched++] = place;
+    int place = state->home[node[i]];
+    if (place >= 0 && state->count[place]++ == 0) state->touched[touched++] = place;
   }
   return touched;
 }
 
-/* Keeps in s->touched the places all of whose required passes are in the blossom, and returns their
- * number, or 0 if they are an even set. The other places get the blossom's value. Clears the counts
- * of the n places touched. */
-static int take_set(sets *s, int n, int64_t value)
+/* Keeps in state->touched the places all of whose required passes are in the blossom, and returns
+ * their number, or 0 if they are an even set. The other places get the blossom's value. Clears the
+ * counts of the n places touched. */
+static int take_set(blossom_sets *state, int n, int64_t value)
 {
   int kept = 0, odd = 0;
   for (int i = 0; i < n; i++) {
-    int place = s->touched[i], has = s->count[place], needed = thr_pass_needed(s->passes, place);
-    s->count[place] = 0;
+    int place = state->touched[i], has = state->count[place],
+        needed = thr_pass_needed(state->passes, place);
+    state->count[place] = 0;
 
     if (has < needed) {
-      s->more[place] += value;
+      state->more[place] += value;
       continue;
     }
 
-    s->touched[kept++] = place;
+    state->touched[kept++] = place;
     odd ^= needed & 1;
   }
   return odd ? kept : 0;
@@ -108,15 +109,15 @@ static thr_status add_set(thr_turning_dual *dual, const int *member, int n, int6
 
 /* Makes odd sets of all blossoms. Their values change from halves of the matching's unit into units
  * of prices. */
-static thr_status take_sets(sets *s, const thr_matching *matching, const blossom_list *list,
-                            thr_turning_dual *dual, thr_err *err)
+static thr_status take_sets(blossom_sets *state, const thr_matching *matching,
+                            const blossom_list *list, thr_turning_dual *dual, thr_err *err)
 {
   thr_status st = THR_OK;
   for (int b = 0; b < matching->n_blossoms && !st; b++) {
-    int n = count_passes(s, list->node + list->first[b], list->size[b]);
-    n = take_set(s, n, matching->blossom_dual[b]);
-    int64_t value = matching->blossom_dual[b] * (INT64_C(1) << (s->passes->bits - 1));
-    if (n > 0) st = add_set(dual, s->touched, n, value, err);
+    int n = count_passes(state, list->node + list->first[b], list->size[b]);
+    n = take_set(state, n, matching->blossom_dual[b]);
+    int64_t value = matching->blossom_dual[b] * (INT64_C(1) << (state->passes->bits - 1));
+    if (n > 0) st = add_set(dual, state->touched, n, value, err);
   }
   return st;
 }
@@ -129,13 +130,14 @@ static int64_t floor_div(int64_t x, int64_t by)
 
 /* Sets every potential, and multiplier of ends, to the mean of the required passes' duals, with
  * what blossoms have added. */
-static void set_potentials(const sets *s, const thr_matching *matching, thr_turning_dual *dual)
+static void set_potentials(const blossom_sets *state, const thr_matching *matching,
+                           thr_turning_dual *dual)
 {
-  const thr_pass_matching *passes = s->passes;
+  const thr_pass_matching *passes = state->passes;
   int halves = 2 * passes->c->f->n_edges;
   for (int i = 0; i < passes->n_places; i++) {
     int needed = thr_pass_needed(passes, i);
-    int64_t sum = s->more[i];
+    int64_t sum = state->more[i];
     for (int k = 0; k < needed; k++)
       sum += matching->dual[passes->first[i] + k] - passes->lift;
     *(i < halves ? &dual->potential[i] : &dual->ends[i - halves]) =
@@ -171,11 +173,11 @@ thr_status thr_pass_dual(const thr_pass_matching *passes, const thr_matching *ma
          backs = (size_t)(passes->c->n_columns - passes->c->first_back);
 
   thr_scratch own = {0};
-  sets s = {.passes = passes,
-            .home = thr_scratch_array(&own, nodes, sizeof *s.home),
-            .count = thr_scratch_array(&own, places, sizeof *s.count),
-            .touched = thr_scratch_array(&own, places, sizeof *s.touched),
-            .more = thr_scratch_array(&own, places, sizeof *s.more)};
+  blossom_sets state = {.passes = passes,
+                        .home = thr_scratch_array(&own, nodes, sizeof *state.home),
+                        .count = thr_scratch_array(&own, places, sizeof *state.count),
+                        .touched = thr_scratch_array(&own, places, sizeof *state.touched),
+                        .more = thr_scratch_array(&own, places, sizeof *state.more)};
   blossom_list list = {.first = thr_scratch_array(&own, blossoms, sizeof *list.first),
                        .size = thr_scratch_array(&own, blossoms, sizeof *list.size),
                        .node = thr_scratch_array(&own, nodes, sizeof *list.node)};
@@ -191,11 +193,11 @@ thr_status thr_pass_dual(const thr_pass_matching *passes, const thr_matching *ma
   /* The first passes of a place are those that must be made. */
   for (int i = 0; i < passes->n_places && !st; i++)
     for (int k = passes->first[i]; k < passes->first[i + 1]; k++)
-      s.home[k] = k - passes->first[i] < thr_pass_needed(passes, i) ? i : -1;
+      state.home[k] = k - passes->first[i] < thr_pass_needed(passes, i) ? i : -1;
 
   if (!st) list_blossoms(matching, (int)nodes, next, &list);
-  if (!st) st = take_sets(&s, matching, &list, dual, err);
-  if (!st) set_potentials(&s, matching, dual);
+  if (!st) st = take_sets(&state, matching, &list, dual, err);
+  if (!st) set_potentials(&state, matching, dual);
   if (!st) st = settle_backs(passes, price, dual, err);
 
   thr_scratch_free(&own);
