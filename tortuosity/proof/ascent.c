@@ -169,6 +169,8 @@ static double add_gains(ascent_state *state)
   double value = 0;
   for (int j = 0; j < turning_columns->first_extra; j++) {
     int g = turning_columns->half[j][0], h = turning_columns->half[j][1];
+
+    /* Turns of other prices come into the solution with the trees. */
     double price = state->price[j] - state->potential[g] - state->potential[h];
     if (price >= 0) continue;
 
@@ -199,6 +201,7 @@ static double add_ends(ascent_state *state)
   for (int k = 0; k < turning_columns->n_ends; k++) {
     int h = state->end_at[k];
     if (h < 0) continue;
+
     int ends = turning_columns->supply[k][state->potential[h] > 0];
     value -= ends * state->potential[h];
     state->count[h] += ends;
@@ -233,6 +236,7 @@ static double bound_at(ascent_state *state, const double *u)
     longer -= few / 2 * length_of(state, e);
   }
 
+  /* The length is the last row: without a limit its multiplier stays 0. */
   state->rise[2 * m] = turning_columns->extra_limit < 0 ? 0 : state->scale * (longer - limit);
   return turning_columns->extra_limit < 0 ? value : value - state->scale * u[2 * m] * limit;
 }
@@ -287,6 +291,7 @@ static void climb(ascent_state *state, double target, const thr_limits *limits)
   double value = bound_at(state, state->at), part = first_step,
          u_turn = thr_turn_cost_of(state->c->task->cost, THR_PI);
 
+  /* The mean begins as the first solution. */
   memcpy(state->uphill, state->rise, (size_t)state->n * sizeof *state->rise);
   memcpy(state->mean, state->count, 2 * (size_t)state->m * sizeof *state->count);
   memcpy(state->mean_ends, state->ends, 2 * (size_t)state->m * sizeof *state->ends);
@@ -296,11 +301,13 @@ static void climb(ascent_state *state, double target, const thr_limits *limits)
            hoped = fmax(0.1 * value, 0.01 * u_turn * state->m);
     if (steep < 1e-12) break;
 
+    /* No bound far above the present one is aimed at, however far the target is. */
     step(state, part, fmin(hoped, target - value), steep);
 
     double now = bound_at(state, state->at), along = product(state->uphill, state->rise, state->n);
     take_mean(state, steep, along);
 
+    /* A better bound moves the best point; several failures in turn shorten the steps. */
     if (now > value) {
       value = now;
       memcpy(state->best, state->at, (size_t)state->n * sizeof *state->at);
@@ -410,6 +417,7 @@ static thr_status prove_tree(const thr_turning_columns *turning_columns, thr_tur
   find_tree(turning_columns, dual, v, list);
   qsort(list, degree > 0 ? (size_t)degree - 1 : 0, sizeof *list, by_price);
 
+  /* The turns in order of price, as in Kruskal's method. */
   for (int i = 0; i < degree - 1 && !st; i++) {
     if (list[i].price > paid && i % each == 0) {
       st = keep_junction(dual, capacity, v, degree, parent, list[i].price - paid, err);
@@ -449,6 +457,7 @@ static void round_potentials(ascent_state *state, thr_turning_dual *dual)
                      ? 0
                      : thr_relax_whole(state->scale * state->best[2 * state->m]);
 
+  /* Potentials of both half-edges of every edge, the second from the rounded first one. */
   for (int e = 0; e < state->m; e++) {
     int64_t longer = (int64_t)((double)dual->length * length_of(state, e));
     dual->potential[2 * e] = thr_relax_whole(state->potential[2 * e]);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Branch and cut for the least turning of one cord or of closed ones.
  *
- * This room proves lower bounds on the turning of every plan of a task, and finds plans on the way.
- * A bound comes from multipliers on the equations and inequalities of graph/plan/turning_proof.h:
- * of a matching that leaves connectedness out, of a linear programme with cutting planes, or of the
- * leaves of a tree over its columns.
+ * This folder proves lower bounds on the turning of every plan of a task, and finds plans on the
+ * way. A bound comes from multipliers on the equations and inequalities of
+ * graph/plan/turning_proof.h: of a matching that leaves connectedness out, of a linear programme
+ * with cutting planes, or of the leaves of a tree over its columns.
  *
  * Read least.c first: a whole search from the task to the checked proof. branch.c is the tree,
  * branch_match.c the bound at its root by pass_matching.c, pass_dual.c and nearest.c,

@@ -2,8 +2,9 @@
 /* Makes the linear programme of the equations of the turning relaxation, and a basis to start from.
  *
  * Row h says for half-edge h: turns + ends + 2 x turns back - extra passes = cover. One more row
- * for every group of ends says how many ends it has. Two artificial columns per row, +1 and -1, and
- * one for all rows that are added later keep the programme feasible under every branching.
+ * for every group of ends says how many ends it has, if ends are allowed. Two artificial columns
+ * per row, +1 and -1, and one for all rows that are added later keep the programme feasible under
+ * every branching.
  *
  * From the slack basis the simplex method would need about as many pivots as there are rows.
  * Instead the small programme of each node by itself is solved, with turns alone, and what is basic

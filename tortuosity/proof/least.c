@@ -338,6 +338,7 @@ static thr_status search(const thr_frame *frame, const thr_least_options *option
   thr_least_start start = {0};
   *out = (thr_least){0};
 
+  /* Everything is released at the end, whatever has failed. */
   int *passes = thr_calloc((size_t)frame->n_edges, sizeof *passes),
       *ends = thr_calloc((size_t)frame->n_nodes, sizeof *ends);
   thr_status st = passes && ends ? thr_least_task(frame, options, &made, err) : thr_nomem(err);

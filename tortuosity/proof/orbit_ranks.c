@@ -263,6 +263,7 @@ static thr_status cut(orbit_programme *programme, const double *at, double *over
     thr_rank_turns turns;
     if (!is_ranked(programme, programme->first[i])) continue;
 
+    /* How much the programme overestimates the node. */
     const double less =
         at[programme->worth + i] - least_forest(programme, programme->first[i], at, &turns);
     *over += programme->size[i] * fmax(0, less);
@@ -288,6 +289,7 @@ static thr_status cut_and_solve(orbit_programme *programme, const thr_limits *li
     if ((st = thr_lp_solve(programme->lp, limits, &outcome, err)) || outcome != THR_LP_OPTIMAL)
       break;
 
+    /* The programme's value is above the bound by what the nodes are overestimated. */
     thr_lp_primal(programme->lp, at);
     most = -thr_lp_objective(programme->lp);
 
@@ -379,6 +381,7 @@ static thr_status init(orbit_programme *programme, const int *x, thr_err *err)
   find_blocks(programme, part, other);
   programme->connections = thr_turning_connections(c, programme->block, other);
 
+  /* The columns in order: half-edges, the rank, groups, nodes. */
   programme->rank = programme->n_half;
   programme->groups = programme->rank + 1;
   programme->worth = programme->groups + programme->n_kinds;

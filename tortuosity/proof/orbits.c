@@ -86,6 +86,7 @@ static thr_status find(thr_orbits *orbits, const thr_turning_columns *turning_co
   int *node = NULL, n = 0;
   *orbits = (thr_orbits){.c = turning_columns};
 
+  /* Whoever asks for no motions has a task without symmetries. */
   thr_status st = motions ? motions(turning_columns->f, limits, &node, &n, err) : THR_OK;
   if (!st && n > 0) st = choose(orbits, node, n, priced, err);
   free(node);
@@ -117,6 +118,7 @@ static void lower(const thr_turning_columns *columns, const int *image, int *edg
     const int end[2] = {thr_tail(frame, to), thr_head(frame, to)};
     if (columns->component[from[0]] != columns->component[end[0]]) continue;
 
+    /* Edge and nodes separately: the lowest image of each may come from another symmetry. */
     if (to >> 1 < edge[e]) edge[e] = to >> 1;
     for (int k = 0; k < 2; k++)
       if (end[k] < node[from[k]]) node[from[k]] = end[k];

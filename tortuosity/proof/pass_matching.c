@@ -81,6 +81,7 @@ static thr_status list_turns(thr_pass_matching *passes, int v, thr_err *err)
     passes->listed[columns->pair_first[v] + i] = true;
   if (d <= SMALL_NODE) return THR_OK;
 
+  /* Large nodes: the cheapest turns. */
   thr_nearest nearest;
   thr_status st = thr_nearest_find(columns, v, columns->weight, NEAREST, &nearest, err);
   for (int i = 0; i < d && !st; i++)
@@ -150,6 +151,7 @@ thr_status thr_pass_matching_init(thr_pass_matching *passes,
   thr_status st =
       passes->open && passes->copies && passes->first && passes->listed ? THR_OK : thr_nomem(err);
 
+  /* The copies that are open at first, and the turns that are known. */
   for (size_t e = 0; e < m && !st; e++)
     passes->open[e] = first_copies(turning_columns, (int)e);
   for (int v = 0; v < turning_columns->f->n_nodes && !st; v++)
@@ -180,6 +182,7 @@ static thr_status add_edge(thr_pass_matching *passes, int a, int b, int column, 
     st = thr_grow(&passes->weight, passes->n_edges, &again, sizeof *passes->weight, err);
   if (st) return st;
 
+  /* Weights are computed later (weigh), because the unit may change. */
   passes->room = room;
   passes->edge[passes->n_edges][0] = a;
   passes->edge[passes->n_edges][1] = b;
@@ -363,6 +366,7 @@ static thr_status keep(thr_pass_matching *passes, const thr_matching *matching, 
   if (!passes->dual || !passes->mate) return thr_nomem(err);
 
   for (int v = 0; v < n; v++) {
+    /* Duals are in halves of the matching's unit. */
     int64_t own = matching->dual[v] - passes->lift;
     passes->dual[v] = (own > most    ? most
                        : own < -most ? -most
@@ -384,6 +388,7 @@ static void move_nodes(const thr_pass_matching *passes, const int *before, int *
       int had = before[i + 1] - before[i], to = passes->first[i] + k;
       dual[to] = passes->dual[before[i] + (k < had ? k : had - 1)];
 
+      /* An old copy moves; a new one is matched end to end, at the other half-edge of its edge. */
       if (k < had)
         moved[before[i] + k] = to;
       else
@@ -457,6 +462,7 @@ static thr_status match(thr_pass_matching *passes, const int64_t *price, int kno
   bool many = passes->n_edges - known > known / 2;
   passes->rounds++;
 
+  /* A weight that would be negative needs another lift, and so new weights everywhere. */
   if (!out->state || many || !weigh(passes, price, known))
     return match_anew(passes, price, limits, out, err);
 
@@ -497,6 +503,7 @@ static thr_status list_more(thr_pass_matching *passes, int64_t *left, int64_t fe
   for (int j = 0; j < columns->first_extra; j++)
     if (passes->listed[j]) left[j] = INT64_MAX;
 
+  /* At small nodes all turns are listed from the start. */
   for (int v = 0; v < columns->f->n_nodes && !st; v++)
     if (thr_degree(columns->f, v) > SMALL_NODE)
       st = list_cheapest(passes, v, left, few, most, more, err);
@@ -559,6 +566,8 @@ static void count_columns(const thr_pass_matching *passes, const thr_matching *m
 {
   const thr_turning_columns *columns = passes->c;
   memset(x, 0, (size_t)columns->n_columns * sizeof *x);
+
+  /* As if all copies were made; edges that match copies end to end take them off again. */
   for (int e = 0; e < columns->f->n_edges; e++)
     x[columns->first_extra + e] = passes->copies[e] - columns->cover[e];
 
@@ -583,6 +592,7 @@ static thr_status settle_turns(const thr_pass_matching *passes, const int64_t *p
     if (over > 0 && (j < columns->first_extra || j >= columns->first_end)) less[a] += over;
   }
 
+  /* All changes were collected first, because every turn counts what its half-edges lost. */
   for (int h = 0; h < 2 * columns->f->n_edges && !st; h++)
     dual->potential[h] -= less[h];
   return st;

@@ -72,6 +72,7 @@ thr_status thr_relax_dual(const thr_relax *relax, thr_turning_dual *dual, thr_er
   thr_status st = thr_turning_dual_init(dual, turning_columns, err);
   if (st) return st;
 
+  /* One list for every kind of row. */
   dual->odd = thr_calloc((size_t)used[THR_RELAX_ODD], sizeof *dual->odd);
   dual->group = thr_calloc((size_t)used[THR_RELAX_GROUP], sizeof *dual->group);
   dual->partition = thr_calloc((size_t)used[THR_RELAX_PARTITION], sizeof *dual->partition);

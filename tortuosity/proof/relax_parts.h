@@ -2,7 +2,7 @@
 /* What only the files of tortuosity/proof/ call: bounds by subgradient ascent, by matchings, by
  * ranks of symmetric frameworks, and by a programme without turns.
  *
- * branch.h says what the room is for and in which order to read its files. Of the functions here
+ * branch.h says what the folder is for and in which order to read its files. Of the functions here
  * thr_pass_matching_solve comes first; its bound is the root's, and thr_pass_dual explains how a
  * matching proves it. All bounds are multipliers, thr_turning_dual, in units of
  * 2^-THR_TURNING_BITS. */
