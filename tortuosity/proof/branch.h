@@ -1,6 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Branch and cut for the least turning of one cord or of closed ones: the relaxation, its
- * separators, and the tree. */
+/* Branch and cut for the least turning of one cord or of closed ones.
+ *
+ * This folder proves lower bounds on the turning of every plan of a task, and finds plans on the
+ * way. A bound comes from multipliers on the equations and inequalities of
+ * graph/plan/turning_proof.h: of a matching that leaves connectedness out, of a linear programme
+ * with cutting planes, or of the leaves of a tree over its columns.
+ *
+ * Read least.c first: a whole search from the task to the checked proof. branch.c is the tree,
+ * branch_match.c the bound at its root by pass_matching.c, pass_dual.c and nearest.c,
+ * branch_plans.c the plans, branch_lanes.c several nodes in parallel, and branch_anneal.c
+ * annealing. relax.c is the linear programme with equations.c and relax_dual.c; project.c is the
+ * same without turns; column_groups.c, partition.c and junctions.c are its separators. orbits.c
+ * finds symmetries, and orbit_ranks.c uses them for a bound; ascent.c bounds tube joints without a
+ * programme. Functions that only these files call are in relax_parts.h. */
 #ifndef THR_BRANCH_H
 #define THR_BRANCH_H
 
@@ -18,9 +30,9 @@
 /* ---- orbits.c: Which columns a tree decides on at once: images under the symmetries of the task
  * that keep what was decided before. */
 
-/* Whoever finds motions of a framework onto itself: *image, owned by the caller, receives the
- * images of all nodes under *n of them, [*n * n_nodes]; none if they are too many or it takes too
- * long. */
+/* Finds motions of a framework onto itself: *image, owned by the caller, receives the images of all
+ * nodes under *n of them, [*n * n_nodes]; none if they are too many or the search takes too long.
+ */
 typedef thr_status thr_orbits_motions(const thr_frame *frame, const thr_limits *limits, int **image,
                                       int *n, thr_err *err);
 
@@ -35,20 +47,20 @@ typedef struct {
   int n, *column, *symmetry; /* [n] owned */
 } thr_orbit;
 
-/* motions NULL: there are none. O(motions * columns). */
+/* Finds the symmetries of a task. motions NULL: there are none. O(motions * columns). */
 thr_status thr_orbits_init(thr_orbits *orbits, const thr_turning_columns *turning_columns,
                            thr_orbits_motions *motions, const thr_limits *limits,
                            thr_err *err) THR_MUST_CHECK;
 void thr_orbits_destroy(thr_orbits *orbits);
 
-/* The lowest edge and the lowest node of its component that each is mapped to, edge[n_edges] and
- * node[n_nodes], by symmetries of the task but for prices. As thr_orbits_init. */
+/* Computes the lowest edge and the lowest node of its component that each is mapped to,
+ * edge[n_edges] and node[n_nodes], by symmetries of the task but for prices. As thr_orbits_init. */
 thr_status thr_orbits_lowest(const thr_turning_columns *turning_columns,
                              thr_orbits_motions *motions, const thr_limits *limits, int *edge,
                              int *node, thr_err *err) THR_MUST_CHECK;
 
-/* Of a column at a node of the tree that place is at. O(symmetries * columns decided above the
- * node). */
+/* Computes the orbit of a column at the node of the tree that place is at. O(symmetries * columns
+ * decided above the node). */
 thr_status thr_orbits_at(const thr_orbits *orbits, const thr_tree *tree,
                          const thr_tree_place *place, int column, thr_orbit *orbit,
                          thr_err *err) THR_MUST_CHECK;
@@ -86,51 +98,52 @@ typedef struct {
   double *reduced; /* [n_columns] costs that the rows leave */
 } thr_relax;
 
-/* penalty: price of one unit of an artificial column, more than any plan costs. projected: without
- * turns, which must be free, and with tube joints. */
+/* Makes the relaxation with its first rows. penalty: price of one unit of an artificial column,
+ * more than any plan costs. projected: without turns, which must be free, and with tube joints. */
 thr_status thr_relax_init(thr_relax *relax, const thr_turning_columns *turning_columns,
                           bool projected, double penalty, const thr_limits *limits,
                           thr_err *err) THR_MUST_CHECK;
 void thr_relax_destroy(thr_relax *relax);
 
-/* The same programme with its rows and basis, of this thread (lp/solver/lp.h); without separators
- * and a point. */
+/* Makes a copy with its rows and basis that belongs to this thread (lp/solver/lp.h), without
+ * separators and a point. */
 thr_status thr_relax_copy(thr_relax *relax, const thr_relax *from, thr_err *err) THR_MUST_CHECK;
 
 /* Puts bounds on a column, for the next solve. */
 thr_status thr_relax_set(thr_relax *relax, int column, int low, int high,
                          thr_err *err) THR_MUST_CHECK;
 
-/* After a solve, also one that the limits stopped: fills artificial and reduced. */
+/* Fills artificial and reduced after a solve, also one that the limits stopped. */
 void thr_relax_look(thr_relax *relax);
 
-/* The multipliers of the last solve as integers. Release with thr_turning_dual_destroy. */
+/* Makes the multipliers of the last solve integers. Release with thr_turning_dual_destroy. */
 thr_status thr_relax_dual(const thr_relax *relax, thr_turning_dual *turning_dual,
                           thr_err *err) THR_MUST_CHECK;
 
-/* A multiplier in units of 2^-THR_TURNING_BITS; far below -1e4 or above 1e4 it would be useless. */
+/* Returns a multiplier in units of 2^-THR_TURNING_BITS. Values below -1e4 or above 1e4, which would
+ * be useless, are cut off there. */
 int64_t thr_relax_whole(double value);
 
-/* The linear programme of the equations alone, in tortuosity/proof/equations.c. */
+/* Makes the linear programme of the equations alone (equations.c). */
 thr_status thr_relax_create(thr_relax *relax, double penalty, thr_err *err) THR_MUST_CHECK;
 
-/* Starts the simplex method where every node by itself has its cheapest turns, without extra passes
- * and ends: most of what the slack basis would need as many pivots for as there are rows. Where the
+/* Sets a basis at which every node by itself has its cheapest turns, without extra passes and ends:
+ * this spares most of the pivots from the slack basis, which are about as many as rows. Where the
  * limits stop it the basis is a worse one. */
 thr_status thr_relax_crash(thr_relax *relax, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 
-/* A separator, of a thr_relax, in tortuosity/proof/junctions.c: of every node the junction row that
- * x violates most. */
+/* Separates junction rows of a thr_relax (junctions.c): of every node the one that x violates most.
+ */
 thr_status thr_junctions_separate(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
 
-/* A separator, of a thr_relax whose cords hang together, in tortuosity/proof/column_groups.c:
+/* Separates group rows of a thr_relax whose cords must be connected (column_groups.c): the
  * connected components of the edges under turns with x > 0. O(columns). */
 thr_status thr_groups_separate(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
 
-/* A separator, of a thr_relax, in tortuosity/proof/partition.c. Every node is given its cheapest
- * pairing, or the one that x uses most; what hangs together then are the blocks of a partition.
- * Nodes are made whole again in order of how little another pairing costs, so that there are as
- * many partitions as different regrets, of which some tens are looked at. */
+/* Separates partition rows of a thr_relax (partition.c): every node is given its cheapest pairing,
+ * or the one that x uses most, and the circuits are the blocks; then nodes are merged whole in
+ * order of their regret. Of as many partitions as there are different regrets some tens are
+ * offered. */
 thr_status thr_partitions_separate(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
 
 /* ---- branch.c: Branch and cut over the turning relaxation (tortuosity/proof/relax.c) on the tree

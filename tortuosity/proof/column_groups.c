@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Separates groups of edges that a fractional point does not connect to the rest: components of its
- * support.
+/* Separates group rows: groups of edges that a fractional point does not connect to the rest.
  *
- * Row of a group S of edges, not all of a component: a single closed cord leaves S at least twice;
- * open cords leave it or end in it.
+ * Row of a group S of edges, not all of a component: the turns that leave S plus the ends in S are
+ * at least 2, because a single closed cord leaves S and comes back, and open cords leave S or end
+ * in it. Candidates are the connected components of the support, that is, of the edges joined by
+ * turns with x > 0. These are subtours as in the travelling salesman problem.
  *
- * Example: two circuits that meet at a node without a turn from one to the other: each of them is a
- * violated group. */
+ * Example: two circuits that meet at a node without a turn from one to the other are two violated
+ * groups. */
 #include "graph/disjoint.h"
 #include "graph/scratch.h"
 #include "graph/sort.h"
@@ -18,14 +19,16 @@
 
 static const double tolerance = 1e-6;
 
+/* Returns the number of the disjoint-set member that stands for the ends of the column's component;
+ * these members come after the edges. */
 static int end_node(const thr_turning_columns *turning_columns, int column)
 {
   return turning_columns->f->n_edges +
          turning_columns->component[thr_tail(turning_columns->f, turning_columns->half[column][0])];
 }
 
-/* The two edges (or an edge and the ends of its component, numbered after the edges) that a column
- * joins; false for others. */
+/* Returns whether column j is a turn or an end, and the two members that it joins: edges, or an
+ * edge and the ends of its component. */
 static bool joins(const thr_turning_columns *turning_columns, int j, int *a, int *b)
 {
   if (j >= turning_columns->first_back ||
@@ -39,7 +42,8 @@ static bool joins(const thr_turning_columns *turning_columns, int j, int *a, int
 
 /* ---- rows ---- */
 
-/* Puts the columns that leave the edges of a group, which are marked. */
+/* Puts the turns that leave the group edge[n] with coefficient 1, and the ends in it.
+ * inside[n_edges] marks the group. */
 static void put_crossing(thr_relax *relax, const int *edge, int n, const bool *inside)
 {
   const thr_turning_columns *turning_columns = relax->c;
@@ -64,6 +68,8 @@ static thr_status add_group(thr_relax *relax, const int *edge, int n, int *added
   thr_status st = thr_scratch_check(&own, err);
   for (int i = 0; i < n && !st; i++)
     inside[group[i] = edge[i]] = true;
+
+  /* The pool keeps the members in ascending order, as the proof has them. */
   if (!st) {
     thr_sort_ints(group, (size_t)n);
     put_crossing(relax, group, n, inside);
@@ -76,6 +82,8 @@ static thr_status add_group(thr_relax *relax, const int *edge, int n, int *added
 
 /* ---- components ---- */
 
+/* Offers the row of every component of the support, unless the support connects all edges of the
+ * framework's component. */
 thr_status thr_groups_separate(void *user, int *added, thr_err *err)
 {
   thr_relax *relax = user;
@@ -87,21 +95,29 @@ thr_status thr_groups_separate(void *user, int *added, thr_err *err)
   int *list = thr_scratch_array(&own, (size_t)m, sizeof *list),
       *pieces = thr_scratch_array(&own, (size_t)turning_columns->n_components, sizeof *pieces);
   thr_status st = thr_scratch_check(&own, err);
+
+  /* Join edges, and the ends of a component, along the support. */
   for (int v = 0; v < n && !st; v++)
     parent[v] = v;
   for (int j = 0; j < turning_columns->first_back && !st; j++)
     if (joins(turning_columns, j, &a, &b) && relax->x[j] > tolerance)
       thr_disjoint_join(parent, a, b);
+
+  /* Sort the edges by their sets (counting sort), and count the sets of every component of the
+   * framework. */
   for (int e = 0; e < m && !st; e++) {
     int root = thr_disjoint_find(parent, e);
     start[root + 2]++;
     pieces[turning_columns->component[turning_columns->f->edge[e][0]]] +=
-        root == e; /* the lowest is the root: an edge, not the ends */
+        root == e; /* the lowest member is the root: never the ends */
   }
+
   for (int v = 1; v <= n && !st; v++)
     start[v + 1] += start[v];
   for (int e = 0; e < m && !st; e++)
     list[start[thr_disjoint_find(parent, e) + 1]++] = e;
+
+  /* Offer each set: list[start[e]] .. list[start[e + 1] - 1]. */
   for (int e = 0; e < m && !st; e++) {
     int k = turning_columns->component[turning_columns->f->edge[e][0]];
     bool alone = pieces[k] == 1;

@@ -1,5 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finding divisions of the edges at a node that a point does not tie. */
+/* Separates junction rows, which tube joints need: at every node the edges must be tied.
+ *
+ * Row of a division of a node's edges into b blocks: at least b - 1 turns go between
+ * different blocks, because the turns must connect all edges. These are the partition inequalities
+ * of spanning trees. Up to ENUMERATED edges all divisions are tried; at larger nodes only the
+ * components of the edges that turns of more than a threshold connect.
+ *
+ * Example: four edges, each turned into one other in pairs, x = 1 for two turns: the division into
+ * these two pairs has no turn between its blocks, and needs one. */
 #include "graph/disjoint.h"
 #include "graph/scratch.h"
 #include "tortuosity/proof/branch.h"
@@ -10,79 +18,87 @@
 
 enum { ENUMERATED = 7 }; /* edges at a node whose divisions are all looked at: 877 of 7 */
 
-/* The edges of one node, and how much a point turns between them. */
+/* The turns at one node, and the most violated division found so far. */
 typedef struct {
   int d;
   const double *between; /* [d * d], above the diagonal */
   int *block, *worst, *parent;
   int worst_blocks;
   double violation;
-} star;
+} node_division;
 
-/* The division in block, into n parts of which crossing turns join different ones. */
-static void judge(star *s, int n, double crossing)
+/* Keeps the division in block if it is the most violated so far. n: number of blocks; crossing:
+ * turns between different ones. */
+static void judge(node_division *division, int n, double crossing)
 {
   double violation = n - 1 - crossing;
-  if (violation <= s->violation + 1e-9) return;
-  s->violation = violation;
-  s->worst_blocks = n;
-  memcpy(s->worst, s->block, (size_t)s->d * sizeof *s->worst);
+  if (violation <= division->violation + 1e-9) return;
+  division->violation = violation;
+  division->worst_blocks = n;
+  memcpy(division->worst, division->block, (size_t)division->d * sizeof *division->worst);
 }
 
-/* All divisions that go on from the first k edges in n parts. */
-static void divide(star *s, int k, int n, double crossing)
+/* Goes through all divisions that continue the one of the first k edges, which has n blocks and
+ * `crossing` turns between them. */
+static void divide(node_division *division, int k, int n, double crossing)
 {
-  if (k == s->d) {
-    judge(s, n, crossing);
+  if (k == division->d) {
+    judge(division, n, crossing);
     return;
   }
+
+  /* Edge k joins each of the blocks, or begins a new one. */
   for (int b = 0; b <= n; b++) {
     double more = 0;
     for (int i = 0; i < k; i++)
-      if (s->block[i] != b) more += s->between[i * s->d + k];
-    s->block[k] = b;
-    divide(s, k + 1, b == n ? n + 1 : n, crossing + more);
+      if (division->block[i] != b) more += division->between[i * division->d + k];
+    division->block[k] = b;
+    divide(division, k + 1, b == n ? n + 1 : n, crossing + more);
   }
 }
 
-/* The parts that turns of more than threshold connect. */
-static void judge_parts(star *s, double threshold)
+/* Judges the division into the parts that turns of more than threshold connect. */
+static void judge_parts(node_division *division, double threshold)
 {
   double crossing = 0;
-  for (int i = 0; i < s->d; i++)
-    s->parent[i] = i;
-  for (int i = 0; i < s->d; i++)
-    for (int k = i + 1; k < s->d; k++)
-      if (s->between[i * s->d + k] > threshold) thr_disjoint_join(s->parent, i, k);
-  int n = thr_disjoint_number(s->parent, s->d, s->block);
-  for (int i = 0; i < s->d; i++)
+  for (int i = 0; i < division->d; i++)
+    division->parent[i] = i;
+  for (int i = 0; i < division->d; i++)
+    for (int k = i + 1; k < division->d; k++)
+      if (division->between[i * division->d + k] > threshold)
+        thr_disjoint_join(division->parent, i, k);
+
+  /* Count the turns between different parts. */
+  int n = thr_disjoint_number(division->parent, division->d, division->block);
+  for (int i = 0; i < division->d; i++)
     for (int k = 0; k < i; k++)
-      if (s->block[k] != s->block[i]) crossing += s->between[k * s->d + i];
-  judge(s, n, crossing);
+      if (division->block[k] != division->block[i])
+        crossing += division->between[k * division->d + i];
+  judge(division, n, crossing);
 }
 
-/* Of the divisions of d edges into blocks the one with the fewest turns between blocks for its
- * number of them: between[i * d + k], i < k, turns between edges i and k. block[d] and *n_blocks
- * receive it; *n_blocks is 0 if none is violated. For up to 7 edges all divisions, 877 at most; for
- * more those into parts that hang together. */
+/* Finds the most violated division of the d edges. between[i * d + k], i < k: turns between edges i
+ * and k. block[d] and *n_blocks receive the division; *n_blocks is 0 if none is violated. */
 static thr_status find_worst(int d, const double *between, int *block, int *n_blocks, thr_err *err)
 {
   static const double threshold[] = {1e-6, 0.2,  0.35,    0.51,
                                      0.7,  0.99, INFINITY}; /* the last: single edges */
   thr_scratch own = {0};
-  star s = {.d = d, .between = between, .worst = block, .violation = 1e-6};
-  s.block = thr_scratch_array(&own, (size_t)d, sizeof *s.block);
-  s.parent = thr_scratch_array(&own, (size_t)d, sizeof *s.parent);
+  node_division division = {.d = d, .between = between, .worst = block, .violation = 1e-6};
+  division.block = thr_scratch_array(&own, (size_t)d, sizeof *division.block);
+  division.parent = thr_scratch_array(&own, (size_t)d, sizeof *division.parent);
   thr_status st = thr_scratch_check(&own, err);
-  if (!st && d <= ENUMERATED) divide(&s, 0, 0, 0);
+
+  if (!st && d <= ENUMERATED) divide(&division, 0, 0, 0);
   for (size_t i = 0; i < sizeof threshold / sizeof *threshold && d > ENUMERATED && !st; i++)
-    judge_parts(&s, threshold[i]);
-  *n_blocks = s.worst_blocks;
+    judge_parts(&division, threshold[i]);
+
+  *n_blocks = division.worst_blocks;
   thr_scratch_free(&own);
   return st;
 }
 
-/* Adds the row of a node's blocks, 0 .. n - 1, if x violates it. */
+/* Adds the row of the blocks 0 .. n - 1 of node v if x violates it. */
 static thr_status add_junction(thr_relax *relax, int v, int *block, int n, int *added, thr_err *err)
 {
   const thr_turning_columns *turning_columns = relax->c;
@@ -92,11 +108,13 @@ static thr_status add_junction(thr_relax *relax, int v, int *block, int n, int *
     for (int b = a + 1; b < d; b++)
       if (block[a] != block[b])
         thr_pool_put(&relax->search.pool, thr_turning_column(turning_columns, half[a], half[b]), 1);
+
   const thr_row row = {
       .kind = THR_RELAX_JUNCTION, .index = v, .lower = n - 1, .member = block, .n_members = d};
   return thr_pool_offer(&relax->search.pool, row, relax->x, 1e-6, added, err);
 }
 
+/* Offers the most violated junction row of every node. */
 thr_status thr_junctions_separate(void *user, int *added, thr_err *err)
 {
   thr_relax *relax = user;
@@ -106,6 +124,8 @@ thr_status thr_junctions_separate(void *user, int *added, thr_err *err)
   double *between = thr_calloc(most * most, sizeof *between);
   int *block = thr_calloc(most, sizeof *block);
   thr_status st = between && block ? THR_OK : thr_nomem(err);
+
+  /* The values of all turns at the node, then its worst division. */
   for (int v = 0; v < frame->n_nodes && !st; v++) {
     int d = thr_degree(frame, v), blocks = 0;
     for (int i = 0; i < d; i++)
@@ -115,6 +135,7 @@ thr_status thr_junctions_separate(void *user, int *added, thr_err *err)
     if (d > 1) st = find_worst(d, between, block, &blocks, err);
     if (!st && blocks > 1) st = add_junction(relax, v, block, blocks, added, err);
   }
+
   free(between);
   free(block);
   return st;

@@ -1,5 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the files of tortuosity/proof/ share: bounds by matchings, by multipliers and by orbits. */
+/* What only the files of tortuosity/proof/ call: bounds by subgradient ascent, by matchings, by
+ * ranks of symmetric frameworks, and by a programme without turns.
+ *
+ * branch.h says what the folder is for and in which order to read its files. Of the functions here
+ * thr_pass_matching_solve comes first; its bound is the root's, and thr_pass_dual explains how a
+ * matching proves it. All bounds are multipliers, thr_turning_dual, in units of
+ * 2^-THR_TURNING_BITS. */
 #ifndef THR_RELAX_PARTS_H
 #define THR_RELAX_PARTS_H
 
