@@ -10,16 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Does every edge have no more passes than it may, and the plan no more extra length? */
-static bool within_limits(const thr_turning_columns *turning_columns, const int *passes)
-{
-  const thr_turning_task *turning_task = turning_columns->task;
-  for (int e = 0; e < turning_columns->f->n_edges; e++)
-    if (passes[e] > turning_columns->most[e]) return false;
-  return turning_task->extra_limit < 0 ||
-         thr_extra_length(turning_columns, passes) <= turning_task->extra_limit;
-}
-
 /* Price of the extra passes, in units of 2^-THR_TURNING_BITS. */
 static int64_t price_of_passes(const thr_branch *branch, const int *passes)
 {
@@ -100,7 +90,7 @@ static bool late(const thr_branch *branch)
 
 thr_status thr_branch_try_circuits(thr_branch *branch, thr_join *j, const int *passes, thr_err *err)
 {
-  bool found = !late(branch) && within_limits(branch->c, passes);
+  bool found = !late(branch) && thr_passes_allowed(branch->c, passes);
   thr_status st = found ? thr_circuits_make(j, branch->limits, &found, err) : THR_OK;
   if (!st && found) return keep_better(branch, j, passes, err);
   thr_join_destroy(j);
@@ -174,7 +164,7 @@ static thr_status try_tied(thr_branch *branch, const int *passes, const int *end
 thr_status thr_branch_try(thr_branch *branch, const int *passes, const int *ends, thr_err *err)
 {
   thr_join j;
-  if (late(branch) || !within_limits(branch->c, passes)) return THR_OK;
+  if (late(branch) || !thr_passes_allowed(branch->c, passes)) return THR_OK;
   if (branch->c->task->tube) return try_tied(branch, passes, ends, err);
   if (branch->several) return try_several(branch, passes, err);
   thr_status st = thr_join_init(&j, branch->c, passes, ends, err);
@@ -201,7 +191,7 @@ thr_status thr_branch_try_cords(thr_branch *branch, const thr_cord *cord, int n_
 {
   thr_join j = {0};
   count_passes(branch, cord, n_cords);
-  if (late(branch) || !within_limits(branch->c, branch->passes)) return THR_OK;
+  if (late(branch) || !thr_passes_allowed(branch->c, branch->passes)) return THR_OK;
   thr_status st = thr_join_from_cords(&j, branch->c, cord, n_cords, err);
   if (!st && branch->several) return thr_branch_try_circuits(branch, &j, branch->passes, err);
   if (!st && !branch->c->task->tube) st = thr_improve(&j, branch->limits, err);
@@ -224,7 +214,8 @@ thr_status thr_branch_try_start(thr_branch *branch, const thr_cord *cord, int n_
 {
   thr_join j = {0};
   count_passes(branch, cord, n_cords);
-  if (!within_limits(branch->c, branch->passes) || n_cords != cords_asked(branch->c)) return THR_OK;
+  if (!thr_passes_allowed(branch->c, branch->passes) || n_cords != cords_asked(branch->c))
+    return THR_OK;
   thr_status st = thr_join_from_cords(&j, branch->c, cord, n_cords, err);
   if (!st && j.price >= thr_join_forbidden && !branch->several) st = thr_improve_backs(&j, err);
   if (!st) return keep_better(branch, &j, branch->passes, err);
@@ -262,7 +253,7 @@ static thr_status round_tied(thr_branch *branch, thr_err *err)
   bool now_and_then = (branch->rounds & (branch->rounds - 1)) ==
                       0; /* it takes longer than most linear programmes */
   if (!st && found && now_and_then && !branch->c->task->free_turns &&
-      within_limits(branch->c, branch->passes))
+      thr_passes_allowed(branch->c, branch->passes))
     st = thr_tie_improve(branch->c, branch->limits, branch->passes, branch->ends, err);
   return st || !found ? st : thr_branch_try(branch, branch->passes, branch->ends, err);
 }
@@ -282,7 +273,7 @@ static void take_point(thr_branch *branch, const int *x)
 thr_status thr_branch_try_point(thr_branch *branch, const int *x, thr_err *err)
 {
   take_point(branch, x);
-  return within_limits(branch->c, branch->passes)
+  return thr_passes_allowed(branch->c, branch->passes)
              ? try_columns(branch, branch->passes, branch->ends, err)
              : THR_OK;
 }
@@ -294,7 +285,7 @@ thr_status thr_branch_try_joined(thr_branch *branch, const int *x, thr_err *err)
   bool single;
   if (task->end_allowed || task->cords > 1) return thr_branch_try_point(branch, x, err);
   take_point(branch, x);
-  if (late(branch) || !within_limits(branch->c, branch->passes)) return THR_OK;
+  if (late(branch) || !thr_passes_allowed(branch->c, branch->passes)) return THR_OK;
   thr_status st = thr_join_init(&j, branch->c, branch->passes, branch->ends, err);
   if (st) return st;
   st = thr_join_columns(&j, branch->whole, &single, err);
@@ -317,7 +308,7 @@ thr_status thr_branch_try_whole(thr_branch *branch, thr_err *err)
     x[k] = (int)nearbyint(branch->relax.x[k]);
   take_point(branch, x);
   free(x);
-  bool fit = !branch->projected && within_limits(turning_columns, branch->passes);
+  bool fit = !branch->projected && thr_passes_allowed(turning_columns, branch->passes);
   thr_status st = fit && turning_columns->task->tube
                       ? thr_tie_holds(turning_columns, branch->whole, &fit, err)
                       : THR_OK;
