@@ -116,7 +116,8 @@ static thr_status prove_solid(thr_plan *plan, thr_err *err)
 
   /* Let the checker state what the certificates prove of the length, and of the cords. */
   st = thr_check_length_proof(frame, options, plan->cord, plan->n_cords, proof->certificate,
-                              proof->n_certificates, &proof->optimal, &proof->lower_bound, &found);
+                              proof->n_certificates, NULL, &proof->optimal, &proof->lower_bound,
+                              &found);
   if (!st)
     st = thr_check_cords(frame, options, plan->cord, plan->n_cords, proof->certificate,
                          proof->n_certificates, NULL, &plan->cords_claim, &found);

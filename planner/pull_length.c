@@ -35,9 +35,9 @@ thr_status thr_planner_judge_length(thr_plan *plan, thr_err *err)
 {
   thr_length_proof *proof = &plan->proof;
   thr_err found = {0};
-  thr_status st = thr_check_length_within(&plan->frame, &plan->options, plan->cord, plan->n_cords,
-                                          proof->certificate, proof->n_certificates, &proof->pulled,
-                                          &proof->optimal, &proof->lower_bound, &found);
+  thr_status st = thr_check_length_proof(&plan->frame, &plan->options, plan->cord, plan->n_cords,
+                                         proof->certificate, proof->n_certificates, &proof->pulled,
+                                         &proof->optimal, &proof->lower_bound, &found);
 
   if (!st) proof->gap = (plan->metrics.length - proof->lower_bound) / plan->metrics.length;
   return thr_check_own(st, &found, err);

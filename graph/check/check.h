@@ -30,18 +30,13 @@ int64_t thr_certificate_weight(const thr_frame *frame, const thr_certificate *ce
  * price, sum and join as stated. Gives the lower bound on the plan's length: the length itself if
  * every component is optimal. *optimal and *lower_bound are what a plan may claim. THR_EVIOLATED
  * with the place and the numbers. O(nodes + edges + size of the certificates * sqrt(edges) *
- * log(cuts)) at worst. */
+ * log(cuts)) at worst. pulled: what prices of walks prove of the length within options.max_pull
+ * (NULL: none). */
 thr_status thr_check_length_proof(const thr_frame *frame, const thr_request *options,
                                   const thr_cord *cord, int n_cords,
                                   const thr_certificate *certificate, int n_certificates,
-                                  bool *optimal, double *lower_bound, thr_err *err) THR_MUST_CHECK;
-
-/* The same with what prices of walks prove of the length within options.max_pull (NULL: none). */
-thr_status thr_check_length_within(const thr_frame *frame, const thr_request *options,
-                                   const thr_cord *cord, int n_cords,
-                                   const thr_certificate *certificate, int n_certificates,
-                                   const thr_walk_proof *pulled, bool *optimal, double *lower_bound,
-                                   thr_err *err) THR_MUST_CHECK;
+                                  const thr_walk_proof *pulled, bool *optimal, double *lower_bound,
+                                  thr_err *err) THR_MUST_CHECK;
 
 /* What may be claimed of these cords, as many as the options say, with these certificates (NULL, 0
  * = none): fills found. Their longest is at least the least length of all cords of a component over

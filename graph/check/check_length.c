@@ -108,17 +108,8 @@ static thr_status check_proof(const thr_frame *frame, const thr_request *options
 thr_status thr_check_length_proof(const thr_frame *frame, const thr_request *options,
                                   const thr_cord *cord, int n_cords,
                                   const thr_certificate *certificate, int n_certificates,
-                                  bool *optimal, double *lower_bound, thr_err *err)
-{
-  return thr_check_length_within(frame, options, cord, n_cords, certificate, n_certificates, NULL,
-                                 optimal, lower_bound, err);
-}
-
-thr_status thr_check_length_within(const thr_frame *frame, const thr_request *options,
-                                   const thr_cord *cord, int n_cords,
-                                   const thr_certificate *certificate, int n_certificates,
-                                   const thr_walk_proof *pulled, bool *optimal, double *lower_bound,
-                                   thr_err *err)
+                                  const thr_walk_proof *pulled, bool *optimal, double *lower_bound,
+                                  thr_err *err)
 {
   thr_check_walked check_walked;
   double length = 0;

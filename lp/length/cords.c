@@ -457,8 +457,8 @@ static thr_status judge_length(thr_plan *plan, thr_err *err)
   thr_length_proof *proof = &plan->proof;
   thr_err found = {0};
   thr_status st = thr_check_length_proof(&plan->frame, &plan->options, plan->cord, plan->n_cords,
-                                         proof->certificate, proof->n_certificates, &proof->optimal,
-                                         &proof->lower_bound, &found);
+                                         proof->certificate, proof->n_certificates, NULL,
+                                         &proof->optimal, &proof->lower_bound, &found);
 
   proof->gap = (plan->metrics.length - proof->lower_bound) / plan->metrics.length;
   return thr_check_own(st, &found, err);

@@ -6,15 +6,11 @@
  * into short circuits, which are many, and these are merged until as many are left as asked for.
  *
  * Example: an edge passed four times there and back holds two closed cords of two passes. */
-#include "lp/length/postman.h"
+#include "lp/length/postman_parts.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum {
-  MOST_VISITS = 32
-}; /* of a node, that each of its visits is compared with: hubs are not quadratic */
 
 /* Returns the turn ahead of a pass. */
 static double turn_at(const thr_frame *frame, const thr_walk *walk, int at)
@@ -74,7 +70,7 @@ static thr_status best_section(const thr_decomposition *decomposition, thr_junct
 
     /* A section runs from an earlier visit of the walk to a node to a later one. */
     for (int i = visits.next[j], seen = 0;
-         i >= 0 && visits.walk[i] == visits.walk[j] && seen < MOST_VISITS;
+         i >= 0 && visits.walk[i] == visits.walk[j] && seen < THR_MOST_VISITS;
          i = visits.next[i], seen++) {
       double score = only >= 0 ? fabs(visits.sum[j] - visits.sum[i] - walk->length / 2)
                                : split_price(decomposition->f, walk, visits.at[i], visits.at[j]);
@@ -270,7 +266,7 @@ static thr_status best_junction(const thr_decomposition *decomposition, junction
 
   /* Every visit with the earlier ones of other walks to the same node. */
   for (int j = 0; j < visits.n; j++)
-    for (int i = visits.next[j], seen = 0; i >= 0 && seen < MOST_VISITS; i = visits.next[i])
+    for (int i = visits.next[j], seen = 0; i >= 0 && seen < THR_MOST_VISITS; i = visits.next[i])
       if (visits.walk[i] != visits.walk[j]) {
         offer_junction(decomposition->f, walks, visits.walk[i], visits.at[i], visits.walk[j],
                        visits.at[j], best);

@@ -68,7 +68,7 @@ thr_status thr_postman_prove(const thr_frame *frame, const thr_request *options,
 
   /* The checker says what they prove of these cords. */
   st = thr_check_own(thr_check_length_proof(frame, options, cord, n_cords, proof->certificate,
-                                            proof->n_certificates, &proof->optimal,
+                                            proof->n_certificates, NULL, &proof->optimal,
                                             &proof->lower_bound, &found),
                      &found, err);
 

@@ -117,6 +117,17 @@ thr_status thr_network_init(thr_network *net, const thr_tjoin_problem *tjoin_pro
                             thr_err *err) THR_MUST_CHECK;
 void thr_network_destroy(thr_network *net);
 
+/* Finds a spanning forest of least keys (Kruskal; NULL: of least weights), of the edges whose key
+ * is at most most; among equal keys the lower edge comes first. The last n_leaves nodes get one
+ * edge each at most. edge[n_edges] receives the *n edges. O(edges log edges). */
+thr_status thr_forest_find(const thr_tjoin_problem *tjoin_problem, const double *key, double most,
+                           int n_leaves, int *edge, int *n, thr_err *err) THR_MUST_CHECK;
+
+/* Makes a T-join of the problem from any set of edges by changing the set along a forest, the edges
+ * edge[n_edges]. O(nodes + edges). */
+thr_status thr_forest_mend(const thr_tjoin_problem *tjoin_problem, const int *edge, int n_edges,
+                           bool *in_join, thr_err *err) THR_MUST_CHECK;
+
 /* Makes a T-join of the problem from any set of edges by changing the set along a forest: of edges
  * of weight 0, which is enough where every place has its parity already, or with any_weight along a
  * minimum spanning tree. O(nodes + edges log edges). */

@@ -11,8 +11,8 @@
  * Example: of odd places at 0, 1, 5 and 6 on a line the Voronoi diagram gives the candidates (0,
  * 1), (1, 5) and (5, 6). (0, 6) is none of them, and pricing shows that the pair is not needed. */
 #include "lp/matching/blossom_parts.h"
-#include "graph/disjoint.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -301,15 +301,6 @@ static thr_status add_neighbours(const thr_network *net, thr_pairs *pairs, thr_e
   return st ? st : thr_pairs_tidy(pairs, 0, net->n_odd, err);
 }
 
-/* Orders pairs by weight, then by their ends. */
-static int by_weight(const void *pa, const void *pb)
-{
-  const pair *a = pa, *b = pb;
-  if (a->weight != b->weight) return a->weight < b->weight ? -1 : 1;
-  if (a->end[0] != b->end[0]) return a->end[0] < b->end[0] ? -1 : 1;
-  return (a->end[1] > b->end[1]) - (a->end[1] < b->end[1]);
-}
-
 /* An odd place as a node of the tree. across is the xor of the tree edges there, which at a leaf is
  * the only one. */
 typedef struct {
@@ -320,8 +311,7 @@ typedef struct {
 
 /* Pairs the places of a tree from the leaves inwards: the place that is carried to a node
  * without a partner is paired with the one that waits at the node. */
-static thr_status pair_up(const pair *edge, tree_node *node, int *stack, int n, thr_pairs *pairs,
-                          thr_err *err)
+static thr_status pair_up(tree_node *node, int *stack, int n, thr_pairs *pairs, thr_err *err)
 {
   int top = 0;
   thr_status st = THR_OK;
@@ -334,9 +324,9 @@ static thr_status pair_up(const pair *edge, tree_node *node, int *stack, int n, 
     if (node[v].degree == 0) continue; /* the last node of the tree */
 
     /* Take the last edge of the leaf out of the tree. */
-    const pair *leaf_edge = &edge[node[v].across];
-    int inner = leaf_edge->end[0] == v ? leaf_edge->end[1] : leaf_edge->end[0];
-    int64_t way = node[v].way + leaf_edge->weight;
+    const int *end = pairs->end[node[v].across];
+    int inner = end[0] == v ? end[1] : end[0];
+    int64_t way = node[v].way + pairs->weight[node[v].across];
     node[inner].across ^= node[v].across;
     if (--node[inner].degree == 1) stack[top++] = inner;
 
@@ -353,36 +343,30 @@ static thr_status pair_up(const pair *edge, tree_node *node, int *stack, int n, 
   return st;
 }
 
-/* Adds the pairs along a minimum spanning tree of the pairs that there are. */
+/* Adds the pairs along a minimum spanning tree of the pairs that there are, sorted by their ends.
+ */
 static thr_status add_fallback(thr_pairs *pairs, int n_odd, thr_err *err)
 {
   thr_scratch own = {0};
-  size_t n = (size_t)n_odd, n_pairs = (size_t)pairs->count;
-  pair *edge = thr_scratch_array(&own, n_pairs, sizeof *edge);
-  tree_node *node = thr_scratch_array(&own, n, sizeof *node);
-  int *parent = thr_scratch_array(&own, n, sizeof *parent);
+  const thr_tjoin_problem all = {n_odd,         pairs->count, (const int(*)[2])pairs->end,
+                                 pairs->weight, NULL,         0};
+  tree_node *node = thr_scratch_array(&own, (size_t)n_odd, sizeof *node);
+  int *stack = thr_scratch_array(&own, (size_t)n_odd, sizeof *stack),
+      *tree = thr_scratch_array(&own, (size_t)pairs->count, sizeof *tree), n = 0;
   thr_status st = thr_scratch_check(&own, err);
-  if (st) goto done;
+  if (!st) st = thr_forest_find(&all, NULL, INFINITY, 0, tree, &n, err);
 
-  /* Sort the pairs by weight. */
-  for (size_t k = 0; k < n_pairs; k++)
-    edge[k] = (pair){{pairs->end[k][0], pairs->end[k][1]}, pairs->weight[k]};
-  qsort(edge, n_pairs, sizeof *edge, by_weight);
-
-  /* Build the tree (Kruskal); every place is its own guest at first. */
-  for (int i = 0; i < n_odd; i++)
-    parent[i] = node[i].guest = i;
-  for (size_t k = 0; k < n_pairs; k++) {
-    if (!thr_disjoint_join(parent, edge[k].end[0], edge[k].end[1])) continue;
+  /* Every place is its own guest at first. */
+  for (int i = 0; i < n_odd && !st; i++)
+    node[i].guest = i;
+  for (int k = 0; k < n; k++)
     for (int side = 0; side < 2; side++) {
-      node[edge[k].end[side]].degree++;
-      node[edge[k].end[side]].across ^= (int)k;
+      tree_node *end = &node[pairs->end[tree[k]][side]];
+      end->degree++;
+      end->across ^= tree[k];
     }
-  }
 
-  /* The disjoint sets have served, and their array is as long as the stack must be. */
-  st = pair_up(edge, node, parent, n_odd, pairs, err);
-done:
+  if (!st) st = pair_up(node, stack, n_odd, pairs, err);
   thr_scratch_free(&own);
   return st;
 }

@@ -11,6 +11,7 @@
 #include "lp/matching/blossom.h"
 #include "graph/disjoint.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -124,54 +125,57 @@ typedef struct {
 
 /* An edge to be sorted. */
 typedef struct {
-  int64_t weight;
+  double key;
   int edge;
-} weighed_edge;
+} keyed_edge;
 
-/* Orders edges by weight, then by number. */
-static int by_weight(const void *pa, const void *pb)
+/* Orders edges by key, then by number. */
+static int by_key(const void *pa, const void *pb)
 {
-  const weighed_edge *a = pa, *b = pb;
-  if (a->weight != b->weight) return a->weight < b->weight ? -1 : 1;
+  const keyed_edge *a = pa, *b = pb;
+  if (a->key != b->key) return a->key < b->key ? -1 : 1;
   return (a->edge > b->edge) - (a->edge < b->edge);
 }
 
-/* Finds a minimum spanning forest, of all edges or only of those of weight 0 (Kruskal). *edge
- * receives an allocated list of *n edges. */
-static thr_status find_forest(const thr_tjoin_problem *tjoin_problem, bool any_weight, int **edge,
-                              int *n, thr_err *err)
+thr_status thr_forest_find(const thr_tjoin_problem *tjoin_problem, const double *key, double most,
+                           int n_leaves, int *edge, int *n, thr_err *err)
 {
-  int *parent = thr_calloc((size_t)tjoin_problem->n_nodes, sizeof *parent), count = 0;
-  weighed_edge *list = thr_calloc((size_t)tjoin_problem->n_edges, sizeof *list);
+  const int n_nodes = tjoin_problem->n_nodes, first_leaf = n_nodes - n_leaves;
+  thr_scratch own = {0};
+  int *parent = thr_scratch_array(&own, (size_t)n_nodes, sizeof *parent), count = 0;
+  bool *used = thr_scratch_array(&own, (size_t)n_nodes, sizeof *used);
+  keyed_edge *list = thr_scratch_array(&own, (size_t)tjoin_problem->n_edges, sizeof *list);
+  thr_status st = thr_scratch_check(&own, err);
   *n = 0;
-  *edge = thr_calloc((size_t)tjoin_problem->n_nodes, sizeof **edge);
-  thr_status st = parent && list && *edge ? THR_OK : thr_nomem(err);
 
-  /* List the edges that may be used, the lightest first. */
-  for (int v = 0; v < tjoin_problem->n_nodes && !st; v++)
+  /* List the edges that may be used, the least key first. */
+  for (int v = 0; v < n_nodes && !st; v++)
     parent[v] = v;
-  for (int e = 0; e < tjoin_problem->n_edges && !st; e++)
-    if (any_weight || tjoin_problem->weight[e] == 0)
-      list[count++] = (weighed_edge){tjoin_problem->weight[e], e};
-  if (!st) qsort(list, (size_t)count, sizeof *list, by_weight);
+  for (int e = 0; e < tjoin_problem->n_edges && !st; e++) {
+    double of = key ? key[e] : (double)tjoin_problem->weight[e];
+    if (of <= most) list[count++] = (keyed_edge){of, e};
+  }
+  if (!st) qsort(list, (size_t)count, sizeof *list, by_key);
 
-  /* Take each edge that closes no circuit. */
+  /* Take each edge that closes no circuit and finds its leaves without an edge. */
   for (int k = 0; k < count && !st; k++) {
     const int *end = tjoin_problem->edge[list[k].edge];
-    if (thr_disjoint_join(parent, end[0], end[1])) (*edge)[(*n)++] = list[k].edge;
+    if ((end[0] >= first_leaf && used[end[0]]) || (end[1] >= first_leaf && used[end[1]])) continue;
+    used[end[0]] = used[end[1]] = true;
+    if (thr_disjoint_join(parent, end[0], end[1])) edge[(*n)++] = list[k].edge;
   }
 
-  free(parent);
-  free(list);
+  thr_scratch_free(&own);
   return st;
 }
 
 thr_status thr_network_tree_weight(const thr_tjoin_problem *tjoin_problem, double *weight,
                                    thr_err *err)
 {
-  int *edge, n;
+  int *edge = thr_calloc((size_t)tjoin_problem->n_edges, sizeof *edge), n;
   *weight = 0;
-  thr_status st = find_forest(tjoin_problem, true, &edge, &n, err);
+  thr_status st =
+      edge ? thr_forest_find(tjoin_problem, NULL, INFINITY, 0, edge, &n, err) : thr_nomem(err);
 
   for (int k = 0; k < n && !st; k++)
     *weight += (double)tjoin_problem->weight[edge[k]];
@@ -227,29 +231,36 @@ static void repair_parities(const thr_tjoin_problem *tjoin_problem, bool *in_joi
   }
 }
 
-thr_status thr_network_mend(const thr_network *net, bool any_weight, bool *in_join, thr_err *err)
+thr_status thr_forest_mend(const thr_tjoin_problem *tjoin_problem, const int *edge, int n_edges,
+                           bool *in_join, thr_err *err)
 {
-  size_t n = (size_t)net->p->n_nodes;
-
-  /* Without edges of weight 0 every place is one node, whose parity is right already. */
-  if (!any_weight && net->n_places == net->p->n_nodes) return THR_OK;
-
+  size_t n = (size_t)tjoin_problem->n_nodes;
   thr_scratch own = {0};
   parity_forest forest = {.degree = thr_scratch_array(&own, n, sizeof *forest.degree)};
   forest.stack = thr_scratch_array(&own, n, sizeof *forest.stack);
   forest.across = thr_scratch_array(&own, n, sizeof *forest.across);
   forest.wrong = thr_scratch_array(&own, n, sizeof *forest.wrong);
-  int *edge = NULL, n_edges = 0;
 
   thr_status st = thr_scratch_check(&own, err);
-  if (!st) st = find_forest(net->p, any_weight, &edge, &n_edges, err);
   if (!st) {
-    forest_init(net->p, in_join, edge, n_edges, &forest);
-    repair_parities(net->p, in_join, &forest);
+    forest_init(tjoin_problem, in_join, edge, n_edges, &forest);
+    repair_parities(tjoin_problem, in_join, &forest);
   }
 
-  free(edge);
   thr_scratch_free(&own);
+  return st;
+}
+
+thr_status thr_network_mend(const thr_network *net, bool any_weight, bool *in_join, thr_err *err)
+{
+  /* Without edges of weight 0 every place is one node, whose parity is right already. */
+  if (!any_weight && net->n_places == net->p->n_nodes) return THR_OK;
+
+  int *edge = thr_calloc((size_t)net->p->n_edges, sizeof *edge), n = 0;
+  thr_status st = edge ? thr_forest_find(net->p, NULL, any_weight ? INFINITY : 0, 0, edge, &n, err)
+                       : thr_nomem(err);
+  if (!st) st = thr_forest_mend(net->p, edge, n, in_join, err);
+  free(edge);
   return st;
 }
 

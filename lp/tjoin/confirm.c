@@ -205,15 +205,3 @@ thr_status thr_confirmations_run(thr_confirmations *confirmations, const thr_lim
   if (st == THR_ENOMEM || counts.refuted) return thr_fail(err, st, "%s", failure.text);
   return THR_OK;
 }
-
-thr_status thr_tjoin_confirm(const thr_tjoin_problem *tjoin_problem, const thr_tjoin *tjoin,
-                             const thr_limits *limits, thr_confirmation *out, thr_err *err)
-{
-  thr_confirmations confirmations = {.always = true};
-  *out = THR_CONFIRM_SKIPPED;
-  thr_status st = thr_confirmations_add(&confirmations, tjoin_problem, tjoin, err);
-  if (!st) st = thr_confirmations_run(&confirmations, limits, err);
-  if (!st && confirmations.confirmed) *out = THR_CONFIRMED;
-  thr_confirmations_destroy(&confirmations);
-  return st;
-}

@@ -11,8 +11,8 @@
  * Example: a cycle of four edges of weight 1 with two opposite odd nodes: both halves are T-joins
  * of weight 2, and moats of width 1 round each odd node prove it. */
 #include "lp/tjoin/tjoin.h"
-#include "graph/disjoint.h"
 #include "graph/scratch.h"
+#include "lp/matching/blossom.h"
 #include "lp/solver/lp.h"
 
 #include <math.h>
@@ -31,22 +31,21 @@ typedef struct {
   bool exact;  /* GLPK's exact method, with the weights themselves as costs? */
   double unit; /* costs of the linear programme = weights / unit, so that they are about 1 */
   double *cost, *x, *reduced_cost, *key; /* [n_edges] */
-  double *whole;  /* [n_edges] the weights themselves: GLPK's exact method rounds costs that are no
-                     integers */
-  int64_t *value; /* [search.pool.count] multipliers as integers that load no edge too much */
-  int *order, *parent; /* [n_edges], [n_nodes] scratch of the rounding */
-  bool *tree_join;     /* [n_edges] the tree, then the join that is rounded to */
-  bool *leaf_used;     /* [n_leaves] */
-  wide *slack;         /* [n_edges] weight * THR_DUAL_DENOMINATOR less the values of the cuts */
-  thr_tjoin best;      /* the best join, and the cuts of the best bound */
-  thr_scratch own;     /* the arrays */
+  double *whole;   /* [n_edges] the weights themselves: GLPK's exact method rounds costs that are no
+                      integers */
+  int64_t *value;  /* [search.pool.count] multipliers as integers that load no edge too much */
+  int *tree;       /* [n_edges] the edges of the tree that is rounded to */
+  bool *tree_join; /* [n_edges] the join within the tree */
+  wide *slack;     /* [n_edges] weight * THR_DUAL_DENOMINATOR less the values of the cuts */
+  thr_tjoin best;  /* the best join, and the cuts of the best bound */
+  thr_scratch own; /* the arrays */
 } tjoin_solver;
 
 /* Allocates, and sets up the linear programme without rows and its separators. */
 static thr_status solver_init(tjoin_solver *solver, const thr_tjoin_problem *tjoin_problem,
                               const thr_limits *limits, thr_err *err)
 {
-  size_t n = (size_t)tjoin_problem->n_nodes, n_edges = (size_t)tjoin_problem->n_edges;
+  size_t n_edges = (size_t)tjoin_problem->n_edges;
   *solver = (tjoin_solver){.problem = tjoin_problem, .limits = limits};
   thr_status st = thr_oddcut_graph_init(&solver->graph, tjoin_problem, err);
   if (st) return st;
@@ -57,11 +56,8 @@ static thr_status solver_init(tjoin_solver *solver, const thr_tjoin_problem *tjo
   solver->x = thr_scratch_array(&solver->own, n_edges, sizeof *solver->x);
   solver->reduced_cost = thr_scratch_array(&solver->own, n_edges, sizeof *solver->reduced_cost);
   solver->key = thr_scratch_array(&solver->own, n_edges, sizeof *solver->key);
-  solver->order = thr_scratch_array(&solver->own, n_edges, sizeof *solver->order);
-  solver->parent = thr_scratch_array(&solver->own, n, sizeof *solver->parent);
+  solver->tree = thr_scratch_array(&solver->own, n_edges, sizeof *solver->tree);
   solver->tree_join = thr_scratch_array(&solver->own, n_edges, sizeof *solver->tree_join);
-  solver->leaf_used =
-      thr_scratch_array(&solver->own, (size_t)tjoin_problem->n_leaves, sizeof *solver->leaf_used);
   solver->slack = thr_scratch_array(&solver->own, n_edges, sizeof *solver->slack);
   solver->best.in_join = thr_calloc(n_edges, sizeof *solver->best.in_join);
   solver->best.length = INT64_MAX;
@@ -107,100 +103,17 @@ void thr_tjoin_destroy(thr_tjoin *tjoin)
 
 /* ---- rounding: the T-join of a spanning tree that prefers edges of large x ---- */
 
-static _Thread_local const double *sort_key; /* qsort has no user pointer */
-
-/* Orders edges by sort_key, then by number. */
-static int by_key(const void *pa, const void *pb)
-{
-  int a = *(const int *)pa, b = *(const int *)pb;
-  if (sort_key[a] != sort_key[b]) return sort_key[a] < sort_key[b] ? -1 : 1;
-  return (a > b) - (a < b);
-}
-
-/* Marks in solver->tree_join the edges of a spanning tree of least keys (Kruskal). Every leaf
- * gets one edge of the tree at most, so that its degree in the join is 1. */
-static void spanning_tree(tjoin_solver *solver)
-{
-  const thr_tjoin_problem *tjoin_problem = solver->problem;
-  int first_leaf = tjoin_problem->n_nodes - tjoin_problem->n_leaves;
-
-  /* Sort the edges by key. */
-  for (int e = 0; e < tjoin_problem->n_edges; e++) {
-    solver->order[e] = e;
-    solver->tree_join[e] = false;
-  }
-  sort_key = solver->key;
-  qsort(solver->order, (size_t)tjoin_problem->n_edges, sizeof *solver->order, by_key);
-
-  /* Take each edge that closes no circuit. */
-  memset(solver->leaf_used, 0, (size_t)tjoin_problem->n_leaves * sizeof *solver->leaf_used);
-  for (int v = 0; v < tjoin_problem->n_nodes; v++)
-    solver->parent[v] = v;
-  for (int i = 0; i < tjoin_problem->n_edges; i++) {
-    int e = solver->order[i], u = tjoin_problem->edge[e][0], v = tjoin_problem->edge[e][1];
-    if ((u >= first_leaf && solver->leaf_used[u - first_leaf]) ||
-        (v >= first_leaf && solver->leaf_used[v - first_leaf]))
-      continue;
-    if (u >= first_leaf) solver->leaf_used[u - first_leaf] = true;
-    if (v >= first_leaf) solver->leaf_used[v - first_leaf] = true;
-    solver->tree_join[e] =
-        thr_disjoint_join(solver->parent, tjoin_problem->edge[e][0], tjoin_problem->edge[e][1]);
-  }
-}
-
-/* Keeps of the tree the edges whose removal leaves an odd number of odd nodes on each side.
- * These edges are the only T-join within the tree. Nodes are taken from the leaves of the tree
- * inwards. */
-static thr_status prune_tree(tjoin_solver *solver, thr_err *err)
-{
-  thr_scratch own = {0};
-  const thr_tjoin_problem *tjoin_problem = solver->problem;
-  size_t n = (size_t)tjoin_problem->n_nodes;
-  int *degree = thr_scratch_array(&own, n, sizeof *degree),
-      *stack = thr_scratch_array(&own, n, sizeof *stack), top = 0;
-  bool *odd = thr_scratch_array(&own, n, sizeof *odd),
-       *done = thr_scratch_array(&own, (size_t)tjoin_problem->n_edges, sizeof *done);
-  thr_status st = thr_scratch_check(&own, err);
-  if (st) goto done;
-
-  /* Count the edges of the tree at every node, and start with the leaves. */
-  memcpy(odd, tjoin_problem->odd, n * sizeof *odd);
-  for (int e = 0; e < tjoin_problem->n_edges; e++)
-    for (int i = 0; solver->tree_join[e] && i < 2; i++)
-      degree[tjoin_problem->edge[e][i]]++;
-  for (int v = 0; v < tjoin_problem->n_nodes; v++)
-    if (degree[v] == 1) stack[top++] = v;
-
-  /* Cut off one leaf after the other. */
-  while (top) {
-    int v = stack[--top];
-    for (int k = solver->graph.first[v]; k < solver->graph.first[v + 1]; k++) {
-      int e = solver->graph.incident[k];
-      if (!solver->tree_join[e] || done[e]) continue;
-      int other =
-          tjoin_problem->edge[e][0] == v ? tjoin_problem->edge[e][1] : tjoin_problem->edge[e][0];
-
-      /* An odd leaf needs its edge, which changes the parity of the other end. */
-      done[e] = true;
-      if (odd[v])
-        odd[other] = !odd[other];
-      else
-        solver->tree_join[e] = false;
-      if (--degree[other] == 1) stack[top++] = other;
-      break;
-    }
-  }
-done:
-  thr_scratch_free(&own);
-  return st;
-}
-
 /* Rounds by the spanning tree under solver->key, and keeps the T-join if it is the best so far. */
 static thr_status try_tree(tjoin_solver *solver, thr_err *err)
 {
   const thr_tjoin_problem *tjoin_problem = solver->problem;
-  spanning_tree(solver);
-  thr_status st = prune_tree(solver, err);
+  int n;
+  memset(solver->tree_join, 0, (size_t)tjoin_problem->n_edges * sizeof *solver->tree_join);
+
+  /* The only T-join within the tree: the empty set, its parities mended along the tree. */
+  thr_status st = thr_forest_find(tjoin_problem, solver->key, INFINITY, tjoin_problem->n_leaves,
+                                  solver->tree, &n, err);
+  if (!st) st = thr_forest_mend(tjoin_problem, solver->tree, n, solver->tree_join, err);
   if (st) return st;
 
   int64_t length = 0;

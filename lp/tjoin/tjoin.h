@@ -92,13 +92,6 @@ thr_status thr_confirmations_run(thr_confirmations *confirmations, const thr_lim
                                  thr_err *err) THR_MUST_CHECK;
 void thr_confirmations_destroy(thr_confirmations *confirmations);
 
-typedef enum { THR_CONFIRMED, THR_CONFIRM_SKIPPED } thr_confirmation;
-
-/* Confirms one T-join, whatever its size. */
-thr_status thr_tjoin_confirm(const thr_tjoin_problem *tjoin_problem, const thr_tjoin *tjoin,
-                             const thr_limits *limits, thr_confirmation *out,
-                             thr_err *err) THR_MUST_CHECK;
-
 /* ---- cuts.c: changes of forests of cuts (graph/plan/plan.h, thr_cut) ---- */
 
 /* The forest cut[n] over the nodes 0 .. n_nodes - 1. A forest with which a function has failed for

@@ -792,7 +792,7 @@ static thr_status state(thr_plan *p, int raise)
   thr_cords_claim *c = &p->cords_claim;
   thr_status st =
       thr_check_length_proof(&p->frame, &p->options, p->cord, p->n_cords, l->certificate,
-                             l->n_certificates, &l->optimal, &l->lower_bound, NULL);
+                             l->n_certificates, NULL, &l->optimal, &l->lower_bound, NULL);
   if (!st)
     st = thr_check_cords(&p->frame, &p->options, p->cord, p->n_cords, l->certificate,
                          l->n_certificates, NULL, c, NULL);

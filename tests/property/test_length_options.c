@@ -210,7 +210,7 @@ static bool bound_is_true(const thr_plan *p, double least)
   bool optimal;
   double bound;
   thr_status st = thr_check_length_proof(&p->frame, &p->options, p->cord, p->n_cords,
-                                         p->proof.certificate, 1, &optimal, &bound, NULL);
+                                         p->proof.certificate, 1, NULL, &optimal, &bound, NULL);
   ck_assert(st == THR_OK || st == THR_EVIOLATED);
   if (!st) ck_assert_double_le(bound, least * (1 + 1e-9));
   if (!st && optimal) ck_assert_double_le(p->metrics.length, least * (1 + 1e-9));

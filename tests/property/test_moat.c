@@ -407,6 +407,18 @@ START_TEST(large_weights_with_a_light_tree_are_matched)
 }
 END_TEST
 
+/* Confirms one join; *confirmed: 0 if it was skipped. */
+static thr_status confirm(const thr_tjoin_problem *p, const thr_tjoin *t, int *confirmed,
+                          thr_err *err)
+{
+  thr_confirmations confirmations = {.always = true};
+  thr_status st = thr_confirmations_add(&confirmations, p, t, err);
+  if (!st) st = thr_confirmations_run(&confirmations, &no_limit, err);
+  *confirmed = st ? 0 : confirmations.confirmed;
+  thr_confirmations_destroy(&confirmations);
+  return st;
+}
+
 START_TEST(glpk_confirms_what_is_optimal_and_nothing_else)
 {
   rng r = rng_make((uint64_t)_i + 5000);
@@ -416,13 +428,12 @@ START_TEST(glpk_confirms_what_is_optimal_and_nothing_else)
     thr_tjoin_problem p = problem_of(&g);
     for (way by = BY_LP; by < WAYS; by++) {
       thr_tjoin t = solve(&g, by);
-      thr_confirmation said;
+      int said;
       thr_err err = {0};
-      ck_assert_msg(thr_tjoin_confirm(&p, &t, &no_limit, &said, &err) == THR_OK, "%s", err.text);
-      ck_assert_int_eq(said, THR_CONFIRMED);
+      ck_assert_msg(confirm(&p, &t, &said, &err) == THR_OK, "%s", err.text);
+      ck_assert_int_eq(said, 1);
       t.length += 1 + rng_below(&r, 5);
-      if (t.n_cuts)
-        ck_assert_int_eq(thr_tjoin_confirm(&p, &t, &no_limit, &said, &err), THR_ESOLVER);
+      if (t.n_cuts) ck_assert_int_eq(confirm(&p, &t, &said, &err), THR_ESOLVER);
       thr_tjoin_destroy(&t);
     }
     graph_destroy(&g);
@@ -551,18 +562,16 @@ START_TEST(every_allocation_of_a_confirmation_fails_once)
   graph g = draw_graph(&r, 12, (shape_kind)(_i % SHAPES), WEIGHTS_SMALL);
   thr_tjoin_problem p = problem_of(&g);
   thr_tjoin t = solve(&g, _i < SHAPES ? BY_MATCHING : BY_LP);
-  thr_confirmation said = THR_CONFIRM_SKIPPED;
+  int said = 0;
   thr_status st = THR_ENOMEM;
   for (long k = 1; st; k++) {
     thr_err err = {0};
     thr_alloc_fail_at(k);
-    st = thr_tjoin_confirm(&p, &t, &no_limit, &said, &err);
+    st = confirm(&p, &t, &said, &err);
     thr_alloc_fail_at(0);
-    if (st)
-      ck_assert_msg(st == THR_ENOMEM && said == THR_CONFIRM_SKIPPED, "allocation %ld: %s", k,
-                    err.text);
+    if (st) ck_assert_msg(st == THR_ENOMEM && said == 0, "allocation %ld: %s", k, err.text);
   }
-  ck_assert_int_eq(said, THR_CONFIRMED);
+  ck_assert_int_eq(said, 1);
   thr_tjoin_destroy(&t);
   graph_destroy(&g);
 }

@@ -284,7 +284,7 @@ static void compare_verdicts(const thr_plan *p, const char *what)
   if (whole) assert_one_line(&err, expected ? "proof" : "certificate");
   thr_status st =
       thr_check_length_proof(&p->frame, &p->options, p->cord, p->n_cords, p->proof.certificate,
-                             p->proof.n_certificates, &optimal, &bound, NULL);
+                             p->proof.n_certificates, NULL, &optimal, &bound, NULL);
   ck_assert_int_eq(st, expected ? THR_OK : THR_EVIOLATED);
   if (st) return;
   ck_assert_int_eq(optimal, expected == 2);
@@ -522,7 +522,7 @@ START_TEST(a_longer_cord_is_never_proved)
     double bound;
     thr_status st =
         thr_check_length_proof(&p.frame, &p.options, p.cord, p.n_cords, p.proof.certificate,
-                               p.proof.n_certificates, &optimal, &bound, NULL);
+                               p.proof.n_certificates, NULL, &optimal, &bound, NULL);
     ck_assert(st == THR_EVIOLATED || (!optimal && bound <= shortest * (1 + 1e-9)));
     if (st) continue;
     p.proof.optimal = false; /* said honestly, it passes */

@@ -194,7 +194,8 @@ START_TEST(the_fewest_cords_have_room)
   thr_request o = options_for(THR_ENDS_CLOSED, 1);
   o.cords = 2;
   o.cords_least = 1;
-  ck_assert_int_eq(thr_check_length_proof(&f, &o, cord, 2, &c, 1, &optimal, &bound, NULL), THR_OK);
+  ck_assert_int_eq(thr_check_length_proof(&f, &o, cord, 2, &c, 1, NULL, &optimal, &bound, NULL),
+                   THR_OK);
   ck_assert(optimal);
   ck_assert_double_eq(bound, 6);
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -441,7 +442,7 @@ START_TEST(symmetric_cords_are_counted_where_most_are)
       thr_err err = {0};
       want(&o, "overlap,steps");
       o.cords = o.cords_least = cords;
-      thr_status st = thr_check_length_proof(&f, &o, cord, 3, c, 2, &optimal, &bound, &err);
+      thr_status st = thr_check_length_proof(&f, &o, cord, 3, c, 2, NULL, &optimal, &bound, &err);
       ck_assert_msg(st == (cords == 2 ? THR_OK : THR_EVIOLATED), "%s", err.text);
       char said[64];
       snprintf(said, sizeof said, "component %d: has 2 cords; the plan's options say %d", most,

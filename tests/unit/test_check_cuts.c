@@ -262,7 +262,7 @@ START_TEST(prices_change_the_parity_of_both_nodes)
       bool optimal;
       double bound;
       thr_err err = {0};
-      thr_status st = thr_check_length_proof(&f, &o, cord, 2, &c, 1, &optimal, &bound, &err);
+      thr_status st = thr_check_length_proof(&f, &o, cord, 2, &c, 1, NULL, &optimal, &bound, &err);
       ck_assert_msg(st == (price ? THR_EVIOLATED : THR_OK), "%s", err.text);
       if (price) assert_one_line(&err, "even number of odd nodes");
     }
@@ -355,7 +355,7 @@ START_TEST(certificates_have_a_scale)
       bool optimal;
       double bound;
       thr_err err = {0};
-      thr_status st = thr_check_length_proof(&f, &o, cord, 1, &c, 1, &optimal, &bound, &err);
+      thr_status st = thr_check_length_proof(&f, &o, cord, 1, &c, 1, NULL, &optimal, &bound, &err);
       ck_assert_msg(st == (cases[i].said ? THR_EVIOLATED : THR_OK), "%s", err.text);
       if (st) assert_one_line(&err, cases[i].said);
     }

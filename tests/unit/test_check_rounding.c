@@ -46,7 +46,8 @@ static double best_bound(const double *length, int n, int cords, double scale, i
     for (int e = 0; e < n; e++)
       c.join += thr_certificate_weight(&f, &c, e) * (2 - cover + (e == over ? 2 * (cords - n) : 0));
     thr_err err = {0};
-    thr_status st = thr_check_length_proof(&f, &o, cord, cords, &c, 1, &optimal, &bound, &err);
+    thr_status st =
+        thr_check_length_proof(&f, &o, cord, cords, &c, 1, NULL, &optimal, &bound, &err);
     if (st) {
       ck_assert_msg(st == THR_EVIOLATED &&
                         (strstr(err.text, "bound") || strstr(err.text, "cheaper")),
@@ -197,7 +198,8 @@ START_TEST(one_cord_is_charged_for_one_pass)
                        .place_price = &price};
   bool optimal;
   double bound;
-  ck_assert_int_eq(thr_check_length_proof(&f, &o, &cord, 1, &c, 1, &optimal, &bound, NULL), THR_OK);
+  ck_assert_int_eq(thr_check_length_proof(&f, &o, &cord, 1, &c, 1, NULL, &optimal, &bound, NULL),
+                   THR_OK);
   ck_assert_double_eq_tol(bound, 0.51 * 4, 1e-12);
   ck_assert(!optimal);
   thr_frame_destroy(&f);
@@ -233,7 +235,7 @@ START_TEST(rounding_of_what_is_passed_once_costs_little)
     for (int e = 0; e <= N; e++)
       least += f.length[e] = 1 - part[k];
     least += fmax(1 - (N + 1) * part[k], 1 - 5e-10 - (N + 1) * fmax(0, part[k] - 5e-10));
-    ck_assert_int_eq(thr_check_length_proof(&f, &o, &cord, 1, &c, 1, &optimal, &bound, NULL),
+    ck_assert_int_eq(thr_check_length_proof(&f, &o, &cord, 1, &c, 1, NULL, &optimal, &bound, NULL),
                      THR_OK);
     ck_assert_int_eq(optimal, k < 2); /* within 1e-9 of the framework's length */
     if (!optimal) ck_assert_double_eq_tol(bound, least, 1e-10);
@@ -255,13 +257,13 @@ START_TEST(optimal_is_within_a_billionth)
     thr_certificate c = {
         .scale = 1, .denominator = 1, .join = 1, .sum = 1, .n_cuts = 1, .cut = &cut};
     bool optimal;
-    ck_assert_int_eq(thr_check_length_proof(&f, &o, &cord, 1, &c, 1, &optimal, &bound, NULL),
+    ck_assert_int_eq(thr_check_length_proof(&f, &o, &cord, 1, &c, 1, NULL, &optimal, &bound, NULL),
                      THR_OK);
     ck_assert_int_eq(optimal, k);
     ck_assert_double_eq_tol(bound, k ? 2 * length[0] : length[0] + 1, 1e-15 + 1e-12);
     thr_err err = {0};
     c.scale = 2e18;
-    ck_assert_int_eq(thr_check_length_proof(&f, &o, &cord, 1, &c, 1, &optimal, &bound, &err),
+    ck_assert_int_eq(thr_check_length_proof(&f, &o, &cord, 1, &c, 1, NULL, &optimal, &bound, &err),
                      THR_EVIOLATED);
     assert_one_line(&err, "scale is too large");
     thr_frame_destroy(&f);

@@ -32,13 +32,13 @@ START_TEST(failures_are_not_forgotten)
     thr_status expected = k ? THR_EVIOLATED : THR_OK;
     thr_turning_proof tied = {0};
     thr_cords_claim found;
-    ck_assert_int_eq(thr_check_length_proof(&f, &o, cord, 2, proof, 1, &optimal, &bound, NULL),
-                     expected);
+    ck_assert_int_eq(
+        thr_check_length_proof(&f, &o, cord, 2, proof, 1, NULL, &optimal, &bound, NULL), expected);
     ck_assert_int_eq(thr_check_cords(&f, &o, cord, 2, proof, 1, NULL, &found, NULL), expected);
     ck_assert_int_eq(found.present, k == 0);
     ck_assert_int_eq(thr_check_tied_cords(&f, &o, cord, 2, &tied, &found, NULL),
                      THR_EVIOLATED); /* that proof is empty */
-    ck_assert_int_eq(thr_check_length_proof(&f, &o, cord, 2, NULL, 0, &optimal, &bound, NULL),
+    ck_assert_int_eq(thr_check_length_proof(&f, &o, cord, 2, NULL, 0, NULL, &optimal, &bound, NULL),
                      THR_EVIOLATED);
     if (k != 2 && k != 3)
       ck_assert_int_eq(thr_check_length_of_passes(&f, &o, passes, proof, 1, &optimal, &bound, NULL),

@@ -26,6 +26,14 @@ double thr_extra_length(const thr_turning_columns *turning_columns, const int *p
   return sum;
 }
 
+bool thr_passes_allowed(const thr_turning_columns *turning_columns, const int *passes)
+{
+  for (int e = 0; e < turning_columns->f->n_edges; e++)
+    if (passes[e] > turning_columns->most[e]) return false;
+  return turning_columns->task->extra_limit < 0 ||
+         thr_extra_length(turning_columns, passes) <= turning_columns->task->extra_limit;
+}
+
 /* The T-join problem of one component: its edges, then edges from slots to end nodes, then edges
  * between slots. */
 typedef struct {

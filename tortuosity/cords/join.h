@@ -149,6 +149,9 @@ void thr_extra_spread_ends(const thr_turning_columns *turning_columns, int *ends
 /* Returns the length of the passes beyond the cover, in units. */
 double thr_extra_length(const thr_turning_columns *turning_columns, const int *passes);
 
+/* Returns whether no edge has more passes than it may, and the plan no more extra length. */
+bool thr_passes_allowed(const thr_turning_columns *turning_columns, const int *passes);
+
 /* ---- short_cycles.c: Short cycles through every turn. */
 
 /* Short cycles: half-edges half[first[i]] .. half[first[i + 1] - 1], each leaving the node at which

@@ -199,17 +199,6 @@ static thr_status make_tied_passes(turning_search *search, bool shortest, bool *
              : thr_tie_improve(turning_columns, search->limits, search->passes, search->ends, err);
 }
 
-/* Says whether search->passes keep to the number that every edge may have and to the extra length.
- */
-static bool within_limits(const turning_search *search)
-{
-  const thr_turning_columns *turning_columns = search->columns;
-  for (int e = 0; e < turning_columns->f->n_edges; e++)
-    if (search->passes[e] > turning_columns->most[e]) return false;
-  return turning_columns->task->extra_limit < 0 ||
-         thr_extra_length(turning_columns, search->passes) <= turning_columns->task->extra_limit;
-}
-
 /* Makes cords for search->passes and search->ends, to start from. If none are found, j is to be
  * destroyed too. */
 static thr_status make_cords(const turning_search *search, thr_join *j, bool *found, thr_err *err)
@@ -241,7 +230,7 @@ static thr_status try_passes(turning_search *search, bool shortest, int steps, t
   bool found = true;
   thr_status st = search->columns->task->tube ? make_tied_passes(search, shortest, &found, err)
                                               : make_passes(search, shortest, err);
-  if (st || !found || !within_limits(search)) return st;
+  if (st || !found || !thr_passes_allowed(search->columns, search->passes)) return st;
 
   /* Cords for these passes. */
   st = make_cords(search, &j, &found, err);

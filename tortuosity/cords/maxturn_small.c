@@ -91,10 +91,7 @@ static thr_status keep_limits(const table *x, bool *keep, thr_err *err)
   for (int i = 0; i < x->n_cords; i++)
     for (int j = 0; j < x->cord[i].n_passes; j++)
       passes[x->cord[i].half[j] >> 1]++;
-  *keep = turning_columns->task->extra_limit < 0 ||
-          thr_extra_length(turning_columns, passes) <= turning_columns->task->extra_limit;
-  for (int e = 0; e < turning_columns->f->n_edges; e++)
-    *keep &= passes[e] <= turning_columns->most[e];
+  *keep = thr_passes_allowed(turning_columns, passes);
   free(passes);
   return THR_OK;
 }

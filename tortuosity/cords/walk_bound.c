@@ -11,10 +11,12 @@
  * Example: on a 7 x 7 dome with 14 cords between its feet some cord turns by 257 degrees, which is
  * what the plan has. */
 #include "graph/framework/frame.h"
+#include "tortuosity/cords/join.h"
 #include "tortuosity/cords/walk_model.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum {
   MOST_LOOKS = 300,
@@ -119,23 +121,14 @@ static thr_status try_limit(thr_walk_programme *programme, double enough, thr_wa
 
 /* Says whether the passes of n cords keep to the number that every edge may have, and whether the
  * extra cord keeps to the task's limit. passes: [n_edges] scratch. */
-static bool within_limits(const thr_turning_columns *columns, const thr_cord *cord, int n,
+static bool cords_allowed(const thr_turning_columns *columns, const thr_cord *cord, int n,
                           int *passes)
 {
-  const thr_frame *frame = columns->f;
-  double extra = 0;
-  for (int e = 0; e < frame->n_edges; e++)
-    passes[e] = 0;
-
-  /* Count the passes of all cords. */
+  memset(passes, 0, (size_t)columns->f->n_edges * sizeof *passes);
   for (int i = 0; i < n; i++)
     for (int k = 0; k < cord[i].n_passes; k++)
       passes[cord[i].half[k] >> 1]++;
-  for (int e = 0; e < frame->n_edges; e++) {
-    if (passes[e] > columns->most[e]) return false;
-    extra += (passes[e] - columns->cover[e]) * frame->length[e];
-  }
-  return columns->task->extra_limit < 0 || extra <= columns->task->extra_limit;
+  return thr_passes_allowed(columns, passes);
 }
 
 /* Copies the plan's cords to *all, with the walks in place of the cords of the programme's
@@ -172,7 +165,7 @@ static thr_status keep_better(thr_walk_programme *programme, const thr_cord *cor
   thr_status st = replace_cords(programme, cord, n_cords, walk, &made, err);
 
   /* Cords that improve on the known ones take the place of any found before. */
-  if (made && within_limits(programme->c, made, n_cords, passes) &&
+  if (made && cords_allowed(programme->c, made, n_cords, passes) &&
       thr_walk_price(programme->c, measure,
                      &made[thr_walk_dearest(programme->c, measure, made, n_cords)]) <
           largest * (1 - 1e-9)) {

@@ -19,17 +19,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Returns whether no edge has more passes than allowed, and all extra passes together are not too
- * long. */
-static bool within_limits(const thr_turning_columns *turning_columns, const int *passes)
-{
-  const thr_turning_task *turning_task = turning_columns->task;
-  for (int e = 0; e < turning_columns->f->n_edges; e++)
-    if (passes[e] > turning_columns->most[e]) return false;
-  return turning_task->extra_limit < 0 ||
-         thr_extra_length(turning_columns, passes) <= turning_task->extra_limit;
-}
-
 /* Returns the price of the extra passes, in units of 2^-THR_TURNING_BITS. */
 static int64_t price_of_passes(const thr_branch *branch, const int *passes)
 {
@@ -115,7 +104,7 @@ static bool late(const thr_branch *branch)
 /* Makes as many circuits as asked for of j, and keeps them if they are the best plan so far. */
 thr_status thr_branch_try_circuits(thr_branch *branch, thr_join *j, const int *passes, thr_err *err)
 {
-  bool found = !late(branch) && within_limits(branch->c, passes);
+  bool found = !late(branch) && thr_passes_allowed(branch->c, passes);
   thr_status st = found ? thr_circuits_make(j, branch->limits, &found, err) : THR_OK;
   if (!st && found) return keep_better(branch, j, passes, err);
   thr_join_destroy(j);
@@ -197,7 +186,7 @@ static thr_status try_tied(thr_branch *branch, const int *passes, const int *end
 thr_status thr_branch_try(thr_branch *branch, const int *passes, const int *ends, thr_err *err)
 {
   thr_join j;
-  if (late(branch) || !within_limits(branch->c, passes)) return THR_OK;
+  if (late(branch) || !thr_passes_allowed(branch->c, passes)) return THR_OK;
   if (branch->c->task->tube) return try_tied(branch, passes, ends, err);
   if (branch->several) return try_several(branch, passes, err);
 
@@ -229,7 +218,7 @@ thr_status thr_branch_try_cords(thr_branch *branch, const thr_cord *cord, int n_
 {
   thr_join j = {0};
   count_passes(branch, cord, n_cords);
-  if (late(branch) || !within_limits(branch->c, branch->passes)) return THR_OK;
+  if (late(branch) || !thr_passes_allowed(branch->c, branch->passes)) return THR_OK;
 
   thr_status st = thr_join_from_cords(&j, branch->c, cord, n_cords, err);
   if (!st && branch->several) return thr_branch_try_circuits(branch, &j, branch->passes, err);
@@ -255,7 +244,8 @@ thr_status thr_branch_try_start(thr_branch *branch, const thr_cord *cord, int n_
 {
   thr_join j = {0};
   count_passes(branch, cord, n_cords);
-  if (!within_limits(branch->c, branch->passes) || n_cords != cords_asked(branch->c)) return THR_OK;
+  if (!thr_passes_allowed(branch->c, branch->passes) || n_cords != cords_asked(branch->c))
+    return THR_OK;
 
   thr_status st = thr_join_from_cords(&j, branch->c, cord, n_cords, err);
   if (!st && j.price >= thr_join_forbidden && !branch->several) st = thr_improve_backs(&j, err);
@@ -300,7 +290,7 @@ static thr_status round_tied(thr_branch *branch, thr_err *err)
   bool now_and_then = (branch->rounds & (branch->rounds - 1)) == 0;
 
   if (!st && found && now_and_then && !branch->c->task->free_turns &&
-      within_limits(branch->c, branch->passes))
+      thr_passes_allowed(branch->c, branch->passes))
     st = thr_tie_improve(branch->c, branch->limits, branch->passes, branch->ends, err);
   return st || !found ? st : thr_branch_try(branch, branch->passes, branch->ends, err);
 }
@@ -323,7 +313,7 @@ static void take_point(thr_branch *branch, const int *x)
 thr_status thr_branch_try_point(thr_branch *branch, const int *x, thr_err *err)
 {
   take_point(branch, x);
-  return within_limits(branch->c, branch->passes)
+  return thr_passes_allowed(branch->c, branch->passes)
              ? try_columns(branch, branch->passes, branch->ends, err)
              : THR_OK;
 }
@@ -338,7 +328,7 @@ thr_status thr_branch_try_joined(thr_branch *branch, const int *x, thr_err *err)
   if (task->end_allowed || task->cords > 1) return thr_branch_try_point(branch, x, err);
 
   take_point(branch, x);
-  if (late(branch) || !within_limits(branch->c, branch->passes)) return THR_OK;
+  if (late(branch) || !thr_passes_allowed(branch->c, branch->passes)) return THR_OK;
 
   thr_status st = thr_join_init(&j, branch->c, branch->passes, branch->ends, err);
   if (st) return st;

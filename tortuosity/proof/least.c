@@ -173,7 +173,7 @@ static thr_status other_plans(thr_branch *branch, const thr_least_options *optio
     st = thr_branch_try_cords(branch, options->start, options->n_start, err);
   if (!st && start->n) st = thr_branch_try_cords(branch, start->cord, start->n, err);
   if (!st && branch->several) st = thr_several_plans(branch, err);
-  /* !branch->c || Ends far apart, where ends may be moved. */
+  /* Ends far apart, where ends may be moved. */
   if (st || !branch->c->task->end_allowed || options->request.joint == THR_JOINT_TUBE ||
       branch->c->task->end_count)
     return st;
@@ -394,7 +394,7 @@ static thr_status search_from_shortest(const thr_frame *frame, const thr_least_o
   /* Least length. */
   again.length_slack = -1;
   again.request.turning.cost = THR_TURN_ANGLE;
-  again.price_per_length = dear_length(frame, options->request.cover);
+  again.price_per_length = price_above_turns(frame, options->request.cover);
   thr_limits exact = *limits;
   exact.gap = 0;
   thr_status st = search(frame, &again, &exact, &shortest, &found);
