@@ -220,15 +220,6 @@ static double turning_of_exchange(const cord_annealer *annealer, const int at[4]
          turn(annealer, into(annealer, at[1]), out_of(annealer, at[3])) - now;
 }
 
-static void reverse(int *half, int from, int end)
-{
-  for (int last = end - 1; from <= last; from++, last--) {
-    int one = half[from] ^ 1;
-    half[from] = half[last] ^ 1;
-    half[last] = one;
-  }
-}
-
 static int *append(int *to, const int *half, int from, int end)
 {
   memcpy(to, half + from, (size_t)(end - from) * sizeof *to);
@@ -242,7 +233,7 @@ static void make(cord_annealer *annealer, const cord_change *change)
   const int *at = change->at;
 
   if (change->kind == REVERSE) {
-    reverse(half, at[0], at[1]);
+    thr_passes_reverse(half, at[0], at[1] - 1);
   } else if (change->kind == BEGIN) {
     thr_starts_turn(&annealer->now, at[0], false, annealer->half);
     memcpy(half, annealer->half, (size_t)annealer->now.n_passes * sizeof *half);

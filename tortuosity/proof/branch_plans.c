@@ -358,7 +358,7 @@ thr_status thr_branch_try_whole(thr_branch *branch, thr_err *err)
   free(x);
 
   /* The point's own turns; with tube joints these must tie every node. */
-  bool fit = !branch->projected && within_limits(turning_columns, branch->passes);
+  bool fit = !branch->projected && thr_passes_allowed(turning_columns, branch->passes);
   thr_status st = fit && turning_columns->task->tube
                       ? thr_tie_holds(turning_columns, branch->whole, &fit, err)
                       : THR_OK;
