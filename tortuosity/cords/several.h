@@ -95,11 +95,11 @@ thr_status thr_distinct_make(const thr_frame *frame, const thr_request *options,
 /* ---- What the files that look for different cords share. Private to them. */
 
 /* Detours of some cords of cord[n_cords] over edges that are passed by fewer than options.distinct
- * different ones, at most so many detours; *done how many there are. A detour leaves a cord at a
- * node, turns back nowhere but at nodes with one edge, and comes back there. Every one is a
- * shortest for its edge. O(half-edges log half-edges + passes) each. */
+ * different ones, at most so many detours. A detour leaves a cord at a node, turns back nowhere but
+ * at nodes with one edge, and comes back there. Every one is a shortest for its edge.
+ * O(half-edges log half-edges + passes) each. */
 thr_status thr_distinct_detours(const thr_frame *frame, const thr_request *options, thr_cord *cord,
-                                int n_cords, int most, int *done, thr_err *err) THR_MUST_CHECK;
+                                int n_cords, int most, thr_err *err) THR_MUST_CHECK;
 
 /* Leaves out circuits between two visits of a cord to one node that neither cover nor distinct
  * needs, the longest first. Nothing of cords that tie joints. O(passes squared) of a cord for each.
