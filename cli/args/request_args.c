@@ -85,17 +85,10 @@ static bool parse_force(const char *option, const char *value, double *newtons)
 /* Reads "5" or "5%". */
 static bool parse_slack(const char *text, double *slack)
 {
-  char *end;
-  const double percent = strtod(text, &end);
-  const bool ok =
-      end != text && (*end == '\0' || strcmp(end, "%") == 0) && percent >= 0 && percent <= 1e6;
-  if (ok) {
-    *slack = percent / 100;
-  } else {
-    cli_usage("plan", "--length-slack %s: expected a percentage from 0 to 1e+06, like 5 or 5%%",
-              text);
-  }
-  return ok;
+  if (thr_slack_parse(text, slack)) return true;
+  cli_usage("plan", "--length-slack %s: expected a percentage from 0 to 1e+06, like 5 or 5%%",
+            text);
+  return false;
 }
 
 static bool parse_objective(request_args *a, const char *value)

@@ -118,11 +118,10 @@ typedef struct {
   double slack; /* < 0 = none */
 } list;
 
-/* Of a word like "length+5%": the number. */
-static bool read_slack(const char *text, double *slack)
+bool thr_slack_parse(const char *text, double *slack)
 {
   char *end;
-  double percent = strtod(text, &end);
+  const double percent = strtod(text, &end);
   *slack = percent / 100;
   return end != text && (*end == '\0' || strcmp(end, "%") == 0) && percent >= 0 && percent <= 1e6;
 }
@@ -154,7 +153,7 @@ static thr_status read_aim(char *word, list *l, thr_err *err)
   l->named[aim] = true;
   l->aims.aim[l->aims.n++] = (thr_aim)aim;
   if (mark == '+') {
-    if (aim != THR_AIM_LENGTH || !read_slack(more, &l->slack))
+    if (aim != THR_AIM_LENGTH || !thr_slack_parse(more, &l->slack))
       return thr_fail(err, THR_EINPUT,
                       "%s+%s: only length takes a percentage, from 0 to 1e+06, like length+5%%",
                       word, more);

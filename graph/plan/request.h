@@ -198,6 +198,9 @@ void thr_aims_order(const thr_request *options, thr_aim order[THR_N_AIMS]);
  * On failure options is unchanged. */
 thr_status thr_aims_parse(const char *text, thr_request *options, thr_err *err) THR_MUST_CHECK;
 
+/* Reads a percentage from 0 to 1e6, "5" or "5%", as a part of 1. False: it is none. */
+bool thr_slack_parse(const char *text, double *slack);
+
 /* Such a list, which says the same. */
 void thr_aims_write(const thr_request *options, thr_text *out);
 

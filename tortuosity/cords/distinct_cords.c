@@ -360,13 +360,11 @@ static thr_status try_from(distinct_search *search, const thr_cord *from, int de
   const int tries = best->tries++;
   thr_cord *cord = NULL;
   cost_terms found = worst;
-  int done = 0;
 
   /* Penalties for lacking cords differ from try to try. */
   thr_status st = thr_cords_copy(from, search->n_cords, &cord, err);
   if (!st && detours > 0)
-    st = thr_distinct_detours(search->frame, search->request, cord, search->n_cords, detours, &done,
-                              err);
+    st = thr_distinct_detours(search->frame, search->request, cord, search->n_cords, detours, err);
 
   int steps = st ? 0 : steps_for(cord, search->n_cords);
   if (!st) st = exchange(search, first * pow(2, tries % 4), steps, cord, &found, err);

@@ -273,18 +273,18 @@ static thr_status detour_over(cord_cover *cover, int e, bool *done, thr_err *err
 }
 
 thr_status thr_distinct_detours(const thr_frame *frame, const thr_request *options, thr_cord *cord,
-                                int n_cords, int most, int *done, thr_err *err)
+                                int n_cords, int most, thr_err *err)
 {
   cord_cover cover = {.frame = frame, .request = options, .cord = cord, .n_cords = n_cords};
   thr_status st = cover_init(&cover, err);
-  *done = 0;
+  int done = 0;
 
   /* Add cords to an edge until there are enough, or no detour is possible. */
   for (int e = 0; e < frame->n_edges && !st; e++)
     for (bool found = true;
-         cover.different[e] < options->distinct && *done < most && !st && found;) {
+         cover.different[e] < options->distinct && done < most && !st && found;) {
       st = detour_over(&cover, e, &found, err);
-      *done += found;
+      done += found;
     }
 
   cover_destroy(&cover);

@@ -84,11 +84,11 @@ thr_status thr_distinct_make(const thr_frame *frame, const thr_request *options,
 /* ---- distinct_detour.c: Detours and circuits. Private to the files for different cords. */
 
 /* Leads some of the cords cord[n_cords] over edges that fewer than options.distinct different cords
- * pass, by at most `most` detours; *done receives their number. A detour leaves a cord at a node,
+ * pass, by at most `most` detours. A detour leaves a cord at a node,
  * turns back nowhere but at nodes with one edge, and comes back to its node. Each is a shortest one
  * for its edge. O(half-edges log half-edges + passes) each. */
 thr_status thr_distinct_detours(const thr_frame *frame, const thr_request *options, thr_cord *cord,
-                                int n_cords, int most, int *done, thr_err *err) THR_MUST_CHECK;
+                                int n_cords, int most, thr_err *err) THR_MUST_CHECK;
 
 /* Removes circuits between two visits of a cord to one node that neither cover nor distinct needs,
  * the longest first; none with tube joints, which the circuits may tie. O(passes squared) of a cord

@@ -22,8 +22,8 @@ typedef struct {
   thr_walk_programme *programme;
   double *left, *cost; /* [n_variables] the right sides that are left; costs of the dual */
   thr_cord *cord;
-  int n_cords, kept; /* of them those that were there before */
-  uint64_t *random;  /* state; NULL: the largest column is taken */
+  int n_cords;
+  uint64_t *random; /* state; NULL: the largest column is taken */
 } walk_dive;
 
 /* Returns how many passes the walk of a row makes of those that are still needed. */
@@ -216,8 +216,7 @@ thr_status thr_walk_dive(thr_walk_programme *programme, int units, uint64_t *ran
   const double dear =
       programme->per_cord > 0 ? programme->dearest : 10; /* no pass goes without a walk */
   size_t n = (size_t)programme->n_variables;
-  walk_dive dive = {
-      .programme = programme, .cord = cord, .n_cords = kept, .kept = kept, .random = random};
+  walk_dive dive = {.programme = programme, .cord = cord, .n_cords = kept, .random = random};
   dive.left = thr_calloc(n, sizeof *dive.left);
   dive.cost = thr_calloc(n, sizeof *dive.cost);
   *found = false;
