@@ -10,6 +10,7 @@
  * others. */
 #include "graph/disjoint.h"
 #include "graph/scratch.h"
+#include "graph/sort.h"
 #include "tortuosity/cords/join.h"
 
 #include <math.h>
@@ -22,11 +23,6 @@ enum {
 };
 
 typedef struct {
-  double regret;
-  int node;
-} ranked;
-
-typedef struct {
   thr_join *j;
   int *place;   /* [n_darts] number of a dart at its node */
   int *link;    /* [n_darts] dart at the other end of the chain of passes that starts with this one;
@@ -36,14 +32,14 @@ typedef struct {
   int *queue;   /* [n_nodes] */
   int *spare;   /* [n_components] pieces that the component may still fall into */
   int searches; /* so far */
-  ranked *order;
-  int most;        /* darts at a node */
-  int most_priced; /* darts at a node whose prices are looked at */
-  double *price;   /* [most_priced * most_priced] at the node at hand */
-  int *pair;       /* [most] of the node at hand, by position */
-  int *port;       /* [most] disjoint sets: what hangs together without the node */
-  int *trial;      /* [2 * most] scratch */
-  thr_scratch own; /* the arrays */
+  thr_ranked *order; /* nodes by -regret */
+  int most;          /* darts at a node */
+  int most_priced;   /* darts at a node whose prices are looked at */
+  double *price;     /* [most_priced * most_priced] at the node at hand */
+  int *pair;         /* [most] of the node at hand, by position */
+  int *port;         /* [most] disjoint sets: what hangs together without the node */
+  int *trial;        /* [2 * most] scratch */
+  thr_scratch own;   /* the arrays */
 } greedy;
 
 /* Allocates the arrays for the largest node, and starts with single passes as chains. */
@@ -112,14 +108,6 @@ static double regret(const double *price, int n, const int *pair)
   return least;
 }
 
-/* Orders nodes by decreasing regret, then by number. */
-static int by_regret(const void *pa, const void *pb)
-{
-  const ranked *a = pa, *b = pb;
-  if (a->regret != b->regret) return a->regret > b->regret ? -1 : 1;
-  return (a->node > b->node) - (a->node < b->node);
-}
-
 /* Computes the cheapest pairing of node v alone, and its regret. Hubs get the regret -1, which
  * makes them come last; very large ones are not priced. */
 static thr_status pair_node(greedy *s, int v, thr_err *err)
@@ -127,7 +115,7 @@ static thr_status pair_node(greedy *s, int v, thr_err *err)
   const thr_multigraph *multigraph = &s->j->g;
   const int *dart = multigraph->dart + multigraph->first[v];
   int n = multigraph->first[v + 1] - multigraph->first[v];
-  s->order[v] = (ranked){-1, v};
+  s->order[v] = (thr_ranked){1, v};
   if (n > MOST_PRICED) {
     for (int i = 0; i < n / 2; i++)
       thr_set_pair(s->pair, i, i + n / 2);
@@ -135,7 +123,7 @@ static thr_status pair_node(greedy *s, int v, thr_err *err)
   }
   fill_prices(s, dart, n);
   thr_status st = thr_pairing_best(n, s->price, s->pair, err);
-  if (!st && n <= HUB) s->order[v].regret = regret(s->price, n, s->pair);
+  if (!st && n <= HUB) s->order[v].key = -regret(s->price, n, s->pair);
   return st;
 }
 
@@ -151,7 +139,7 @@ static thr_status rank_nodes(greedy *s, thr_err *err)
     for (int i = 0; i < n && !st; i++)
       s->j->mate[dart[i]] = dart[s->pair[i]];
   }
-  if (!st) qsort(s->order, (size_t)s->j->c->f->n_nodes, sizeof *s->order, by_regret);
+  if (!st) thr_sort_ranked(s->order, (size_t)s->j->c->f->n_nodes);
   return st;
 }
 
@@ -315,7 +303,7 @@ thr_status thr_join_greedy(thr_join *j, int apart, thr_err *err)
   thr_status st = greedy_init(&s, j, apart, err);
   if (!st) st = rank_nodes(&s, err);
   for (int i = 0; i < j->c->f->n_nodes && !st; i++)
-    settle_node(&s, s.order[i].node);
+    settle_node(&s, s.order[i].index);
   if (!st && s.most > HUB) st = join_at_hubs(j, apart, err);
   thr_scratch_free(&s.own);
   if (!st) thr_join_measure(j);

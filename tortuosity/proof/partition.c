@@ -10,6 +10,7 @@
  * Example: three circuits need two connections to become one cord. */
 #include "graph/disjoint.h"
 #include "graph/scratch.h"
+#include "graph/sort.h"
 #include "graph/threading/euler.h"
 #include "tortuosity/proof/branch.h"
 
@@ -20,22 +21,17 @@
 enum { LEVELS = 48 };
 
 typedef struct {
-  double regret; /* < 0: stays whole */
-  int node;
-} ranked;
-
-typedef struct {
   thr_relax *r;
-  int most;         /* passes at a node */
-  double *price;    /* [most * most] */
-  int *half, *mate; /* [most] passes of the node at hand */
-  ranked *order;    /* [n_nodes] */
-  int *parent;      /* [n_edges] blocks */
-  int *block;       /* [n_edges] their numbers */
-  int *scratch;     /* [n_edges + n_components] */
-  int (*pair)[2];   /* edges that the chosen pairings join, node by node */
-  int *pair_first;  /* [n_nodes + 1] */
-  thr_scratch own;  /* the arrays */
+  int most;          /* passes at a node */
+  double *price;     /* [most * most] */
+  int *half, *mate;  /* [most] passes of the node at hand */
+  thr_ranked *order; /* [n_nodes] by regret; < 0: stays whole */
+  int *parent;       /* [n_edges] blocks */
+  int *block;        /* [n_edges] their numbers */
+  int *scratch;      /* [n_edges + n_components] */
+  int (*pair)[2];    /* edges that the chosen pairings join, node by node */
+  int *pair_first;   /* [n_nodes + 1] */
+  thr_scratch own;   /* the arrays */
 } splitter;
 
 static int passes_of(const thr_relax *relax, int half)
@@ -94,7 +90,7 @@ static thr_status pair_node(splitter *s, int v, bool by_point, thr_err *err)
   for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
     for (int k = passes_of(s->r, frame->half[i]); k > 0; k--)
       s->half[n++] = frame->half[i];
-  s->order[v] = (ranked){-1, v};
+  s->order[v] = (thr_ranked){-1, v};
   if (n % 2 || n > THR_PAIRING_EXACT || thr_degree(frame, v) < 2) return THR_OK;
   for (int i = 0; i < n; i++)
     for (int k = 0; k < n; k++) {
@@ -108,20 +104,13 @@ static thr_status pair_node(splitter *s, int v, bool by_point, thr_err *err)
     }
   thr_status st = thr_pairing_best(n, s->price, s->mate, err);
   if (st) return st;
-  s->order[v].regret = regret_of(s, n);
+  s->order[v].key = regret_of(s, n);
   for (int i = 0; i < n; i++)
     if (s->mate[i] > i) {
       s->pair[*at][0] = s->half[i] >> 1;
       s->pair[(*at)++][1] = s->half[s->mate[i]] >> 1;
     }
   return THR_OK;
-}
-
-static int by_regret(const void *pa, const void *pb)
-{
-  const ranked *a = pa, *b = pb;
-  if (a->regret != b->regret) return a->regret < b->regret ? -1 : 1;
-  return (a->node > b->node) - (a->node < b->node);
 }
 
 /* Puts the coefficients of the row; returns how much less it asks for than the connections to make.
@@ -189,20 +178,20 @@ static thr_status go_through(splitter *s, int *added, thr_err *err)
   int n = frame->n_nodes, step = 1 + n / LEVELS, waited = 0;
   bool more = true;
   thr_status st = THR_OK;
-  qsort(s->order, (size_t)n, sizeof *s->order, by_regret);
+  thr_sort_ranked(s->order, (size_t)n);
   for (int e = 0; e < frame->n_edges; e++)
     s->parent[e] = e;
   for (int k = 0; k < s->pair_first[n]; k++)
     thr_disjoint_join(s->parent, s->pair[k][0], s->pair[k][1]);
   for (int i = 0; i < n && more && !st; i++) {
-    bool level = i == 0 || s->order[i].regret > s->order[i - 1].regret + 1e-9;
+    bool level = i == 0 || s->order[i].key > s->order[i - 1].key + 1e-9;
     waited++;
-    if (s->order[i].regret >= 0 && level &&
-        (waited >= step || i == 0 || s->order[i - 1].regret <= 1e-9)) {
+    if (s->order[i].key >= 0 && level &&
+        (waited >= step || i == 0 || s->order[i - 1].key <= 1e-9)) {
       st = offer(s, added, &more, err);
       waited = 0;
     }
-    make_whole(s, s->order[i].node);
+    make_whole(s, s->order[i].index);
   }
   return st;
 }
