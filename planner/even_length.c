@@ -20,7 +20,6 @@ static const double near = 1e-9; /* of the bound: rounding */
 /* Puts other cords, which are the caller's, in the place of the plan's. The walks of the proof
  * stay, as these are about any cords. */
 static thr_status take_cords(thr_plan *plan, thr_cord *cord, thr_err *err)
-
 {
   thr_plan before = {.proof = plan->proof};
 

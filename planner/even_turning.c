@@ -90,7 +90,6 @@ static bool is_done(const thr_frame *frame, const thr_least *least, const thr_ma
 static thr_status exchange(const thr_frame *frame, const thr_plan *seed, double enough,
                            const thr_limits *limits, thr_least *least, thr_max_turning *found,
                            thr_err *err)
-
 {
   bool fits = false;
   thr_max_turning own = {.largest = INFINITY}, other = own;

@@ -425,7 +425,6 @@ static thr_status not_found(const fewest_search *search, const thr_err *why, thr
 
 /* Counts the cords of every component, cords[n_nodes]. *n: how many have some. */
 static void count_cords(const thr_plan *plan, int *cords, int *n)
-
 {
   *n = 0;
   for (int i = 0; i < plan->n_cords; i++) {

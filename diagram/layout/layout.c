@@ -3,6 +3,7 @@
 
 #include "diagram/layout/layout_parts.h"
 #include "graph/framework/make.h"
+#include "graph/sort.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -299,29 +300,17 @@ done:
 
 /* ---- around a node ---- */
 
-typedef struct {
-  double angle;
-  int half;
-} spoke;
-
-static int by_angle(const void *a, const void *b)
-{
-  const spoke *p = a, *q = b;
-  if (p->angle != q->angle) return p->angle < q->angle ? -1 : 1;
-  return p->half - q->half;
-}
-
 thr_status thr_layout_around(const thr_frame *frame, const double *angle, int *around, thr_err *err)
 {
-  spoke *k = thr_calloc((size_t)frame->n_edges * 2, sizeof *k);
+  thr_ranked *k = thr_calloc((size_t)frame->n_edges * 2, sizeof *k);
   if (!k) return thr_nomem(err);
   for (int v = 0; v < frame->n_nodes; v++) {
     int first = frame->first[v], degree = thr_degree(frame, v);
     for (int i = 0; i < degree; i++)
-      k[i] = (spoke){angle[frame->half[first + i]], frame->half[first + i]};
-    qsort(k, (size_t)degree, sizeof *k, by_angle);
+      k[i] = (thr_ranked){angle[frame->half[first + i]], frame->half[first + i]};
+    thr_sort_ranked(k, (size_t)degree);
     for (int i = 0; i < degree; i++)
-      around[first + i] = k[i].half;
+      around[first + i] = k[i].index;
   }
   free(k);
   return THR_OK;

@@ -2,6 +2,7 @@
 /* Letter and number places of grid-like pictures: column letters from left to right, row numbers
  * from the bottom up. */
 #include "diagram/scene/scene.h"
+#include "graph/sort.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -10,18 +11,6 @@
 #include <string.h>
 
 enum { MAX_LINES = 700 }; /* columns up to "ZZ" */
-
-typedef struct {
-  double x;
-  int node;
-} keyed;
-
-static int by_x(const void *a, const void *b)
-{
-  const keyed *p = a, *q = b;
-  if (p->x != q->x) return p->x < q->x ? -1 : 1;
-  return p->node - q->node;
-}
 
 void thr_places_destroy(thr_places *p)
 {
@@ -37,24 +26,24 @@ void thr_places_destroy(thr_places *p)
 /* Clusters one coordinate: line[v] = cluster of node v, centre[] their means; returns how many, or
  * 0 if a cluster is wider than a tenth of the median. A gap of a quarter of the median starts a new
  * one. */
-static int cluster(const double (*xy)[2], int n, int axis, double median, keyed *k, int *line,
+static int cluster(const double (*xy)[2], int n, int axis, double median, thr_ranked *k, int *line,
                    double *centre)
 {
   for (int v = 0; v < n; v++)
-    k[v] = (keyed){xy[v][axis], v};
-  qsort(k, (size_t)n, sizeof *k, by_x);
+    k[v] = (thr_ranked){xy[v][axis], v};
+  thr_sort_ranked(k, (size_t)n);
   int count = 0;
   for (int i = 0; i < n;) {
     int from = i;
     double sum = 0;
     if (count == MAX_LINES) return 0;
     do {
-      sum += k[i].x - k[from].x;
-      line[k[i].node] = count;
+      sum += k[i].key - k[from].key;
+      line[k[i].index] = count;
       i++;
-    } while (i < n && k[i].x - k[i - 1].x <= 0.25 * median);
-    if (k[i - 1].x - k[from].x > 0.1 * median) return 0;
-    centre[count++] = k[from].x + sum / (i - from);
+    } while (i < n && k[i].key - k[i - 1].key <= 0.25 * median);
+    if (k[i - 1].key - k[from].key > 0.1 * median) return 0;
+    centre[count++] = k[from].key + sum / (i - from);
   }
   return count;
 }
@@ -130,7 +119,7 @@ thr_status thr_places_find(thr_places *out, const thr_frame *frame, const double
 {
   thr_places p = {0};
   bool found = false, *taken = NULL;
-  keyed *k = thr_calloc((size_t)frame->n_nodes, sizeof *k);
+  thr_ranked *k = thr_calloc((size_t)frame->n_nodes, sizeof *k);
   thr_status st = k ? allocate(&p, frame->n_nodes, err) : thr_nomem(err);
   if (st) goto done;
   p.n_columns = cluster(xy, frame->n_nodes, 0, median, k, p.column, p.x);

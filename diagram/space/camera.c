@@ -2,6 +2,7 @@
 /* The directions that are tried lie evenly between looking up a little and looking down steeply. */
 #include "diagram/space/camera.h"
 #include "graph/angle.h"
+#include "graph/sort.h"
 #include "graph/vector.h"
 
 #include <math.h>
@@ -119,18 +120,12 @@ bool thr_camera_legible(const thr_camera_scene *scene, const double size[2], int
   return false;
 }
 
-static int by_size(const void *a, const void *b)
-{
-  const double *x = a, *y = b;
-  return *x < *y ? -1 : *x > *y;
-}
-
 /* What needs no pairs of passes; the more the better. */
 static double judge_lengths(const thr_camera_scene *scene, const sight *s)
 {
   double part[THR_CAMERA_PASSES], sum = 0, worth, shortest = HUGE_VAL;
   memcpy(part, s->part, (size_t)scene->n * sizeof *part);
-  qsort(part, (size_t)scene->n, sizeof *part, by_size);
+  thr_sort_doubles(part, (size_t)scene->n);
   for (int i = 0; i < scene->n; i++) {
     sum += s->part[i];
     shortest = fmin(shortest, s->length[i]);

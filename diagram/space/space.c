@@ -2,6 +2,7 @@
 /* What pictures in space are made from, and the choice of a view. */
 #include "diagram/space/space.h"
 
+#include "graph/sort.h"
 #include "graph/vector.h"
 
 #include <math.h>
@@ -17,19 +18,13 @@ void thr_space_destroy(thr_space *space)
   *space = (thr_space){0};
 }
 
-static int by_size(const void *a, const void *b)
-{
-  const double *x = a, *y = b;
-  return *x < *y ? -1 : *x > *y;
-}
-
 static thr_status measure(thr_space *space, thr_err *err)
 {
   const thr_frame *f = space->f;
   double *length = thr_calloc((size_t)f->n_edges, sizeof *length);
   if (!length) return thr_nomem(err);
   memcpy(length, f->length, (size_t)f->n_edges * sizeof *length);
-  qsort(length, (size_t)f->n_edges, sizeof *length, by_size);
+  thr_sort_doubles(length, (size_t)f->n_edges);
   space->pitch = length[f->n_edges / 2] > 0 ? length[f->n_edges / 2] : 1;
   free(length);
   for (int v = 0; v < f->n_nodes; v++)

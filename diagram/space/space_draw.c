@@ -3,6 +3,7 @@
  * pieces that it comes to, then the cord, which nothing hides. */
 #include "diagram/overview/overview.h"
 #include "diagram/space/space.h"
+#include "graph/sort.h"
 #include "graph/vector.h"
 
 #include <math.h>
@@ -159,18 +160,6 @@ static void put_openings(const drawing *d, int v, const thr_arms *arms, const ch
   }
 }
 
-typedef struct {
-  int piece;
-  double depth;
-} placed;
-
-static int back_to_front(const void *a, const void *b)
-{
-  const placed *x = a, *y = b;
-  if (x->depth != y->depth) return x->depth < y->depth ? -1 : 1;
-  return x->piece - y->piece;
-}
-
 static const struct {
   const char *fill, *outline;
   double line;
@@ -227,7 +216,7 @@ static nearness near_of(const drawing *d, int piece)
 }
 
 /* Pieces that are so near and, of those that are drawn now, new or held; back to front. */
-static void put_pieces(const drawing *d, nearness near, bool new, placed *list)
+static void put_pieces(const drawing *d, nearness near, bool new, thr_ranked *list)
 {
   const thr_frame *f = d->space->f;
   int n = 0, pieces = d->space->solid ? f->n_nodes : f->n_edges;
@@ -237,14 +226,14 @@ static void put_pieces(const drawing *d, nearness near, bool new, placed *list)
     if (near_of(d, i) != near || (near == NOW && (state_of(d, i) == THR_PIECE_NEW) != new) ||
         !seen(d, a, b, d->pitch))
       continue;
-    list[n++] = (placed){i, a[2] + b[2]};
+    list[n++] = (thr_ranked){a[2] + b[2], i};
   }
-  qsort(list, (size_t)n, sizeof *list, back_to_front);
+  thr_sort_ranked(list, (size_t)n);
   for (int i = 0; i < n; i++)
     if (d->space->solid)
-      put_solid(d, list[i].piece, near == NOW);
+      put_solid(d, list[i].index, near == NOW);
     else
-      put_tube(d, list[i].piece, near == NOW);
+      put_tube(d, list[i].index, near == NOW);
 }
 
 /* ---- cords ---- */
@@ -375,7 +364,7 @@ static void find_near(drawing *d)
       d->near[thr_head(f, h)] = AROUND;
 }
 
-static thr_status put_all(drawing *d, placed *list, thr_err *err)
+static thr_status put_all(drawing *d, thr_ranked *list, thr_err *err)
 {
   const thr_crop *crop = &d->step->crop;
   thr_lane lane[THR_CAMERA_PASSES];
@@ -428,7 +417,7 @@ thr_status thr_space_draw(const thr_space *space, const thr_space_step *step,
   d.arm = fmin(ARM * d.pitch, WIDEST);
   d.at = thr_calloc((size_t)f->n_nodes, sizeof *d.at);
   d.near = thr_calloc((size_t)f->n_nodes, sizeof *d.near);
-  placed *list = thr_calloc((size_t)most, sizeof *list);
+  thr_ranked *list = thr_calloc((size_t)most, sizeof *list);
   thr_status st = d.at && d.near && list ? THR_OK : thr_nomem(err);
   for (int v = 0; v < f->n_nodes && !st; v++)
     thr_camera_project(view, f->xyz[v], d.at[v]);
@@ -449,19 +438,19 @@ thr_status thr_space_draw(const thr_space *space, const thr_space_step *step,
 /* ---- the whole ---- */
 
 /* The names of nodes that have room, the nearest first. */
-static thr_status put_names(const drawing *d, placed *list, thr_err *err)
+static thr_status put_names(const drawing *d, thr_ranked *list, thr_err *err)
 {
   static const double size = 2.6; /* mm */
   thr_boxes boxes = {0};
   thr_status st = thr_boxes_init(&boxes, d->window, 6, err);
   int n = d->space->f->n_nodes;
   for (int v = 0; v < n; v++)
-    list[v] = (placed){v, d->at[v][2]};
-  qsort(list, (size_t)n, sizeof *list, back_to_front);
+    list[v] = (thr_ranked){d->at[v][2], v};
+  thr_sort_ranked(list, (size_t)n);
   thr_text_append(d->text, "<g fill=\"#222\" text-anchor=\"middle\">\n");
   for (int i = n - 1; i >= 0 && !st; i--) {
-    const double *at = d->at[list[i].piece];
-    const char *name = d->space->label[list[i].piece];
+    const double *at = d->at[list[i].index];
+    const char *name = d->space->label[list[i].index];
     thr_box box =
         thr_box_around(at[0], at[1], 0.5 * thr_scene_text_width(name, size) + 0.3, 0.6 * size);
     if (thr_boxes_overlap(&boxes, box, ~0, 1e-9) > 0) continue;
@@ -507,7 +496,7 @@ thr_status thr_space_whole(const thr_space *space, const unsigned char *state, t
   drawing d = {.space = space, .step = &plain, .text = text, .window = {0, 0, size[0], size[1]}};
   d.at = thr_calloc((size_t)f->n_nodes, sizeof *d.at);
   d.near = thr_calloc((size_t)f->n_nodes, sizeof *d.near);
-  placed *list = thr_calloc((size_t)most, sizeof *list);
+  thr_ranked *list = thr_calloc((size_t)most, sizeof *list);
   unsigned char *piece = thr_calloc((size_t)most, sizeof *piece);
   thr_status st = d.at && d.near && list && piece ? THR_OK : thr_nomem(err);
   if (!st) {

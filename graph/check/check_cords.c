@@ -9,6 +9,7 @@
 #include "graph/check/check_parts.h"
 #include "graph/check/edge_sets.h"
 #include "graph/plan/walk_proof.h"
+#include "graph/sort.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -124,19 +125,6 @@ static double open_detour(shortest_paths *search, const thr_request *options)
   return worst;
 }
 
-typedef struct {
-  double length;
-  int edge;
-} measured;
-
-/* Orders edges by length, longest first. */
-static int longest_first(const void *pa, const void *pb)
-{
-  const measured *a = pa, *b = pb;
-  if (a->length != b->length) return a->length > b->length ? -1 : 1;
-  return a->edge - b->edge;
-}
-
 /* Raises *worst to the shortest closed cord over the worst edge: the edge and the shortest way
  * back, which is no longer than the edge. Only edges that could raise *worst are searched from, for
  * STEPS steps in all: the result is a lower bound. */
@@ -144,21 +132,22 @@ static thr_status closed_detour(shortest_paths *search, double *worst, thr_err *
 {
   enum { STEPS = 1 << 24 };
   const thr_frame *frame = search->frame;
-  measured *by_length = thr_calloc((size_t)frame->n_edges, sizeof *by_length);
+  thr_ranked *by_length = thr_calloc((size_t)frame->n_edges, sizeof *by_length);
   if (!by_length) return thr_nomem(err);
 
   for (int e = 0; e < frame->n_edges; e++)
-    by_length[e] = (measured){frame->length[e], e};
-  qsort(by_length, (size_t)frame->n_edges, sizeof *by_length, longest_first);
+    by_length[e] = (thr_ranked){-frame->length[e], e};
+  thr_sort_ranked(by_length, (size_t)frame->n_edges);
 
-  /* Longest edges first, as a cord over an edge is at most twice as long. */
-  for (int i = 0; i < frame->n_edges && 2 * by_length[i].length > *worst && search->steps < STEPS;
+  /* Longest edges first (their keys are below 0), as a cord over an edge is at most twice as long.
+   */
+  for (int i = 0; i < frame->n_edges && -2 * by_length[i].key > *worst && search->steps < STEPS;
        i++) {
-    int *end = frame->edge[by_length[i].edge];
+    int *end = frame->edge[by_length[i].index];
 
     reach(search, end[0], 0);
     spread(search, end[1]);
-    *worst = fmax(*worst, by_length[i].length + search->distance[end[1]]);
+    *worst = fmax(*worst, -by_length[i].key + search->distance[end[1]]);
 
     /* Forget what the search reached. */
     for (; search->n_touched > 0; search->n_touched--)

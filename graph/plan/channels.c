@@ -3,6 +3,7 @@
  * pieces that a maker holds. */
 #include "graph/plan/plan_measures.h"
 
+#include "graph/sort.h"
 #include "graph/vector.h"
 
 #include <math.h>
@@ -53,20 +54,8 @@ static void find_normal(const thr_frame *frame, int v, double normal[3])
   }
 }
 
-typedef struct {
-  double angle;
-  int half;
-} arm;
-
-static int by_angle(const void *a, const void *b)
-{
-  const arm *p = a, *q = b;
-  if (p->angle != q->angle) return p->angle < q->angle ? -1 : 1;
-  return p->half - q->half;
-}
-
 /* around and its angles, by ascending angle. */
-static void sort_arms(const thr_frame *frame, int v, const double normal[3], arm *arms)
+static void sort_arms(const thr_frame *frame, int v, const double normal[3], thr_ranked *arms)
 {
   double across[3] = {0}, along[3] = {0}, d[3], most = 0;
   int degree = thr_degree(frame, v);
@@ -87,22 +76,22 @@ static void sort_arms(const thr_frame *frame, int v, const double normal[3], arm
     unit(frame, frame->half[frame->first[v] + i], d);
     double x = thr_dot(d, along), y = thr_dot(d, across);
     bool flat = x * x + y * y > 1e-18;
-    arms[i] =
-        (arm){flat ? nearbyint(atan2(y, x) * 1e9) / 1e9 : 0, frame->half[frame->first[v] + i]};
+    arms[i] = (thr_ranked){flat ? nearbyint(atan2(y, x) * 1e9) / 1e9 : 0,
+                           frame->half[frame->first[v] + i]};
   }
-  qsort(arms, (size_t)degree, sizeof *arms, by_angle);
+  thr_sort_ranked(arms, (size_t)degree);
 }
 
 thr_status thr_channels_around(const thr_frame *frame, int *around, thr_err *err)
 {
-  arm *arms = thr_calloc((size_t)thr_frame_largest_degree(frame), sizeof *arms);
+  thr_ranked *arms = thr_calloc((size_t)thr_frame_largest_degree(frame), sizeof *arms);
   if (!arms) return thr_nomem(err);
   for (int v = 0; v < frame->n_nodes; v++) {
     double normal[3];
     find_normal(frame, v, normal);
     sort_arms(frame, v, normal, arms);
     for (int i = 0; i < thr_degree(frame, v); i++)
-      around[frame->first[v] + i] = arms[i].half;
+      around[frame->first[v] + i] = arms[i].index;
   }
   free(arms);
   return THR_OK;

@@ -5,6 +5,7 @@
  *
  * Physical quantities: one table of fields, presets, JSON, and what follows from the framework. */
 #include "graph/plan/physics.h"
+#include "graph/sort.h"
 #include "graph/text.h"
 
 #include <math.h>
@@ -350,12 +351,6 @@ void thr_physics_write(const thr_physics *physics, thr_writer *writer, const cha
 
 /* ---- against a framework ---- */
 
-static int by_value(const void *a, const void *b)
-{
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 typedef struct {
   double median, shortest; /* mm */
   int shortest_edge;
@@ -371,7 +366,7 @@ static thr_status measure_edges(const thr_frame *frame, double mm, edges *out, t
     length[e] = mm * hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
     if (length[e] < out->shortest) *out = (edges){.shortest = length[e], .shortest_edge = e};
   }
-  qsort(length, (size_t)frame->n_edges, sizeof *length, by_value);
+  thr_sort_doubles(length, (size_t)frame->n_edges);
   out->median = length[frame->n_edges / 2];
   free(length);
   if (out->shortest >= 1e-6 && out->median <= 1e8) return THR_OK;

@@ -10,6 +10,7 @@
  * Example: seating tension 1 N, a cord of two passes with a turn that halves the tension, pulled at
  * its start: the first gap is seated at 1 N, the second at 2 N. */
 #include "graph/plan/plan_measures.h"
+#include "graph/sort.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -120,12 +121,6 @@ static void halve(const thr_cord *cord, const thr_evaluation *evaluation, int on
     pull[e] = high[e];
 }
 
-static int by_size(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 thr_status thr_seating_pulls(const thr_frame *frame, const thr_cord *cord,
                              const thr_evaluation *evaluation, int only, double *pull, int *n_gaps,
                              thr_err *err)
@@ -151,7 +146,7 @@ thr_status thr_seating_pulls(const thr_frame *frame, const thr_cord *cord,
   if (!by_factors) halve(cord, evaluation, only, n_edges, pull, press, work);
   for (int e = 0; e < n_edges; e++)
     if (passed[e]) pull[(*n_gaps)++] = pull[e];
-  if (*n_gaps > 0) qsort(pull, (size_t)*n_gaps, sizeof *pull, by_size);
+  thr_sort_doubles(pull, (size_t)*n_gaps);
   free(passed);
   free(press);
   free(work);

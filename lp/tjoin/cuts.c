@@ -76,19 +76,6 @@ static thr_status reorder(thr_cuts *cuts, thr_err *err)
 
 /* ---- nesting ---- */
 
-/* A tree of cuts by its root, and the number of nodes in it. */
-typedef struct {
-  int total, root;
-} sized_tree;
-
-/* Orders trees by size, then by root. */
-static int smaller_first(const void *pa, const void *pb)
-{
-  const sized_tree *a = pa, *b = pb;
-  if (a->total != b->total) return a->total < b->total ? -1 : 1;
-  return a->root - b->root;
-}
-
 /* The trees of a forest before any of them becomes the child of a cut in another one. Arrays are by
  * cut but for outer. */
 typedef struct {
@@ -97,7 +84,7 @@ typedef struct {
   int *total;        /* at a root, nodes of the tree */
   int *met, *met_by; /* at a root, number of own nodes of the cut met_by that are in its tree */
   int *outer;        /* [n_nodes] root of the last tree visited that holds the node, -1 = none */
-  sized_tree *by_size;
+  thr_ranked *by_size;
   thr_scratch own; /* the arrays */
 } cut_nesting;
 
@@ -180,12 +167,11 @@ thr_status thr_cuts_nest(thr_cuts *cuts, thr_err *err)
 
   /* Visit the trees by size, so that a set is visited before the sets that may hold it. */
   for (int i = 0; i < cuts->n && !st; i++)
-    if (cuts->cut[i].parent < 0) nesting.by_size[n_trees++] = (sized_tree){nesting.total[i], i};
-  if (!st && n_trees > 0)
-    qsort(nesting.by_size, (size_t)n_trees, sizeof *nesting.by_size, smaller_first);
+    if (cuts->cut[i].parent < 0) nesting.by_size[n_trees++] = (thr_ranked){nesting.total[i], i};
+  if (!st && n_trees > 0) thr_sort_ranked(nesting.by_size, (size_t)n_trees);
 
   for (int k = 0; k < n_trees && !st; k++)
-    for (int i = nesting.first[nesting.by_size[k].root]; i >= 0; i = nesting.next[i])
+    for (int i = nesting.first[nesting.by_size[k].index]; i >= 0; i = nesting.next[i])
       adopt(cuts, &nesting, i);
 
   nesting_destroy(&nesting);

@@ -11,6 +11,7 @@
  * Example: of 22 groups of a sphere with 270 edges the one of order 24 has 12 steps. As 270 / 12 >
  * 22, groups of order 22 and less are left out if only the choice is asked for. */
 #include "graph/process/threads.h"
+#include "graph/sort.h"
 #include "symmetry/cover/cover_parts.h"
 #include "symmetry/lift/lift.h"
 
@@ -510,20 +511,6 @@ static bool is_due(const table_solver *solver, solving_round round, int row)
   return (round != CHOICE && !solver->only_choice) || row_ahead(solver, row, round == PROOFS) < 0;
 }
 
-/* A row, and the key that the queue is sorted by. */
-typedef struct {
-  int row;
-  double steps;
-} candidate;
-
-/* Compares candidates by steps, then by row. */
-static int by_steps(const void *a, const void *b)
-{
-  const candidate *first = a, *second = b;
-  if (first->steps != second->steps) return first->steps < second->steps ? -1 : 1;
-  return (first->row > second->row) - (first->row < second->row);
-}
-
 /* The rows of one round, those with the fewest learned steps first. If every row has work of its
  * own, all rows are solved in any case: then the smallest groups, which have the largest
  * programmes, come first, so that no thread is left alone with a large one at the end. */
@@ -532,8 +519,8 @@ typedef struct {
   solving_round round;
   thr_limits all; /* of the round */
   int n, threads;
-  candidate *next; /* [n] */
-  bool *had;       /* [rows] solved in this round */
+  thr_ranked *next; /* [n] rows, by steps */
+  bool *had;        /* [rows] solved in this round */
 } row_queue;
 
 /* Lists the rows that are still to be solved in this round, and sorts them. */
@@ -550,9 +537,9 @@ static void fill_queue(row_queue *queue)
     const double steps = !own.there                             ? own.least_steps
                          : own.overlap > overlap_within(solver) ? INFINITY
                                                                 : own.steps;
-    queue->next[queue->n++] = (candidate){i, all ? -i : steps};
+    queue->next[queue->n++] = (thr_ranked){all ? -i : steps, i};
   }
-  qsort(queue->next, (size_t)queue->n, sizeof *queue->next, by_steps);
+  thr_sort_ranked(queue->next, (size_t)queue->n);
 }
 
 /* Solves one row of the queue, in its share of what is left of the round's time, or with its own
@@ -575,8 +562,8 @@ static thr_status solve_next(void *user, int job, const thr_limits *limits, thr_
                     (queue->round + 1 - (double)left / queue->solver->table->n) / N_ROUNDS);
   if (work > 0) share = thr_limits_counted(&share, &work);
 
-  queue->had[queue->next[job].row] = true;
-  return solve_row(queue->solver, queue->next[job].row, queue->round != PROOFS, &share, err);
+  queue->had[queue->next[job].index] = true;
+  return solve_row(queue->solver, queue->next[job].index, queue->round != PROOFS, &share, err);
 }
 
 /* Solves the rows of a round: all in parallel, or one after the other if the result of one may

@@ -9,6 +9,7 @@
  * Example: on a cube a corner may go to 8 places and a neighbour of it then to 3, each with and
  * without a mirror: the 48 isometries. */
 #include "graph/scratch.h"
+#include "graph/sort.h"
 #include "graph/vector.h"
 #include "symmetry/group/group.h"
 #include "symmetry/group/groups.h"
@@ -494,37 +495,22 @@ thr_status thr_isometries_among(const thr_frame *frame, const int *image, int n,
 
 /* ---- colours of edge lengths ---- */
 
-/* An edge with its length. */
-typedef struct {
-  double length;
-  int edge;
-} measured;
-
-/* Compares edges by length, then by number. */
-static int by_length(const void *a, const void *b)
-{
-  const measured *first_entry = a, *second_entry = b;
-  if (first_entry->length != second_entry->length)
-    return first_entry->length < second_entry->length ? -1 : 1;
-  return (first_entry->edge > second_entry->edge) - (first_entry->edge < second_entry->edge);
-}
-
 thr_status thr_length_colours(const thr_frame *frame, double tolerance, int *colour, thr_err *err)
 {
-  measured *measured_edge = thr_calloc((size_t)frame->n_edges, sizeof *measured_edge);
+  thr_ranked *measured_edge = thr_calloc((size_t)frame->n_edges, sizeof *measured_edge);
   double centroid[3], size;
   if (!measured_edge) return thr_nomem(err);
   thr_frame_extent(frame, centroid, &size);
 
   /* Edges by length; a gap wider than what an isometry can change makes a new colour. */
   for (int e = 0; e < frame->n_edges; e++)
-    measured_edge[e] = (measured){frame->length[e], e};
-  qsort(measured_edge, (size_t)frame->n_edges, sizeof *measured_edge, by_length);
+    measured_edge[e] = (thr_ranked){frame->length[e], e};
+  thr_sort_ranked(measured_edge, (size_t)frame->n_edges);
   /* An isometry moves either end by the tolerance at most. */
   double step = 2 * (tolerance + 2 * THR_ISOMETRY_ROUNDING) * size;
   for (int i = 0, last = 0; i < frame->n_edges; i++) {
-    last += i > 0 && measured_edge[i].length - measured_edge[i - 1].length > step;
-    colour[measured_edge[i].edge] = last;
+    last += i > 0 && measured_edge[i].key - measured_edge[i - 1].key > step;
+    colour[measured_edge[i].index] = last;
   }
 
   free(measured_edge);

@@ -9,6 +9,7 @@
  * others. */
 #include "graph/disjoint.h"
 #include "graph/scratch.h"
+#include "graph/sort.h"
 #include "tortuosity/cords/join.h"
 
 #include <math.h>
@@ -19,12 +20,6 @@ enum {
   HUB = 64,          /* more passes and ends than this make a node a hub */
   MOST_PRICED = 2048 /* passes and ends of a hub whose prices are all looked at */
 };
-
-/* A node with its regret, to be sorted. */
-typedef struct {
-  double regret;
-  int node;
-} ranked;
 
 /* The state of the greedy algorithm, and its scratch arrays. */
 typedef struct {
@@ -37,14 +32,14 @@ typedef struct {
   int *queue;   /* [n_nodes] */
   int *spare;   /* [n_components] pieces that the component may still fall into */
   int searches; /* so far */
-  ranked *order;
-  int most;        /* darts at a node */
-  int most_priced; /* darts at a node whose prices are looked at */
-  double *price;   /* [most_priced * most_priced] at the node at hand */
-  int *pair;       /* [most] of the node at hand, by position */
-  int *port;       /* [most] disjoint sets: what hangs together without the node */
-  int *trial;      /* [2 * most] scratch */
-  thr_scratch own; /* the arrays */
+  thr_ranked *order; /* nodes by -regret */
+  int most;          /* darts at a node */
+  int most_priced;   /* darts at a node whose prices are looked at */
+  double *price;     /* [most_priced * most_priced] at the node at hand */
+  int *pair;         /* [most] of the node at hand, by position */
+  int *port;         /* [most] disjoint sets: what hangs together without the node */
+  int *trial;        /* [2 * most] scratch */
+  thr_scratch own;   /* the arrays */
 } greedy;
 
 /* Allocates the arrays for the largest node, and starts with single passes as chains. */
@@ -121,14 +116,6 @@ static double regret(const double *price, int n, const int *pair)
   return least;
 }
 
-/* Orders nodes by decreasing regret, then by number. */
-static int by_regret(const void *pa, const void *pb)
-{
-  const ranked *a = pa, *b = pb;
-  if (a->regret != b->regret) return a->regret > b->regret ? -1 : 1;
-  return (a->node > b->node) - (a->node < b->node);
-}
-
 /* Computes the cheapest pairing of node v alone, and its regret. Hubs get the regret -1, which
  * makes them come last; very large ones are not priced. */
 static thr_status pair_node(greedy *search, int v, thr_err *err)
@@ -136,7 +123,7 @@ static thr_status pair_node(greedy *search, int v, thr_err *err)
   const thr_multigraph *multigraph = &search->join->g;
   const int *dart = multigraph->dart + multigraph->first[v];
   int n = multigraph->first[v + 1] - multigraph->first[v];
-  search->order[v] = (ranked){-1, v};
+  search->order[v] = (thr_ranked){1, v};
 
   /* A very large node: the first half of its darts with the second half. */
   if (n > MOST_PRICED) {
@@ -147,7 +134,7 @@ static thr_status pair_node(greedy *search, int v, thr_err *err)
 
   fill_prices(search, dart, n);
   thr_status st = thr_pairing_best(n, search->price, search->pair, err);
-  if (!st && n <= HUB) search->order[v].regret = regret(search->price, n, search->pair);
+  if (!st && n <= HUB) search->order[v].key = -regret(search->price, n, search->pair);
   return st;
 }
 
@@ -165,8 +152,7 @@ static thr_status rank_nodes(greedy *search, thr_err *err)
     for (int i = 0; i < n && !st; i++)
       search->join->mate[dart[i]] = dart[search->pair[i]];
   }
-  if (!st)
-    qsort(search->order, (size_t)search->join->c->f->n_nodes, sizeof *search->order, by_regret);
+  if (!st) thr_sort_ranked(search->order, (size_t)search->join->c->f->n_nodes);
   return st;
 }
 
@@ -361,7 +347,7 @@ thr_status thr_join_greedy(thr_join *j, int apart, thr_err *err)
 
   /* Nodes by decreasing regret; hubs come last. */
   for (int i = 0; i < j->c->f->n_nodes && !st; i++)
-    settle_node(&search, search.order[i].node);
+    settle_node(&search, search.order[i].index);
   if (!st && search.most > HUB) st = join_at_hubs(j, apart, err);
   thr_scratch_free(&search.own);
   if (!st) thr_join_measure(j);

@@ -3,8 +3,8 @@
  * differ over every edge.
  *
  * Read join.h first. several.c makes plans of several closed cords; maxturn.c lowers the largest
- * turning by exchanges, annealing and the walk model (walk_model.h), maxturn_small.c does so
- * exactly in small frameworks; distinct_cords.c and distinct_detour.c exchange passes between cords
+ * turning by exchanges, annealing and the walk model (walk_model.h);
+ * distinct_cords.c and distinct_detour.c exchange passes between cords
  * until enough different cords pass every edge. */
 #ifndef THR_SEVERAL_H
 #define THR_SEVERAL_H

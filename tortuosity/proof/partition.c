@@ -13,6 +13,7 @@
  * Example: three circuits need two connections to become one cord. */
 #include "graph/disjoint.h"
 #include "graph/scratch.h"
+#include "graph/sort.h"
 #include "graph/threading/euler.h"
 #include "tortuosity/proof/branch.h"
 
@@ -22,25 +23,19 @@
 
 enum { LEVELS = 48 }; /* partitions that are offered at most, about */
 
-/* A node with the regret of its pairing. */
-typedef struct {
-  double regret; /* < 0: stays whole */
-  int node;
-} ranked;
-
 /* State of a separation. */
 typedef struct {
   thr_relax *relax;
-  int most;         /* passes at a node */
-  double *price;    /* [most * most] */
-  int *half, *mate; /* [most] passes of the node at hand */
-  ranked *order;    /* [n_nodes] */
-  int *parent;      /* [n_edges] blocks */
-  int *block;       /* [n_edges] their numbers */
-  int *scratch;     /* [n_edges + n_components] */
-  int (*pair)[2];   /* edges that the chosen pairings join, node by node */
-  int *pair_first;  /* [n_nodes + 1] */
-  thr_scratch own;  /* the arrays */
+  int most;          /* passes at a node */
+  double *price;     /* [most * most] */
+  int *half, *mate;  /* [most] passes of the node at hand */
+  thr_ranked *order; /* [n_nodes] by regret; < 0: stays whole */
+  int *parent;       /* [n_edges] blocks */
+  int *block;        /* [n_edges] their numbers */
+  int *scratch;      /* [n_edges + n_components] */
+  int (*pair)[2];    /* edges that the chosen pairings join, node by node */
+  int *pair_first;   /* [n_nodes + 1] */
+  thr_scratch own;   /* the arrays */
 } splitter;
 
 /* Returns the number of passes of a half-edge's edge, with the point's extra passes rounded. */
@@ -111,7 +106,7 @@ static thr_status pair_node(splitter *state, int v, bool by_point, thr_err *err)
     for (int k = passes_of(state->relax, frame->half[i]); k > 0; k--)
       state->half[n++] = frame->half[i];
 
-  state->order[v] = (ranked){-1, v};
+  state->order[v] = (thr_ranked){-1, v};
   if (n % 2 || n > THR_PAIRING_EXACT || thr_degree(frame, v) < 2) return THR_OK;
 
   /* Prices of all pairs; two passes of one edge are to be paired only if nothing else is left. */
@@ -129,21 +124,13 @@ static thr_status pair_node(splitter *state, int v, bool by_point, thr_err *err)
   thr_status st = thr_pairing_best(n, state->price, state->mate, err);
   if (st) return st;
 
-  state->order[v].regret = regret_of(state, n);
+  state->order[v].key = regret_of(state, n);
   for (int i = 0; i < n; i++)
     if (state->mate[i] > i) {
       state->pair[*at][0] = state->half[i] >> 1;
       state->pair[(*at)++][1] = state->half[state->mate[i]] >> 1;
     }
   return THR_OK;
-}
-
-/* Compares nodes by regret, and by number if equal. */
-static int by_regret(const void *pa, const void *pb)
-{
-  const ranked *a = pa, *b = pb;
-  if (a->regret != b->regret) return a->regret < b->regret ? -1 : 1;
-  return (a->node > b->node) - (a->node < b->node);
 }
 
 /* Puts the coefficients of the row. Returns what blocks with an odd number of passes at a node take
@@ -221,7 +208,7 @@ static thr_status go_through(splitter *state, int *added, thr_err *err)
   bool more = true;
   thr_status st = THR_OK;
 
-  qsort(state->order, (size_t)n, sizeof *state->order, by_regret);
+  thr_sort_ranked(state->order, (size_t)n);
   /* The circuits of the pairings. */
   for (int e = 0; e < frame->n_edges; e++)
     state->parent[e] = e;
@@ -231,15 +218,15 @@ static thr_status go_through(splitter *state, int *added, thr_err *err)
   /* A partition is offered before a node of higher regret is merged, but only after `step` nodes.
    */
   for (int i = 0; i < n && more && !st; i++) {
-    bool rises = i == 0 || state->order[i].regret > state->order[i - 1].regret + 1e-9;
+    bool rises = i == 0 || state->order[i].key > state->order[i - 1].key + 1e-9;
     waited++;
-    if (state->order[i].regret >= 0 && rises &&
-        (waited >= step || i == 0 || state->order[i - 1].regret <= 1e-9)) {
+    if (state->order[i].key >= 0 && rises &&
+        (waited >= step || i == 0 || state->order[i - 1].key <= 1e-9)) {
       st = offer(state, added, &more, err);
       waited = 0;
     }
 
-    make_whole(state, state->order[i].node);
+    make_whole(state, state->order[i].index);
   }
   return st;
 }
