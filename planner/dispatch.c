@@ -27,23 +27,45 @@ static const double work_of_one_cord = 10, work_of_several_cords = 1, work_of_tu
  * by the seconds it is given. */
 static const double brief_seconds = 3;
 
-/* Of the time that is left when a step begins. */
-static const double part[THR_N_STEPS] = {
-    [THR_STEP_FIRST] = 0.2,           [THR_STEP_TIED] = 0.5,
-    [THR_STEP_SEED] = 0.15,           [THR_STEP_ONE_CORD] = 0.1,
-    [THR_STEP_SHORTEST] = 0.3,        [THR_STEP_BY_LENGTH] = 0.2,
-    [THR_STEP_LEAST] = 0.35,          [THR_STEP_EVEN_SEED] = 0.5,
-    [THR_STEP_EXCHANGES] = 0.2,       [THR_STEP_SYMMETRIC_FEWER] = 0.5,
-    [THR_STEP_SYMMETRIC_TIED] = 0.85, [THR_STEP_FEWEST] = 0.75,
-    [THR_STEP_FEW_BOUND] = 0.08,      [THR_STEP_FEW_WALKS] = 0.4,
-    [THR_STEP_FEW_TRY] = 0.35,        [THR_STEP_FEW_ANNEAL] = 0.9,
-    [THR_STEP_ANY_CORDS] = 0.4,       [THR_STEP_COVERS] = 0.3,
-    [THR_STEP_DIFFERENT] = 0.4,
-};
+/* What part of the time that is left a step may take, and, where it differs, what part if little
+ * work is counted, as nothing is annealed then. A step ends before that when it is done. */
+static const struct {
+  double part, if_brief;
+} budget[THR_N_STEPS] = {
+    /* Starts: what comes after improves on them, and takes them for lack of better ones. */
+    [THR_STEP_FIRST] = {.2, 0},     /* some cords to show before the search has any */
+    [THR_STEP_BY_LENGTH] = {.2, 0}, /* cords of the least length, where the shortest passes may
+                                       not hold as many */
+    [THR_STEP_SEED] = {.15, .25},   /* symmetric cords, for the cord that turns most */
+    [THR_STEP_ONE_CORD] = {.1, 0},  /* one cord that turns least, for the cut of several */
+    [THR_STEP_SHORTEST] = {.3, 0},  /* the shortest tied cords, an integer programme of its own */
+    [THR_STEP_LEAST] = {.35, .6},   /* the least turning of all cords, whose bound counts too; all
+                                       but the exchanges if nothing is annealed after it */
+    [THR_STEP_ANY_CORDS] = {.4, 0}, /* cords that are made different afterwards */
 
-/* The same where little work is counted, for steps whose part differs: nothing is annealed then. */
-static const double part_if_brief[THR_N_STEPS] = {
-    [THR_STEP_SEED] = 0.25, [THR_STEP_LEAST] = 0.6, [THR_STEP_EXCHANGES] = 0.5};
+    /* One of several means, none of which is the best on all frameworks: each leaves most of the
+     * time to the others. */
+    [THR_STEP_EXCHANGES] = {.2, .5}, /* the rest is for the programme over walks */
+    [THR_STEP_FEW_WALKS] = {.4, 0},  /* few cords by walks; the rest is for annealing */
+    [THR_STEP_FEW_TRY] = {.35, 0},   /* cords of one number; other numbers come after it */
+    [THR_STEP_COVERS] = {.3, 0},     /* several covers by cords of their own */
+    [THR_STEP_DIFFERENT] = {.4, 0},  /* different cords of one number; other numbers come after */
+
+    /* A bound that may spare searches: small, as it often spares none. */
+    [THR_STEP_FEW_BOUND] = {.08, 0}, /* on the turning of so many cords */
+
+    /* Two halves of equal weight. */
+    [THR_STEP_TIED] = {.5, 0},      /* the length of tied cords; the rest is for their lengths one
+                                       by one */
+    [THR_STEP_EVEN_SEED] = {.5, 0}, /* exchanges from the seed; the rest begins from the search's
+                                       own cords */
+    [THR_STEP_SYMMETRIC_FEWER] = {.5, 0}, /* symmetric cords, one less; fewer ones come after */
+
+    /* The question itself: what comes after is a last improvement or a proof. */
+    [THR_STEP_FEWEST] = {.75, 0}, /* the fewest cords within a pull; then the aims with so many */
+    [THR_STEP_SYMMETRIC_TIED] = {.85, 0}, /* a symmetric plan of tied cords; then its proof */
+    [THR_STEP_FEW_ANNEAL] = {.9, 0},      /* one cord less, annealed: nothing comes after it */
+};
 
 /* Of all that a user allows. */
 static const double part_checking = 0.05, part_compared = 0.5, most_after_search = 3; /* s */
@@ -76,8 +98,8 @@ thr_planner *thr_dispatch(const thr_request *options)
 
 thr_limits thr_dispatch_share(const thr_limits *limits, thr_step step)
 {
-  return thr_limits_part(limits, limits->brief && part_if_brief[step] > 0 ? part_if_brief[step]
-                                                                          : part[step]);
+  const bool is_brief = limits->brief && budget[step].if_brief > 0;
+  return thr_limits_part(limits, is_brief ? budget[step].if_brief : budget[step].part);
 }
 
 double thr_dispatch_usual_seconds(const thr_request *options)

@@ -82,34 +82,25 @@ thr_planner *thr_dispatch(const thr_request *options);
 /* Steps of a plan that have a part of the time to themselves, of what is left when their turn
  * comes. */
 typedef enum {
-  THR_STEP_FIRST, /* some cords, before the search has any */
-  THR_STEP_TIED,  /* the shortest tied cords, and their proof; the rest is for their lengths one by
-                     one */
-  THR_STEP_SEED,  /* symmetric cords that the largest turning may begin with */
-  THR_STEP_ONE_CORD, /* one cord that turns least, to be cut into as many as are asked for */
-  THR_STEP_SHORTEST, /* with tube joints, the shortest cords: where the search for the least turning
-                        begins */
-  THR_STEP_BY_LENGTH, /* cords of the least length where the shortest passes may not hold them */
-  THR_STEP_LEAST,     /* the least turning of all cords, before that of the cord that turns most */
-  THR_STEP_EXCHANGES, /* evening out the turning by exchanges; the rest is for the programme over
-                         walks */
-  THR_STEP_EVEN_SEED, /* of that, from the seed; the rest is for the search's own cords */
-  THR_STEP_FEWEST, /* the fewest cords within a limit on the pull; the rest is for the aims with so
-                      many */
-  THR_STEP_FEW_BOUND, /* of that, a bound on the turning of so many cords */
-  THR_STEP_FEW_WALKS, /* of that, few cords by the programme over walks, and how many are too few by
-                         it */
-  THR_STEP_FEW_TRY,   /* of that, cords of one number */
-  THR_STEP_FEW_ANNEAL,      /* one cord less than that, annealed */
-  THR_STEP_SYMMETRIC_FEWER, /* of what is left, a symmetric plan of fewer cords within a limit on
-                               the pull */
-  THR_STEP_SYMMETRIC_TIED, /* a symmetric plan with tube joints; the rest is for its proof of length
-                            */
-  THR_STEP_ANY_CORDS, /* cords of a plan for different ones, whichever pass an edge; the rest is for
-                         making them different */
-  THR_STEP_COVERS,    /* of what is left then, several covers by cords of their own, one after the
-                         other */
-  THR_STEP_DIFFERENT, /* different cords of one number, where it is free */
+  THR_STEP_FIRST,
+  THR_STEP_TIED,
+  THR_STEP_SEED,
+  THR_STEP_ONE_CORD,
+  THR_STEP_SHORTEST,
+  THR_STEP_BY_LENGTH,
+  THR_STEP_LEAST,
+  THR_STEP_EXCHANGES,
+  THR_STEP_EVEN_SEED,
+  THR_STEP_FEWEST,
+  THR_STEP_FEW_BOUND,
+  THR_STEP_FEW_WALKS,
+  THR_STEP_FEW_TRY,
+  THR_STEP_FEW_ANNEAL,
+  THR_STEP_SYMMETRIC_FEWER,
+  THR_STEP_SYMMETRIC_TIED,
+  THR_STEP_ANY_CORDS,
+  THR_STEP_COVERS,
+  THR_STEP_DIFFERENT,
   THR_N_STEPS
 } thr_step;
 
