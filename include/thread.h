@@ -90,8 +90,8 @@ THREAD_API thread_status thread_frame_set_feet(thread_frame *frame, int n, const
 /* Passes that an edge needs (1 .. 100) and that fit through it (0 = any number). */
 THREAD_API thread_status thread_frame_set_passes(thread_frame *frame, int edge, int cover,
                                                  int capacity, thread_error *err);
-/* format: "json", "obj", "csv", "ply". Free *bytes, which end with a NUL that *n does not count,
- * with thread_free. */
+/* format: "json", "obj", "csv", "ply", "dxf", "graphml". Free *bytes, which end with a NUL that *n
+ * does not count, with thread_free. */
 THREAD_API thread_status thread_frame_write(const thread_frame *frame, const char *format,
                                             char **bytes, size_t *n, thread_error *err);
 

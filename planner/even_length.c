@@ -45,9 +45,9 @@ static thr_status judge(thr_plan *plan, thr_err *err)
   return thr_check_own(st, &found, err);
 }
 
-/* Do as many passes fit as the cords make? */
-static bool has_room(const thr_frame *frame, const thr_request *options, const thr_cord *cord,
-                     int n)
+/* Returns whether the cords make as many passes of every edge as it needs, and no more than fit. */
+static bool keeps_passes(const thr_frame *frame, const thr_request *options, const thr_cord *cord,
+                         int n)
 {
   bool fits = true;
   for (int e = 0; e < frame->n_edges && fits; e++) {
@@ -104,7 +104,7 @@ static thr_status try_sets(thr_plan *plan, const thr_limits *limits, double *bou
   if (few && !st && found < longest * (1 - 1e-9)) st = walk_over(&cords, chosen, n, &cord, err);
 
   /* The cords replace the plan's if every edge has room for their passes. */
-  if (!st && cord && has_room(frame, &plan->options, cord, n)) {
+  if (!st && cord && keeps_passes(frame, &plan->options, cord, n)) {
     st = take_cords(plan, cord, err);
     cord = NULL;
     if (!st) st = judge(plan, err);

@@ -19,7 +19,7 @@
 #include <string.h>
 
 /* A chain's pieces beyond those that a hand holds well count by their square, a turn of so many rad
- * as one piece; heat at the beginning, and at the end of that. */
+ * as one piece. The annealing begins with heat_first, and ends with heat_last times as much. */
 static const double turn_weight = 1, heat_first = 16, heat_last = 0.01;
 static const double most_steps = 20000, most_visits = 8e6; /* of pieces: 30 ms */
 

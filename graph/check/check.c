@@ -215,8 +215,6 @@ static thr_status check_cords_claim(const thr_plan *plan, const thr_check_walked
       plan->options.joint == THR_JOINT_TUBE && plan->proof.present ? &plan->proof.tied : NULL;
 
   /* Find what the proofs give. */
-
-  /* Find what the proofs give. */
   thr_status st =
       thr_check_several(&plan->frame, &plan->options, check_walked, plan->cord, plan->n_cords,
                         plan->proof.certificate, verdict, tied, &plan->proof.walks, &found, err);

@@ -53,8 +53,6 @@ static thr_status check_automorphism(const thr_plan *plan, const int *image, con
   }
 
   /* Edges map to edges. */
-
-  /* Edges map to edges. */
   for (int e = 0; e < frame->n_edges; e++) {
     int a = image[frame->edge[e][0]], b = image[frame->edge[e][1]];
     if (thr_frame_edge_between(frame, a, b) < 0)

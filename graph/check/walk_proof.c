@@ -313,7 +313,8 @@ thr_status thr_walk_steps_init(thr_walk_steps *steps, const thr_turning_columns 
                             .closed = !columns->task->end_allowed};
   thr_status st = allocate(steps, &builder, &own, err);
 
-  /* Refuse what a proof from a file may state wrongly. */
+  /* Refuse what a proof from a file may state wrongly. Units of a turn fit into an int, as no price
+   * is above 4: the largest is pi. */
   if (!st && !steps->closed && !thr_turning_open(columns, component))
     st = thr_fail(err, THR_EVIOLATED, "walks: component %d has no cord ends", component);
   if (!st && (unit <= 0 || ldexp(4, THR_TURNING_BITS) / (double)unit > 1e9))

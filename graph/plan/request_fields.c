@@ -2,17 +2,15 @@
 /* The table of a request: every member of `options` in plan.json, with its kind, its range and its
  * place in thr_request.
  *
- * From this one table plan.json is written and read (graph/plan/request_fields.c), and `thread
- * plan` takes its options that are numbers or words (cli/args/request_args.c). A new wish that is a
- * number or a word is one row here; what it does is the planner's, and what it means is the
- * checker's.
+ * From this one table, with one loop each, plan.json is written and read (docs/plan-format.md), and
+ * `thread plan` takes its options that are numbers or words. A new wish that is a number or a word
+ * is a member of thr_request (graph/plan/request.h), a row here, and a name in REQUEST_OPTIONS
+ * (cli/args/request_args.h); what it does is the planner's, and what it means is the checker's
+ * (CONTRIBUTING.md, "a wish").
  *
  *   {"cover", .kind = THR_ASKS_COUNT, AT(cover), .low = 1, .high = 100, .always = true}
  *
- * writes and reads "cover": 2, and makes `--cover 0` a usage error.
- *
- * The members of `options` in plan.json: one table, and one loop each that writes and reads it
- * (docs/plan-format.md). */
+ * writes and reads "cover": 2, and makes `--cover 0` a usage error. */
 #include "graph/plan/plan_fields.h"
 
 #include <limits.h>

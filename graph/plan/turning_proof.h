@@ -23,7 +23,7 @@
  *                 cost: the turn's price
  *   extra e       passes of edge e beyond the cover; cost: price_per_length
  *   end   h       cord ends that arrive at h's node over h's edge; cost: none
- *   back  h       U-turns, at a node with one edge only; cost: the price of a U-turn
+ *   back  h       U-turns, at nodes with one edge, with a cut at all; cost: a U-turn's price
  *
  * The equations are, for each half-edge h,
  *
@@ -47,14 +47,20 @@
  *              turns between blocks connect at most (b - 1) / b * (t + half the number of blocks
  *              with an odd number of passes there) of them, because a block with an even number has
  *              2 turns to others or none. Passes of a block with an even number of edges at the
- * node (times cover) are odd only if the block has an extra pass there. A closed cord connects all
- * blocks that it passes, and the cords of a component pass all of its blocks, so with k cords the
- * blocks of a component fall into at most k connected parts: the sum over all nodes is at least the
- * sum over the components of max(0, blocks - k). rank       The same partitions, but at nodes of 2
- * to THR_RANK_DEGREE edges the connections are counted exactly; the turns of such a node are then a
- * problem of their own, in which every half-edge has one. junction   Tube joints only, the edges at
- * a node in b blocks: at least b - 1 turns go between different blocks. length     The limit on the
- * extra length.
+ *              node (times cover) are odd only if the block has an extra pass there. A closed cord
+ *              connects all blocks that it passes, and the cords of a component pass all of its
+ *              blocks, so with k cords the blocks of a component fall into at most k connected
+ *              parts: the sum over all nodes is at least the sum over the components of
+ *              max(0, blocks - k).
+ *
+ *   rank       The same partitions, but at nodes of 2 to THR_RANK_DEGREE edges the connections are
+ *              counted exactly; the turns of such a node are then a problem of their own, in which
+ *              every half-edge has one.
+ *
+ *   junction   Tube joints only, the edges at a node in b blocks: at least b - 1 turns go between
+ *              different blocks.
+ *
+ *   length     The limit on the extra length.
  *
  * With tube joints nothing turns back, and nothing but the passes need cost: then this is the proof
  * of least length. A tree of bounds on single columns turns this into an exact method: the proved

@@ -27,7 +27,7 @@ typedef struct {
   bool near;         /* cycles stay near the best cords */
 } cooling_schedule;
 
-/* Returns a value that falls from first to first * to by equal factors, while done rises from 0
+/* Returns a value that falls from first to first * factor by equal factors, while done rises from 0
  * to 1. */
 static double fall(double first, double factor, double done)
 {
