@@ -183,8 +183,8 @@ int thr_request_most_passes(const thr_frame *frame, const thr_request *options);
 
 /* Returns what a request asks the least turning among, with any number of passes up to
  * thr_turning_most_passes and any length. Whatever a request says of turns, ends and passes enters
- * here, and the searches and their checks only narrow it. end_allowed: [n_nodes] filled, and
- * borrowed by the task, as the request is. O(nodes + edges). */
+ * here, and the searches and their checks only narrow it. end_allowed: [n_nodes] filled (or NULL,
+ * of closed cords only), and borrowed by the task, as the request is. O(nodes + edges). */
 thr_turning_task thr_turning_task_of(const thr_frame *frame, const thr_request *request,
                                      bool *end_allowed);
 
