@@ -180,7 +180,7 @@ static thr_status find_starts(const thr_frame *frame, const thr_request *options
                               const shortest_plan *shortest, const thr_limits *limits,
                               const thr_least_options *search, thr_least_start *start, thr_err *err)
 {
-  const bool tours = search->request.joint != THR_JOINT_TUBE && search->request.cords == 1 &&
+  const bool tours = options->joint != THR_JOINT_TUBE && options->cords == 1 &&
                      options->ends != THR_ENDS_COUNTS,
              quick = thr_planner_is_quick(frame, options);
   const thr_limits share = thr_planner_share(frame, options, limits, THR_STEP_BY_LENGTH);
@@ -192,9 +192,8 @@ static thr_status find_starts(const thr_frame *frame, const thr_request *options
   if (tours)
     st =
         thr_postman_cords(frame, options, shortest->solid.passes, &start[0].cord, &start[0].n, err);
-  else if (search->request.joint == THR_JOINT_TUBE
-               ? options->ends == THR_ENDS_CLOSED && options->cords > 1
-               : quick || options->ends == THR_ENDS_COUNTS)
+  else if (options->joint == THR_JOINT_TUBE ? options->ends == THR_ENDS_CLOSED && options->cords > 1
+                                            : quick || options->ends == THR_ENDS_COUNTS)
     st = cords_by_length(frame, options, &share, &start[0], err);
 
   /* A single cord is already a plan to show, and classical tours are further incumbents. */
@@ -215,7 +214,7 @@ static thr_status find_with_room(const thr_frame *frame, const thr_request *opti
                                  thr_least_options *search, const thr_limits *limits,
                                  thr_least *least, thr_err *err)
 {
-  const int room = 2 * search->request.cords,
+  const int room = 2 * options->cords,
             usual = thr_turning_most_passes(frame, search->request.cover);
   const bool more = room > (search->most_passes > 0 ? search->most_passes : usual);
   thr_err why = {0};
@@ -224,7 +223,7 @@ static thr_status find_with_room(const thr_frame *frame, const thr_request *opti
    * to need them. */
   if (more && thr_wants_largest(options) && thr_request_most_passes(frame, options) >= room)
     search->most_passes = room;
-  if (more && options->ends == THR_ENDS_CLOSED && search->request.cords > frame->n_edges)
+  if (more && options->ends == THR_ENDS_CLOSED && options->cords > frame->n_edges)
     search->most_passes = room;
 
   /* Else allow them only where no cords were found within the usual number of passes. */
@@ -247,8 +246,8 @@ static thr_status find_from_shortest(const thr_frame *frame, const thr_request *
   thr_status st = find_starts(frame, options, shortest, limits, &search, start, err);
 
   /* Tied cords, and cords of the right number, are where the search itself begins. */
-  if (search.request.joint == THR_JOINT_TUBE) begin_with(frame, &shortest->tube, &search);
-  if (start[0].n > 0 && (search.request.joint == THR_JOINT_TUBE || search.request.cords <= 1 ||
+  if (options->joint == THR_JOINT_TUBE) begin_with(frame, &shortest->tube, &search);
+  if (start[0].n > 0 && (options->joint == THR_JOINT_TUBE || options->cords <= 1 ||
                          options->ends == THR_ENDS_COUNTS)) {
     search.start = start[0].cord;
     search.n_start = start[0].n;
@@ -256,7 +255,7 @@ static thr_status find_from_shortest(const thr_frame *frame, const thr_request *
 
   /* All starts are incumbents: the plan turns no more than any of them. */
   search.also = start;
-  search.n_also = search.request.joint == THR_JOINT_TUBE ? 0 : N_STARTS;
+  search.n_also = options->joint == THR_JOINT_TUBE ? 0 : N_STARTS;
   if (!st) st = find_with_room(frame, options, &search, limits, least, err);
   for (int i = 0; i < N_STARTS; i++)
     thr_cords_destroy(start[i].cord, start[i].n);

@@ -31,7 +31,7 @@ typedef struct {
   int n_cords;
   int cords_least, cords_most; /* that a plan with these options has in all */
   int *passes;                 /* [n_edges] */
-  bool *end_allowed;
+  bool *end_allowed; /* [n_nodes] filled by thr_turning_task_of */
 } walked_cords;
 
 static void walked_destroy(walked_cords *walked)
@@ -67,10 +67,6 @@ static thr_status walked_init(walked_cords *walked, const thr_frame *frame,
   walked->passes = thr_calloc((size_t)frame->n_edges, sizeof *walked->passes);
   walked->end_allowed = thr_calloc(n, sizeof *walked->end_allowed);
   if (!walked->passes || !walked->end_allowed) return thr_nomem(err);
-
-  /* What the cords are compared with. */
-  for (int v = 0; v < frame->n_nodes; v++)
-    walked->end_allowed[v] = thr_plan_end_allowed(frame, options, v);
 
   for (int i = 0; i < n_cords; i++)
     for (int k = 0; k < cord[i].n_passes; k++)

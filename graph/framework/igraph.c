@@ -81,12 +81,12 @@ static igraph_error_t list_ends(igraph_vector_int_t *ends, int m, const int (*ed
   return code;
 }
 
-/* Initializes weights with the capacities of the m edges. */
-static igraph_error_t list_capacities(igraph_vector_t *weights, int m, const double *capacity)
+/* Initializes weights with those of the m edges. */
+static igraph_error_t list_weights(igraph_vector_t *weights, int m, const double *weight)
 {
   igraph_error_t code = lib.igraph_vector_init(weights, m);
   for (int e = 0; e < m && !code; e++)
-    VECTOR(*weights)[e] = capacity[e];
+    VECTOR(*weights)[e] = weight[e];
   return code;
 }
 
@@ -122,7 +122,7 @@ thr_status thr_cut_tree(int n, int m, const int (*edge)[2], const double *capaci
   igraph_vector_t weights;
   igraph_error_t code = list_ends(&ends, m, edge);
   if (code) goto no_ends;
-  if ((code = list_capacities(&weights, m, capacity))) goto no_weights;
+  if ((code = list_weights(&weights, m, capacity))) goto no_weights;
   code = cut_tree(&ends, n, &weights, tree, flow);
   lib.igraph_vector_destroy(&weights);
 no_weights:
@@ -156,7 +156,7 @@ thr_status thr_maximum_flow(int n, int m, const int (*edge)[2], const double *ca
   igraph_vector_t weights, flows;
   igraph_error_t code = list_ends(&ends, m, edge);
   if (code) goto no_ends;
-  if ((code = list_capacities(&weights, m, capacity))) goto no_weights;
+  if ((code = list_weights(&weights, m, capacity))) goto no_weights;
   if ((code = lib.igraph_vector_init(&flows, 0))) goto no_flows;
   if ((code = lib.igraph_vector_int_init(&side, 0))) goto no_side;
 
@@ -254,9 +254,7 @@ static igraph_error_t place(const springs *s)
   igraph_error_t code = list_ends(&ends, s->m, s->edge);
   if (code) goto no_ends;
   if ((code = lib.igraph_create(&g, &ends, s->n, IGRAPH_UNDIRECTED))) goto no_graph;
-  if ((code = lib.igraph_vector_init(&lengths, s->m))) goto no_lengths;
-  for (int e = 0; e < s->m; e++)
-    VECTOR(lengths)[e] = s->length[e];
+  if ((code = list_weights(&lengths, s->m, s->length))) goto no_lengths;
   code = kamada_kawai(&g, &lengths, s->circle, s->xy);
   lib.igraph_vector_destroy(&lengths);
 no_lengths:

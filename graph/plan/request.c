@@ -436,8 +436,9 @@ thr_turning_task thr_turning_task_of(const thr_frame *frame, const thr_request *
                                      bool *end_allowed)
 {
   const bool closed = request->ends == THR_ENDS_CLOSED;
-  for (int v = 0; v < frame->n_nodes && end_allowed; v++)
-    end_allowed[v] = thr_plan_end_allowed(frame, request, v);
+  if (end_allowed)
+    for (int v = 0; v < frame->n_nodes; v++)
+      end_allowed[v] = thr_plan_end_allowed(frame, request, v);
 
   return (thr_turning_task){.cover = request->cover,
                             .capacity = request->capacity,

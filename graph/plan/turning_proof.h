@@ -23,7 +23,7 @@
  *                 cost: the turn's price
  *   extra e       passes of edge e beyond the cover; cost: price_per_length
  *   end   h       cord ends that arrive at h's node over h's edge; cost: none
- *   back  h       U-turns, at nodes with one edge, with a cut at all; cost: a U-turn's price
+ *   back  h       U-turns, at nodes with one edge, or with a cut at all nodes; cost: as turns
  *
  * The equations are, for each half-edge h,
  *
