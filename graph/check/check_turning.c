@@ -31,7 +31,7 @@ typedef struct {
   int n_cords;
   int cords_least, cords_most; /* that a plan with these options has in all */
   int *passes;                 /* [n_edges] */
-  bool *end_allowed; /* [n_nodes] filled by thr_turning_task_of */
+  bool *end_allowed;           /* [n_nodes] filled by thr_turning_task_of */
 } walked_cords;
 
 static void walked_destroy(walked_cords *walked)
