@@ -21,7 +21,7 @@ import subprocess
 import sys
 import tempfile
 
-TURNING = "--objective tortuosity --minimize turning --nodes 50"
+TURNING = "--objective tortuosity --minimize turning --tune nodes=50"
 PLANS = {  # name: (what to make, how to plan)
     "dome 3": ("dome --size 3", ""),
     "dome 4": ("dome --size 4", ""),
@@ -70,7 +70,7 @@ def make_plans(program, folder, only):
 
 def simulate(program, plan, seed, step):
     """What the program answers, and its processor seconds; None if it cannot say."""
-    command = [program, "eval", plan, "--method", "structure", "--dynamics", "--json", "-q", "--seed", seed, "--time-step", step]
+    command = [program, "eval", plan, "--method", "structure", "--dynamics", "--json", "-q", "--seed", seed, "--tune", "time-step=" + str(step)]
     with tempfile.TemporaryFile("w+") as out:
         process = subprocess.Popen(command, stdout=out, stderr=subprocess.DEVNULL)
         _, status, usage = os.wait4(process.pid, 0)

@@ -338,7 +338,7 @@ be the same, byte for byte."""
         path, edges = b.frame(family, size)
         cells = [family, edges, "turning, %d nodes" % nodes]
         with b.line(*cells):
-            how, to = ["--objective", "tortuosity", "--nodes", nodes, "--time-limit", 0], ["threads-1.json", "threads-2.json"]
+            how, to = ["--objective", "tortuosity", "--tune", "nodes=%s" % nodes, "--time-limit", 0], ["threads-1.json", "threads-2.json"]
             one, two = [b.plan(path, *how, "-j", j + 1, to=to[j]) for j in (0, 1)]
             same_work(b, cells, one, two, [b.path(name) for name in to])
     rows = (("grid", 84, 0.01),) if b.smallest else (("sphere", 270, 0.5), ("sphere", 480, 0.2), ("tube", 435, 0.2))
@@ -346,7 +346,7 @@ be the same, byte for byte."""
         path, edges = b.frame(family, size)
         cells = [family, edges, "symmetries, work %g" % work]
         with b.line(*cells):
-            how = [b.thread, "symmetries", path, "-q", "--json", "--row-work", work]
+            how = [b.thread, "symmetries", path, "-q", "--json", "--tune", "row-work=%s" % work]
             same_work(b, cells, [*how, "-j", 1], [*how, "-j", 2], None)
 
 
@@ -388,7 +388,7 @@ they are drawn in and in any state."""
     for side in (7,) if b.smallest else (20, 39, 45):
         path, edges = b.frame("grid", 2 * side * (side - 1))
         with b.line("grid", edges):
-            b.once(b.plan(path, *"--objective tortuosity --minimize turning --nodes 50 --ends any --cords".split(), 2 * side))
+            b.once(b.plan(path, *"--objective tortuosity --minimize turning --tune nodes=50 --ends any --cords".split(), 2 * side))
             run = b.least([b.thread, "eval", b.path("plan.json"), "--method", "structure", "--no-dynamics"])[0]
             b.row("grid", side * side, 2 * side, seconds(run.seconds), grows(side * side, run.seconds, side > 20))
 

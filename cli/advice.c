@@ -14,30 +14,18 @@ static void put_option(thr_text *text, const char *option, const char *value)
   advice_put_word(text, value);
 }
 
-static void put_number(thr_text *text, const char *option, double value)
+void advice_command_options(const cli_physics *physics, thr_text *text)
 {
-  thr_text_printf(text, " --%s ", option);
-  thr_text_double(text, value);
-}
-
-void advice_command_options(const cli_frame_args *a, const cli_physics *physics, thr_text *text)
-{
-  if (a->read.edges_path) put_option(text, "edges", a->read.edges_path);
-  if (a->read.units) put_option(text, "units", a->read.units);
-  if (a->feet) put_option(text, "feet", a->feet);
-  if (a->read.weld >= 0) put_number(text, "weld", a->read.weld);
-  if (a->read.up != THR_UP_AUTO) put_option(text, "up", thr_up_name(a->read.up));
-  if (a->read.scale != 1) put_number(text, "scale", a->read.scale);
-  if (a->read.flat > 0) put_number(text, "flat", thr_degrees(a->read.flat));
-  if (a->read.pick) put_option(text, "pick", a->read.pick);
-  if (a->read.columns) put_option(text, "columns", a->read.columns);
-  if (a->read.all_layers) put_option(text, "layers", "all");
-  if (a->read.parallel) put_option(text, "parallel", "keep");
-  if (a->read.split) thr_text_append(text, " --split");
+  for (const cli_option *option = cli_frame_options; option->name; option++) {
+    const char *value = cli_given(option->name) ? cli_given_value(option->name) : NULL;
+    if (value) {
+      put_option(text, option->name, value);
+    } else if (cli_given(option->name)) {
+      thr_text_printf(text, " --%s", option->name);
+    }
+  }
   for (int i = 0; i < physics->n; i++) {
-    char name[24];
-    cli_physics_spell(physics, i, name);
-    put_option(text, name, physics->given[i].value);
+    put_option(text, physics->given[i].option->name, physics->given[i].value);
   }
 }
 
@@ -51,11 +39,11 @@ static double force_of(const thr_plan *plan)
 }
 
 static void put_line(const thr_advice *advice, const thr_plan *plan, const char *path,
-                     const cli_frame_args *a, const cli_physics *physics, thr_text *text)
+                     const cli_physics *physics, thr_text *text)
 {
   const thr_advice_row *row = &advice->row[advice->chosen];
   thr_text options = {0}, command = {0};
-  advice_command_options(a, physics, &options);
+  advice_command_options(physics, &options);
   advice_put_command(&command, path, options.data ? options.data : "", row);
   if (options.failed || command.failed)
     text->failed = true; /* which whoever writes the text reports */
@@ -73,8 +61,8 @@ static void put_too_hard(thr_text *text, double newton)
   plain_put_hand(text, newton);
 }
 
-void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_frame_args *a,
-                           const cli_physics *physics, thr_text *text)
+void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_physics *physics,
+                           thr_text *text)
 {
   const thr_advise_options options = {.hand = thr_hand_always, .plan = plan};
   thr_advice advice = {0};
@@ -88,7 +76,7 @@ void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_fra
     advice.chosen = -1;
   cli_progress_end();
   if (advice.chosen >= 0)
-    put_line(&advice, plan, path, a, physics, text);
+    put_line(&advice, plan, path, physics, text);
   else
     thr_text_append(
         text, "         no number of cords was found that it can pull; thread advise says more\n");

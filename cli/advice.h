@@ -8,7 +8,7 @@
 
 /* The options that were given of how FRAME is read and of what cord and beads are, each with a
  * blank before it, for a shell. */
-void advice_command_options(const cli_frame_args *a, const cli_physics *physics, thr_text *text);
+void advice_command_options(const cli_physics *physics, thr_text *text);
 
 /* Limits for so many seconds by the clock, 0 = none, silent but for --verbose; and for so much
  * counted work, 0 = any. Seconds below 0: as much work as advice is usually given, which *work
@@ -17,9 +17,9 @@ thr_limits advice_limits(double seconds, double *work);
 
 /* The lines that say that the plan's pull is beyond a hand, and what is not, as `thread advise`
  * recommends it, which takes up to its usual seconds: nothing where it is not beyond a hand. path:
- * of the framework, as typed, and the options that it was read with. */
-void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_frame_args *a,
-                           const cli_physics *physics, thr_text *text);
+ * of the framework, as typed. */
+void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_physics *physics,
+                           thr_text *text);
 
 /* A line of the hand where a plan that was asked for with options is beyond it: what option takes
  * as few cords as are not. Nothing where a limit on the pull was given. */

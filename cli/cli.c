@@ -21,7 +21,6 @@
 #include <unistd.h>
 
 bool cli_quiet, cli_verbose;
-void (*cli_show_options)(const struct option *table, const char *help);
 static int processes; /* 0 = not said */
 
 enum { MOST_PROCESSES = 1024 };
@@ -113,80 +112,7 @@ int cli_usage(const char *command, const char *format, ...)
   return EXIT_USAGE;
 }
 
-/* ---- options ---- */
-
-/* The word is "--name" or "--name=value" of no option, of several, or of one that takes no value.
- */
-static int bad_long_option(const char *word, const char *command, const struct option *table)
-{
-  char name[64], question[THR_SUGGESTION_TEXT], several[160] = "";
-  thr_suggestion suggestion = {.word = name};
-  int n = 0;
-  snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
-  for (; table->name; table++) {
-    if (strcmp(table->name, name) == 0) return cli_usage(command, "--%s takes no value", name);
-    thr_suggestion_try(&suggestion, table->name);
-    if (strncmp(table->name, name, strlen(name)) != 0) continue;
-    size_t length = strlen(several);
-    snprintf(several + length, sizeof several - length, "%s--%s", n++ ? ", " : "", table->name);
-  }
-  if (n == 1) return cli_usage(command, "%s takes no value", several);
-  if (n > 1) return cli_usage(command, "--%s may be %s", name, several);
-  thr_suggestion_ask(&suggestion, question);
-  char *at = strstr(question, "mean ");
-  if (!at) return cli_usage(command, "--%s is not an option here", name);
-  return cli_usage(command, "--%s is not an option here; did you mean --%s", name,
-                   at + strlen("mean "));
-}
-
-/* What the user typed: getopt has moved operands behind the options, so the culprit is the word
- * before optind, or inside it. */
-static int bad_option(int o, char **argv, const char *command, const struct option *table)
-{
-  const char *word = argv[optind - 1];
-  bool is_long = strncmp(word, "--", 2) == 0;
-  if (o == ':')
-    return is_long ? cli_usage(command, "%s needs a value", word)
-                   : cli_usage(command, "-%c needs a value", optopt);
-  if (is_long) return bad_long_option(word, command, table);
-  return cli_usage(command, "-%c is not an option here", optopt);
-}
-
-int cli_next_option(int argc, char **argv, const char *command, const char *letters,
-                    const struct option *table, const char *help, int *done)
-{
-  *done = -1;
-  opterr = 0;
-  if (cli_show_options) {
-    cli_show_options(table, help);
-    *done = EXIT_OK;
-    return -1;
-  }
-  for (;;) {
-    int o = getopt_long(argc, argv, letters, table, NULL);
-    for (int i = optind; o == -1 && *done < 0 && i < argc; i++) {
-      if (!*argv[i]) *done = cli_usage(command, "an empty name is no file");
-      files_heard(NULL, argv[i]);
-    }
-    if (o == -1 && *done < 0) {
-      const int code = files_settle(command);
-      if (code) *done = code;
-    }
-    for (const struct option *option = table; option->name && o > 0 && optarg; option++)
-      if (option->val == o) files_heard(option->name, optarg);
-    switch (o) {
-    case 'h':
-      fputs(help, stdout);
-      *done = EXIT_OK;
-      return -1;
-    case 'q': cli_quiet = true; break;
-    case 'v': cli_verbose = true; break;
-    case ':':
-    case '?': *done = bad_option(o, argv, command, table); return -1;
-    default: return o;
-    }
-  }
-}
+/* ---- values of options ---- */
 
 bool cli_double(const char *command, const char *option, const char *text, double low, double high,
                 double *out)
@@ -252,79 +178,6 @@ bool cli_choose(const char *command, const char *option, const char *value,
 }
 
 /* ---- frameworks ---- */
-
-cli_frame_args cli_frame_args_default(void)
-{
-  return (cli_frame_args){thr_read_options_default(), NULL};
-}
-
-static const char *parallel_name(int choice)
-{
-  return choice ? "keep" : "shortest";
-}
-
-static const char *layers_name(int layers)
-{
-  return layers == 0 ? "all" : "shown";
-}
-
-bool cli_frame_option(cli_frame_args *a, const char *command, int option, const char *value,
-                      bool *ok)
-{
-  *ok = true;
-  switch (option) {
-  case OPTION_EDGES: a->read.edges_path = value; return true;
-  case OPTION_UNITS: {
-    thr_err why = {0};
-    *ok = thr_units_find(value, &a->read.units, &why) == THR_OK;
-    if (!*ok) cli_usage(command, "--units: %s", why.text);
-    return true;
-  }
-  case OPTION_UP: {
-    int up;
-    *ok = cli_choose(command, "--up", value, thr_up_name, THR_UP_Z + 1, &up);
-    if (*ok) a->read.up = (thr_up)up;
-    return true;
-  }
-  case OPTION_SCALE:
-    *ok = cli_double(command, "--scale", value, 1e-9, 1e9, &a->read.scale);
-    return true;
-  case OPTION_FLAT:
-    *ok = cli_double(command, "--flat", value, 1e-6, 179, &a->read.flat);
-    a->read.flat *= THR_PI / 180;
-    return true;
-  case OPTION_PICK: a->read.pick = value; return true;
-  case OPTION_COLUMNS: {
-    const char *comma = strchr(value, ',');
-    *ok = comma && comma != value && comma[1] && !strchr(comma + 1, ',');
-    if (!*ok)
-      cli_usage(
-          command,
-          "--columns %s: expected two columns with a comma between them, like start,end or 2,3",
-          value);
-    a->read.columns = value;
-    return true;
-  }
-  case OPTION_PARALLEL: {
-    int choice;
-    *ok = cli_choose(command, "--parallel", value, parallel_name, 2, &choice);
-    if (*ok) a->read.parallel = choice == 1;
-    return true;
-  }
-  case OPTION_LAYERS: {
-    int layers;
-    *ok = cli_choose(command, "--layers", value, layers_name, 2, &layers);
-    a->read.all_layers = *ok && layers == 0;
-    return true;
-  }
-  case OPTION_SPLIT: a->read.split = true; return true;
-  case OPTION_FEET: a->feet = value; return true;
-  case OPTION_WELD:
-    *ok = cli_double(command, "--weld", value, 0, 1e300, &a->read.weld);
-    return true;
-  default: return false;
-  }
-}
 
 /* What reading did, a note for each line. */
 static thr_status note_read(const thr_frame *frame, const thr_read_report *report, thr_err *err)
@@ -750,10 +603,17 @@ int cli_processes(void)
   return processors < MOST_PROCESSES ? processors : MOST_PROCESSES;
 }
 
-bool cli_processes_option(const char *command, const char *value)
+static bool take_processes(void *into, const cli_option *option, const char *value)
 {
-  return cli_int(command, "--processes", value, 1, MOST_PROCESSES, &processes);
+  (void)into, (void)option;
+  return cli_int(cli_command_name(), "--processes", value, 1, MOST_PROCESSES, &processes);
 }
+
+const cli_option cli_processes_options[] = {
+    {"processes", 'j', "N",
+     "so many things at a time (default: one per processor); changes no result", .kind = CLI_OTHER,
+     .take = take_processes},
+    {0}};
 
 thr_limits cli_limits(double seconds)
 {

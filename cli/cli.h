@@ -3,6 +3,7 @@
 #ifndef THR_CLI_H
 #define THR_CLI_H
 
+#include "cli/args/options.h"
 #include "diagram/overview/overview.h"
 #include "graph/framework/frame.h"
 #include "graph/io/read.h"
@@ -12,7 +13,6 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-#include <getopt.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -63,41 +63,10 @@ int cli_fail(const thr_err *err);
 /* Prints the message and a pointer to `thread COMMAND --help`; returns EXIT_USAGE. */
 int cli_usage(const char *command, const char *format, ...) THR_PRINTF(2, 3);
 
-/* ---- options: getopt_long with a table per subcommand ---- */
+/* ---- options (cli/args/options.h) ---- */
 
-enum { OPTION_LONG_ONLY = 256 }; /* first value for options without a letter */
-
-/* -h, -q, -v and --config (cli/args/config.c, which takes it out), in every table and every letter
- * string. */
-#define CLI_COMMON_LETTERS "hqv"
-#define CLI_COMMON_OPTIONS                                                                         \
-  {"help", no_argument, NULL, 'h'}, {"quiet", no_argument, NULL, 'q'},                             \
-      {"config", required_argument, NULL, 0},                                                      \
-  {                                                                                                \
-    "verbose", no_argument, NULL, 'v'                                                              \
-  }
-
-/* Next option: its value, or -1 at the end. -h prints help and sets *done to EXIT_OK; a bad option
- * prints why and sets *done to EXIT_USAGE; *done < 0 means go on. -q and -v are taken here. */
-int cli_next_option(int argc, char **argv, const char *command, const char *letters,
-                    const struct option *table, const char *help, int *done);
-
-/* Somebody to whom a command shows its options and its help instead of doing anything; NULL =
- * nobody. */
-extern void (*cli_show_options)(const struct option *table, const char *help);
-
-/* -j: how many things are done at a time, at first one per processor. It changes no result. false:
- * the value was bad (printed).
- */
-#define CLI_PROCESSES_LETTER "j:"
-#define CLI_PROCESSES_OPTION                                                                       \
-  {                                                                                                \
-    "processes", required_argument, NULL, 'j'                                                      \
-  }
-#define CLI_PROCESSES_HELP                                                                         \
-  "  -j, --processes N    so many things at a time (default: one per processor); changes no "      \
-  "result\n"
-bool cli_processes_option(const char *command, const char *value);
+/* -j: how many things are done at a time, at first one per processor. It changes no result. */
+extern const cli_option cli_processes_options[];
 int cli_processes(void);
 
 /* Numbers in options, checked against a range: false prints why (a usage error). */
@@ -122,62 +91,8 @@ typedef struct {
   const char *feet; /* NULL: as the file says; "lowest", a file's name, or node names with commas */
 } cli_frame_args;
 
-#define CLI_FRAME_OPTIONS                                                                          \
-  {"edges", required_argument, NULL, OPTION_EDGES},                                                \
-      {"weld", required_argument, NULL, OPTION_WELD},                                              \
-      {"units", required_argument, NULL, OPTION_UNITS},                                            \
-      {"up", required_argument, NULL, OPTION_UP},                                                  \
-      {"scale", required_argument, NULL, OPTION_SCALE},                                            \
-      {"flat", required_argument, NULL, OPTION_FLAT},                                              \
-      {"pick", required_argument, NULL, OPTION_PICK},                                              \
-      {"layers", required_argument, NULL, OPTION_LAYERS},                                          \
-      {"split", no_argument, NULL, OPTION_SPLIT},                                                  \
-      {"parallel", required_argument, NULL, OPTION_PARALLEL},                                      \
-      {"columns", required_argument, NULL, OPTION_COLUMNS},                                        \
-  {                                                                                                \
-    "feet", required_argument, NULL, OPTION_FEET                                                   \
-  }
-enum {
-  OPTION_EDGES = OPTION_LONG_ONLY,
-  OPTION_WELD,
-  OPTION_UNITS,
-  OPTION_UP,
-  OPTION_SCALE,
-  OPTION_FLAT,
-  OPTION_PICK,
-  OPTION_LAYERS,
-  OPTION_SPLIT,
-  OPTION_PARALLEL,
-  OPTION_COLUMNS,
-  OPTION_FEET,
-  OPTION_FREE
-};
-#define CLI_FRAME_HELP                                                                             \
-  "      --feet lowest|FILE|NAME,..  where cord ends may come out (default: as the file says)\n"   \
-  "      --edges FILE     second file of a CSV pair: FRAME holds the nodes, FILE the edges\n"      \
-  "      --weld TOL       merge nodes closer than TOL (default: 1e-6 of the bounding box)\n"       \
-  "      --units NAME     what one unit of the coordinates is called (default: as the file says, " \
-  "or mm)\n"                                                                                       \
-  "      --scale S        coordinates times S: 1000 for a file in metres whose dome is built in "  \
-  "mm\n"                                                                                           \
-  "      --up y|z         which coordinate points up (default: z, but y in OBJ files by "          \
-  "Blender)\n"                                                                                     \
-  "      --flat DEG       meshes: no edge between triangles that meet at less than DEG degrees\n"  \
-  "      --columns A,B    tables: the two columns of the ends of an edge, by name or number "      \
-  "(default: found)\n"                                                                             \
-  "      --parallel keep|shortest  of edges between the same nodes: all, parted by a node each, "  \
-  "or the shortest (default)\n"                                                                    \
-  "      --split          cut an edge where a node lies on it\n"                                   \
-  "      --pick NAME|N    of a file of several frameworks, objects, groups or layers: this one, "  \
-  "or the Nth (default: all)\n"                                                                    \
-  "      --layers all|shown  DXF: with the layers that are off or frozen, or without (default)\n"
-
+extern const cli_option cli_frame_options[];
 cli_frame_args cli_frame_args_default(void);
-/* Takes one of the options above; false if it is none of them. *ok false: its value was bad
- * (printed). */
-bool cli_frame_option(cli_frame_args *a, const char *command, int option, const char *value,
-                      bool *ok);
-
 /* Reads, says on stderr what was merged, dropped or odd, and sets the feet. Returns EXIT_OK or
  * prints and returns the code. */
 int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *frame);
@@ -312,26 +227,13 @@ typedef struct {
   double memory;  /* bytes, 0 = no limit */
 } guard_limits;
 
-enum {
-  OPTION_TIME = 900,
-  OPTION_MEMORY
-}; /* beyond the options that commands number on from each other */
-#define GUARD_OPTIONS                                                                              \
-  {"time-limit", required_argument, NULL, OPTION_TIME},                                            \
-  {                                                                                                \
-    "memory", required_argument, NULL, OPTION_MEMORY                                               \
-  }
-#define GUARD_MEMORY_HELP                                                                          \
-  "      --memory SIZE    give up beyond so much memory, as 500MB or 2GB, 0 = any (default: "      \
-  "2GB)\n"
-#define GUARD_HELP                                                                                 \
-  "      --time-limit S   give up after S seconds, 0 = never (default: 0)\n" GUARD_MEMORY_HELP
-
 guard_limits guard_limits_default(void); /* no time said, 2 GB */
 
-/* Takes one of the options above; false if it is none of them. *ok false: its value was bad
- * (printed). */
-bool guard_option(guard_limits *l, const char *command, int option, const char *value, bool *ok);
+/* --time-limit and --memory; those without the first are for commands that say more of it. */
+extern const cli_option guard_options[], guard_memory_options[];
+#define GUARD_TIME_LIMIT                                                                           \
+  "time-limit", .value = "S", .kind = CLI_AMOUNT, .offset = offsetof(guard_limits, seconds),       \
+                .high = 1e9
 
 typedef enum {
   GUARD_DONE,        /* the child ended by itself, with `code` */

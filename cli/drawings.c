@@ -16,24 +16,31 @@ static const char *from_name(int i)
   return name[i];
 }
 
-bool drawings_option(drawings_args *a, const char *command, int option, const char *value, bool *ok)
+static bool take_from(void *into, const cli_option *option, const char *value)
 {
-  int from = 0;
-  if (option == OPTION_KIND_TOLERANCE) {
-    *ok = cli_double(command, "--kind-tolerance", value, 1e-9, 1e9, &a->kind_tolerance);
-    return true;
-  }
-  if (option == OPTION_WORKING) {
-    *ok = cli_double(command, "--working-length", value, 10, 1e6, &a->working_mm);
-    return true;
-  }
-  if (option != OPTION_PAGE && option != OPTION_FROM) return false;
-  *ok = option == OPTION_PAGE
-            ? cli_choose(command, "--page", value, thr_page_name, THR_N_PAGES, &a->page)
-            : cli_choose(command, "--from", value, from_name, 2, &from);
-  if (option == OPTION_FROM) a->needles = 1 + from;
+  int from;
+  if (!cli_choose(cli_command_name(), "--from", value, option->word, option->n_words, &from))
+    return false;
+  ((drawings_args *)into)->needles = 1 + from;
   return true;
 }
+
+#define AT(member) .offset = offsetof(drawings_args, member)
+
+const cli_option drawings_options[] = {
+    {"page", .kind = CLI_WORD, AT(page), .word = thr_page_name, .n_words = THR_N_PAGES,
+     .help = "paper of the step sheets (default: a4)"},
+    {"from", .kind = CLI_OTHER, .take = take_from, .word = from_name, .n_words = 2,
+     .help = "thread each cord from its end with one needle, or those of 24 passes and more from "
+             "their middle with two (default: as the plan was made for; else closed ones of 48 and "
+             "more)"},
+    {"working-length", .value = "MM", .kind = CLI_AMOUNT, AT(working_mm), .low = 10, .high = 1e6,
+     .help = "cord to work with at a time, before more is joined on (default: 2000)"},
+    {"kind-tolerance", .value = "X", .kind = CLI_AMOUNT, AT(kind_tolerance), .low = 1e-9,
+     .high = 1e9,
+     .help = "pieces whose points differ by no more are of one kind, in units of the framework "
+             "(default: a hundredth of the median edge)"},
+    {0}};
 
 thr_status drawings_chains(const thr_plan *plan, const drawings_args *a, thr_text *text,
                            thr_err *err)

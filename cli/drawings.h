@@ -24,36 +24,8 @@ typedef struct {
 /* With more pieces step sheets are hundreds of pages, which nobody prints unasked. */
 enum { DRAWINGS_SHEETS_PIECES = 1000, DRAWINGS_NAMES = 128 };
 
-/* --kind-tolerance; --page, --from: of the step sheets. */
-#define DRAWINGS_OPTIONS                                                                           \
-  {"kind-tolerance", required_argument, NULL, OPTION_KIND_TOLERANCE},                              \
-      {"working-length", required_argument, NULL, OPTION_WORKING},                                 \
-      {"page", required_argument, NULL, OPTION_PAGE},                                              \
-  {                                                                                                \
-    "from", required_argument, NULL, OPTION_FROM                                                   \
-  }
-enum {
-  OPTION_PAGE = 960,
-  OPTION_FROM,
-  OPTION_KIND_TOLERANCE,
-  OPTION_WORKING
-}; /* between the options that commands number on from each other and those of cord and beads */
-#define DRAWINGS_HELP                                                                              \
-  "      --kind-tolerance X   pieces whose points differ by no more are of one kind, in units of " \
-  "the framework (default: a\n"                                                                    \
-  "                           hundredth of the median edge)\n"                                     \
-  "      --page a4|letter     paper of the step sheets (default: a4)\n"                            \
-  "      --from end|middle    thread each cord from its end with one needle, or those of 24 "      \
-  "passes and more from their\n"                                                                   \
-  "                           middle with two (default: as the plan was made for; else closed "    \
-  "ones of 48 and more)\n"                                                                         \
-  "      --working-length MM  cord to work with at a time, before more is joined on (default: "    \
-  "2000)\n"
-
-/* Takes one of the options above; false if it is none of them. *ok false: its value was bad
- * (printed). */
-bool drawings_option(drawings_args *a, const char *command, int option, const char *value,
-                     bool *ok);
+/* --kind-tolerance; --page, --from, --working-length: of the step sheets. */
+extern const cli_option drawings_options[];
 
 /* Writes document i of the plan to path ("-" = stdout). Returns EXIT_OK or prints and returns the
  * code. */

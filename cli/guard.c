@@ -20,34 +20,35 @@ guard_limits guard_limits_default(void)
   return (guard_limits){.seconds = -1, .memory = 2e9};
 }
 
-static bool parse_memory(const char *command, const char *value, double *bytes)
+static bool take_memory(void *into, const cli_option *option, const char *value)
 {
+  double *bytes = &((guard_limits *)into)->memory;
   static const struct {
     const char *name;
     double bytes;
   } unit[] = {{"", 1}, {"MB", 1e6}, {"M", 1e6}, {"GB", 1e9}, {"G", 1e9}};
   char *end;
+  (void)option;
   double number = strtod(value, &end), least = 50e6, most = 1e15;
   for (size_t i = 0; i < sizeof unit / sizeof *unit && end != value; i++) {
     *bytes = number * unit[i].bytes;
     if (strcmp(end, unit[i].name) == 0 && (*bytes == 0 || (*bytes >= least && *bytes <= most)))
       return true;
   }
-  cli_usage(command, "--memory %s: expected 50MB or more, as 500MB or 2GB, or 0 for any", value);
+  cli_usage(cli_command_name(), "--memory %s: expected 50MB or more, as 500MB or 2GB, or 0 for any",
+            value);
   return false;
 }
 
-bool guard_option(guard_limits *l, const char *command, int option, const char *value, bool *ok)
-{
-  *ok = true;
-  switch (option) {
-  case OPTION_TIME:
-    *ok = cli_double(command, "--time-limit", value, 0, 1e9, &l->seconds);
-    return true;
-  case OPTION_MEMORY: *ok = parse_memory(command, value, &l->memory); return true;
-  default: return false;
+#define MEMORY                                                                                     \
+  {                                                                                                \
+    "memory", .value = "SIZE", .kind = CLI_OTHER, .take = take_memory,                             \
+              .help = "give up beyond so much memory, as 500MB or 2GB, 0 = any (default: 2GB)"     \
   }
-}
+
+const cli_option guard_options[] = {
+    {GUARD_TIME_LIMIT, .help = "give up after S seconds, 0 = never (default: 0)"}, MEMORY, {0}};
+const cli_option guard_memory_options[] = {MEMORY, {0}};
 
 int guard_conclude(guard_end *end, const char *missing)
 {

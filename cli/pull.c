@@ -56,10 +56,13 @@ static bool named_twice(const char *value, const char *end, const char id[12])
   return false;
 }
 
-static bool check_pull(const char *command, const char *value)
+static bool take_pull(void *into, const cli_option *option, const char *value)
 {
+  const char *command = cli_command_name();
   thr_pull pull;
   char id[12];
+  (void)option;
+  ((pull_args *)into)->pull = value;
   bool ok = pull_by_name(value, strlen(value), &pull) && pull != THR_PULL_NONE;
   if (!ok && strchr(value, '=')) {
     const char *list = value;
@@ -75,62 +78,72 @@ static bool check_pull(const char *command, const char *value)
   return ok;
 }
 
-static const char *method_name(int i)
+const char *pull_method_name(int method)
 {
-  return i < THR_N_METHODS ? thr_method_name(i) : "all";
+  return method < THR_N_METHODS ? thr_method_name(method) : "all";
 }
 
-bool pull_option(pull_args *a, const char *command, int option, const char *value, bool *ok)
+/* A whole number that JSON can hold. */
+static bool take_seed(void *into, const cli_option *option, const char *value)
 {
-  thr_eval_options *options = &a->options;
+  const double most = 9007199254740992.0; /* 2^53 */
   double seed;
-  int law, methods = strcmp(command, "compare") == 0 ? PULL_ALL_METHODS + 1 : THR_N_METHODS;
-  *ok = true;
-  switch (option) {
-  case OPTION_PULL_METHOD:
-    *ok = cli_choose(command, "--method", value, method_name, methods, &a->method);
-    return true;
-  case OPTION_PULL_LAW:
-    *ok = cli_choose(command, "--law", value, thr_law_name, THR_N_LAWS, &law);
-    if (*ok) options->law = (thr_law)law;
-    return true;
-  case OPTION_PULL_END:
-    *ok = check_pull(command, value);
-    a->pull = value;
-    return true;
-  case OPTION_PULL_SEED:
-    *ok =
-        cli_double(command, "--seed", value, 0, 9007199254740992.0, &seed); /* what JSON can hold */
-    if (*ok && seed != floor(seed)) {
-      cli_usage(command, "--seed %s: expected a whole number", value);
-      *ok = false;
-    }
-    if (*ok) options->seed = (uint64_t)seed;
-    return true;
-  case OPTION_PULL_TIME_STEP:
-    *ok = cli_double(command, "--time-step", value, 0.01, 10, &options->time_step);
-    return true;
-  case OPTION_PULL_ITERATIONS:
-    *ok = cli_double(command, "--iterations", value, 0.1, 100, &options->iterations);
-    return true;
-  case OPTION_PULL_START:
-    *ok = cli_double(command, "--start", value, 1e-9, 1e12, &options->start);
-    return true;
-  case 'j':
-    if ((*ok = cli_processes_option(command, value))) options->processes = cli_processes();
-    return true;
-  case OPTION_PULL_CACHE:
-    if (!(*ok = *value != '\0'))
-      cli_usage(command, "--cache: an empty name is no folder; --no-cache does without");
-    options->cache = value;
-    return true;
-  case OPTION_PULL_NO_CACHE: a->no_cache = true; return true;
-  case OPTION_PULL_NO_DYNAMICS: options->dynamics = false; return true;
-  case OPTION_PULL_DYNAMICS: options->large = true; return true;
-  case OPTION_PULL_JSON: a->json = true; return true;
-  default: return false;
-  }
+  (void)option;
+  if (!cli_double(cli_command_name(), "--seed", value, 0, most, &seed)) return false;
+  ((pull_args *)into)->options.seed = (uint64_t)seed;
+  if (seed == floor(seed)) return true;
+  cli_usage(cli_command_name(), "--seed %s: expected a whole number", value);
+  return false;
 }
+
+static bool take_no_dynamics(void *into, const cli_option *option, const char *value)
+{
+  (void)option, (void)value;
+  ((pull_args *)into)->options.dynamics = false;
+  return true;
+}
+
+static bool take_cache(void *into, const cli_option *option, const char *value)
+{
+  (void)option;
+  ((pull_args *)into)->options.cache = value;
+  if (!*value)
+    cli_usage(cli_command_name(), "--cache: an empty name is no folder; --no-cache does without");
+  return *value != '\0';
+}
+
+#define AT(member) .offset = offsetof(pull_args, member)
+
+const cli_option pull_run_options[] = {
+    {"cache", .value = "DIR", .kind = CLI_OTHER, .take = take_cache,
+     .help = "keep measured joints here (default: $XDG_CACHE_HOME/thread or ~/.cache/thread)"},
+    {"no-cache", .kind = CLI_FLAG, AT(no_cache), .help = "keep none"},
+    {0}};
+
+const cli_option pull_options[] = {
+    {"law", .kind = CLI_WORD, AT(options.law), .word = thr_law_name, .n_words = THR_N_LAWS,
+     .help = "of method capstan: exp(mu x turning), or the mitred bead of the thesis (default: "
+             "capstan)"},
+    {"pull", .value = "start|end|both", .kind = CLI_OTHER, .take = take_pull,
+     .help = "which end of each cord is pulled (default: both); or A=start,B=none for single "
+             "cords"},
+    {"seed", .value = "N", .kind = CLI_OTHER, .take = take_seed,
+     .help = "of a simulation's small initial disorder, 0 to 2^53 (default: 0)"},
+    {"no-dynamics", .kind = CLI_OTHER, .take = take_no_dynamics,
+     .help = "structure: limit analysis only, no simulation (of up to 400 pieces; seconds, beyond "
+             "100 minutes)"},
+    {"dynamics", .kind = CLI_FLAG, AT(options.large),
+     .help = "structure: simulate up to 1,000 pieces (a quarter of an hour)"},
+    {"json", .kind = CLI_FLAG, AT(json), .help = "everything as JSON"},
+    {0}};
+
+/* Factors on the simulation's validated time step and iterations, and the pull in newton at which a
+ * structure's begins, which is 1.3 times the (largest) holding pull. */
+const cli_option pull_tuned[] = {
+    {"time-step", .kind = CLI_AMOUNT, AT(options.time_step), .low = 0.01, .high = 10},
+    {"iterations", .kind = CLI_AMOUNT, AT(options.iterations), .low = 0.1, .high = 100},
+    {"start", .kind = CLI_AMOUNT, AT(options.start), .low = 1e-9, .high = 1e12},
+    {0}};
 
 /* What would be ignored is refused. Compare shows the closed form whatever the method. */
 int pull_check(const pull_args *a, const char *command)
@@ -140,7 +153,7 @@ int pull_check(const pull_args *a, const char *command)
   if (a->options.law != THR_LAW_CAPSTAN && !closed)
     return cli_usage(command, "--law is for --method capstan");
   if (a->options.start > 0 && !structure)
-    return cli_usage(command, "--start needs --method structure");
+    return cli_usage(command, "--tune start needs --method structure");
   if (!a->options.dynamics && !structure)
     return cli_usage(command, "--no-dynamics needs --method structure");
   if (a->options.large && !structure)
@@ -148,7 +161,7 @@ int pull_check(const pull_args *a, const char *command)
   if (a->options.large && !a->options.dynamics)
     return cli_usage(command, "--dynamics and --no-dynamics exclude each other");
   if (a->options.start > 0 && !a->options.dynamics)
-    return cli_usage(command, "--start is of the simulation that --no-dynamics leaves out");
+    return cli_usage(command, "--tune start is of the simulation that --no-dynamics leaves out");
   return EXIT_OK;
 }
 

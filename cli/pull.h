@@ -9,60 +9,6 @@
 #include "eval/eval.h"
 #include "graph/plan/evaluation.h"
 
-enum {
-  OPTION_PULL_METHOD = OPTION_FREE,
-  OPTION_PULL_LAW,
-  OPTION_PULL_END,
-  OPTION_PULL_SEED,
-  OPTION_PULL_TIME_STEP,
-  OPTION_PULL_ITERATIONS,
-  OPTION_PULL_CACHE,
-  OPTION_PULL_NO_CACHE,
-  OPTION_PULL_NO_DYNAMICS,
-  OPTION_PULL_DYNAMICS,
-  OPTION_PULL_START,
-  OPTION_PULL_JSON,
-  OPTION_PULL_FREE
-};
-#define PULL_LETTERS CLI_PROCESSES_LETTER
-#define PULL_RUN_OPTIONS                                                                           \
-  CLI_PROCESSES_OPTION, {"cache", required_argument, NULL, OPTION_PULL_CACHE},                     \
-  {                                                                                                \
-    "no-cache", no_argument, NULL, OPTION_PULL_NO_CACHE                                            \
-  }
-#define PULL_OPTIONS                                                                               \
-  PULL_RUN_OPTIONS, {"method", required_argument, NULL, OPTION_PULL_METHOD},                       \
-      {"law", required_argument, NULL, OPTION_PULL_LAW},                                           \
-      {"pull", required_argument, NULL, OPTION_PULL_END},                                          \
-      {"seed", required_argument, NULL, OPTION_PULL_SEED},                                         \
-      {"time-step", required_argument, NULL, OPTION_PULL_TIME_STEP},                               \
-      {"iterations", required_argument, NULL, OPTION_PULL_ITERATIONS},                             \
-      {"no-dynamics", no_argument, NULL, OPTION_PULL_NO_DYNAMICS},                                 \
-      {"dynamics", no_argument, NULL, OPTION_PULL_DYNAMICS},                                       \
-      {"start", required_argument, NULL, OPTION_PULL_START},                                       \
-  {                                                                                                \
-    "json", no_argument, NULL, OPTION_PULL_JSON                                                    \
-  }
-#define PULL_RUN_HELP                                                                              \
-  CLI_PROCESSES_HELP                                                                               \
-  "      --cache DIR      keep measured joints here (default: $XDG_CACHE_HOME/thread or "          \
-  "~/.cache/thread);  --no-cache\n"
-#define PULL_HELP(START)                                                                           \
-  "      --law capstan|mitre   of method capstan: exp(mu x turning), or the mitred bead of the "   \
-  "thesis (default: capstan)\n"                                                                    \
-  "      --pull start|end|both   which end of each cord is pulled (default: both); or "            \
-  "A=start,B=none for single cords\n"                                                              \
-  "      --seed N         of a simulation's small initial disorder, 0 to 2^53 (default: 0)\n"      \
-  "      --time-step X    factor on the simulation's validated time step, 0.01 to 10 (default: "   \
-  "1)\n"                                                                                           \
-  "      --iterations X   factor on its validated iterations, 0.1 to 100 (default: 1)\n"           \
-  "      --start N        structure: pull in newton at which the simulation begins (default: 1.3 " \
-  "x the " START ")\n"                                                                             \
-  "      --no-dynamics    structure: limit analysis only, no simulation (of up to\n"               \
-  "                       400 pieces; seconds, beyond 100 minutes)\n"                              \
-  "      --dynamics       structure: simulate up to 1,000 pieces (a quarter of an "                \
-  "hour)\n" PULL_RUN_HELP GUARD_HELP
-
 enum { PULL_ALL_METHODS = THR_N_METHODS };
 
 typedef struct {
@@ -76,9 +22,11 @@ typedef struct {
 
 /* Points into itself: fill it where it stays. */
 void pull_args_init(pull_args *a, thr_method method);
-/* Takes one of the options above; false if it is none of them. *ok false: its value was bad
- * (printed). */
-bool pull_option(pull_args *a, const char *command, int option, const char *value, bool *ok);
+/* How a pull is measured, --json, and what is for developers; where measured joints are kept. */
+extern const cli_option pull_options[], pull_tuned[], pull_run_options[];
+
+/* The name of a method, or "all", for the rows of --method that commands have. */
+const char *pull_method_name(int method);
 
 /* Does what was asked make sense together? EXIT_OK, or prints and returns the code. */
 int pull_check(const pull_args *a, const char *command);

@@ -13,6 +13,7 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <sys/time.h>
 #include <time.h>
@@ -334,6 +335,12 @@ int thr_os_processors(void)
 {
   long n = sysconf(_SC_NPROCESSORS_ONLN);
   return n > 1 ? n < INT32_MAX ? (int)n : INT32_MAX : 1;
+}
+
+int thr_os_columns(int file)
+{
+  struct winsize size = {0};
+  return isatty(file) && ioctl(file, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
 }
 
 static double seconds_of(struct timeval time)

@@ -60,6 +60,9 @@ void thr_os_tick(int seconds, void (*on_tick)(int signal));
 
 int thr_os_processors(void);
 
+/* Columns of the terminal that an open file is; 0: it is none. */
+int thr_os_columns(int file);
+
 /* Processor time, user and system, s, of this process and of its children that have ended. */
 double thr_os_processor_seconds(void);
 

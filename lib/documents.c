@@ -31,24 +31,37 @@ typedef enum {
 } document;
 
 static const struct {
-  const char *type, *file;
+  const char *type, *file, *meaning;
 } documents[N_DOCUMENTS] = {
-    [OVERVIEW] = {"svg", "overview.svg"},
-    [SHEETS] = {"pdf", "sheets.pdf"},
-    [STEPS] = {"steps", "steps.txt"},
-    [VIEWER] = {"html", "viewer.html"},
-    [STEPS_TABLE] = {"steps.csv", "steps.csv"},
-    [CORDS_TABLE] = {"cords.csv", "cords.csv"},
-    [BEADS_TABLE] = {"beads.csv", "beads.csv"},
-    [CHANNELS_TABLE] = {"channels.csv", "channels.csv"},
-    [OBJ] = {"obj", "cords.obj"},
-    [GLTF] = {"gltf", "cords.gltf"},
-    [MAT] = {"mat", "mat.pdf"},
-    [DXF] = {"dxf", "cords.dxf"},
-    [COMPAS] = {"compas", "cords.json"},
-    [PAGES] = {"sheets.html", "sheets.html"},
-    [POSTER] = {"poster", "poster.pdf"},
-    [LABELS] = {"labels", "labels.svg"},
+    [OVERVIEW] = {"svg", "overview.svg", "overview.svg, the picture of all cords"},
+    [SHEETS] = {"pdf", "sheets.pdf",
+                "sheets.pdf: what to prepare, each step with its picture, what to do last"},
+    [STEPS] = {"steps", "steps.txt", "steps.txt: each path to learn once, then its copies"},
+    [VIEWER] = {"html", "viewer.html", "viewer.html: step by step in space, in any browser"},
+    [STEPS_TABLE] = {"steps.csv", "steps.csv",
+                     "a row per piece that the needle comes to: arms, turn, cord used"},
+    [CORDS_TABLE] = {"cords.csv", "cords.csv",
+                     "the cut list: a row per cord, with tails and allowances"},
+    [BEADS_TABLE] = {"beads.csv", "beads.csv",
+                     "the bead schedule: a row per piece, kinds, arms, bores"},
+    [CHANNELS_TABLE] =
+        {"channels.csv", "channels.csv",
+         "which pass goes from which arm to which, piece by piece, and what crosses"},
+    [OBJ] = {"obj", "cords.obj", "cords.obj: cords as lines for CAD and Blender"},
+    [GLTF] = {"gltf", "cords.gltf", "cords.gltf: the same"},
+    [MAT] = {"mat", "mat.pdf",
+             "mat.pdf: the outlines of all pieces, true to size, to lay them out on"},
+    [DXF] = {"dxf", "cords.dxf",
+             "cords.dxf: a layer, a colour and a polyline in space for each cord"},
+    [COMPAS] = {"compas", "cords.json", "cords.json: COMPAS polylines"},
+    [PAGES] = {"sheets.html", "sheets.html",
+               "the pages of sheets.pdf for any browser, which prints them"},
+    [POSTER] =
+        {"poster", "poster.pdf",
+         "poster.pdf: the overview over several sheets, to glue together; --pitch says how large"},
+    [LABELS] =
+        {"labels", "labels.svg",
+         "labels.svg: the pieces' names as outlines, true to size, to raise on printed pieces"},
 };
 
 int thr_documents_count(void)
@@ -64,6 +77,11 @@ const char *thr_document_type(int i)
 const char *thr_document_file(int i)
 {
   return documents[i].file;
+}
+
+const char *thr_document_meaning(int i)
+{
+  return documents[i].meaning;
 }
 
 int thr_document_find(const char *type)

@@ -15,6 +15,7 @@
 int thr_documents_count(void);
 const char *thr_document_type(int i);    /* as `thread draw --type` names it: "svg", "steps.csv" */
 const char *thr_document_file(int i);    /* usual file name: "overview.svg" */
+const char *thr_document_meaning(int i); /* what it is, for help */
 int thr_document_find(const char *type); /* -1: there is none of that name */
 int thr_document_sheets(void);           /* the one that takes longest: sheets.pdf */
 bool thr_document_usual(int i);   /* is it one of those that "all" means? Not the mat, which needs a

@@ -550,7 +550,7 @@ static void say_options(crossing_case *c, const sketch *s, rng *r)
   if (v[BY_DISTINCT]) say(c, " --distinct 2");
   if (v[BY_CAPACITY]) say(c, " --capacity %d", v[BY_CAPACITY]);
   if (v[BY_BALANCE]) say(c, " --balance");
-  if (v[BY_ENGINE]) say(c, " --engine %s", crossing_value[BY_ENGINE][v[BY_ENGINE]]);
+  if (v[BY_ENGINE]) say(c, " --tune engine=%s", crossing_value[BY_ENGINE][v[BY_ENGINE]]);
   if (v[BY_PREFER]) say(c, " --prefer %s", crossing_value[BY_PREFER][v[BY_PREFER]]);
   if (v[BY_GEOMETRIC]) say(c, " --geometric 0.01");
   say_cords(c);

@@ -86,9 +86,9 @@ for frame in dome.json tube.json barrel.obj monkey_saddle.json liew_dome.json; d
   same 0 eval "$plan" --json
   same 0 info "$frame" --json
 done
-same 5 plan dome.json --objective tortuosity --cords 4 --ends feet --minimize max-turning --nodes 4 --time-limit 0 -o out/turning.json
+same 5 plan dome.json --objective tortuosity --cords 4 --ends feet --minimize max-turning --tune nodes=4 --time-limit 0 -o out/turning.json
 same 0 check out/turning.json
-same 0 symmetries dome.json --row-work 0.05 --json
+same 0 symmetries dome.json --tune row-work=0.05 --json
 same 0 plan dome.json --objective symmetry --group 3 -o out/symmetry.json
 same 3 plan missing.obj -o out/none.json
 printf 'v 0 0 0\nv 1 0\nl 1 2\n' | tee "$here/bad.obj" >"$there/bad.obj"

@@ -49,10 +49,5 @@ examples { print plain(trim($0)); next }
 { print plain(trim($0)) }
 END {
   close_block()
-  print ".SH OPTIONS OF EVERY COMMAND"
-  option("-h, --help  what this page says")
-  option("-q, --quiet  no notes")
-  option("-v, --verbose  what is done on the way")
-  option("--config FILE  options from a file, as if they stood first: thread(1)")
   print ".SH SEE ALSO\n.BR thread (1)"
 }

@@ -26,51 +26,78 @@ static int parse_numbers(const char *text, size_t length, double *out, int most)
   }
 }
 
-static bool parse_pulls(load_args *a, const char *command, const char *value)
+static bool take_pulls(void *into, const cli_option *option, const char *value)
 {
+  load_args *a = into;
+  const double most = 1e12; /* N */
+  (void)option;
   a->n_pulls = parse_numbers(value, strlen(value), a->pulls, LOAD_MOST_PULLS);
   bool ok = a->n_pulls > 0;
-  for (int i = 0; i < a->n_pulls; i++)
-    ok &= a->pulls[i] > 0 && a->pulls[i] <= 1e12;
+  for (int i = 0; i < a->n_pulls; i++) {
+    ok &= a->pulls[i] > 0 && a->pulls[i] <= most;
+  }
   if (!ok)
-    cli_usage(command, "--load-pulls %s: expected up to %d newtons above 0 with commas, as 1,5,50",
-              value, LOAD_MOST_PULLS);
+    cli_usage(cli_command_name(),
+              "--load-pulls %s: expected up to %d newtons above 0 with commas, as 1,5,50", value,
+              LOAD_MOST_PULLS);
   return ok;
 }
 
-static bool parse_tilt(load_args *a, const char *command, const char *value)
+/* Degrees become rad. */
+static bool take_tilt(void *into, const cli_option *option, const char *value)
 {
+  load_args *a = into;
   double number[2] = {0};
   const int n = parse_numbers(value, strlen(value), number, 2);
   const bool ok = n > 0 && number[0] >= 0 && number[0] < 90 && fabs(number[1]) <= 360;
+  (void)option;
   if (!ok)
-    cli_usage(command, "--tilt %s: expected degrees from 0 to below 90, or DEG,AZIMUTH", value);
+    cli_usage(cli_command_name(), "--tilt %s: expected degrees from 0 to below 90, or DEG,AZIMUTH",
+              value);
   a->tilt = number[0] * THR_PI / 180;
   a->azimuth = number[1] * THR_PI / 180;
   return ok;
 }
 
-bool load_option(load_args *a, const char *command, int option, const char *value, bool *ok)
+static bool take_load(void *into, const cli_option *option, const char *value)
 {
-  *ok = true;
-  a->command = command;
-  switch (option) {
-  case OPTION_LOAD:
-    *ok = !a->load;
-    if (a->load)
-      cli_usage(command, "--load is there twice; several nodes go into one, with semicolons");
-    a->load = value;
-    return true;
-  case OPTION_LOAD_PULLS: *ok = parse_pulls(a, command, value); return true;
-  case OPTION_TILT: *ok = parse_tilt(a, command, value); return true;
-  case OPTION_CLAMP: a->clamped = true; return true;
-  case OPTION_TAUT: a->taut = true; return true;
-  case OPTION_RAYS:
-    *ok = cli_int(command, "--rays", value, THR_USUAL_RAYS, THR_MOST_RAYS, &a->rays);
-    return true;
-  default: return false;
+  load_args *a = into;
+  (void)option;
+  if (a->load) {
+    cli_usage(cli_command_name(),
+              "--load is there twice; several nodes go into one, with semicolons");
+    return false;
   }
+  a->load = value;
+  return true;
 }
+
+#define AT(member) .offset = offsetof(load_args, member)
+
+const cli_option cli_load_options[] = {
+    {"load", .value = "NODE=N", .kind = CLI_OTHER, .take = take_load,
+     .help = "structure: newtons that hang on a node, or NODE=FX,FY,FZ; several with semicolons: "
+             "what pull they need, how many times so much is carried at some pulls, and what moves "
+             "first; NODE=0,0,N lifts, like a hand or a counterweight: the pull that is then "
+             "needed"},
+    {"load-pulls", .value = "LIST", .kind = CLI_OTHER, .take = take_pulls,
+     .help = "at these pulls of all ends, newtons with commas (default: 1,2,5,10,20,50; above 100 "
+             "pieces 10,50; compare: one, 10)"},
+    {"tilt", .value = "DEG", .kind = CLI_OTHER, .take = take_tilt,
+     .help = "structure: the ground leans by so many degrees towards x, or DEG,AZIMUTH (from x to "
+             "y)"},
+    {"clamp-feet", .kind = CLI_FLAG, AT(clamped),
+     .help = "structure: feet are held in place; else they stand on the ground"},
+    {"taut", .kind = CLI_FLAG, AT(taut),
+     .help = "structure: turns are those of the tight cord in its bores, as --method joint finds "
+             "them, not those of the middles of the bores: it needs less while it is drawn in, and "
+             "keeps less"},
+    {0}};
+
+/* Rays of the pyramids that stand for friction cones: with 24 the bounds are ten times closer, and
+ * take some three times as long. */
+const cli_option cli_load_tuned[] = {
+    {"rays", .kind = CLI_COUNT, AT(rays), .low = THR_USUAL_RAYS, .high = THR_MOST_RAYS}, {0}};
 
 bool load_any(const load_args *a)
 {
@@ -78,8 +105,7 @@ bool load_any(const load_args *a)
 }
 
 /* One load, "D4=10" or "D4=0,1,-10": a single number hangs. */
-static int add_load(const char *command, const thr_frame *frame, const char *text, size_t length,
-                    double (*load)[3])
+static int add_load(const thr_frame *frame, const char *text, size_t length, double (*load)[3])
 {
   char name[256];
   double force[3];
@@ -88,7 +114,7 @@ static int add_load(const char *command, const thr_frame *frame, const char *tex
     equals--;
   const int n = equals > 1 ? parse_numbers(text + equals, length - equals, force, 3) : -1;
   if ((n != 1 && n != 3) || equals - 1 >= sizeof name)
-    return cli_usage(command,
+    return cli_usage(cli_command_name(),
                      "--load %.*s: expected NODE=N, newtons that hang there, or NODE=FX,FY,FZ",
                      (int)length, text);
   snprintf(name, sizeof name, "%.*s", (int)(equals - 1), text);
@@ -99,19 +125,18 @@ static int add_load(const char *command, const thr_frame *frame, const char *tex
   return EXIT_OK;
 }
 
-static int read_loads(const char *command, const char *list, const thr_frame *frame,
-                      double (*load)[3])
+static int read_loads(const char *list, const thr_frame *frame, double (*load)[3])
 {
   bool some = false;
   for (const char *at = list; *at;) {
     const size_t length = strcspn(at, ";");
-    const int code = add_load(command, frame, at, length, load);
+    const int code = add_load(frame, at, length, load);
     if (code) return code;
     at += length + (at[length] == ';');
   }
   for (int v = 0; v < frame->n_nodes; v++)
     some |= load[v][0] != 0 || load[v][1] != 0 || load[v][2] != 0;
-  return some ? EXIT_OK : cli_usage(command, "--load %s: no force at all", list);
+  return some ? EXIT_OK : cli_usage(cli_command_name(), "--load %s: no force at all", list);
 }
 
 int load_apply(const load_args *a, const thr_frame *frame, thr_eval_options *options,
@@ -131,7 +156,7 @@ int load_apply(const load_args *a, const thr_frame *frame, thr_eval_options *opt
     cli_error("out of memory");
     return EXIT_INTERNAL;
   }
-  code = read_loads(a->command, a->load, frame, *load);
+  code = read_loads(a->load, frame, *load);
   options->load = (const double(*)[3]) * load;
   return code;
 }

@@ -5,6 +5,7 @@
  * Options of `thread plan` that say what the plan is to be: parsed, held against each other, laid
  * over a request. */
 #include "cli/args/request_args.h"
+#include "cli/cli.h"
 #include "eval/cord/profile.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan_fields.h"
@@ -37,9 +38,11 @@ static bool parse_number_of_cords(const char *text, int n, int *out)
 }
 
 /* Reads "4", "2..4", "..4" or "auto". */
-static bool parse_cords(request_args *a, const char *value)
+static bool take_cords(void *into, const cli_option *option, const char *value)
 {
+  request_args *a = into;
   const char *dots = strstr(value, "..");
+  (void)option;
   a->automatic = strcmp(value, "auto") == 0;
   a->least = 1;
   a->most = THR_MOST_CORDS;
@@ -60,10 +63,12 @@ static bool parse_cords(request_args *a, const char *value)
 }
 
 /* Reads "50", which is newtons, or "20x", which is times the seating tension. */
-static bool parse_pull(request_args *a, const char *value)
+static bool take_max_pull(void *into, const cli_option *option, const char *value)
 {
+  request_args *a = into;
   char number[64];
   const size_t n = strlen(value);
+  (void)option;
   a->pull_is_factor = n > 1 && value[n - 1] == 'x';
   snprintf(number, sizeof number, "%.*s", (int)(a->pull_is_factor ? n - 1 : n), value);
   if (!cli_double("plan", "--max-pull", number, 0, 1e100, &a->max_pull)) return false;
@@ -73,129 +78,152 @@ static bool parse_pull(request_args *a, const char *value)
   return a->max_pull > 0;
 }
 
-static bool parse_force(const char *option, const char *value, double *newtons)
+static bool take_hand(void *into, const cli_option *option, const char *value)
 {
-  if (!cli_double("plan", option, value, 0, 1e100, newtons)) return false;
-  if (*newtons == 0) {
-    cli_usage("plan", "%s 0: expected a force in newtons", option);
-  }
-  return *newtons > 0;
+  (void)option;
+  return cli_hand("plan", value, &((request_args *)into)->hand);
 }
 
 /* Reads "5" or "5%". */
-static bool parse_slack(const char *text, double *slack)
+static bool take_slack(void *into, const cli_option *option, const char *value)
 {
-  if (thr_slack_parse(text, slack)) return true;
+  (void)option;
+  if (thr_slack_parse(value, &((request_args *)into)->asked.turning.length_slack)) return true;
   cli_usage("plan", "--length-slack %s: expected a percentage from 0 to 1e+06, like 5 or 5%%",
-            text);
+            value);
   return false;
 }
 
-static bool parse_objective(request_args *a, const char *value)
+static bool take_objective(void *into, const cli_option *option, const char *value)
 {
   int i;
-  a->objective_said = true;
-  if (!cli_choose("plan", "--objective", value, thr_dispatch_name, THR_N_OBJECTIVES, &i))
-    return false;
-  a->objective = thr_dispatch_objective(i);
+  if (!cli_choose("plan", "--objective", value, option->word, option->n_words, &i)) return false;
+  ((request_args *)into)->objective = thr_dispatch_objective(i);
   return true;
 }
 
-static bool parse_minimize(request_args *a, const char *value)
+static bool take_minimize(void *into, const cli_option *option, const char *value)
 {
+  request_args *a = into;
   int i;
   a->minimize = true;
-  if (!cli_choose("plan", "--minimize", value, thr_minimize_name, THR_N_MINIMIZE, &i)) return false;
+  if (!cli_choose("plan", "--minimize", value, option->word, option->n_words, &i)) return false;
   a->largest = i > 0;
   a->pull = thr_minimize_aim(i) == THR_AIM_PULL;
   return true;
 }
 
-static bool parse_frontier(request_args *a, const char *value)
+static bool take_frontier(void *into, const cli_option *option, const char *value)
 {
   enum { USUAL_POINTS = 9, MOST_POINTS = 1000 };
+  request_args *a = into;
+  (void)option;
   a->frontier = USUAL_POINTS;
   return !value || cli_int("plan", "--frontier", value, 2, MOST_POINTS, &a->frontier);
 }
 
-/* Reads a number or a word into the request, in the range that its row of the table has. */
-static bool parse_field(request_args *a, const thr_request_field *field, const char *option,
-                        const char *value)
+/* ---- the rows ---- */
+
+#define AT(member) .offset = offsetof(request_args, member)
+
+static const cli_option own_planned[] = {
+    {"objective", .kind = CLI_OTHER, .take = take_objective, .word = thr_dispatch_name,
+     .n_words = THR_N_OBJECTIVES,
+     .help =
+         "what the plan is to have little of: cord (default), turning, or what is to be learned"},
+    {"cords", .value = "K", .kind = CLI_OTHER, .take = take_cords,
+     .help = "K cords in every component, 1 to 1000 (default: 1); A..B, ..B: at most B; auto: with "
+             "--max-length or --max-pull"},
+    {"ends", .value = "closed|any|feet|FILE|NAME,..", .kind = CLI_TEXT, AT(ends),
+     .help = "both ends of a cord at one node (default), or anywhere, at feet, at these nodes; "
+             "NAME:N,..: exactly so many cord ends at each of these nodes"},
+    {"balance", .kind = CLI_FLAG, AT(balance), .help = "make the longest cord short"},
+    {"max-pull", .value = "F", .kind = CLI_OTHER, .take = take_max_pull,
+     .help = "no cord needs more at its ends, both pulled: F newtons, or 20x the seating tension; "
+             "few cords"},
+    {"hand", .value = "one|two|N", .kind = CLI_OTHER, .take = take_hand,
+     .help = "the same: 50 newtons (one hand), 100 (two) or N"},
+    {"cord-strength", .value = "N", .kind = CLI_AMOUNT, AT(strength), .low = CLI_ABOVE_0,
+     .high = 1e100,
+     .help = "refuse cords that would break: N newtons, of which an overhand knot leaves 45 %"},
+    {"aims", .value = "LIST", .kind = CLI_TEXT, AT(aims),
+     .help = "what to minimize, first, second, ..: length; longest (cord), length; turning, "
+             "max-turning (of the cord that turns most) or pull (as --minimize), as turning:sine "
+             "with another price of turns, after length+5%: at most so much above the least; or of "
+             "symmetric plans overlap, steps, paths, turning. It says what --objective, --balance, "
+             "--minimize, --turn-cost, --length-slack and --prefer say"},
+    {0}};
+
+static const cli_option own_turning[] = {
+    {"length-slack", .value = "P%", .kind = CLI_OTHER, .take = take_slack,
+     .help = "at most P % more cord than the shortest; 0 = the least turning among the shortest "
+             "(default: any)"},
+    {"minimize", .kind = CLI_OTHER, .take = take_minimize, .word = thr_minimize_name,
+     .n_words = THR_N_MINIMIZE,
+     .help = "of all cords together, of the cord that turns most (default with several), or what "
+             "the hand feels: what an end of the cord that is hardest to pull at both ends has to "
+             "overcome"},
+    {"frontier", .value = "[=N]", .kind = CLI_OTHER, .take = take_frontier,
+     .help = "also the trade-off between length and turning, at up to N lengths, 2 to 1000 "
+             "(default: 9)"},
+    {"plot", .value = "FILE", .kind = CLI_OUTPUT, AT(plot),
+     .help = "with --frontier: a picture of it, pull against cord, as SVG"},
+    {"compare-shortest", .kind = CLI_FLAG, AT(compare),
+     .help = "beside it the least turning among the shortest cords; with --length-slack 0 that of "
+             "any length, with a classical tour the least turning: one more search, as long as the "
+             "first"},
+    {0}};
+
+/* The option that a row of the request's table makes. */
+static cli_option option_of(const thr_request_field *field)
 {
-  void *to = thr_request_value(&a->asked, field);
   const double most_counted = 1e6;
-  if (field->kind == THR_ASKS_COUNT)
-    return cli_int("plan", option, value, (int)field->low, (int)fmin(field->high, most_counted),
-                   to);
-  if (field->kind == THR_ASKS_WORD)
-    return cli_choose("plan", option, value, field->name, field->n_names, to);
-
-  /* The least amount may be anything above 0, and the most anything, which are no numbers to print.
-   */
-  const double most = 1e100;
-  double *amount = to;
-  if (!cli_double("plan", option, value, 0, fmin(field->high, most), amount)) return false;
-  if (*amount >= field->low) return true;
-  cli_usage("plan", "%s %s: expected a number above 0", option, value);
-  return false;
+  const bool is_count = field->kind == THR_ASKS_COUNT;
+  return (cli_option){.name = field->option ? field->option : field->key,
+                      .value = field->value,
+                      .help = field->help,
+                      .kind = is_count                       ? CLI_COUNT
+                              : field->kind == THR_ASKS_WORD ? CLI_WORD
+                                                             : CLI_AMOUNT,
+                      .offset = field->offset,
+                      .low = field->low,
+                      .high = is_count ? fmin(field->high, most_counted) : field->high,
+                      .word = field->name,
+                      .n_words = field->n_names};
 }
 
-/* What an option is about, for the refusal of options that would be ignored. */
-static void note_option(request_args *a, int option, const char *name)
+cli_option request_option_of(const char *key)
 {
-  const bool is_spelled =
-      option == OPTION_SLACK || option == OPTION_MINIMIZE || strcmp(name, "--turn-cost") == 0;
-  const bool is_turning = is_spelled || option == OPTION_FRONTIER ||
-                          option == OPTION_COMPARE_SHORTEST || option == OPTION_FRONTIER_PLOT ||
-                          strcmp(name, "--tour") == 0 || strcmp(name, "--pairings") == 0 ||
-                          strcmp(name, "--nodes") == 0;
-  if (is_spelled) {
-    a->spelled = name;
+  int i = 0;
+  while (strcmp(thr_request_fields[i].key, key) != 0) {
+    i++; /* a key of the table, known when this is compiled */
   }
-  if (is_turning && !a->turning) {
-    a->turning = name;
-  }
-  a->cover_said |= strcmp(name, "--cover") == 0;
-  a->pairings_said |= strcmp(name, "--pairings") == 0;
+  return option_of(&thr_request_fields[i]);
 }
 
-/* Returns the name of an option with its dashes, or NULL if it is none of ours. It lives as long as
- * the program. */
-static const char *name_of(int option)
+const cli_option *request_options(request_rows rows)
 {
-  static const struct option table[] = {REQUEST_OPTIONS, {NULL, 0, NULL, 0}};
-  static char name[sizeof table / sizeof *table][24];
-  for (int i = 0; table[i].name; i++) {
-    if (table[i].val == option) {
-      snprintf(name[i], sizeof name[i], "--%s", table[i].name);
-      return name[i];
-    }
+  enum { MOST = 32 };
+  static cli_option table[REQUEST_TUNED + 1][MOST];
+  static const cli_option none[] = {{0}};
+  const cli_option *own = rows == REQUEST_PLANNED   ? own_planned
+                          : rows == REQUEST_TURNING ? own_turning
+                                                    : none;
+  int n = 0;
+  for (; own->name; own++) {
+    table[rows][n++] = *own;
   }
-  return NULL;
-}
-
-bool request_option(request_args *a, int option, const char *value, bool *ok)
-{
-  const char *name = name_of(option);
-  if (!name) return false;
-  note_option(a, option, name);
-  switch (option) {
-  case OPTION_AIMS: a->aims = value; break;
-  case OPTION_OBJECTIVE: *ok = parse_objective(a, value); break;
-  case OPTION_MINIMIZE: *ok = parse_minimize(a, value); break;
-  case OPTION_SLACK: *ok = parse_slack(value, &a->asked.turning.length_slack); break;
-  case OPTION_FRONTIER: *ok = parse_frontier(a, value); break;
-  case OPTION_COMPARE_SHORTEST: a->compare = true; break;
-  case OPTION_FRONTIER_PLOT: a->plot = value; break;
-  case OPTION_CORDS: *ok = parse_cords(a, value); break;
-  case OPTION_MAX_PULL: *ok = parse_pull(a, value); break;
-  case OPTION_HAND: *ok = cli_hand("plan", value, &a->hand); break;
-  case OPTION_STRENGTH: *ok = parse_force(name, value, &a->strength); break;
-  case OPTION_BALANCE: a->balance = true; break;
-  case OPTION_ENDS: a->ends = value; break;
-  default: *ok = parse_field(a, thr_request_find(name + 2), name, value);
+  for (int i = 0; i < thr_request_n_fields; i++) {
+    const thr_request_field *field = &thr_request_fields[i];
+    const request_rows of = field->tuned ? REQUEST_TUNED
+                            : field->in  ? REQUEST_TURNING
+                                         : REQUEST_PLANNED;
+    if (!field->help || of != rows) continue;
+    table[rows][n] = option_of(field);
+    table[rows][n++].offset += offsetof(request_args, asked);
   }
-  return true;
+  table[rows][n] = (cli_option){0};
+  return table[rows];
 }
 
 /* ---- what they come to ---- */
@@ -223,15 +251,15 @@ static bool takes_few(const request_args *a)
 /* Passes over every edge: as many as different cords, unless it was said. */
 static int cover_of(const request_args *a)
 {
-  return a->cover_said ? a->asked.cover : a->asked.distinct ? a->asked.distinct : 1;
+  return cli_given("cover") ? a->asked.cover : a->asked.distinct ? a->asked.distinct : 1;
 }
 
 bool request_args_usual(const request_args *a)
 {
   const request_args usual = request_args_default();
   return a->most == 0 && a->asked.max_length == 0 && strcmp(a->ends, usual.ends) == 0 &&
-         !a->cover_said && a->asked.distinct == 0 && a->asked.capacity == 0 && !pull_limit(a) &&
-         a->asked.joint == THR_JOINT_SOLID;
+         !cli_given("cover") && a->asked.distinct == 0 && a->asked.capacity == 0 &&
+         !pull_limit(a) && a->asked.joint == THR_JOINT_SOLID;
 }
 
 /* Of several cords the hand feels the one that turns most: a small sum may leave one that nobody
@@ -336,7 +364,7 @@ static const struct {
     {PLOT, FRONTIER, "--plot draws the frontier: it needs --frontier"},
     {LEAST_PULL | COST, 0, "--minimize pull is of angles: no --turn-cost %C"},
     {PAIRINGS, CLASSICAL, "--pairings is for --tour fleury and --tour hierholzer"},
-    {CLASSICAL | NODES, 0, "--tour %T searches nothing: no --nodes"},
+    {CLASSICAL | NODES, 0, "--tour %T searches nothing: no --tune nodes"},
     {CLASSICAL | SOME_SLACK, 0, "--tour %T takes the shortest passes: no --length-slack but 0"},
     {CLASSICAL | LEAST_PULL, 0, "--tour %T minimizes nothing: no --minimize pull"},
     {CLASSICAL | LARGEST, 0, "--tour %T minimizes nothing: no --minimize max-turning"},
@@ -347,9 +375,9 @@ static const struct {
     {TURNING | CLASSICAL | AUTOMATIC, 0, "--cords auto: not with --objective tortuosity"},
     {TURNING | CLASSICAL | RANGE, 0, "a range of --cords: not with --objective tortuosity"},
     {CONFIRM, LENGTH,
-     "--confirm always: of shortest passes only, with --objective length and --joint solid"},
+     "--tune confirm=always: of shortest passes only, with --objective length and --joint solid"},
     {CONFIRM | TUBE, 0,
-     "--confirm always: of shortest passes only, with --objective length and --joint solid"},
+     "--tune confirm=always: of shortest passes only, with --objective length and --joint solid"},
     {BALANCE, SEVERAL | COUNTED_ENDS | PULL, "--balance needs several --cords, or --max-pull"},
     {BALANCE | AUTOMATIC, 0,
      "--balance makes the longest cord as short as can be: no --cords auto with it"},
@@ -371,7 +399,14 @@ static const struct {
     {CLASSICAL | TUBE, 0, "--tour %T ties no joints: no --joint tube"},
 };
 
-static int facts_of(const request_args *a, const symmetry_args *symmetry, const thr_request *wanted)
+/* The first option that is about turning; NULL: none was given. */
+static const char *turning_given(void)
+{
+  const char *given = cli_given_of(request_options(REQUEST_TURNING));
+  return given ? given : cli_given("nodes");
+}
+
+static int facts_of(const request_args *a, const thr_request *wanted)
 {
   const thr_request *asked = &a->asked;
   const thr_turning_options *turning = &asked->turning;
@@ -400,14 +435,14 @@ static int facts_of(const request_args *a, const symmetry_args *symmetry, const 
       {a->frontier > 0, FRONTIER},
       {a->compare, COMPARE},
       {a->plot, PLOT},
-      {a->pairings_said, PAIRINGS},
+      {cli_given("pairings"), PAIRINGS},
       {turning->nodes > 0, NODES},
       {asked->confirm == THR_CONFIRM_ALWAYS, CONFIRM},
       {turning->cost != THR_TURN_ANGLE, COST},
       {asked->crossings != THR_CROSSINGS_ALLOW, CROSSINGS},
       {asked->distinct > 0, DISTINCT},
-      {a->turning, OF_TURNING},
-      {symmetry->given, OF_SYMMETRY},
+      {turning_given(), OF_TURNING},
+      {cli_given_of(cli_symmetry_options), OF_SYMMETRY},
       {a->max_pull > 0 && a->hand > 0, BOTH_PULLS},
       {thr_wants_turning(wanted) &&
            (asked->max_length > 0 || limits_pull || a->balance || is_range),
@@ -421,7 +456,7 @@ static int facts_of(const request_args *a, const symmetry_args *symmetry, const 
 }
 
 /* Prints a refusal with what stands for its letters; returns the exit code. */
-static int refuse(const request_args *a, const symmetry_args *symmetry, const char *say)
+static int refuse(const request_args *a, const char *say)
 {
   char text[256], cords[16];
   size_t n = 0;
@@ -432,8 +467,8 @@ static int refuse(const request_args *a, const symmetry_args *symmetry, const ch
       continue;
     }
     const char letter = *++say;
-    const char *word = letter == 'S'   ? symmetry->given
-                       : letter == 'G' ? a->turning
+    const char *word = letter == 'S'   ? cli_given_of(cli_symmetry_options)
+                       : letter == 'G' ? turning_given()
                        : letter == 'X' ? thr_crossings_name((int)a->asked.crossings)
                        : letter == 'T' ? thr_tour_name((int)a->asked.turning.tour)
                        : letter == 'C' ? thr_turn_cost_name((int)a->asked.turning.cost)
@@ -453,8 +488,8 @@ static int check_numbers(const request_args *a)
   const int cover = cover_of(a);
   if (asked->capacity > 0 && asked->capacity < cover)
     return cli_usage("plan", "--capacity %d leaves no room for --%s %d", asked->capacity,
-                     a->cover_said ? "cover" : "distinct", cover);
-  if (a->cover_said && asked->distinct > 0 && asked->cover < asked->distinct)
+                     cli_given("cover") ? "cover" : "distinct", cover);
+  if (cli_given("cover") && asked->distinct > 0 && asked->cover < asked->distinct)
     return cli_usage("plan", "--cover %d: --distinct %d needs as many passes", asked->cover,
                      asked->distinct);
   if (asked->distinct == 0 || a->most == 0 || a->most >= asked->distinct) return -1;
@@ -469,11 +504,12 @@ static int settle_aims(request_args *a, symmetry_args *symmetry)
 {
   thr_err err = {0};
   thr_request listed = thr_request_default();
-  const char *other = a->objective_said     ? "--objective"
-                      : a->spelled          ? a->spelled
-                      : a->balance          ? "--balance"
-                      : symmetry->preferred ? "--prefer"
-                                            : NULL;
+  static const char *const spelled[] = {"objective", "length-slack", "minimize",
+                                        "turn-cost", "balance",      "prefer"};
+  const char *other = NULL;
+  for (size_t i = 0; !other && i < sizeof spelled / sizeof *spelled; i++) {
+    other = cli_given(spelled[i]);
+  }
   if (!a->aims) return -1;
   if (other) return cli_usage("plan", "--aims says all that is minimized: no %s beside it", other);
   if (thr_aims_parse(a->aims, &listed, &err))
@@ -496,14 +532,13 @@ int request_args_check(request_args *a, symmetry_args *symmetry, thr_request *wa
   request_args_ask(a, symmetry, a->objective, wanted);
 
   /* A picture has to go somewhere. */
-  if (a->plot && !*a->plot) return cli_usage("plan", "an empty name is no place to write to");
   if (a->plot && strcmp(a->plot, "-") == 0)
     return cli_usage("plan", "--plot -: the summary has stdout; name a file");
 
-  const int facts = facts_of(a, symmetry, wanted);
+  const int facts = facts_of(a, wanted);
   for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
     if ((facts & refused[i].all) == refused[i].all && !(facts & refused[i].none))
-      return refuse(a, symmetry, refused[i].say);
+      return refuse(a, refused[i].say);
   }
   return check_numbers(a);
 }

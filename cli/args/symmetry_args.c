@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Options of symmetric threading. */
 #include "cli/args/symmetry_args.h"
+#include "cli/cli.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -14,12 +15,16 @@ symmetry_args symmetry_args_default(void)
 }
 
 /* The aims in the list, then the others in their usual order. */
-static bool parse_prefer(const char *command, const char *value, thr_aim prefer[THR_N_AIMS])
+static bool take_prefer(void *into, const cli_option *option, const char *value)
 {
+  symmetry_args *a = into;
+  const char *command = cli_command_name();
   bool taken[THR_N_AIMS] = {false};
   int n = 0;
-  const char *word = value, *end = value;
+  (void)option;
   if (!*value) cli_usage(command, "--prefer: what counts first?");
+
+  const char *word = value, *end = value;
   for (bool more = *value; more; more = *end, word = end + 1) {
     char name[16];
     int aim;
@@ -31,37 +36,36 @@ static bool parse_prefer(const char *command, const char *value, thr_aim prefer[
       return false;
     }
     taken[aim] = true;
-    prefer[n++] = (thr_aim)aim;
+    a->prefer[n++] = (thr_aim)aim;
   }
-  for (int aim = 0; aim < THR_N_AIMS && n; aim++)
-    if (!taken[aim]) prefer[n++] = (thr_aim)aim;
+
+  for (int aim = 0; aim < THR_N_AIMS && n; aim++) {
+    if (!taken[aim]) {
+      a->prefer[n++] = (thr_aim)aim;
+    }
+  }
   return n > 0;
 }
 
-bool symmetry_option(symmetry_args *a, const char *command, int option, const char *value, bool *ok)
+static bool take_group(void *into, const cli_option *option, const char *value)
 {
-  thr_symmetry_options *options = &a->options;
-  const char *name;
-  switch (option) {
-  case OPTION_SYMMETRY_GROUP:
-    name = "--group";
-    *ok = *value && strlen(value) < sizeof options->group;
-    if (*ok)
-      snprintf(options->group, sizeof options->group, "%s", value);
-    else
-      cli_usage(command, "--group %s: expected a number or a name from `thread symmetries`", value);
-    break;
-  case OPTION_SYMMETRY_GEOMETRIC:
-    name = "--geometric";
-    *ok = cli_double(command, name, value, 0, 1, &options->geometric);
-    break;
-  case OPTION_SYMMETRY_PREFER:
-    name = "--prefer";
-    *ok = parse_prefer(command, value, a->prefer);
-    a->preferred = true;
-    break;
-  default: return false;
-  }
-  if (!a->given) a->given = name;
-  return true;
+  symmetry_args *a = into;
+  (void)option;
+  snprintf(a->options.group, sizeof a->options.group, "%s", value);
+  if (*value && strlen(value) < sizeof a->options.group) return true;
+  cli_usage(cli_command_name(), "--group %s: expected a number or a name from `thread symmetries`",
+            value);
+  return false;
 }
+
+const cli_option cli_symmetry_options[] = {
+    {"group", .value = "ID|NAME", .kind = CLI_OTHER, .take = take_group,
+     .help = "the threading under this group: its number in the table of `thread symmetries`, or "
+             "its name (C4v)"},
+    {"geometric", .value = "TOL", .kind = CLI_AMOUNT,
+     .offset = offsetof(symmetry_args, options.geometric), .high = 1,
+     .help = "only symmetries of the shape: each node within TOL of the framework's size, 0 to 1 "
+             "(default: those of the graph, whatever its shape)"},
+    {"prefer", .value = "overlap,steps,paths,turning", .kind = CLI_OTHER, .take = take_prefer,
+     .help = "what counts first, second, .. under each group; the others follow"},
+    {0}};

@@ -2,6 +2,7 @@
 /* thread advise: how many cords, and from where. */
 #include "cli/advice.h"
 #include "cli/args/args.h"
+#include "cli/args/request_args.h"
 #include "cli/cli.h"
 #include "cli/print/print.h"
 #include "diagram/overview/charts.h"
@@ -21,48 +22,23 @@
 #include <string.h>
 #include <unistd.h>
 
-static const char help[] =
+static const char intro[] =
     "thread advise FRAME [options]: how many cords, and from where, so that a hand can pull "
     "them\n\n"
     "Examples:\n"
     "  thread advise dome.json                       a table, one line of it recommended, and the "
     "command that makes its plan\n"
     "  thread advise dome.json -T svg -o advice.svg  pull and cord against the number of cords\n"
-    "  thread advise shell.obj --feet lowest --seating 2 --mu 0.25\n\n"
-    "Options:\n"
-    "  -T, --type text|svg  a table (default), or a picture\n"
-    "  -o, --output FILE    (default: stdout)\n"
-    "      --json           the table as JSON, with -T svg on stdout beside the picture in -o\n"
-    "      --hand N         what the pull is to stay within, in newton, even at the upper end of "
-    "the band of mu\n"
-    "                       (default: 10, what a hand manages time after time; one: 50, the most; "
-    "two: 100)\n"
-    "      --cover N        at least N passes over every interface (default: 1)\n"
-    "      --time-limit S   for all rows together, 0 = until every search has ended\n"
-    "                       (without it some two seconds, counted: the same rows on every "
-    "machine)\n" GUARD_MEMORY_HELP CLI_FRAME_HELP
-    "  -q, --quiet          no notes       -v, --verbose  what the solver does       -h, --help\n\n"
+    "  thread advise shell.obj --feet lowest --seating 2 --mu 0.25\n";
+static const char outro[] =
     "Every row is a plan whose cord that turns most turns as little as was found in its part of "
-    "the time. Steps are the passes "
-    "of\n"
-    "those cords that are no mirrored or turned copies of others, and their ends if they may be "
-    "anywhere: what is to be "
-    "learned.\n"
+    "the time. Steps are the\n"
+    "passes of those cords that are no mirrored or turned copies of others, and their ends if they "
+    "may be anywhere: what\n"
+    "is to be learned.\n"
     "Exit codes: 0 a row is recommended, 2 usage, 3 bad input, 4 no row stays within the hand "
     "(table printed), or no\n"
     "threading, 5 no row in time\n";
-
-enum { OPTION_HAND = OPTION_FREE, OPTION_COVER, OPTION_JSON };
-
-static const struct option table[] = {CLI_COMMON_OPTIONS,
-                                      CLI_FRAME_OPTIONS,
-                                      GUARD_OPTIONS,
-                                      {"type", required_argument, NULL, 'T'},
-                                      {"output", required_argument, NULL, 'o'},
-                                      {"hand", required_argument, NULL, OPTION_HAND},
-                                      {"cover", required_argument, NULL, OPTION_COVER},
-                                      {"json", no_argument, NULL, OPTION_JSON},
-                                      {NULL, 0, NULL, 0}};
 
 enum { TYPE_TEXT, TYPE_SVG, N_TYPES };
 
@@ -82,38 +58,52 @@ static const char *type_name(int type)
   return type == TYPE_SVG ? "svg" : "text";
 }
 
-static bool take_option(arguments *a, int option, const char *value)
+static bool take_hand(void *into, const cli_option *option, const char *value)
 {
-  bool ok = true;
-  if (cli_frame_option(&a->frame, "advise", option, value, &ok) ||
-      guard_option(&a->guard, "advise", option, value, &ok))
-    return ok;
-  switch (option) {
-  case 'T': return cli_choose("advise", "--type", value, type_name, N_TYPES, &a->type);
-  case 'o': a->output = value; return true;
-  case OPTION_HAND: return cli_hand("advise", value, &a->hand);
-  case OPTION_COVER: return cli_int("advise", "--cover", value, 1, 100, &a->request.cover);
-  case OPTION_JSON: a->json = true; return true;
-  default: return true;
-  }
+  (void)option;
+  return cli_hand("advise", value, &((arguments *)into)->hand);
 }
+
+#define AT(member) .offset = offsetof(arguments, member)
+
+static const cli_option own_options[] = {
+    {"type", 'T', NULL, "a table (default), or a picture", .kind = CLI_WORD, AT(type),
+     .word = type_name, .n_words = N_TYPES},
+    {"output", 'o', "FILE", "(default: stdout)", .kind = CLI_OUTPUT, AT(output)},
+    {"json", .kind = CLI_FLAG, AT(json),
+     .help = "the table as JSON, with -T svg on stdout beside the picture in -o"},
+    {"hand", .value = "N", .kind = CLI_OTHER, .take = take_hand,
+     .help = "what the pull is to stay within, in newton, even at the upper end of the band of mu "
+             "(default: 10, what a hand manages time after time; one: 50, the most; two: 100)"},
+    {0}};
+
+static const cli_option time_options[] = {
+    {GUARD_TIME_LIMIT, .help = "for all rows together, 0 = until every search has ended (without "
+                               "it some two seconds, counted: the same rows on every machine)"},
+    {0}};
 
 static int parse(int argc, char **argv, arguments *a)
 {
-  int done, option;
+  static const cli_syntax syntax = {"advise", intro, outro};
+  static cli_option asked[2];
   *a = (arguments){.frame = cli_frame_args_default(),
                    .guard = guard_limits_default(),
                    .request = thr_request_default(),
                    .output = "-",
                    .hand = thr_hand_always};
-  while ((option = cli_physics_option(&a->physics, argc, argv, "advise",
-                                      ":" CLI_COMMON_LETTERS "T:o:", table, help, &done)) != -1)
-    if (!take_option(a, option, optarg)) return EXIT_USAGE;
-  if (done >= 0) return done;
+  asked[0] = request_option_of("cover");
+  const cli_group groups[] = {{"Options", own_options, a},
+                              {NULL, asked, &a->request},
+                              {NULL, time_options, &a->guard},
+                              {NULL, guard_memory_options, &a->guard},
+                              {"Framework", cli_frame_options, &a->frame},
+                              {CLI_PHYSICS_HEADING, cli_physics_options(), &a->physics},
+                              {NULL}};
+  const int code = cli_options(argc, argv, &syntax, groups);
+  if (code >= 0) return code;
   if (optind + 1 != argc)
     return cli_usage("advise", optind == argc ? "which framework?" : "one framework at a time");
   a->path = argv[optind];
-  if (!*a->output) return cli_usage("advise", "an empty name is no place to write to");
   if (a->json && a->type == TYPE_SVG && strcmp(a->output, "-") == 0)
     return cli_usage("advise",
                      "--json and the picture both want stdout; -o FILE takes the picture");
@@ -233,7 +223,7 @@ static int write_advice(const arguments *a, const thr_frame *frame, const thr_ad
   int code = EXIT_OK;
   thr_plan chosen;
   const bool laid_out = chosen_plan(l, &a->request, advice, &chosen);
-  advice_command_options(&a->frame, &a->physics, &options);
+  advice_command_options(&a->physics, &options);
   if (advice->chosen >= 0)
     advice_put_command(&command, a->path, options.data ? options.data : "",
                        &advice->row[advice->chosen]);

@@ -19,26 +19,16 @@
 #include <string.h>
 #include <sys/stat.h>
 
-static const char help[] =
+static const char intro[] =
     "thread check PLAN.. [--json]: verify coverage, ends, metrics and the proof of optimality; no "
     "solver is used\n\n"
     "Examples:\n"
     "  thread check plan.json\n"
-    "  thread plan dome.obj -o - | thread check -\n\n"
-    "Options:\n"
-    "      --json           one JSON line per plan\n"
-    "      --time-limit S   give up after S seconds, 0 = never (default: 7 for each plan of up to "
-    "20 MB)\n" GUARD_MEMORY_HELP "  -q, --quiet          print nothing for plans that hold       "
-    "-v, --verbose  what proofs are made of, crossings\n"
-    "  -h, --help\n\n"
+    "  thread plan dome.obj -o - | thread check -\n";
+static const char outro[] =
+    "-q prints nothing for plans that hold; -v what proofs are made of, and crossings.\n"
     "Exit codes: 0 all plans hold, 1 a violation (printed with its place), 2 usage, 3 not a plan,\n"
     "5 not verified in the time or memory\n";
-
-enum { OPTION_JSON = OPTION_FREE };
-static const struct option table[] = {CLI_COMMON_OPTIONS,
-                                      GUARD_OPTIONS,
-                                      {"json", no_argument, NULL, OPTION_JSON},
-                                      {NULL, 0, NULL, 0}};
 
 /* Of a plan for the least turning, whether its length is the shortest or not: that is another
  * claim. */
@@ -285,30 +275,45 @@ static int put_unjudged(const char *name, bool json, const guard_end *end)
   return put_one(name, json, NULL, &err, end->reason == GUARD_DIED ? EXIT_INTERNAL : EXIT_LIMIT);
 }
 
+/* What was asked. */
+typedef struct {
+  guard_limits guard;
+  bool json;
+} arguments;
+
+static const cli_option own_options[] = {{"json", .kind = CLI_FLAG,
+                                          .offset = offsetof(arguments, json),
+                                          .help = "one JSON line per plan"},
+                                         {0}};
+static const cli_option time_options[] = {
+    {GUARD_TIME_LIMIT,
+     .help = "give up after S seconds, 0 = never (default: 7 for each plan of up to 20 MB)"},
+    {0}};
+
 int cmd_check(int argc, char **argv)
 {
-  int done, o, code = EXIT_OK;
-  bool json = false, ok = true;
-  guard_limits guard = guard_limits_default();
+  static const cli_syntax syntax = {"check", intro, outro};
+  arguments a = {.guard = guard_limits_default()};
   guard_end end;
-  while ((o = cli_next_option(argc, argv, "check", ":" CLI_COMMON_LETTERS, table, help, &done)) !=
-         -1) {
-    if (o == OPTION_JSON) json = true;
-    if (guard_option(&guard, "check", o, optarg, &ok) && !ok) return EXIT_USAGE;
-  }
-  if (done >= 0) return done;
+  const cli_group groups[] = {{"Options", own_options, &a},
+                              {NULL, time_options, &a.guard},
+                              {NULL, guard_memory_options, &a.guard},
+                              {NULL}};
+  int code = cli_options(argc, argv, &syntax, groups);
+  if (code >= 0) return code;
+  code = EXIT_OK;
   if (optind == argc) return cli_usage("check", "which plan?");
 
   /* What cannot be judged in its time leaves the plans behind it to another process. */
   for (char **path = argv + optind, **last = argv + argc; path < last;) {
-    if (!guard_fork(&guard, &end))
-      return check_all(path, (int)(last - path), json, guard.seconds < 0);
+    if (!guard_fork(&a.guard, &end))
+      return check_all(path, (int)(last - path), a.json, a.guard.seconds < 0);
     if (end.reason == GUARD_DONE || end.reason == GUARD_INTERRUPTED || end.kept.length == 0) {
       const int one = guard_conclude(&end, "not verified");
       return one > code ? one : code;
     }
     path += atoi(end.kept.data);
-    const int one = put_unjudged(name_of(*path++), json, &end);
+    const int one = put_unjudged(name_of(*path++), a.json, &end);
     if (one > code) code = one;
     thr_text_destroy(&end.kept);
   }

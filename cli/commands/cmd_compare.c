@@ -23,7 +23,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char help[] =
+static const char intro[] =
     "thread compare PLAN.. [options]: plans of one framework side by side; * marks the best of "
     "each row\n\n"
     "Examples:\n"
@@ -36,54 +36,14 @@ static const char help[] =
     "  thread compare data/dome7-*.json --method structure --load D4=1 --schedule \"all: pull both "
     "20\"\n"
     "                                                          by what they carry, drawn in and "
-    "afterwards\n\n"
-    "Options:\n"
-    "      --method joint|capstan|structure|all\n"
-    "                       what to rank by (default: joint); the closed form is always shown "
-    "beside it\n" PULL_HELP(
-        "largest holding pull of the plans") "      --load NODE=N    structure: rank by what the "
-                                             "plans carry, too: newtons that "
-                                             "hang on a node, or\n"
-                                             "                       NODE=FX,FY,FZ; several with "
-                                             "semicolons\n"
-                                             "      --load-pulls N   with so many newtons at all "
-                                             "ends (default: 10)\n"
-                                             "      --schedule TEXT  structure: and after what is "
-                                             "done to the cords, as `thread "
-                                             "eval` takes it\n"
-                                             "      --tilt DEG       structure: leaning ground, as "
-                                             "`thread eval` takes it\n"
-                                             "      --clamp-feet     structure: feet are held in "
-                                             "place\n"
-                                             "      --taut           structure: turns of the tight "
-                                             "cord\n"
-                                             "      --rays N         structure: rays of the "
-                                             "friction pyramids, 8 to 48\n"
-                                             "      --plot FILE      write a picture as SVG: the "
-                                             "plans side by side, small, with "
-                                             "pull, cord and number of cords\n"
-                                             "      --json           as JSON\n"
-                                             "  -q, --quiet          no notes and no progress      "
-                                             " -h, --help\n\n"
-                                             "A difference within the measured error is a tie. The "
-                                             "simulation of the structure "
-                                             "runs twice for each plan, the second time "
-                                             "with half\n"
-                                             "the time step; only what both runs and their errors "
-                                             "tell apart is no tie. It takes "
-                                             "minutes; --no-dynamics is fast;\n"
-                                             "it knows no loads, leaning ground, held feet and "
-                                             "schedules, and is left out with "
-                                             "them.\n";
-
-enum { OPTION_PLOT = OPTION_PULL_FREE, OPTION_SCHEDULE };
-static const struct option table[] = {CLI_COMMON_OPTIONS,
-                                      PULL_OPTIONS,
-                                      GUARD_OPTIONS,
-                                      LOAD_OPTIONS,
-                                      {"plot", required_argument, NULL, OPTION_PLOT},
-                                      {"schedule", required_argument, NULL, OPTION_SCHEDULE},
-                                      {NULL, 0, NULL, 0}};
+    "afterwards\n";
+static const char outro[] =
+    "A difference within the measured error is a tie. The simulation of the structure runs twice "
+    "for each plan, the second\n"
+    "time with half the time step; only what both runs and their errors tell apart is no tie. It "
+    "takes minutes;\n"
+    "--no-dynamics is fast; it knows no loads, leaning ground, held feet and schedules, and is "
+    "left out with them.\n";
 
 enum {
   CAPSTAN,
@@ -657,7 +617,7 @@ static thr_status run_simulations(const pull_args *a, entry *e, const int *plan,
   settled *found = thr_calloc(2 * (size_t)n, sizeof *found);
   bool *finished = thr_calloc(2 * (size_t)n, sizeof *finished);
   thr_status st = found && finished
-                      ? thr_workers_run(&work, a->options.processes, &limits, found, finished, err)
+                      ? thr_workers_run(&work, cli_processes(), &limits, found, finished, err)
                       : thr_nomem(err);
   for (int i = 0; i < 2 * n && found && finished; i++) {
     entry *of = &e[plan[i / 2]];
@@ -752,57 +712,76 @@ static int check_deeds(pull_args *a, deeds *d)
   const bool structure = a->method == THR_STRUCTURE || a->method == PULL_ALL_METHODS,
              any = load_any(&d->load) || d->schedule;
   if (!structure && (any || d->load.rays || d->load.taut))
-    return cli_usage("compare", "--load, --tilt, --clamp-feet, --taut, --rays and --schedule are "
-                                "of --method structure or all");
+    return cli_usage("compare",
+                     "--load, --tilt, --clamp-feet, --taut, --tune rays and --schedule are "
+                     "of --method structure or all");
   if (d->schedule && !*d->schedule)
     return cli_usage("compare", "--schedule: an empty one does nothing");
   if (d->load.n_pulls && !d->load.load) return cli_usage("compare", "--load-pulls needs --load");
   if (d->load.n_pulls > 1)
     return cli_usage("compare", "--load-pulls: one pull, to rank by what is carried at it");
   if (any && a->options.start > 0)
-    return cli_usage("compare", "--start is of the simulation, which knows no loads and schedules");
+    return cli_usage("compare",
+                     "--tune start is of the simulation, which knows no loads and schedules");
   if (d->load.load && !d->load.n_pulls) d->load.pulls[d->load.n_pulls++] = 10;
   if (any) a->options.dynamics = false;
   return EXIT_OK;
 }
 
+/* What was asked. */
+typedef struct {
+  pull_args pull;
+  guard_limits guard;
+  deeds deeds;
+  const char *plot;
+} arguments;
+
+#define AT(member) .offset = offsetof(arguments, member)
+
+static const cli_option own_options[] = {
+    {"method", .value = "joint|capstan|structure|all", .kind = CLI_WORD, AT(pull.method),
+     .word = pull_method_name, .n_words = PULL_ALL_METHODS + 1,
+     .help = "what to rank by (default: joint); the closed form is always shown beside it"},
+    {"schedule", .value = "TEXT", .kind = CLI_TEXT, AT(deeds.schedule),
+     .help = "structure: and after what is done to the cords, as `thread eval` takes it"},
+    {"plot", .value = "FILE", .kind = CLI_OUTPUT, AT(plot),
+     .help = "write a picture as SVG: the plans side by side, small, with pull, cord and number of "
+             "cords"},
+    {0}};
+
 int cmd_compare(int argc, char **argv)
 {
-  int done, option;
-  bool ok;
-  pull_args a;
-  guard_limits guard = guard_limits_default();
+  static const cli_syntax syntax = {"compare", intro, outro};
+  arguments asked = {.guard = guard_limits_default()};
   guard_end end;
-  const char *plot = NULL;
-  deeds d = {0};
-  pull_args_init(&a, THR_JOINT);
-  while ((option = cli_physics_option(&a.physics, argc, argv, "compare",
-                                      ":" CLI_COMMON_LETTERS PULL_LETTERS, table, help, &done)) !=
-         -1) {
-    if (option == OPTION_PLOT) plot = optarg;
-    if (option == OPTION_SCHEDULE) d.schedule = optarg;
-    if (plot && !*plot) return cli_usage("compare", "an empty name is no place to write to");
-    if ((pull_option(&a, "compare", option, optarg, &ok) ||
-         guard_option(&guard, "compare", option, optarg, &ok) ||
-         load_option(&d.load, "compare", option, optarg, &ok)) &&
-        !ok)
-      return EXIT_USAGE;
-  }
-  if (done >= 0) return done;
-  int n = argc - optind;
+  pull_args_init(&asked.pull, THR_JOINT);
+  const cli_group groups[] = {{"Options", own_options, &asked},
+                              {NULL, pull_options, &asked.pull},
+                              {NULL, cli_processes_options, NULL},
+                              {NULL, pull_run_options, &asked.pull},
+                              {NULL, guard_options, &asked.guard},
+                              {"What acts on the structure, to rank by what the plans carry",
+                               cli_load_options, &asked.deeds.load},
+                              {CLI_PHYSICS_HEADING, cli_physics_options(), &asked.pull.physics},
+                              {cli_tuned, pull_tuned, &asked.pull},
+                              {cli_tuned, cli_load_tuned, &asked.deeds.load},
+                              {NULL}};
+  int code = cli_options(argc, argv, &syntax, groups);
+  if (code >= 0) return code;
+  const int n = argc - optind;
   if (n < 1) return cli_usage("compare", "which plans?");
-  if (a.json && plot && strcmp(plot, "-") == 0)
+  if (asked.pull.json && asked.plot && strcmp(asked.plot, "-") == 0)
     return cli_usage("compare", "--json and --plot - both want stdout");
-  int code = pull_check(&a, "compare");
-  if (!code) code = check_deeds(&a, &d);
+  code = pull_check(&asked.pull, "compare");
+  if (!code) code = check_deeds(&asked.pull, &asked.deeds);
   if (code) return code;
-  if (guard_fork(&guard, &end)) return guard_conclude(&end, "no comparison");
+  if (guard_fork(&asked.guard, &end)) return guard_conclude(&end, "no comparison");
   entry *e = thr_calloc((size_t)n, sizeof *e);
   if (!e) {
     cli_error("out of memory");
     return EXIT_INTERNAL;
   }
-  code = compare(&a, &d, argv + optind, n, e, plot);
+  code = compare(&asked.pull, &asked.deeds, argv + optind, n, e, asked.plot);
   for (int i = 0; i < n; i++) {
     thr_plan_destroy(&e[i].plan);
     for (int k = 0; k < THR_N_METHODS; k++)

@@ -4,6 +4,7 @@
 #include "cli/cli.h"
 #include "graph/framework/make.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -12,43 +13,56 @@ static const char
     *wanted; /* the option whose values are looked for, as it was typed; NULL = all options */
 static bool found;
 
-static void put(void *user, const char *word)
+/* The words that the value of an option may be, with what each is; of others those of its value
+ * that are words: "lowest|FILE" has one. */
+static void put_values(const cli_option *option)
 {
-  (void)user;
-  found = true;
-  puts(word);
-}
-
-static bool is_wanted(const cli_listed *option)
-{
-  if (wanted[1] != '-') return option->letter && wanted[1] == option->letter && wanted[2] == '\0';
-  return strstr(option->name, wanted + 2) == option->name;
-}
-
-/* Is it the first of its name that the help lists? */
-static bool find_listed(const struct option *table, const char *help, const char *name,
-                        cli_listed *out)
-{
-  for (const char *at = help; cli_listed_next(&at, table, out);)
-    if (strcmp(out->name, name) == 0) return true;
-  return false;
-}
-
-/* A line for each option that the command knows: the word, a tab, what its help says first. */
-static void show(const struct option *table, const char *help)
-{
-  cli_listed option;
-  if (wanted) {
-    for (const char *at = help; !found && cli_listed_next(&at, table, &option);)
-      if (is_wanted(&option)) cli_listed_values(&option, put, NULL);
-    return;
-  }
-  for (const struct option *o = table; o->name; o++) {
-    if (find_listed(table, help, o->name, &option))
-      printf("--%s\t%.*s\n", o->name, option.length, option.text);
+  for (int i = 0; option->word && i < option->n_words; i++) {
+    found = true;
+    if (option->meaning)
+      printf("%s\t%s\n", option->word(i), option->meaning(i));
     else
-      printf("--%s\n", o->name);
+      puts(option->word(i));
   }
+  const char *word = option->word || !option->value ? "" : option->value;
+  while (*word) {
+    const int n = (int)strcspn(word, "|");
+    if (islower((unsigned char)*word) && strchr(option->value, '|') &&
+        strcspn(word, ",.") >= (size_t)n) {
+      found = true;
+      printf("%.*s\n", n, word);
+    }
+    word += n + (word[n] == '|');
+  }
+}
+
+/* A line for each option that is shown: the word, a tab, how its help begins. */
+static void show_rows(const cli_option *option)
+{
+  const int most = 70;
+  for (; option->name; option++) {
+    const bool is_wanted =
+        wanted && (wanted[1] != '-' ? option->letter && wanted[1] == option->letter
+                                    : strstr(option->name, wanted + 2) == option->name);
+    if (is_wanted && !found) put_values(option);
+    if (!wanted && option->help) {
+      int n = (int)strcspn(option->help, "\n");
+      if (n > most) {
+        for (n = most; n > 0 && option->help[n] != ' ';) {
+          n--;
+        }
+      }
+      printf("--%s\t%.*s%s\n", option->name, n, option->help, option->help[n] ? " .." : "");
+    }
+  }
+}
+
+static void show(const cli_group *groups)
+{
+  for (const cli_group *group = groups; group->option; group++) {
+    if (group->heading != cli_tuned) show_rows(group->option);
+  }
+  show_rows(cli_common_options);
 }
 
 static const cli_command *find_command(const char *name)

@@ -7,26 +7,28 @@
 
 #include <stdio.h>
 
-static const char help[] =
+static const char intro[] =
     "thread convert FRAME [options]: a framework, read and checked, in another format\n\n"
     "Examples:\n"
     "  thread convert shell.stl --flat 1 -o shell.obj    the mesh's edges, without diagonals of "
     "flat faces\n"
     "  thread convert dome.obj --scale 1000 --units mm --feet lowest -o dome.json\n"
-    "  thread convert - -T csv < dome.json | wc -l\n\n"
-    "Options:\n"
-    "  -o, --output FILE    .json, .obj, .csv, .ply, .dxf or .graphml (default: stdout)\n"
-    "  -T, --type json|obj|csv|ply|dxf|graphml   the format, if the file's name does not say "
-    "(default: json)\n" CLI_FRAME_HELP GUARD_HELP
-    "  -q, --quiet          no notes                                                            "
-    "-h, --help\n";
+    "  thread convert - -T csv < dome.json | wc -l\n";
 
-static const struct option table[] = {CLI_COMMON_OPTIONS,
-                                      CLI_FRAME_OPTIONS,
-                                      GUARD_OPTIONS,
-                                      {"output", required_argument, NULL, 'o'},
-                                      {"type", required_argument, NULL, 'T'},
-                                      {NULL, 0, NULL, 0}};
+/* What was asked. */
+typedef struct {
+  cli_frame_args frame;
+  guard_limits guard;
+  const char *output, *type;
+} arguments;
+
+static const cli_option own_options[] = {
+    {"output", 'o', "FILE", ".json, .obj, .csv, .ply, .dxf or .graphml (default: stdout)",
+     .kind = CLI_TEXT, .offset = offsetof(arguments, output)},
+    {"type", 'T', "json|obj|csv|ply|dxf|graphml",
+     "the format, if the file's name does not say (default: json)", .kind = CLI_TEXT,
+     .offset = offsetof(arguments, type)},
+    {0}};
 
 static int convert(const char *path, const cli_frame_args *args, const thr_format *format,
                    const char *output)
@@ -42,28 +44,19 @@ static int convert(const char *path, const cli_frame_args *args, const thr_forma
 
 int cmd_convert(int argc, char **argv)
 {
-  int done, o;
-  bool ok;
-  const char *output = "-", *type = NULL;
-  cli_frame_args args = cli_frame_args_default();
-  guard_limits guard = guard_limits_default();
+  static const cli_syntax syntax = {"convert", intro, NULL};
+  arguments a = {cli_frame_args_default(), guard_limits_default(), .output = "-"};
   guard_end end;
-  while ((o = cli_next_option(argc, argv, "convert", ":" CLI_COMMON_LETTERS "o:T:", table, help,
-                              &done)) != -1) {
-    if (cli_frame_option(&args, "convert", o, optarg, &ok) ||
-        guard_option(&guard, "convert", o, optarg, &ok)) {
-      if (!ok) return EXIT_USAGE;
-    } else if (o == 'o') {
-      output = optarg;
-    } else if (o == 'T') {
-      type = optarg;
-    }
-  }
-  if (done >= 0) return done;
+  const cli_group groups[] = {{"Options", own_options, &a},
+                              {NULL, guard_options, &a.guard},
+                              {"Framework", cli_frame_options, &a.frame},
+                              {NULL}};
+  const int code = cli_options(argc, argv, &syntax, groups);
+  if (code >= 0) return code;
   if (optind + 1 != argc)
     return cli_usage("convert", optind == argc ? "which framework?" : "one framework at a time");
   const thr_format *format;
-  if (!cli_output_format("convert", output, type, &format)) return EXIT_USAGE;
-  if (guard_fork(&guard, &end)) return guard_conclude(&end, "nothing is written");
-  return convert(argv[optind], &args, format, output);
+  if (!cli_output_format("convert", a.output, a.type, &format)) return EXIT_USAGE;
+  if (guard_fork(&a.guard, &end)) return guard_conclude(&end, "nothing is written");
+  return convert(argv[optind], &a.frame, format, a.output);
 }

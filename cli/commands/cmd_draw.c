@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char help[] =
+static const char intro[] =
     "thread draw PLAN [options]: pictures, steps, tables and lines of a plan\n\n"
     "Examples:\n"
     "  thread draw plan.json -o overview.svg\n"
@@ -21,57 +21,9 @@ static const char help[] =
     "pictures\n"
     "  thread draw plan.json -T steps                steps.txt: row by row, to be ticked off\n"
     "  thread draw plan.json --color tension         after `thread eval plan.json -o plan.json`\n"
-    "  thread draw plan.json --color turning         the sharper a turn the darker\n\n"
-    "Options:\n"
-    "  -T, --type TYPE      what to make (default: svg)\n"
-    "                       svg         overview.svg, the picture of all cords\n"
-    "                       pdf         sheets.pdf: what to prepare, each step with its picture, "
-    "what to do last\n"
-    "                       steps       steps.txt: each path to learn once, then its copies\n"
-    "                       html        viewer.html: step by step in space, in any browser\n"
-    "                       steps.csv   a row per piece that the needle comes to: arms, turn, cord "
-    "used\n"
-    "                       cords.csv   the cut list: a row per cord, with tails and allowances\n"
-    "                       beads.csv   the bead schedule: a row per piece, kinds, arms, bores\n"
-    "                       channels.csv   which pass goes from which arm to which, piece by "
-    "piece, and what crosses\n"
-    "                       obj, gltf   cords.obj, cords.gltf: cords as lines for CAD and Blender\n"
-    "                       all         all of these, into the folder of -o, else the current one\n"
-    "                       mat         mat.pdf: the outlines of all pieces, true to size, to lay "
-    "them out on\n"
-    "                       labels      labels.svg: the pieces' names as outlines, true to size, "
-    "to raise on printed pieces\n"
-    "                       poster      poster.pdf: the overview over several sheets, to glue "
-    "together; --pitch says how large\n"
-    "                       sheets.html sheets.html: the pages of sheets.pdf for any browser, "
-    "which prints them\n"
-    "                       dxf         cords.dxf: a layer, a colour and a polyline in space for "
-    "each cord\n"
-    "                       compas      cords.json: COMPAS polylines\n"
-    "      --lanes          obj, gltf, dxf, compas: passes of an edge side by side, so that none "
-    "coincide\n"
-    "      --up y|z         obj, dxf, compas: which coordinate points up (default: z; glTF always: "
-    "y)\n"
-    "      --color cord|tension|turning   what colours of the overview tell apart: cords "
-    "(default), how\n"
-    "                       tight each pass is, or how sharply the cord turns\n"
-    "      --pitch MM       millimetres on paper per edge (default: 24, less for large "
-    "frameworks)\n" DRAWINGS_HELP GUARD_HELP
-    "  -o, --output FILE|DIR   (default: its usual name in the current folder; - = stdout)\n"
-    "  -h, --help\n\n"
+    "  thread draw plan.json --color turning         the sharper a turn the darker\n";
+static const char outro[] =
     "Exit codes: 0 drawn, 2 usage, 3 not a plan, 5 not all drawn in the time or memory\n";
-
-enum { OPTION_PITCH = OPTION_FREE, OPTION_COLOR, OPTION_LANES };
-static const struct option table[] = {CLI_COMMON_OPTIONS,
-                                      {"type", required_argument, NULL, 'T'},
-                                      {"pitch", required_argument, NULL, OPTION_PITCH},
-                                      {"color", required_argument, NULL, OPTION_COLOR},
-                                      {"lanes", no_argument, NULL, OPTION_LANES},
-                                      {"up", required_argument, NULL, OPTION_UP},
-                                      DRAWINGS_OPTIONS,
-                                      GUARD_OPTIONS,
-                                      {"output", required_argument, NULL, 'o'},
-                                      {NULL, 0, NULL, 0}};
 
 static const char *up_name(int up)
 {
@@ -82,6 +34,39 @@ static const char *type_name(int t)
 {
   return t < thr_documents_count() ? thr_document_type(t) : "all";
 }
+
+static const char *type_meaning(int t)
+{
+  return t < thr_documents_count() ? thr_document_meaning(t)
+                                   : "the usual ones, into the folder of -o, else the current one";
+}
+
+/* What was asked. */
+typedef struct {
+  drawings_args drawings;
+  guard_limits guard;
+  int type, up;
+  const char *output;
+} arguments;
+
+#define AT(member) .offset = offsetof(arguments, member)
+
+static const cli_option own_options[] = {
+    {"type", 'T', "TYPE", "what to make (default: svg)", .kind = CLI_WORD, AT(type),
+     .word = type_name, .meaning = type_meaning},
+    {"output", 'o', "FILE|DIR", "(default: its usual name in the current folder; - = stdout)",
+     .kind = CLI_OUTPUT, AT(output)},
+    {"lanes", .kind = CLI_FLAG, AT(drawings.lines.lanes),
+     .help = "obj, gltf, dxf, compas: passes of an edge side by side, so that none coincide"},
+    {"up", .kind = CLI_WORD, AT(up), .word = up_name, .n_words = 2,
+     .help = "obj, dxf, compas: which coordinate points up (default: z; glTF always: y)"},
+    {"color", .kind = CLI_WORD, AT(drawings.colour), .word = thr_overview_colour_name,
+     .n_words = THR_N_COLOURS,
+     .help = "what colours of the overview tell apart: cords (default), how tight each pass is, or "
+             "how sharply the cord turns"},
+    {"pitch", .value = "MM", .kind = CLI_AMOUNT, AT(drawings.pitch_mm), .low = 2, .high = 200,
+     .help = "millimetres on paper per edge (default: 24, less for large frameworks)"},
+    {0}};
 
 /* One document to output, a file, a folder or NULL. */
 static int draw_one(const thr_plan *plan, int type, const char *output, const drawings_args *a)
@@ -106,38 +91,23 @@ static void note_chains(const thr_plan *plan, const drawings_args *a)
 
 int cmd_draw(int argc, char **argv)
 {
-  int done, option;
-  drawings_args a = {0};
-  guard_limits guard = guard_limits_default();
+  static const cli_syntax syntax = {"draw", intro, outro};
+  static cli_option own[sizeof own_options / sizeof *own_options];
+  arguments asked = {.guard = guard_limits_default(), .up = 1};
   guard_end end;
-  int color = THR_COLOUR_CORD, type = 0;
-  int up = 1;
-  const char *output = NULL;
-  while ((option = cli_next_option(argc, argv, "draw", ":" CLI_COMMON_LETTERS "T:o:", table, help,
-                                   &done)) != -1) {
-    if (option == 'T' &&
-        !cli_choose("draw", "--type", optarg, type_name, thr_documents_count() + 1, &type))
-      return EXIT_USAGE;
-    bool ok = true;
-    if ((drawings_option(&a, "draw", option, optarg, &ok) ||
-         guard_option(&guard, "draw", option, optarg, &ok)) &&
-        !ok)
-      return EXIT_USAGE;
-    if (option == OPTION_PITCH && !cli_double("draw", "--pitch", optarg, 2, 200, &a.pitch_mm))
-      return EXIT_USAGE;
-    if (option == OPTION_COLOR &&
-        !cli_choose("draw", "--color", optarg, thr_overview_colour_name, THR_N_COLOURS, &color))
-      return EXIT_USAGE;
-    if (option == 'o') output = optarg;
-    if (option == OPTION_LANES) a.lines.lanes = true;
-    if (option == OPTION_UP && !cli_choose("draw", "--up", optarg, up_name, 2, &up))
-      return EXIT_USAGE;
-  }
-  if (done >= 0) return done;
-  a.colour = (thr_overview_colour)color;
-  a.lines.up_y = up == 0;
-  bool all = type == thr_documents_count();
-  if (output && !*output) return cli_usage("draw", "an empty name is no place to write to");
+  memcpy(own, own_options, sizeof own_options);
+  own[0].n_words = thr_documents_count() + 1;
+  const cli_group groups[] = {{"Options", own, &asked},
+                              {"Pages", drawings_options, &asked.drawings},
+                              {NULL, guard_options, &asked.guard},
+                              {NULL}};
+  int code = cli_options(argc, argv, &syntax, groups);
+  if (code >= 0) return code;
+  drawings_args *a = &asked.drawings;
+  const char *output = asked.output;
+  const int type = asked.type;
+  const bool all = type == thr_documents_count();
+  a->lines.up_y = asked.up == 0;
   if (all && output && strcmp(output, "-") == 0)
     return cli_usage("draw", "--type all makes several files: -o names a folder");
   if (!all && output && cli_misnamed(output, thr_document_file(type)))
@@ -148,19 +118,20 @@ int cmd_draw(int argc, char **argv)
   const char *folder = !output ? "." : cli_is_folder(output) || all ? output : NULL;
   const int claimed = folder ? drawings_claim("draw", folder, all ? -1 : type) : EXIT_OK;
   if (claimed) return claimed;
-  if (guard_fork(&guard, &end))
+  if (guard_fork(&asked.guard, &end))
     return guard_conclude(&end, all ? "not all documents are drawn" : "nothing is drawn");
   thr_plan plan;
-  int code = cli_read_plan(argv[optind], &plan);
+  code = cli_read_plan(argv[optind], &plan);
   if (code) return code;
   if (all) {
     char names[DRAWINGS_NAMES];
-    drawings_names(&plan, &a, names);
-    code = drawings_write_all(&plan, output ? output : ".", &a);
+    drawings_names(&plan, a, names);
+    code = drawings_write_all(&plan, output ? output : ".", a);
     if (!code && !output) cli_note("drawn in the current folder: %s", names);
-  } else
-    code = draw_one(&plan, type, output, &a);
-  if (!code && (all || thr_document_threads(type))) note_chains(&plan, &a);
+  } else {
+    code = draw_one(&plan, type, output, a);
+  }
+  if (!code && (all || thr_document_threads(type))) note_chains(&plan, a);
   thr_plan_destroy(&plan);
   return code;
 }

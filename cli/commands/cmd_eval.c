@@ -23,7 +23,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char help_method[] =
+static const char intro[] =
     "thread eval PLAN [options]: pull force, friction loss and tension along each cord\n\n"
     "Examples:\n"
     "  thread eval plan.json --mu 0.3 --seating 5         newtons at the pulled ends so that 5 N "
@@ -32,99 +32,15 @@ static const char help_method[] =
     "  thread eval plan.json --method structure --still still.svg   least pull at which the whole "
     "can stand\n"
     "  thread eval plan.json -o plan.json --plot tension.svg        keep it in the plan; draw "
-    "it\n\n"
-    "Options:\n"
-    "      --method capstan|joint|structure\n"
-    "                       capstan: closed form, force = seating tension x exp(mu x turning) "
-    "(default)\n"
-    "                       joint: each joint's friction measured in simulation, along the path "
-    "the tight cord takes\n"
-    "                       structure: least pull at which the rigid beads have any equilibrium "
-    "while the cord is\n"
-    "                       drawn in, and which fails first\n" PULL_HELP("holding pull");
-static const char help_rest[] =
-    "      --tension        print the tension in every pass\n"
-    "      --hand N         the fewest grips with which no pull is above N newtons (one: 50, two: "
-    "100): where, how hard\n"
-    "      --schedule TEXT  what is done to the cords, in order, and the tension that it leaves; "
-    "or a file "
-    "of that:\n"
-    "                       \"A: pull both 40; A: release end 5; A: knot both 0.5; B: knot start; "
-    "C: none;\n"
-    "                       B: grip 37 20 from start; B: pull end 9\" (newtons; passes as in "
-    "steps.txt, or two nodes;\n"
-    "                       a knot may slip by mm: --stiffness, which grips that are let go ask "
-    "for, too)\n" LOAD_HELP CALIBRATE_HELP
-    "  -o, --output FILE    write the plan with this evaluation in it (- = stdout)\n"
-    "      --plot FILE      write a plot of the tension along each cord, as SVG: with a fan over "
-    "the band of "
-    "mu,\n"
-    "                       and with lines at what a hand manages and at --cord-strength; with "
-    "--load: what is "
-    "carried\n"
-    "                       against pull, and which piece moves first\n"
-    "      --cord-strength N   newtons that the straight cord bears: says whether the pull would "
-    "break it, at its\n"
-    "                       knots or over the edges of bores, which leave half of that; structure: "
-    "knotted cords get\n"
-    "                       no tighter\n"
-    "      --knot NAME      that knot: overhand (the default, leaves 45 %), reef 45, figure-eight "
-    "48, bowline 60,\n"
-    "                       anchor 70, clove-hitch 75, two-half-hitches 75, eye-splice 95\n"
-    "      --still FILE     structure: write a picture of the beads before and after the fall, as "
-    "SVG\n"
-    "      --stills FILE    structure: how it comes up from slack as the cords are drawn in, in "
-    "stills, as SVG, and the\n"
-    "                       counterweight that takes (--pull A=both,B=none: by one cord alone); -o "
-    "keeps their poses\n"
-    "      --json           everything as JSON\n"
-    "  -q, --quiet          no notes and no progress       -h, --help\n\n"
+    "it\n";
+static const char outro[] =
     "Pull is the force at the pulled ends of a cord at which its slackest pass has the seating "
-    "tension "
-    "(capstan, joint), or at "
-    "which\n"
-    "the structure can just stand while the cord is drawn in (structure). These are different "
-    "things. The "
-    "closed form takes the cord "
-    "through the middle of "
-    "every\n"
-    "bead; a cord thinner than the bore cuts corners, turns less and needs less: method joint "
-    "knows.\n";
-
-/* One text: as one literal it would be longer than C promises to take. */
-static const char *help(void)
-{
-  static char text[sizeof help_method + sizeof help_rest];
-  snprintf(text, sizeof text, "%s%s", help_method, help_rest);
-  return text;
-}
-
-enum {
-  OPTION_TENSION = OPTION_PULL_FREE,
-  OPTION_PLOT,
-  OPTION_STILL,
-  OPTION_STILLS,
-  OPTION_STRENGTH,
-  OPTION_KNOT,
-  OPTION_SCHEDULE,
-  OPTION_HAND,
-  OPTION_CALIBRATE
-};
-static const struct option table[] = {CLI_COMMON_OPTIONS,
-                                      PULL_OPTIONS,
-                                      GUARD_OPTIONS,
-                                      LOAD_OPTIONS,
-                                      {"tension", no_argument, NULL, OPTION_TENSION},
-                                      {"output", required_argument, NULL, 'o'},
-                                      {"plot", required_argument, NULL, OPTION_PLOT},
-                                      {"still", required_argument, NULL, OPTION_STILL},
-                                      {"stills", required_argument, NULL, OPTION_STILLS},
-                                      {"cord-strength", required_argument, NULL, OPTION_STRENGTH},
-                                      {"knot", required_argument, NULL, OPTION_KNOT},
-                                      {"schedule", required_argument, NULL, OPTION_SCHEDULE},
-                                      {"hand", required_argument, NULL, OPTION_HAND},
-                                      {"calibrate", required_argument, NULL, OPTION_CALIBRATE},
-                                      {NULL, 0, NULL, 0}};
+    "tension (capstan, joint),\n"
+    "or at which the structure can just stand while the cord is drawn in (structure). These are "
+    "different things. The\n"
+    "closed form takes the cord through the middle of every bead; a cord thinner than the bore "
+    "cuts corners, turns less\n"
+    "and needs less: method joint knows.\n";
 
 typedef struct {
   pull_args pull;
@@ -148,46 +64,98 @@ static int calibrate(const arguments *a, bool with_plan)
                               a->pull.json);
 }
 
+static const char *method_meaning(int method)
+{
+  static const char *const meaning[] = {
+      [THR_CAPSTAN] = "closed form, force = seating tension x exp(mu x turning)",
+      [THR_JOINT] = "each joint's friction measured in simulation, along the path the tight cord "
+                    "takes",
+      [THR_STRUCTURE] = "least pull at which the rigid beads have any equilibrium while the cord "
+                        "is drawn in, and which fails first"};
+  return meaning[method];
+}
+
+static bool take_hand(void *into, const cli_option *option, const char *value)
+{
+  (void)option;
+  return cli_hand("eval", value, &((arguments *)into)->pull.options.hand);
+}
+
+#define AT(member) .offset = offsetof(arguments, member)
+
+static const cli_option method_options[] = {{"method", .kind = CLI_WORD, AT(pull.method),
+                                             .word = pull_method_name, .meaning = method_meaning,
+                                             .n_words = THR_N_METHODS,
+                                             .help = "how the pull is found (default: capstan)"},
+                                            {0}};
+
+static const cli_option own_options[] = {
+    {"output", 'o', "FILE", "write the plan with this evaluation in it (- = stdout)",
+     .kind = CLI_OUTPUT, AT(output)},
+    {"tension", .kind = CLI_FLAG, AT(tension), .help = "print the tension in every pass"},
+    {"hand", .value = "N", .kind = CLI_OTHER, .take = take_hand,
+     .help = "the fewest grips with which no pull is above N newtons (one: 50, two: 100): where, "
+             "how hard"},
+    {"schedule", .value = "TEXT", .kind = CLI_OUTPUT, AT(schedule),
+     .help = "what is done to the cords, in order, and the tension that it leaves; or a file of "
+             "that: \"A: pull both 40; A: release end 5; A: knot both 0.5; B: knot start; C: none; "
+             "B: grip 37 20 from start; B: pull end 9\" (every cord has a step; newtons; passes as "
+             "in steps.txt, or two "
+             "nodes; a knot may slip by mm: --stiffness, which grips that are let go ask for, "
+             "too)"},
+    {"plot", .value = "FILE", .kind = CLI_OUTPUT, AT(plot),
+     .help = "write a plot of the tension along each cord, as SVG: with a fan over the band of mu, "
+             "and with lines at what a hand manages and at --cord-strength; with --load: what is "
+             "carried against pull, and which piece moves first"},
+    {"cord-strength", .value = "N", .kind = CLI_AMOUNT, AT(strength), .low = 1e-6, .high = 1e9,
+     .help = "newtons that the straight cord bears: says whether the pull would break it, at its "
+             "knots or over the edges of bores, which leave half of that; structure: knotted cords "
+             "get no tighter"},
+    {"knot", .value = "NAME", .kind = CLI_WORD, AT(knot), .word = thr_knot_name,
+     .help = "that knot: overhand (the default, leaves 45 %), reef 45, figure-eight 48, bowline "
+             "60, anchor 70, clove-hitch 75, two-half-hitches 75, eye-splice 95"},
+    {"still", .value = "FILE", .kind = CLI_OUTPUT, AT(still),
+     .help = "structure: write a picture of the beads before and after the fall, as SVG"},
+    {"stills", .value = "FILE", .kind = CLI_OUTPUT, AT(stills),
+     .help = "structure: how it comes up from slack as the cords are drawn in, in stills, as SVG, "
+             "and the counterweight that takes (--pull A=both,B=none: by one cord alone); -o keeps "
+             "their poses"},
+    {"calibrate", .value = "HANG,IN,OUT", .kind = CLI_OUTPUT, AT(calibrate),
+     .help = "no plan: friction from weights at the bench. HANG hangs from a cord that goes round "
+             "90 degrees; IN at its other end just draws it up, OUT just lets it slip down. "
+             "Several weighings with semicolons. With -o FILE it is kept for --physics FILE. "
+             "bead=DEGREES,..: likewise, also together: a piece slides on others that lie on a "
+             "board tilted by that (mu_bead); ground=DEGREES,..: on what the feet stand on "
+             "(mu_ground). piece: a drawing of the piece to drill, true to size (SVG; -o FILE.stl: "
+             "to print), by --bore mm"},
+    {0}};
+
 static int parse(int argc, char **argv, arguments *a)
 {
-  int done, option;
-  bool ok;
+  static const cli_syntax syntax = {"eval", intro, outro};
+  static cli_option own[sizeof own_options / sizeof *own_options];
   *a = (arguments){.guard = guard_limits_default()};
   pull_args_init(&a->pull, THR_CAPSTAN);
-  while ((option = cli_physics_option(&a->pull.physics, argc, argv, "eval",
-                                      ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table, help(),
-                                      &done)) != -1) {
-    if (pull_option(&a->pull, "eval", option, optarg, &ok) ||
-        guard_option(&a->guard, "eval", option, optarg, &ok) ||
-        load_option(&a->load, "eval", option, optarg, &ok)) {
-      if (!ok) return EXIT_USAGE;
-      continue;
+  memcpy(own, own_options, sizeof own_options);
+  for (cli_option *option = own; option->name; option++) {
+    if (option->word == thr_knot_name) {
+      option->n_words = thr_n_knots;
     }
-    switch (option) {
-    case OPTION_TENSION: a->tension = true; break;
-    case 'o': a->output = optarg; break;
-    case OPTION_PLOT: a->plot = optarg; break;
-    case OPTION_STILL: a->still = optarg; break;
-    case OPTION_STILLS:
-      a->stills = optarg;
-      a->pull.options.erect = true;
-      break;
-    case OPTION_STRENGTH:
-      if (!cli_double("eval", "--cord-strength", optarg, 1e-6, 1e9, &a->strength))
-        return EXIT_USAGE;
-      break;
-    case OPTION_KNOT:
-      if (!cli_choose("eval", "--knot", optarg, thr_knot_name, thr_n_knots, &a->knot))
-        return EXIT_USAGE;
-      break;
-    case OPTION_SCHEDULE: a->schedule = optarg; break;
-    case OPTION_CALIBRATE: a->calibrate = optarg; break;
-    case OPTION_HAND:
-      if (!cli_hand("eval", optarg, &a->pull.options.hand)) return EXIT_USAGE;
-    }
-    if (optarg && !*optarg) return cli_usage("eval", "an empty name is no place to write to");
   }
-  if (done >= 0) return done;
+  const cli_group groups[] = {{"Options", method_options, a},
+                              {NULL, own, a},
+                              {NULL, pull_options, &a->pull},
+                              {NULL, cli_processes_options, NULL},
+                              {NULL, pull_run_options, &a->pull},
+                              {NULL, guard_options, &a->guard},
+                              {"What acts on the structure", cli_load_options, &a->load},
+                              {CLI_PHYSICS_HEADING, cli_physics_options(), &a->pull.physics},
+                              {cli_tuned, pull_tuned, &a->pull},
+                              {cli_tuned, cli_load_tuned, &a->load},
+                              {NULL}};
+  const int code = cli_options(argc, argv, &syntax, groups);
+  if (code >= 0) return code;
+  a->pull.options.erect = a->stills != NULL;
   if (a->calibrate) return calibrate(a, optind < argc);
   if (optind + 1 != argc)
     return cli_usage("eval", optind == argc ? "which plan?"
@@ -214,7 +182,8 @@ static int parse(int argc, char **argv, arguments *a)
   if (load_any(&a->load) && a->pull.method != THR_STRUCTURE)
     return cli_usage("eval", "--load, --tilt and --clamp-feet are of --method structure");
   if ((a->load.rays || a->load.taut) && a->pull.method != THR_STRUCTURE)
-    return cli_usage("eval", "%s is of --method structure", a->load.rays ? "--rays" : "--taut");
+    return cli_usage("eval", "%s is of --method structure",
+                     a->load.rays ? "--tune rays" : "--taut");
   if (a->load.n_pulls && !a->load.load) return cli_usage("eval", "--load-pulls needs --load");
   const char *shows = a->still ? "--still" : a->stills ? "--stills" : NULL;
   if (shows && a->load.load)

@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char help[] =
+static const char intro[] =
     "thread info FRAME [options]: nodes, edges, odd nodes, components, feet, rigidity\n\n"
     "Examples:\n"
     "  thread info dome.obj --feet lowest\n"
@@ -29,16 +29,9 @@ static const char help[] =
     "longer?\n"
     "What can move must be held by joints that lock. A joint is tied if the cord alone holds its "
     "edges\n"
-    "together (--joint tube); joints of solid beads need not be.\n\n"
-    "Options:\n" CLI_FRAME_HELP "      --json           as JSON\n" GUARD_HELP
-    "  -q, --quiet          no notes on what was merged or dropped       -h, --help\n";
+    "together (--joint tube); joints of solid beads need not be.\n";
 
-enum { OPTION_JSON = OPTION_FREE, MOST_DEGREES = 64, MOST_NAMES = 20, MOST_BARS = 50000 };
-static const struct option table[] = {CLI_COMMON_OPTIONS,
-                                      CLI_FRAME_OPTIONS,
-                                      GUARD_OPTIONS,
-                                      {"json", no_argument, NULL, OPTION_JSON},
-                                      {NULL, 0, NULL, 0}};
+enum { MOST_DEGREES = 64, MOST_NAMES = 20, MOST_BARS = 50000 };
 
 typedef struct {
   int degree[MOST_DEGREES + 1]; /* nodes of each degree; the last counts all higher ones too */
@@ -295,25 +288,29 @@ static int tell(const char *path, const cli_frame_args *args, bool json)
   return code;
 }
 
+/* What was asked. */
+typedef struct {
+  cli_frame_args frame;
+  guard_limits guard;
+  bool json;
+} arguments;
+
+static const cli_option own_options[] = {
+    {"json", .kind = CLI_FLAG, .offset = offsetof(arguments, json), .help = "as JSON"}, {0}};
+
 int cmd_info(int argc, char **argv)
 {
-  int done, o;
-  bool json = false, ok;
-  cli_frame_args args = cli_frame_args_default();
-  guard_limits guard = guard_limits_default();
+  static const cli_syntax syntax = {"info", intro, NULL};
+  arguments a = {.frame = cli_frame_args_default(), .guard = guard_limits_default()};
   guard_end end;
-  while ((o = cli_next_option(argc, argv, "info", ":" CLI_COMMON_LETTERS, table, help, &done)) !=
-         -1) {
-    if (cli_frame_option(&args, "info", o, optarg, &ok) ||
-        guard_option(&guard, "info", o, optarg, &ok)) {
-      if (!ok) return EXIT_USAGE;
-    } else if (o == OPTION_JSON) {
-      json = true;
-    }
-  }
-  if (done >= 0) return done;
+  const cli_group groups[] = {{"Options", own_options, &a},
+                              {NULL, guard_options, &a.guard},
+                              {"Framework", cli_frame_options, &a.frame},
+                              {NULL}};
+  const int code = cli_options(argc, argv, &syntax, groups);
+  if (code >= 0) return code;
   if (optind + 1 != argc)
     return cli_usage("info", optind == argc ? "which framework?" : "one framework at a time");
-  if (guard_fork(&guard, &end)) return guard_conclude(&end, "nothing is known");
-  return tell(argv[optind], &args, json);
+  if (guard_fork(&a.guard, &end)) return guard_conclude(&end, "nothing is known");
+  return tell(argv[optind], &a.frame, a.json);
 }

@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-static const char help[] =
+static const char intro[] =
     "thread make SHAPE [options]: an example framework\n\n"
     "Examples:\n"
     "  thread make dome --size 7 -o dome.json        7 x 7 nodes, feet at the four corners\n"
@@ -20,23 +20,7 @@ static const char help[] =
     "  geodesic   geodesic dome standing on its rim (frequency)\n"
     "  sphere     closed geodesic sphere (frequency)\n"
     "  tube       square grid rolled up, standing on its first ring (nodes around)\n"
-    "  honeycomb  hexagonal grid, domed (rings of hexagons)\n\n"
-    "Options:\n"
-    "      --size N         see above\n"
-    "      --rings N        tube: rings along the axis\n"
-    "      --pitch MM       distance between neighbours in mm\n"
-    "      --rise R         dome, honeycomb: height over half span\n"
-    "  -o, --output FILE    .json, .obj, .csv, .ply, .dxf or .graphml (default: JSON on stdout)\n"
-    "  -h, --help\n";
-
-enum { OPTION_SIZE = OPTION_FREE, OPTION_RINGS, OPTION_PITCH, OPTION_RISE };
-static const struct option table[] = {CLI_COMMON_OPTIONS,
-                                      {"size", required_argument, NULL, OPTION_SIZE},
-                                      {"rings", required_argument, NULL, OPTION_RINGS},
-                                      {"pitch", required_argument, NULL, OPTION_PITCH},
-                                      {"rise", required_argument, NULL, OPTION_RISE},
-                                      {"output", required_argument, NULL, 'o'},
-                                      {NULL, 0, NULL, 0}};
+    "  honeycomb  hexagonal grid, domed (rings of hexagons)\n";
 
 static int find_shape(const char *name)
 {
@@ -53,22 +37,41 @@ static int find_shape(const char *name)
 }
 
 typedef struct {
-  const char *output, *size, *rings, *pitch, *rise;
+  thr_make_options wanted; /* usual values of the shape where nothing is said */
+  const char *output;
 } arguments;
 
+#define AT(member) .offset = offsetof(arguments, member)
+
+static const cli_option own_options[] = {
+    {"size", .value = "N", .kind = CLI_COUNT, AT(wanted.size), .low = 1, .high = 1000000,
+     .help = "see above"},
+    {"rings", .value = "N", .kind = CLI_COUNT, AT(wanted.rings), .low = 1, .high = 1000000,
+     .help = "tube: rings along the axis"},
+    {"pitch", .value = "MM", .kind = CLI_AMOUNT, AT(wanted.pitch), .low = 1e-6, .high = 1e9,
+     .help = "distance between neighbours in mm"},
+    {"rise", .value = "R", .kind = CLI_AMOUNT, AT(wanted.rise), .high = 100,
+     .help = "dome, honeycomb: height over half span"},
+    {"output", 'o', "FILE", ".json, .obj, .csv, .ply, .dxf or .graphml (default: JSON on stdout)",
+     .kind = CLI_TEXT, AT(output)},
+    {0}};
+
+/* The usual values of a shape, and over them what was said. */
 static bool apply(const arguments *a, thr_make_options *options)
 {
-  bool has_rise = options->shape == THR_MAKE_DOME || options->shape == THR_MAKE_HONEYCOMB;
-  if ((a->rings && options->shape != THR_MAKE_TUBE) || (a->rise && !has_rise)) {
-    cli_usage("make", "a %s has no %s", thr_shape_name(options->shape),
-              a->rings && options->shape != THR_MAKE_TUBE ? "--rings" : "--rise");
+  const bool has_rise = options->shape == THR_MAKE_DOME || options->shape == THR_MAKE_HONEYCOMB;
+  const char *foreign = cli_given("rings") && options->shape != THR_MAKE_TUBE ? "--rings"
+                        : cli_given("rise") && !has_rise                      ? "--rise"
+                                                                              : NULL;
+  if (foreign) {
+    cli_usage("make", "a %s has no %s", thr_shape_name(options->shape), foreign);
     return false;
   }
-  if (a->size && !cli_int("make", "--size", a->size, 1, 1000000, &options->size)) return false;
-  if (a->rings && !cli_int("make", "--rings", a->rings, 1, 1000000, &options->rings)) return false;
-  if (a->pitch && !cli_double("make", "--pitch", a->pitch, 1e-6, 1e9, &options->pitch))
-    return false;
-  return !a->rise || cli_double("make", "--rise", a->rise, 0, 100, &options->rise);
+  if (cli_given("size")) options->size = a->wanted.size;
+  if (cli_given("rings")) options->rings = a->wanted.rings;
+  if (cli_given("pitch")) options->pitch = a->wanted.pitch;
+  if (cli_given("rise")) options->rise = a->wanted.rise;
+  return true;
 }
 
 static int make(const thr_make_options *options, const thr_format *format, const char *output)
@@ -89,19 +92,11 @@ static int make(const thr_make_options *options, const thr_format *format, const
 
 int cmd_make(int argc, char **argv)
 {
-  int done, option;
+  static const cli_syntax syntax = {"make", intro, NULL};
   arguments a = {.output = "-"};
-  while ((option = cli_next_option(argc, argv, "make", ":" CLI_COMMON_LETTERS "o:", table, help,
-                                   &done)) != -1) {
-    switch (option) {
-    case OPTION_SIZE: a.size = optarg; break;
-    case OPTION_RINGS: a.rings = optarg; break;
-    case OPTION_PITCH: a.pitch = optarg; break;
-    case OPTION_RISE: a.rise = optarg; break;
-    case 'o': a.output = optarg; break;
-    }
-  }
-  if (done >= 0) return done;
+  const cli_group groups[] = {{"Options", own_options, &a}, {NULL}};
+  const int code = cli_options(argc, argv, &syntax, groups);
+  if (code >= 0) return code;
   if (optind + 1 != argc)
     return cli_usage("make", optind == argc
                                  ? "which shape? dome, geodesic, sphere, tube or honeycomb"

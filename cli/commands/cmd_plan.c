@@ -26,7 +26,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static const char help_requests[] =
+static const char intro[] =
     "thread plan FRAME [options]: plan how cord is threaded: shortest or turning least, proved, or "
     "symmetric\n\n"
     "Examples:\n"
@@ -40,88 +40,13 @@ static const char help_requests[] =
     "easily\n"
     "  thread plan dome.obj --objective symmetry     a short path to learn, and its mirrored and "
     "turned copies\n"
-    "  thread make dome | thread plan - -o - | thread check -\n\n"
-    "What is planned:\n" AIMS_HELP CORDS_HELP
-    "      --crossings allow|price|forbid   channels that cross inside a piece: any (default); "
-    "fewer, where cords can be led\n"
-    "                       otherwise at equal length, by more turns (with an aim of turning: at "
-    "equal turning); none, by\n"
-    "                       more turns in any case. Cords that cross each other exchange their "
-    "ends, closed ones are\n"
-    "                       joined and cut elsewhere, if what is asked of single cords allows it "
-    "(--balance, --max-length,\n"
-    "                       --distinct). Not with tube joints or copies\n";
-static const char help_rest[] =
-    "      --gap PERCENT    enough is a plan that is proved to be at most so much above the least "
-    "possible, 0 = the least\n"
-    "                       itself (default: 0 for length, else 1). A search ends there\n"
-    "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never "
-    "(default: 0; other\n"
-    "                       objectives and tube joints: 20). --frontier, --compare-shortest and "
-    "--compare-objectives share\n"
-    "                       an S that is given; else each search has its 20 s. Drawings are made "
-    "whole, and take their time.\n"
-    "                       Without S --max-pull, one cord that turns least, and several by their "
-    "largest turning,\n"
-    "                       count their work instead, some three seconds, ten times as much for "
-    "--max-pull where that\n"
-    "                       finds no cords: the same plan on every machine, later on a busy "
-    "one\n" GUARD_MEMORY_HELP "\n" TURNING_HELP
-    "\nSymmetry (with --objective symmetry; thread symmetries --help says more):\n"
-    "      --group ID|NAME   --geometric TOL   --prefer overlap,steps,paths,turning\n"
-    "\nFramework:\n" CLI_FRAME_HELP;
-static const char help_output[] =
-    "\nOutput:\n"
-    "  -o, --output FILE    write the plan here (- = stdout), and no diagrams unless --draw\n"
-    "      --draw DIR       write the diagrams into this folder, and without -o the plan too\n"
-    "                       (no sheets.pdf for more than 1000 pieces: thread draw PLAN -T pdf "
-    "makes it)\n"
-    "      --force          in a folder named after FRAME, replace another plan (else FRAME-2, "
-    "FRAME-3, ..)\n" DRAWINGS_HELP "      --order starts|hand|planned   cords begin and run so "
-    "that what is threaded holds together: for as little\n"
-    "                       turning as serves, a twentieth more at most (default), a tenth, or not "
-    "at all\n"
-    "      --json           summary as JSON on stdout\n"
-    "      --progress       a line of JSON on stderr each time the plan or its bound is better\n"
-    "      --compare-objectives   pull of this plan beside those for the other objectives, joints "
-    "simulated\n" PULL_RUN_HELP "  -q, --quiet          no notes and no summary       -v, "
-    "--verbose  what the solver does       -h, --help\n\n"
+    "  thread make dome | thread plan - -o - | thread check -\n";
+static const char outro[] =
     "Exit codes: 0 as asked: the shortest, or within the gap; of other aims without --gap and "
     "--time-limit within any gap,\n"
     "which is said; 2 usage, 3 bad input, 4 infeasible or none found, 5 not as asked (plan "
     "written), 70 internal.\n"
     "What is said of cord and beads is stored in the plan; thread eval begins with it.\n";
-
-/* One text: as one literal it would be longer than C promises to take. */
-static const char *help(void)
-{
-  static char text[sizeof help_requests + sizeof help_rest + sizeof help_output];
-  snprintf(text, sizeof text, "%s%s%s", help_requests, help_rest, help_output);
-  return text;
-}
-
-enum {
-  OPTION_COMPARE = OPTION_REQUEST_FREE,
-  OPTION_DRAW,
-  OPTION_FORCE,
-  OPTION_JSON,
-  OPTION_PROGRESS
-};
-
-static const struct option table[] = {CLI_COMMON_OPTIONS,
-                                      CLI_FRAME_OPTIONS,
-                                      PULL_RUN_OPTIONS,
-                                      SYMMETRY_OPTIONS,
-                                      REQUEST_OPTIONS,
-                                      {"compare-objectives", no_argument, NULL, OPTION_COMPARE},
-                                      GUARD_OPTIONS,
-                                      {"output", required_argument, NULL, 'o'},
-                                      {"draw", required_argument, NULL, OPTION_DRAW},
-                                      {"force", no_argument, NULL, OPTION_FORCE},
-                                      DRAWINGS_OPTIONS,
-                                      {"json", no_argument, NULL, OPTION_JSON},
-                                      {"progress", no_argument, NULL, OPTION_PROGRESS},
-                                      {NULL, 0, NULL, 0}};
 
 /* ---- options ---- */
 
@@ -134,48 +59,68 @@ typedef struct {
   thr_request wanted; /* aims, and what belongs to them */
   const char *path, *output, *draw;
   drawings_args drawings;
-  bool json, compare, force;
+  bool json, compare, force, progress;
 } arguments;
+
+#define AT(member) .offset = offsetof(arguments, member)
+
+static const cli_option time_options[] = {
+    {GUARD_TIME_LIMIT,
+     .help = "stop after S seconds with the best plan so far and its gap, 0 = never (default: 0; "
+             "other objectives and tube joints: 20). --frontier, --compare-shortest and "
+             "--compare-objectives share an S that is given; else each search has its 20 s. "
+             "Drawings are made whole, and take their time. Without S --max-pull, one cord that "
+             "turns least, and several by their largest turning, count their work instead, some "
+             "three seconds, ten times as much for --max-pull where that finds no cords: the same "
+             "plan on every machine, later on a busy one"},
+    {0}};
+
+static const cli_option output_options[] = {
+    {"output", 'o', "FILE", "write the plan here (- = stdout), and no diagrams unless --draw",
+     .kind = CLI_OUTPUT, AT(output)},
+    {"draw", .value = "DIR", .kind = CLI_OUTPUT, AT(draw),
+     .help = "write the diagrams into this folder, and without -o the plan too (no sheets.pdf for "
+             "more than 1000 pieces: thread draw PLAN -T pdf makes it)"},
+    {"force", .kind = CLI_FLAG, AT(force),
+     .help = "in a folder named after FRAME, replace another plan (else FRAME-2, FRAME-3, ..)"},
+    {"json", .kind = CLI_FLAG, AT(json), .help = "summary as JSON on stdout"},
+    {"progress", .kind = CLI_FLAG, AT(progress),
+     .help = "a line of JSON on stderr each time the plan or its bound is better"},
+    {"compare-objectives", .kind = CLI_FLAG, AT(compare),
+     .help = "pull of this plan beside those for the other objectives, joints simulated"},
+    {0}};
 
 static int parse(int argc, char **argv, arguments *a)
 {
-  int done, o;
-  bool ok = true;
+  static const cli_syntax syntax = {"plan", intro, outro};
   *a = (arguments){.frame = cli_frame_args_default(),
                    .symmetry = symmetry_args_default(),
                    .request = request_args_default(),
                    .guard = guard_limits_default(),
                    .drawings = {.quick = true}};
   pull_args_init(&a->pull, THR_JOINT);
-  while ((o = cli_physics_option(&a->pull.physics, argc, argv, "plan",
-                                 ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table, help(), &done)) !=
-         -1) {
-    if (cli_frame_option(&a->frame, "plan", o, optarg, &ok) ||
-        pull_option(&a->pull, "plan", o, optarg, &ok) ||
-        symmetry_option(&a->symmetry, "plan", o, optarg, &ok) ||
-        request_option(&a->request, o, optarg, &ok) ||
-        drawings_option(&a->drawings, "plan", o, optarg, &ok) ||
-        guard_option(&a->guard, "plan", o, optarg, &ok)) {
-      if (!ok) return EXIT_USAGE;
-      continue;
-    }
-    switch (o) {
-    case OPTION_COMPARE: a->compare = true; break;
-    case OPTION_DRAW: a->draw = optarg; break;
-    case OPTION_FORCE: a->force = true; break;
-    case OPTION_JSON: a->json = true; break;
-    case OPTION_PROGRESS: progress_begin(); break;
-    case 'o': a->output = optarg; break;
-    }
-    if (!ok) return EXIT_USAGE;
-    if (done >= 0) return done;
-  }
-  if (done >= 0) return done;
+  const cli_group groups[] = {
+      {"What is planned", request_options(REQUEST_PLANNED), &a->request},
+      {NULL, time_options, &a->guard},
+      {NULL, guard_memory_options, &a->guard},
+      {"Least turning (with --objective tortuosity)", request_options(REQUEST_TURNING),
+       &a->request},
+      {"Symmetry (with --objective symmetry; thread symmetries --help says more)",
+       cli_symmetry_options, &a->symmetry},
+      {"Framework", cli_frame_options, &a->frame},
+      {"Output", output_options, a},
+      {NULL, drawings_options, &a->drawings},
+      {NULL, cli_processes_options, NULL},
+      {NULL, pull_run_options, &a->pull},
+      {CLI_PHYSICS_HEADING, cli_physics_options(), &a->pull.physics},
+      {cli_tuned, request_options(REQUEST_TUNED), &a->request},
+      {NULL}};
+  const int code = cli_options(argc, argv, &syntax, groups);
+  if (code >= 0) return code;
+  if (a->progress) progress_begin();
   if (optind + 1 != argc)
     return cli_usage("plan", optind == argc ? "which framework?" : "one framework at a time");
   a->path = argv[optind];
-  if ((a->output && !*a->output) || (a->draw && !*a->draw))
-    return cli_usage("plan", "an empty name is no place to write to");
   if (a->output && cli_no_plan_name("plan", a->output)) return EXIT_USAGE;
   const char *wordy = a->json               ? "--json"
                       : a->compare          ? "--compare-objectives"
@@ -575,7 +520,7 @@ static int print_places(const arguments *a, const thr_plan *p, const char *plan_
   if (!usual) advice_put_hint(p, &text);
   int code = cli_write(&text, "-");
   if (code || !usual) return code;
-  advice_put_after_plan(p, a->path, &a->frame, &a->pull.physics, &text);
+  advice_put_after_plan(p, a->path, &a->pull.physics, &text);
   return cli_write(&text, "-");
 }
 

@@ -248,8 +248,9 @@ static void put_joint(thr_text *text, const thr_plan *plan, const thr_eval *eval
     thr_text_printf(text, "%d of %d turns by closed form, whose error is not known:\n",
                     eval->refused, turns_of(plan));
   put_reason(text, eval->refused_sharp, sharp);
-  put_reason(text, eval->refused_unsettled,
-             "the cord did not slide steadily; try a smaller --time-step or more --iterations");
+  put_reason(
+      text, eval->refused_unsettled,
+      "the cord did not slide steadily; try a smaller --tune time-step or more --tune iterations");
   put_reason(text, eval->refused_outside,
              "out of the simulation's range; try a wider --bore or a smaller --mu");
   if (eval->interpolation > 0)
@@ -273,7 +274,7 @@ static void put_fall(thr_text *text, const thr_plan *plan, const thr_settle *set
     thr_text_append(text, "               this contradicts the limit analysis, which found an "
                           "equilibrium there, or is not known to a\n"
                           "               twentieth: beads creep in the simulation; a smaller "
-                          "--time-step or more --iterations may help\n");
+                          "--tune time-step or more --tune iterations may help\n");
   if (settle->status == THR_SETTLE_LATE)
     thr_text_append(text, "               this is below the pull under which nothing holds it "
                           "(proved): its fall was seen late\n");
@@ -296,9 +297,10 @@ static void put_settle(thr_text *text, const thr_plan *plan, const thr_settle *s
     break;
   case THR_SETTLE_TOO_LARGE: put_too_large(text); break;
   case THR_SETTLE_NEVER_SETTLED:
-    thr_text_append(text, "simulation     not settled: it never came to rest under the pull at its "
-                          "start. Nothing is known of the\n"
-                          "               fall; a larger --start or more --iterations may help\n");
+    thr_text_append(text,
+                    "simulation     not settled: it never came to rest under the pull at its "
+                    "start. Nothing is known of the\n"
+                    "               fall; a larger --start or more --tune iterations may help\n");
     break;
   default:
     if (settle->fall > 0)

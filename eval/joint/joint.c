@@ -371,7 +371,7 @@ static thr_status check_any_measured(const thr_eval *eval, const thr_drag *d, do
     snprintf(why[2], sizeof why[2], "; %d where the cord does not slide steadily", unsettled);
   return thr_fail(err, THR_EINPUT, "no turn could be measured%s%s%s; use %s%s%s--method capstan",
                   why[0], why[1], why[2], outside ? "a wider --bore, " : "",
-                  unsettled ? "a finer --time-step, " : "",
+                  unsettled ? "a finer --tune time-step, " : "",
                   outside || unsettled ? "a smaller --mu, or " : "");
 }
 

@@ -454,7 +454,7 @@ static thr_status lower_pull_in(task *t, double *most, answer *a, thr_err *err)
                                    span)
                         : thr_fail(err, THR_ESOLVER,
                                    "the holding pull is not decided: the solver's numbers do not "
-                                   "suffice; other --rays may help");
+                                   "suffice; other --tune rays may help");
 done:
   answer_destroy(&best);
   return st;

@@ -87,24 +87,24 @@ typedef struct {
 
 typedef struct {
   const char *key;    /* the member */
-  const char *option; /* on the command line; NULL: the key with dashes for underscores */
+  const char *option; /* on the command line; NULL: the key */
   const char
       *in; /* the member of `options` that has it: "turning", "symmetry"; NULL: `options` itself */
   thr_asks kind;
   size_t offset;    /* of the value in thr_request */
   double low, high; /* of a value that is asked for, both inclusive */
   const char *(*name)(int);
-  int n_names; /* of a word: name(0) .. name(n_names - 1) */
-  bool always; /* written, and needed, where it is the default, too */
+  int n_names;              /* of a word: name(0) .. name(n_names - 1) */
+  const char *value, *help; /* of the option: what its value is called (NULL: its words), and what
+                               it does; help NULL: no option of its own */
+  bool tuned;               /* the option is for developers */
+  bool always;              /* written, and needed, where it is the default, too */
   void (*write)(thr_writer *writer, const thr_plan *plan);
   thr_status (*read)(thr_request_reader *reader, const thr_json *object);
 } thr_request_field;
 
 extern const thr_request_field thr_request_fields[];
 extern const int thr_request_n_fields;
-
-/* Returns the row of an option of the command line ("max-length"), or NULL. O(rows). */
-const thr_request_field *thr_request_find(const char *option);
 
 /* Returns where the value of a row is in a request: an int, a double or an enumeration. */
 void *thr_request_value(thr_request *request, const thr_request_field *field);

@@ -3,10 +3,9 @@
  * place in thr_request.
  *
  * From this one table, with one loop each, plan.json is written and read (docs/plan-format.md), and
- * `thread plan` takes its options that are numbers or words. A new wish that is a number or a word
- * is a member of thr_request (graph/plan/request.h), a row here, and a name in REQUEST_OPTIONS
- * (cli/args/request_args.h); what it does is the planner's, and what it means is the checker's
- * (CONTRIBUTING.md, "a wish").
+ * `thread plan` takes and explains its options that are numbers or words. A new wish that is a
+ * number or a word is a member of thr_request (graph/plan/request.h) and a row here; what it does
+ * is the planner's, and what it means is the checker's (CONTRIBUTING.md, "a wish").
  *
  *   {"cover", .kind = THR_ASKS_COUNT, AT(cover), .low = 1, .high = 100, .always = true}
  *
@@ -302,12 +301,20 @@ static thr_status read_symmetry(thr_request_reader *r, const thr_json *object);
 const thr_request_field thr_request_fields[] = {
     {"objective", .kind = THR_ASKS_OTHER,
      .write = write_objective}, /* read first: thr_plan_read_options */
-    {"joint", WORD(thr_joint_name, 2), AT(joint), .always = true},
-    {"cover", COUNT, AT(cover), .low = 1, .high = 100, .always = true},
-    {"capacity", COUNT, AT(capacity), .low = 1, .high = INT32_MAX},
-    {"distinct", COUNT, AT(distinct), .low = 2, .high = 100},
+    {"joint", WORD(thr_joint_name, 2), AT(joint), .always = true,
+     .help = "solid: node beads are rigid pieces (default); tube: the cord ties the edges "
+             "together at every node"},
+    {"cover", COUNT, AT(cover), .low = 1, .high = 100, .always = true, .value = "N",
+     .help = "at least N passes over every interface (default: 1)"},
+    {"capacity", COUNT, AT(capacity), .low = 1, .high = INT32_MAX, .value = "N",
+     .help = "at most N passes over every interface; --bore and --cord-diameter together: as "
+             "many as fit"},
+    {"distinct", COUNT, AT(distinct), .low = 2, .high = 100, .value = "N",
+     .help = "at least N different cords over every interface: two hold planar faces, three "
+             "any (thesis); --cover and --cords are N if not given"},
     {"cords", OTHER(cords), .always = true},
-    {"max_length", AMOUNT, AT(max_length), .low = TINY, .high = INFINITY},
+    {"max_length", .option = "max-length", AMOUNT, AT(max_length), .low = TINY, .high = INFINITY,
+     .value = "L", .help = "no cord longer than L units, as few as it takes"},
     {"max_pull", AMOUNT, AT(max_pull), .low = 1, .high = INFINITY},
     {"balance", .kind = THR_ASKS_OTHER,
      .write = write_balance}, /* read last: thr_plan_read_options */
@@ -316,26 +323,45 @@ const thr_request_field thr_request_fields[] = {
     {"end_counts", .kind = THR_ASKS_OTHER}, /* with ends */
     {"turning", OTHER(turning)},
     {"cost", .option = "turn-cost", .in = "turning", WORD(thr_turn_cost_name, THR_N_TURN_COSTS),
-     AT(turning.cost), .always = true},
+     AT(turning.cost), .always = true,
+     .help = "price of a turn: its angle (default), the sine of half of it, 1 from 90 "
+             "degrees on, or 1 for a U-turn"},
     {"length_slack", .in = "turning", AMOUNT_OR_NULL, AT(turning.length_slack), .high = INFINITY,
      .always = true},
     {"minimize", .in = "turning", OTHER(minimize), .always = true},
-    {"tour", .in = "turning", WORD(thr_tour_name, THR_N_TOURS), AT(turning.tour), .always = true},
-    {"pairings", .in = "turning", WORD(thr_pairings_name, 2), AT(turning.pairings), .always = true},
-    {"nodes", .in = "turning", COUNT, AT(turning.nodes), .low = 1, .high = INT32_MAX},
+    {"tour", .in = "turning", WORD(thr_tour_name, THR_N_TOURS), AT(turning.tour), .always = true,
+     .help = "the least turning (default), or a classical tour through the shortest passes"},
+    {"pairings", .in = "turning", WORD(thr_pairings_name, 2), AT(turning.pairings), .always = true,
+     .help = "of a classical tour: keep to the cheapest pairing at every node, or not "
+             "(default: keep)"},
+    {"nodes", .in = "turning", COUNT, AT(turning.nodes), .low = 1, .high = INT32_MAX, .value = "N",
+     .tuned = true, .help = "the search ends when its tree has N nodes, wherever it runs"},
     {"symmetry", OTHER(symmetry)},
     {"group", .in = "symmetry", OTHER(group), .always = true},
     {"geometric", .in = "symmetry", AMOUNT_OR_NULL, AT(symmetry.geometric), .high = INFINITY,
      .always = true},
     {"counted", .in = "symmetry", OTHER(counted)},
     {"prefer", .in = "symmetry", OTHER(prefer), .always = true},
-    {"order", WORD(thr_order_name, THR_N_ORDERS), AT(order)},
-    {"crossings", WORD(thr_crossings_name, THR_N_CROSSINGS), AT(crossings)},
+    {"order", WORD(thr_order_name, THR_N_ORDERS), AT(order),
+     .help = "cords begin and run so that what is threaded holds together: for as little "
+             "turning as serves, a twentieth more at most (starts, the default), a tenth "
+             "(hand), or not at all"},
+    {"crossings", WORD(thr_crossings_name, THR_N_CROSSINGS), AT(crossings),
+     .help = "channels that cross inside a piece: any (default); fewer, where cords can be "
+             "led otherwise at equal length, by more turns (with an aim of turning: at equal "
+             "turning); none, by more turns in any case. Cords that cross each other "
+             "exchange their ends, closed ones are joined and cut elsewhere, if what is "
+             "asked of single cords allows it. Not with tube joints or copies"},
     {"needles", COUNT, AT(needles), .low = 1, .high = 2},
-    {"engine", WORD(thr_engine_name, 3), AT(engine)},
-    {"confirm", WORD(thr_confirm_name, 3), AT(confirm)},
+    {"engine", WORD(thr_engine_name, 3), AT(engine), .tuned = true,
+     .help = "what finds the shortest passes"},
+    {"confirm", WORD(thr_confirm_name, 3), AT(confirm), .tuned = true,
+     .help = "does GLPK find the same length, exactly?"},
     {"time_limit", AMOUNT, AT(time_limit), .high = INFINITY, .always = true},
-    {"gap", AMOUNT, AT(gap), .high = 100},
+    {"gap", AMOUNT, AT(gap), .high = 100, .value = "PERCENT",
+     .help = "enough is a plan that is proved to be at most so much above the least "
+             "possible, 0 = the least itself (default: 0 for length, else 1). A search ends "
+             "there"},
     {"physics", OTHER(physics), .always = true},
 };
 const int thr_request_n_fields = (int)(sizeof thr_request_fields / sizeof *thr_request_fields);
@@ -347,20 +373,6 @@ static thr_request unsaid(void)
   thr_request request = thr_request_default();
   request.order = THR_ORDER_PLANNED;
   return request;
-}
-
-const thr_request_field *thr_request_find(const char *option)
-{
-  for (int i = 0; i < thr_request_n_fields; i++) {
-    const thr_request_field *field = &thr_request_fields[i];
-    const char *key = field->option ? field->option : field->key, *letter = option;
-    while (*key && (*key == *letter || (*key == '_' && *letter == '-'))) {
-      key++;
-      letter++;
-    }
-    if (!*key && !*letter) return field;
-  }
-  return NULL;
 }
 
 void *thr_request_value(thr_request *request, const thr_request_field *field)

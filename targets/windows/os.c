@@ -279,6 +279,14 @@ int thr_os_processors(void)
   return info.dwNumberOfProcessors > 1 ? (int)info.dwNumberOfProcessors : 1;
 }
 
+int thr_os_columns(int file)
+{
+  CONSOLE_SCREEN_BUFFER_INFO info;
+  return GetConsoleScreenBufferInfo((HANDLE)_get_osfhandle(file), &info)
+             ? info.srWindow.Right - info.srWindow.Left + 1
+             : 0;
+}
+
 static double seconds_of(FILETIME time) /* units of 100 ns */
 {
   return 1e-7 * (4294967296.0 * (double)time.dwHighDateTime + (double)time.dwLowDateTime);

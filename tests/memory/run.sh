@@ -127,7 +127,7 @@ command_fails info frame.json
 command_fails plan frame.json --ends feet -o new.json
 command_fails plan frame.json --ends feet --cords 2 --balance -o new.json
 command_fails plan frame.json --crossings forbid --cords 2 -o new.json
-command_fails plan frame.json --ends feet --engine lp -o new.json
+command_fails plan frame.json --ends feet --tune engine=lp -o new.json
 command_fails plan frame.json --ends feet --objective tortuosity -o new.json
 command_fails plan frame.json --ends feet --objective symmetry -o new.json
 command_fails plan frame.json --ends feet --joint tube -o new.json
@@ -135,7 +135,7 @@ command_fails symmetries frame.json --ends feet
 command_fails advise frame.json --time-limit 0
 command_fails check plan.json
 command_fails eval plan.json --method joint --plot tension.svg
-command_fails eval plan.json --method structure --time-step 10 --iterations 0.1
+command_fails eval plan.json --method structure --tune time-step=10 --tune iterations=0.1
 command_fails eval plan.json --method structure --taut --load B2=1 --load-pulls 5 --schedule "all: pull both 9" -o new.json
 command_fails compare plan.json any.json --method all --no-dynamics
 command_fails draw plan.json -o overview.svg

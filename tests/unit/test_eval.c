@@ -436,7 +436,7 @@ START_TEST(unsettled_joints_are_not_a_simulation)
   thr_eval e;
   thr_err err = {0};
   ck_assert_int_eq(thr_eval_plan(&f, p.cord, 1, THR_JOINT, &o, &none, &e, &err), THR_EINPUT);
-  assert_one_line(&err, "1 where the cord does not slide steadily; use a finer --time-step");
+  assert_one_line(&err, "1 where the cord does not slide steadily; use a finer --tune time-step");
   ck_assert(e.record.cord == NULL && !e.record.present);
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);

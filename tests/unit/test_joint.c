@@ -395,9 +395,9 @@ START_TEST(nothing_measured_is_an_error_with_advice)
     double largest;
     const char *why, *advice, *useless;
   } trials[] = {{nothing_in_range, 3.2, "19 out of range at bore / cord diameter = 2 and mu = 0.1",
-                 "a wider --bore", "--time-step"},
+                 "a wider --bore", "--tune time-step"},
                 {never_steady, 3.2, "19 where the cord does not slide steadily",
-                 "a finer --time-step", "--bore"},
+                 "a finer --tune time-step", "--bore"},
                 {capstan_law, 1e-3, "19 sharper than 0 degrees", "use --method capstan", "--mu"}};
   thr_plan p = random_plan(1, 20);
   const double at[3][3] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};

@@ -141,7 +141,7 @@ function npm(words, more = {}) {
 
 const commandLineTests = {
   'processor time is measured, which searches with a time limit go by': () => {
-    const words = ['plan', 'frame1.json', '--objective', 'tortuosity', '--nodes', '3', '-v', '-o', 'clock.json'], begun = Date.now(), {stderr} = npm(words);
+    const words = ['plan', 'frame1.json', '--objective', 'tortuosity', '--tune', 'nodes=3', '-v', '-o', 'clock.json'], begun = Date.now(), {stderr} = npm(words);
     const told = [...stderr.matchAll(/([0-9.]+) CPU s/g)].map((match) => Number(match[1])), gone = (Date.now() - begun) / 1000;
     assert.ok(told.length > 1 && told[0] < told.at(-1) && told.at(-1) <= gone, `${told.join(', ')} in ${gone} s`);
   },
@@ -283,7 +283,7 @@ async function timesTest(run) {
   await time(run, 'dome 7 x 7, drawn', ['draw', 'plan.json', '-T', 'html', '-o', 'viewer.html'], frame('plan.json'));
   await time(run, 'shell of 1,984 edges, plan', ['plan', 'shell.json', '-q', '-o', 'shell-plan.json'], frame('shell.json'));
   native('make', 'sphere', '--size', '3', '-o', 'sphere.json');
-  const search = ['plan', 'sphere.json', '--objective', 'tortuosity', '--nodes', '31', '--time-limit', '0', '-j', '1', '-q', '-o', 'sphere-plan.json'];
+  const search = ['plan', 'sphere.json', '--objective', 'tortuosity', '--tune', 'nodes=31', '--time-limit', '0', '-j', '1', '-q', '-o', 'sphere-plan.json'];
   await time(run, 'sphere, a search of 31 nodes for little turning', search, frame('sphere.json'));
   await time(run, 'dome 7 x 7, joints', ['eval', 'plan.json', '--method', 'joint', '--processes', '1', '-q'], frame('plan.json'));
 }

@@ -1,0 +1,417 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Options as rows of tables: one parser, one help and one list for completions, for all commands.
+ *
+ * getopt_long finds the words; a row says what is made of them. An option for developers is a row
+ * of a group headed cli_tuned, and is spelled --tune NAME=VALUE. */
+#include "cli/args/options.h"
+#include "cli/args/args.h"
+#include "cli/cli.h"
+#include "graph/os.h"
+#include "graph/suggestion.h"
+#include "graph/text.h"
+
+#include <assert.h>
+#include <getopt.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MOST_OPTIONS = 160, FIRST_VALUE = 256, NAME_SIZE = 40 };
+
+const char cli_tuned[] = "for developers";
+void (*cli_show_options)(const cli_group *groups);
+
+/* What is being parsed: the rows of all groups one after another, as getopt_long wants them. */
+static struct {
+  const char *command;
+  int n;
+  struct option table[MOST_OPTIONS + 1];
+  const cli_option *option[MOST_OPTIONS];
+  void *into[MOST_OPTIONS];
+  bool tuned[MOST_OPTIONS], given[MOST_OPTIONS];
+  const char *value[MOST_OPTIONS]; /* as typed */
+  char dashed[MOST_OPTIONS][NAME_SIZE], letters[MOST_OPTIONS];
+} parser;
+
+/* ---- the options of every command ---- */
+
+static bool be_quiet(void *into, const cli_option *option, const char *value)
+{
+  (void)into, (void)option, (void)value;
+  cli_quiet = true;
+  return true;
+}
+
+static bool be_verbose(void *into, const cli_option *option, const char *value)
+{
+  (void)into, (void)option, (void)value;
+  cli_verbose = true;
+  return true;
+}
+
+const cli_option cli_common_options[] = {
+    {"quiet", 'q', NULL, "no notes, no progress, no summary", .kind = CLI_OTHER, .take = be_quiet},
+    {"verbose", 'v', NULL, "what is done on the way", .kind = CLI_OTHER, .take = be_verbose},
+    {"config", .value = "FILE",
+     .help = "options from a file, as if they stood before the others: thread(1)",
+     .kind = CLI_TEXT},
+    {"help", 'h', NULL, "what stands here", .kind = CLI_SHOWS},
+    {0}};
+
+/* ---- the rows ---- */
+
+static void add_row(const cli_option *option, void *into, bool tuned)
+{
+  const int i = parser.n++;
+  assert(i < MOST_OPTIONS && strlen(option->name) + 8 < NAME_SIZE); /* known when it is compiled */
+  parser.option[i] = option;
+  parser.into[i] = into;
+  parser.tuned[i] = tuned;
+  snprintf(parser.dashed[i], NAME_SIZE, "--%s%s", tuned ? "tune " : "", option->name);
+}
+
+/* --tune itself is a row that getopt_long finds; take_tuned parses its value. */
+static const cli_option tune = {"tune", .value = "NAME=VALUE", .kind = CLI_OTHER};
+
+/* What has a name for its value, or words for it, takes one. */
+static bool takes_value(const cli_option *option)
+{
+  return option->value || option->word;
+}
+
+/* Takes all rows in; those that are not tuned become getopt_long's table and letters. */
+static void join_rows(const cli_syntax *syntax, const cli_group *groups)
+{
+  int letters = 0, n = 0;
+  memset(&parser, 0, sizeof parser);
+  parser.command = syntax->command;
+  for (const cli_option *option = cli_common_options; option->name; option++) {
+    add_row(option, NULL, false);
+  }
+  for (const cli_group *group = groups; group->option; group++) {
+    for (const cli_option *option = group->option; option->name; option++) {
+      add_row(option, group->into, group->heading == cli_tuned);
+    }
+  }
+  add_row(&tune, NULL, false);
+
+  parser.letters[letters++] = ':';
+  for (int i = 0; i < parser.n; i++) {
+    const cli_option *option = parser.option[i];
+    if (parser.tuned[i]) continue;
+    const int takes = !takes_value(option)                       ? no_argument
+                      : option->value && option->value[0] == '[' ? optional_argument
+                                                                 : required_argument;
+    parser.table[n++] = (struct option){option->name, takes, NULL, FIRST_VALUE + i};
+    if (!option->letter) continue;
+    parser.letters[letters++] = option->letter;
+    if (takes == required_argument) {
+      parser.letters[letters++] = ':';
+    }
+  }
+}
+
+/* The row of what getopt_long returned: a letter, or a row's number. */
+static int find_row(int found)
+{
+  for (int i = 0; i < parser.n; i++) {
+    if (found == FIRST_VALUE + i || found == parser.option[i]->letter) return i;
+  }
+  return -1;
+}
+
+/* The number of an option that was given, or -1. */
+static int find_given(const char *name)
+{
+  int i = parser.n - 1;
+  while (i >= 0 && (!parser.given[i] || strcmp(parser.option[i]->name, name) != 0)) {
+    i--;
+  }
+  return i;
+}
+
+const char *cli_given(const char *name)
+{
+  const int i = find_given(name);
+  return i >= 0 ? parser.dashed[i] : NULL;
+}
+
+const char *cli_given_value(const char *name)
+{
+  const int i = find_given(name);
+  return i >= 0 ? parser.value[i] : NULL;
+}
+
+const char *cli_given_of(const cli_option *options)
+{
+  for (; options->name; options++) {
+    const char *given = cli_given(options->name);
+    if (given) return given;
+  }
+  return NULL;
+}
+
+const char *cli_command_name(void)
+{
+  return parser.command;
+}
+
+/* ---- values ---- */
+
+static bool take_word(const cli_option *option, const char *name, const char *value, void *to)
+{
+  int i;
+  if (!cli_choose(parser.command, name, value, option->word, option->n_words, &i)) return false;
+  *(int *)to = i;
+  return true;
+}
+
+static bool take_amount(const cli_option *option, const char *name, const char *value, double *to)
+{
+  const double most = 1e100; /* of what has no limit, to say a number */
+  const double low = option->low == CLI_ABOVE_0 ? 0 : option->low;
+  if (!cli_double(parser.command, name, value, low, isinf(option->high) ? most : option->high, to))
+    return false;
+  if (*to >= option->low) return true;
+  cli_usage(parser.command, "%s %s: expected a number above 0", name, value);
+  return false;
+}
+
+/* Reads the value of one row into its group; false: it is none (printed). */
+static bool take_value(int i, const char *value)
+{
+  const cli_option *option = parser.option[i];
+  void *to = (char *)parser.into[i] + (parser.into[i] ? option->offset : 0);
+  const char *name = parser.dashed[i];
+  parser.given[i] = true;
+  parser.value[i] = value;
+  switch (option->kind) {
+  case CLI_FLAG: *(bool *)to = true; return true;
+  case CLI_TEXT:
+    if (to) *(const char **)to = value;
+    return true;
+  case CLI_OUTPUT:
+    *(const char **)to = value;
+    if (!*value) cli_usage(parser.command, "an empty name is no place to write to");
+    return *value != '\0';
+  case CLI_COUNT:
+    return cli_int(parser.command, name, value, (int)option->low, (int)option->high, to);
+  case CLI_AMOUNT: return take_amount(option, name, value, to);
+  case CLI_WORD: return take_word(option, name, value, to);
+  default: return option->take(parser.into[i], option, value);
+  }
+}
+
+/* Reads "NAME=VALUE" of --tune. */
+static bool take_tuned(const char *text)
+{
+  char question[THR_SUGGESTION_TEXT], name[NAME_SIZE];
+  thr_suggestion suggestion = {.word = name};
+  const size_t n = strcspn(text, "=");
+  snprintf(name, sizeof name, "%.*s", (int)n, text);
+  for (int i = 0; i < parser.n; i++) {
+    if (!parser.tuned[i]) continue;
+    if (text[n] == '=' && strcmp(parser.option[i]->name, name) == 0)
+      return take_value(i, text + n + 1);
+    thr_suggestion_try(&suggestion, parser.option[i]->name);
+  }
+  thr_suggestion_ask(&suggestion, question);
+  cli_usage(parser.command, "--tune %s: expected NAME=VALUE%s", text, question);
+  return false;
+}
+
+/* ---- what is no option ---- */
+
+/* The word is "--name" or "--name=value" of no option, of several, or of one that takes no value.
+ */
+static int bad_long_option(const char *word)
+{
+  char name[64], question[THR_SUGGESTION_TEXT], several[160] = "";
+  thr_suggestion suggestion = {.word = name};
+  int n = 0;
+  snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
+  for (int i = 0; i < parser.n; i++) {
+    const char *known = parser.option[i]->name;
+    if (strcmp(known, name) == 0)
+      return parser.tuned[i] ? cli_usage(parser.command, "--%s is spelled --tune %s=..", name, name)
+                             : cli_usage(parser.command, "--%s takes no value", name);
+    thr_suggestion_try(&suggestion, known);
+    if (strncmp(known, name, strlen(name)) != 0) continue;
+    const size_t length = strlen(several);
+    snprintf(several + length, sizeof several - length, "%s--%s", n++ ? ", " : "", known);
+  }
+  if (n == 1) return cli_usage(parser.command, "%s takes no value", several);
+  if (n > 1) return cli_usage(parser.command, "--%s may be %s", name, several);
+
+  thr_suggestion_ask(&suggestion, question);
+  const char *at = strstr(question, "mean ");
+  if (!at) return cli_usage(parser.command, "--%s is not an option here", name);
+  return cli_usage(parser.command, "--%s is not an option here; did you mean --%s", name,
+                   at + strlen("mean "));
+}
+
+/* What the user typed: getopt has moved operands behind the options, so the culprit is the word
+ * before optind, or inside it. */
+static int bad_option(int found, char **argv)
+{
+  const char *word = argv[optind - 1];
+  const bool is_long = strncmp(word, "--", 2) == 0;
+  if (found == ':')
+    return is_long ? cli_usage(parser.command, "%s needs a value", word)
+                   : cli_usage(parser.command, "-%c needs a value", optopt);
+  return is_long ? bad_long_option(word)
+                 : cli_usage(parser.command, "-%c is not an option here", optopt);
+}
+
+/* ---- help ---- */
+
+enum { TEXT_COLUMN = 23, NARROWEST = 60, WIDEST = 100 };
+
+/* Appends words wrapped at the width; those of further lines begin at a column. `at` is where the
+ * line stands. A line break in the text is kept. */
+static void put_wrapped(thr_text *out, const char *words, int column, int at, int width)
+{
+  while (*words) {
+    const int n = (int)strcspn(words, " \n");
+    if (at > column && at + 1 + n > width) {
+      thr_text_printf(out, "\n%*s", column, "");
+      at = column;
+    } else if (at > column) {
+      thr_text_append(out, " ");
+      at++;
+    }
+    thr_text_printf(out, "%.*s", n, words);
+    at += n;
+    words += n;
+    if (*words == '\n') {
+      thr_text_printf(out, "\n%*s", column, "");
+      at = column;
+    }
+    words += *words != '\0';
+  }
+  thr_text_append(out, "\n");
+}
+
+void cli_option_value(const cli_option *option, char *text, size_t size)
+{
+  size_t n = (size_t)snprintf(text, size, "%s", option->value ? option->value : "");
+  for (int i = 0; !option->value && option->word && i < option->n_words && n < size; i++) {
+    n += (size_t)snprintf(text + n, size - n, "%s%s", i ? "|" : "", option->word(i));
+  }
+}
+
+/* "  -o, --output FILE    what it does", in as many lines as it takes, and a line for each word
+ * whose meaning is said. */
+static void put_option(thr_text *out, const cli_option *option, int width)
+{
+  char head[160], value[100], letter[8] = "    ";
+  if (option->letter) {
+    snprintf(letter, sizeof letter, "-%c, ", option->letter);
+  }
+  cli_option_value(option, value, sizeof value);
+  const int n = snprintf(head, sizeof head, "  %s--%s%s%s", letter, option->name,
+                         *value && *value != '[' ? " " : "", value);
+
+  /* A long head has its text behind it, too, after three blanks. */
+  thr_text_append(out, head);
+  const int at = n + 2 <= TEXT_COLUMN ? TEXT_COLUMN : n + 3;
+  thr_text_printf(out, "%*s", at - n, "");
+  const int first = (int)strcspn(option->help, " \n");
+  if (at + first > width) {
+    thr_text_printf(out, "\n%*s", TEXT_COLUMN, "");
+    put_wrapped(out, option->help, TEXT_COLUMN, TEXT_COLUMN, width);
+  } else {
+    thr_text_printf(out, "%.*s", first, option->help);
+    const char *rest = option->help + first;
+    put_wrapped(out, rest + (*rest != '\0'), TEXT_COLUMN, at + first, width);
+  }
+
+  const int room = 14;
+  for (int i = 0; option->meaning && i < option->n_words; i++) {
+    const int m = (int)strlen(option->word(i));
+    thr_text_printf(out, "%*s%s%*s", TEXT_COLUMN, "", option->word(i), m + 2 < room ? room - m : 2,
+                    "");
+    put_wrapped(out, option->meaning(i), TEXT_COLUMN + room, TEXT_COLUMN + room, width);
+  }
+}
+
+/* The names of what --tune takes. */
+static void put_tuned(thr_text *out, const cli_group *groups, int width)
+{
+  thr_text names = {0};
+  for (const cli_group *group = groups; group->option; group++) {
+    if (group->heading != cli_tuned) continue;
+    for (const cli_option *option = group->option; option->name; option++) {
+      thr_text_printf(&names, "%s%s", names.length ? ", " : "for developers: ", option->name);
+    }
+  }
+  if (names.length && !names.failed) {
+    const cli_option row = {"tune", .value = "NAME=VALUE", .help = names.data};
+    put_option(out, &row, width);
+  }
+  thr_text_destroy(&names);
+}
+
+static void put_help(thr_text *out, const cli_syntax *syntax, const cli_group *groups)
+{
+  const int columns = thr_os_columns(STDOUT_FILENO);
+  const int width = columns < NARROWEST ? WIDEST - 4 : columns > WIDEST ? WIDEST : columns;
+  thr_text_append(out, syntax->intro);
+  for (const cli_group *group = groups; group->option; group++) {
+    if (group->heading == cli_tuned) continue;
+    if (group->heading) thr_text_printf(out, "\n%s:\n", group->heading);
+    for (const cli_option *option = group->option; option->name; option++) {
+      if (option->help) put_option(out, option, width);
+    }
+  }
+  thr_text_append(out, "\nEvery command:\n");
+  put_tuned(out, groups, width);
+  for (const cli_option *option = cli_common_options; option->name; option++) {
+    put_option(out, option, width);
+  }
+  if (syntax->outro) thr_text_printf(out, "\n%s", syntax->outro);
+}
+
+/* ---- parsing ---- */
+
+/* Operands are files, too; then all files that were named are held against each other. */
+static int settle_operands(int argc, char **argv)
+{
+  for (int i = optind; i < argc; i++) {
+    if (!*argv[i]) return cli_usage(parser.command, "an empty name is no file");
+    files_heard(NULL, argv[i]);
+  }
+  const int code = files_settle(parser.command);
+  return code ? code : -1;
+}
+
+int cli_options(int argc, char **argv, const cli_syntax *syntax, const cli_group *groups)
+{
+  if (cli_show_options) {
+    cli_show_options(groups);
+    return EXIT_OK;
+  }
+  join_rows(syntax, groups);
+  opterr = 0;
+  for (;;) {
+    const int found = getopt_long(argc, argv, parser.letters, parser.table, NULL);
+    if (found == -1) return settle_operands(argc, argv);
+    if (found == ':' || found == '?') return bad_option(found, argv);
+    const int i = find_row(found);
+    const cli_option *option = parser.option[i];
+    if (optarg) files_heard(option->name, optarg);
+
+    if (option == &tune) {
+      if (!take_tuned(optarg)) return EXIT_USAGE;
+    } else if (option->kind == CLI_SHOWS && !option->take) {
+      thr_text help = {0};
+      put_help(&help, syntax, groups);
+      return cli_write(&help, "-");
+    } else if (!take_value(i, optarg)) {
+      return EXIT_USAGE;
+    } else if (option->kind == CLI_SHOWS) {
+      return EXIT_OK;
+    }
+  }
+}
