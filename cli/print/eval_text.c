@@ -8,11 +8,10 @@
  * pull at which rigid beads have an equilibrium (docs/method.md, "Pull force"). Whatever is proved
  * says so; whatever is found by a solver or in simulation does not.
  *
- * Example of a line for a cord (closed form):
+ * Example (closed form, one cord through the 7 x 7 dome):
  *
- *
- *    cord       turning     pull (N) other end (N)      loss   work per m  slackest pass
- *    A       412.0 deg        2.052         2.045   51.27 %      4.097 J  24 of 49 */
+ *   cord       turning     pull (N) other end (N)      loss   work per m  slackest pass
+ *   A       3065.4 deg      180.743       178.153   99.45 %      358.9 J  46 of 96 */
 #include "cli/print/print.h"
 
 #include "eval/cord/profile.h"

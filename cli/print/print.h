@@ -1,5 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What commands print. */
+/* Prints what commands found out: tables and sentences for people, objects for programs.
+ *
+ * Every function appends to a thr_text, or writes members to a thr_writer (JSON); nothing here
+ * computes plans, and nothing reads or writes files. Text has forces in N, angles in degrees and
+ * lengths in units of the framework; JSON has angles in rad and null for what is not known. A
+ * sentence says "proved" of what the checker has verified (graph/check/check.h), and of nothing
+ * else. Memory that runs out is kept in text->failed, which whoever writes the text reports.
+ *
+ * Read plain.c first: forces and proofs in words, which all others use. Then, by command:
+ * plan_summary.c with turning_summary.c, symmetry_table.c and seated.c (thread plan); terms.c
+ * (thread check); eval_text.c, eval_json.c and load_words.c (thread eval); compare_rows.c and
+ * ranking.c (thread compare); advice_table.c (thread advise). */
 #ifndef THR_PRINT_H
 #define THR_PRINT_H
 

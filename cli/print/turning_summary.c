@@ -10,7 +10,11 @@
  *
  * Every column holds the same figures, each of them in the unit of the plan: lengths in units of
  * the framework, angles in rad (printed in degrees), pulls as a factor on the seating tension
- * (printed in N). */
+ * (printed in N).
+ *
+ * Example: one closed cord through the 7 x 7 dome turns by 2990.4 deg, which is proved to be the
+ * least, and is pulled with 154 N; the shortest one that --objective length finds turns by 3163.9
+ * deg and is pulled with 197 N. */
 #include "cli/print/print.h"
 #include "graph/angle.h"
 #include "graph/limits.h"
