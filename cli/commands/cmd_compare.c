@@ -431,10 +431,12 @@ static void put_head(thr_text *text, const entry *entries, int n)
     thr_text_printf(text, " %16s ",
                     thr_objective_name(thr_aims_objective(&entries[i].plan.options)));
 
+  /* Where cords may end: at the feet, anywhere, or nowhere. */
   thr_text_printf(text, "\n%-32s", "ends");
   for (int i = 0; i < n; i++)
     thr_text_printf(text, " %16s ", thr_ends_name(entries[i].plan.options.ends));
 
+  /* A frontier needs something to be compared with. */
   if (n < 2) return;
   thr_text_printf(text, "\n%-32s", "on the frontier");
   for (int i = 0; i < n; i++)
@@ -682,6 +684,8 @@ static int try_actions(const structure_actions *actions, const entry *entries, i
     thr_eval_options options = thr_eval_options_default();
     thr_schedule schedule = {0};
     double(*load)[3] = NULL;
+
+    /* What they came to is not needed yet. */
     code = read_actions(actions, &entries[i], &options, &schedule, &load);
     thr_schedule_destroy(&schedule);
     free(load);
@@ -896,6 +900,7 @@ static int print(const pull_args *args, const entry *entries, int n)
   const char **name = thr_calloc((size_t)n, sizeof *name);
   thr_status st = name ? make_rankings(args, entries, n, rankings, &count, &err) : thr_nomem(&err);
 
+  /* Plans are named by their files. */
   if (!st) {
     for (int i = 0; i < n; i++)
       name[i] = entries[i].path;

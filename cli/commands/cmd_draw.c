@@ -1,5 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* thread draw: diagrams of a plan. */
+/* thread draw: makes pictures, steps, tables and lines of a plan.
+ *
+ * All documents stand in one table (lib/documents.h): name, usual file, and what makes it. --type
+ * names one of them, or all; -o names a file, or a folder in which the document has its usual name.
+ *
+ * Example: `thread draw plan.json -T all -o diagrams/` writes overview.svg, steps.txt, sheets.pdf
+ * and more into diagrams/. */
 #include "cli/cli.h"
 #include "cli/drawings.h"
 #include "diagram/overview/overview.h"
@@ -78,89 +84,116 @@ static const char *up_name(int up)
   return up ? "z" : "y";
 }
 
+/* Returns the name of a type of document; one more than there are stands for all. */
 static const char *type_name(int t)
 {
   return t < thr_documents_count() ? thr_document_type(t) : "all";
 }
 
-/* One document to output, a file, a folder or NULL. */
-static int draw_one(const thr_plan *plan, int type, const char *output, const drawings_args *a)
+/* Writes one document to output: a file, a folder or NULL, the current folder. Returns an exit
+ * code. */
+static int draw_one(const thr_plan *plan, int type, const char *output, const drawings_args *args)
 {
   char inside[1200];
   int code = EXIT_OK;
+
+  /* The usual name, in the current folder or in the one that was named. */
   if (!output) output = thr_document_file(type);
   if (cli_is_folder(output)) {
     code = cli_in_folder(output, thr_document_file(type), inside, sizeof inside);
     output = inside;
   }
-  return code ? code : drawings_write(plan, type, output, a);
+
+  return code ? code : drawings_write(plan, type, output, args);
 }
 
-/* Says how loose what is threaded is at most. */
-static void note_chains(const thr_plan *plan, const drawings_args *a)
+/* Notes how many pieces are loose at a time at most while the plan is threaded. */
+static void note_chains(const thr_plan *plan, const drawings_args *args)
 {
   thr_text text = {0};
-  if (!drawings_chains(plan, a, &text, NULL) && !text.failed) cli_note("%s", text.data);
+  if (!drawings_chains(plan, args, &text, NULL) && !text.failed) cli_note("%s", text.data);
   thr_text_destroy(&text);
 }
 
+/* Runs `thread draw` and returns the exit code. */
 int cmd_draw(int argc, char **argv)
 {
   int done, option;
-  drawings_args a = {0};
+  drawings_args args = {0};
   guard_limits guard = guard_limits_default();
   guard_end end;
   int color = THR_COLOUR_CORD, type = 0;
   int up = 1;
   const char *output = NULL;
+
   while ((option = cli_next_option(argc, argv, "draw", ":" CLI_COMMON_LETTERS "T:o:", table, help,
                                    &done)) != -1) {
     if (option == 'T' &&
         !cli_choose("draw", "--type", optarg, type_name, thr_documents_count() + 1, &type))
       return EXIT_USAGE;
+
+    /* Options that several commands share, then those of this one. */
     bool ok = true;
-    if ((drawings_option(&a, "draw", option, optarg, &ok) ||
+    if ((drawings_option(&args, "draw", option, optarg, &ok) ||
          guard_option(&guard, "draw", option, optarg, &ok)) &&
         !ok)
       return EXIT_USAGE;
-    if (option == OPTION_PITCH && !cli_double("draw", "--pitch", optarg, 2, 200, &a.pitch_mm))
+
+    if (option == OPTION_PITCH && !cli_double("draw", "--pitch", optarg, 2, 200, &args.pitch_mm))
       return EXIT_USAGE;
     if (option == OPTION_COLOR &&
         !cli_choose("draw", "--color", optarg, thr_overview_colour_name, THR_N_COLOURS, &color))
       return EXIT_USAGE;
+
     if (option == 'o') output = optarg;
-    if (option == OPTION_LANES) a.lines.lanes = true;
+    if (option == OPTION_LANES) args.lines.lanes = true;
     if (option == OPTION_UP && !cli_choose("draw", "--up", optarg, up_name, 2, &up))
       return EXIT_USAGE;
   }
+
   if (done >= 0) return done;
-  a.colour = (thr_overview_colour)color;
-  a.lines.up_y = up == 0;
+
+  args.colour = (thr_overview_colour)color;
+  args.lines.up_y = up == 0;
   bool all = type == thr_documents_count();
+
+  /* The output must fit what is made. */
   if (output && !*output) return cli_usage("draw", "an empty name is no place to write to");
   if (all && output && strcmp(output, "-") == 0)
     return cli_usage("draw", "--type all makes several files: -o names a folder");
   if (!all && output && cli_misnamed(output, thr_document_file(type)))
     return cli_usage("draw", "%s: --type %s makes %s; say which type", output, type_name(type),
                      thr_document_file(type));
+
   if (optind + 1 != argc)
     return cli_usage("draw", optind == argc ? "which plan?" : "one plan at a time");
+
+  /* No document may take the place of a file that is read. */
   const char *folder = !output ? "." : cli_is_folder(output) || all ? output : NULL;
   const int claimed = folder ? drawings_claim("draw", folder, all ? -1 : type) : EXIT_OK;
   if (claimed) return claimed;
+
+  /* The child does all of the work. */
   if (guard_fork(&guard, &end))
     return guard_conclude(&end, all ? "not all documents are drawn" : "nothing is drawn");
+
   thr_plan plan;
+
   int code = cli_read_plan(argv[optind], &plan);
   if (code) return code;
+
+  /* All documents, or one. */
   if (all) {
     char names[DRAWINGS_NAMES];
-    drawings_names(&plan, &a, names);
-    code = drawings_write_all(&plan, output ? output : ".", &a);
+    drawings_names(&plan, &args, names);
+    code = drawings_write_all(&plan, output ? output : ".", &args);
     if (!code && !output) cli_note("drawn in the current folder: %s", names);
   } else
-    code = draw_one(&plan, type, output, &a);
-  if (!code && (all || thr_document_threads(type))) note_chains(&plan, &a);
+    code = draw_one(&plan, type, output, &args);
+
+  /* Documents that show how to thread also say how loose the work is meanwhile. */
+  if (!code && (all || thr_document_threads(type))) note_chains(&plan, &args);
   thr_plan_destroy(&plan);
+
   return code;
 }

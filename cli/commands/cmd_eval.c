@@ -163,7 +163,7 @@ static int calibrate(const eval_arguments *args, bool with_plan)
                               args->pull.json);
 }
 
-/* Parses the command line into *a. Returns -1 to go on, or the exit code of the command. */
+/* Parses the command line into *args. Returns -1 to go on, or the exit code of the command. */
 static int parse(int argc, char **argv, eval_arguments *args)
 {
   int done, option;

@@ -151,7 +151,7 @@ typedef struct {
   bool json, compare, force;
 } plan_arguments;
 
-/* Parses the command line into *a. Returns -1 to go on, or the exit code of the command. */
+/* Parses the command line into *args. Returns -1 to go on, or the exit code of the command. */
 static int parse(int argc, char **argv, plan_arguments *args)
 {
   int done, option;
@@ -246,6 +246,8 @@ static void put_pull_json(thr_writer *writer, thr_objective objective, const thr
   thr_write_object(writer, NULL);
   thr_write_string(writer, "objective", thr_objective_name(objective));
   thr_write_number(writer, "pull", code == EXIT_OK ? eval->record.largest : NAN);
+
+  /* Turns that were refused have no known error. */
   if (code == EXIT_OK) {
     thr_write_number(writer, "error", eval->error);
     thr_write_int(writer, "refused", eval->refused);
@@ -286,6 +288,7 @@ static int put_objective(thr_writer *writer, const plan_arguments *args, thr_obj
   thr_eval eval;
   int code = pull_eval(&args->pull, thr_objective_name(objective), plan, THR_JOINT, &eval);
 
+  /* A pull that is not known is told as such. */
   if (args->json)
     put_pull_json(writer, objective, &eval, code);
   else
@@ -316,6 +319,7 @@ static int plan_and_put(thr_writer *writer, const plan_arguments *args, thr_obje
   thr_err err = {0};
   thr_plan other = {0};
 
+  /* The plan that was asked for is there already. */
   if (objective == args->request.objective) return put_objective(writer, args, objective, plan);
 
   /* The same request with another objective. */
@@ -347,6 +351,7 @@ static int put_comparison(thr_writer *writer, const plan_arguments *args, const 
   else
     thr_text_append(writer->out, "\nlargest pull by objective, joints measured in simulation\n");
 
+  /* This plan stands among the others, in the order of objectives. */
   for (int i = 0; i < THR_N_OBJECTIVES; i++) {
     int done = plan_and_put(writer, args, thr_dispatch_objective(i), plan, deadline);
     if (!code) code = done;
@@ -474,6 +479,7 @@ static void put_symmetry(thr_writer *writer, const plan_arguments *args,
     thr_text_append(writer->out, "\n");
   }
 
+  /* The plan itself, and in JSON the table after it. */
   put_plan(writer, args, result, NULL);
   if (!args->json) return;
   thr_write_object(writer, "symmetries");
@@ -536,6 +542,7 @@ static bool holds_another(const char *folder, const thr_text *text)
   snprintf(path, sizeof path, "%s/plan.json", folder);
   if (access(path, F_OK) != 0) return false;
 
+  /* The same request makes the same text, which may be written over. */
   bool same = !thr_text_read(&there, path, NULL) && there.length == text->length &&
               (text->length == 0 || memcmp(there.data, text->data, text->length) == 0);
   thr_text_destroy(&there);
@@ -555,6 +562,8 @@ static void find_folder(const plan_arguments *args, const thr_text *text, char f
 
   /* With --force another plan is replaced, but never a file that was read. */
   const bool reads = drawings_would_lose(stem);
+
+  /* The first name that is free. */
   for (int i = 2;
        i <= MOST && ((!args->force && holds_another(folder, text)) || drawings_would_lose(folder));
        i++)
@@ -716,6 +725,8 @@ static int write_drawings(const plan_arguments *args, const thr_plan *plan,
 {
   if (!places->folder) return EXIT_OK;
   guard_allow(0);
+
+  /* A search that was ended by the clock leaves time for its drawings. */
   const int code = drawings_write_all(plan, places->folder, &args->drawings);
   if (!code && drawings_no_sheets(plan, &args->drawings))
     cli_note(
@@ -784,6 +795,7 @@ static int refuse(const plan_arguments *args, const thr_err *err)
 
   if (!args->json || err->code == THR_ENOMEM) return code;
 
+  /* For programs. */
   thr_write_object(&writer, NULL);
   thr_write_string(&writer, "error", err->text);
   thr_write_int(&writer, "exit_code", code);
@@ -860,6 +872,7 @@ static int conclude(const plan_arguments *args, guard_end *end)
 {
   output_places places;
 
+  /* The plan is out; only drawings or words are missing. */
   if (end->written)
     return guard_conclude(end,
                           "the plan is written, but not all that was to be drawn or said of it");
@@ -892,6 +905,7 @@ int cmd_plan(int argc, char **argv)
   guard_end end;
   int code = parse(argc, argv, &args);
 
+  /* What cannot be written is found out before the search, not after it. */
   if (code >= 0 || (code = try_places(&args))) return code;
 
   /* The child does all of the work, the parent waits and concludes. */
