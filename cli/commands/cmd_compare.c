@@ -936,6 +936,7 @@ static int compare(const pull_args *args, const structure_actions *actions, char
 
   for (int i = 0; i < n && !args->json; i++)
     thr_text_clean(path[i]); /* the files are read; what follows is for people */
+
   /* A picture on stdout leaves no place for the table. */
   int drawn = plot ? write_plot(args, entries, n, plot) : EXIT_OK;
   if (!code) code = drawn;

@@ -107,6 +107,7 @@ int cmd_complete(int argc, char **argv)
 
   if (strcmp(before, "=") == 0 && argc > 3)
     before = argv[argc - 3]; /* shells that take --name=value for three words */
+
   /* The value of an option: after --name=, or as a word of its own. */
   if (strcmp(last, "=") == 0) {
     last = "";

@@ -745,6 +745,7 @@ static int write_outputs(const plan_arguments *args, planned_result *result, int
   const int written = write_plan(args, plan, &places, planned_code);
 
   if (!places.plan) return written; /* there is none */
+
   /* A plan on stdout leaves no place for a summary. */
   const bool is_silent =
       strcmp(places.plan, "-") == 0 || (cli_quiet && !args->json && !args->request.plot);

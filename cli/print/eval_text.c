@@ -489,6 +489,7 @@ static void put_bead_band(thr_text *text, const thr_evaluation *evaluation, cons
   } named[] = {{THR_ASKED_EQUAL, "equal pulls"}, {THR_ASKED_ANY_STATE, "any state"}};
   const thr_physics *physics = &evaluation->physics;
   const double(*band)[2] = eval->band_beads;
+
   if (isnan(band[THR_ASKED_HOLDING][0]) && isnan(band[THR_ASKED_HOLDING][1])) return;
 
   for (int end = 0; end < 2; end++) {
