@@ -1,5 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Advice beside a plan. */
+/* Prints advice beside a plan: that a hand cannot pull its cords, and which number of cords it can,
+ * with the command that makes that plan.
+ *
+ * A pull beyond 50 N at the hardest end is too hard (thr_hand_most). Advice is what `thread advise`
+ * recommends, found with the same counted work, so that both say the same.
+ *
+ * Example, of the 7 x 7 dome with one cord, pulled with 181 N: "4 cords to the feet need about 3.21
+ * and 3.27 N with as much cord: thread plan dome.json --cords 4 --ends feet --objective tortuosity
+ * --minimize pull". */
 #include "cli/advice.h"
 #include "cli/print/print.h"
 #include "graph/angle.h"
@@ -8,32 +16,37 @@
 
 static const double usual_work = 2; /* counted, in seconds */
 
+/* Appends an option with a word that a shell reads as it is. */
 static void put_option(thr_text *text, const char *option, const char *value)
 {
   thr_text_printf(text, " --%s ", option);
   advice_put_word(text, value);
 }
 
+/* Appends an option with a number that reads back as the same one. */
 static void put_number(thr_text *text, const char *option, double value)
 {
   thr_text_printf(text, " --%s ", option);
   thr_text_double(text, value);
 }
 
-void advice_command_options(const cli_frame_args *a, const cli_physics *physics, thr_text *text)
+void advice_command_options(const cli_frame_args *frame_args, const cli_physics *physics,
+                            thr_text *text)
 {
-  if (a->read.edges_path) put_option(text, "edges", a->read.edges_path);
-  if (a->read.units) put_option(text, "units", a->read.units);
-  if (a->feet) put_option(text, "feet", a->feet);
-  if (a->read.weld >= 0) put_number(text, "weld", a->read.weld);
-  if (a->read.up != THR_UP_AUTO) put_option(text, "up", thr_up_name(a->read.up));
-  if (a->read.scale != 1) put_number(text, "scale", a->read.scale);
-  if (a->read.flat > 0) put_number(text, "flat", thr_degrees(a->read.flat));
-  if (a->read.pick) put_option(text, "pick", a->read.pick);
-  if (a->read.columns) put_option(text, "columns", a->read.columns);
-  if (a->read.all_layers) put_option(text, "layers", "all");
-  if (a->read.parallel) put_option(text, "parallel", "keep");
-  if (a->read.split) thr_text_append(text, " --split");
+  if (frame_args->read.edges_path) put_option(text, "edges", frame_args->read.edges_path);
+  if (frame_args->read.units) put_option(text, "units", frame_args->read.units);
+  if (frame_args->feet) put_option(text, "feet", frame_args->feet);
+  if (frame_args->read.weld >= 0) put_number(text, "weld", frame_args->read.weld);
+  if (frame_args->read.up != THR_UP_AUTO) put_option(text, "up", thr_up_name(frame_args->read.up));
+  if (frame_args->read.scale != 1) put_number(text, "scale", frame_args->read.scale);
+  if (frame_args->read.flat > 0) put_number(text, "flat", thr_degrees(frame_args->read.flat));
+  if (frame_args->read.pick) put_option(text, "pick", frame_args->read.pick);
+  if (frame_args->read.columns) put_option(text, "columns", frame_args->read.columns);
+  if (frame_args->read.all_layers) put_option(text, "layers", "all");
+  if (frame_args->read.parallel) put_option(text, "parallel", "keep");
+  if (frame_args->read.split) thr_text_append(text, " --split");
+
+  /* What was said of cord and beads, as it was typed. */
   for (int i = 0; i < physics->n; i++) {
     char name[24];
     cli_physics_spell(physics, i, name);
@@ -41,8 +54,8 @@ void advice_command_options(const cli_frame_args *a, const cli_physics *physics,
   }
 }
 
-/* N, of the cord that is hardest to pull. */
-static double force_of(const thr_plan *plan)
+/* Returns the pull at the hardest end of a plan's cords, N. */
+static double largest_pull(const thr_plan *plan)
 {
   double pull[THR_ADVICE_PULLS];
   thr_advice_pulls(&plan->options.physics,
@@ -50,13 +63,16 @@ static double force_of(const thr_plan *plan)
   return pull[THR_ADVICE_MU];
 }
 
+/* Appends the recommended row with its command. */
 static void put_line(const thr_advice *advice, const thr_plan *plan, const char *path,
-                     const cli_frame_args *a, const cli_physics *physics, thr_text *text)
+                     const cli_frame_args *frame_args, const cli_physics *physics, thr_text *text)
 {
   const thr_advice_row *row = &advice->row[advice->chosen];
   thr_text options = {0}, command = {0};
-  advice_command_options(a, physics, &options);
+
+  advice_command_options(frame_args, physics, &options);
   advice_put_command(&command, path, options.data ? options.data : "", row);
+
   if (options.failed || command.failed)
     text->failed = true; /* which whoever writes the text reports */
   else
@@ -65,7 +81,7 @@ static void put_line(const thr_advice *advice, const thr_plan *plan, const char 
   thr_text_destroy(&command);
 }
 
-/* That so much is beyond a hand; the line goes on. */
+/* Appends that so much is beyond a hand; the line goes on. */
 static void put_too_hard(thr_text *text, double newton)
 {
   char force[64];
@@ -73,22 +89,26 @@ static void put_too_hard(thr_text *text, double newton)
   plain_put_hand(text, newton);
 }
 
-void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_frame_args *a,
+void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_frame_args *frame_args,
                            const cli_physics *physics, thr_text *text)
 {
   const thr_advise_options options = {.hand = thr_hand_always, .plan = plan};
   thr_advice advice = {0};
-  double newton = force_of(plan), work = 0;
+  double newton = largest_pull(plan), work = 0;
+
   if (newton <= thr_hand_most) return;
   put_too_hard(text, newton);
   thr_text_append(text, ":\n");
+
+  /* As much work as for the table, so that the same row is recommended. */
   thr_limits limits =
       advice_limits(-1, &work); /* as of the table, so that it recommends the same */
   if (thr_advise(&plan->frame, &plan->options, &options, &limits, &advice, NULL))
     advice.chosen = -1;
   cli_progress_end();
+
   if (advice.chosen >= 0)
-    put_line(&advice, plan, path, a, physics, text);
+    put_line(&advice, plan, path, frame_args, physics, text);
   else
     thr_text_append(
         text, "         no number of cords was found that it can pull; thread advise says more\n");
@@ -97,7 +117,7 @@ void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_fra
 
 void advice_put_hint(const thr_plan *plan, thr_text *text)
 {
-  const double newton = force_of(plan);
+  const double newton = largest_pull(plan);
   if (newton <= thr_hand_most || plan->options.max_pull > 0) return;
   put_too_hard(text, newton);
   thr_text_printf(text, "; --max-pull %g takes as few cords as need no more\n", thr_hand_most);
@@ -107,6 +127,8 @@ thr_limits advice_limits(double seconds, double *work)
 {
   if (seconds < 0) *work = usual_work;
   thr_limits limits = cli_limits(seconds > 0 ? thr_dispatch_search_seconds(seconds, false) : 0);
+
+  /* Advice is silent: a bar for many small searches would say nothing. */
   if (!cli_verbose) limits.progress = NULL;
   limits.advance = NULL;
   return *work > 0 ? thr_limits_counted(&limits, work) : limits;

@@ -50,6 +50,7 @@ bool guard_option(guard_limits *limits, const char *command, int option, const c
   case OPTION_TIME:
     *ok = cli_double(command, "--time-limit", value, 0, 1e9, &limits->seconds);
     return true;
+
   case OPTION_MEMORY: *ok = parse_memory(command, value, &limits->memory); return true;
   default: return false;
   }

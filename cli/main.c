@@ -41,6 +41,8 @@ static void help(FILE *to)
       "  thread eval dome/plan.json --method joint     how hard to pull, measured in simulation\n\n"
       "Commands:\n",
       to);
+
+  /* Commands with their summaries. */
   for (int i = 0; i < cli_n_commands; i++)
     fprintf(to, "  %-10s %s\n", cli_commands[i].name, cli_commands[i].summary);
   fputs("\nOptions of every command: -h, --help; -q, --quiet; -v, --verbose; --config FILE: "
@@ -54,6 +56,7 @@ static int version(void)
 {
   int bullet = thr_bullet_version();
 
+  /* Results may depend on the versions of these libraries. */
   printf("thread %s\n"
          "License GPLv3+: GNU GPL version 3 or later <https://gnu.org/licenses/gpl.html>\n"
          "This is free software: you are free to change and redistribute it. There is NO WARRANTY, "
@@ -80,6 +83,8 @@ static int report_unknown(const char *name)
 
   for (int i = 0; i < cli_n_commands; i++)
     thr_suggestion_try(&suggestion, cli_commands[i].name);
+
+  /* The name that comes nearest is asked for. */
   thr_suggestion_ask(&suggestion, question);
 
   cli_error("there is no command %s%s%s `thread --help` lists them", name, question,

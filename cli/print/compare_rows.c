@@ -278,7 +278,7 @@ bool compare_is_shown(const compare_entry *entries, int n, const compare_row *ro
   return !row->optional;
 }
 
-void compare_put_cell(thr_text *text, const compare_row *r, double value, bool best)
+void compare_put_cell(thr_text *text, const compare_row *row, double value, bool best)
 {
   char cell[40];
 
@@ -287,12 +287,12 @@ void compare_put_cell(thr_text *text, const compare_row *r, double value, bool b
     snprintf(cell, sizeof cell, "-");
   else if (isinf(value))
     snprintf(cell, sizeof cell, "> 1e300");
-  else if (r->decimals == -1)
+  else if (row->decimals == -1)
     snprintf(cell, sizeof cell, "%.0f", value);
-  else if (r->decimals < 0)
-    snprintf(cell, sizeof cell, "%.*g", -r->decimals, value);
+  else if (row->decimals < 0)
+    snprintf(cell, sizeof cell, "%.*g", -row->decimals, value);
   else
-    snprintf(cell, sizeof cell, "%.*f", r->decimals, value);
+    snprintf(cell, sizeof cell, "%.*f", row->decimals, value);
 
   thr_text_printf(text, " %16s%s", cell, best ? "*" : " ");
 }
