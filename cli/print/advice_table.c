@@ -23,6 +23,7 @@ void advice_put_word(thr_text *text, const char *word)
   static const char safe[] =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./,:+=@%";
 
+  /* A word of harmless letters needs no quotes. */
   if (*word && strspn(word, safe) == strlen(word)) {
     thr_text_append(text, word);
     return;
@@ -102,6 +103,7 @@ void advice_put_row(thr_text *text, const thr_advice_row *row, double base_lengt
   const double over = 100 * (row->length / base_length - 1);
   char low[24], pull[64], high[24], band[56], proof[40] = "-";
 
+  /* The band shows how little is known: friction stands in the exponent. */
   snprintf(band, sizeof band, "%s .. %s", plain_newtons(row->pull[THR_ADVICE_LOW], low),
            plain_newtons(row->pull[THR_ADVICE_HIGH], high));
 
@@ -132,6 +134,8 @@ static void put_choice(thr_text *text, const thr_advice *advice, const char *com
   char low[24], pull[64], high[24], hand[64];
 
   plain_force(advice->hand, hand);
+
+  /* No row: the user may allow more. */
   if (advice->chosen < 0) {
     thr_text_printf(text, "no row stays within %s%s at mu = %g; --hand N says what is enough\n",
                     hand, hand_words(advice->hand), advice->physics.mu_high);
@@ -140,6 +144,7 @@ static void put_choice(thr_text *text, const thr_advice *advice, const char *com
 
   /* The pull at mu, in the band, and what it stays within. */
   const thr_advice_row *row = &advice->row[advice->chosen];
+
   thr_text_append(text, "> ");
   advice_put_cords(text, row);
   thr_text_printf(
@@ -158,6 +163,8 @@ void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *
                       const char *command)
 {
   advice_put_head(text, frame, &advice->physics);
+
+  /* Recommended: ">"; on the frontier: "*". */
   for (int i = 0; i < advice->n; i++) {
     char mark[4];
     snprintf(mark, sizeof mark, "%s%s", i == advice->chosen ? ">" : " ",
@@ -220,6 +227,8 @@ static void put_row_json(thr_writer *writer, const thr_advice_row *row)
   thr_write_object(writer, NULL);
   thr_write_int(writer, "cords", row->cords);
   if (row->all > row->cords) thr_write_int(writer, "cords_in_all", row->all);
+
+  /* As for --ends. */
   thr_write_string(writer, "ends", thr_ends_name((int)row->ends));
   thr_write_number(writer, "length", row->length);
   thr_write_number(writer, "longest", row->longest);

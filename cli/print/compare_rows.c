@@ -116,8 +116,8 @@ static bool is_known(const compare_entry *e, thr_method method)
 }
 double compare_largest(const compare_entry *e, thr_method method)
 {
-  if (method == THR_STRUCTURE && is_known(e, method))
-    return e->eval[method].holding.lower; /* the record's may follow a schedule */
+  /* Of the limit analysis the proved bound counts, not what a schedule left. */
+  if (method == THR_STRUCTURE && is_known(e, method)) return e->eval[method].holding.lower;
   return is_known(e, method) ? e->eval[method].record.largest : NAN;
 }
 /* Returns all pulls together, N. */
@@ -240,11 +240,14 @@ const int compare_n_rows = (int)(sizeof compare_rows / sizeof *compare_rows);
 bool compare_is_best(const compare_entry *entries, int n, const compare_row *row, int i)
 {
   double mine = row->value(&entries[i]);
+
+  /* Rows that say what a plan is, not how good, have no best one. */
   if (!row->rate || n < 2 || !isfinite(mine)) return false;
 
   /* Values that differ by a millionth are equal. */
   for (int k = 0; k < n; k++)
     if (row->value(&entries[k]) < mine - 1e-6 * fabs(mine)) return false;
+
   return true;
 }
 

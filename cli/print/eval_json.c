@@ -37,6 +37,8 @@ static void put_json_holding(thr_writer *writer, const thr_frame *frame, const c
   thr_write_number(writer, "lower", holding->lower);
   thr_write_number(writer, "upper", holding->upper);
   thr_write_number(writer, "residual", holding->residual);
+
+  /* What gives way first just below the lower bound. */
   put_bead(writer, "first_bead", frame, holding->first_bead);
   put_json_band(writer, "band_beads", band);
   thr_write_string(writer, "holds", when);
@@ -85,6 +87,8 @@ static void put_json_play(thr_writer *writer, const thr_plan *plan)
   thr_write_number(writer, "gap_mm", play.gap);
   put_bead(writer, "piece", &plan->frame, play.piece);
   thr_write_int(writer, "gaps", play.gaps);
+
+  /* If all gaps between the piece and the nearest foot add up. */
   thr_write_number(writer, "most_mm", play.most);
   thr_write_close(writer);
 }
@@ -105,6 +109,7 @@ static void put_json_simulation(thr_writer *writer, const thr_frame *frame,
 
   const bool fell = settle->fall > 0;
 
+  /* What contradicts the limit analysis is told as what it is. */
   thr_write_line(writer, 1);
   thr_write_object(writer, "simulation");
   thr_write_string(writer, "status",
@@ -133,6 +138,8 @@ static void put_json_erection(thr_writer *writer, const thr_erect *erect)
   thr_write_line(writer, 1);
   thr_write_object(writer, "from_slack");
   thr_write_number(writer, "weight", erect->weight);
+
+  /* The lift is a part of the weight. */
   thr_write_number(writer, "counterweight", erect->lift * erect->weight);
   thr_write_array(writer, "stills");
 
@@ -140,6 +147,8 @@ static void put_json_erection(thr_writer *writer, const thr_erect *erect)
     const thr_erect_still *still = &erect->still[i];
     thr_write_line(writer, 2);
     thr_write_object(writer, NULL);
+
+    /* N, gaps that are closed, and heights and the widest gap in mm. */
     thr_write_number(writer, "pull", still->pull);
     thr_write_number(writer, "counterweight", still->lift * erect->weight);
     thr_write_int(writer, "closed", still->closed);
@@ -182,6 +191,8 @@ void eval_put_json(thr_text *text, const thr_plan *plan, const thr_eval *eval, b
 
   /* What one method alone says. */
   if (plan->evaluation.method == THR_JOINT) put_json_joints(&writer, eval);
+
+  /* Limit analysis. */
   if (eval->holding.present) {
     thr_write_line(&writer, 1);
     put_json_band(&writer, "band_any_state", eval->band_any);

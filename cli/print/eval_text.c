@@ -64,6 +64,7 @@ static void put_heading(thr_text *text, const thr_evaluation *evaluation, bool r
   if (evaluation->method == THR_STRUCTURE) {
     thr_text_printf(text, "bead on bead %g, foot on ground %g, ", physics->mu_bead,
                     physics->mu_ground);
+
     if (physics->bead_mass > 0)
       thr_text_printf(text, "beads of %g g, ", physics->bead_mass);
     else
@@ -118,6 +119,8 @@ static void put_cord(thr_text *text, const char *id, const thr_eval_cord *cord, 
   thr_text_printf(text, "%-5s %8.1f deg", id, thr_degrees(cord->turning));
   if (tight) thr_text_printf(text, " %8.1f deg", thr_degrees(cord->taut_turning));
   put_cell(text, 12, digits(method), cord->force, true);
+
+  /* The other end is pulled only if both are. */
   put_cell(text, 13, digits(method), cord->other_force, cord->pull == THR_PULL_BOTH);
   put_loss(text, cord->loss);
   thr_text_printf(text, " %10.4g J", cord->work);
@@ -139,6 +142,7 @@ static void put_cords(thr_text *text, const thr_plan *plan, const thr_evaluation
                   tight ? "    when tight" : "", "pull (N)", "other end (N)", "loss", "work per m",
                   joint ? "   error +-" : "", "slackest pass");
 
+  /* A cord that is not known has no numbers at all. */
   for (int i = 0; i < evaluation->n_cords; i++) {
     if (evaluation->cord[i].known)
       put_cord(text, plan->cord[i].id, &evaluation->cord[i], evaluation->method, tight);
@@ -153,6 +157,7 @@ static void put_band_end(thr_text *text, const thr_evaluation *evaluation, doubl
 {
   bool mitre = evaluation->method == THR_CAPSTAN && evaluation->law == THR_LAW_MITRE;
 
+  /* INFINITY: no pull holds, or the number is too large; NAN: not decided. */
   if (isfinite(end))
     thr_text_printf(text, unit ? " %.4g N" : " %.4g", end);
   else if (isnan(end))
@@ -173,6 +178,8 @@ static void put_band(thr_text *text, const thr_evaluation *evaluation, const thr
   if (physics->mu_low == physics->mu_high) return;
   thr_text_printf(text, "between mu %g and %g (%s):", physics->mu_low, physics->mu_high,
                   evaluation->method == THR_STRUCTURE ? "limit analysis" : "closed form");
+
+  /* Nothing is known at either end. */
   if (isnan(band[0]) && isnan(band[1])) {
     thr_text_append(text, " not known\n");
     return;
@@ -211,6 +218,7 @@ static void put_strength(thr_text *text, double newton, double strength, int kno
   char force[64];
   const double left = thr_knots[knot].left;
 
+  /* Which is weaker, the knot or the bend, decides (thr_strength_left). */
   thr_text_printf(text,
                   "a cord that bears %s %s: the knot (%s) leaves %.3g N, %.0f %% (Plymouth Cordage "
                   "1946; --knot), ",
@@ -245,6 +253,7 @@ static void put_grips(thr_text *text, const thr_plan *plan)
     thr_text_append(text, "the seating tension alone is more than a hand: no grips help\n");
   else
     text->failed = true;
+
   thr_schedule_destroy(&schedule);
 }
 
@@ -258,6 +267,8 @@ static void put_sums(thr_text *text, const thr_plan *plan, const thr_eval *eval,
   thr_text_printf(text, "\nlargest pull %.*g N, all pulls together %.*g N",
                   digits(evaluation->method), evaluation->largest, digits(evaluation->method),
                   evaluation->total);
+
+  /* The error of a measured pull, as a part of it. */
   if (eval->refused)
     thr_text_printf(text, ", error at least %.2f %%", pull_percent(eval->error));
   else if (eval->error > 0)
@@ -327,6 +338,7 @@ static void put_joint(thr_text *text, const thr_plan *plan, const thr_eval *eval
  * limit analysis proved. after: ends are let down after a schedule. */
 static void put_fall(thr_text *text, const thr_plan *plan, const thr_settle *settle, bool after)
 {
+  /* The fall begins and is seen half an error above and below the pull that is told. */
   thr_text_printf(
       text,
       "simulation     falls %s %.4g N (begins at %.4g N, is seen at %.4g N; what time step, "
@@ -363,6 +375,8 @@ static void put_settle(thr_text *text, const thr_plan *plan, const thr_settle *s
     thr_text_printf(text, "simulation     stands until the pull is gone; widest gap %.3g mm\n",
                     settle->gap_before);
     break;
+
+  /* Nothing is known of the fall. */
   case THR_SETTLE_TOO_LARGE: put_too_large(text); break;
   case THR_SETTLE_NEVER_SETTLED:
     thr_text_append(text, "simulation     not settled: it never came to rest under the pull at its "
@@ -408,7 +422,10 @@ static void put_holding(thr_text *text, const thr_eval *eval)
 {
   thr_text_append(text, "\nholding pull   ");
   put_bounds(text, &eval->holding, "at the harder ends, while the cords are being drawn in,");
+
+  /* Where no pull is needed at all, the other answers say nothing new. */
   if (eval->holding.lower > 0 && eval->loosest.present) {
+    /* With equal pulls it does not matter which end of a cord is called the harder one. */
     if (eval->equal.present) {
       thr_text_append(text, "equal pulls    ");
       put_bounds(text, &eval->equal, "at all ends, while the cords are being drawn in,");
@@ -498,6 +515,8 @@ static void put_bead_band(thr_text *text, const thr_evaluation *evaluation, cons
                     end ? "; with %.3g, %.3g:"
                         : "other beads    with bead on bead %.3g, foot on ground %.3g:",
                     times * physics->mu_bead, times * physics->mu_ground);
+
+    /* The pull while cords are drawn in. */
     put_band_end(text, evaluation, band[THR_ASKED_HOLDING][end], true);
 
     /* The other answers, unless no pull is needed at all. */
@@ -547,12 +566,14 @@ static void put_after(thr_text *text, const thr_evaluation *evaluation, const th
 {
   const thr_holding *after = &eval->after;
 
+  /* Cords that are knotted at both ends are springs; others keep their tensions. */
   if (eval->stretch.present)
     put_stretch(text, evaluation, eval), put_after_band(text, evaluation, eval);
   if (!after->present) return;
 
   /* upper <= 1: an equilibrium was found. lower > 1: proved to fall. Between: not decided. */
   thr_text_append(text, "after it       ");
+
   if (after->upper <= 1)
     thr_text_printf(text, "an equilibrium exists, and would with %.4g of the tensions",
                     after->upper);
@@ -632,10 +653,13 @@ static void put_tension(thr_text *text, const thr_plan *plan, const thr_evaluati
   for (int i = 0; i < plan->n_cords; i++) {
     const thr_cord *cord = &plan->cord[i];
     if (!evaluation->cord[i].known) continue;
+
+    /* A schedule may leave open how much is in a pass. */
     const double *most = evaluation->cord[i].most;
     thr_text_printf(text, "\n%-5s %6s  %-12s %-12s %12s%s\n", "cord", "pass", "from", "to",
                     "tension (N)", most ? "      at most" : "");
 
+    /* A line for each pass, in the order in which the cord runs. */
     for (int k = 0; k < cord->n_passes; k++) {
       thr_text_printf(text, "%-5s %6d  %-12s %-12s %12.6g", cord->id, k + 1,
                       plan->frame.name[thr_tail(&plan->frame, cord->half[k])],
@@ -656,6 +680,8 @@ static void put_schedule(thr_text *text, const thr_plan *plan)
   const int grips = thr_schedule_grips(schedule, -1);
 
   thr_text_append(text, "\nschedule");
+
+  /* A grip draws in the cord on the way, and is held until the next one has taken its slack. */
   if (grips)
     thr_text_printf(
         text,
@@ -663,6 +689,7 @@ static void put_schedule(thr_text *text, const thr_plan *plan)
         thr_schedule_pulls(schedule), grips, cli_plural(grips, "a grip", "grips"));
   thr_text_append(text, "\n");
 
+  /* In the words of --schedule, to be copied. */
   for (int k = 0; k < schedule->n; k++) {
     thr_text_append(text, "  ");
     thr_schedule_put_step(plan, &schedule->step[k], text);
@@ -678,6 +705,7 @@ static void put_slack(thr_text *text, const thr_plan *plan)
     const thr_eval_cord *cord = &plan->evaluation.cord[i];
     double most = 0;
 
+    /* A cord was pulled in vain if no pass has any tension. */
     for (int k = 0; cord->known && k < cord->n_passes; k++)
       most = fmax(most, cord->tension[k]);
 
@@ -733,11 +761,13 @@ static void put_pressure(thr_text *text, const thr_plan *plan)
 
   if (evaluation->physics.bead_strength == 0) return;
 
+  /* What is pressed is the ring between bore and bead. */
   if (thr_profile_pressure(frame, plan->cord, evaluation, &pressure, &edge, NULL)) {
     text->failed = true;
     return;
   }
 
+  /* The two pieces whose faces are pressed most. */
   thr_text_append(text, "pressed most   between ");
   thr_text_append_clean(text, frame->name[frame->edge[edge][0]]);
   thr_text_append(text, " and ");
@@ -759,6 +789,7 @@ static void put_play(thr_text *text, const thr_plan *plan)
     return;
   }
 
+  /* A piece that stands on the ground itself has no play to add up. */
   if (play.gaps == 0) return;
   thr_text_printf(text, "play: %.3g mm at a gap (bore less cord); piece ", play.gap);
   thr_text_append_clean(text, plan->frame.name[play.piece]);
@@ -793,5 +824,7 @@ void eval_put_text(thr_text *text, const eval_view *view, const thr_plan *plan,
   /* What one method alone says. */
   if (evaluation->method == THR_JOINT) put_joint(text, plan, eval);
   if (evaluation->method == THR_STRUCTURE) put_structure(text, view, plan, eval);
+
+  /* What was asked for beside the answers. */
   if (view->tension) put_tension(text, plan, evaluation);
 }

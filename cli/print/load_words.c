@@ -92,6 +92,7 @@ void load_put(thr_text *text, const thr_plan *plan, const thr_eval *eval)
   const thr_physics *physics = &plan->evaluation.physics;
   bool banded = false;
 
+  /* The columns of the band are there if any point has one. */
   for (int i = 0; i < eval->n_carries; i++)
     banded |= !isnan(eval->carries[i].band_beads[0]) || !isnan(eval->carries[i].band_beads[1]);
 
@@ -145,6 +146,8 @@ static void put_members(thr_writer *writer, const thr_frame *frame, const thr_ca
 
   thr_write_number(writer, "carried", decided ? carry->carried : NAN);
   thr_write_number(writer, "too_much", decided ? carry->beyond : NAN);
+
+  /* The bead that moves fastest in the collapse at the bound. */
   if (decided)
     thr_write_string(writer, "first_bead", frame->name[carry->first_bead]);
   else
@@ -156,6 +159,8 @@ void load_put_json(thr_writer *writer, const thr_frame *frame, const thr_eval *e
 {
   thr_write_line(writer, 1);
   thr_write_object(writer, "load");
+
+  /* The pull that carries all of the load. */
   thr_write_number(writer, "needs", eval->loaded.upper);
   thr_write_number(writer, "needs_at_least", eval->loaded.lower);
   put_band_json(writer, eval->band_beads[THR_ASKED_LOADED]);

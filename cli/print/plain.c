@@ -88,6 +88,7 @@ const char *plain_both(double smaller, double larger, char out[64])
 void plain_put_proof(thr_text *text, bool optimal, double value, double bound, const char *less,
                      const char *least)
 {
+  /* Proved to be the least. */
   if (optimal) {
     thr_text_printf(text, "proved: %s", less);
     return;
@@ -125,6 +126,7 @@ bool plain_put_fewest(thr_text *text, const thr_plan *plan, int fewest, const ch
   const int n_components = thr_plan_components(plan), least = thr_plan_cords_least(&plan->options);
   const int asked = plan->options.ends == THR_ENDS_COUNTS ? plan->n_cords : least * n_components;
 
+  /* Nothing to say: the bound is trivial, or no more than what was asked for. */
   if (fewest <= 1 || (least > 1 && fewest <= asked) || plan->options.ends == THR_ENDS_COUNTS)
     return false;
 

@@ -90,6 +90,7 @@ static void put_cords(thr_text *text, const thr_plan *plan, const double *pull,
   if (cli_verbose) thr_text_printf(text, "%12s ", "capstan");
   thr_text_printf(text, "%18s  %s\n", "pull", "ends");
 
+  /* A line per cord, the first twelve. */
   for (int i = 0; i < plan->n_cords && i < MOST; i++)
     put_cord(text, plan, &plan->cord[i], pull[i], seated ? &seated->record.cord[i] : NULL);
   if (plan->n_cords > MOST) thr_text_printf(text, "..    and %d more\n", plan->n_cords - MOST);
@@ -182,6 +183,7 @@ static void put_claim(thr_text *text, const thr_plan *plan, thr_cords_word word)
   if (!claim->present) return;
   thr_text_printf(text, "longest  %.7g %s", claim->longest, units);
 
+  /* Where evenness was not asked for, only a proof of it is worth a clause. */
   if (claim->longest_optimal || thr_wants_balance(&plan->options)) {
     thr_text_append(text, "; ");
     plain_put_proof(text, claim->longest_optimal, claim->longest, claim->longest_bound,
@@ -206,6 +208,8 @@ static void put_pull_limit(thr_text *text, const thr_plan *plan, double largest)
   char force[64];
 
   if (options->max_pull <= 0) return;
+
+  /* A limit and a claim are factors on the seating tension. */
   thr_text_printf(text, "hand     %s at most at the end of a cord; %.6g N are allowed\n",
                   plain_force(largest * seating, force), options->max_pull * seating);
   if (claim->present) put_fewest(text, plan, claim->fewest, claim->optimal, " within that pull");
@@ -222,6 +226,7 @@ static void put_certificate(thr_text *text, const thr_plan *plan)
 
   if (!cli_verbose && plan->options.confirm != THR_CONFIRM_ALWAYS) return;
 
+  /* GLPK's word counts only if it confirmed, and never denied, the minimum. */
   thr_text_printf(text, "         certificate: %d %s, verified; at least %.6f %s%s\n", cuts,
                   cli_cuts_word(plan, cuts), proof->lower_bound, plan->frame.units,
                   agreed   ? "; GLPK agrees"
@@ -305,6 +310,7 @@ static void put_loose(thr_text *text, const thr_plan *plan, const int *only, int
   const char *between = ": ";
 
   for (int i = 0; i < count_pieces(plan); i++) {
+    /* Pieces that another cord passes, too, stay where they are. */
     if (!is_alone(plan, only, cord, i)) continue;
     thr_text_append(text, between);
     put_piece(text, plan, i);
@@ -330,6 +336,7 @@ static void put_cut(thr_text *text, const thr_plan *plan)
 
   /* The cord that holds most edges alone. */
   thr_cords_only(&plan->frame, plan->cord, plan->n_cords, only);
+
   for (int i = 0; i < plan->n_cords; i++) {
     int n = edges_alone(plan, only, i);
     if (n > most) worst = i;
@@ -379,6 +386,8 @@ static void put_text(thr_text *text, const thr_plan *plan, const double *pull, d
   /* Length: the passes that every edge needs, and overlap beyond that. */
   thr_text_printf(text, "\nlength   %.7g %s = %.7g for ", metrics->length, plan->frame.units,
                   metrics->base_length);
+
+  /* A framework may say how often each edge is to be passed. */
   if (plan->frame.cover)
     thr_text_append(text, "the passes that every edge needs");
   else
@@ -459,6 +468,8 @@ static void put_loose_json(thr_writer *writer, const thr_plan *plan, const int *
   for (int i = 0; i < count_pieces(plan); i++) {
     thr_text name = {0};
     if (!is_alone(plan, only, cord, i)) continue;
+
+    /* A name may have any bytes, so that it is written as a JSON string. */
     put_piece(&name, plan, i);
     thr_write_string(writer, NULL, name.data ? name.data : "");
     writer->out->failed |= name.failed;
@@ -503,6 +514,7 @@ void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *r
 {
   const thr_metrics *metrics = &plan->metrics;
 
+  /* The framework, and how many cords are in it. */
   thr_write_hash(writer, "framework", thr_frame_hash(&plan->frame));
   thr_write_int(writer, "nodes", plan->frame.n_nodes);
   thr_write_int(writer, "edges", plan->frame.n_edges);

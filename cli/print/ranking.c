@@ -104,6 +104,8 @@ void ranking_make(ranking *ranked)
   /* The order: an insertion sort, which is stable. */
   for (int i = 0; i < ranked->n; i++) {
     if (!ranked->rank[i]) continue;
+
+    /* Plan i is inserted before the first plan that it is better than. */
     int k = ranked->n_ranked++;
     for (; k > 0 && is_before(ranked, i, ranked->order[k - 1]); k--)
       ranked->order[k] = ranked->order[k - 1];
@@ -136,6 +138,7 @@ static void put_interval(const ranking *ranked, int i, thr_text *text)
 {
   const double low = unsigned_values(ranked, i).low, high = unsigned_values(ranked, i).high;
 
+  /* Without an upper end, as an error, or as an interval. */
   if (!isfinite(high))
     thr_text_printf(text, " (at least %.4g%s%s%s)", low, ranked->unit, ranked->open ? ": " : "",
                     ranked->open ? ranked->open : "");
@@ -165,6 +168,7 @@ static void put_ties(const ranking *ranked, int k, const char *const *name, thr_
   for (int j = 0; j < k; j++)
     ties += ranking_is_tie(ranked, ranked->order[j], ranked->order[k]);
 
+  /* Told apart from all before, or with which of them it ties. */
   if (ties == 0)
     thr_text_append(text, ranked->most ? "  less, beyond the error" : "  more, beyond the error");
   else if (ties == 1 && ranking_is_tie(ranked, ranked->order[k - 1], ranked->order[k]))
@@ -172,6 +176,7 @@ static void put_ties(const ranking *ranked, int k, const char *const *name, thr_
   else if (ties == k)
     thr_text_append(text, "  tie with all before, within the error");
   else {
+    /* Some of the plans before: by name. */
     const char *with = "  tie with ";
     for (int j = 0; j < k; j++) {
       if (!ranking_is_tie(ranked, ranked->order[j], ranked->order[k])) continue;
@@ -240,6 +245,7 @@ void ranking_put_bands(const ranking *ranked, const char *const *name, char at[R
   if (!ranking_tells_apart(ranked)) return;
 
   for (int band = 0; band < RANKING_BANDS; band++) {
+    /* -1: the values at the ends of this band are not known. */
     const int all = is_banded(ranked, band) ? count_swaps(ranked, band) : -1;
     int said = 0;
 
@@ -298,6 +304,7 @@ bool ranking_disagree(const ranking *a, const ranking *b, int pair[2])
 {
   for (int i = 0; i < a->n; i++)
     for (int k = 0; k < a->n; k++) {
+      /* Ties contradict nothing: both rankings must tell the two plans apart. */
       if (!is_surely_less(a, i, k) || !is_surely_less(b, k, i)) continue;
 
       pair[0] = i;

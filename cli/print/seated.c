@@ -82,7 +82,7 @@ void seated_put(thr_text *text, const thr_plan *plan)
     return;
   }
 
-  /* All cords together, then each alone. */
+  /* All cords together. */
   int n = 0, pulled = 0;
   double *pull = thr_calloc((size_t)plan->frame.n_edges + 1, sizeof *pull);
   for (int i = 0; i < evaluation->n_cords; i++)
@@ -91,6 +91,7 @@ void seated_put(thr_text *text, const thr_plan *plan)
   thr_status st = pull ? thr_seating_pulls(&plan->frame, plan->cord, evaluation, -1, pull, &n, NULL)
                        : THR_ENOMEM;
 
+  /* Alone, each cord seats only what it passes itself. */
   if (!st && n > 0) put_parts(text, pull, n, seating);
   if (!st && pulled > 1 && pulled <= MOST_ALONE) st = put_alone(text, plan, pull);
   if (st) text->failed = true;
@@ -138,6 +139,7 @@ void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,
   double least = INFINITY;
   char from[24], to[24], needed[64];
 
+  /* Beyond some size the programme takes too long for a line in passing. */
   if (plan->frame.n_nodes > THR_HOLDS_LARGEST && plan->options.joint != THR_JOINT_TUBE) {
     thr_text_printf(text,
                     "%swhat holding takes is not computed for more than %d pieces: thread eval "

@@ -45,6 +45,7 @@ static void put_kinds(thr_text *text, const thr_symmetry_row *row)
       [THR_ISO_NONE] = {"of the graph only", "of the graph only"}};
   const char *comma = "";
 
+  /* The identity is named only where there is nothing else. */
   if (row->order == 1) thr_text_append(text, "identity");
 
   for (int k = THR_ISO_IDENTITY + 1; k <= THR_ISO_NONE; k++) {
@@ -130,6 +131,7 @@ void symmetry_put_head(thr_text *text, const thr_frame *frame, const thr_request
   double base = 0;
   for (int e = 0; e < frame->n_edges; e++)
     base += thr_plan_cover(frame, options, e) * frame->length[e];
+
   thr_text_printf(
       text, "ends: %s; %d %s per edge%s; the shortest plan with %s has %.1f %% overlap%s\n\n",
       thr_ends_name(options->ends), options->cover, cli_plural(options->cover, "pass", "passes"),
@@ -165,6 +167,7 @@ static void put_row(thr_text *text, const thr_request *options, const thr_symmet
                     thr_degrees(metrics->max_turning), plain_newtons(row_pull(options, row), force),
                     find_unproved_aim(options, row));
   } else {
+    /* Not in time, or a failure; a row without a threading has none, or was not asked for. */
     bool open = row->why.code == THR_ELIMIT || row->why.code == THR_ESOLVER;
     thr_text_printf(text, "  %-95.95s",
                     open            ? row->why.text
@@ -184,6 +187,7 @@ static void put_reason(thr_text *text, const thr_request *options, const thr_sym
   double percent = 100 * thr_symmetry_slack;
   const thr_symmetry_row *row = &symmetries->row[symmetries->chosen];
 
+  /* Rows are counted from 1. */
   thr_text_printf(text, "* group %d, ", symmetries->chosen + 1);
   put_name(text, row);
 
@@ -215,6 +219,7 @@ static void choose_window(const thr_request *options, const thr_symmetries *symm
 {
   int n = 0, at = 0;
 
+  /* n: rows that are shown; at: the place of the chosen one among them. */
   for (int i = 0; i < symmetries->n; i++) {
     if (i == symmetries->chosen) at = n;
     n += is_shown(options, symmetries, i);
@@ -231,6 +236,8 @@ void symmetry_put_table(thr_text *text, const thr_request *options,
 
   choose_window(options, symmetries, *options->symmetry.group ? symmetries->n : most, &first,
                 &last);
+
+  /* "read": instructions; "may be less": the first aim that is not proved. */
   thr_text_printf(text, "%6s %6s  %-6s %9s %14s %8s %5s %6s %12s %12s %12s %11s %8s  %s\n",
                   "number", "order", "group", "overlap", "paths x copies", "steps", "read", "cords",
                   "turning", "largest", "pull, N", "may be less", "residual", "elements");
@@ -273,6 +280,8 @@ static void put_copies_of(thr_text *text, const thr_plan *plan, int path)
   int n = 0;
 
   thr_text_printf(text, "         %s: unique", plan->cord[path].id);
+
+  /* The copies by name. */
   for (int i = 0; i < plan->n_cords; i++)
     if (i != path && record->unique[i] == path && n++ < MOST)
       thr_text_printf(text, n == 1 ? "; %s" : ", %s", plan->cord[i].id);
@@ -297,6 +306,7 @@ static void put_reading(thr_text *text, const thr_plan *plan)
 {
   const thr_reading reading = thr_reading_of(plan);
 
+  /* A run of beads straight on is one instruction. */
   thr_text_printf(text, "         to read: %d %s; beads straight on are one", reading.instructions,
                   cli_plural(reading.instructions, "instruction", "instructions"));
 
@@ -305,10 +315,14 @@ static void put_reading(thr_text *text, const thr_plan *plan)
   if (reading.repeated > 0)
     thr_text_printf(text, ", %d %s the same again further on", reading.repeated,
                     cli_plural(reading.repeated, "path does", "paths do"));
+
+  /* The rest of such a path is the beginning, turned or mirrored. */
   if (reading.mapped > 0)
     thr_text_printf(text, ", %d %s turned or mirrored", reading.mapped,
                     cli_plural(reading.mapped, "path goes on as its beginning",
                                "paths go on as their beginning"));
+
+  /* Such a path is not read at all. */
   if (reading.moved > 0)
     thr_text_printf(text, ", %d %s moved along", reading.moved,
                     cli_plural(reading.moved, "path is another", "paths are others"));
@@ -359,6 +373,7 @@ static void put_name_json(thr_writer *writer, const char *name)
 static const char *row_status(const thr_symmetry_row *row)
 {
   switch (row->why.code) {
+  /* A row without cords was left out, or was not asked for. */
   case THR_OK:
     return row->n_cords > 0 ? "optimal by the solver's word"
            : row->behind    ? "not chosen"
@@ -418,6 +433,8 @@ static void put_row_json(thr_writer *writer, const thr_request *options,
   thr_write_int(writer, "number", i + 1);
   thr_write_int(writer, "order", row->order);
   put_name_json(writer, row->name);
+
+  /* 0: the number of groups in its class is not known. */
   thr_write_number(writer, "conjugates", row->conjugates > 0 ? (double)row->conjugates : NAN);
   thr_write_number(writer, "residual", row->residual);
 
@@ -488,6 +505,7 @@ void symmetry_put_json(thr_writer *writer, const thr_plan *plan)
   for (int i = 0; i < plan->n_cords; i++) {
     thr_text by = {0};
     put_isometry(&by, plan, record->element[i]);
+
     thr_write_object(writer, NULL);
     thr_write_string(writer, "cord", plan->cord[i].id);
     thr_write_string(writer, "of", plan->cord[record->unique[i]].id);

@@ -32,6 +32,7 @@ static void put_ends(thr_text *text, const thr_plan *plan)
 {
   int n = count_end_nodes(plan);
 
+  /* Closed cords, ends anywhere, at the feet, or at given nodes. */
   switch (plan->options.ends) {
   case THR_ENDS_CLOSED: thr_text_append(text, "closed cords"); break;
   case THR_ENDS_ANY: thr_text_append(text, "cord ends at any node"); break;
@@ -178,6 +179,7 @@ static void put_drawn(thr_text *text, const thr_standing *standing)
   const char *between = "; ";
 
   for (size_t i = 0; i < sizeof way / sizeof *way; i++) {
+    /* Cords that are drawn in the same way are counted together. */
     int n = 0;
     for (int k = 0; k < standing->n_cords; k++)
       n += standing->drawn[k].pull == (int)way[i].pull;
@@ -225,6 +227,8 @@ static void put_structure(thr_text *text, const thr_plan *plan)
     thr_text_printf(text, "beads of %.6g g", physics->bead_mass);
   else
     thr_text_printf(text, "beads of %.6g g/cm3", physics->density);
+
+  /* Model 1: in the middle of its bore; from model 2 on anywhere in it. */
   thr_text_printf(text, ", %.6g mm wide, ", physics->bead_diameter);
   if (standing->model > 1)
     thr_text_printf(text, "cords of %.6g mm anywhere in bores of %.6g mm", physics->cord_diameter,
@@ -295,6 +299,8 @@ static void put_standing(thr_text *text, const thr_plan *plan)
 
   for (int i = 0; i < standing->n_answers; i++) {
     const thr_answer *answer = &standing->answer[i];
+
+    /* Without a mechanism nothing is proved. */
     if (answer->n_beads == 0) continue;
 
     /* Of a pull, a factor or a stretch the proof is a lower bound, of a load an upper one. */
@@ -327,6 +333,7 @@ static bool is_of_older_pull(const thr_plan *plan)
 
 void terms_put(thr_text *text, const thr_plan *plan)
 {
+  /* Among which plans. */
   thr_text_append(text, "  terms: ");
   put_plans(text, plan);
   thr_text_append(text, "\n");
@@ -339,6 +346,8 @@ void terms_put(thr_text *text, const thr_plan *plan)
   if (is_row_asked(plan))
     thr_text_printf(text, "  not verified: that the group is row %s of a table of symmetries\n",
                     plan->options.symmetry.group);
+
+  /* A member of older plans, which no checker reads. */
   if (plan->turning.pairing_bound > 0) {
     thr_text_append(text, "  not verified: pairing_bound, which plans no longer state\n");
   }

@@ -154,6 +154,7 @@ static turning_figures measure_figures(const thr_plan *plan, const thr_plan *oth
 {
   const thr_metrics *metrics = &other->metrics;
 
+  /* Lengths in units, turning in rad, parts and factors without a unit. */
   return (turning_figures){
       {[LENGTH] = metrics->length,
        [ABOVE] = fmax(0, metrics->length / plan->proof.lower_bound - 1),
@@ -232,6 +233,8 @@ static void put_machinery(thr_text *text, const thr_plan *plan)
   int n = tree->n_nodes / 2;
 
   if (!cli_verbose) return;
+
+  /* Every leaf of the tree has a set of multipliers, whose bound the checker has added up. */
   thr_text_printf(text, "         proof: %d %s, %d %s, verified; all cords together need at least ",
                   n, cli_plural(n, "branching", "branchings"), tree->n_duals,
                   cli_plural(tree->n_duals, "multiplier set", "multiplier sets"));
@@ -263,6 +266,8 @@ static void put_restriction(thr_text *text, const thr_plan *plan)
 
   thr_text_printf(text, "         among threadings with at most %d %s over an edge",
                   claim->most_passes, cli_plural(claim->most_passes, "pass", "passes"));
+
+  /* With a length slack also among those that are short enough. */
   if (claim->length_limit >= 0)
     thr_text_printf(text, ", cord up to %.7g %s", claim->length_limit, plan->frame.units);
   thr_text_printf(text, " and U-turns only at beads with one interface%s\n",
@@ -280,6 +285,8 @@ static void put_largest(thr_text *text, const thr_plan *plan)
 
   /* For a pull counts the larger part of the turning, on one side of the slackest pass. */
   const bool pull = thr_wants_pull(&plan->options);
+
+  /* What is minimized of single cords. */
   thr_text_append(text, pull ? ", what an end of the cord that is hardest to pull has to overcome; "
                              : ", the cord that turns most; ");
   plain_put_proof(text, claim->largest_optimal, claim->largest, claim->largest_bound,
@@ -331,6 +338,7 @@ static void put_open_status(thr_text *text, const thr_plan *plan, const thr_riva
   const thr_turning_claim *claim = claim_of(plan, rivals);
   const bool tour = plan->options.turning.tour != THR_TOUR_LEAST;
 
+  /* A classical tour is made to compare with. */
   thr_text_append(text, tour ? "; a classical tour, of which nothing is proved\n"
                              : "; nothing is proved of it\n");
 
@@ -361,6 +369,9 @@ void turning_put_status(thr_text *text, const thr_plan *plan, const thr_rivals *
                     in_angles(plan) ? "nothing turns less" : "nothing has a lower price",
                     "least possible");
     thr_text_append(text, "\n");
+
+    /* The largest cord has a bound of its own if there are several, or if it is what is
+     * minimized. */
     if (plan->n_cords > 1 || thr_wants_largest(&plan->options)) put_largest(text, plan);
     put_restriction(text, plan);
     put_machinery(text, plan);
@@ -442,6 +453,8 @@ void turning_put_table(thr_text *text, const thr_plan *plan, const thr_rivals *r
   int n = make_columns(plan, rivals, columns);
 
   thr_text_printf(text, "\n%-27s", "each against");
+
+  /* Heads of the columns. */
   for (int k = 0; k < n; k++)
     thr_text_printf(text, " %18s", columns[k].title);
 
@@ -450,10 +463,13 @@ void turning_put_table(thr_text *text, const thr_plan *plan, const thr_rivals *r
   for (int i = 0; i < N_FIGURES; i++) {
     if ((i == PRICE && in_angles(plan)) || (i == CAPSTAN && !cli_verbose))
       continue; /* the turning itself; for those who ask */
+
     if (i == LENGTH)
       thr_text_printf(text, "\nlength, %-19s", plan->frame.units);
     else
       thr_text_printf(text, "\n%-27s", figure[i].label);
+
+    /* A value for each column. */
     for (int k = 0; k < n; k++)
       put_cell(text, figure[i].format, columns[k].figures.value[i], plan->options.physics.seating);
   }
@@ -494,10 +510,12 @@ void turning_put_frontier(thr_text *text, const thr_plan *plan, const thr_rivals
                     thr_degrees(frontier_point->turning));
 
     /* The bound: nothing that is no longer turns less. */
-    if (angles) /* The cord that turns most, and the largest pull. */
+    if (angles)
       thr_text_printf(text, " %9.1f deg", thr_degrees(frontier_point->lower_bound));
     else
       thr_text_printf(text, " %13.6g %13.6g", frontier_point->price, frontier_point->lower_bound);
+
+    /* The cord that turns most, and the largest pull. */
     thr_text_printf(
         text, " %9.1f deg %12s%s\n", thr_degrees(frontier_point->max_turning),
         plain_newtons(turning_point_pull(plan, frontier_point, plan->options.physics.mu), force),
@@ -565,6 +583,7 @@ static void put_rival_json(thr_writer *writer, const thr_plan *plan, const thr_r
     return;
   }
 
+  /* All figures, as a plan of its own would have them. */
   turning_figures figures = measure_figures(plan, &rival->plan);
   thr_write_object(writer, rival->key);
   thr_write_string(writer, "plan", rival->title);
