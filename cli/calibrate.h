@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* thread eval --calibrate: friction from weights and tilted boards at the bench, and the piece that
- * the weights hang from. */
+/* thread eval --calibrate: computes frictions from weights and tilted boards at the bench, and
+ * draws the piece that the weights hang from. */
 #ifndef THR_CLI_CALIBRATE_H
 #define THR_CLI_CALIBRATE_H
 
@@ -19,7 +19,8 @@
   "      --calibrate piece   a drawing of the piece to drill, true to size (SVG; -o FILE.stl: to " \
   "print), by --bore mm\n"
 
-/* value: of --calibrate; bore: mm, of the piece. Returns the exit code. */
+/* Runs --calibrate. value: as given; bore: mm, of the piece; output: NULL = stdout. Returns the
+ * exit code. */
 int calibrate_run(const char *value, double bore, const char *output, bool json);
 
 #endif

@@ -164,12 +164,12 @@ void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,
   if (!isfinite(times))
     thr_text_append(text, "at no pull");
   else if (strcmp(from, to) == 0)
-
-    /* A proof holds at the frictions that are stated with it. */
     thr_text_printf(text, "only from %s", plain_force(times * largest, needed));
   else
     thr_text_printf(text, "only from %.3g times that, %s at the hardest", times,
                     plain_force(times * largest, needed));
+
+  /* A proof holds at the frictions that are stated with it. */
   thr_text_printf(text,
                   " (proved at frictions of %g bead on bead, %g on the ground, %g of the cord)%s\n",
                   physics->mu_bead, physics->mu_ground, physics->mu,

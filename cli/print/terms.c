@@ -221,14 +221,13 @@ static void put_structure(thr_text *text, const thr_plan *plan)
   const thr_standing *standing = &plan->evaluation.standing;
   const thr_physics *physics = &plan->evaluation.physics;
 
-  /* Beads and bores. In models from 2 on a cord may be anywhere in its bore; before, it was in the
-   * middle. */
+  /* The mass of a bead is given, or follows from the density. */
   if (physics->bead_mass > 0)
     thr_text_printf(text, "beads of %.6g g", physics->bead_mass);
   else
     thr_text_printf(text, "beads of %.6g g/cm3", physics->density);
 
-  /* Model 1: in the middle of its bore; from model 2 on anywhere in it. */
+  /* In model 1 a cord is in the middle of its bore, from model 2 on anywhere in it. */
   thr_text_printf(text, ", %.6g mm wide, ", physics->bead_diameter);
   if (standing->model > 1)
     thr_text_printf(text, "cords of %.6g mm anywhere in bores of %.6g mm", physics->cord_diameter,

@@ -114,7 +114,8 @@ double turning_pull(const thr_plan *plan, double *cord)
    * more than exp(690), about 1e300, the cords that are to blame are INFINITY. */
   for (int i = 0; i < plan->n_cords; i++) {
     double pull = known ? eval.record.cord[i].force : NAN;
-    /* pulled at both ends, each has half of the turning to overcome */
+
+    /* Pulled at both ends, each end has half of the turning to overcome. */
     if (!known &&
         plan->options.physics.mu * thr_cord_turning(&plan->frame, &plan->cord[i], false) / 2 > 690)
       pull = INFINITY;
@@ -234,7 +235,7 @@ static void put_machinery(thr_text *text, const thr_plan *plan)
 
   if (!cli_verbose) return;
 
-  /* Every leaf of the tree has a set of multipliers, whose bound the checker has added up. */
+  /* The leaves of the tree prove their bounds by sets of multipliers, which the checker adds up. */
   thr_text_printf(text, "         proof: %d %s, %d %s, verified; all cords together need at least ",
                   n, cli_plural(n, "branching", "branchings"), tree->n_duals,
                   cli_plural(tree->n_duals, "multiplier set", "multiplier sets"));
@@ -283,10 +284,9 @@ static void put_largest(thr_text *text, const thr_plan *plan)
   thr_text_append(text, "largest  ");
   put_price(text, plan, claim->largest);
 
-  /* For a pull counts the larger part of the turning, on one side of the slackest pass. */
+  /* What is minimized of single cords: their turning or, for the pull, the larger part of it, on
+   * one side of the slackest pass. */
   const bool pull = thr_wants_pull(&plan->options);
-
-  /* What is minimized of single cords. */
   thr_text_append(text, pull ? ", what an end of the cord that is hardest to pull has to overcome; "
                              : ", the cord that turns most; ");
   plain_put_proof(text, claim->largest_optimal, claim->largest, claim->largest_bound,
@@ -395,7 +395,6 @@ static void put_cell(thr_text *text, format kind, double value, double seating)
   else if (kind == FORMAT_PRICE)
     snprintf(cell, sizeof cell, "%.6g", value);
   else
-
     snprintf(cell, sizeof cell, "%.*f",
              kind == FORMAT_LENGTH    ? 3
              : kind == FORMAT_PERCENT ? 2
@@ -404,6 +403,7 @@ static void put_cell(thr_text *text, format kind, double value, double seating)
              kind == FORMAT_PERCENT ? 100 * value
              : kind == FORMAT_ANGLE ? thr_degrees(value)
                                     : value);
+
   thr_text_printf(text, " %18s", cell);
 }
 
