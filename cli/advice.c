@@ -73,6 +73,7 @@ static void put_line(const thr_advice *advice, const thr_plan *plan, const char 
   advice_command_options(frame_args, physics, &options);
   advice_put_command(&command, path, options.data ? options.data : "", row);
 
+  /* Without memory the line is left out, and whoever writes the text reports that. */
   if (options.failed || command.failed)
     text->failed = true; /* which whoever writes the text reports */
   else
@@ -97,6 +98,8 @@ void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_fra
   double newton = largest_pull(plan), work = 0;
 
   if (newton <= thr_hand_most) return;
+
+  /* First that it is too hard, then what is not. */
   put_too_hard(text, newton);
   thr_text_append(text, ":\n");
 
@@ -131,5 +134,7 @@ thr_limits advice_limits(double seconds, double *work)
   /* Advice is silent: a bar for many small searches would say nothing. */
   if (!cli_verbose) limits.progress = NULL;
   limits.advance = NULL;
+
+  /* Counted work makes the same rows on every machine. */
   return *work > 0 ? thr_limits_counted(&limits, work) : limits;
 }

@@ -39,6 +39,7 @@ void best_begin(const thr_frame *frame, const thr_request *options)
  * (units). */
 static double minimized_value(const thr_plan *plan)
 {
+  /* The first aim that the request has counts; of a symmetric plan the learned steps. */
   if (thr_wants_symmetry(&plan->options)) return plan->symmetry.steps;
   if (thr_wants_balance(&plan->options))
     return thr_cords_longest(&plan->frame, plan->cord, plan->n_cords);
@@ -119,6 +120,8 @@ static void keep_better(thr_plan *plan, double now)
   thr_text text = {0};
 
   if (!is_better(plan)) return;
+
+  /* A plan without claims: proofs are made at the end of a search. */
   thr_plan_write(plan, &text);
   guard_keep(&text);
 
@@ -144,6 +147,7 @@ static bool own_passes(thr_plan *plan)
   for (i = 0; i < plan->n_cords; i++) {
     int *half = thr_calloc((size_t)plan->cord[i].n_passes, sizeof *half);
     if (!half) break;
+
     plan->cord[i].half =
         memcpy(half, plan->cord[i].half, (size_t)plan->cord[i].n_passes * sizeof *half);
   }

@@ -175,6 +175,7 @@ static int weigh(const char *value, const char *output, bool json)
                      "most %d of each, with semicolons between",
                      value, MOST_WEIGHINGS);
 
+  /* Weights that contradict each other are refused. */
   if (fit_frictions(&results, &file, &said, &err)) {
     thr_text_destroy(&file);
     thr_text_destroy(&said);
@@ -189,6 +190,7 @@ static int weigh(const char *value, const char *output, bool json)
   }
 
   int code = output ? cli_write(&file, output) : EXIT_OK;
+
   if (output) thr_text_printf(&said, "use it: --physics %s\n", output);
   if (!output) thr_text_destroy(&file);
   if (code) thr_text_destroy(&said);

@@ -3,7 +3,11 @@
  * (lib/documents.h has the table of documents).
  *
  * All documents of a plan share one layout of its framework, because finding it takes long. The
- * step sheets come last, since they take longest: who stops them has all others. */
+ * step sheets come last, since they take longest: who stops them has all others. When the time of
+ * the command is over between two documents, the rest is named and left out.
+ *
+ * Files that the command reads are safe: drawings_claim refuses a folder in which a document would
+ * replace one, before any search. */
 #include "cli/drawings.h"
 
 #include "diagram/export/paper.h"
@@ -15,6 +19,7 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Returns the value of --from for a choice: 0 = end, one needle; 1 = middle, two needles. */
 static const char *from_name(int i)
 {
   static const char *const name[] = {"end", "middle"};
@@ -61,9 +66,7 @@ thr_status drawings_chains(const thr_plan *plan, const drawings_args *args, thr_
    * made for that. */
   thr_text_printf(text, "longest loose chain: %d %s", chains.longest,
                   thr_pieces_word(plan, chains.longest));
-  if (planned.longest < chains.longest &&
-      plan->options.order !=
-          THR_ORDER_PLANNED) /* the order of work is not the one for so many needles */
+  if (planned.longest < chains.longest && plan->options.order != THR_ORDER_PLANNED)
     thr_text_printf(text, ", %d as planned; thread plan --from %s puts the work in order for that",
                     planned.longest, args->needles == 1 ? "end" : "middle");
 
@@ -76,7 +79,8 @@ static void note_pages(const char *file, int n)
   cli_note("%s: %d %s", file, n, cli_plural(n, "page", "pages"));
 }
 
-/* Writes document i. layout: of the framework, NULL = of its own. Returns an exit code. */
+/* Makes document i and writes it to path. layout: of the plan's framework, shared by all documents;
+ * NULL = of its own. Returns an exit code. */
 static int write_one(const thr_plan *plan, int i, const thr_layout *layout, const char *path,
                      const drawings_args *args)
 {
@@ -95,8 +99,9 @@ static int write_one(const thr_plan *plan, int i, const thr_layout *layout, cons
   /* An interrupt that has ended the planning does not end the drawing, too. */
   thr_limits limits = cli_limits(0);
 
-  if (thr_limits_stop(&limits))
-    limits.interrupted = NULL; /* an interrupt that has ended the planning does not end this */
+  if (thr_limits_stop(&limits)) limits.interrupted = NULL;
+
+  /* What cannot be drawn in time or memory leaves no half of a file. */
   thr_status st = thr_document_make(plan, i, &options, &limits, &text, &err);
   cli_progress_end();
 
@@ -163,6 +168,8 @@ bool drawings_would_lose(const char *folder)
 
   for (int k = 0; k < thr_documents_count(); k++) {
     if (!thr_document_usual(k)) continue;
+
+    /* Every document that drawings_write_all may write. */
     join_path(folder, thr_document_file(k), path);
     lost = lost || files_is_taken(path, NULL);
   }
@@ -203,6 +210,8 @@ static int write_all(const thr_plan *plan, const thr_layout *layout, const char 
 
     /* Sheets come last, so that nothing is left out with them. */
     if (i == thr_document_sheets() && drawings_no_sheets(plan, args)) break;
+
+    /* The mat and others that few need are made only by name. */
     if (!thr_document_usual(i)) continue;
 
     /* Documents that are there already stay if the time is over. */

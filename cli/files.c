@@ -18,14 +18,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* What a command does with a file. OUTPUT_FOLDER: it writes files of usual names into it. */
 typedef enum { INPUT, OUTPUT, OUTPUT_FOLDER } file_kind;
 
-/* Names are copies: tables of options end with the function that parses them. */
+/* A file that the command line names. Names are copies: tables of options end with the function
+ * that parses them. */
 typedef struct {
   char *option, *path; /* option: NULL = an operand; both owned */
   file_kind kind;
 } known_file;
 
+/* All files of this process, and the folders that it has made. */
 static struct {
   known_file *file;
   int n;
@@ -98,6 +101,7 @@ static bool is_lost_by(const char *path, const known_file *entry)
     return false;
   if (entry->kind == INPUT && is_standard(entry->path))
     return thr_os_is_same_file(path, "/dev/stdin");
+
   return (entry->kind == OUTPUT || thr_os_is_file(entry->path)) &&
          thr_os_is_same_file(path, entry->path);
 }
@@ -154,11 +158,14 @@ int files_may_write(const char *path)
 {
   for (int i = 0; i < known.n; i++) {
     const known_file *entry = &known.file[i];
+
+    /* Only inputs are protected here. */
     if (entry->kind != INPUT || is_sharing_allowed("output", entry) || !is_lost_by(path, entry))
       continue;
     cli_error("%s was read, and is not written over: name another file", path);
     return EXIT_USAGE;
   }
+
   return EXIT_OK;
 }
 
@@ -212,6 +219,8 @@ static int try_output(const known_file *entry)
 
   if (entry->kind == OUTPUT_FOLDER || cli_is_folder(entry->path))
     return files_try_folder(entry->path);
+
+  /* The system is asked: permissions, full disks and devices are its business. */
   const int code = make_folder_of(entry->path);
 
   return code || thr_os_can_write(entry->path) ? code : cannot_write(entry->path);
@@ -291,6 +300,7 @@ void files_made(const char *folder)
 void files_tidy(void)
 {
   while (known.n_made > 0) {
+    /* The last folder that was made is the innermost one. */
     (void)thr_os_remove_folder(known.made[--known.n_made]); /* refused where something is in it */
     free(known.made[known.n_made]);
   }

@@ -45,6 +45,7 @@ static bool parse_memory(const char *command, const char *value, double *bytes)
 bool guard_option(guard_limits *limits, const char *command, int option, const char *value,
                   bool *ok)
 {
+  /* 0 s and 0 bytes mean any. */
   *ok = true;
   switch (option) {
   case OPTION_TIME:

@@ -23,6 +23,7 @@
 /* s between two lines about bounds or parts. */
 static const double OFTEN = 0.05;
 
+/* What the last lines said, so that a line is only written for progress. */
 static struct {
   bool wanted;
   double began, told; /* thr_clock() */
@@ -100,6 +101,8 @@ static void tell_bound(void *user, const char *what, double best, double bound)
    * counts. */
   bound = fmax(bound, 0); /* no price and no weight is below 0 */
   if ((best >= last_line.best && bound <= last_line.bound) || !is_due(other)) return;
+
+  /* The line tells the best of all searches so far. */
   last_line.best = fmin(best, last_line.best);
   last_line.bound = fmax(bound, last_line.bound);
 

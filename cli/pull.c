@@ -4,7 +4,14 @@
  *
  * --pull says which ends are pulled: one word for all cords, "start", "end" or "both", or a list
  * that names cords, "A=start,B=none", in which cords that are not named are pulled at both ends.
- * Whether there are such cords is known only when a plan is read. */
+ * Whether there are such cords is known only when a plan is read, so that the value is kept as text
+ * until then.
+ *
+ * What is said of cord and beads on the command line takes the place of what is stored in the plan;
+ * sizes that nobody said follow from the framework (graph/plan/physics.h).
+ *
+ * Measured joints are cached in a folder, so that the next evaluation with the same cord and beads
+ * takes no time; results do not depend on that. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/pull.h"
 #include "graph/framework/units.h"
@@ -206,6 +213,9 @@ static int resolve_pulls(const pull_args *args, const char *path, const thr_plan
   /* A list: cords that it does not name are pulled at both ends. */
   for (int i = 0; i < plan->n_cords; i++)
     (*out)[i] = THR_PULL_BOTH;
+
+  /* The list was checked when the option was taken, so that only unknown cords are left to
+   * refuse. */
   while (parse_next_pull(&list, id, &pull, &ok)) {
     int i = 0;
     while (i < plan->n_cords && strcmp(plan->cord[i].id, id) != 0)
@@ -251,6 +261,8 @@ static void note_thin_cord(const thr_frame *frame, const thr_physics *asked,
 
   /* The usual cord is a twentieth of the median edge, but at most a quarter of the shortest. */
   if (fabs(resolved->cord_diameter - shortest / 4) > 1e-9 * shortest) return;
+
+  /* Once for all plans and methods of this run. */
   said = true;
   cli_note("note: the cord is taken to be %.3g mm thick, as the edge from %s to %s is only %.3g mm "
            "long; --cord-diameter says it",
@@ -287,6 +299,7 @@ int pull_eval(const pull_args *args, const char *path, const thr_plan *plan, thr
   /* Stopped: measured joints are kept for the next run. */
   if (st == THR_ELIMIT) {
     int kept = options.cache && !out->cache_failed ? out->joints_measured : 0;
+
     if (method == THR_JOINT)
       cli_note("note: %s: %d %s kept in the cache for the next run", path, kept,
                cli_plural(kept, "joint is", "joints are"));
@@ -295,6 +308,8 @@ int pull_eval(const pull_args *args, const char *path, const thr_plan *plan, thr
 
   if (!st) {
     if (method != THR_CAPSTAN) note_thin_cord(&plan->frame, &options.physics, &out->record.physics);
+
+    /* A folder that cannot be written is no reason to fail. */
     if (out->cache_failed)
       cli_note("note: measured joints could not be kept in %s; --cache names another folder",
                options.cache);
@@ -319,6 +334,7 @@ int pull_read_schedule(const char *value, const thr_plan *plan, thr_schedule *sc
   thr_status st = file ? thr_text_read_plain(&text, value, &err) : THR_OK;
   if (!file) thr_text_append(&text, value);
   if (!st && text.failed) st = thr_nomem(&err);
+
   if (!st)
     st = thr_schedule_parse(schedule, plan, text.data, text.length, file ? value : "--schedule",
                             &err);

@@ -2,6 +2,11 @@
 /* thread advise: makes a plan for every number of cords and kind of ends that may be worth its
  * cord, prints a table of them, and recommends the one with the fewest cords that a hand can pull.
  *
+ * The pull at the hardest end, N, grows with exp(mu x turning), so that a cord with half of the
+ * turning needs only the square root of that factor. A hand manages 10 N time after time, 50 N at
+ * most (graph/plan/advice.h); recommended is what stays within the hand even at the upper end of
+ * the band of mu.
+ *
  * The searches are thr_advise's (planner/advise.c), the table is cli/print/advice_table.c. This
  * file parses the options, shows rows on a terminal as they are found, keeps the cords of every row
  * so that the recommended ones can be asked from which pull on they hold the pieces, and writes
@@ -128,6 +133,8 @@ static int parse(int argc, char **argv, advise_arguments *args)
     if (!take_option(args, option, optarg)) return EXIT_USAGE;
 
   if (done >= 0) return done;
+
+  /* One operand: the framework. */
   if (optind + 1 != argc)
     return cli_usage("advise", optind == argc ? "which framework?" : "one framework at a time");
   args->path = argv[optind];
@@ -268,7 +275,8 @@ static int write_json(const advise_arguments *args, const thr_frame *frame,
   return cli_write(&text, args->type == TYPE_SVG ? "-" : args->output);
 }
 
-/* Writes table, picture or JSON. Returns an exit code. */
+/* Writes table, picture or JSON; with JSON and a picture both. state: knows the cords of the
+ * recommended row. Returns an exit code. */
 static int write_advice(const advise_arguments *args, const thr_frame *frame,
                         const thr_advice *advice, const table_state *state)
 {
@@ -335,6 +343,7 @@ static int advise(advise_arguments *args, const thr_frame *frame)
   thr_status st = thr_advise(frame, &args->request, &options, &limits, &advice, &err);
   cli_progress_end();
 
+  /* The finished table takes the place of the rows. */
   wipe_rows(&state);
   if (!st) code = write_advice(args, frame, &advice, &state);
   forget_cords(&state);

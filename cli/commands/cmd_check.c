@@ -375,6 +375,7 @@ int cmd_check(int argc, char **argv)
 
   /* What cannot be judged in its time leaves the plans behind it to another process. */
   for (char **path = argv + optind, **last = argv + argc; path < last;) {
+    /* A child for all plans that are left. */
     if (!guard_fork(&guard, &end))
       return check_all(path, (int)(last - path), json, guard.seconds < 0);
 

@@ -122,6 +122,7 @@ typedef struct {
   const char *schedule; /* as given; NULL: none */
 } structure_actions;
 
+/* A plan with its evaluations (cli/print/print.h). */
 typedef compare_entry entry;
 
 /* Returns whether a method is part of this comparison. The closed form always is. */

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* thread convert: reads a framework, checks it, and writes it in another format.
  *
- * The name of the output says the format; --type says it where there is no name.
+ * The name of the output says the format; --type says it where there is no name. Reading merges
+ * nodes, drops edges and guesses units as the options say (graph/io/read.h); what was done is noted
+ * on stderr, and only the framework that is left is written.
  *
  * Example: `thread convert shell.stl --flat 1 -o shell.obj` writes the edges of a mesh without the
  * diagonals of flat faces. */
@@ -73,6 +75,8 @@ int cmd_convert(int argc, char **argv)
   }
 
   if (done >= 0) return done;
+
+  /* One operand: the framework. */
   if (optind + 1 != argc)
     return cli_usage("convert", optind == argc ? "which framework?" : "one framework at a time");
 

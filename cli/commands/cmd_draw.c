@@ -3,6 +3,12 @@
  *
  * All documents stand in one table (lib/documents.h): name, usual file, and what makes it. --type
  * names one of them, or all; -o names a file, or a folder in which the document has its usual name.
+ * Options say how documents are drawn (cli/drawings.h), and are ignored by those that have no use
+ * for them.
+ *
+ * No document may take the place of a file that the command reads: outputs are claimed
+ * (cli/files.c) before anything is drawn. The drawing is done in a child process, whose limits on
+ * time and memory leave the documents that are there already.
  *
  * Example: `thread draw plan.json -T all -o diagrams/` writes overview.svg, steps.txt, sheets.pdf
  * and more into diagrams/. */
@@ -79,12 +85,14 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       {"output", required_argument, NULL, 'o'},
                                       {NULL, 0, NULL, 0}};
 
+/* Returns the value of --up for a choice: 0 = y, 1 = z. */
 static const char *up_name(int up)
 {
   return up ? "z" : "y";
 }
 
-/* Returns the name of a type of document; one more than there are stands for all. */
+/* Returns the name of a type of document, as --type takes it; the number of documents stands for
+ * all of them. */
 static const char *type_name(int t)
 {
   return t < thr_documents_count() ? thr_document_type(t) : "all";
@@ -115,7 +123,8 @@ static void note_chains(const thr_plan *plan, const drawings_args *args)
   thr_text_destroy(&text);
 }
 
-/* Runs `thread draw` and returns the exit code. */
+/* Runs `thread draw` and returns the exit code: EXIT_LIMIT if not all was drawn in the time or
+ * memory. */
 int cmd_draw(int argc, char **argv)
 {
   int done, option;
@@ -153,6 +162,7 @@ int cmd_draw(int argc, char **argv)
 
   if (done >= 0) return done;
 
+  /* Choices that cli_choose returns as numbers. */
   args.colour = (thr_overview_colour)color;
   args.lines.up_y = up == 0;
   bool all = type == thr_documents_count();
@@ -165,6 +175,7 @@ int cmd_draw(int argc, char **argv)
     return cli_usage("draw", "%s: --type %s makes %s; say which type", output, type_name(type),
                      thr_document_file(type));
 
+  /* One operand: the plan. */
   if (optind + 1 != argc)
     return cli_usage("draw", optind == argc ? "which plan?" : "one plan at a time");
 

@@ -2,12 +2,20 @@
 /* thread eval: computes how hard the ends of a plan's cords must be pulled, and what the structure
  * holds.
  *
- * Three methods behind one interface (eval/eval.h): the closed form T exp(mu x turning), joints
- * whose friction is measured in simulation, and the limit analysis of rigid beads with a simulation
- * as its witness. This file parses the options, evaluates one plan in a guarded child process, puts
- * the evaluation into the plan, and writes the plan, pictures and a summary (cli/print/eval_text.c,
- * eval_json.c).
+ * Three methods behind one interface (eval/eval.h) answer two questions that must not be mixed up
+ * (docs/method.md, "Pull force"):
  *
+ * capstan and joint: the seating pull, at which every pass has the seating tension T, N. Along a
+ * cord that slides over a turn of theta rad, tension grows by exp(mu theta) (Euler-Eytelwein).
+ * Capstan takes the turns through the centres of the beads; joint takes the path of the tight cord,
+ * and measures what single turns cost in simulation.
+ *
+ * structure: the holding pull, N, below which the rigid beads have no equilibrium while the cords
+ * are drawn in (limit analysis of blocks with friction), with a simulation as its witness. It grows
+ * with the weight of the beads, not with T.
+ *
+ * This file parses the options, evaluates one plan in a guarded child process, puts the evaluation
+ * into the plan, and writes the plan, pictures and a summary (cli/print/eval_text.c, eval_json.c).
  * With --calibrate there is no plan: weights at the bench become a file of frictions
  * (cli/calibrate.c).
  *
@@ -231,6 +239,7 @@ static int parse(int argc, char **argv, eval_arguments *args)
   if (args->output && cli_no_plan_name("eval", args->output)) return EXIT_USAGE;
   if (pull_check(&args->pull, "eval")) return EXIT_USAGE;
 
+  /* --hand finds a schedule of its own. */
   if (args->schedule && args->pull.options.hand > 0)
     return cli_usage("eval", "--hand makes a schedule of its own: no --schedule");
   if (args->pull.options.hand > 0 && args->pull.method == THR_STRUCTURE)
@@ -240,6 +249,7 @@ static int parse(int argc, char **argv, eval_arguments *args)
   /* What only method structure knows. */
   if ((args->still || args->stills) && args->pull.method != THR_STRUCTURE)
     return cli_usage("eval", "%s needs --method structure", args->still ? "--still" : "--stills");
+
   if (args->stills && args->schedule)
     return cli_usage("eval", "--stills draws the cords in; take --schedule away");
   if (load_any(&args->load) && args->pull.method != THR_STRUCTURE)
@@ -260,8 +270,9 @@ static int parse(int argc, char **argv, eval_arguments *args)
 
 /* ---- outputs ---- */
 
-/* Evaluates the plan's cords again, pulled as they were, at another friction and by the closed
- * form. Release with thr_eval_destroy. */
+/* Evaluates the plan's cords again, pulled at the same ends, at another friction and by the closed
+ * form: one edge of the fan of a tension plot. mu: of cord on bead. Release with
+ * thr_eval_destroy. */
 static thr_status eval_at(const thr_plan *plan, double mu, thr_eval *out, thr_err *err)
 {
   const thr_evaluation *evaluation = &plan->evaluation;
@@ -276,7 +287,7 @@ static thr_status eval_at(const thr_plan *plan, double mu, thr_eval *out, thr_er
   /* The band of this evaluation is not asked for: 0 means that it follows from mu. */
   options.physics = evaluation->physics;
   options.physics.mu = mu;
-  options.physics.mu_low = options.physics.mu_high = 0; /* as they follow from mu */
+  options.physics.mu_low = options.physics.mu_high = 0;
   options.law = evaluation->law;
   options.cord_pull = pull;
 
@@ -287,9 +298,10 @@ static thr_status eval_at(const thr_plan *plan, double mu, thr_eval *out, thr_er
   return st;
 }
 
-/* Draws the tension along each cord, with a fan from mu_low to mu_high where the method has one:
- * the limit analysis has none, a schedule neither, and beyond 1e300 N nothing is drawn. strength: N
- * that the cord bears, 0 = not known. Returns an exit code. */
+/* Draws the tension along each cord, N, with a fan from mu_low to mu_high where the method has one:
+ * the limit analysis has none, a schedule neither, and beyond 1e300 N nothing is drawn. Lines show
+ * what a hand manages and what the cord bears. strength: N that is left of the cord at its knots,
+ * 0 = not known. Returns an exit code. */
 static int write_plot(const thr_plan *plan, double strength, const char *path)
 {
   const thr_evaluation *evaluation = &plan->evaluation;
@@ -325,8 +337,9 @@ static int compare_pulls(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-/* Draws what of the load is carried against the pull at all ends, N, and which piece moves first.
- * load: as given. Returns an exit code. */
+/* Draws what of the load is carried against the pull at all ends, N: from the multiple at which an
+ * equilibrium was found to the one above which none exists, and which piece moves first. load: as
+ * given. Returns an exit code. */
 static int write_load_plot(const thr_plan *plan, const thr_eval *eval, const char *load,
                            const char *path)
 {
@@ -373,7 +386,9 @@ static double (*scale_poses(const double (*from)[7], size_t n, double mm))[7]
   return pose;
 }
 
-/* Draws the beads before and after the fall, with the widest gap of each in mm. */
+/* Draws the beads before and after the fall, side by side, with the widest gap of each in mm. What
+ * the picture shows depends on how the simulation ended: the beads fell where the limit analysis
+ * expects a fall, or elsewhere, or not at all. */
 static thr_status draw_still(const thr_plan *plan, const thr_settle *settle, thr_text *svg,
                              thr_err *err)
 {
@@ -416,7 +431,7 @@ static thr_status draw_still(const thr_plan *plan, const thr_settle *settle, thr
 }
 
 /* Draws in six stills how the structure comes up from slack: sunk down, drawn in by a half, once
- * and twice the pull under a counterweight, let alone, at rest. */
+ * and twice the pull under a counterweight, let alone, at rest (eval/structure/erect.c). */
 static thr_status draw_stills(const thr_plan *plan, const thr_erect *erect, thr_text *svg,
                               thr_err *err)
 {
@@ -431,6 +446,8 @@ static thr_status draw_stills(const thr_plan *plan, const thr_erect *erect, thr_
   thr_status st = thr_units_in_mm(plan->frame.units, &mm, err);
 
   if (st) return st;
+
+  /* Poses of all stills stand in one array, still by still. */
   double(*pose)[7] =
       scale_poses((const double(*)[7])erect->pose, THR_ERECT_STILLS * (size_t)erect->n_beads, mm);
 
@@ -462,7 +479,8 @@ static thr_status draw_stills(const thr_plan *plan, const thr_erect *erect, thr_
   return st;
 }
 
-/* Writes the picture of how the structure comes up. Returns an exit code. */
+/* Writes the picture of how the structure comes up. stopped: the user or a limit ended the work,
+ * which is no error of this picture. Returns an exit code. */
 static int write_stills(const thr_plan *plan, const thr_erect *erect, bool stopped,
                         const char *path)
 {
@@ -479,7 +497,8 @@ static int write_stills(const thr_plan *plan, const thr_erect *erect, bool stopp
   return draw_stills(plan, erect, &svg, &err) ? cli_fail(&err) : cli_write(&svg, path);
 }
 
-/* Writes the picture of the fall, unless there is nothing to draw. Returns an exit code. */
+/* Writes the picture of the fall, unless there is nothing to draw. stopped: as for write_stills.
+ * Returns an exit code. */
 static int write_still(const thr_plan *plan, const thr_settle *settle, bool stopped,
                        const char *path)
 {
@@ -553,7 +572,8 @@ static bool is_any_known(const thr_evaluation *evaluation)
   return false;
 }
 
-/* Runs `thread eval` and returns the exit code. */
+/* Runs `thread eval` and returns the exit code: EXIT_LIMIT if only a part is known, EXIT_INFEASIBLE
+ * if no pull holds the structure. */
 int cmd_eval(int argc, char **argv)
 {
   eval_arguments args;

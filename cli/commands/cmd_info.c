@@ -3,9 +3,13 @@
  * lengths, and whether it is rigid; of a plan also which joints its cords do not tie, and which
  * channels cross inside a piece.
  *
- * Rigidity takes every node for a ball joint and every edge for a bar (docs/method.md, "Rigidity"):
- * of 3 n coordinates the rank of the rigidity matrix and the 6 rigid motions are taken off; what is
- * left are motions without stretching an edge. Edges beyond the rank are self-stresses.
+ * Odd nodes and bridges tell what threading costs: a closed cord passes some edges twice between
+ * odd nodes, in pairs, and every bridge twice.
+ *
+ * Rigidity takes every node for a ball joint and every edge for a bar (docs/method.md, "Rigidity").
+ * Of 3 n coordinates the rank of the rigidity matrix and the 6 rigid motions are taken off; what is
+ * left are motions without stretching an edge. Edges beyond the rank are self-stresses. The rank is
+ * computed numerically; where rounding decides, the line says so.
  *
  * Example: the 7 x 7 dome has 49 nodes, 84 edges, 20 odd nodes and 57 such motions (3 x 49 - 84 -
  * 6). */
@@ -76,7 +80,8 @@ static bool can_analyse(const thr_frame *frame)
          (frame->n_edges <= 20 * frame->n_nodes || frame->n_edges * columns * columns <= most_work);
 }
 
-/* Counts and measures, and analyses the rigidity where that takes no time. */
+/* Counts nodes and edges, measures lengths, and analyses the rigidity where that takes no more than
+ * a second or so. *info is {0} before; on failure what was found may be in it. */
 static thr_status find_facts(const thr_frame *frame, frame_facts *info, thr_err *err)
 {
   info->shortest = frame->length[0];
@@ -127,8 +132,9 @@ static thr_status count_crossings(const thr_plan *plan, frame_facts *info, thr_e
   return THR_OK;
 }
 
-/* Finds joints that the cords of a plan do not tie, and channels that cross. Nothing if the file is
- * no valid plan, or stdin, which has been read already. */
+/* Finds joints that the cords of a plan do not tie, and channels that cross. A joint is tied if
+ * cords connect all of its edges by turns, so that it holds even if pieces are tubes. Nothing if
+ * the file is no valid plan, or stdin, which has been read already. */
 static thr_status find_untied(const char *path, frame_facts *info, thr_err *err)
 {
   thr_plan plan;
@@ -154,7 +160,8 @@ static thr_status find_untied(const char *path, frame_facts *info, thr_err *err)
   return st;
 }
 
-/* Appends whether the framework of bars moves, and if its feet are held. */
+/* Appends whether the framework of bars moves, in space, within its plane if it is flat, and with
+ * its feet held. */
 static void put_motions(thr_text *text, const frame_facts *info)
 {
   const thr_rigidity *rigidity = &info->rigidity;
@@ -184,6 +191,8 @@ static void put_rigidity(thr_text *text, const thr_frame *frame, const frame_fac
 
   /* Of a plan. */
   thr_text_printf(text, "untied      %d of %d joints", info->n_untied, frame->n_nodes);
+
+  /* Names tell where to look, a number how much is loose. */
   int shown = 0;
   for (int v = 0; v < frame->n_nodes && shown < MOST_NAMES; v++)
     if (info->untied[v]) thr_text_printf(text, "%s%s", shown++ ? " " : ": ", frame->name[v]);
@@ -312,6 +321,7 @@ static void put_json(thr_text *text, const thr_frame *frame, const frame_facts *
 
   /* Lengths in units of the framework. */
   thr_write_string(&writer, "units", frame->units);
+
   thr_write_number(&writer, "length", thr_frame_total_length(frame));
   thr_write_number(&writer, "shortest_edge", info->shortest);
   thr_write_number(&writer, "longest_edge", info->longest);
@@ -395,6 +405,8 @@ int cmd_info(int argc, char **argv)
   }
 
   if (done >= 0) return done;
+
+  /* One operand: the framework, or a plan that holds one. */
   if (optind + 1 != argc)
     return cli_usage("info", optind == argc ? "which framework?" : "one framework at a time");
 

@@ -134,6 +134,8 @@ int cmd_make(int argc, char **argv)
   }
 
   if (done >= 0) return done;
+
+  /* One operand: the shape. */
   if (optind + 1 != argc)
     return cli_usage("make", optind == argc
                                  ? "which shape? dome, geodesic, sphere, tube or honeycomb"

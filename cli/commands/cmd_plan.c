@@ -188,11 +188,10 @@ static int parse(int argc, char **argv, plan_arguments *args)
     case 'o': args->output = optarg; break;
     }
     if (!ok) return EXIT_USAGE;
-
-    /* One operand: the framework. */
     if (done >= 0) return done;
   }
 
+  /* One operand: the framework. */
   if (done >= 0) return done;
   if (optind + 1 != argc)
     return cli_usage("plan", optind == argc ? "which framework?" : "one framework at a time");
@@ -516,7 +515,7 @@ static int print_summary(const plan_arguments *args, planned_result *result)
 
   /* With --quiet the text was made only because a picture is made on the way. */
   int written = EXIT_OK;
-  if (cli_quiet && !args->json) /* it was made for the picture */
+  if (cli_quiet && !args->json)
     thr_text_destroy(&text);
   else
     written = cli_write(&text, "-");
@@ -641,7 +640,7 @@ static int check_text(thr_text *text, const char *path, thr_plan *plan, int *cod
 }
 
 /* Writes the plan. Only from here on is the plan what this run leaves, with the exit code *code,
- * which is another one if the plan lost a claim. to->plan receives where the plan is, which is
+ * which is another one if the plan lost a claim. places->plan receives where the plan is, which is
  * another place if it cannot be written there, or NULL if it is nowhere. Returns an exit code. */
 static int write_plan(const plan_arguments *args, thr_plan *plan, output_places *places, int *code)
 {
@@ -693,7 +692,7 @@ static int print_places(const plan_arguments *args, const thr_plan *plan, const 
   char names[DRAWINGS_NAMES];
   thr_text text = {0};
 
-  /* Files. */
+  /* Where the files are. */
   thr_text_append(&text, args->compare || thr_wants_turning(&plan->options) ? "\n" : "");
   thr_text_append(&text, "plan     ");
   thr_text_append_clean(&text, plan_path);
@@ -724,9 +723,9 @@ static int write_drawings(const plan_arguments *args, const thr_plan *plan,
                           const output_places *places)
 {
   if (!places->folder) return EXIT_OK;
-  guard_allow(0);
 
   /* A search that was ended by the clock leaves time for its drawings. */
+  guard_allow(0);
   const int code = drawings_write_all(plan, places->folder, &args->drawings);
   if (!code && drawings_no_sheets(plan, &args->drawings))
     cli_note(

@@ -3,9 +3,13 @@
  * threading that the group maps onto itself, and prints them as a table
  * (cli/print/symmetry_table.c).
  *
- * Rows are subgroups up to conjugacy. A threading under a large group has few unique paths to be
- * learned, but may need more cord. --row-work counts the work of each row instead of measuring its
- * time, so that the table is the same on every machine.
+ * Rows are the subgroups of the framework's automorphisms up to conjugacy or, with --geometric, of
+ * the isometries among them. A threading under a group is a path for each orbit of cords, to be
+ * learned once, and its copies. A large group has few paths to be learned, but may need more cord.
+ *
+ * "Best" is an order of aims, --prefer: overlap, learned steps, paths, turning. All rows share the
+ * time limit, 20 s. --row-work counts the work of each row instead of measuring its time, so that
+ * the table is the same on every machine.
  *
  * Example: under C4v the 7 x 7 dome has a threading of 5 cords in 2 unique paths, 13 steps to
  * learn, with 23.7 % overlap instead of 14.3 % of the shortest plan. */
@@ -104,7 +108,8 @@ static bool parse_joint(const char *value, thr_joint *joint)
   return ok;
 }
 
-/* Parses the command line into *args. Returns -1 to go on, or the exit code of the command. */
+/* Parses the command line into *args, and fills in the request that all rows are planned for.
+ * Returns -1 to go on, or the exit code of the command. */
 static int parse(int argc, char **argv, symmetries_arguments *args)
 {
   int done, option;
@@ -146,6 +151,8 @@ static int parse(int argc, char **argv, symmetries_arguments *args)
   }
 
   if (done >= 0) return done;
+
+  /* One operand: the framework. */
   if (optind + 1 != argc)
     return cli_usage("symmetries", optind == argc ? "which framework?" : "one framework at a time");
 
@@ -192,7 +199,8 @@ static void put_json(thr_text *text, const symmetries_arguments *args, const thr
   thr_text_append(text, "\n");
 }
 
-/* Prints the table to stdout. Returns an exit code. */
+/* Prints the table to stdout: all rows, with a head that says which group they are subgroups of.
+ * Returns an exit code. */
 static int print(const symmetries_arguments *args, const thr_frame *framework,
                  const thr_symmetries *symmetries)
 {
@@ -219,6 +227,7 @@ static int list_symmetries(symmetries_arguments *args, const thr_frame *framewor
 
   /* Where cord ends may be needs the framework. */
   if (code == EXIT_OK) {
+    /* The time is that of all groups together. */
     const thr_limits limits = cli_limits(args->plan.time_limit);
     thr_status st = thr_symmetries_find(framework, &args->plan, false, &limits, &symmetries, &err);
     cli_progress_end();

@@ -151,6 +151,7 @@ static void put_interval(const ranking *ranked, int i, thr_text *text)
 /* Appends the value of plan i with its interval. INFINITY: proved that no value will do. */
 static void put_value(const ranking *ranked, int i, thr_text *text)
 {
+  /* A lower bound of INFINITY: no value will do. */
   if (isinf(ranked->value[i])) {
     thr_text_append(text, "none, proved");
     return;
@@ -199,6 +200,8 @@ void ranking_put_text(const ranking *ranked, const char *const *name, thr_text *
   for (int k = 0; k < ranked->n_ranked; k++) {
     int i = ranked->order[k];
     thr_text_printf(text, "  %d. %-*s ", ranked->rank[i], widest, name[i]);
+
+    /* A value with its interval, and how it stands to those before. */
     put_value(ranked, i, text);
     if (k > 0) put_ties(ranked, k, name, text);
     thr_text_append(text, "\n");

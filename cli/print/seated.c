@@ -63,6 +63,7 @@ static void put_parts(thr_text *text, const double *pull, int n, double seating)
       thr_text_printf(text, "%s %d %% at %.4g N", said++ ? "," : "", percent[k], pull[needed - 1]);
   }
 
+  /* Gaps that no pull seats are passed by slack cords only. */
   if (!isfinite(pull[n - 1]))
     thr_text_printf(text, "%s only slack cords go through the others", said ? ";" : "");
   thr_text_append(text, "\n");

@@ -196,6 +196,7 @@ static turning_figures bound_figures(const thr_plan *plan, const thr_rivals *riv
   for (int i = 0; i < N_FIGURES; i++)
     bound.value[i] = NAN;
 
+  /* A length is bounded by the proof of length, whatever turns cost. */
   bound.value[LENGTH] = plan->proof.lower_bound;
   if (!claim) return bound;
   bound.value[PRICE] = claim->lower_bound;
@@ -427,6 +428,7 @@ static int make_columns(const thr_plan *plan, const thr_rivals *rivals, column o
 {
   int n = 0;
 
+  /* The plan, and what bounds any plan. */
   out[n++] = (column){"this plan", yes_or_no(plan), measure_figures(plan, plan)};
   out[n++] = (column){"at least", "-", bound_figures(plan, rivals)};
 
@@ -523,6 +525,7 @@ void turning_put_frontier(thr_text *text, const thr_plan *plan, const thr_rivals
     proved &= !frontier_point->open;
   }
 
+  /* What a star means. */
   if (!proved)
     thr_text_append(text, "* not proved: of that length, or less, something may turn less, but not "
                           "less than \"at least\"\n");
@@ -615,6 +618,8 @@ static void put_frontier_json(thr_writer *writer, const thr_plan *plan,
                      turning_capstan(plan->options.physics.mu, frontier_point->max_turning));
     thr_write_number(writer, "pull",
                      turning_point_pull(plan, frontier_point, plan->options.physics.mu));
+
+    /* A point that is open has a bound, but no proof that its price is the least. */
     thr_write_string(writer, "turning_status", frontier_point->open ? "bound" : "optimal");
     thr_write_close(writer);
   }
@@ -626,6 +631,8 @@ void turning_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals
   turning_figures figures = measure_figures(plan, plan);
 
   thr_write_string(writer, "turn_cost", thr_turn_cost_name(plan->options.turning.cost));
+
+  /* Figures and claims of the plan itself. */
   put_figures_json(writer, &figures, false);
   put_claim_json(writer, plan, claim_of(plan, rivals), figures.value[PRICE]);
 
