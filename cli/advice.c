@@ -75,7 +75,7 @@ static void put_line(const thr_advice *advice, const thr_plan *plan, const char 
 
   /* Without memory the line is left out, and whoever writes the text reports that. */
   if (options.failed || command.failed)
-    text->failed = true; /* which whoever writes the text reports */
+    text->failed = true;
   else
     advice_put_line(text, row, plan->metrics.length, command.data);
   thr_text_destroy(&options);
@@ -104,8 +104,7 @@ void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_fra
   thr_text_append(text, ":\n");
 
   /* As much work as for the table, so that the same row is recommended. */
-  thr_limits limits =
-      advice_limits(-1, &work); /* as of the table, so that it recommends the same */
+  thr_limits limits = advice_limits(-1, &work);
   if (thr_advise(&plan->frame, &plan->options, &options, &limits, &advice, NULL))
     advice.chosen = -1;
   cli_progress_end();

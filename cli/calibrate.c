@@ -64,16 +64,17 @@ static bool parse_item(const char *item, bench_results *results)
   int read = 0;
 
   /* Angles of one kind, with commas between. */
-  for (int t = 0; t < N_TILTS; t++) {
-    const size_t n = strlen(tilt_name[t]);
-    if (strncmp(item, tilt_name[t], n) != 0 || item[n] != '=') continue;
+  for (int kind = 0; kind < N_TILTS; kind++) {
+    const size_t n = strlen(tilt_name[kind]);
+    if (strncmp(item, tilt_name[kind], n) != 0 || item[n] != '=') continue;
     for (const char *at = item + n;; at += 1 + read) {
       double degrees;
 
       /* Every angle is followed by a comma or by the end of the item. */
-      if (results->n_tilts[t] == MOST_WEIGHINGS || sscanf(at + 1, "%lf %n", &degrees, &read) != 1)
+      if (results->n_tilts[kind] == MOST_WEIGHINGS ||
+          sscanf(at + 1, "%lf %n", &degrees, &read) != 1)
         return false;
-      results->tilt[t][results->n_tilts[t]++] = degrees * THR_PI / 180;
+      results->tilt[kind][results->n_tilts[kind]++] = degrees * THR_PI / 180;
       if (at[1 + read] != ',') return at[1 + read] == '\0';
     }
   }
@@ -143,15 +144,15 @@ static thr_status fit_frictions(const bench_results *results, thr_text *file, th
   }
 
   /* Bead on bead and foot on ground, from slides. */
-  for (int t = 0; t < N_TILTS && !st; t++) {
-    if (results->n_tilts[t] == 0) continue;
-    st = thr_calibrate_tilt(results->tilt[t], results->n_tilts[t], TILT_ERROR, &found, err);
-    thr_write_number(&writer, tilt_key[t], found.mu);
+  for (int kind = 0; kind < N_TILTS && !st; kind++) {
+    if (results->n_tilts[kind] == 0) continue;
+    st = thr_calibrate_tilt(results->tilt[kind], results->n_tilts[kind], TILT_ERROR, &found, err);
+    thr_write_number(&writer, tilt_key[kind], found.mu);
     thr_text_printf(said,
                     "%s = %.3f (single slides, angles off by a degree: %.3f to %.3f), from %d %s "
                     "of a piece on a tilted board\n",
-                    tilt_key[t], found.mu, found.low, found.high, results->n_tilts[t],
-                    cli_plural(results->n_tilts[t], "slide", "slides"));
+                    tilt_key[kind], found.mu, found.low, found.high, results->n_tilts[kind],
+                    cli_plural(results->n_tilts[kind], "slide", "slides"));
   }
 
   thr_write_close(&writer);

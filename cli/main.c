@@ -109,7 +109,7 @@ static int dispatch(int argc, char **argv)
   if (strcmp(name, "complete") == 0) return cmd_complete(argc - 1, argv + 1);
 
   /* `thread help plan` is `thread plan --help`. */
-  if (strcmp(name, "help") == 0 && argc > 2) { /* `thread help plan` */
+  if (strcmp(name, "help") == 0 && argc > 2) {
     argv[1] = argv[2];
     argv[2] = show;
     argc = 3;

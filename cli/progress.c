@@ -99,7 +99,7 @@ static void tell_bound(void *user, const char *what, double best, double bound)
 
   /* No price and no weight is below 0; several searches may tell of the same, so that only progress
    * counts. */
-  bound = fmax(bound, 0); /* no price and no weight is below 0 */
+  bound = fmax(bound, 0);
   if ((best >= last_line.best && bound <= last_line.bound) || !is_due(other)) return;
 
   /* The line tells the best of all searches so far. */
@@ -123,7 +123,7 @@ static void tell_part(void *user, const char *what, double done)
   (void)user;
 
   /* Less than before: the same kind of work began once more. */
-  if (!other && done < last_line.done) last_line.done = 0; /* the same kind of work once more */
+  if (!other && done < last_line.done) last_line.done = 0;
   if ((!other && done <= last_line.done) || !is_due(other)) return;
   last_line.done = done;
 

@@ -706,7 +706,7 @@ static int evaluate_one(const pull_args *args, const structure_actions *actions,
   int code = EXIT_OK;
 
   /* The simulation comes later, for all plans together (settle). */
-  plain.options.dynamics = false; /* the simulation follows */
+  plain.options.dynamics = false;
   if (method == THR_STRUCTURE)
     code = read_actions(actions, candidate, &plain.options, &schedule, &load);
   if (schedule.n > 0) plain.options.schedule = &schedule;

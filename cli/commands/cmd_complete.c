@@ -14,9 +14,10 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Of the command that is asked: filled while it shows its options. */
-static const char
-    *wanted; /* the option whose values are looked for, as it was typed; NULL = all options */
+/* The option whose values are looked for, as it was typed; NULL = all options. */
+static const char *wanted;
+
+/* Has the command that is asked shown a value? */
 static bool found;
 
 /* Prints a word that may be an option's value. */

@@ -608,8 +608,7 @@ int cmd_eval(int argc, char **argv)
     if (written) code = written;
 
     /* Where the joints come from is told on stderr, since results do not depend on the cache. */
-    if (plan.evaluation.method == THR_JOINT &&
-        code == EXIT_OK) /* on stderr: results do not depend on it */
+    if (plan.evaluation.method == THR_JOINT && code == EXIT_OK)
       cli_note("note: %d %s measured, %d from the cache", eval.joints_measured,
                cli_plural(eval.joints_measured, "joint", "joints"), eval.joints_cached);
   }
