@@ -121,6 +121,7 @@ static int dispatch(int argc, char **argv)
     return EXIT_OK;
   }
 
+  /* A command of the list. */
   for (int i = 0; i < cli_n_commands; i++)
     if (strcmp(name, cli_commands[i].name) == 0) return run_command(&cli_commands[i], argc, argv);
 

@@ -106,6 +106,7 @@ static void tell_bound(void *user, const char *what, double best, double bound)
   last_line.best = fmin(best, last_line.best);
   last_line.bound = fmax(bound, last_line.bound);
 
+  /* The gap in per cent of the best value. */
   thr_writer writer = open_line(&text, what);
   thr_write_number(&writer, "best", last_line.best);
   thr_write_number(&writer, "bound", last_line.bound);

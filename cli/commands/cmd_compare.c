@@ -375,9 +375,10 @@ static void put_orders(const ranking *rankings, int count, const char *const *na
 static void put_agreement(const ranking *rankings, int count, const char *const *name,
                           thr_text *text)
 {
-  /* Is one of the rankings about cords that were let go, and how many tell any plans apart? */
+  /* Counts the rankings that tell any plans apart, and looks for one about cords that were let
+   * go. */
   bool let_go = false;
-  int orders = 0; /* that tell any plans apart */
+  int orders = 0;
 
   for (int i = 0; i < count; i++) {
     const bool apart = ranking_tells_apart(&rankings[i]);
@@ -730,7 +731,7 @@ static int evaluate(const pull_args *args, const structure_actions *actions, ent
     for (int i = 0; i < n && wanted(args, (thr_method)method); i++) {
       int code = evaluate_one(args, actions, (thr_method)method, &entries[i]);
 
-      /* Is it worth going on? */
+      /* An interrupt, or a plan without even a closed form, ends the work. */
       if (code == EXIT_LIMIT || (code && method == THR_CAPSTAN)) return code;
       if (!worst) worst = code;
 
