@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Asking for advice: shared by `thread advise` and by the last line of `thread plan`. */
+/* Prints advice on the number of cords beside a plan: shared by `thread advise` and by the last
+ * lines of `thread plan`. */
 #ifndef THR_CLI_ADVICE_H
 #define THR_CLI_ADVICE_H
 
@@ -10,8 +11,8 @@
  * blank before it, for a shell. */
 void advice_command_options(const cli_physics *physics, thr_text *text);
 
-/* Limits for so many seconds by the clock, 0 = none, silent but for --verbose; and for so much
- * counted work, 0 = any. Seconds below 0: as much work as advice is usually given, which *work
+/* Returns limits for so many seconds by the clock, 0 = none, silent but for --verbose; and for so
+ * much counted work, 0 = any. Seconds below 0: as much work as advice is usually given, which *work
  * becomes. *work stays while the limits are used. */
 thr_limits advice_limits(double seconds, double *work);
 
@@ -21,8 +22,8 @@ thr_limits advice_limits(double seconds, double *work);
 void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_physics *physics,
                            thr_text *text);
 
-/* A line of the hand where a plan that was asked for with options is beyond it: what option takes
- * as few cords as are not. Nothing where a limit on the pull was given. */
+/* Appends, where a plan that was asked for with options is beyond a hand, which option takes the
+ * fewest cords that are not. Nothing where a limit on the pull was given. */
 void advice_put_hint(const thr_plan *plan, thr_text *text);
 
 #endif

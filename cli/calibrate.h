@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* thread eval --calibrate: friction from weights and tilted boards at the bench, and the piece that
- * the weights hang from. */
+/* thread eval --calibrate: computes frictions from weights and tilted boards at the bench, and
+ * draws the piece that the weights hang from. */
 #ifndef THR_CLI_CALIBRATE_H
 #define THR_CLI_CALIBRATE_H
 

@@ -1,4 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes the documents that are made from a plan: one of them, or all into a folder
+ * (lib/documents.h has the table of documents).
+ *
+ * All documents of a plan share one layout of its framework, because finding it takes long. The
+ * step sheets come last, since they take longest: who stops them has all others. When the time of
+ * the command is over between two documents, the rest is named and left out.
+ *
+ * Files that the command reads are safe: drawings_claim refuses a folder in which a document would
+ * replace one, before any search. */
 #include "cli/drawings.h"
 
 #include "diagram/export/paper.h"
@@ -10,6 +19,7 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Returns the value of --from for a choice: 0 = end, one needle; 1 = middle, two needles. */
 static const char *from_name(int i)
 {
   static const char *const name[] = {"end", "middle"};
@@ -47,74 +57,89 @@ thr_status drawings_chains(const thr_plan *plan, const drawings_args *a, thr_tex
 {
   thr_chains chains, planned;
   thr_status st =
-      thr_plan_chains(plan, a->needles ? a->needles : plan->options.needles, &chains, err);
+      thr_plan_chains(plan, args->needles ? args->needles : plan->options.needles, &chains, err);
+
   if (!st) st = thr_plan_chains(plan, plan->options.needles, &planned, err);
   if (st) return st;
+
+  /* With another number of needles than planned the chain may be longer: the order of work was not
+   * made for that. */
   thr_text_printf(text, "longest loose chain: %d %s", chains.longest,
                   thr_pieces_word(plan, chains.longest));
-  if (planned.longest < chains.longest &&
-      plan->options.order !=
-          THR_ORDER_PLANNED) /* the order of work is not the one for so many needles */
+  if (planned.longest < chains.longest && plan->options.order != THR_ORDER_PLANNED)
     thr_text_printf(text, ", %d as planned; thread plan --from %s puts the work in order for that",
-                    planned.longest, a->needles == 1 ? "end" : "middle");
+                    planned.longest, args->needles == 1 ? "end" : "middle");
+
   return THR_OK;
 }
 
+/* Notes how many pages a file has. Signature of thr_document_options.pages. */
 static void note_pages(const char *file, int n)
 {
   cli_note("%s: %d %s", file, n, cli_plural(n, "page", "pages"));
 }
 
-/* layout: NULL = of its own. */
+/* Makes document i and writes it to path. layout: of the plan's framework, shared by all documents;
+ * NULL = of its own. Returns an exit code. */
 static int write_one(const thr_plan *plan, int i, const thr_layout *layout, const char *path,
-                     const drawings_args *a)
+                     const drawings_args *args)
 {
   thr_err err = {0};
   thr_text text = {0};
-  const thr_document_options options = {.pitch_mm = a->pitch_mm,
-                                        .lines = a->lines,
+  const thr_document_options options = {.pitch_mm = args->pitch_mm,
+                                        .lines = args->lines,
                                         .layout = layout,
-                                        .colour = a->colour,
-                                        .kind_tolerance = a->kind_tolerance,
-                                        .page = a->page,
-                                        .needles = a->needles,
-                                        .working_mm = a->working_mm,
+                                        .colour = args->colour,
+                                        .kind_tolerance = args->kind_tolerance,
+                                        .page = args->page,
+                                        .needles = args->needles,
+                                        .working_mm = args->working_mm,
                                         .pages = note_pages};
+
+  /* An interrupt that has ended the planning does not end the drawing, too. */
   thr_limits limits = cli_limits(0);
-  if (thr_limits_stop(&limits))
-    limits.interrupted = NULL; /* an interrupt that has ended the planning does not end this */
+
+  if (thr_limits_stop(&limits)) limits.interrupted = NULL;
+
+  /* What cannot be drawn in time or memory leaves no half of a file. */
   thr_status st = thr_document_make(plan, i, &options, &limits, &text, &err);
   cli_progress_end();
+
   return cli_write_drawn(st, &text, path, &err);
 }
 
-int drawings_write(const thr_plan *plan, int i, const char *path, const drawings_args *a)
+int drawings_write(const thr_plan *plan, int i, const char *path, const drawings_args *args)
 {
-  return write_one(plan, i, NULL, path, a);
+  return write_one(plan, i, NULL, path, args);
 }
 
-bool drawings_no_sheets(const thr_plan *plan, const drawings_args *a)
+bool drawings_no_sheets(const thr_plan *plan, const drawings_args *args)
 {
-  return a->quick && thr_pieces_count(plan) > DRAWINGS_SHEETS_PIECES;
+  return args->quick && thr_pieces_count(plan) > DRAWINGS_SHEETS_PIECES;
 }
 
-void drawings_names(const thr_plan *plan, const drawings_args *a, char names[DRAWINGS_NAMES])
+void drawings_names(const thr_plan *plan, const drawings_args *args, char names[DRAWINGS_NAMES])
 {
   int n = 0;
+
   names[0] = '\0';
+
+  /* Without the sheets where there would be too many. */
   for (int i = 0; i < thr_documents_count() && n < DRAWINGS_NAMES; i++)
-    if (thr_document_usual(i) && (i != thr_document_sheets() || !drawings_no_sheets(plan, a)))
+    if (thr_document_usual(i) && (i != thr_document_sheets() || !drawings_no_sheets(plan, args)))
       n += snprintf(names + n, (size_t)(DRAWINGS_NAMES - n), "%s%s", n ? " " : "",
                     thr_document_file(i));
 }
 
-/* Is document i one of those that are asked for? */
+/* Returns whether document i is one of those that are asked for: asked itself, or with -1 all usual
+ * ones. */
 static bool is_asked(int asked, int i)
 {
   return asked < 0 ? thr_document_usual(i) : i == asked;
 }
 
-static void name_in(const char *folder, const char *file, char path[1200])
+/* Formats folder/file. */
+static void join_path(const char *folder, const char *file, char path[1200])
 {
   const size_t n = strlen(folder);
   snprintf(path, 1200, "%s%s%s", folder, n && thr_os_is_separator(folder[n - 1]) ? "" : "/", file);
@@ -124,11 +149,15 @@ int drawings_claim(const char *command, const char *folder, int i)
 {
   int code = EXIT_OK;
   char path[1200];
+
   for (int k = 0; k < thr_documents_count() && !code; k++) {
     if (!is_asked(i, k)) continue;
-    name_in(folder, thr_document_file(k), path);
+
+    /* The usual name of a document is what it is written to. */
+    join_path(folder, thr_document_file(k), path);
     code = files_claim(command, NULL, path);
   }
+
   return code;
 }
 
@@ -136,24 +165,30 @@ bool drawings_would_lose(const char *folder)
 {
   bool lost = false;
   char path[1200];
+
   for (int k = 0; k < thr_documents_count(); k++) {
     if (!thr_document_usual(k)) continue;
-    name_in(folder, thr_document_file(k), path);
+
+    /* Every document that drawings_write_all may write. */
+    join_path(folder, thr_document_file(k), path);
     lost = lost || files_is_taken(path, NULL);
   }
-  name_in(folder, "plan.json", path);
+
+  /* The plan is among its drawings. */
+  join_path(folder, "plan.json", path);
+
   return lost || files_is_taken(path, NULL);
 }
 
-/* In this order: the step sheets last, which take longest, so that who stops them has all others.
- */
+/* Returns the document that is made as number k: all in the order of the table, but the step sheets
+ * last. */
 static int nth_document(int k)
 {
   const int sheets = thr_document_sheets();
   return k == thr_documents_count() - 1 ? sheets : k < sheets ? k : k + 1;
 }
 
-/* Is there no time for document k and those after it? Says so. */
+/* Returns whether there is no time for document k and those after it, and prints that. */
 static bool too_late(int k)
 {
   if (guard_deadline() == 0 || thr_clock() < guard_deadline()) return false;
@@ -162,28 +197,39 @@ static bool too_late(int k)
   return true;
 }
 
+/* Writes all usual documents into the folder; stops at the first that fails. Returns an exit
+ * code. */
 static int write_all(const thr_plan *plan, const thr_layout *layout, const char *folder,
-                     const drawings_args *a)
+                     const drawings_args *args)
 {
   int code = EXIT_OK;
+
   for (int k = 0; k < thr_documents_count() && !code; k++) {
     int i = nth_document(k);
     char path[1200];
-    if (i == thr_document_sheets() && drawings_no_sheets(plan, a)) break;
+
+    /* Sheets come last, so that nothing is left out with them. */
+    if (i == thr_document_sheets() && drawings_no_sheets(plan, args)) break;
+
+    /* The mat and others that few need are made only by name. */
     if (!thr_document_usual(i)) continue;
+
+    /* Documents that are there already stay if the time is over. */
     if (too_late(k)) return EXIT_LIMIT;
+
     code = cli_in_folder(folder, thr_document_file(i), path, sizeof path);
-    if (!code) code = write_one(plan, i, layout, path, a);
+    if (!code) code = write_one(plan, i, layout, path, args);
   }
+
   return code;
 }
 
-int drawings_write_all(const thr_plan *plan, const char *folder, const drawings_args *a)
+int drawings_write_all(const thr_plan *plan, const char *folder, const drawings_args *args)
 {
   thr_layout layout = {0};
   thr_err err = {0};
   if (thr_layout_choose(&layout, &plan->frame, NULL, 0, &err)) return cli_fail(&err);
-  int code = write_all(plan, &layout, folder, a);
+  int code = write_all(plan, &layout, folder, args);
   thr_layout_destroy(&layout);
   return code;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The documents that are made from a plan, one table for all: what they are called, and writing one
- * or all of them. */
+/* Writes the documents that are made from a plan: one of them, or all into a folder, where they
+ * have their usual names (lib/documents.h has the table). Shared by `thread draw` and `thread
+ * plan`. */
 #ifndef THR_CLI_DRAWINGS_H
 #define THR_CLI_DRAWINGS_H
 
@@ -40,17 +41,18 @@ int drawings_write_all(const thr_plan *plan, const char *folder, const drawings_
  * one would be lost and returns EXIT_USAGE. */
 int drawings_claim(const char *command, const char *folder, int i);
 
-/* Would one of all documents take the place of such a file? */
+/* Returns whether one of all documents, or the plan, would take the place of such a file. */
 bool drawings_would_lose(const char *folder);
 
-/* Appends how loose what is threaded is at most: "longest loose chain: 8 pieces". */
+/* Appends how many pieces hang loose in a chain at most while the plan is threaded: "longest loose
+ * chain: 8 pieces". */
 thr_status drawings_chains(const thr_plan *plan, const drawings_args *a, thr_text *text,
                            thr_err *err) THR_MUST_CHECK;
 
-/* Does that leave out the step sheets? */
+/* Returns whether drawings_write_all leaves out the step sheets. */
 bool drawings_no_sheets(const thr_plan *plan, const drawings_args *a);
 
-/* The file names of what it writes: "overview.svg steps.txt". */
+/* Fills names with what drawings_write_all writes: "overview.svg steps.txt". */
 void drawings_names(const thr_plan *plan, const drawings_args *a, char names[DRAWINGS_NAMES]);
 
 #endif

@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Limits that hold whatever a command does: it runs in a child process whose memory the system
- * bounds, and which is ended when its time is over. What the child has found so far it hands to its
- * parent, which outlives it.
+/* Bounds time and memory of a command whatever it does: it runs in a child process whose memory the
+ * system bounds, and which is ended when its time is over. What the child has found so far it hands
+ * to its parent, which outlives it.
  *
- *   guard_end end;
- *   if (guard_fork(&limits, &end)) return conclude(&end);   the parent, after the child's end
- *   ..                                                       the child goes on, and returns its
- * exit code as always
+ *    guard_end end;
+ *    if (guard_fork(&limits, &end)) return conclude(&end);   the parent, after the child's end
+ *    ..                                                       the child goes on as a command does
  *
- * The limits of a command as options, and the words for one that was ended. The two processes:
- * guard_process.c. */
+ * This file has the limits of a command as options, and the words for one that was ended. The two
+ * processes are in guard_process.c. */
 #include "cli/cli.h"
 
 #include <stdlib.h>
@@ -30,6 +29,8 @@ static bool take_memory(void *into, const cli_option *option, const char *value)
   char *end;
   (void)option;
   double number = strtod(value, &end), least = 50e6, most = 1e15;
+
+  /* A number and one of the units. */
   for (size_t i = 0; i < sizeof unit / sizeof *unit && end != value; i++) {
     *bytes = number * unit[i].bytes;
     if (strcmp(end, unit[i].name) == 0 && (*bytes == 0 || (*bytes >= least && *bytes <= most)))
@@ -54,7 +55,12 @@ int guard_conclude(guard_end *end, const char *missing)
 {
   thr_text_destroy(&end->kept);
   if (end->reason == GUARD_DONE) return end->code;
+
+  /* The child was ended: by a limit, a signal, or an accident. */
   cli_error("%s: %s", end->why, missing);
+
+  /* A result that is out keeps its exit code. */
   if (end->written) return end->code;
+
   return end->reason == GUARD_DIED ? EXIT_INTERNAL : EXIT_LIMIT;
 }

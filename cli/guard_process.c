@@ -1,5 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The two processes of a command: the one that works, and the one that waits. */
+/* Runs a command in two processes: the child works, the parent waits, ends the child when its time
+ * is over, and knows afterwards how it ended.
+ *
+ * The child tells its parent through a pipe what it would leave (KEEP), that it is writing its
+ * result and has written it (WRITING, WRITTEN), how much time it has (ALLOW), that memory ran out,
+ * and that it ends by itself. So the parent can tell a result from an accident, and write the last
+ * KEEP if there is no result.
+ *
+ * Signals: the first SIGINT, SIGTERM or SIGHUP reaches the child as a request to end, the second
+ * one ends both processes at once, but for a second SIGHUP. A child has half a second of grace
+ * after its deadline, more if the machine is so busy that it does not get the processor
+ * (graph/process/process.h). */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
 #include "graph/process/process.h"
@@ -15,60 +26,57 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static const double GRACE =
-    0.5; /* s that a child has to end by itself after its deadline or a signal */
-static const double LOOK =
-    0.1; /* s between two looks at the child when no signal wakes its parent */
+/* s that a child has to end by itself after its deadline or a signal. */
+static const double GRACE = 0.5;
+
+/* s between two looks at the child when no signal wakes its parent. */
+static const double LOOK = 0.1;
 
 /* ---- messages from the child ---- */
 
-enum {
-  KEEP,
-  WRITING,
-  WRITTEN,
-  NO_MEMORY,
-  ALLOW,
-  ENDING
-}; /* kinds; code: exit code; value of ALLOW: s */
+/* Kinds of messages; code: the exit code; value[0] of ALLOW: s. */
+enum { KEEP, WRITING, WRITTEN, NO_MEMORY, ALLOW, ENDING };
 
 static int to_parent = -1; /* in the child: where messages go */
 static double deadline;    /* thr_clock() */
 
-static void send(thr_message m, const char *bytes)
+/* Sends a message. A parent that has gone is told nothing any more. */
+static void send_to_parent(thr_message message, const char *bytes)
 {
-  if (to_parent >= 0 && !thr_message_send(to_parent, m, bytes)) to_parent = -1;
+  if (to_parent >= 0 && !thr_message_send(to_parent, message, bytes)) to_parent = -1;
 }
 
 void guard_keep(const thr_text *text)
 {
-  if (!text->failed) send((thr_message){.kind = KEEP, .length = text->length}, text->data);
+  if (!text->failed)
+    send_to_parent((thr_message){.kind = KEEP, .length = text->length}, text->data);
 }
 
 void guard_writing(void)
 {
-  send((thr_message){.kind = WRITING}, NULL);
+  send_to_parent((thr_message){.kind = WRITING}, NULL);
 }
 
 void guard_written(int code)
 {
-  send((thr_message){.kind = WRITTEN, .code = code}, NULL);
+  send_to_parent((thr_message){.kind = WRITTEN, .code = code}, NULL);
 }
 
 bool guard_no_memory(void)
 {
-  send((thr_message){.kind = NO_MEMORY}, NULL);
+  send_to_parent((thr_message){.kind = NO_MEMORY}, NULL);
   return to_parent >= 0;
 }
 
 void guard_ending(int code)
 {
-  send((thr_message){.kind = ENDING, .code = code}, NULL);
+  send_to_parent((thr_message){.kind = ENDING, .code = code}, NULL);
 }
 
 void guard_allow(double seconds)
 {
   deadline = seconds > 0 ? thr_clock() + seconds : 0;
-  send((thr_message){.kind = ALLOW, .value = {seconds}}, NULL);
+  send_to_parent((thr_message){.kind = ALLOW, .value = {seconds}}, NULL);
 }
 
 double guard_deadline(void)
@@ -80,14 +88,15 @@ double guard_deadline(void)
 
 static volatile sig_atomic_t signals, hung_up;
 
+/* Counts a SIGINT or SIGTERM, which the loop of the parent looks at. */
 static void count_signal(int signal)
 {
   (void)signal;
   signals++;
 }
 
-/* The terminal closes, which kernel and shell both say: it counts once. Nobody reading is no reason
- * to end before the plan is written. */
+/* Counts that the terminal closes, which kernel and shell both say: once. Nobody reading is no
+ * reason to end before the plan is written, so that SIGPIPE is ignored from now on. */
 static void count_hangup(int signal_number)
 {
   (void)signal_number;
@@ -96,11 +105,13 @@ static void count_hangup(int signal_number)
   hung_up = 1;
 }
 
+/* Does nothing: SIGCHLD only has to interrupt poll(). */
 static void wake(int signal)
 {
   (void)signal;
 }
 
+/* What the parent knows of its child. */
 typedef struct {
   pid_t pid;
   int pipe, status;
@@ -110,70 +121,93 @@ typedef struct {
   bool by_itself;   /* it said that it would end, and how */
   thr_text arrived; /* bytes that are no whole message yet */
   guard_end *end;
-} guarded;
+} guarded_child;
 
-static void take(void *user, const thr_message *h, const char *bytes)
+/* Takes a message of the child. Signature of thr_messages_receive. */
+static void take_message(void *user, const thr_message *message, const char *bytes)
 {
-  guarded *g = user;
-  switch (h->kind) {
+  guarded_child *child = user;
+
+  switch (message->kind) {
+  /* The last one that was kept is replaced. */
   case KEEP:
-    g->end->kept.length = 0;
-    thr_text_append_bytes(&g->end->kept, bytes, h->length);
+    child->end->kept.length = 0;
+    thr_text_append_bytes(&child->end->kept, bytes, message->length);
     break;
-  case WRITING: g->writing = true; break;
+  case WRITING: child->writing = true; break;
+
+  /* From here on there is a result. */
   case WRITTEN:
-    g->writing = false;
-    g->end->written = true;
-    g->end->code = h->code;
+    child->writing = false;
+    child->end->written = true;
+    child->end->code = message->code;
     break;
-  case NO_MEMORY: g->out_of_memory = true; break;
-  case ENDING: g->by_itself = true; break;
+  case NO_MEMORY: child->out_of_memory = true; break;
+  case ENDING: child->by_itself = true; break;
+
+  /* After a signal no message gives more time. */
   case ALLOW:
-    if (!g->first) g->grace = (thr_grace){.from = h->value[0] > 0 ? thr_clock() + h->value[0] : 0};
+    if (!child->first)
+      child->grace =
+          (thr_grace){.from = message->value[0] > 0 ? thr_clock() + message->value[0] : 0};
     break;
   }
 }
 
-/* Takes what lies in the pipe. */
-static void receive(guarded *g)
+/* Takes all messages that lie in the pipe. */
+static void receive(guarded_child *child)
 {
-  while (thr_messages_receive(g->pipe, &g->arrived, take, g) > 0)
+  while (thr_messages_receive(child->pipe, &child->arrived, take_message, child) > 0)
     continue;
 }
 
-/* Signals: the first is passed on, the second ends everything, unless it is the first once more,
- * sent to the process and to its group as `timeout` does. */
-static void heed_signals(guarded *g)
+/* Heeds signals that came: the first is passed on, the second ends everything, unless it comes
+ * within 0.3 s of the first: `timeout` sends it to the process and to its group. */
+static void heed_signals(guarded_child *child)
 {
   double now = thr_clock();
+
   if (signals == 0) return;
   signals = 0;
-  if (g->first > 0 && now - g->first > 0.3) {
-    kill(g->pid, SIGKILL);
+
+  if (child->first > 0 && now - child->first > 0.3) {
+    kill(child->pid, SIGKILL);
     _exit(130);
   }
-  if (g->first > 0) return;
-  g->first = now;
-  g->grace = (thr_grace){.from = now};
-  kill(g->pid, hung_up ? SIGHUP : SIGTERM);
+
+  if (child->first > 0) return;
+
+  /* The child has its grace from now on. */
+  child->first = now;
+  child->grace = (thr_grace){.from = now};
+  kill(child->pid, hung_up ? SIGHUP : SIGTERM);
 }
 
-static void watch(guarded *g)
+/* Waits for the end of the child, and ends it when its time and its grace are over. */
+static void watch(guarded_child *child)
 {
-  struct pollfd news = {.fd = g->pipe, .events = POLLIN};
-  while (!g->ended) {
+  struct pollfd news = {.fd = child->pipe, .events = POLLIN};
+
+  while (!child->ended) {
+    /* A closed pipe would wake poll all the time. */
     if (poll(&news, 1, (int)(1000 * LOOK)) > 0 && news.revents & POLLHUP &&
         !(news.revents & POLLIN))
       news.fd = -1; /* closed: only the end is left to wait for */
-    receive(g);
-    heed_signals(g);
-    g->ended = waitpid(g->pid, &g->status, WNOHANG) == g->pid;
-    if (g->ended || g->writing || !thr_grace_over(&g->grace, g->pid, GRACE)) continue;
-    kill(g->pid, SIGKILL);
-    g->end->reason = g->first > 0 ? GUARD_INTERRUPTED : GUARD_TIME;
-    g->grace = (thr_grace){0};
+
+    /* Messages, signals, the end; a child that is writing may finish. */
+    receive(child);
+    heed_signals(child);
+    child->ended = waitpid(child->pid, &child->status, WNOHANG) == child->pid;
+    if (child->ended || child->writing || !thr_grace_over(&child->grace, child->pid, GRACE))
+      continue;
+
+    /* Only now is it certain why there is no result. */
+    kill(child->pid, SIGKILL);
+    child->end->reason = child->first > 0 ? GUARD_INTERRUPTED : GUARD_TIME;
+    child->grace = (thr_grace){0};
   }
-  receive(g);
+
+  receive(child);
 }
 
 /* Returns how many bytes the system gives a process (ulimit -v, -d), or INFINITY. */
@@ -181,54 +215,70 @@ static double system_memory(void)
 {
   const int kinds[] = {RLIMIT_AS, RLIMIT_DATA};
   double least = INFINITY;
+
+  /* RLIMIT_AS bounds addresses, RLIMIT_DATA what is allocated. */
   for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-    struct rlimit r;
-    if (getrlimit(kinds[i], &r) == 0 && r.rlim_cur != RLIM_INFINITY)
-      least = fmin(least, (double)r.rlim_cur);
+    struct rlimit bound;
+    if (getrlimit(kinds[i], &bound) == 0 && bound.rlim_cur != RLIM_INFINITY)
+      least = fmin(least, (double)bound.rlim_cur);
   }
+
   return least;
 }
 
-/* A library that dies where memory is short has come near the limit. */
-static guard_reason reason_of(const guarded *g, const guard_limits *l)
+/* Returns why the child ended. Where it died or a library ended it, memory is to blame if it was
+ * told so, or if more than 0.7 of the limit had been in use: a library that dies where memory is
+ * short has come near the limit. */
+static guard_reason reason_of(const guarded_child *child, const guard_limits *limits)
 {
   struct rusage used;
-  bool killed = WIFSIGNALED(g->status);
+  bool killed = WIFSIGNALED(child->status);
+
   getrusage(RUSAGE_CHILDREN, &used);
-  const double limit = fmin(l->memory > 0 ? l->memory : INFINITY, system_memory());
+
+  /* Memory, in bytes: its limit, and the most that was in use (kB on Linux). */
+  const double limit = fmin(limits->memory > 0 ? limits->memory : INFINITY, system_memory());
   bool full = 1024. * (double)used.ru_maxrss > 0.7 * limit;
-  if (killed && g->end->reason != GUARD_DONE) return g->end->reason; /* by this process */
-  if (g->out_of_memory || ((killed || !g->by_itself) && full)) return GUARD_MEMORY;
-  return killed || !g->by_itself ? GUARD_DIED : GUARD_DONE;
+
+  if (killed && child->end->reason != GUARD_DONE) return child->end->reason; /* by this process */
+  if (child->out_of_memory || ((killed || !child->by_itself) && full)) return GUARD_MEMORY;
+
+  return killed || !child->by_itself ? GUARD_DIED : GUARD_DONE;
 }
 
-/* How it ended, and why. */
-static void judge(guarded *g, const guard_limits *l)
+/* Fills in how the child ended, and the reason in words. */
+static void judge(guarded_child *child, const guard_limits *limits)
 {
-  guard_end *e = g->end;
-  e->reason = reason_of(g, l);
-  if (!WIFSIGNALED(g->status) && (e->reason == GUARD_DONE || !e->written))
-    e->code = WEXITSTATUS(g->status);
-  switch (e->reason) {
-  case GUARD_TIME: snprintf(e->why, sizeof e->why, "not done in time"); break;
-  case GUARD_INTERRUPTED: snprintf(e->why, sizeof e->why, "stopped"); break;
+  guard_end *outcome = child->end;
+
+  outcome->reason = reason_of(child, limits);
+  if (!WIFSIGNALED(child->status) && (outcome->reason == GUARD_DONE || !outcome->written))
+    outcome->code = WEXITSTATUS(child->status);
+
+  /* Words, with the limit that was met. */
+  switch (outcome->reason) {
+  case GUARD_TIME: snprintf(outcome->why, sizeof outcome->why, "not done in time"); break;
+  case GUARD_INTERRUPTED: snprintf(outcome->why, sizeof outcome->why, "stopped"); break;
   case GUARD_MEMORY:
-    if (system_memory() < (l->memory > 0 ? l->memory : INFINITY))
-      snprintf(e->why, sizeof e->why,
+    if (system_memory() < (limits->memory > 0 ? limits->memory : INFINITY))
+      snprintf(outcome->why, sizeof outcome->why,
                "out of memory (the system's limit, ulimit -v, allows %.4g MB)",
                system_memory() / 1e6);
-    else if (l->memory > 0)
-      snprintf(e->why, sizeof e->why, "out of memory (--memory allows %g MB)", l->memory / 1e6);
+    else if (limits->memory > 0)
+      snprintf(outcome->why, sizeof outcome->why, "out of memory (--memory allows %g MB)",
+               limits->memory / 1e6);
     else
-      snprintf(e->why, sizeof e->why, "out of memory");
+      snprintf(outcome->why, sizeof outcome->why, "out of memory");
     break;
+
   case GUARD_DIED:
-    if (WIFSIGNALED(g->status))
-      snprintf(e->why, sizeof e->why,
+    if (WIFSIGNALED(child->status))
+      snprintf(outcome->why, sizeof outcome->why,
                "died of signal %d (a fault of this program, or memory ran out)",
-               WTERMSIG(g->status));
+               WTERMSIG(child->status));
     else
-      snprintf(e->why, sizeof e->why, "ended by a library (exit code %d)", WEXITSTATUS(g->status));
+      snprintf(outcome->why, sizeof outcome->why, "ended by a library (exit code %d)",
+               WEXITSTATUS(child->status));
     break;
   default: break;
   }
@@ -243,21 +293,25 @@ enum { MEMORY_IS_BOUNDED = 0 };
 enum { MEMORY_IS_BOUNDED = 1 };
 #endif
 
+/* Bounds the memory of this process, in bytes, unless the system was stricter already. */
 static void bound_memory(double bytes)
 {
-  struct rlimit r;
-  if (!MEMORY_IS_BOUNDED || bytes <= 0 || getrlimit(RLIMIT_DATA, &r)) return;
-  if (r.rlim_cur != RLIM_INFINITY && (double)r.rlim_cur <= bytes)
+  struct rlimit bound;
+  if (!MEMORY_IS_BOUNDED || bytes <= 0 || getrlimit(RLIMIT_DATA, &bound)) return;
+  if (bound.rlim_cur != RLIM_INFINITY && (double)bound.rlim_cur <= bytes)
     return; /* somebody was stricter */
-  r.rlim_cur = (rlim_t)bytes;
-  setrlimit(RLIMIT_DATA, &r);
+  /* RLIMIT_DATA counts private mappings, too, so that large blocks are bounded. */
+  bound.rlim_cur = (rlim_t)bytes;
+  setrlimit(RLIMIT_DATA, &bound);
 }
 
-static void count_signals(void)
+/* Has the parent count signals and be woken by the child's end. With nohup SIGHUP stays ignored. */
+static void install_handlers(void)
 {
   struct sigaction count = {.sa_handler = count_signal},
                    ended = {.sa_handler = wake, .sa_flags = SA_NOCLDSTOP};
   struct sigaction hangup = {.sa_handler = count_hangup}, before;
+
   sigaction(SIGINT, &count, NULL);
   sigaction(SIGTERM, &count, NULL);
   if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN)
@@ -265,32 +319,40 @@ static void count_signals(void)
   sigaction(SIGCHLD, &ended, NULL);   /* so that poll returns */
 }
 
-/* Forks with signals held back until either process knows what to do with them. */
+/* Forks with signals held back until either process knows what to do with them. Returns as fork()
+ * does. */
 static pid_t fork_quietly(void)
 {
   const pid_t parent = getpid();
   sigset_t all, before;
+
   fflush(NULL);
   sigfillset(&all);
   sigprocmask(SIG_BLOCK, &all, &before);
+
+  /* The child does not outlive its parent. */
   pid_t pid = fork();
   if (pid == 0) {
     thr_process_die_with(parent);
     cli_heed_signals();
   } else if (pid > 0) {
-    count_signals();
+    install_handlers();
   }
+
   sigprocmask(SIG_SETMASK, &before, NULL);
+
   return pid;
 }
 
-/* Nobody reads what the child prints: that is the command's end, as if there were no child. */
+/* Ends this process by a signal as if there were no child: nobody reads what the child printed. */
 static void die_of(int signal_number)
 {
   signal(signal_number, SIG_DFL);
   raise(signal_number);
 }
 
+/* Prints why there is no child, and fills in an end with EXIT_INTERNAL. Returns true, as the parent
+ * of guard_fork does. */
 static bool fork_failed(guard_end *end)
 {
   cli_error("cannot start a process: %s; close other programs", strerror(errno));
@@ -298,30 +360,40 @@ static bool fork_failed(guard_end *end)
   return true;
 }
 
-bool guard_fork(const guard_limits *l, guard_end *end)
+bool guard_fork(const guard_limits *limits, guard_end *end)
 {
   int ends[2];
+
   *end = (guard_end){0};
-  deadline = l->seconds > 0 ? thr_clock() + l->seconds : 0;
-  guarded g = {.end = end, .grace = {.from = deadline}};
+  deadline = limits->seconds > 0 ? thr_clock() + limits->seconds : 0;
+  guarded_child child = {.end = end, .grace = {.from = deadline}};
   if (pipe(ends)) return fork_failed(end);
-  g.pid = fork_quietly();
-  if (g.pid < 0) return fork_failed(end);
-  if (g.pid == 0) {
+  child.pid = fork_quietly();
+  if (child.pid < 0) return fork_failed(end);
+
+  /* The child: where messages go, and how much memory there is. */
+  if (child.pid == 0) {
     close(ends[0]);
     to_parent = ends[1];
-    bound_memory(l->memory);
+    bound_memory(limits->memory);
     return false;
   }
+
+  /* The parent: it reads the pipe without waiting, since it has more to look at. */
   close(ends[1]);
-  g.pipe = ends[0];
-  fcntl(g.pipe, F_SETFL, O_NONBLOCK);
-  watch(&g);
-  close(g.pipe);
-  if (WIFSIGNALED(g.status) && WTERMSIG(g.status) == SIGPIPE) die_of(SIGPIPE);
-  thr_text_destroy(&g.arrived);
-  judge(&g, l);
+  child.pipe = ends[0];
+  fcntl(child.pipe, F_SETFL, O_NONBLOCK);
+  watch(&child);
+  close(child.pipe);
+
+  /* What is left when the child has ended. */
+  if (WIFSIGNALED(child.status) && WTERMSIG(child.status) == SIGPIPE) die_of(SIGPIPE);
+  thr_text_destroy(&child.arrived);
+  judge(&child, limits);
+
+  /* A child that was ended could not wipe its progress line. */
   if (end->reason != GUARD_DONE) cli_wipe_line();
+
   return true;
 }
 

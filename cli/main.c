@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* thread: plans how cord is threaded through bead structures. This file only finds the subcommand.
- */
+/* thread: plans how cord is threaded through bead structures.
+ *
+ * This file finds the subcommand, which does everything else (cli/commands/), and makes sure at the
+ * end that all of stdout was written. */
 #include "cli/args/args.h"
 #include "cli/cli.h"
 #include "eval/joint/world.h"
@@ -11,6 +13,7 @@
 #include <stdio.h>
 #include <string.h>
 
+/* The table of commands, from which help and completions are made. */
 const cli_command cli_commands[] = {
     {"plan", "find the best threading of a framework, prove it, draw it", cmd_plan},
     {"advise", "how many cords, and from where, so that a hand can pull them", cmd_advise},
@@ -26,6 +29,7 @@ const cli_command cli_commands[] = {
 };
 const int cli_n_commands = sizeof cli_commands / sizeof *cli_commands;
 
+/* Prints the help of the program. */
 static void help(FILE *to)
 {
   fputs(
@@ -37,6 +41,8 @@ static void help(FILE *to)
       "  thread eval dome/plan.json --method joint     how hard to pull, measured in simulation\n\n"
       "Commands:\n",
       to);
+
+  /* Commands with their summaries. */
   for (int i = 0; i < cli_n_commands; i++)
     fprintf(to, "  %-10s %s\n", cli_commands[i].name, cli_commands[i].summary);
   fputs("\nOptions of every command: -h, --help; -q, --quiet; -v, --verbose; --config FILE: "
@@ -45,9 +51,12 @@ static void help(FILE *to)
         to);
 }
 
+/* Prints the version, the licence and the versions of the libraries. */
 static int version(void)
 {
   int bullet = thr_bullet_version();
+
+  /* Results may depend on the versions of these libraries. */
   printf("thread %s\n"
          "License GPLv3+: GNU GPL version 3 or later <https://gnu.org/licenses/gpl.html>\n"
          "This is free software: you are free to change and redistribute it. There is NO WARRANTY, "
@@ -55,61 +64,85 @@ static int version(void)
          "With GLPK %s, igraph %s, nauty %s, Bullet %d.%d.\n",
          THR_VERSION, thr_glpk_version(), thr_igraph_version(), thr_nauty_version(), bullet / 100,
          bullet % 100);
+
   return EXIT_OK;
 }
 
-static int run(const cli_command *command, int argc, char **argv)
+/* Runs a command, with the options of --config before those of the command line. */
+static int run_command(const cli_command *command, int argc, char **argv)
 {
   int code = cli_config(&argc, &argv);
   return code ? code : command->run(argc - 1, argv + 1);
 }
 
-static int no_command(const char *name)
+/* Prints that there is no such command, and which one may be meant. Returns the exit code. */
+static int report_unknown(const char *name)
 {
   char question[THR_SUGGESTION_TEXT];
   thr_suggestion suggestion = {.word = name};
+
   for (int i = 0; i < cli_n_commands; i++)
     thr_suggestion_try(&suggestion, cli_commands[i].name);
+
+  /* The name that comes nearest is asked for. */
   thr_suggestion_ask(&suggestion, question);
+
   cli_error("there is no command %s%s%s `thread --help` lists them", name, question,
             *question ? "" : ";");
+
   return EXIT_USAGE;
 }
 
+/* Finds the command and runs it. Returns its exit code. */
 static int dispatch(int argc, char **argv)
 {
   static char show[] = "--help";
+
   if (argc < 2) {
     help(stderr);
     return EXIT_USAGE;
   }
+
+  /* What is no command in the list: version, completions, help. */
   const char *name = argv[1];
   if (strcmp(name, "--version") == 0 || strcmp(name, "-V") == 0) return version();
   if (strcmp(name, "complete") == 0) return cmd_complete(argc - 1, argv + 1);
-  if (strcmp(name, "help") == 0 && argc > 2) { /* `thread help plan` */
+
+  /* `thread help plan` is `thread plan --help`. */
+  if (strcmp(name, "help") == 0 && argc > 2) {
     argv[1] = argv[2];
     argv[2] = show;
     argc = 3;
     name = argv[1];
   }
+
   if (strcmp(name, "-h") == 0 || strcmp(name, "--help") == 0 || strcmp(name, "help") == 0) {
     help(stdout);
     return EXIT_OK;
   }
+
+  /* A command of the list. */
   for (int i = 0; i < cli_n_commands; i++)
-    if (strcmp(name, cli_commands[i].name) == 0) return run(&cli_commands[i], argc, argv);
-  return no_command(name);
+    if (strcmp(name, cli_commands[i].name) == 0) return run_command(&cli_commands[i], argc, argv);
+
+  return report_unknown(name);
 }
 
 int main(int argc, char **argv)
 {
   int code = dispatch(argc, argv);
+
+  /* A full disk shows only now. */
   bool written = fflush(stdout) == 0 && !ferror(stdout);
+
   if (!code && !written) {
     cli_error("cannot write to stdout");
     code = EXIT_INPUT;
   }
+
+  /* Folders that stayed empty go, and the parent hears that this is the end. */
   files_tidy();
   guard_ending(code);
+
   return code;
 }

@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* --progress: how far a search is, for a program that reads it: one JSON object on a line of stderr
- * each time the plan or its bound is better.
+/* Tells a program how far a search is (--progress): one JSON object on a line of stderr each time
+ * the plan or its bound is better.
  *
- *   {"what":"plan","length":1995.2,"turning":53.5,"cords":1,"seconds":0.31}   a whole plan was
- * found
- *   {"what":"turning","best":53.5,"bound":51.2,"gap":4.3,"seconds":0.52}      what is minimized,
- * and what nothing is below; gap:
- * %
- *   {"what":"joints","done":0.25,"seconds":2.1}                               work whose amount is
- * known
+ *    {"what":"plan","length":1995.2,"turning":53.5,"cords":1,"seconds":0.31}
+ *        a whole plan was found
+ *    {"what":"turning","best":53.5,"bound":51.2,"gap":4.3,"seconds":0.52}
+ *        what is minimized, its lower bound, and the gap between them in per cent of the best
+ *    {"what":"joints","done":0.25,"seconds":2.1}
+ *        work whose amount is known, and the part that is done
  *
  * best and bound are prices of turns (rad, or as --turn-cost has it) where what is turning, else
  * weights of extra cord; length is in the framework's units, turning in rad, seconds since the
@@ -21,24 +20,26 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double OFTEN = 0.05; /* s between two lines about bounds or parts */
+/* s between two lines about bounds or parts. */
+static const double OFTEN = 0.05;
 
+/* What the last lines said, so that a line is only written for progress. */
 static struct {
   bool wanted;
   double began, told; /* thr_clock() */
   char what[64];      /* of the last line */
   double best, bound, done;
-} last;
+} last_line;
 
 void progress_begin(void)
 {
-  last.wanted = true;
-  last.began = thr_clock();
+  last_line.wanted = true;
+  last_line.began = thr_clock();
 }
 
 bool progress_wanted(void)
 {
-  return last.wanted;
+  return last_line.wanted;
 }
 
 /* Begins a line; the caller writes its members. */
@@ -50,61 +51,83 @@ static thr_writer open_line(thr_text *text, const char *what)
   return writer;
 }
 
+/* Ends a line with the seconds since the beginning, and writes it at once. */
 static void end_line(thr_writer *writer)
 {
-  thr_write_printf(writer, "seconds", "%.3f", thr_clock() - last.began);
+  thr_write_printf(writer, "seconds", "%.3f", thr_clock() - last_line.began);
   thr_write_close(writer);
   thr_text_append(writer->out, "\n");
+
+  /* Whoever reads needs every line at once. */
   if (!writer->out->failed) fputs(writer->out->data, stderr);
   fflush(stderr);
   thr_text_destroy(writer->out);
 }
 
-/* Is it something else than in the last line? */
-static bool is_other(const char *what)
+/* Returns whether something else is told of than in the last line, and then forgets what that
+ * was. */
+static bool is_new_subject(const char *what)
 {
-  if (strncmp(last.what, what, sizeof last.what - 1) == 0) return false;
-  snprintf(last.what, sizeof last.what, "%s", what);
-  last.best = INFINITY;
-  last.bound = -INFINITY;
-  last.done = 0;
+  if (strncmp(last_line.what, what, sizeof last_line.what - 1) == 0) return false;
+
+  /* Nothing is known of the new subject, so that its first line is one of progress. */
+  snprintf(last_line.what, sizeof last_line.what, "%s", what);
+  last_line.best = INFINITY;
+  last_line.bound = -INFINITY;
+  last_line.done = 0;
+
   return true;
 }
 
-/* Time for a line? */
-static bool is_time(bool other)
+/* Returns whether it is time for a line: at once for something else, else so many seconds after the
+ * last one. */
+static bool is_due(bool other)
 {
   const double now = thr_clock();
-  if (!other && now - last.told < OFTEN) return false;
-  last.told = now;
+  if (!other && now - last_line.told < OFTEN) return false;
+  last_line.told = now;
   return true;
 }
 
+/* Tells the best value and the proved bound if one of them is better. Signature of
+ * thr_limits.progress. */
 static void tell_bound(void *user, const char *what, double best, double bound)
 {
-  const bool other = is_other(what);
+  const bool other = is_new_subject(what);
   thr_text text = {0};
   (void)user;
-  bound = fmax(bound, 0); /* no price and no weight is below 0 */
-  if ((best >= last.best && bound <= last.bound) || !is_time(other)) return;
-  last.best = fmin(best, last.best);
-  last.bound = fmax(bound, last.bound);
+
+  /* No price and no weight is below 0; several searches may tell of the same, so that only progress
+   * counts. */
+  bound = fmax(bound, 0);
+  if ((best >= last_line.best && bound <= last_line.bound) || !is_due(other)) return;
+
+  /* The line tells the best of all searches so far. */
+  last_line.best = fmin(best, last_line.best);
+  last_line.bound = fmax(bound, last_line.bound);
+
+  /* The gap in per cent of the best value. */
   thr_writer writer = open_line(&text, what);
-  thr_write_number(&writer, "best", last.best);
-  thr_write_number(&writer, "bound", last.bound);
-  thr_write_printf(&writer, "gap", "%.3g",
-                   last.best > 0 ? 100 * fmax(0, last.best - last.bound) / last.best : 0.);
+  thr_write_number(&writer, "best", last_line.best);
+  thr_write_number(&writer, "bound", last_line.bound);
+  thr_write_printf(
+      &writer, "gap", "%.3g",
+      last_line.best > 0 ? 100 * fmax(0, last_line.best - last_line.bound) / last_line.best : 0.);
   end_line(&writer);
 }
 
+/* Tells which part of the work is done if that is more. Signature of thr_limits.advance. */
 static void tell_part(void *user, const char *what, double done)
 {
-  const bool other = is_other(what);
+  const bool other = is_new_subject(what);
   thr_text text = {0};
   (void)user;
-  if (!other && done < last.done) last.done = 0; /* the same kind of work once more */
-  if ((!other && done <= last.done) || !is_time(other)) return;
-  last.done = done;
+
+  /* Less than before: the same kind of work began once more. */
+  if (!other && done < last_line.done) last_line.done = 0;
+  if ((!other && done <= last_line.done) || !is_due(other)) return;
+  last_line.done = done;
+
   thr_writer writer = open_line(&text, what);
   thr_write_printf(&writer, "done", "%.3f", done);
   end_line(&writer);

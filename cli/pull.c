@@ -1,5 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Options of the methods that measure the pull, and running them. */
+/* Takes the options of the methods that measure the pull of a plan, and runs these methods. Shared
+ * by eval, compare and plan.
+ *
+ * --pull says which ends are pulled: one word for all cords, "start", "end" or "both", or a list
+ * that names cords, "A=start,B=none", in which cords that are not named are pulled at both ends.
+ * Whether there are such cords is known only when a plan is read, so that the value is kept as text
+ * until then.
+ *
+ * What is said of cord and beads on the command line takes the place of what is stored in the plan;
+ * sizes that nobody said follow from the framework (graph/plan/physics.h).
+ *
+ * Measured joints are cached in a folder, so that the next evaluation with the same cord and beads
+ * takes no time; results do not depend on that. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/pull.h"
 #include "graph/framework/units.h"
@@ -12,13 +24,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-void pull_args_init(pull_args *a, thr_method method)
+void pull_args_init(pull_args *args, thr_method method)
 {
-  *a = (pull_args){.options = thr_eval_options_default(), .method = method, .pull = "both"};
-  a->options.processes = cli_processes();
-  thr_os_cache_folder(a->cache, sizeof a->cache);
+  *args = (pull_args){.options = thr_eval_options_default(), .method = method, .pull = "both"};
+  args->options.processes = cli_processes();
+  thr_os_cache_folder(args->cache, sizeof args->cache);
 }
 
+/* Finds the pull of that name, n letters long. Returns false if there is none. */
 static bool pull_by_name(const char *value, size_t n, thr_pull *pull)
 {
   for (int i = 0; i < THR_N_PULLS; i++) {
@@ -30,28 +43,35 @@ static bool pull_by_name(const char *value, size_t n, thr_pull *pull)
   return false;
 }
 
-/* The list A=start,B=none: item by item. False at its end; *ok false if the item is no such thing
- * or ends the list with a comma. */
-static bool next_pull(const char **list, char id[12], thr_pull *pull, bool *ok)
+/* Parses the next item of a list such as A=start,B=none and moves *list behind it. Returns false at
+ * the end of the list; *ok becomes false if the item is no such thing or ends the list with a
+ * comma. */
+static bool parse_next_pull(const char **list, char id[12], thr_pull *pull, bool *ok)
 {
   if (!**list) return false;
+
+  /* n: length of the item; letters: of the cord's id before "=". */
   size_t n = strcspn(*list, ","), letters = strcspn(*list, "=,");
   *ok = letters > 0 && letters < 12 && letters < n &&
         pull_by_name(*list + letters + 1, n - letters - 1, pull);
+
   if ((*list)[n] == ',' && !(*list)[n + 1]) *ok = false;
+
+  /* A bad item names no cord. */
   snprintf(id, 12, "%.*s", *ok ? (int)letters : 0, *list);
   *list += n;
   *list += **list == ',';
+
   return true;
 }
 
-/* Is the cord that the list names last before `end` named earlier too? */
-static bool named_twice(const char *value, const char *end, const char id[12])
+/* Returns whether the cord that the list names last before `end` was named earlier, too. */
+static bool is_named_twice(const char *value, const char *end, const char id[12])
 {
   thr_pull pull;
   char other[12];
   bool ok;
-  for (const char *list = value; next_pull(&list, other, &pull, &ok) && list != end;)
+  for (const char *list = value; parse_next_pull(&list, other, &pull, &ok) && list != end;)
     if (strcmp(other, id) == 0) return true;
   return false;
 }
@@ -64,17 +84,21 @@ static bool take_pull(void *into, const cli_option *option, const char *value)
   (void)option;
   ((pull_args *)into)->pull = value;
   bool ok = pull_by_name(value, strlen(value), &pull) && pull != THR_PULL_NONE;
+
+  /* A list. */
   if (!ok && strchr(value, '=')) {
     const char *list = value;
-    for (ok = true; ok && next_pull(&list, id, &pull, &ok);) {
-      if (!ok || !named_twice(value, list, id)) continue;
+    for (ok = true; ok && parse_next_pull(&list, id, &pull, &ok);) {
+      if (!ok || !is_named_twice(value, list, id)) continue;
       cli_usage(command, "--pull %s: cord %s is there twice", value, id);
       return false;
     }
   }
+
   if (!ok)
     cli_usage(command, "--pull %s: expected start, end or both, or a list like A=none,B=both",
               value);
+
   return ok;
 }
 
@@ -148,66 +172,84 @@ const cli_option pull_tuned[] = {
 /* What would be ignored is refused. Compare shows the closed form whatever the method. */
 int pull_check(const pull_args *a, const char *command)
 {
-  bool one = a->method != PULL_ALL_METHODS, structure = a->method == THR_STRUCTURE || !one;
-  bool closed = a->method == THR_CAPSTAN || strcmp(command, "compare") == 0;
-  if (a->options.law != THR_LAW_CAPSTAN && !closed)
+  bool one = args->method != PULL_ALL_METHODS, structure = args->method == THR_STRUCTURE || !one;
+  bool closed = args->method == THR_CAPSTAN || strcmp(command, "compare") == 0;
+
+  /* thread compare shows the closed form whatever the method. */
+  if (args->options.law != THR_LAW_CAPSTAN && !closed)
     return cli_usage(command, "--law is for --method capstan");
   if (a->options.start > 0 && !structure)
     return cli_usage(command, "--tune start needs --method structure");
   if (!a->options.dynamics && !structure)
     return cli_usage(command, "--no-dynamics needs --method structure");
-  if (a->options.large && !structure)
+  if (args->options.large && !structure)
     return cli_usage(command, "--dynamics needs --method structure");
-  if (a->options.large && !a->options.dynamics)
+
+  /* What excludes each other. */
+  if (args->options.large && !args->options.dynamics)
     return cli_usage(command, "--dynamics and --no-dynamics exclude each other");
   if (a->options.start > 0 && !a->options.dynamics)
     return cli_usage(command, "--tune start is of the simulation that --no-dynamics leaves out");
   return EXIT_OK;
 }
 
-/* The pull of each cord of a plan; *out is owned by the caller, NULL if all are pulled alike. */
-static int resolve_pulls(const pull_args *a, const char *path, const thr_plan *plan,
+/* Finds the pull of each cord of a plan. *out is owned by the caller, NULL if all cords are pulled
+ * alike. Returns an exit code. */
+static int resolve_pulls(const pull_args *args, const char *path, const thr_plan *plan,
                          thr_eval_options *options, thr_pull **out)
 {
-  const char *list = a->pull;
+  const char *list = args->pull;
   char id[12];
   thr_pull pull = THR_PULL_BOTH;
   bool ok;
+
   *out = NULL;
   if (pull_by_name(list, strlen(list), &options->pull)) return EXIT_OK;
   if (!(*out = thr_calloc((size_t)plan->n_cords, sizeof **out))) {
     cli_error("out of memory");
     return EXIT_INTERNAL;
   }
+
+  /* A list: cords that it does not name are pulled at both ends. */
   for (int i = 0; i < plan->n_cords; i++)
     (*out)[i] = THR_PULL_BOTH;
-  while (next_pull(&list, id, &pull, &ok)) {
+
+  /* The list was checked when the option was taken, so that only unknown cords are left to
+   * refuse. */
+  while (parse_next_pull(&list, id, &pull, &ok)) {
     int i = 0;
     while (i < plan->n_cords && strcmp(plan->cord[i].id, id) != 0)
       i++;
     if (i == plan->n_cords) {
-      cli_error("--pull %s: %s has no cord %s; the last of its cords is %s", a->pull, path, id,
+      cli_error("--pull %s: %s has no cord %s; the last of its cords is %s", args->pull, path, id,
                 plan->cord[plan->n_cords - 1].id);
       return EXIT_INPUT;
     }
+
     (*out)[i] = pull;
   }
+
+  /* At least one cord must be pulled. */
   for (int i = 0; i < plan->n_cords; i++)
     if ((*out)[i] != THR_PULL_NONE) options->cord_pull = *out;
+
   return options->cord_pull
              ? EXIT_OK
-             : cli_usage("eval", "--pull %s: no cord of %s is pulled", a->pull, path);
+             : cli_usage("eval", "--pull %s: no cord of %s is pulled", args->pull, path);
 }
 
-/* Sizes that were not said follow from the edges: a very short one makes every cord thin. Once is
- * enough. */
+/* Notes, once, that a very short edge makes every cord thin: sizes that were not said follow from
+ * the edges (graph/plan/physics.h). */
 static void note_thin_cord(const thr_frame *frame, const thr_physics *asked,
                            const thr_physics *resolved)
 {
   static bool said;
   double mm = 1, shortest = INFINITY;
   int edge = 0;
+
   if (said || asked->cord_diameter > 0 || thr_units_in_mm(frame->units, &mm, NULL)) return;
+
+  /* The shortest edge, mm. */
   for (int e = 0; e < frame->n_edges; e++) {
     const double *a = frame->xyz[frame->edge[e][0]], *b = frame->xyz[frame->edge[e][1]];
     double length = mm * hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
@@ -216,7 +258,11 @@ static void note_thin_cord(const thr_frame *frame, const thr_physics *asked,
       edge = e;
     }
   }
+
+  /* The usual cord is a twentieth of the median edge, but at most a quarter of the shortest. */
   if (fabs(resolved->cord_diameter - shortest / 4) > 1e-9 * shortest) return;
+
+  /* Once for all plans and methods of this run. */
   said = true;
   cli_note("note: the cord is taken to be %.3g mm thick, as the edge from %s to %s is only %.3g mm "
            "long; --cord-diameter says it",
@@ -224,42 +270,55 @@ static void note_thin_cord(const thr_frame *frame, const thr_physics *asked,
            frame->name[frame->edge[edge][1]], shortest);
 }
 
-int pull_eval(const pull_args *a, const char *path, const thr_plan *plan, thr_method method,
+int pull_eval(const pull_args *args, const char *path, const thr_plan *plan, thr_method method,
               thr_eval *out)
 {
   thr_err err = {0}, found = {0};
-  thr_eval_options options = a->options;
+  thr_eval_options options = args->options;
   thr_pull *pulls = NULL;
+
   *out = (thr_eval){0};
+
+  /* What is stored in the plan, then what the command line says. */
   options.physics = plan->options.physics;
-  if (!options.cache && a->cache[0]) options.cache = a->cache;
-  if (a->no_cache) options.cache = NULL;
-  int code = cli_physics_apply(&a->physics, &options.physics);
-  if (!code) code = resolve_pulls(a, path, plan, &options, &pulls);
+  if (!options.cache && args->cache[0]) options.cache = args->cache;
+  if (args->no_cache) options.cache = NULL;
+  int code = cli_physics_apply(&args->physics, &options.physics);
+  if (!code) code = resolve_pulls(args, path, plan, &options, &pulls);
   if (code) {
     free(pulls);
     return code;
   }
+
   thr_limits limits = cli_limits(0);
   thr_status st = thr_eval_plan(&plan->frame, plan->cord, plan->n_cords, method, &options, &limits,
                                 out, &found);
   free(pulls);
   cli_progress_end();
+
+  /* Stopped: measured joints are kept for the next run. */
   if (st == THR_ELIMIT) {
     int kept = options.cache && !out->cache_failed ? out->joints_measured : 0;
+
     if (method == THR_JOINT)
       cli_note("note: %s: %d %s kept in the cache for the next run", path, kept,
                cli_plural(kept, "joint is", "joints are"));
     return EXIT_LIMIT;
   }
+
   if (!st) {
     if (method != THR_CAPSTAN) note_thin_cord(&plan->frame, &options.physics, &out->record.physics);
+
+    /* A folder that cannot be written is no reason to fail. */
     if (out->cache_failed)
       cli_note("note: measured joints could not be kept in %s; --cache names another folder",
                options.cache);
     return EXIT_OK;
   }
+
+  /* Messages begin with the name of the plan. */
   thr_fail(&err, st, "%s: %s", path, found.text);
+
   return cli_fail(&err);
 }
 
@@ -267,15 +326,21 @@ int pull_read_schedule(const char *value, const thr_plan *plan, thr_schedule *sc
 {
   thr_text text = {0};
   thr_err err = {0};
+
   if (!value) return EXIT_OK;
   const bool file = !strchr(value, ':');
+
+  /* A schedule has a colon in every step, a file name has none. */
   thr_status st = file ? thr_text_read_plain(&text, value, &err) : THR_OK;
   if (!file) thr_text_append(&text, value);
   if (!st && text.failed) st = thr_nomem(&err);
+
   if (!st)
     st = thr_schedule_parse(schedule, plan, text.data, text.length, file ? value : "--schedule",
                             &err);
+
   thr_text_destroy(&text);
+
   return st ? cli_fail(&err) : EXIT_OK;
 }
 
@@ -288,10 +353,13 @@ void pull_unknown_cords(const thr_plan *plan, const thr_evaluation *evaluation, 
 {
   enum { MOST = 12 };
   int n = 0;
+
+  /* At most 12 cords are named. */
   for (int i = 0; i < evaluation->n_cords; i++) {
     if (evaluation->cord[i].known) continue;
     if (n < MOST) thr_text_printf(text, "%s%s", n ? ", " : "", plan->cord[i].id);
     n++;
   }
+
   if (n > MOST) thr_text_printf(text, " and %d more", n - MOST);
 }

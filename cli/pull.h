@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The options of the methods that measure the pull, and running them: shared by eval, compare and
- * plan. */
+/* Takes the options of the methods that measure the pull of a plan, and runs these methods: shared
+ * by eval, compare and plan.
+ *
+ * A command calls pull_args_init, pull_option for each option, pull_check when all are known, and
+ * pull_eval for each plan. */
 #ifndef THR_PULL_H
 #define THR_PULL_H
 
@@ -11,6 +14,7 @@
 
 enum { PULL_ALL_METHODS = THR_N_METHODS };
 
+/* What was asked for. */
 typedef struct {
   cli_physics physics;
   thr_eval_options options; /* physics and pulls are set for each plan */
@@ -20,7 +24,7 @@ typedef struct {
   char cache[1024]; /* where options.cache points unless given */
 } pull_args;
 
-/* Points into itself: fill it where it stays. */
+/* Fills in the defaults. The result points into itself, so that it must stay where it is. */
 void pull_args_init(pull_args *a, thr_method method);
 /* How a pull is measured, --json, and what is for developers; where measured joints are kept. */
 extern const cli_option pull_options[], pull_tuned[], pull_run_options[];
@@ -28,7 +32,8 @@ extern const cli_option pull_options[], pull_tuned[], pull_run_options[];
 /* The name of a method, or "all", for the rows of --method that commands have. */
 const char *pull_method_name(int method);
 
-/* Does what was asked make sense together? EXIT_OK, or prints and returns the code. */
+/* Checks that what was asked makes sense together. Returns EXIT_OK, or prints and returns the code.
+ */
 int pull_check(const pull_args *a, const char *command);
 
 /* Evaluates a plan by one method with a progress bar and Ctrl-C; path is for messages. Returns
@@ -37,14 +42,15 @@ int pull_check(const pull_args *a, const char *command);
 int pull_eval(const pull_args *a, const char *path, const thr_plan *plan, thr_method method,
               thr_eval *out);
 
-/* A schedule that was given: a value with a colon is it, another one the name of a file of it; NULL
+/* Reads a schedule: a value with a colon is one, another value is the name of a file of one; NULL
  * is none. Returns EXIT_OK, or prints and returns the code. Release with thr_schedule_destroy. */
 int pull_read_schedule(const char *value, const thr_plan *plan, thr_schedule *schedule);
 
-/* A relative error from an exponent's, in percent. */
+/* Returns the relative error, in per cent, that an error of the exponent makes: 100 (exp(error) -
+ * 1). */
 double pull_percent(double error);
 
-/* "A, C, D and 4 more": the cords that are not known. */
+/* Appends the cords that are not known: "A, C, D and 4 more". */
 void pull_unknown_cords(const thr_plan *plan, const thr_evaluation *evaluation, thr_text *text);
 
 #endif

@@ -1,5 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* thread advise: how many cords, and from where. */
+/* thread advise: makes a plan for every number of cords and kind of ends that may be worth its
+ * cord, prints a table of them, and recommends the one with the fewest cords that a hand can pull.
+ *
+ * The pull at the hardest end, N, grows with exp(mu x turning), so that a cord with half of the
+ * turning needs only the square root of that factor. A hand manages 10 N time after time, 50 N at
+ * most (graph/plan/advice.h); recommended is what stays within the hand even at the upper end of
+ * the band of mu.
+ *
+ * The searches are thr_advise's (planner/advise.c), the table is cli/print/advice_table.c. This
+ * file parses the options, shows rows on a terminal as they are found, keeps the cords of every row
+ * so that the recommended ones can be asked from which pull on they hold the pieces, and writes
+ * table, picture or JSON.
+ *
+ * Example: of the 7 x 7 dome `thread advise dome.json` recommends 4 cords to the feet, pulled with
+ * 3.27 N at most. */
 #include "cli/advice.h"
 #include "cli/args/args.h"
 #include "cli/args/request_args.h"
@@ -42,6 +56,7 @@ static const char outro[] =
 
 enum { TYPE_TEXT, TYPE_SVG, N_TYPES };
 
+/* The command line. Strings point into argv. */
 typedef struct {
   cli_frame_args frame;
   cli_physics physics;
@@ -51,7 +66,7 @@ typedef struct {
   double hand;
   int type;
   bool json;
-} arguments;
+} advise_arguments;
 
 static const char *type_name(int type)
 {
@@ -107,6 +122,7 @@ static int parse(int argc, char **argv, arguments *a)
   if (a->json && a->type == TYPE_SVG && strcmp(a->output, "-") == 0)
     return cli_usage("advise",
                      "--json and the picture both want stdout; -o FILE takes the picture");
+
   return -1;
 }
 
@@ -117,105 +133,130 @@ typedef struct {
   thr_ends ends;
   int cords, n;
   thr_cord *cord; /* [n] owned */
-} laid;
+} kept_cords;
 
+/* What is known while rows are found. */
 typedef struct {
   const thr_frame *frame;
   const thr_physics *physics;
   double base_length;
-  bool shown; /* on a terminal: rows are printed as they are found .. */
-  int lines;  /* .. so many lines, which the finished table takes the place of */
-  laid *kept; /* [n_kept] owned */
+  bool shown;       /* on a terminal: rows are printed as they are found .. */
+  int lines;        /* .. so many lines, which the finished table takes the place of */
+  kept_cords *kept; /* [n_kept] owned */
   int n_kept;
-} live;
+} table_state;
 
-/* Keeps a copy of the cords of a plan, as those of a row. Without memory for it there is nothing to
- * say of these cords. */
-static void keep_cords(live *l, const thr_advice_row *row, const thr_plan *plan)
+/* Keeps a copy of the cords of a plan as those of a row. Without memory for a copy there is nothing
+ * to say of these cords. */
+static void keep_cords(table_state *state, const thr_advice_row *row, const thr_plan *plan)
 {
   int i = 0;
-  while (i < l->n_kept && (l->kept[i].ends != row->ends || l->kept[i].cords != row->cords))
+
+  /* A row is known by its kind of ends and its number of cords. */
+  while (i < state->n_kept &&
+         (state->kept[i].ends != row->ends || state->kept[i].cords != row->cords))
     i++;
-  if (i == l->n_kept) {
-    laid *more = thr_realloc(l->kept, (size_t)i + 1, sizeof *more);
+
+  /* The first cords of this row. */
+  if (i == state->n_kept) {
+    kept_cords *more = thr_realloc(state->kept, (size_t)i + 1, sizeof *more);
     if (!more) return;
-    l->kept = more;
-    l->kept[l->n_kept++] = (laid){.ends = row->ends, .cords = row->cords};
+    state->kept = more;
+    state->kept[state->n_kept++] = (kept_cords){.ends = row->ends, .cords = row->cords};
   }
-  thr_cords_destroy(l->kept[i].cord, l->kept[i].n);
-  const thr_status st = thr_cords_copy(plan->cord, plan->n_cords, &l->kept[i].cord, NULL);
-  l->kept[i].n = st ? 0 : plan->n_cords;
+
+  /* Better cords take the place of those that the row had. */
+  thr_cords_destroy(state->kept[i].cord, state->kept[i].n);
+  const thr_status st = thr_cords_copy(plan->cord, plan->n_cords, &state->kept[i].cord, NULL);
+  state->kept[i].n = st ? 0 : plan->n_cords;
 }
 
-static void forget_cords(live *l)
+/* Frees all cords that were kept. */
+static void forget_cords(table_state *state)
 {
-  for (int i = 0; i < l->n_kept; i++)
-    thr_cords_destroy(l->kept[i].cord, l->kept[i].n);
-  free(l->kept);
+  for (int i = 0; i < state->n_kept; i++)
+    thr_cords_destroy(state->kept[i].cord, state->kept[i].n);
+  free(state->kept);
 }
 
-/* Lays out a plan with the recommended cords, all of it borrowed; false if they are not kept. */
-static bool chosen_plan(const live *l, const thr_request *request, const thr_advice *advice,
-                        thr_plan *plan)
+/* Lays out a plan with the recommended cords, all of it borrowed. Returns false if they are not
+ * kept. */
+static bool lay_out_chosen(const table_state *state, const thr_request *request,
+                           const thr_advice *advice, thr_plan *plan)
 {
-  for (int i = 0; i < l->n_kept && advice->chosen >= 0; i++) {
+  for (int i = 0; i < state->n_kept && advice->chosen >= 0; i++) {
     const thr_advice_row *row = &advice->row[advice->chosen];
-    const laid *kept = &l->kept[i];
+    const kept_cords *kept = &state->kept[i];
     if (kept->ends != row->ends || kept->cords != row->cords || kept->n == 0) continue;
-    *plan =
-        (thr_plan){.frame = *l->frame, .cord = kept->cord, .n_cords = kept->n, .options = *request};
+
+    /* Only what the limit analysis asks for is filled in. */
+    *plan = (thr_plan){
+        .frame = *state->frame, .cord = kept->cord, .n_cords = kept->n, .options = *request};
     return true;
   }
+
   return false;
 }
 
+/* Keeps the cords of a row that was found or got better, and shows the row on a terminal. Signature
+ * of thr_advise_options.row. */
 static void show_row(void *user, const thr_advice_row *row, const thr_plan *plan)
 {
-  live *l = user;
+  table_state *state = user;
   thr_text text = {0};
-  if (plan) keep_cords(l, row, plan);
-  if (!l->shown) return;
+
+  if (plan) keep_cords(state, row, plan);
+  if (!state->shown) return;
+
+  /* The head comes with the first row, and takes four lines. */
   cli_progress_wipe();
-  if (l->lines == 0) {
-    advice_put_head(&text, l->frame, l->physics);
-    l->lines = 4;
+  if (state->lines == 0) {
+    advice_put_head(&text, state->frame, state->physics);
+    state->lines = 4;
   }
-  advice_put_row(&text, row, l->base_length, "");
+
+  /* Printed at once: the next row may take seconds. */
+  advice_put_row(&text, row, state->base_length, "");
   if (!text.failed) fputs(text.data, stdout);
   fflush(stdout);
-  l->lines++;
+  state->lines++;
   thr_text_destroy(&text);
 }
 
-static void wipe_rows(const live *l)
+/* Removes the rows that were shown: moves the cursor up and erases to the end of the screen. The
+ * finished table takes their place. */
+static void wipe_rows(const table_state *state)
 {
-  if (l->lines > 0) printf("\033[%dA\033[J", l->lines);
+  if (state->lines > 0) printf("\033[%dA\033[J", state->lines);
 }
 
 /* ---- outputs ---- */
 
-static thr_status draw(const arguments *a, const thr_frame *frame, const thr_advice *advice,
-                       const char *command, thr_text *text, thr_err *err)
+/* Draws pull and cord against the number of cords. command: that makes the recommended plan. */
+static thr_status draw(const advise_arguments *args, const thr_frame *frame,
+                       const thr_advice *advice, const char *command, thr_text *text, thr_err *err)
 {
   char stem[256];
-  cli_stem(a->path, stem, sizeof stem);
+  cli_stem(args->path, stem, sizeof stem);
   return thr_advice_svg(
       advice, &(thr_advice_chart){.name = stem, .units = frame->units, .command = command}, text,
       err);
 }
 
-/* To stdout where the picture has the file. */
-static int write_json(const arguments *a, const thr_frame *frame, const thr_advice *advice,
-                      const char *command, const thr_plan *chosen)
+/* Writes the table as JSON: to stdout where the picture has the file. Returns an exit code. */
+static int write_json(const advise_arguments *args, const thr_frame *frame,
+                      const thr_advice *advice, const char *command, const thr_plan *chosen)
 {
   thr_text text = {0};
   advice_put_json(&(thr_writer){.out = &text}, frame, advice, command, chosen);
   thr_text_append(&text, "\n");
-  return cli_write(&text, a->type == TYPE_SVG ? "-" : a->output);
+  return cli_write(&text, args->type == TYPE_SVG ? "-" : args->output);
 }
 
-static int write_advice(const arguments *a, const thr_frame *frame, const thr_advice *advice,
-                        const live *l)
+/* Writes table, picture or JSON; with JSON and a picture both. state: knows the cords of the
+ * recommended row. Returns an exit code. */
+static int write_advice(const advise_arguments *args, const thr_frame *frame,
+                        const thr_advice *advice, const table_state *state)
 {
   thr_text text = {0}, options = {0}, command = {0};
   thr_err err = {0};
@@ -225,65 +266,89 @@ static int write_advice(const arguments *a, const thr_frame *frame, const thr_ad
   const bool laid_out = chosen_plan(l, &a->request, advice, &chosen);
   advice_command_options(&a->physics, &options);
   if (advice->chosen >= 0)
-    advice_put_command(&command, a->path, options.data ? options.data : "",
+    advice_put_command(&command, args->path, options.data ? options.data : "",
                        &advice->row[advice->chosen]);
   const char *words = command.data ? command.data : "";
+
+  /* Text or picture. */
   if (options.failed || command.failed)
     st = thr_nomem(&err);
-  else if (a->type == TYPE_SVG)
-    st = draw(a, frame, advice, words, &text, &err);
-  else if (!a->json)
+  else if (args->type == TYPE_SVG)
+    st = draw(args, frame, advice, words, &text, &err);
+  else if (!args->json)
     advice_put_table(&text, frame, advice, words);
-  if (!st && !a->json && a->type != TYPE_SVG && laid_out) advice_put_holding(&text, &chosen);
-  if (!st && a->json) code = write_json(a, frame, advice, words, laid_out ? &chosen : NULL);
-  if (!code && (st || !a->json || a->type == TYPE_SVG))
-    code = cli_write_drawn(st, &text, a->output, &err);
+
+  /* From which pull on the recommended cords hold the pieces. */
+  if (!st && !args->json && args->type != TYPE_SVG && laid_out) advice_put_holding(&text, &chosen);
+  if (!st && args->json) code = write_json(args, frame, advice, words, laid_out ? &chosen : NULL);
+
+  /* With --json text on stdout is the table; a picture goes to its file all the same. */
+  if (!code && (st || !args->json || args->type == TYPE_SVG))
+    code = cli_write_drawn(st, &text, args->output, &err);
+
   thr_text_destroy(&text);
   thr_text_destroy(&options);
   thr_text_destroy(&command);
+
   return code;
 }
 
-static int advise(arguments *a, const thr_frame *frame)
+/* Finds and writes the advice for a framework. Returns an exit code. */
+static int advise(advise_arguments *args, const thr_frame *frame)
 {
   thr_advice advice;
   thr_err err = {0};
   thr_physics resolved;
-  int code = cli_physics_apply(&a->physics, &a->request.physics);
+  int code = cli_physics_apply(&args->physics, &args->request.physics);
+
   if (code) return code;
-  if (thr_physics_resolve(&a->request.physics, frame, &resolved, &err)) return cli_fail(&err);
-  live l = {.frame = frame,
-            .physics = &resolved,
-            .base_length = a->request.cover * thr_frame_total_length(frame)};
-  l.shown = a->type == TYPE_TEXT && !a->json && !cli_quiet && strcmp(a->output, "-") == 0 &&
-            cli_is_terminal(STDOUT_FILENO);
-  const thr_advise_options options = {.hand = a->hand, .row = show_row, .user = &l};
+  if (thr_physics_resolve(&args->request.physics, frame, &resolved, &err)) return cli_fail(&err);
+
+  /* On a terminal rows are shown as they are found. */
+  table_state state = {.frame = frame,
+                       .physics = &resolved,
+                       .base_length = args->request.cover * thr_frame_total_length(frame)};
+  state.shown = args->type == TYPE_TEXT && !args->json && !cli_quiet &&
+                strcmp(args->output, "-") == 0 && cli_is_terminal(STDOUT_FILENO);
+
+  /* The search, whose work is counted unless a time was given. */
+  const thr_advise_options options = {.hand = args->hand, .row = show_row, .user = &state};
   double work = 0;
-  thr_limits limits = advice_limits(a->guard.seconds, &work);
-  thr_status st = thr_advise(frame, &a->request, &options, &limits, &advice, &err);
+  thr_limits limits = advice_limits(args->guard.seconds, &work);
+  thr_status st = thr_advise(frame, &args->request, &options, &limits, &advice, &err);
   cli_progress_end();
-  wipe_rows(&l);
-  if (!st) code = write_advice(a, frame, &advice, &l);
-  forget_cords(&l);
+
+  /* The finished table takes the place of the rows. */
+  wipe_rows(&state);
+  if (!st) code = write_advice(args, frame, &advice, &state);
+  forget_cords(&state);
   if (st) return cli_fail(&err);
+
+  /* What a user should know of the table. */
   if (!advice.complete)
     cli_note(
         "note: the time was over before all numbers of cords were tried; --time-limit gives more");
   if (!code && advice.chosen < 0) code = EXIT_INFEASIBLE;
   thr_advice_destroy(&advice);
+
   return code;
 }
 
+/* Runs `thread advise` and returns the exit code. */
 int cmd_advise(int argc, char **argv)
 {
-  arguments a;
+  advise_arguments args;
   thr_frame frame;
   guard_end end;
-  int code = parse(argc, argv, &a);
+  int code = parse(argc, argv, &args);
+
   if (code >= 0) return code;
-  if (guard_fork(&a.guard, &end)) return guard_conclude(&end, "no advice");
-  if ((code = cli_read_frame(a.path, &a.frame, &frame))) return code;
-  code = advise(&a, &frame);
+
+  /* The child does all of the work. */
+  if (guard_fork(&args.guard, &end)) return guard_conclude(&end, "no advice");
+  if ((code = cli_read_frame(args.path, &args.frame, &frame))) return code;
+  code = advise(&args, &frame);
   thr_frame_destroy(&frame);
+
   return code;
 }

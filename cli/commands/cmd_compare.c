@@ -1,5 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* thread compare: plans of one framework side by side, ranked by how hard they are to pull. */
+/* thread compare: evaluates plans of one framework, prints them side by side and ranks them by how
+ * hard they are to pull.
+ *
+ * A value of a plan is an interval: a measured pull has a relative error, a limit analysis proves a
+ * lower and finds an upper pull. Two plans whose intervals overlap tie (cli/print/ranking.c). There
+ * is one ranking for each question that was asked: the seating pull by the closed form and by
+ * simulated joints, the holding pull, the force in any state, what is left after a schedule, what a
+ * load needs and what is carried, and the fall in simulation (docs/method.md, "Comparing").
+ *
+ * Example: two plans with seating pulls of 12.3 N (+-0.4 %) and 12.33 N (+-0.5 %) tie; 12.3 N and
+ * 14.1 N do not.
+ *
+ * Order of work: read all plans, refuse loads and schedules that do not fit one of them, evaluate
+ * every method for every plan, simulate the structures twice, print. */
 #include "cli/args/load_args.h"
 #include "cli/print/print.h"
 #include "diagram/overview/charts.h"
@@ -45,6 +58,10 @@ static const char outro[] =
     "--no-dynamics is fast; it knows no loads, leaning ground, held feet and schedules, and is "
     "left out with them.\n";
 
+/* Rankings, one for each question, in the order in which they are printed. CAPSTAN and JOINT:
+ * seating pull. HOLDING to LOADED: least pull (or part of the tensions) of the limit analysis.
+ * CARRIED, CARRIED_AFTER: multiple of the load. SIMULATION: pull at which the structure falls in
+ * Bullet. */
 enum {
   CAPSTAN,
   JOINT,
@@ -58,121 +75,147 @@ enum {
   N_RANKINGS
 };
 
-/* What is done to the structures beside pulling. */
+/* What acts on the structures beside the pull: a load, leaning ground and the like, and a
+ * schedule. */
 typedef struct {
   load_args load;
   const char *schedule; /* as given; NULL: none */
-} deeds;
+} structure_actions;
 
+/* A plan with its evaluations (cli/print/print.h). */
 typedef compare_entry entry;
 
-/* Is method i part of this comparison? */
-static bool wanted(const pull_args *a, thr_method i)
+/* Returns whether a method is part of this comparison. The closed form always is. */
+static bool wanted(const pull_args *args, thr_method method)
 {
-  return i == THR_CAPSTAN || a->method == (int)i || a->method == PULL_ALL_METHODS;
+  return method == THR_CAPSTAN || args->method == (int)method || args->method == PULL_ALL_METHODS;
 }
 
 /* ---- rankings ---- */
 
-/* A pull or a factor that is needed: from what is proved to what was found. */
-static void rank_need(ranking *r, const thr_holding *holding, int i)
+/* Sets the interval of plan i from a pull, or a factor on tensions, that is needed: from the proved
+ * lower bound to the smallest value at which an equilibrium was found (INFINITY: none was). */
+static void rank_need(ranking *ranked, const thr_holding *holding, int i)
 {
-  r->value[i] = r->low[i] = holding->present ? holding->lower : NAN; /* INFINITY: none does */
-  r->high[i] = holding->upper >= holding->lower ? holding->upper : INFINITY;
+  ranked->value[i] = ranked->low[i] =
+      holding->present ? holding->lower : NAN; /* INFINITY: none does */
+  ranked->high[i] = holding->upper >= holding->lower ? holding->upper : INFINITY;
 }
 
-/* What is carried, the most first. */
-static void rank_carry(ranking *r, const thr_carry *carry, int i)
+/* Sets the interval of plan i from the multiple of a load that is carried. Values are negative, so
+ * that the largest multiple comes first. */
+static void rank_carry(ranking *ranked, const thr_carry *carry, int i)
 {
-  r->value[i] = r->high[i] = carry->first_bead < 0 ? NAN : -carry->carried;
-  r->low[i] = -carry->beyond;
+  ranked->value[i] = ranked->high[i] = carry->first_bead < 0 ? NAN : -carry->carried;
+  ranked->low[i] = -carry->beyond;
 }
 
-/* The values of plan i at both ends of a band of friction. */
-static void rank_band(ranking *r, int band, const double value[2], int i)
+/* Sets the values of plan i at both ends of a band of friction (0: of the cords, 1: of beads and
+ * ground). */
+static void rank_band(ranking *ranked, int band, const double value[2], int i)
 {
   for (int end = 0; end < 2; end++)
-    r->end[2 * band + end][i] = r->most ? -value[end] : value[end];
+    ranked->end[2 * band + end][i] = ranked->most ? -value[end] : value[end];
 }
 
-/* Fills what the frictions do to the value of plan i, as far as it is known. */
-static void rank_bands(ranking *r, int by, const entry *e, int i)
+/* Fills in how the value of plan i depends on the frictions, as far as that is known. */
+static void rank_bands(ranking *ranked, int question, const entry *candidate, int i)
 {
   static const thr_asked of[N_RANKINGS] = {
       [HOLDING] = THR_ASKED_HOLDING, [STANDING] = THR_ASKED_ANY_STATE,
       [AFTER] = THR_ASKED_AFTER,     [LOADED] = THR_ASKED_LOADED,
       [CARRIED] = THR_ASKED_CARRIED, [CARRIED_AFTER] = THR_ASKED_CARRIED_AFTER};
-  const thr_eval *structure = &e->eval[THR_STRUCTURE];
-  if (by == CAPSTAN || by == JOINT) {
-    if (!isnan(r->value[i]))
-      rank_band(r, 0, e->eval[by == CAPSTAN ? THR_CAPSTAN : THR_JOINT].band, i);
-  } else if (by == CARRIED) {
-    if (structure->n_carries) rank_band(r, 1, structure->carries[0].band_beads, i);
-  } else if (by != SIMULATION && structure->record.present) {
-    rank_band(r, 1, structure->band_beads[of[by]], i);
-    if (by == HOLDING || by == STANDING)
-      rank_band(r, 0, by == HOLDING ? structure->band : structure->band_any, i);
+  const thr_eval *structure = &candidate->eval[THR_STRUCTURE];
+
+  /* Seating pulls depend on the friction of the cord only; all others on that of beads and ground,
+   * and the pull while cords are drawn in and the force in any state on both. */
+  if (question == CAPSTAN || question == JOINT) {
+    if (!isnan(ranked->value[i]))
+      rank_band(ranked, 0, candidate->eval[question == CAPSTAN ? THR_CAPSTAN : THR_JOINT].band, i);
+  } else if (question == CARRIED) {
+    if (structure->n_carries) rank_band(ranked, 1, structure->carries[0].band_beads, i);
+  } else if (question != SIMULATION && structure->record.present) {
+    rank_band(ranked, 1, structure->band_beads[of[question]], i);
+    if (question == HOLDING || question == STANDING)
+      rank_band(ranked, 0, question == HOLDING ? structure->band : structure->band_any, i);
   }
 }
 
-/* Fills value and interval of plan i; leaves it unknown if it is. */
-static void rank_plan(ranking *r, int by, const entry *e, int i)
+/* Fills in value and interval of plan i for one question; leaves the value NAN where it is not
+ * known. */
+static void rank_plan(ranking *ranked, int question, const entry *candidate, int i)
 {
-  const thr_eval *structure = &e->eval[THR_STRUCTURE];
-  switch (by) {
+  const thr_eval *structure = &candidate->eval[THR_STRUCTURE];
+
+  switch (question) {
+  /* The closed form is exact but for rounding. */
   case CAPSTAN:
-    r->value[i] = compare_largest(e, THR_CAPSTAN);
-    r->low[i] = r->value[i] * (1 - 1e-6);
-    r->high[i] = r->value[i] * (1 + 1e-6);
+    ranked->value[i] = compare_largest(candidate, THR_CAPSTAN);
+    ranked->low[i] = ranked->value[i] * (1 - 1e-6);
+    ranked->high[i] = ranked->value[i] * (1 + 1e-6);
     break;
+
+  /* A measured pull is right within a factor exp(+-error); turns that were refused have no known
+   * error, so that the interval has no upper end. */
   case JOINT:
-    r->value[i] = compare_largest(e, THR_JOINT);
-    r->low[i] = r->value[i] * exp(-e->eval[THR_JOINT].error);
-    r->high[i] =
-        e->eval[THR_JOINT].refused ? INFINITY : r->value[i] * exp(e->eval[THR_JOINT].error);
+    ranked->value[i] = compare_largest(candidate, THR_JOINT);
+    ranked->low[i] = ranked->value[i] * exp(-candidate->eval[THR_JOINT].error);
+    ranked->high[i] = candidate->eval[THR_JOINT].refused
+                          ? INFINITY
+                          : ranked->value[i] * exp(candidate->eval[THR_JOINT].error);
     break;
-  case HOLDING: rank_need(r, &structure->holding, i); break;
-  case STANDING: rank_need(r, &structure->loosest, i); break;
-  case AFTER: rank_need(r, &structure->after, i); break;
-  case LOADED: rank_need(r, &structure->loaded, i); break;
+  case HOLDING: rank_need(ranked, &structure->holding, i); break;
+  case STANDING: rank_need(ranked, &structure->loosest, i); break;
+  case AFTER: rank_need(ranked, &structure->after, i); break;
+  case LOADED: rank_need(ranked, &structure->loaded, i); break;
   case CARRIED:
-    if (structure->n_carries) rank_carry(r, &structure->carries[0].carry, i);
+    if (structure->n_carries) rank_carry(ranked, &structure->carries[0].carry, i);
     break;
   case CARRIED_AFTER:
-    if (structure->after.present) rank_carry(r, &structure->after_carries, i);
+    if (structure->after.present) rank_carry(ranked, &structure->after_carries, i);
     break;
+
+  /* The fall in simulation: the interval holds what both time steps say, each with its error. */
   default:
-    r->value[i] = isnan(e->fall[1]) ? NAN : e->fall[0];
-    r->low[i] = fmin(e->fall[0] - e->fall_error[0], e->fall[1] - e->fall_error[1]);
-    r->high[i] = fmax(e->fall[0] + e->fall_error[0], e->fall[1] + e->fall_error[1]);
+    ranked->value[i] = isnan(candidate->fall[1]) ? NAN : candidate->fall[0];
+    ranked->low[i] = fmin(candidate->fall[0] - candidate->fall_error[0],
+                          candidate->fall[1] - candidate->fall_error[1]);
+    ranked->high[i] = fmax(candidate->fall[0] + candidate->fall_error[0],
+                           candidate->fall[1] + candidate->fall_error[1]);
   }
 }
 
-static bool simulated(const entry *e, int n)
+/* Returns whether any plan fell in simulation. */
+static bool simulated(const entry *entries, int n)
 {
   for (int i = 0; i < n; i++)
-    if (!isnan(e[i].fall[0])) return true;
+    if (!isnan(entries[i].fall[0])) return true;
   return false;
 }
 
-/* Was this asked of any plan? */
-static bool asked(int by, const entry *e, int n)
+/* Returns whether a question was asked of any plan. */
+static bool asked(int question, const entry *entries, int n)
 {
-  if (by == SIMULATION) return simulated(e, n);
+  if (question == SIMULATION) return simulated(entries, n);
   for (int i = 0; i < n; i++) {
-    const thr_eval *structure = &e[i].eval[THR_STRUCTURE];
-    if (by < STANDING || (by == STANDING && structure->loosest.present) ||
-        (by == AFTER && structure->after.present) ||
-        ((by == LOADED || by == CARRIED) && structure->n_carries > 0) ||
-        (by == CARRIED_AFTER && structure->after.present && structure->n_carries > 0))
+    const thr_eval *structure = &entries[i].eval[THR_STRUCTURE];
+
+    /* The closed form, the joints and the holding pull have no option of their own; any other
+     * answer is there only if an option asked for it. */
+    if (question < STANDING || (question == STANDING && structure->loosest.present) ||
+        (question == AFTER && structure->after.present) ||
+        ((question == LOADED || question == CARRIED) && structure->n_carries > 0) ||
+        (question == CARRIED_AFTER && structure->after.present && structure->n_carries > 0))
       return true;
   }
+
   return false;
 }
 
-/* Those of the wanted methods, one after the other; *count of them. */
-static thr_status make_rankings(const pull_args *a, const entry *e, int n, ranking *r, int *count,
-                                thr_err *err)
+/* Fills `rankings` with those of the wanted methods and *count with their number. On failure the
+ * rankings so far, and the one that failed, can be released. */
+static thr_status make_rankings(const pull_args *args, const entry *entries, int n,
+                                ranking *rankings, int *count, thr_err *err)
 {
   static const ranking kind[N_RANKINGS] = {
       [CAPSTAN] = {.title = "seating pull, closed form", .key = "capstan", .unit = " N"},
@@ -213,33 +256,43 @@ static thr_status make_rankings(const pull_args *a, const entry *e, int n, ranki
                                "steps; nothing else is in it)",
                       .key = "simulation",
                       .unit = " N"}};
-  bool all = a->method == PULL_ALL_METHODS;
+
+  /* A ranking for each question of the methods that are wanted, unless no plan was asked it. */
+  bool all = args->method == PULL_ALL_METHODS;
+
   *count = 0;
-  for (int by = 0; by < N_RANKINGS; by++) {
-    const thr_method method = by == CAPSTAN ? THR_CAPSTAN : by == JOINT ? THR_JOINT : THR_STRUCTURE;
-    if ((!all && a->method != (int)method) || !asked(by, e, n)) continue;
-    r[*count] = kind[by];
-    thr_status st = ranking_init(&r[*count], n, err);
+  for (int question = 0; question < N_RANKINGS; question++) {
+    const thr_method method = question == CAPSTAN ? THR_CAPSTAN
+                              : question == JOINT ? THR_JOINT
+                                                  : THR_STRUCTURE;
+    if ((!all && args->method != (int)method) || !asked(question, entries, n)) continue;
+
+    /* The ranking is counted only once it is complete. */
+    rankings[*count] = kind[question];
+    thr_status st = ranking_init(&rankings[*count], n, err);
     if (st) return st;
+
     for (int i = 0; i < n; i++) {
-      rank_plan(&r[*count], by, &e[i], i);
-      rank_bands(&r[*count], by, &e[i], i);
+      rank_plan(&rankings[*count], question, &entries[i], i);
+      rank_bands(&rankings[*count], question, &entries[i], i);
     }
-    ranking_make(&r[(*count)++]);
+    ranking_make(&rankings[(*count)++]);
   }
+
   return THR_OK;
 }
 
-/* The first two rankings that contradict each other, and about which plans; false if they all
- * agree. */
-static bool find_disagreement(const ranking *r, int count, int which[2], int pair[2])
+/* Finds the first two rankings that contradict each other, and a pair of plans that they order
+ * differently. Returns false if all rankings agree. */
+static bool find_disagreement(const ranking *rankings, int count, int which[2], int pair[2])
 {
   for (which[0] = 0; which[0] < count; which[0]++)
     for (which[1] = which[0] + 1; which[1] < count; which[1]++)
-      if (ranking_disagree(&r[which[0]], &r[which[1]], pair)) return true;
+      if (ranking_disagree(&rankings[which[0]], &rankings[which[1]], pair)) return true;
   return false;
 }
 
+/* Returns whether two rankings put the same plans in the same order with the same ranks. */
 static bool same_order(const ranking *a, const ranking *b)
 {
   if (a->n_ranked != b->n_ranked) return false;
@@ -248,43 +301,57 @@ static bool same_order(const ranking *a, const ranking *b)
   return true;
 }
 
-/* Which rankings that tell plans apart have which order: "lines.json, stairs.json = snake.json  by
- * holding, carried". */
-static void put_orders(const ranking *r, int count, const char *const *name, thr_text *text)
+/* Appends each order once, with the rankings that have it: "lines.json, stairs.json = snake.json by
+ * holding, carried". Rankings in which all plans tie are left out. */
+static void put_orders(const ranking *rankings, int count, const char *const *name, thr_text *text)
 {
   thr_text_append(text, "the rankings disagree:\n");
   for (int i = 0; i < count; i++) {
-    bool said = !ranking_tells_apart(&r[i]);
+    /* Each order is printed with the first ranking that has it. */
+    bool said = !ranking_tells_apart(&rankings[i]);
     for (int k = 0; k < i; k++)
-      said |= same_order(&r[k], &r[i]);
+      said |= same_order(&rankings[k], &rankings[i]);
     if (said) continue;
-    for (int k = 0; k < r[i].n_ranked; k++)
+
+    /* The plans, with = between those that tie. */
+    for (int k = 0; k < rankings[i].n_ranked; k++)
       thr_text_printf(text, "%s%s",
-                      k == 0                                                    ? "  "
-                      : ranking_is_tie(&r[i], r[i].order[k - 1], r[i].order[k]) ? " = "
-                                                                                : ", ",
-                      name[r[i].order[k]]);
+                      k == 0 ? "  "
+                      : ranking_is_tie(&rankings[i], rankings[i].order[k - 1], rankings[i].order[k])
+                          ? " = "
+                          : ", ",
+                      name[rankings[i].order[k]]);
+
+    /* The rankings with this order. */
     for (int k = i; k < count; k++)
-      if (same_order(&r[k], &r[i]))
-        thr_text_printf(text, "%s%s", k == i ? "  by " : ", ", r[k].key);
+      if (same_order(&rankings[k], &rankings[i]))
+        thr_text_printf(text, "%s%s", k == i ? "  by " : ", ", rankings[k].key);
     thr_text_append(text, "\n");
   }
 }
 
-/* Rankings that agree say little if all of them ask for the pull while cords are drawn in. */
-static void put_agreement(const ranking *r, int count, const char *const *name, thr_text *text)
+/* Appends whether the rankings agree. If all of them are about the pull while cords are drawn in,
+ * agreement says little, and the sentence says so. */
+static void put_agreement(const ranking *rankings, int count, const char *const *name,
+                          thr_text *text)
 {
+  /* Counts the rankings that tell any plans apart, and looks for one about cords that were let
+   * go. */
   bool let_go = false;
-  int orders = 0; /* that tell any plans apart */
+  int orders = 0;
+
   for (int i = 0; i < count; i++) {
-    const bool apart = ranking_tells_apart(&r[i]);
+    const bool apart = ranking_tells_apart(&rankings[i]);
     orders += apart;
-    let_go |= apart && (strcmp(r[i].key, "any_state") == 0 || strstr(r[i].key, "after"));
+    let_go |=
+        apart && (strcmp(rankings[i].key, "any_state") == 0 || strstr(rankings[i].key, "after"));
   }
+
+  /* One ranking alone can agree with nothing. */
   int which[2], pair[2];
   if (orders < 2) return;
-  if (find_disagreement(r, count, which, pair))
-    put_orders(r, count, name, text);
+  if (find_disagreement(rankings, count, which, pair))
+    put_orders(rankings, count, name, text);
   else
     thr_text_append(
         text,
@@ -295,37 +362,50 @@ static void put_agreement(const ranking *r, int count, const char *const *name, 
 
 /* ---- output ---- */
 
-/* Names that are wider than a column stand above the table, with numbers. */
-static void put_names(thr_text *text, const entry *e, int n)
+/* Appends the head of the columns: the plans' file names or, if one is wider than a column (16
+ * letters), numbers whose meaning is listed above the table. */
+static void put_names(thr_text *text, const entry *entries, int n)
 {
   bool wide = false;
+
   for (int i = 0; i < n; i++)
-    wide |= strlen(e[i].path) > 16;
+    wide |= strlen(entries[i].path) > 16;
+
+  /* The legend of the numbers. */
   for (int i = 0; i < n && wide; i++)
-    thr_text_printf(text, "plan %d  %s\n", i + 1, e[i].path);
+    thr_text_printf(text, "plan %d  %s\n", i + 1, entries[i].path);
   thr_text_printf(text, "%s%-32s", wide ? "\n" : "", "");
+
   for (int i = 0; i < n; i++) {
     char number[24];
     snprintf(number, sizeof number, "plan %d", i + 1);
-    thr_text_printf(text, " %16s ", wide ? number : e[i].path);
+    thr_text_printf(text, " %16s ", wide ? number : entries[i].path);
   }
 }
 
-static void put_head(thr_text *text, const entry *e, int n)
+/* Appends the rows that have words, not numbers: names, objective, ends, and whether the plan is on
+ * the frontier. */
+static void put_head(thr_text *text, const entry *entries, int n)
 {
-  put_names(text, e, n);
+  put_names(text, entries, n);
   thr_text_printf(text, "\n%-32s", "objective");
   for (int i = 0; i < n; i++)
-    thr_text_printf(text, " %16s ", thr_objective_name(thr_aims_objective(&e[i].plan.options)));
+    thr_text_printf(text, " %16s ",
+                    thr_objective_name(thr_aims_objective(&entries[i].plan.options)));
+
+  /* Where cords may end: at the feet, anywhere, or nowhere. */
   thr_text_printf(text, "\n%-32s", "ends");
   for (int i = 0; i < n; i++)
-    thr_text_printf(text, " %16s ", thr_ends_name(e[i].plan.options.ends));
+    thr_text_printf(text, " %16s ", thr_ends_name(entries[i].plan.options.ends));
+
+  /* A frontier needs something to be compared with. */
   if (n < 2) return;
   thr_text_printf(text, "\n%-32s", "on the frontier");
   for (int i = 0; i < n; i++)
-    thr_text_printf(text, " %16s ", compare_on_frontier(e, n, i) ? "yes" : "-");
+    thr_text_printf(text, " %16s ", compare_on_frontier(entries, n, i) ? "yes" : "-");
 }
 
+/* Returns whether all properties of cord and beads are equal. */
 static bool same_physics(const thr_physics *a, const thr_physics *b)
 {
   for (int i = 0; i < thr_physics_n_fields; i++)
@@ -334,16 +414,23 @@ static bool same_physics(const thr_physics *a, const thr_physics *b)
   return true;
 }
 
-/* Words for the ends of the bands of friction. */
+/* Fills at with words for the ends of the two bands of friction: numbers if all plans have the same
+ * physics, else "the lower end of mu" and so on. The band of mu_bead is in proportion to that of
+ * mu. */
 static void name_ends(const thr_physics *physics, bool same, char at[RANKING_ENDS][40])
 {
   const double mu[2] = {physics->mu_low, physics->mu_high};
+
   for (int end = 0; end < 2; end++) {
     const char *const which = end ? "upper" : "lower";
+
+    /* The band of the cords. */
     if (same)
       snprintf(at[end], sizeof at[end], "mu %.3g", mu[end]);
     else
       snprintf(at[end], sizeof at[end], "the %s end of mu", which);
+
+    /* The band of beads and ground. */
     if (same && physics->mu > 0)
       snprintf(at[2 + end], sizeof at[2 + end], "mu_bead %.3g",
                physics->mu_bead * mu[end] / physics->mu);
@@ -352,99 +439,132 @@ static void name_ends(const thr_physics *physics, bool same, char at[RANKING_END
   }
 }
 
-static void put_text(thr_text *text, const pull_args *a, const entry *e, int n, const ranking *r,
-                     int count, const char *const *name)
+/* Appends the table, what it was computed with, and the rankings with what the bands of friction
+ * change about them. */
+static void put_text(thr_text *text, const pull_args *args, const entry *entries, int n,
+                     const ranking *rankings, int count, const char *const *name)
 {
-  const thr_physics *first = &e[0].eval[THR_CAPSTAN].record.physics;
+  const thr_physics *first = &entries[0].eval[THR_CAPSTAN].record.physics;
   bool same = true;
-  put_head(text, e, n);
+
+  /* The rows of wanted methods. Rows of machinery are for --verbose. */
+  put_head(text, entries, n);
   for (int k = 0; k < compare_n_rows; k++) {
-    if (!wanted(a, compare_rows[k].method) || !compare_is_shown(e, n, &compare_rows[k])) continue;
+    if (!wanted(args, compare_rows[k].method) || !compare_is_shown(entries, n, &compare_rows[k]))
+      continue;
     thr_text_printf(text, "\n%-32s", compare_rows[k].label);
     for (int i = 0; i < n; i++)
-      compare_put_cell(text, &compare_rows[k], compare_rows[k].value(&e[i]),
-                       compare_is_best(e, n, &compare_rows[k], i));
+      compare_put_cell(text, &compare_rows[k], compare_rows[k].value(&entries[i]),
+                       compare_is_best(entries, n, &compare_rows[k], i));
   }
+
+  /* Seating tension, pulled ends and friction. */
   for (int i = 1; i < n; i++)
-    same = same && same_physics(first, &e[i].eval[THR_CAPSTAN].record.physics);
+    same = same && same_physics(first, &entries[i].eval[THR_CAPSTAN].record.physics);
   thr_text_printf(text, "\n\n* best of the row. Pull: seating tension %g N, pulled at: %s, mu = ",
-                  first->seating, a->pull);
+                  first->seating, args->pull);
   if (same)
     thr_text_printf(text, "%g\n", first->mu);
   else
     thr_text_append(text, "each plan's own\n");
+
+  /* One plan alone has nothing to be ranked with. */
   if (n < 2) return;
   thr_text_append(text, "frontier: no other plan is as good in cord, number of cords and pull, and "
                         "better in one of them\n");
   thr_text_append(text, "\n");
+
+  /* Rankings of two plans and more. */
   char at[RANKING_ENDS][40];
   name_ends(first, same, at);
   for (int k = 0; k < count; k++) {
-    ranking_put_text(&r[k], name, text);
-    ranking_put_bands(&r[k], name, at, text);
+    ranking_put_text(&rankings[k], name, text);
+    ranking_put_bands(&rankings[k], name, at, text);
   }
-  put_agreement(r, count, name, text);
+
+  put_agreement(rankings, count, name, text);
 }
 
-static void put_plan_json(thr_writer *writer, const pull_args *a, const entry *e, int n, int i)
+/* Writes an object for plan i: what it is, its values, its band of pulls, and the rows in which it
+ * is the best. */
+static void put_plan_json(thr_writer *writer, const pull_args *args, const entry *entries, int n,
+                          int i)
 {
   thr_write_line(writer, 1);
   thr_write_object(writer, NULL);
-  thr_write_string(writer, "plan", e[i].path);
-  thr_write_hash(writer, "framework", thr_frame_hash(&e[i].plan.frame));
-  thr_write_string(writer, "objective", thr_objective_name(thr_aims_objective(&e[i].plan.options)));
-  thr_write_string(writer, "ends", thr_ends_name(e[i].plan.options.ends));
-  thr_physics_write(&e[i].eval[THR_CAPSTAN].record.physics, writer, "physics");
+  thr_write_string(writer, "plan", entries[i].path);
+  thr_write_hash(writer, "framework", thr_frame_hash(&entries[i].plan.frame));
+  thr_write_string(writer, "objective",
+                   thr_objective_name(thr_aims_objective(&entries[i].plan.options)));
+  thr_write_string(writer, "ends", thr_ends_name(entries[i].plan.options.ends));
+  thr_physics_write(&entries[i].eval[THR_CAPSTAN].record.physics, writer, "physics");
+
+  /* Members that are NAN are written as null. */
   for (int k = 0; k < compare_n_rows; k++)
-    if (wanted(a, compare_rows[k].method))
-      thr_write_number(writer, compare_rows[k].key, compare_rows[k].value(&e[i]));
-  thr_write_bool(writer, "frontier", compare_on_frontier(e, n, i));
-  thr_write_number(writer, "pull_low", e[i].eval[THR_CAPSTAN].band[0]);
-  thr_write_number(writer, "pull_high", e[i].eval[THR_CAPSTAN].band[1]);
+    if (wanted(args, compare_rows[k].method))
+      thr_write_number(writer, compare_rows[k].key, compare_rows[k].value(&entries[i]));
+  thr_write_bool(writer, "frontier", compare_on_frontier(entries, n, i));
+  thr_write_number(writer, "pull_low", entries[i].eval[THR_CAPSTAN].band[0]);
+  thr_write_number(writer, "pull_high", entries[i].eval[THR_CAPSTAN].band[1]);
+
   thr_write_array(writer, "best");
   for (int k = 0; k < compare_n_rows; k++)
-    if (compare_is_best(e, n, &compare_rows[k], i))
+    if (compare_is_best(entries, n, &compare_rows[k], i))
       thr_write_string(writer, NULL, compare_rows[k].key);
   thr_write_close(writer);
   thr_write_close(writer);
 }
 
-static void put_json(thr_text *text, const pull_args *a, const entry *e, int n, const ranking *r,
-                     int count, const char *const *name)
+/* Writes the whole comparison: plans, rankings and whether these agree. */
+static void put_json(thr_text *text, const pull_args *args, const entry *entries, int n,
+                     const ranking *rankings, int count, const char *const *name)
 {
   int which[2], pair[2];
   thr_writer writer = {.out = text};
+
   thr_write_object(&writer, NULL);
+
   thr_write_array(&writer, "plans");
   for (int i = 0; i < n; i++)
-    put_plan_json(&writer, a, e, n, i);
+    put_plan_json(&writer, args, entries, n, i);
+
   thr_write_line(&writer, 0);
   thr_write_close(&writer);
   thr_write_line(&writer, 0);
+
   thr_write_array(&writer, "rankings");
   for (int k = 0; k < count; k++) {
     thr_write_line(&writer, 1);
-    ranking_put_json(&r[k], name, &writer);
+    ranking_put_json(&rankings[k], name, &writer);
   }
+
   thr_write_line(&writer, 0);
   thr_write_close(&writer);
   thr_write_line(&writer, 0);
-  thr_write_bool(&writer, "agree", !find_disagreement(r, count, which, pair));
+
+  /* Ties do not contradict each other. */
+  thr_write_bool(&writer, "agree", !find_disagreement(rankings, count, which, pair));
   thr_write_close(&writer);
   thr_text_append(text, "\n");
 }
 
-/* "Pull at both ends of every cord, .. ": how the pulls of the picture were found. */
-static void put_note(thr_text *text, const pull_args *a, const entry *e, int n)
+/* Appends how the pulls of the picture were found: "Pull at both ends of every cord, so that 1 N is
+ * left where it is slackest ..". */
+static void put_note(thr_text *text, const pull_args *args, const entry *entries, int n)
 {
-  const thr_physics *physics = &e[0].eval[THR_CAPSTAN].record.physics;
+  const thr_physics *physics = &entries[0].eval[THR_CAPSTAN].record.physics;
   bool same = true;
+
   for (int i = 1; i < n; i++)
-    same = same && same_physics(physics, &e[i].eval[THR_CAPSTAN].record.physics);
+    same = same && same_physics(physics, &entries[i].eval[THR_CAPSTAN].record.physics);
+
+  /* Which ends: a list of cords is too long for a note. */
   thr_text_printf(text, "Pull at %s of every cord, ",
-                  strcmp(a->pull, "both") == 0 ? "both ends"
-                  : strchr(a->pull, '=')       ? "given ends"
-                                               : a->pull);
+                  strcmp(args->pull, "both") == 0 ? "both ends"
+                  : strchr(args->pull, '=')       ? "given ends"
+                                                  : args->pull);
+
+  /* With what friction. */
   if (same)
     thr_text_printf(text,
                     "so that %g N is left where it is slackest (closed form; mu = %g, the pale "
@@ -455,177 +575,232 @@ static void put_note(thr_text *text, const pull_args *a, const entry *e, int n)
                           "bars are the bands of mu.");
 }
 
-static int write_plot(const pull_args *a, const entry *e, int n, const char *path)
+/* Draws the plans side by side with pull, cord and number of cords, and writes the picture to path.
+ * Returns an exit code. */
+static int write_plot(const pull_args *args, const entry *entries, int n, const char *path)
 {
   thr_err err = {0};
   thr_text svg = {0}, note = {0};
   thr_compare_column *column = thr_calloc((size_t)n, sizeof *column);
   thr_status st = column ? THR_OK : thr_nomem(&err);
-  put_note(&note, a, e, n);
+
+  put_note(&note, args, entries, n);
   if (note.failed && !st) st = thr_nomem(&err);
+
+  /* A column per plan, with the band of its pull by the closed form. */
   for (int i = 0; i < n && !st; i++) {
-    const thr_eval *eval = &e[i].eval[THR_CAPSTAN];
+    const thr_eval *eval = &entries[i].eval[THR_CAPSTAN];
     column[i] = (thr_compare_column){
-        .name = e[i].path,
-        .plan = &e[i].plan,
-        .pull = {eval->band[0], compare_largest(&e[i], THR_CAPSTAN), eval->band[1]},
-        .frontier = compare_on_frontier(e, n, i)};
+        .name = entries[i].path,
+        .plan = &entries[i].plan,
+        .pull = {eval->band[0], compare_largest(&entries[i], THR_CAPSTAN), eval->band[1]},
+        .frontier = compare_on_frontier(entries, n, i)};
   }
+
   if (!st) st = thr_compare_svg(column, n, note.data, &svg, &err);
   free(column);
   thr_text_destroy(&note);
+
   return cli_write_drawn(st, &svg, path, &err);
 }
 
 /* ---- work ---- */
 
-/* Pulls compare only on one framework and at one friction. */
-static int read_entries(char **path, int n, entry *e)
+/* Reads the plans into entries[n]. Pulls can be compared on one framework only: another one is an
+ * error. Returns an exit code. */
+static int read_entries(char **path, int n, entry *entries)
 {
   for (int i = 0; i < n; i++) {
-    e[i].path = path[i];
-    e[i].fall[0] = e[i].fall[1] = NAN;
-    int code = cli_read_plan(path[i], &e[i].plan);
+    entries[i].path = path[i];
+    entries[i].fall[0] = entries[i].fall[1] = NAN;
+    int code = cli_read_plan(path[i], &entries[i].plan);
     if (code) return code;
-    if (i == 0 || thr_frame_hash(&e[i].plan.frame) == thr_frame_hash(&e[0].plan.frame)) continue;
+
+    /* Frameworks are equal if their hashes are. */
+    if (i == 0 || thr_frame_hash(&entries[i].plan.frame) == thr_frame_hash(&entries[0].plan.frame))
+      continue;
     cli_error("%s is for another framework than %s: pulls can be compared on one framework only",
               path[i], path[0]);
     return EXIT_INPUT;
   }
+
   return EXIT_OK;
 }
 
-/* Loads and schedule as nodes and cords of a plan. */
-static int read_deeds(const deeds *d, const entry *e, thr_eval_options *options,
-                      thr_schedule *schedule, double (**load)[3])
+/* Turns loads and schedule into nodes and cords of one plan. *load receives newtons at each node,
+ * or NULL; the caller frees it, and the schedule. */
+static int read_actions(const structure_actions *actions, const entry *candidate,
+                        thr_eval_options *options, thr_schedule *schedule, double (**load)[3])
 {
-  const int code = pull_read_schedule(d->schedule, &e->plan, schedule);
-  return code ? code : load_apply(&d->load, &e->plan.frame, options, load);
+  const int code = pull_read_schedule(actions->schedule, &candidate->plan, schedule);
+  return code ? code : load_apply(&actions->load, &candidate->plan.frame, options, load);
 }
 
-/* Do they fit every plan? */
-static int try_deeds(const deeds *d, const entry *e, int n)
+/* Returns EXIT_OK if loads and schedule fit every plan, before any time is spent on evaluating
+ * one. */
+static int try_actions(const structure_actions *actions, const entry *entries, int n)
 {
   int code = EXIT_OK;
+
   for (int i = 0; i < n && !code; i++) {
     thr_eval_options options = thr_eval_options_default();
     thr_schedule schedule = {0};
     double(*load)[3] = NULL;
-    code = read_deeds(d, &e[i], &options, &schedule, &load);
+
+    /* What they came to is not needed yet. */
+    code = read_actions(actions, &entries[i], &options, &schedule, &load);
     thr_schedule_destroy(&schedule);
     free(load);
   }
+
   return code;
 }
 
-/* One plan by one method; loads and schedules are of the structure alone. */
-static int evaluate_one(const pull_args *a, const deeds *d, thr_method method, entry *e)
+/* Evaluates one plan by one method. Loads and schedules are of method structure alone. Returns an
+ * exit code. */
+static int evaluate_one(const pull_args *args, const structure_actions *actions, thr_method method,
+                        entry *candidate)
 {
-  pull_args plain = *a;
+  pull_args plain = *args;
   thr_schedule schedule = {0};
   double(*load)[3] = NULL;
   int code = EXIT_OK;
-  plain.options.dynamics = false; /* the simulation follows */
-  if (method == THR_STRUCTURE) code = read_deeds(d, e, &plain.options, &schedule, &load);
+
+  /* The simulation comes later, for all plans together (settle). */
+  plain.options.dynamics = false;
+  if (method == THR_STRUCTURE)
+    code = read_actions(actions, candidate, &plain.options, &schedule, &load);
   if (schedule.n > 0) plain.options.schedule = &schedule;
-  if (!code) code = pull_eval(&plain, e->path, &e->plan, method, &e->eval[method]);
+  if (!code)
+    code = pull_eval(&plain, candidate->path, &candidate->plan, method, &candidate->eval[method]);
+
   thr_schedule_destroy(&schedule);
   free(load);
+
   return code;
 }
 
-/* Every method for every plan. One that fails for a plan leaves it unknown, its message printed;
- * but nothing compares if not even the closed form is known, or if the user has stopped it. */
-static int evaluate(const pull_args *a, const deeds *d, entry *e, int n)
+/* Evaluates every wanted method for every plan. One that fails for a plan leaves the values
+ * unknown, its message printed; but nothing can be compared if not even the closed form is known,
+ * or if the user has stopped the work. Returns the first exit code that is not EXIT_OK. */
+static int evaluate(const pull_args *args, const structure_actions *actions, entry *entries, int n)
 {
   int worst = EXIT_OK;
+
   for (int method = 0; method < THR_N_METHODS; method++)
-    for (int i = 0; i < n && wanted(a, (thr_method)method); i++) {
-      int code = evaluate_one(a, d, (thr_method)method, &e[i]);
+    for (int i = 0; i < n && wanted(args, (thr_method)method); i++) {
+      int code = evaluate_one(args, actions, (thr_method)method, &entries[i]);
+
+      /* An interrupt, or a plan without even a closed form, ends the work. */
       if (code == EXIT_LIMIT || (code && method == THR_CAPSTAN)) return code;
       if (!worst) worst = code;
+
+      /* Plans of different physics can be ranked, but the user should know. */
       if (i > 0 && method == THR_CAPSTAN &&
-          !same_physics(&e[i].eval[0].record.physics, &e[0].eval[0].record.physics))
+          !same_physics(&entries[i].eval[0].record.physics, &entries[0].eval[0].record.physics))
         cli_note("note: %s has its own cord and beads, other than %s: give --mu and the like to "
                  "compare like with like",
-                 e[i].path, e[0].path);
+                 entries[i].path, entries[0].path);
     }
+
   return worst;
 }
 
+/* What every job of a simulation reads. */
 typedef struct {
   const pull_args *args;
-  const entry *e;
+  const entry *entries;
   const int *plan; /* which are simulated */
   const thr_limits *limits;
 } simulation;
 
+/* What a job returns to its parent. */
 typedef struct {
   double fall, error; /* N */
   int status;         /* thr_settle_status */
 } settled;
 
-/* Job 2 k simulates plan[k], job 2 k + 1 the same with half the time step. */
+/* Runs one job: job 2 k simulates plan[k], job 2 k + 1 the same with half the time step. Signature
+ * of thr_work.run. */
 static thr_status settle_plan(void *user, int job, void *result, thr_err *err)
 {
-  const simulation *s = user;
-  const entry *e = &s->e[s->plan[job / 2]];
-  const thr_evaluation *evaluation = &e->eval[THR_STRUCTURE].record;
-  const thr_settle_options options = {.least = e->eval[THR_STRUCTURE].holding.lower,
-                                      .equilibrium = e->eval[THR_STRUCTURE].holding.upper,
-                                      .start = s->args->options.start,
-                                      .time_step = s->args->options.time_step * (job & 1 ? 0.5 : 1),
-                                      .iterations = s->args->options.iterations,
-                                      .seed = s->args->options.seed};
+  const simulation *setup = user;
+  const entry *candidate = &setup->entries[setup->plan[job / 2]];
+  const thr_evaluation *evaluation = &candidate->eval[THR_STRUCTURE].record;
+  const thr_settle_options options = {.least = candidate->eval[THR_STRUCTURE].holding.lower,
+                                      .equilibrium = candidate->eval[THR_STRUCTURE].holding.upper,
+                                      .start = setup->args->options.start,
+                                      .time_step =
+                                          setup->args->options.time_step * (job & 1 ? 0.5 : 1),
+                                      .iterations = setup->args->options.iterations,
+                                      .seed = setup->args->options.seed};
+
+  /* Tensions of a pull of 1 N: those of the limit analysis belong to its lower bound. */
   thr_beads beads = {0};
   thr_settle out = {0};
   double **tension = thr_calloc((size_t)evaluation->n_cords, sizeof *tension);
-  thr_status st =
-      tension ? thr_beads_make(&e->plan.frame, &evaluation->physics, &beads, err) : thr_nomem(err);
+  thr_status st = tension
+                      ? thr_beads_make(&candidate->plan.frame, &evaluation->physics, &beads, err)
+                      : thr_nomem(err);
+
   for (int i = 0; i < evaluation->n_cords && !st; i++) { /* of a pull of 1 */
     if (!(tension[i] = thr_calloc((size_t)evaluation->cord[i].n_passes, sizeof **tension)))
       st = thr_nomem(err);
     for (int k = 0; k < evaluation->cord[i].n_passes && !st; k++)
       tension[i][k] = evaluation->cord[i].tension[k] / options.least;
   }
+
+  /* Settles the structure at its start and lets off the pull until it falls. */
   if (!st)
-    st = thr_settle_run(&beads, &e->plan.frame, e->plan.cord, evaluation->n_cords,
+    st = thr_settle_run(&beads, &candidate->plan.frame, candidate->plan.cord, evaluation->n_cords,
                         (const double *const *)tension, NULL, &evaluation->physics, &options,
-                        s->limits, &out, err);
+                        setup->limits, &out, err);
   *(settled *)result = (settled){out.fall, out.error, out.status};
+
   thr_settle_destroy(&out);
   for (int i = 0; i < evaluation->n_cords && tension; i++)
     free(tension[i]);
   free(tension);
   thr_beads_destroy(&beads);
+
   return st;
 }
 
-static thr_status run_simulations(const pull_args *a, entry *e, const int *plan, int n,
+/* Simulates the structures of plan[n] in parallel processes, with both time steps, and stores at
+ * which pulls they fell. Notes what contradicts the limit analysis. */
+static thr_status run_simulations(const pull_args *args, entry *entries, const int *plan, int n,
                                   thr_err *err)
 {
   const thr_limits limits = cli_limits(0);
   const thr_limits quiet = {.interrupted =
                                 limits.interrupted}; /* in a child: only the parent draws the bar */
-  simulation s = {a, e, plan, &quiet};
+  simulation setup = {args, entries, plan, &quiet};
+
+  /* Two jobs for each plan, in processes of their own: Bullet may crash, or take no heed of
+   * time. */
   const thr_work work = {.n_jobs = 2 * n,
                          .result_size = sizeof(settled),
                          .run = settle_plan,
-                         .user = &s,
+                         .user = &setup,
                          .what = "simulating structures",
                          .advice = "use --no-dynamics"};
+
   settled *found = thr_calloc(2 * (size_t)n, sizeof *found);
   bool *finished = thr_calloc(2 * (size_t)n, sizeof *finished);
   thr_status st = found && finished
                       ? thr_workers_run(&work, cli_processes(), &limits, found, finished, err)
                       : thr_nomem(err);
   for (int i = 0; i < 2 * n && found && finished; i++) {
-    entry *of = &e[plan[i / 2]];
+    entry *of = &entries[plan[i / 2]];
     if (!finished[i]) continue;
+
+    /* The first of the two jobs has the time step that was asked for. */
     if (found[i].fall > 0) {
       of->fall[i & 1] = found[i].fall;
       of->fall_error[i & 1] = found[i].error;
     }
+
+    /* One note for each plan, whichever of its two runs contradicts. */
     if (found[i].status != THR_SETTLE_FELL && !(i & 1 && of->contradicted)) {
       of->contradicted = true;
       cli_note("note: %s: the simulation %s; `thread eval --method structure` says more", of->path,
@@ -636,78 +811,105 @@ static thr_status run_simulations(const pull_args *a, entry *e, const int *plan,
                    : "did not fall");
     }
   }
+
   free(found);
   free(finished);
   cli_progress_end();
+
   return st;
 }
 
-/* Each twice; not where no pull is needed, since then there is none to let off. */
-static int settle(const pull_args *a, entry *e, int n)
+/* Simulates every structure twice, except where no pull is needed: then there is none to let off.
+ * Returns an exit code. */
+static int settle(const pull_args *args, entry *entries, int n)
 {
   thr_err err = {0};
   int count = 0, *plan = thr_calloc((size_t)n, sizeof *plan);
   thr_status st = plan ? THR_OK : thr_nomem(&err);
-  bool large = e[0].plan.frame.n_nodes > thr_settle_largest(a->options.large);
+
+  /* All plans have the same framework, so that one number of beads decides. */
+  bool large = entries[0].plan.frame.n_nodes > thr_settle_largest(args->options.large);
+
   if (large)
     cli_note("note: no simulation of the structure: it has more than %d beads%s",
-             thr_settle_largest(a->options.large),
-             a->options.large ? "" : "; --dynamics takes more");
+             thr_settle_largest(args->options.large),
+             args->options.large ? "" : "; --dynamics takes more");
+
+  /* Which plans can be let down. */
   for (int i = 0; i < n && plan && !large; i++) {
-    double pull = compare_largest(&e[i], THR_STRUCTURE);
+    double pull = compare_largest(&entries[i], THR_STRUCTURE);
     if (pull > 0) plan[count++] = i;
     if (pull <= 0)
       cli_note("note: %s is not simulated: it needs no pull, so that there is none to let off",
-               e[i].path);
+               entries[i].path);
   }
-  if (count > 0) st = run_simulations(a, e, plan, count, &err);
+
+  if (count > 0) st = run_simulations(args, entries, plan, count, &err);
   free(plan);
+
   return st == THR_ELIMIT ? EXIT_LIMIT : st ? cli_fail(&err) : EXIT_OK;
 }
 
-static int print(const pull_args *a, const entry *e, int n)
+/* Makes the rankings and prints the comparison to stdout, as text or JSON. Returns an exit code. */
+static int print(const pull_args *args, const entry *entries, int n)
 {
   thr_err err = {0};
   thr_text text = {0};
-  ranking r[N_RANKINGS] = {{0}};
+  ranking rankings[N_RANKINGS] = {{0}};
   int count = 0;
   const char **name = thr_calloc((size_t)n, sizeof *name);
-  thr_status st = name ? make_rankings(a, e, n, r, &count, &err) : thr_nomem(&err);
+  thr_status st = name ? make_rankings(args, entries, n, rankings, &count, &err) : thr_nomem(&err);
+
+  /* Plans are named by their files. */
   if (!st) {
     for (int i = 0; i < n; i++)
-      name[i] = e[i].path;
-    (a->json ? put_json : put_text)(&text, a, e, n, r, count, name);
+      name[i] = entries[i].path;
+    (args->json ? put_json : put_text)(&text, args, entries, n, rankings, count, name);
   }
+
   for (int i = 0; i < N_RANKINGS; i++)
-    ranking_destroy(&r[i]);
+    ranking_destroy(&rankings[i]);
   free(name);
+
   return st ? cli_fail(&err) : cli_write(&text, "-");
 }
 
-/* plot: where the picture goes, NULL = nowhere. */
-static int compare(const pull_args *a, const deeds *d, char **path, int n, entry *e,
-                   const char *plot)
+/* Does the work of the command. plot: where the picture goes, NULL = nowhere. Returns the exit
+ * code: the first one of reading, evaluating and drawing, unless printing fails. */
+static int compare(const pull_args *args, const structure_actions *actions, char **path, int n,
+                   entry *entries, const char *plot)
 {
-  int code = read_entries(path, n, e);
+  int code = read_entries(path, n, entries);
+
   if (code) return code;
-  if ((code = try_deeds(d, e, n))) return code;
-  code = evaluate(a, d, e, n);
-  if (code && code != EXIT_LIMIT && !e[n - 1].eval[THR_CAPSTAN].record.present) return code;
-  if (code != EXIT_LIMIT && wanted(a, THR_STRUCTURE) && a->options.dynamics) {
-    int ended = settle(a, e, n);
+  if ((code = try_actions(actions, entries, n))) return code;
+
+  /* If the last plan has no closed form, nothing can be compared. */
+  code = evaluate(args, actions, entries, n);
+  if (code && code != EXIT_LIMIT && !entries[n - 1].eval[THR_CAPSTAN].record.present) return code;
+
+  /* An interrupt ends the work; what is known is printed all the same. */
+  if (code != EXIT_LIMIT && wanted(args, THR_STRUCTURE) && args->options.dynamics) {
+    int ended = settle(args, entries, n);
     if (!code || ended == EXIT_LIMIT) code = ended;
   }
-  for (int i = 0; i < n && !a->json; i++)
+
+  for (int i = 0; i < n && !args->json; i++)
     thr_text_clean(path[i]); /* the files are read; what follows is for people */
-  int drawn = plot ? write_plot(a, e, n, plot) : EXIT_OK;
+
+  /* A picture on stdout leaves no place for the table. */
+  int drawn = plot ? write_plot(args, entries, n, plot) : EXIT_OK;
   if (!code) code = drawn;
-  int printed = plot && strcmp(plot, "-") == 0 ? EXIT_OK : print(a, e, n);
+  int printed = plot && strcmp(plot, "-") == 0 ? EXIT_OK : print(args, entries, n);
   if (code == EXIT_LIMIT) cli_error("stopped: what is - above is not known");
+
   return printed ? printed : code;
 }
 
-/* What would be ignored is refused; the simulation knows only cords and weights. */
-static int check_deeds(pull_args *a, deeds *d)
+/* Refuses options that would be ignored. Sets the default pull for a load (10 N), and leaves out
+ * the simulation where it does not know what was asked: it knows only cords and weights. Returns an
+ * exit code. */
+static int check_actions(pull_args *args, structure_actions *actions)
 {
   const bool structure = a->method == THR_STRUCTURE || a->method == PULL_ALL_METHODS,
              any = load_any(&d->load) || d->schedule;
@@ -717,8 +919,11 @@ static int check_deeds(pull_args *a, deeds *d)
                      "of --method structure or all");
   if (d->schedule && !*d->schedule)
     return cli_usage("compare", "--schedule: an empty one does nothing");
-  if (d->load.n_pulls && !d->load.load) return cli_usage("compare", "--load-pulls needs --load");
-  if (d->load.n_pulls > 1)
+
+  /* A load and the pull at which it hangs. */
+  if (actions->load.n_pulls && !actions->load.load)
+    return cli_usage("compare", "--load-pulls needs --load");
+  if (actions->load.n_pulls > 1)
     return cli_usage("compare", "--load-pulls: one pull, to rank by what is carried at it");
   if (any && a->options.start > 0)
     return cli_usage("compare",
@@ -783,10 +988,12 @@ int cmd_compare(int argc, char **argv)
   }
   code = compare(&asked.pull, &asked.deeds, argv + optind, n, e, asked.plot);
   for (int i = 0; i < n; i++) {
-    thr_plan_destroy(&e[i].plan);
+    thr_plan_destroy(&entries[i].plan);
     for (int k = 0; k < THR_N_METHODS; k++)
-      thr_eval_destroy(&e[i].eval[k]);
+      thr_eval_destroy(&entries[i].eval[k]);
   }
-  free(e);
+
+  free(entries);
+
   return code;
 }

@@ -1,5 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* thread complete: what may stand next on a command line, for the completions of shells. */
+/* thread complete: prints what may stand next on a command line, for the completions of shells.
+ *
+ * Each command is run with nothing but a listener: cli_show_options makes it show its table of
+ * options and its help instead of doing anything. So completions follow from the help texts, and
+ * there is no second list.
+ *
+ * Example: `thread complete plan --ob` prints a line for each option of thread plan, "--objective"
+ * with what its help says first among them; the shell chooses what fits. */
 #include "cli/args/args.h"
 #include "cli/cli.h"
 #include "graph/framework/make.h"
@@ -8,9 +15,10 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Of the command that is asked: filled while it shows its options. */
-static const char
-    *wanted; /* the option whose values are looked for, as it was typed; NULL = all options */
+/* The option whose values are looked for, as it was typed; NULL = all options. */
+static const char *wanted;
+
+/* Has the command that is asked shown a value? */
 static bool found;
 
 /* The words that the value of an option may be, with what each is; of others those of its value
@@ -65,6 +73,7 @@ static void show(const cli_group *groups)
   show_rows(cli_common_options);
 }
 
+/* Returns the command of that name, or NULL. */
 static const cli_command *find_command(const char *name)
 {
   for (int i = 0; i < cli_n_commands; i++)
@@ -72,17 +81,22 @@ static const cli_command *find_command(const char *name)
   return NULL;
 }
 
-static void ask(const cli_command *command, const char *option)
+/* Has a command show its options or, unless option is NULL, the values of this one. */
+static void ask_command(const cli_command *command, const char *option)
 {
   char name[16];
+
   snprintf(name, sizeof name, "%s", command->name);
   char *argv[] = {name, NULL};
+
+  /* The command's own parsing ends as soon as it has shown its options. */
   wanted = option;
-  cli_show_options = show;
+  cli_show_options = show_options;
   (void)command->run(1, argv);
   cli_show_options = NULL;
 }
 
+/* Prints a line for each command. */
 static void put_commands(void)
 {
   for (int i = 0; i < cli_n_commands; i++)
@@ -96,27 +110,36 @@ int cmd_complete(int argc, char **argv)
 {
   const char *last = argc > 1 ? argv[argc - 1] : "", *before = argc > 2 ? argv[argc - 2] : "";
   const cli_command *command = argc > 2 ? find_command(argv[1]) : NULL;
+
   if (strcmp(before, "=") == 0 && argc > 3)
     before = argv[argc - 3]; /* shells that take --name=value for three words */
+
+  /* The value of an option: after --name=, or as a word of its own. */
   if (strcmp(last, "=") == 0) {
     last = "";
   } else if (strncmp(last, "--", 2) == 0 && strchr(last, '=')) {
     char name[64];
     snprintf(name, sizeof name, "%.*s", (int)strcspn(last, "="), last);
-    if (command) ask(command, name);
+    if (command) ask_command(command, name);
     return EXIT_OK;
   }
+
+  /* The command itself. */
   if (argc <= 2 || strcmp(argv[1], "help") == 0) {
     put_commands();
     if (argc <= 2) puts("help\twhat a command does");
     return EXIT_OK;
   }
+
   if (!command) return EXIT_OK;
-  if (before[0] == '-' && before[1]) ask(command, before);
+
+  /* Values of the option before, then options, then the shapes of thread make. */
+  if (before[0] == '-' && before[1]) ask_command(command, before);
   if (found) return EXIT_OK;
-  if (last[0] == '-') ask(command, NULL);
+  if (last[0] == '-') ask_command(command, NULL);
   if (last[0] != '-' && argc == 3 && command->run == cmd_make)
     for (int i = 0; i < THR_N_SHAPES; i++)
       puts(thr_shape_name(i));
+
   return EXIT_OK;
 }

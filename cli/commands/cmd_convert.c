@@ -1,5 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* thread convert: a framework from one format into another. */
+/* thread convert: reads a framework, checks it, and writes it in another format.
+ *
+ * The name of the output says the format; --type says it where there is no name. Reading merges
+ * nodes, drops edges and guesses units as the options say (graph/io/read.h); what was done is noted
+ * on stderr, and only the framework that is left is written.
+ *
+ * Example: `thread convert shell.stl --flat 1 -o shell.obj` writes the edges of a mesh without the
+ * diagonals of flat faces. */
 #include "cli/cli.h"
 #include "graph/framework/frame.h"
 #include "graph/io/read.h"
@@ -30,18 +37,24 @@ static const cli_option own_options[] = {
      .offset = offsetof(arguments, type)},
     {0}};
 
+/* Reads and writes. Returns an exit code. */
 static int convert(const char *path, const cli_frame_args *args, const thr_format *format,
                    const char *output)
 {
   thr_frame frame;
   thr_text text = {0};
   int code = cli_read_frame(path, args, &frame);
+
   if (code) return code;
+
+  /* The whole text is made first, so that a failure leaves no half of a file. */
   thr_frame_write(&frame, format, &text);
   thr_frame_destroy(&frame);
+
   return cli_write(&text, output);
 }
 
+/* Runs `thread convert` and returns the exit code. */
 int cmd_convert(int argc, char **argv)
 {
   static const cli_syntax syntax = {"convert", intro, NULL};
@@ -55,6 +68,8 @@ int cmd_convert(int argc, char **argv)
   if (code >= 0) return code;
   if (optind + 1 != argc)
     return cli_usage("convert", optind == argc ? "which framework?" : "one framework at a time");
+
+  /* The output's name and --type must agree. */
   const thr_format *format;
   if (!cli_output_format("convert", a.output, a.type, &format)) return EXIT_USAGE;
   if (guard_fork(&a.guard, &end)) return guard_conclude(&end, "nothing is written");

@@ -1,5 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* thread draw: diagrams of a plan. */
+/* thread draw: makes pictures, steps, tables and lines of a plan.
+ *
+ * All documents stand in one table (lib/documents.h): name, usual file, and what makes it. --type
+ * names one of them, or all; -o names a file, or a folder in which the document has its usual name.
+ * Options say how documents are drawn (cli/drawings.h), and are ignored by those that have no use
+ * for them.
+ *
+ * No document may take the place of a file that the command reads: outputs are claimed
+ * (cli/files.c) before anything is drawn. The drawing is done in a child process, whose limits on
+ * time and memory leave the documents that are there already.
+ *
+ * Example: `thread draw plan.json -T all -o diagrams/` writes overview.svg, steps.txt, sheets.pdf
+ * and more into diagrams/. */
 #include "cli/cli.h"
 #include "cli/drawings.h"
 #include "diagram/overview/overview.h"
@@ -30,6 +42,8 @@ static const char *up_name(int up)
   return up ? "z" : "y";
 }
 
+/* Returns the name of a type of document, as --type takes it; the number of documents stands for
+ * all of them. */
 static const char *type_name(int t)
 {
   return t < thr_documents_count() ? thr_document_type(t) : "all";
@@ -73,22 +87,27 @@ static int draw_one(const thr_plan *plan, int type, const char *output, const dr
 {
   char inside[1200];
   int code = EXIT_OK;
+
+  /* The usual name, in the current folder or in the one that was named. */
   if (!output) output = thr_document_file(type);
   if (cli_is_folder(output)) {
     code = cli_in_folder(output, thr_document_file(type), inside, sizeof inside);
     output = inside;
   }
-  return code ? code : drawings_write(plan, type, output, a);
+
+  return code ? code : drawings_write(plan, type, output, args);
 }
 
-/* Says how loose what is threaded is at most. */
-static void note_chains(const thr_plan *plan, const drawings_args *a)
+/* Notes how many pieces are loose at a time at most while the plan is threaded. */
+static void note_chains(const thr_plan *plan, const drawings_args *args)
 {
   thr_text text = {0};
-  if (!drawings_chains(plan, a, &text, NULL) && !text.failed) cli_note("%s", text.data);
+  if (!drawings_chains(plan, args, &text, NULL) && !text.failed) cli_note("%s", text.data);
   thr_text_destroy(&text);
 }
 
+/* Runs `thread draw` and returns the exit code: EXIT_LIMIT if not all was drawn in the time or
+ * memory. */
 int cmd_draw(int argc, char **argv)
 {
   static const cli_syntax syntax = {"draw", intro, outro};
@@ -113,16 +132,23 @@ int cmd_draw(int argc, char **argv)
   if (!all && output && cli_misnamed(output, thr_document_file(type)))
     return cli_usage("draw", "%s: --type %s makes %s; say which type", output, type_name(type),
                      thr_document_file(type));
+
+  /* One operand: the plan. */
   if (optind + 1 != argc)
     return cli_usage("draw", optind == argc ? "which plan?" : "one plan at a time");
+
+  /* No document may take the place of a file that is read. */
   const char *folder = !output ? "." : cli_is_folder(output) || all ? output : NULL;
   const int claimed = folder ? drawings_claim("draw", folder, all ? -1 : type) : EXIT_OK;
   if (claimed) return claimed;
   if (guard_fork(&asked.guard, &end))
     return guard_conclude(&end, all ? "not all documents are drawn" : "nothing is drawn");
+
   thr_plan plan;
   code = cli_read_plan(argv[optind], &plan);
   if (code) return code;
+
+  /* All documents, or one. */
   if (all) {
     char names[DRAWINGS_NAMES];
     drawings_names(&plan, a, names);
@@ -133,5 +159,6 @@ int cmd_draw(int argc, char **argv)
   }
   if (!code && (all || thr_document_threads(type))) note_chains(&plan, a);
   thr_plan_destroy(&plan);
+
   return code;
 }

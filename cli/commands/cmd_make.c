@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* thread make: example frameworks. */
+/* thread make: makes an example framework: dome, geodesic dome, sphere, tube or honeycomb
+ * (graph/framework/make.h).
+ *
+ * Example: `thread make dome --size 7 -o dome.json` makes a grid of 7 x 7 nodes with a foot at each
+ * corner. */
 #include "cli/cli.h"
 #include "graph/framework/frame.h"
 #include "graph/framework/make.h"
@@ -22,20 +26,28 @@ static const char intro[] =
     "  tube       square grid rolled up, standing on its first ring (nodes around)\n"
     "  honeycomb  hexagonal grid, domed (rings of hexagons)\n";
 
+/* Returns the shape of that name; prints which ones there are, with the nearest name, and returns
+ * -1 if there is none. */
 static int find_shape(const char *name)
 {
   char question[THR_SUGGESTION_TEXT];
   thr_suggestion suggestion = {.word = name};
+
   for (int i = 0; i < THR_N_SHAPES; i++) {
     if (strcmp(name, thr_shape_name(i)) == 0) return i;
     thr_suggestion_try(&suggestion, thr_shape_name(i));
   }
+
+  /* No such shape: which one was meant? */
   thr_suggestion_ask(&suggestion, question);
   cli_usage("make", "there is no shape %s; there are dome, geodesic, sphere, tube and honeycomb%s",
             name, question);
+
   return -1;
 }
 
+/* The values of options, NULL = not given: which are valid depends on the shape, which comes
+ * last. */
 typedef struct {
   thr_make_options wanted; /* usual values of the shape where nothing is said */
   const char *output;
@@ -74,6 +86,7 @@ static bool apply(const arguments *a, thr_make_options *options)
   return true;
 }
 
+/* Makes the framework and writes it. Returns an exit code. */
 static int make(const thr_make_options *options, const thr_format *format, const char *output)
 {
   thr_err err = {0};
@@ -81,15 +94,23 @@ static int make(const thr_make_options *options, const thr_format *format, const
   thr_frame frame = {0};
   thr_read_report report = {0};
   thr_text text = {0};
+
+  /* The shape as a draft, then as a framework. */
   thr_status st = thr_make(&draft, options, &err);
+
   if (!st) st = thr_draft_build(&draft, -1, &frame, &report, &err);
   if (!st) thr_frame_write(&frame, format, &text);
+
   thr_draft_destroy(&draft);
   thr_frame_destroy(&frame);
+
+  /* Bad sizes are the user's, not a file's. */
   if (st == THR_EINPUT) return cli_usage("make", "%s", err.text);
+
   return st ? cli_fail(&err) : cli_write(&text, output);
 }
 
+/* Runs `thread make` and returns the exit code. */
 int cmd_make(int argc, char **argv)
 {
   static const cli_syntax syntax = {"make", intro, NULL};
@@ -101,10 +122,16 @@ int cmd_make(int argc, char **argv)
     return cli_usage("make", optind == argc
                                  ? "which shape? dome, geodesic, sphere, tube or honeycomb"
                                  : "one shape at a time");
+
+  /* The output's name says the format. */
   int shape = find_shape(argv[optind]);
   if (shape < 0) return EXIT_USAGE;
+
   const thr_format *format;
-  if (!cli_output_format("make", a.output, NULL, &format)) return EXIT_USAGE;
+  if (!cli_output_format("make", args.output, NULL, &format)) return EXIT_USAGE;
+
+  /* Defaults depend on the shape. */
   thr_make_options options = thr_make_options_default((thr_shape)shape);
-  return apply(&a, &options) ? make(&options, format, a.output) : EXIT_USAGE;
+
+  return apply_options(&args, &options) ? make(&options, format, args.output) : EXIT_USAGE;
 }

@@ -1,5 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* thread plan: framework in, plan and diagrams out. */
+/* thread plan: reads a framework, plans how cord is threaded through it, checks the plan, and
+ * writes the plan, diagrams and a summary.
+ *
+ * The work is done in a child process (cli/guard.c). Whenever the search finds better cords, the
+ * child hands them to its parent as a plan that claims nothing (cli/best.c). If the child is ended
+ * by a limit on time or memory, or by a signal, the parent writes the last of these plans. So a
+ * search that was ended never leaves nothing if it had found anything.
+ *
+ * Order of work in the child: parse options, try whether the outputs can be written, read the
+ * framework, search (planner/planner.h), write the plan's text and check that text as `thread
+ * check` does, print the summary, draw.
+ *
+ * Example: `thread plan dome.obj` writes dome/plan.json, dome/overview.svg, dome/sheets.pdf and
+ * more; `-o plan.json` writes the plan alone; `--draw DIR` writes everything into DIR. */
 #include "cli/advice.h"
 #include "cli/args/request_args.h"
 #include "cli/cli.h"
@@ -50,6 +63,7 @@ static const char outro[] =
 
 /* ---- options ---- */
 
+/* The command line. Strings point into argv. */
 typedef struct {
   cli_frame_args frame;
   pull_args pull;
@@ -128,39 +142,45 @@ static int parse(int argc, char **argv, arguments *a)
                                             : NULL;
   if (wordy && a->output && strcmp(a->output, "-") == 0)
     return cli_usage("plan", "%s and -o - both want stdout", wordy);
-  return request_args_check(&a->request, &a->symmetry, &a->wanted);
+
+  return request_args_check(&args->request, &args->symmetry, &args->wanted);
 }
 
-/* What is asked of an objective: what is about turning or symmetry concerns only one of them. */
-static void ask(const arguments *a, thr_objective objective, thr_request *options)
+/* Fills a request for one objective from the options. What is about turning or symmetry concerns
+ * only one objective, and is left out of the others. */
+static void ask(const plan_arguments *args, thr_objective objective, thr_request *options)
 {
-  request_args_ask(&a->request, &a->symmetry, objective, options);
-  if (options->order != THR_ORDER_PLANNED) options->needles = a->drawings.needles;
+  request_args_ask(&args->request, &args->symmetry, objective, options);
+  if (options->order != THR_ORDER_PLANNED) options->needles = args->drawings.needles;
   options->time_limit =
-      a->guard.seconds < 0 ? thr_dispatch_usual_seconds(options) : a->guard.seconds;
+      args->guard.seconds < 0 ? thr_dispatch_usual_seconds(options) : args->guard.seconds;
 }
 
-/* What was said of cord and beads must fit the framework; if nothing was, a framework of any size
- * will do. */
-static int apply_physics(const arguments *a, const thr_frame *framework, thr_request *options)
+/* Applies the options on cord and beads. What was said must fit the framework; if nothing was said,
+ * a framework of any size will do. Returns an exit code. */
+static int apply_physics(const plan_arguments *args, const thr_frame *framework,
+                         thr_request *options)
 {
   thr_err err = {0};
   thr_physics resolved;
-  int code = cli_physics_apply(&a->pull.physics, &options->physics);
-  if (code || a->pull.physics.n == 0) return code;
+  int code = cli_physics_apply(&args->pull.physics, &options->physics);
+  if (code || args->pull.physics.n == 0) return code;
   return thr_physics_resolve(&options->physics, framework, &resolved, &err) ? cli_fail(&err)
                                                                             : EXIT_OK;
 }
 
 /* ---- the other objectives ---- */
 
-/* code: why its pull is not known, EXIT_OK if it is. */
+/* Writes the largest pull of the plan for one objective, N, and its error (a part of the exponent).
+ * code: why the pull is not known, EXIT_OK if it is. */
 static void put_pull_json(thr_writer *writer, thr_objective objective, const thr_eval *eval,
                           int code)
 {
   thr_write_object(writer, NULL);
   thr_write_string(writer, "objective", thr_objective_name(objective));
   thr_write_number(writer, "pull", code == EXIT_OK ? eval->record.largest : NAN);
+
+  /* Turns that were refused have no known error. */
   if (code == EXIT_OK) {
     thr_write_number(writer, "error", eval->error);
     thr_write_int(writer, "refused", eval->refused);
@@ -168,10 +188,13 @@ static void put_pull_json(thr_writer *writer, thr_objective objective, const thr
   thr_write_close(writer);
 }
 
-static void put_pull(thr_text *text, const arguments *a, thr_objective objective, const thr_plan *p,
-                     const thr_eval *eval, int code)
+/* Appends the same as a line: "tortuosity 12.3 N (+-0.4 %) this plan". */
+static void put_pull(thr_text *text, const plan_arguments *args, thr_objective objective,
+                     const thr_plan *plan, const thr_eval *eval, int code)
 {
   thr_text_printf(text, "  %-12s", thr_objective_name(objective));
+
+  /* With turns that were refused, the error is at least that of the others. */
   if (code == EXIT_OK) {
     thr_text_printf(text,
                     eval->refused ? "%12.4g N (error at least %.3g %%" : "%12.4g N (+-%.3g %%",
@@ -179,198 +202,258 @@ static void put_pull(thr_text *text, const arguments *a, thr_objective objective
     if (eval->refused)
       thr_text_printf(text, ": %d %s by closed form", eval->refused,
                       cli_plural(eval->refused, "turn", "turns"));
-    thr_text_printf(text, ")%s", objective == a->request.objective ? "   this plan" : "");
-    if (thr_wants_symmetry(&p->options))
-      thr_text_printf(text, "   %d %s", p->n_cords, cli_plural(p->n_cords, "cord", "cords"));
+
+    thr_text_printf(text, ")%s", objective == args->request.objective ? "   this plan" : "");
+    if (thr_wants_symmetry(&plan->options))
+      thr_text_printf(text, "   %d %s", plan->n_cords, cli_plural(plan->n_cords, "cord", "cords"));
   } else {
     thr_text_printf(text, "%14s", "not known");
   }
+
   thr_text_append(text, "\n");
 }
 
-static int put_objective(thr_writer *writer, const arguments *a, thr_objective objective,
-                         const thr_plan *p)
+/* Measures the pull of a plan by simulated joints and adds it to the comparison. Returns an exit
+ * code. */
+static int put_objective(thr_writer *writer, const plan_arguments *args, thr_objective objective,
+                         const thr_plan *plan)
 {
   thr_eval eval;
-  int code = pull_eval(&a->pull, thr_objective_name(objective), p, THR_JOINT, &eval);
-  if (a->json)
+  int code = pull_eval(&args->pull, thr_objective_name(objective), plan, THR_JOINT, &eval);
+
+  /* A pull that is not known is told as such. */
+  if (args->json)
     put_pull_json(writer, objective, &eval, code);
   else
-    put_pull(writer->out, a, objective, p, &eval, code);
+    put_pull(writer->out, args, objective, plan, &eval, code);
   thr_eval_destroy(&eval);
+
   return code;
 }
 
-/* Time that nobody asked for is no limit on work that is counted. *work: what limits count with. */
-static thr_limits limits_for(const arguments *a, const thr_request *options, double seconds,
+/* Returns limits for a search. Time that nobody asked for is no limit on work that is counted: such
+ * a search ends at the same place on every machine, and the clock only ends it on a very busy one.
+ * *work: what the limits count with; must stay while they are used. */
+static thr_limits limits_for(const plan_arguments *args, const thr_request *options, double seconds,
                              double *work)
 {
-  const bool unsaid = a->guard.seconds < 0;
+  const bool unsaid = args->guard.seconds < 0;
   thr_limits limits = cli_limits((unsaid ? thr_dispatch_patience(options) : 1) * seconds);
   limits.usual = unsaid;
   *work = thr_dispatch_work(options);
   return unsaid && *work > 0 ? thr_limits_counted(&limits, work) : limits;
 }
 
-static int plan_and_put(thr_writer *writer, const arguments *a, thr_objective objective,
-                        const thr_plan *p, double deadline)
+/* Plans for one objective, unless this is the plan's own, and adds its pull to the comparison.
+ * deadline: thr_clock(), 0 = none. Returns an exit code. */
+static int plan_and_put(thr_writer *writer, const plan_arguments *args, thr_objective objective,
+                        const thr_plan *plan, double deadline)
 {
   thr_err err = {0};
   thr_plan other = {0};
-  if (objective == a->request.objective) return put_objective(writer, a, objective, p);
-  thr_request options = p->options;
-  ask(a, objective, &options);
+
+  /* The plan that was asked for is there already. */
+  if (objective == args->request.objective) return put_objective(writer, args, objective, plan);
+
+  /* The same request with another objective. */
+  thr_request options = plan->options;
+  ask(args, objective, &options);
   double work;
-  thr_limits limits = limits_for(a, &options, options.time_limit, &work);
+  thr_limits limits = limits_for(args, &options, options.time_limit, &work);
   if (deadline > 0) limits.deadline = deadline;
-  thr_status st = thr_plan_make(&p->frame, &options, &limits, &other, NULL, &err);
+
+  /* A plan that is not proved is good enough to compare with. */
+  thr_status st = thr_plan_make(&plan->frame, &options, &limits, &other, NULL, &err);
   cli_progress_end();
-  int code = st && st != THR_ELIMIT ? cli_fail(&err) : put_objective(writer, a, objective, &other);
+  int code =
+      st && st != THR_ELIMIT ? cli_fail(&err) : put_objective(writer, args, objective, &other);
   thr_plan_destroy(&other);
+
   return code;
 }
 
-/* Pull of this plan beside that of the plans for the other objectives. */
-static int put_comparison(thr_writer *writer, const arguments *a, const thr_plan *p,
+/* Adds the pull of this plan beside that of plans for the other objectives. Returns the first exit
+ * code that is not EXIT_OK. */
+static int put_comparison(thr_writer *writer, const plan_arguments *args, const thr_plan *plan,
                           double deadline)
 {
   int code = EXIT_OK;
-  if (a->json)
+
+  if (args->json)
     thr_write_array(writer, "objectives");
   else
     thr_text_append(writer->out, "\nlargest pull by objective, joints measured in simulation\n");
+
+  /* This plan stands among the others, in the order of objectives. */
   for (int i = 0; i < THR_N_OBJECTIVES; i++) {
-    int done = plan_and_put(writer, a, thr_dispatch_objective(i), p, deadline);
+    int done = plan_and_put(writer, args, thr_dispatch_objective(i), plan, deadline);
     if (!code) code = done;
   }
-  if (a->json) thr_write_close(writer);
+
+  if (args->json) thr_write_close(writer);
+
   return code;
 }
 
-/* What was planned. */
+/* What was planned: the plan, and what else the planner found. */
 typedef struct {
   thr_plan plan;
   thr_report report;
-} planned;
+} planned_result;
 
-/* When all must be done: the plan and what it is held against share the time that was asked for; 0
- * = none was. */
-static double deadline_of(const arguments *a)
+/* Returns when everything must be done, as thr_clock(): the plan and those that it is compared with
+ * share the time that was asked for. 0: none was. */
+static double deadline_of(const plan_arguments *args)
 {
-  return a->guard.seconds > 0 ? guard_deadline() : 0;
+  return args->guard.seconds > 0 ? guard_deadline() : 0;
 }
 
-/* Seconds for the search: of a time that was asked for what the rest leaves. */
-static double time_of_plan(const arguments *a, const thr_request *options)
+/* Returns the seconds for the search: of a time that was asked for what comparisons, checks and
+ * writing leave. */
+static double time_of_plan(const plan_arguments *args, const thr_request *options)
 {
-  bool more = a->request.compare || a->request.frontier || a->compare;
-  return a->guard.seconds <= 0 ? options->time_limit
-                               : thr_dispatch_search_seconds(options->time_limit, more);
+  bool more = args->request.compare || args->request.frontier || args->compare;
+  return args->guard.seconds <= 0 ? options->time_limit
+                                  : thr_dispatch_search_seconds(options->time_limit, more);
 }
 
-static void put_plan(thr_writer *writer, const arguments *a, const planned *x,
+/* Adds the summary of the plan, as text or JSON. */
+static void put_plan(thr_writer *writer, const plan_arguments *args, const planned_result *result,
                      const thr_rivals *rivals)
 {
-  if (a->json)
-    plan_put_json(writer, &x->plan, rivals, x->report.word);
+  if (args->json)
+    plan_put_json(writer, &result->plan, rivals, result->report.word);
   else
-    plan_put_summary(writer->out, &x->plan, rivals, x->report.word);
+    plan_put_summary(writer->out, &result->plan, rivals, result->report.word);
 }
 
-/* The frontier as a picture; where there is none, why. */
-static int write_frontier(const arguments *a, const thr_plan *plan, const thr_rivals *rivals)
+/* Draws the frontier of length and turning into the file of --plot. Where there is none, says why.
+ * Returns an exit code. */
+static int write_frontier(const plan_arguments *args, const thr_plan *plan,
+                          const thr_rivals *rivals)
 {
   const thr_frontier *frontier = &rivals->frontier;
   thr_err err = {0};
   thr_text svg = {0};
   thr_physics physics;
   char stem[256];
+
   if (frontier->n == 0) {
-    cli_error("%s: nothing to draw: there is no frontier", a->request.plot);
+    cli_error("%s: nothing to draw: there is no frontier", args->request.plot);
     return EXIT_INPUT;
   }
-  cli_stem(a->path, stem, sizeof stem);
+
+  cli_stem(args->path, stem, sizeof stem);
   thr_frontier_mark *mark = thr_calloc((size_t)frontier->n, sizeof *mark);
   thr_status st = mark ? thr_physics_resolve(&plan->options.physics, &plan->frame, &physics, &err)
                        : thr_nomem(&err);
+
+  /* A mark for each point, with its pulls over the band of mu, N. */
   for (int i = 0; i < frontier->n && !st; i++) {
     const thr_frontier_point *point = &frontier->point[i];
     mark[i] = (thr_frontier_mark){
         .length = point->length, .turning = point->turning, .proved = !point->open};
     thr_advice_pulls(&physics, point->pulled, mark[i].pull);
   }
+
   const thr_frontier_chart chart = {.name = stem,
                                     .units = plan->frame.units,
                                     .physics = &physics,
                                     .shortest = plan->proof.lower_bound,
                                     .n = frontier->n,
                                     .mark = mark};
+
   if (!st) st = thr_frontier_svg(&chart, &svg, &err);
   free(mark);
-  return cli_write_drawn(st, &svg, a->request.plot, &err);
+
+  return cli_write_drawn(st, &svg, args->request.plot, &err);
 }
 
-static int put_turning(thr_writer *writer, const arguments *a, planned *x)
+/* Makes the plans that a plan of least turning is compared with, and adds the summary with them.
+ * Returns an exit code. */
+static int put_turning(thr_writer *writer, const plan_arguments *args, planned_result *result)
 {
   thr_rivals rivals = {0};
   thr_err err = {0};
   thr_limits limits = cli_limits(0);
-  limits.deadline = deadline_of(a);
-  thr_status st = thr_rivals_make(&x->plan, &x->report.shortest, a->request.compare,
-                                  a->request.frontier, &limits, &rivals, &err);
+
+  limits.deadline = deadline_of(args);
+
+  /* The shortest cords that the planner left are taken over. */
+  thr_status st = thr_rivals_make(&result->plan, &result->report.shortest, args->request.compare,
+                                  args->request.frontier, &limits, &rivals, &err);
   cli_progress_end();
-  if (a->request.frontier && !a->request.minimize && x->plan.options.cords > 1)
+
+  /* What the user may not have expected. */
+  if (args->request.frontier && !args->request.minimize && result->plan.options.cords > 1)
     cli_note("note: with --frontier all turning together is minimized; --minimize max-turning is "
              "for the cord that turns most");
   if (rivals.no_frontier.code) cli_note("no frontier: %s", rivals.no_frontier.text);
-  put_plan(writer, a, x, &rivals);
+
+  put_plan(writer, args, result, &rivals);
   int code = st ? cli_fail(&err) : EXIT_OK;
-  if (!code && a->request.plot) code = write_frontier(a, &x->plan, &rivals);
+  if (!code && args->request.plot) code = write_frontier(args, &result->plan, &rivals);
   thr_rivals_destroy(&rivals);
+
   return code;
 }
 
-static void put_symmetry(thr_writer *writer, const arguments *a, const planned *x)
+/* Adds the table of groups and the summary of a symmetric plan. At most 8 rows as text; all of them
+ * as JSON. */
+static void put_symmetry(thr_writer *writer, const plan_arguments *args,
+                         const planned_result *result)
 {
   enum { ROWS = 8 };
-  const thr_plan *p = &x->plan;
-  if (!a->json) {
-    symmetry_put_head(writer->out, &p->frame, &p->options, &x->report.symmetries);
-    symmetry_put_table(writer->out, &p->options, &x->report.symmetries, ROWS);
+  const thr_plan *plan = &result->plan;
+
+  if (!args->json) {
+    symmetry_put_head(writer->out, &plan->frame, &plan->options, &result->report.symmetries);
+    symmetry_put_table(writer->out, &plan->options, &result->report.symmetries, ROWS);
     thr_text_append(writer->out, "\n");
   }
-  put_plan(writer, a, x, NULL);
-  if (!a->json) return;
+
+  /* The plan itself, and in JSON the table after it. */
+  put_plan(writer, args, result, NULL);
+  if (!args->json) return;
   thr_write_object(writer, "symmetries");
-  symmetry_put_table_json(writer, &p->options, &x->report.symmetries);
+  symmetry_put_table_json(writer, &plan->options, &result->report.symmetries);
   thr_write_close(writer);
 }
 
-static int print_summary(const arguments *a, planned *x)
+/* Prints the summary to stdout, as its objective needs it. Returns an exit code. */
+static int print_summary(const plan_arguments *args, planned_result *result)
 {
   thr_text text = {0};
   thr_writer writer = {.out = &text};
   int code = EXIT_OK;
-  if (a->json) thr_write_object(&writer, NULL);
-  if (thr_wants_turning(&x->plan.options))
-    code = put_turning(&writer, a, x);
-  else if (thr_wants_symmetry(&x->plan.options))
-    put_symmetry(&writer, a, x);
+
+  if (args->json) thr_write_object(&writer, NULL);
+
+  /* Each objective is compared with something else. */
+  if (thr_wants_turning(&result->plan.options))
+    code = put_turning(&writer, args, result);
+  else if (thr_wants_symmetry(&result->plan.options))
+    put_symmetry(&writer, args, result);
   else
-    put_plan(&writer, a, x, NULL);
-  if (a->compare) {
-    int done = put_comparison(&writer, a, &x->plan, deadline_of(a));
+    put_plan(&writer, args, result, NULL);
+
+  if (args->compare) {
+    int done = put_comparison(&writer, args, &result->plan, deadline_of(args));
     if (!code) code = done;
   }
-  if (a->json) {
+
+  if (args->json) {
     thr_write_close(&writer);
     thr_text_append(&text, "\n");
   }
+
+  /* With --quiet the text was made only because a picture is made on the way. */
   int written = EXIT_OK;
-  if (cli_quiet && !a->json) /* it was made for the picture */
+  if (cli_quiet && !args->json)
     thr_text_destroy(&text);
   else
     written = cli_write(&text, "-");
+
   return code ? code : written;
 }
 
@@ -381,33 +464,45 @@ static int print_summary(const arguments *a, planned *x)
 typedef struct {
   const char *plan, *folder; /* folder: NULL = no diagrams */
   char own[280], in_folder[1200];
-} places;
+} output_places;
 
-/* Does the folder hold a plan, and not this text? */
+/* Returns whether the folder holds a plan whose text is not this one. */
 static bool holds_another(const char *folder, const thr_text *text)
 {
   char path[1200];
   thr_text there = {0};
+
   snprintf(path, sizeof path, "%s/plan.json", folder);
   if (access(path, F_OK) != 0) return false;
+
+  /* The same request makes the same text, which may be written over. */
   bool same = !thr_text_read(&there, path, NULL) && there.length == text->length &&
               (text->length == 0 || memcmp(there.data, text->data, text->length) == 0);
   thr_text_destroy(&there);
+
   return !same;
 }
 
-/* dome, or the first of dome-2, dome-3, .. that holds no other plan, and no file that is read. */
-static void find_folder(const arguments *a, const thr_text *text, char folder[280])
+/* Finds the folder for a plan of which nobody said where it goes: dome, or the first of dome-2,
+ * dome-3, .. that holds no other plan, and no file that this command reads. */
+static void find_folder(const plan_arguments *args, const thr_text *text, char folder[280])
 {
   enum { MOST = 1000 };
   char stem[256];
-  cli_stem(a->path, stem, sizeof stem);
+
+  cli_stem(args->path, stem, sizeof stem);
   snprintf(folder, 280, "%s", stem);
+
+  /* With --force another plan is replaced, but never a file that was read. */
   const bool reads = drawings_would_lose(stem);
+
+  /* The first name that is free. */
   for (int i = 2;
-       i <= MOST && ((!a->force && holds_another(folder, text)) || drawings_would_lose(folder));
+       i <= MOST && ((!args->force && holds_another(folder, text)) || drawings_would_lose(folder));
        i++)
     snprintf(folder, 280, "%s-%d", stem, i);
+
+  /* Say so where it is not the usual folder. */
   if (strcmp(folder, stem) != 0)
     cli_note(reads ? "note: in %s a drawing would take the place of a file that is read: this plan "
                      "is in %s"
@@ -415,259 +510,340 @@ static void find_folder(const arguments *a, const thr_text *text, char folder[28
              stem, folder);
 }
 
-/* Before the search: where drawings and the plan go unasked is tried, and no drawing takes the
- * place of a file that is named. */
-static int try_places(const arguments *a)
+/* Tries, before the search, whether the plan and its drawings can be written where they go unasked,
+ * and that no drawing takes the place of a file that is named on the command line. Returns an exit
+ * code. */
+static int try_places(const plan_arguments *args)
 {
   char stem[256];
-  cli_stem(a->path, stem, sizeof stem);
-  if (!a->draw && !a->output) return files_try_folder(stem);
-  int code = a->draw ? drawings_claim("plan", a->draw, -1) : EXIT_OK;
-  if (code || !a->draw || a->output) return code;
+
+  cli_stem(args->path, stem, sizeof stem);
+  if (!args->draw && !args->output) return files_try_folder(stem);
+  int code = args->draw ? drawings_claim("plan", args->draw, -1) : EXIT_OK;
+  if (code || !args->draw || args->output) return code;
+
+  /* The plan goes among the drawings. */
   char plan[1200];
-  code = cli_in_folder(a->draw, "plan.json", plan, sizeof plan);
+  code = cli_in_folder(args->draw, "plan.json", plan, sizeof plan);
+
   return code ? code : files_claim("plan", "draw", plan);
 }
 
-static int find_places(const arguments *a, const thr_text *text, places *to)
+/* Finds where the plan and its drawings go. text: of the plan. Returns an exit code. */
+static int find_places(const plan_arguments *args, const thr_text *text, output_places *places)
 {
-  if (!a->draw && !a->output) find_folder(a, text, to->own);
-  to->folder = a->draw ? a->draw : a->output ? NULL : to->own;
-  to->plan = a->output ? a->output : to->in_folder;
-  return to->folder ? cli_in_folder(to->folder, "plan.json", to->in_folder, sizeof to->in_folder)
-                    : EXIT_OK;
+  if (!args->draw && !args->output) find_folder(args, text, places->own);
+
+  places->folder = args->draw ? args->draw : args->output ? NULL : places->own;
+  places->plan = args->output ? args->output : places->in_folder;
+  return places->folder ? cli_in_folder(places->folder, "plan.json", places->in_folder,
+                                        sizeof places->in_folder)
+                        : EXIT_OK;
 }
 
-/* What is written is first read back and checked as a whole, as by thread check: a claim that it
- * would refuse is not left. *code: of the plan, if it is kept. */
+/* Reads back and checks the whole text that is to be written, as `thread check` does, so that no
+ * claim is left that would be refused. *plan becomes what was read. *code becomes EXIT_LIMIT if a
+ * claim was dropped. Returns an exit code; the text is not to be written unless it is EXIT_OK. */
 static int check_text(thr_text *text, const char *path, thr_plan *plan, int *code)
 {
   thr_err err = {0};
   int dropped;
+
   if (text->failed) return EXIT_OK; /* writing says so */
   thr_status st =
       thr_plan_confirm(plan, text, strcmp(path, "-") == 0 ? "stdout" : path, &dropped, &err);
   if (st == THR_ENOMEM) return cli_fail(&err);
+
+  /* The plan itself does not hold. */
   if (st) {
     cli_error(
         "a fault of this program: the plan does not pass its own check, and is not written: %s",
         err.text);
     return EXIT_INTERNAL;
   }
+
+  /* The plan holds without these claims, which are bits of a sum. */
   for (int claim = 1; claim <= THR_CLAIMS_ALL; claim *= 2)
     if (dropped & claim)
       cli_error("a fault of this program: what it proved of %s does not pass its own check, and is "
                 "left out: %s",
                 thr_claim_name(claim), err.text);
   if (dropped) *code = EXIT_LIMIT;
+
   return EXIT_OK;
 }
 
-/* From here on the plan is what this run leaves, with this exit code, which is another if the plan
- * lost a claim. Where it cannot be written, to->plan says where it is instead. */
-static int write_plan(const arguments *a, thr_plan *p, places *to, int *code)
+/* Writes the plan. Only from here on is the plan what this run leaves, with the exit code *code,
+ * which is another one if the plan lost a claim. places->plan receives where the plan is, which is
+ * another place if it cannot be written there, or NULL if it is nowhere. Returns an exit code. */
+static int write_plan(const plan_arguments *args, thr_plan *plan, output_places *places, int *code)
 {
   thr_text text = {0};
-  thr_frame_keep_hash(&p->frame);
-  thr_plan_write(p, &text);
-  int refused = find_places(a, &text, to);
-  if (!refused) refused = check_text(&text, to->plan, p, code);
+
+  thr_frame_keep_hash(&plan->frame);
+  thr_plan_write(plan, &text);
+
+  int refused = find_places(args, &text, places);
+  if (!refused) refused = check_text(&text, places->plan, plan, code);
+
   if (refused) {
     thr_text_destroy(&text);
-    to->plan = NULL;
+    places->plan = NULL;
     return refused;
   }
+
+  /* Until the last byte is written nothing but a second signal ends this process. */
   guard_writing();
-  int written = cli_write_kept(&text, &to->plan);
+  int written = cli_write_kept(&text, &places->plan);
   guard_written(written ? written : *code);
+
   return written;
 }
 
-/* Was nothing said of what the plan is to be, and how long it may take? */
-static bool is_usual(const arguments *a, const thr_request *options)
+/* Returns whether nothing was said of what the plan is to be, and how long it may take: then the
+ * summary ends with advice. */
+static bool is_usual(const plan_arguments *args, const thr_request *options)
 {
   return thr_wants_length(options) && !thr_wants_balance(options) &&
-         request_args_usual(&a->request) && a->guard.seconds < 0 && !a->compare;
+         request_args_usual(&args->request) && args->guard.seconds < 0 && !args->compare;
 }
 
-static void put_order(const arguments *a, const thr_plan *p, thr_text *text)
+/* Appends the line about the order of work: the longest chain of pieces that is loose at a time. */
+static void put_order(const plan_arguments *args, const thr_plan *plan, thr_text *text)
 {
   thr_err err = {0};
   thr_text_append(text, "order    ");
-  if (drawings_chains(p, &a->drawings, text, &err)) thr_text_append(text, err.text);
+  if (drawings_chains(plan, &args->drawings, text, &err)) thr_text_append(text, err.text);
   thr_text_append(text, "\n");
 }
 
-/* Where the plan is and, unless folder is NULL, the drawings; and what to do if a hand cannot pull
- * it. */
-static int print_places(const arguments *a, const thr_plan *p, const char *plan_path,
+/* Prints where the plan is and, unless folder is NULL, the drawings; and what to do if a hand
+ * cannot pull the cords. Returns an exit code. */
+static int print_places(const plan_arguments *args, const thr_plan *plan, const char *plan_path,
                         const char *folder)
 {
-  const bool usual = is_usual(a, &p->options);
+  const bool usual = is_usual(args, &plan->options);
   char names[DRAWINGS_NAMES];
   thr_text text = {0};
-  thr_text_append(&text, a->compare || thr_wants_turning(&p->options) ? "\n" : "");
+
+  /* Where the files are. */
+  thr_text_append(&text, args->compare || thr_wants_turning(&plan->options) ? "\n" : "");
   thr_text_append(&text, "plan     ");
   thr_text_append_clean(&text, plan_path);
-  drawings_names(p, &a->drawings, names);
+  drawings_names(plan, &args->drawings, names);
   if (folder) {
     thr_text_append(&text, "\ndrawn    in ");
     thr_text_append_clean(&text, folder);
     thr_text_printf(&text, ": %s", names);
   }
+
   thr_text_append(&text, "\n");
-  if (p->options.order == THR_ORDER_HAND || cli_verbose) put_order(a, p, &text);
-  if (!usual) advice_put_hint(p, &text);
+
+  /* Order of work, and a hint for plans that were asked for with options. */
+  if (plan->options.order == THR_ORDER_HAND || cli_verbose) put_order(args, plan, &text);
+  if (!usual) advice_put_hint(plan, &text);
   int code = cli_write(&text, "-");
   if (code || !usual) return code;
   advice_put_after_plan(p, a->path, &a->pull.physics, &text);
   return cli_write(&text, "-");
 }
 
-/* Drawings are always whole: a limit on the time is the search's, not theirs. */
-static int write_drawings(const arguments *a, const thr_plan *p, const places *to)
+/* Draws everything into the folder. Drawings are always whole: a limit on the time is the search's.
+ * Returns an exit code. */
+static int write_drawings(const plan_arguments *args, const thr_plan *plan,
+                          const output_places *places)
 {
-  if (!to->folder) return EXIT_OK;
+  if (!places->folder) return EXIT_OK;
+
+  /* A search that was ended by the clock leaves time for its drawings. */
   guard_allow(0);
-  const int code = drawings_write_all(p, to->folder, &a->drawings);
-  if (!code && drawings_no_sheets(p, &a->drawings))
+  const int code = drawings_write_all(plan, places->folder, &args->drawings);
+  if (!code && drawings_no_sheets(plan, &args->drawings))
     cli_note(
         "no sheets.pdf, which has hundreds of pages for more than %d pieces: thread draw %s -T pdf",
-        DRAWINGS_SHEETS_PIECES, strcmp(to->plan, "-") == 0 ? "plan.json" : to->plan);
+        DRAWINGS_SHEETS_PIECES, strcmp(places->plan, "-") == 0 ? "plan.json" : places->plan);
+
   return code;
 }
 
-/* *planned_code: of the plan; not 0 afterwards if a claim was left out. */
-static int write_outputs(const arguments *a, planned *x, int *planned_code)
+/* Writes plan, summary and drawings. *planned_code: of the search; not EXIT_OK afterwards if a
+ * claim was dropped. Returns an exit code. */
+static int write_outputs(const plan_arguments *args, planned_result *result, int *planned_code)
 {
-  thr_plan *p = &x->plan;
-  places to = {0};
-  const int written = write_plan(a, p, &to, planned_code);
-  if (!to.plan) return written; /* there is none */
-  const bool is_silent = strcmp(to.plan, "-") == 0 || (cli_quiet && !a->json && !a->request.plot);
-  int code = is_silent ? EXIT_OK : print_summary(a, x);
-  const int drawn = written ? EXIT_OK : write_drawings(a, p, &to);
+  thr_plan *plan = &result->plan;
+  output_places places = {0};
+  const int written = write_plan(args, plan, &places, planned_code);
+
+  if (!places.plan) return written; /* there is none */
+
+  /* A plan on stdout leaves no place for a summary. */
+  const bool is_silent =
+      strcmp(places.plan, "-") == 0 || (cli_quiet && !args->json && !args->request.plot);
+  int code = is_silent ? EXIT_OK : print_summary(args, result);
+
+  /* Drawings are made only of a plan that is where it was to be. */
+  const int drawn = written ? EXIT_OK : write_drawings(args, plan, &places);
   if (!code) code = drawn;
-  if (!code && !is_silent && !a->json && !cli_quiet)
-    code = print_places(a, p, to.plan, written ? NULL : to.folder);
+  if (!code && !is_silent && !args->json && !cli_quiet)
+    code = print_places(args, plan, places.plan, written ? NULL : places.folder);
+
   return written ? written : code;
 }
 
-/* Time that nobody asked for is the search's alone. */
-static thr_status make_plan(const arguments *a, const thr_frame *framework,
-                            const thr_request *options, planned *x, thr_err *err)
+/* Runs the search. Time that nobody asked for is for the search alone: the guard's clock is stopped
+ * again afterwards. */
+static thr_status make_plan(const plan_arguments *args, const thr_frame *framework,
+                            const thr_request *options, planned_result *result, thr_err *err)
 {
   double work;
-  if (a->guard.seconds < 0)
+
+  /* The guard waits a little longer than the search's own limit. */
+  if (args->guard.seconds < 0)
     guard_allow(options->time_limit > 0
                     ? 1 + 1.1 * thr_dispatch_patience(options) * options->time_limit
                     : 0);
-  thr_limits limits = limits_for(a, options, time_of_plan(a, options), &work);
+
+  /* From here on the best cords go to the parent. */
+  thr_limits limits = limits_for(args, options, time_of_plan(args, options), &work);
   best_begin(framework, options);
   limits.found = best_found;
-  thr_status st = thr_plan_make(framework, options, &limits, &x->plan, &x->report, err);
+  thr_status st = thr_plan_make(framework, options, &limits, &result->plan, &result->report, err);
   cli_progress_end();
+
   if (cli_verbose) cli_note("search: ended, %.3f CPU s", thr_os_processor_seconds());
-  if (a->guard.seconds < 0) guard_allow(0);
+  if (args->guard.seconds < 0) guard_allow(0);
+
   return st;
 }
 
-/* Says why there is no plan: in one line, and with --json as an object, too. Returns the exit code.
- */
-static int refuse(const arguments *a, const thr_err *err)
+/* Says why there is no plan: in one line, and with --json as an object, too. Returns the exit code
+ * that belongs to err. */
+static int refuse(const plan_arguments *args, const thr_err *err)
 {
   thr_text text = {0};
   thr_writer writer = {.out = &text};
   const int code = cli_fail(err);
-  if (!a->json || err->code == THR_ENOMEM) return code;
+
+  if (!args->json || err->code == THR_ENOMEM) return code;
+
+  /* For programs. */
   thr_write_object(&writer, NULL);
   thr_write_string(&writer, "error", err->text);
   thr_write_int(&writer, "exit_code", code);
   thr_write_close(&writer);
   thr_text_append(&text, "\n");
   const int written = cli_write(&text, "-");
+
   return written ? written : code;
 }
 
-/* Releases the framework, of which the plan has its own. */
-static int plan_frame(const arguments *a, thr_frame *framework)
+/* Makes a plan for a framework and writes all that is asked for. Releases the framework, of which
+ * the plan has a copy. Returns an exit code. */
+static int plan_frame(const plan_arguments *args, thr_frame *framework)
 {
   thr_err err = {0};
-  planned x = {0};
+  planned_result result = {0};
   thr_request options = thr_request_default();
-  ask(a, a->request.objective, &options);
-  int code = apply_physics(a, framework, &options);
-  if (!code) code = request_args_apply(&a->request, framework, &options);
+
+  ask(args, args->request.objective, &options);
+
+  /* The request. */
+  int code = apply_physics(args, framework, &options);
+  if (!code) code = request_args_apply(&args->request, framework, &options);
   if (code == EXIT_OK) {
-    thr_status st = make_plan(a, framework, &options, &x, &err);
+    /* The search, and one last chance for its cords to be kept. */
+    thr_status st = make_plan(args, framework, &options, &result, &err);
     if (guard_deadline() > 0)
-      best_found(NULL, x.plan.cord, x.plan.n_cords,
-                 x.plan.symmetry.present ? &x.plan.symmetry : NULL);
+      best_found(NULL, result.plan.cord, result.plan.n_cords,
+                 result.plan.symmetry.present ? &result.plan.symmetry : NULL);
+
     best_begin(NULL, NULL);
     thr_frame_destroy(framework);
+
+    /* A plan that is not proved within the limits is a plan, with EXIT_LIMIT. */
     int planned_code = st ? EXIT_LIMIT : EXIT_OK;
-    const bool is_plan = st == THR_OK || (st == THR_ELIMIT && x.plan.n_cords > 0);
-    if (is_plan) code = write_outputs(a, &x, &planned_code);
-    if (code == EXIT_OK) code = !is_plan ? refuse(a, &err) : st ? cli_fail(&err) : planned_code;
+    const bool is_plan = st == THR_OK || (st == THR_ELIMIT && result.plan.n_cords > 0);
+    if (is_plan) code = write_outputs(args, &result, &planned_code);
+    if (code == EXIT_OK) code = !is_plan ? refuse(args, &err) : st ? cli_fail(&err) : planned_code;
   }
+
   free(options.end_node);
   free(options.end_count);
-  thr_plan_destroy(&x.plan);
-  thr_report_destroy(&x.report);
+  thr_plan_destroy(&result.plan);
+  thr_report_destroy(&result.report);
   thr_frame_destroy(framework);
+
   return code;
 }
 
-/* Draws a plan that a search left which did not end by itself, in a process of its own: what fits
- * is drawn. */
-static int draw_kept(const arguments *a, const places *to)
+/* Draws, in a process of its own, a plan of a search that was ended: what fits into memory is
+ * drawn. Returns the exit code of the search. */
+static int draw_kept(const plan_arguments *args, const output_places *places)
 {
-  const guard_limits limits = {.memory = a->guard.memory};
+  const guard_limits limits = {.memory = args->guard.memory};
   guard_end end;
   thr_plan plan;
   thr_err err = {0};
+
   if (guard_fork(&limits, &end)) {
     guard_conclude(&end, "not all that was to be drawn fits");
     return EXIT_LIMIT;
   }
-  int code = thr_plan_read(&plan, to->plan, &err) ? cli_fail(&err) : EXIT_OK;
-  if (!code) code = drawings_write_all(&plan, to->folder, &a->drawings);
-  if (!code) cli_note("drawn in %s", to->folder);
+
+  int code = thr_plan_read(&plan, places->plan, &err) ? cli_fail(&err) : EXIT_OK;
+  if (!code) code = drawings_write_all(&plan, places->folder, &args->drawings);
+  if (!code) cli_note("drawn in %s", places->folder);
+
   return EXIT_LIMIT; /* of the search */
 }
 
-/* After the planning, in the parent if there is one: if it left no plan, but had some cords, they
- * are the plan. */
-static int conclude(const arguments *a, guard_end *end)
+/* Concludes the command in the parent, if there is one: if the child left no plan, but had handed
+ * over some cords, they become the plan. Returns the exit code. */
+static int conclude(const plan_arguments *args, guard_end *end)
 {
-  places to;
+  output_places places;
+
+  /* The plan is out; only drawings or words are missing. */
   if (end->written)
     return guard_conclude(end,
                           "the plan is written, but not all that was to be drawn or said of it");
+
+  /* An error that the user has to mend is told instead of any plan. */
   bool searched =
       end->code == EXIT_LIMIT || end->code == EXIT_INFEASIBLE || end->code == EXIT_INTERNAL;
   bool told = end->reason == GUARD_DONE && !searched; /* what the user wants to know */
   if (end->kept.length == 0 || told) return guard_conclude(end, "no plan was found");
-  int code = find_places(a, &end->kept, &to);
-  if (!code) code = cli_write_kept(&end->kept, &to.plan);
+
+  /* The best cords so far are written. */
+  int code = find_places(args, &end->kept, &places);
+  if (!code) code = cli_write_kept(&end->kept, &places.plan);
   thr_text_destroy(&end->kept);
   if (code) return code;
   cli_error("%s%s%s holds the best plan so far, of which nothing is proved", end->why,
-            *end->why ? ": " : "", to.plan);
-  if (to.folder && end->reason != GUARD_INTERRUPTED && strcmp(to.plan, "-") != 0)
-    return draw_kept(a, &to);
+            *end->why ? ": " : "", places.plan);
+
+  if (places.folder && end->reason != GUARD_INTERRUPTED && strcmp(places.plan, "-") != 0)
+    return draw_kept(args, &places);
+
   return EXIT_LIMIT;
 }
 
+/* Runs `thread plan` and returns the exit code. */
 int cmd_plan(int argc, char **argv)
 {
-  arguments a;
+  plan_arguments args;
   thr_frame framework;
   guard_end end;
-  int code = parse(argc, argv, &a);
-  if (code >= 0 || (code = try_places(&a))) return code;
-  if (guard_fork(&a.guard, &end)) return conclude(&a, &end);
-  if ((code = cli_read_frame(a.path, &a.frame, &framework))) return code;
-  code = plan_frame(&a, &framework);
-  return guard_alone(code, &end) ? conclude(&a, &end) : code;
+  int code = parse(argc, argv, &args);
+
+  /* What cannot be written is found out before the search, not after it. */
+  if (code >= 0 || (code = try_places(&args))) return code;
+
+  /* The child does all of the work, the parent waits and concludes. */
+  if (guard_fork(&args.guard, &end)) return conclude(&args, &end);
+
+  if ((code = cli_read_frame(args.path, &args.frame, &framework))) return code;
+  code = plan_frame(&args, &framework);
+
+  return guard_alone(code, &end) ? conclude(&args, &end) : code;
 }

@@ -45,7 +45,7 @@ typedef struct {
   const char *path, *ends;
   double row_work; /* counted, for each row; 0: not said */
   bool json;
-} arguments;
+} symmetries_arguments;
 
 #define AT(member) .offset = offsetof(arguments, member)
 
@@ -67,7 +67,9 @@ static const cli_option time_options[] = {
 static const cli_option tuned_options[] = {
     {"row-work", .kind = CLI_AMOUNT, AT(row_work), .low = 1e-6, .high = 1e9}, {0}};
 
-static int parse(int argc, char **argv, arguments *a)
+/* Parses the command line into *args, and fills in the request that all rows are planned for.
+ * Returns -1 to go on, or the exit code of the command. */
+static int parse(int argc, char **argv, symmetries_arguments *args)
 {
   static const cli_syntax syntax = {"symmetries", intro, outro};
   static cli_option asked[4];
@@ -105,62 +107,89 @@ static int parse(int argc, char **argv, arguments *a)
   return -1;
 }
 
-static void put_json(thr_text *text, const arguments *a, const thr_frame *framework,
+/* Writes the table with what it was made for. */
+static void put_json(thr_text *text, const symmetries_arguments *args, const thr_frame *framework,
                      const thr_symmetries *symmetries)
 {
   thr_writer writer = {.out = text};
+
   thr_write_object(&writer, NULL);
+
+  /* Of which framework. */
   thr_write_hash(&writer, "framework", thr_frame_hash(framework));
   thr_write_int(&writer, "nodes", framework->n_nodes);
   thr_write_int(&writer, "edges", framework->n_edges);
   thr_write_string(&writer, "units", framework->units);
-  thr_write_string(&writer, "ends", thr_ends_name(a->plan.ends));
-  thr_write_int(&writer, "cover", a->plan.cover);
-  thr_write_string(&writer, "joint", thr_joint_name(a->plan.joint));
-  symmetry_put_table_json(&writer, &a->plan, symmetries);
+
+  /* What was asked for. */
+  thr_write_string(&writer, "ends", thr_ends_name(args->plan.ends));
+  thr_write_int(&writer, "cover", args->plan.cover);
+  thr_write_string(&writer, "joint", thr_joint_name(args->plan.joint));
+
+  symmetry_put_table_json(&writer, &args->plan, symmetries);
   thr_write_close(&writer);
   thr_text_append(text, "\n");
 }
 
-static int print(const arguments *a, const thr_frame *framework, const thr_symmetries *symmetries)
+/* Prints the table to stdout: all rows, with a head that says which group they are subgroups of.
+ * Returns an exit code. */
+static int print(const symmetries_arguments *args, const thr_frame *framework,
+                 const thr_symmetries *symmetries)
 {
   thr_text text = {0};
-  if (a->json) {
-    put_json(&text, a, framework, symmetries);
+
+  /* As text every row is shown, not only those round the chosen one. */
+  if (args->json) {
+    put_json(&text, args, framework, symmetries);
   } else {
-    symmetry_put_head(&text, framework, &a->plan, symmetries);
-    symmetry_put_table(&text, &a->plan, symmetries, symmetries->n);
+    symmetry_put_head(&text, framework, &args->plan, symmetries);
+    symmetry_put_table(&text, &args->plan, symmetries, symmetries->n);
   }
+
   return cli_write(&text, "-");
 }
 
-static int list_symmetries(arguments *a, const thr_frame *framework)
+/* Finds and prints the table. Returns an exit code; a table that is not proved is printed all the
+ * same. */
+static int list_symmetries(symmetries_arguments *args, const thr_frame *framework)
 {
   thr_err err = {0};
   thr_symmetries symmetries;
-  int code = cli_resolve_ends(a->ends, framework, &a->plan);
+  int code = cli_resolve_ends(args->ends, framework, &args->plan);
+
+  /* Where cord ends may be needs the framework. */
   if (code == EXIT_OK) {
-    const thr_limits limits = cli_limits(a->plan.time_limit);
-    thr_status st = thr_symmetries_find(framework, &a->plan, false, &limits, &symmetries, &err);
+    /* The time is that of all groups together. */
+    const thr_limits limits = cli_limits(args->plan.time_limit);
+    thr_status st = thr_symmetries_find(framework, &args->plan, false, &limits, &symmetries, &err);
     cli_progress_end();
-    if (!st || st == THR_ELIMIT) code = print(a, framework, &symmetries);
+
+    /* Rows that are not proved say so. */
+    if (!st || st == THR_ELIMIT) code = print(args, framework, &symmetries);
     if (code == EXIT_OK && st) code = cli_fail(&err);
     thr_symmetries_destroy(&symmetries);
   }
-  free(a->plan.end_node);
+
+  free(args->plan.end_node);
+
   return code;
 }
 
+/* Runs `thread symmetries` and returns the exit code. */
 int cmd_symmetries(int argc, char **argv)
 {
-  arguments a;
+  symmetries_arguments args;
   thr_frame framework;
   guard_end end;
-  int code = parse(argc, argv, &a);
+  int code = parse(argc, argv, &args);
+
   if (code >= 0) return code;
-  if (guard_fork(&a.guard, &end)) return guard_conclude(&end, "no threadings");
-  if ((code = cli_read_frame(a.path, &a.frame, &framework))) return code;
-  code = list_symmetries(&a, &framework);
+
+  /* The child does all of the work. */
+  if (guard_fork(&args.guard, &end)) return guard_conclude(&end, "no threadings");
+  if ((code = cli_read_frame(args.path, &args.frame, &framework))) return code;
+  code = list_symmetries(&args, &framework);
   thr_frame_destroy(&framework);
+
   return code;
 }

@@ -1,6 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of `thread advise`, as text and as JSON, and the command that makes the recommended
- * plan. */
+/* Prints the table of `thread advise`, as text and as JSON, and the command that makes the
+ * recommended plan.
+ *
+ * A row is a number of cords and a kind of ends, with the cord that turns most turning as little as
+ * was found. The pull at the harder end of a cord is seating tension x exp(mu x reach), N
+ * (graph/plan/advice.h); a row shows it at mu and at both ends of the band of mu. ">" marks the row
+ * with the fewest cords whose pull stays within the hand even at the upper end, "*" rows on the
+ * frontier.
+ *
+ * Example, of the 7 x 7 dome (cords, ends, cord, overlap, longest cord, turning, pulls):
+ *
+ *   >  4  at the feet  1995.249 mm  14.3 %  498.8 mm  683 deg  3.21 and 3.27 N  1.81 .. 5.93 N */
 #include "cli/print/print.h"
 #include "graph/angle.h"
 
@@ -12,10 +22,15 @@ void advice_put_word(thr_text *text, const char *word)
 {
   static const char safe[] =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./,:+=@%";
+
+  /* A word of harmless letters needs no quotes. */
   if (*word && strspn(word, safe) == strlen(word)) {
     thr_text_append(text, word);
     return;
   }
+
+  /* In single quotes nothing is special but the quote itself, which is written as '\'' outside of
+   * them. */
   thr_text_append(text, "'");
   for (; *word; word++)
     if (*word == '\'')
@@ -30,6 +45,10 @@ void advice_put_command(thr_text *text, const char *path, const char *options,
 {
   thr_text_append(text, "thread plan ");
   advice_put_word(text, path);
+
+  /* Where each component has a number of cords of its own, no --cords says that: a limit on the
+   * pull makes the same plan, rounded up at the fourth digit so that the row's own pull keeps to
+   * it. */
   if (row->uneven) { /* each component has a number of its own */
     const double digits = pow(10, 3 - floor(log10(row->pull[THR_ADVICE_MU])));
     thr_text_printf(text, "%s --max-pull %g --ends %s", options,
@@ -37,6 +56,7 @@ void advice_put_command(thr_text *text, const char *path, const char *options,
                     thr_ends_name((int)row->ends));
     return;
   }
+
   thr_text_printf(text, "%s --cords %d --ends %s --objective tortuosity --minimize pull", options,
                   row->cords, thr_ends_name((int)row->ends));
 }
@@ -47,6 +67,8 @@ void advice_put_cords(thr_text *text, const thr_advice_row *row)
   const char *where = row->ends == THR_ENDS_CLOSED ? ""
                       : row->ends == THR_ENDS_FEET ? " to the feet"
                                                    : " with ends anywhere";
+
+  /* Numbers are those of one component. */
   thr_text_printf(text, "%d %s%s", row->cords, closed, cli_plural(row->cords, "cord", "cords"));
   if (row->uneven)
     thr_text_printf(text, " at most in a component, %d in all,", row->all);
@@ -60,6 +82,7 @@ void advice_put_cords(thr_text *text, const thr_advice_row *row)
 void advice_put_head(thr_text *text, const thr_frame *frame, const thr_physics *physics)
 {
   char units[24];
+
   snprintf(units, sizeof units, "cord, %.15s", frame->units);
   thr_text_printf(text,
                   "%d pieces, %d %s; pull at both ends of every cord, so that %g N is left where "
@@ -68,6 +91,8 @@ void advice_put_head(thr_text *text, const thr_frame *frame, const thr_physics *
                   cli_plural(frame->n_edges, "interface", "interfaces"), physics->seating);
   thr_text_printf(text, "friction mu = %g, or anything in its band from %g to %g\n\n", physics->mu,
                   physics->mu_low, physics->mu_high);
+
+  /* The columns of advice_put_row. */
   thr_text_printf(text, "   cords  %-11s %14s %8s %10s %12s %13s %19s %6s  %s\n", "ends", units,
                   "overlap", "longest", "most turning", "pull, N", "in the band of mu", "steps",
                   "proved");
@@ -77,19 +102,25 @@ void advice_put_row(thr_text *text, const thr_advice_row *row, double base_lengt
 {
   const double over = 100 * (row->length / base_length - 1);
   char low[24], pull[64], high[24], band[56], proof[40] = "-";
+
+  /* The band shows how little is known: friction stands in the exponent. */
   snprintf(band, sizeof band, "%s .. %s", plain_newtons(row->pull[THR_ADVICE_LOW], low),
            plain_newtons(row->pull[THR_ADVICE_HIGH], high));
+
+  /* What is proved of the turning. */
   if (row->optimal)
     snprintf(proof, sizeof proof, "it cannot turn less");
   else if (row->bound > 0)
     snprintf(proof, sizeof proof, "turning of at least %.0f deg", floor(thr_degrees(row->bound)));
+
+  /* An overlap that rounds to 0 has no sign. */
   thr_text_printf(text, "%-3s%5d  %-11s %14.3f %6.1f %% %10.4g %8.0f deg %13s %19s %6d  %s\n", mark,
                   row->cords, thr_advice_ends(row->ends), row->length, over < 0.05 ? 0 : over,
                   row->longest, thr_degrees(row->turning),
                   plain_two(row->other, row->pull[THR_ADVICE_MU], pull), band, row->steps, proof);
 }
 
-/* What a hand manages, as far as it is one of the numbers with a source. */
+/* Returns what a limit on the pull is, where it is one of the two numbers with a source. */
 static const char *hand_words(double hand)
 {
   return hand == thr_hand_always ? ", what a hand manages time after time,"
@@ -97,16 +128,23 @@ static const char *hand_words(double hand)
                                  : "";
 }
 
+/* Appends the recommended row with its command, or that no row stays within the hand. */
 static void put_choice(thr_text *text, const thr_advice *advice, const char *command)
 {
   char low[24], pull[64], high[24], hand[64];
+
   plain_force(advice->hand, hand);
+
+  /* No row: the user may allow more. */
   if (advice->chosen < 0) {
     thr_text_printf(text, "no row stays within %s%s at mu = %g; --hand N says what is enough\n",
                     hand, hand_words(advice->hand), advice->physics.mu_high);
     return;
   }
+
+  /* The pull at mu, in the band, and what it stays within. */
   const thr_advice_row *row = &advice->row[advice->chosen];
+
   thr_text_append(text, "> ");
   advice_put_cords(text, row);
   thr_text_printf(
@@ -116,6 +154,7 @@ static void put_choice(thr_text *text, const thr_advice *advice, const char *com
       plain_newtons(row->pull[THR_ADVICE_LOW], low),
       plain_newtons(row->pull[THR_ADVICE_HIGH], high), hand, hand_words(advice->hand),
       advice->physics.mu_high);
+
   thr_text_append_clean(text, command);
   thr_text_append(text, "\n");
 }
@@ -124,12 +163,16 @@ void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *
                       const char *command)
 {
   advice_put_head(text, frame, &advice->physics);
+
+  /* Recommended: ">"; on the frontier: "*". */
   for (int i = 0; i < advice->n; i++) {
     char mark[4];
     snprintf(mark, sizeof mark, "%s%s", i == advice->chosen ? ">" : " ",
              advice->row[i].frontier ? "*" : " ");
     advice_put_row(text, &advice->row[i], advice->base_length, mark);
   }
+
+  /* What the marks mean, and what is missing. */
   thr_text_append(
       text,
       "\n* no other row is as good in number of cords, cord and pull, and better in one of them");
@@ -138,6 +181,7 @@ void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *
                     cli_plural(advice->left_out, "row that buys", "rows that buy"),
                     cli_plural(advice->left_out, "is", "are"));
   thr_text_append(text, "\n");
+
   put_choice(text, advice, command);
 }
 
@@ -158,14 +202,18 @@ void advice_put_line(thr_text *text, const thr_advice_row *row, double length, c
 {
   char pull[64];
   double more = 100 * (row->length / length - 1);
+
   thr_text_append(text, "         ");
   advice_put_cords(text, row);
   thr_text_printf(text, " %s about %s", cli_plural(row->cords, "needs", "need"),
                   plain_both(row->other, row->pull[THR_ADVICE_MU], pull));
+
+  /* What the row costs in cord, against a plan of the given length. */
   if (fabs(more) < 0.05)
     thr_text_append(text, " with as much cord");
   else
     thr_text_printf(text, " with %.1f %% %s cord", fabs(more), more > 0 ? "more" : "less");
+
   thr_text_append(text, ":\n         ");
   thr_text_append_clean(text, command);
   thr_text_append(text, "\n");
@@ -173,24 +221,33 @@ void advice_put_line(thr_text *text, const thr_advice_row *row, double length, c
 
 /* ---- JSON ---- */
 
+/* Writes a row: lengths in units, turning in rad, pulls in N. */
 static void put_row_json(thr_writer *writer, const thr_advice_row *row)
 {
   thr_write_object(writer, NULL);
   thr_write_int(writer, "cords", row->cords);
   if (row->all > row->cords) thr_write_int(writer, "cords_in_all", row->all);
+
+  /* As for --ends. */
   thr_write_string(writer, "ends", thr_ends_name((int)row->ends));
   thr_write_number(writer, "length", row->length);
   thr_write_number(writer, "longest", row->longest);
+
+  /* The cord that turns most, and what is proved of it. */
   thr_write_number(writer, "max_turning", row->turning);
   thr_write_number(writer, "max_turning_bound", row->bound > 0 ? row->bound : NAN);
   thr_write_string(writer, "max_turning_status",
                    row->optimal     ? "optimal"
                    : row->bound > 0 ? "bound"
                                     : "unknown");
+
+  /* Pulls at the harder and the other end at mu, and at the harder one over the band. */
   thr_write_number(writer, "pull", row->pull[THR_ADVICE_MU]);
   thr_write_number(writer, "other_pull", row->other);
   thr_write_number(writer, "pull_low", row->pull[THR_ADVICE_LOW]);
   thr_write_number(writer, "pull_high", row->pull[THR_ADVICE_HIGH]);
+
+  /* What is to be threaded and learned. */
   thr_write_int(writer, "passes", row->passes);
   thr_write_int(writer, "steps", row->steps);
   thr_write_bool(writer, "frontier", row->frontier);
@@ -205,6 +262,8 @@ void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advic
   thr_write_int(writer, "nodes", frame->n_nodes);
   thr_write_int(writer, "edges", frame->n_edges);
   thr_write_string(writer, "units", frame->units);
+
+  /* What all rows have in common. */
   thr_write_number(writer, "base_length", advice->base_length);
   thr_write_number(writer, "mu", advice->physics.mu);
   thr_write_number(writer, "mu_low", advice->physics.mu_low);
@@ -213,10 +272,13 @@ void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advic
   thr_write_number(writer, "hand", advice->hand);
   thr_write_bool(writer, "complete", advice->complete);
   thr_write_int(writer, "left_out", advice->left_out);
+
   thr_write_array(writer, "rows");
   for (int i = 0; i < advice->n; i++)
     put_row_json(writer, &advice->row[i]);
   thr_write_close(writer);
+
+  /* The recommended row, counted from 0. */
   if (advice->chosen < 0) {
     thr_write_null(writer, "recommended");
     thr_write_null(writer, "command");
@@ -224,6 +286,7 @@ void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advic
     thr_write_int(writer, "recommended", advice->chosen);
     thr_write_string(writer, "command", command);
   }
+
   if (chosen) turning_put_ends_json(writer, chosen);
   thr_write_close(writer);
 }

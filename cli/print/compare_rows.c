@@ -1,5 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of `thread compare`: a row per value, a column per plan. */
+/* Computes the rows of `thread compare`'s table, a value for each plan, and which plan is the best
+ * of a row.
+ *
+ * A row is a function from a plan with its evaluations to a number: NAN = not known, INFINITY =
+ * beyond 1e300. Lengths are in units of the framework, angles in degrees, forces in N. How far a
+ * value is from its proved lower bound is a part of the bound where a row says "above", (value -
+ * bound) / bound, and of the value where it says "gap", (value - bound) / value, in per cent. All
+ * rows stand in one table, compare_rows, from which text and JSON are made; a row that only some
+ * methods know is left out without them.
+ *
+ * The frontier: a plan is on it if no other plan has no more cords, no more cord and no more pull,
+ * and less of one of these (Pareto optimality, thr_price_beats).
+ *
+ * Example: two closed cords through the 7 x 7 dome, both of 1995.249 mm: the one that turns by
+ * 2990.4 deg is on the frontier, the one that turns by 3163.9 deg is not. */
 #include "cli/print/print.h"
 #include "graph/angle.h"
 
@@ -22,6 +36,7 @@ static double overlap(const compare_entry *e)
 {
   return e->plan.metrics.overlap;
 }
+/* Returns overlap in per cent of the length that the passes of every edge need once. */
 static double overlap_percent(const compare_entry *e)
 {
   return 100 * e->plan.metrics.overlap / e->plan.metrics.base_length;
@@ -30,6 +45,7 @@ static double gap_percent(const compare_entry *e)
 {
   return e->plan.proof.present ? 100 * e->plan.proof.gap : NAN;
 }
+/* Returns by how much the length is above the proved least length, in per cent. */
 static double above_shortest(const compare_entry *e)
 {
   const thr_length_proof *proof = &e->plan.proof;
@@ -37,6 +53,7 @@ static double above_shortest(const compare_entry *e)
              ? 100 * fmax(0, e->plan.metrics.length / proof->lower_bound - 1)
              : NAN;
 }
+/* Returns by how much the price of all turns is above its proved lower bound, in per cent. */
 static double above_least_turning(const compare_entry *e)
 {
   const thr_turning_claim *claim = &e->plan.turning;
@@ -56,7 +73,8 @@ static double worst_turn(const compare_entry *e)
 {
   return thr_degrees(e->plan.metrics.worst_turn);
 }
-/* A price of turns bounds their angles only where it is the angle. */
+/* Returns the claim on the turning where it bounds angles, or NULL: a price of turns bounds their
+ * angles only where it is the angle. */
 static const thr_turning_claim *angle_claim(const compare_entry *e)
 {
   return e->plan.turning.present && e->plan.options.turning.cost == THR_TURN_ANGLE
@@ -71,12 +89,15 @@ static double turning_gap(const compare_entry *e)
 {
   return e->plan.turning.present ? 100 * e->plan.turning.gap : NAN;
 }
+/* Returns the bound on the turning of the cord that turns most, degrees. Where pulls are minimized,
+ * the bound is one on the turning before an end, which is no such bound. */
 static double largest_bound(const compare_entry *e)
 {
   return angle_claim(e) && !thr_wants_pull(&e->plan.options)
              ? thr_degrees(angle_claim(e)->largest_bound)
              : NAN;
 }
+/* Returns the factor exp(mu x turning) between the ends of the cord that turns most. */
 static double capstan(const compare_entry *e)
 {
   return turning_capstan(e->eval[THR_CAPSTAN].record.physics.mu, e->plan.metrics.max_turning);
@@ -93,16 +114,18 @@ static double u_turns(const compare_entry *e)
 {
   return e->plan.metrics.u_turns;
 }
+/* Returns whether a method evaluated every cord of the plan. */
 static bool is_known(const compare_entry *e, thr_method method)
 {
   return e->eval[method].record.present && e->eval[method].complete;
 }
 double compare_largest(const compare_entry *e, thr_method method)
 {
-  if (method == THR_STRUCTURE && is_known(e, method))
-    return e->eval[method].holding.lower; /* the record's may follow a schedule */
+  /* Of the limit analysis the proved bound counts, not what a schedule left. */
+  if (method == THR_STRUCTURE && is_known(e, method)) return e->eval[method].holding.lower;
   return is_known(e, method) ? e->eval[method].record.largest : NAN;
 }
+/* Returns all pulls together, N. */
 static double total_of(const compare_entry *e, thr_method method)
 {
   return is_known(e, method) ? e->eval[method].record.total : NAN;
@@ -111,7 +134,8 @@ static double closed_largest(const compare_entry *e)
 {
   return compare_largest(e, THR_CAPSTAN);
 }
-/* At the other end of the cord that is hardest to pull, where both ends are pulled. */
+/* Returns the pull at the other end of the cord that is hardest to pull, N; NAN where only one end
+ * is pulled. */
 static double other_of(const compare_entry *e, thr_method method)
 {
   if (!is_known(e, method)) return NAN;
@@ -146,6 +170,7 @@ static double joint_refused(const compare_entry *e)
 {
   return is_known(e, THR_JOINT) ? (double)e->eval[THR_JOINT].refused : NAN;
 }
+/* Returns the turning of the paths that the tight cords take, in degrees. */
 static double taut_turning(const compare_entry *e)
 {
   const thr_evaluation *evaluation = &e->eval[THR_JOINT].record;
@@ -167,6 +192,8 @@ static double settle_fall_fine(const compare_entry *e)
   return e->fall[1];
 }
 
+/* The table, in the order of printing. Fields: label, JSON member, value, whether less is better,
+ * digits, method, left out where not known, only with --verbose. */
 const compare_row compare_rows[] = {
     {"cords", "cords", cords, false, -1, THR_CAPSTAN, false, false},
     {"passes", "passes", passes, true, -1, THR_CAPSTAN, false, false},
@@ -215,50 +242,65 @@ const compare_row compare_rows[] = {
 };
 const int compare_n_rows = (int)(sizeof compare_rows / sizeof *compare_rows);
 
-bool compare_is_best(const compare_entry *e, int n, const compare_row *r, int i)
+bool compare_is_best(const compare_entry *entries, int n, const compare_row *row, int i)
 {
-  double mine = r->value(&e[i]);
-  if (!r->rate || n < 2 || !isfinite(mine)) return false;
+  double mine = row->value(&entries[i]);
+
+  /* Rows that say what a plan is, not how good, have no best one. */
+  if (!row->rate || n < 2 || !isfinite(mine)) return false;
+
+  /* Values that differ by a millionth are equal. */
   for (int k = 0; k < n; k++)
-    if (r->value(&e[k]) < mine - 1e-6 * fabs(mine)) return false;
+    if (row->value(&entries[k]) < mine - 1e-6 * fabs(mine)) return false;
+
   return true;
 }
 
-bool compare_on_frontier(const compare_entry *e, int n, int i)
+bool compare_on_frontier(const compare_entry *entries, int n, int i)
 {
   thr_method method = THR_JOINT;
+
   for (int k = 0; k < n; k++)
-    if (!is_known(&e[k], THR_JOINT)) method = THR_CAPSTAN;
-  const thr_price mine = {e[i].plan.n_cords, e[i].plan.metrics.length,
-                          compare_largest(&e[i], method)};
+    if (!is_known(&entries[k], THR_JOINT)) method = THR_CAPSTAN;
+
+  /* Pulls are measured ones if every plan has one, else those of the closed form. */
+  const thr_price mine = {entries[i].plan.n_cords, entries[i].plan.metrics.length,
+                          compare_largest(&entries[i], method)};
+
   for (int k = 0; k < n; k++)
-    if (thr_price_beats(&(thr_price){e[k].plan.n_cords, e[k].plan.metrics.length,
-                                     compare_largest(&e[k], method)},
+    if (thr_price_beats(&(thr_price){entries[k].plan.n_cords, entries[k].plan.metrics.length,
+                                     compare_largest(&entries[k], method)},
                         &mine))
       return false;
+
   return true;
 }
 
-bool compare_is_shown(const compare_entry *e, int n, const compare_row *r)
+bool compare_is_shown(const compare_entry *entries, int n, const compare_row *row)
 {
-  if (r->machinery && !cli_verbose) return false;
-  for (int i = 0; i < n && r->optional; i++)
-    if (!isnan(r->value(&e[i]))) return true;
-  return !r->optional;
+  if (row->machinery && !cli_verbose) return false;
+
+  /* Rows that only some plans have. */
+  for (int i = 0; i < n && row->optional; i++)
+    if (!isnan(row->value(&entries[i]))) return true;
+  return !row->optional;
 }
 
-void compare_put_cell(thr_text *text, const compare_row *r, double value, bool best)
+void compare_put_cell(thr_text *text, const compare_row *row, double value, bool best)
 {
   char cell[40];
+
+  /* The number of digits is a property of the row. */
   if (isnan(value))
     snprintf(cell, sizeof cell, "-");
   else if (isinf(value))
     snprintf(cell, sizeof cell, "> 1e300");
-  else if (r->decimals == -1)
+  else if (row->decimals == -1)
     snprintf(cell, sizeof cell, "%.0f", value);
-  else if (r->decimals < 0)
-    snprintf(cell, sizeof cell, "%.*g", -r->decimals, value);
+  else if (row->decimals < 0)
+    snprintf(cell, sizeof cell, "%.*g", -row->decimals, value);
   else
-    snprintf(cell, sizeof cell, "%.*f", r->decimals, value);
+    snprintf(cell, sizeof cell, "%.*f", row->decimals, value);
+
   thr_text_printf(text, " %16s%s", cell, best ? "*" : " ");
 }

@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* thread eval as JSON. */
+/* Prints what `thread eval` found of a plan as a JSON object.
+ *
+ * Member "evaluation" is the one that `-o` keeps in the plan (graph/plan/evaluation.h); beside it
+ * stands what a plan does not keep: bands, errors, bounds of the limit analysis, loads, the
+ * simulation, and how the structure comes up. Forces are in N, angles in rad, lengths in mm where
+ * the name ends in _mm; what is not known is null. */
 #include "cli/print/print.h"
 
 #include <math.h>
 
-/* Its name, or null if there is none. */
+/* Writes the name of a bead, or null if there is none (-1). */
 static void put_bead(thr_writer *writer, const char *key, const thr_frame *frame, int bead)
 {
   if (bead >= 0)
@@ -13,7 +18,7 @@ static void put_bead(thr_writer *writer, const char *key, const thr_frame *frame
     thr_write_null(writer, key);
 }
 
-/* What is known at both ends of a band of friction. */
+/* Writes the values at both ends of a band of friction. */
 static void put_json_band(thr_writer *writer, const char *key, const double band[2])
 {
   thr_write_array(writer, key);
@@ -22,6 +27,8 @@ static void put_json_band(thr_writer *writer, const char *key, const double band
   thr_write_close(writer);
 }
 
+/* Writes the bounds of one answer of the limit analysis: below `lower` nothing holds the structure
+ * (proved), at `upper` an equilibrium was found. when: in which state of the cords. */
 static void put_json_holding(thr_writer *writer, const thr_frame *frame, const char *key,
                              const thr_holding *holding, const double band[2], const char *when)
 {
@@ -30,24 +37,32 @@ static void put_json_holding(thr_writer *writer, const thr_frame *frame, const c
   thr_write_number(writer, "lower", holding->lower);
   thr_write_number(writer, "upper", holding->upper);
   thr_write_number(writer, "residual", holding->residual);
+
+  /* What gives way first just below the lower bound. */
   put_bead(writer, "first_bead", frame, holding->first_bead);
   put_json_band(writer, "band_beads", band);
   thr_write_string(writer, "holds", when);
   thr_write_close(writer);
 }
 
-/* The three answers of the limit analysis. */
+/* Writes the answers of the limit analysis, each with its band over the frictions of beads and
+ * ground. */
 static void put_json_answers(thr_writer *writer, const thr_frame *frame, const thr_eval *eval)
 {
   const double(*band)[2] = eval->band_beads;
+
   put_json_holding(writer, frame, "holding", &eval->holding, band[THR_ASKED_HOLDING],
                    "while the cord is being drawn in");
+
+  /* While the cords are drawn in, and in any state. */
   if (eval->equal.present)
     put_json_holding(writer, frame, "equal_pulls", &eval->equal, band[THR_ASKED_EQUAL],
                      "while the cord is being drawn in, with equal pulls at all ends");
   if (eval->loosest.present)
     put_json_holding(writer, frame, "any_state", &eval->loosest, band[THR_ASKED_ANY_STATE],
                      "force at all ends, whatever was done to the cords before");
+
+  /* After a schedule. */
   if (eval->stretch.present)
     put_json_holding(writer, frame, "stretch", &eval->stretch, band[THR_ASKED_STRETCH],
                      "N m by which the tension of knotted cord grows, times its length");
@@ -57,22 +72,28 @@ static void put_json_answers(thr_writer *writer, const thr_frame *frame, const t
   thr_write_number(writer, "let_down", eval->let_down);
 }
 
+/* Writes how far the farthest piece can shift, as its bores are wider than the cord. */
 static void put_json_play(thr_writer *writer, const thr_plan *plan)
 {
   thr_play play;
+
   if (thr_play_find(&plan->frame, &plan->evaluation.physics, &play, NULL)) {
     writer->out->failed = true;
     return;
   }
+
   thr_write_line(writer, 1);
   thr_write_object(writer, "play");
   thr_write_number(writer, "gap_mm", play.gap);
   put_bead(writer, "piece", &plan->frame, play.piece);
   thr_write_int(writer, "gaps", play.gaps);
+
+  /* If all gaps between the piece and the nearest foot add up. */
   thr_write_number(writer, "most_mm", play.most);
   thr_write_close(writer);
 }
 
+/* Writes the result of the simulation. after: ends were let down after a schedule. */
 static void put_json_simulation(thr_writer *writer, const thr_frame *frame,
                                 const thr_settle *settle, bool after)
 {
@@ -85,17 +106,24 @@ static void put_json_simulation(thr_writer *writer, const thr_frame *frame,
           NULL,
           "crept: where the limit analysis found an equilibrium, or not known to a twentieth",
           "late: below where nothing holds"};
+
   const bool fell = settle->fall > 0;
+
+  /* What contradicts the limit analysis is told as what it is. */
   thr_write_line(writer, 1);
   thr_write_object(writer, "simulation");
   thr_write_string(writer, "status",
                    settle->status == THR_SETTLE_LATE && !fell ? "stood" : status[settle->status]);
   if (why[settle->status]) thr_write_string(writer, "why", why[settle->status]);
+
+  /* The fall: at which pull, and which bead moved first. */
   thr_write_string(writer, "state",
                    after ? "ends let down after the schedule" : "while the cord is being drawn in");
   thr_write_number(writer, "falls_at", fell ? settle->fall : NAN);
   thr_write_number(writer, "falls_error", fell ? settle->error : NAN);
   put_bead(writer, "first_bead", frame, settle->first_bead);
+
+  /* What was seen before and afterwards. */
   thr_write_number(writer, "gap_before_mm", settle->gap_before);
   thr_write_number(writer, "gap_after_mm", settle->gap_after);
   thr_write_number(writer, "drift_mm", settle->drift);
@@ -103,28 +131,36 @@ static void put_json_simulation(thr_writer *writer, const thr_frame *frame,
   thr_write_close(writer);
 }
 
+/* Writes how the structure comes up from slack: the least counterweight, N, and the stills of that
+ * run. */
 static void put_json_erection(thr_writer *writer, const thr_erect *erect)
 {
   thr_write_line(writer, 1);
   thr_write_object(writer, "from_slack");
   thr_write_number(writer, "weight", erect->weight);
+
+  /* The lift is a part of the weight. */
   thr_write_number(writer, "counterweight", erect->lift * erect->weight);
   thr_write_array(writer, "stills");
+
   for (int i = 0; i < THR_ERECT_STILLS; i++) {
-    const thr_erect_still *s = &erect->still[i];
+    const thr_erect_still *still = &erect->still[i];
     thr_write_line(writer, 2);
     thr_write_object(writer, NULL);
-    thr_write_number(writer, "pull", s->pull);
-    thr_write_number(writer, "counterweight", s->lift * erect->weight);
-    thr_write_int(writer, "closed", s->closed);
-    thr_write_number(writer, "height_mm", s->height);
-    thr_write_number(writer, "gap_mm", s->gap);
+
+    /* N, gaps that are closed, and heights and the widest gap in mm. */
+    thr_write_number(writer, "pull", still->pull);
+    thr_write_number(writer, "counterweight", still->lift * erect->weight);
+    thr_write_int(writer, "closed", still->closed);
+    thr_write_number(writer, "height_mm", still->height);
+    thr_write_number(writer, "gap_mm", still->gap);
     thr_write_close(writer);
   }
   thr_write_close(writer);
   thr_write_close(writer);
 }
 
+/* Writes why turns were not measured, and how good the interpolation is. */
 static void put_json_joints(thr_writer *writer, const thr_eval *eval)
 {
   thr_write_int(writer, "refused_sharp", eval->refused_sharp);
@@ -140,23 +176,33 @@ static void put_json_joints(thr_writer *writer, const thr_eval *eval)
 void eval_put_json(thr_text *text, const thr_plan *plan, const thr_eval *eval, bool stopped)
 {
   thr_writer writer = {.out = text};
+
   thr_write_object(&writer, NULL);
   thr_write_hash(&writer, "framework", thr_frame_hash(&plan->frame));
   thr_write_bool(&writer, "complete", eval->complete && !stopped);
   thr_evaluation_write(&plan->evaluation, &writer, "evaluation");
   thr_write_line(&writer, 1);
+
+  /* The band of mu, and the error of measured pulls. */
   put_json_band(&writer, "band", eval->band);
   thr_write_number(&writer, "error", eval->error);
   thr_write_int(&writer, "refused", eval->refused);
   if (eval->complete) seated_put_holding_json(&writer, plan, &plan->evaluation);
+
+  /* What one method alone says. */
   if (plan->evaluation.method == THR_JOINT) put_json_joints(&writer, eval);
+
+  /* Limit analysis. */
   if (eval->holding.present) {
     thr_write_line(&writer, 1);
     put_json_band(&writer, "band_any_state", eval->band_any);
     put_json_band(&writer, "band_beads", eval->band_beads[THR_ASKED_HOLDING]);
   }
+
   if (eval->holding.present) put_json_answers(&writer, &plan->frame, eval);
   if (eval->holding.present) put_json_play(&writer, plan);
+
+  /* Loads, the witness, and the way up from slack. */
   if (eval->n_carries) load_put_json(&writer, &plan->frame, eval);
   if (eval->holding.present && eval->settle.present)
     put_json_simulation(&writer, &plan->frame, &eval->settle, eval->after.present);

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Forces and proofs in plain words, for the first screen of every command: newtons with the weight
- * that pulls as much, and one clause for what is proved. Cuts, multipliers and solvers are for
- * --verbose. */
+/* Formats forces and proofs in plain words, for the first screen of every command: newtons with the
+ * mass that weighs as much, and one clause for what is proved. Cuts, multipliers and solvers are
+ * for --verbose.
+ *
+ * Examples: "225 N (23 kg)", "7.70 and 8.94 N", "at most 3.1 % above the shortest possible
+ * (proved)". */
 #include "cli/print/print.h"
 
 #include <math.h>
@@ -12,6 +15,7 @@ static const double standard_gravity = 9.80665; /* m/s2 */
 
 const char *plain_newtons(double newton, char out[24])
 {
+  /* Three digits, but no exponent below 100,000 N. */
   if (isnan(newton))
     snprintf(out, 24, "-");
   else if (newton > 1e300)
@@ -20,6 +24,7 @@ const char *plain_newtons(double newton, char out[24])
     snprintf(out, 24, "%.1e", newton);
   else
     snprintf(out, 24, newton >= 999.5 ? "%.0f" : "%.3g", newton);
+
   return out;
 }
 
@@ -27,7 +32,10 @@ const char *plain_force(double newton, char out[64])
 {
   char force[24], weight[24];
   double kilograms = newton / standard_gravity;
+
   plain_newtons(newton, force);
+
+  /* Beyond 1e6 N a mass says nothing to anybody. */
   if (isnan(newton))
     snprintf(out, 64, "-");
   else if (newton > 1e6)
@@ -36,11 +44,13 @@ const char *plain_force(double newton, char out[64])
     snprintf(out, 64, "%s N (%.2g kg)", force, kilograms);
   else
     snprintf(out, 64, "%s N (%s kg)", force, plain_newtons(kilograms, weight));
+
   return out;
 }
 
-/* Do the pulls at two ends read alike? */
-static bool is_one(double smaller, double larger)
+/* Returns whether the pulls at two ends read alike, or are too large for their difference to
+ * matter. */
+static bool is_equal_in_words(double smaller, double larger)
 {
   char one[24], other[24];
   plain_newtons(smaller, one);
@@ -52,21 +62,25 @@ const char *plain_two(double smaller, double larger, char out[64])
 {
   const int decimals = larger >= 99.95 ? 0 : larger >= 9.995 ? 1 : 2;
   char one[24], other[24];
+
   plain_newtons(smaller, one);
   plain_newtons(larger, other);
-  if (is_one(smaller, larger))
+
+  /* Both numbers get the decimals of the larger one. */
+  if (is_equal_in_words(smaller, larger))
     snprintf(out, 64, "%s", other);
   else if (larger >= 1)
     snprintf(out, 64, "%.*f and %.*f", decimals, smaller, decimals, larger);
   else
     snprintf(out, 64, "%s and %s", one, other);
+
   return out;
 }
 
 const char *plain_both(double smaller, double larger, char out[64])
 {
   char two[64];
-  if (is_one(smaller, larger)) return plain_force(larger, out);
+  if (is_equal_in_words(smaller, larger)) return plain_force(larger, out);
   snprintf(out, 64, "%.60s N", plain_two(smaller, larger, two));
   return out;
 }
@@ -74,14 +88,18 @@ const char *plain_both(double smaller, double larger, char out[64])
 void plain_put_proof(thr_text *text, bool optimal, double value, double bound, const char *less,
                      const char *least)
 {
+  /* Proved to be the least. */
   if (optimal) {
     thr_text_printf(text, "proved: %s", less);
     return;
   }
+
+  /* A bound of 0 bounds nothing: no percentage can be said. */
   if (!(bound > 0)) {
     thr_text_printf(text, "how near that is to the %s is not known", least);
     return;
   }
+
   thr_text_printf(text, "at most %.6g %% above the %s (proved)", thr_percent_above(value, bound),
                   least);
 }
@@ -91,8 +109,11 @@ void plain_put_length_proof(thr_text *text, const thr_plan *plan)
   const thr_length_proof *proof = &plan->proof;
   const char *least = "shortest possible";
   const bool few_first = thr_plan_fewest_first(&plan->options);
+
+  /* What the length is compared with. */
   if (few_first) least = "shortest possible with so many cords";
   if (plan->symmetry.present) least = "shortest cords without symmetry";
+
   plain_put_proof(
       text, proof->optimal, plan->metrics.length, proof->lower_bound,
       few_first ? "with so many cords nothing shorter exists" : "nothing shorter exists", least);
@@ -104,20 +125,27 @@ bool plain_put_fewest(thr_text *text, const thr_plan *plan, int fewest, const ch
   /* A bound that is no more than the number of cords asked for was not proved, but asked for. */
   const int n_components = thr_plan_components(plan), least = thr_plan_cords_least(&plan->options);
   const int asked = plan->options.ends == THR_ENDS_COUNTS ? plan->n_cords : least * n_components;
+
+  /* Nothing to say: the bound is trivial, or no more than what was asked for. */
   if (fewest <= 1 || (least > 1 && fewest <= asked) || plan->options.ends == THR_ENDS_COUNTS)
     return false;
 
+  /* With several cords asked for only numbers from there on are part of the proof. */
   thr_text_append(text, "; proved: ");
   if (least > 1)
     thr_text_printf(text, "from %d cords%s on, ", least,
                     n_components > 1 ? " in each component" : "");
   thr_text_printf(text, "fewer than %d%s are impossible%s", fewest, least > 1 ? "" : cords, within);
+
   return true;
 }
 
 void plain_put_hand(thr_text *text, double newton)
 {
   char force[64];
+
+  /* 50 N is the most for a hand, 10 N what thumb and finger manage time after time
+   * (graph/plan/advice.h). */
   if (newton > thr_hand_most)
     thr_text_printf(text, "too hard for a hand, which manages about %s",
                     plain_force(thr_hand_most, force));

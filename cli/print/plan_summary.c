@@ -1,5 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What `thread plan` says of a plan: its cords, their length, turning and pull. */
+/* Prints what `thread plan` says of a plan: its cords, their length, turning and pull, what is
+ * proved of each, and what comes loose if a cord is cut.
+ *
+ * Every claim is one that `thread check` verifies (graph/check/check.h), unless the line says "not
+ * verified". Cords are pulled at both ends; the pull at the harder end, N, is seating tension x
+ * exp(mu x reach), where the reach is the turning from that end to the slackest pass, rad.
+ *
+ * Order of the lines: what was asked for; a line per cord; length with its proof; longest cord and
+ * number of cords with theirs; what hangs on one cord alone; pull; for plans of least turning the
+ * comparison with other plans (turning_summary.c). */
 #include "cli/print/print.h"
 #include "graph/angle.h"
 
@@ -8,65 +17,80 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static bool turns_least(const thr_plan *plan)
+/* Returns whether the plan is one of least turning. */
+static bool minimizes_turning(const thr_plan *plan)
 {
   return thr_wants_turning(&plan->options);
 }
 
 /* ---- cords ---- */
 
-/* Of the turns that the plan counts; for other objectives than the least turning of those inside
- * the cord. */
+/* Sums over the turns of a cord that the plan counts. A plan of least turning counts the closing
+ * turn of a closed cord, too; others only turns inside the cord. */
 typedef struct {
   double turning, sharpest; /* rad */
   int u_turns;
-} cord_turns;
+} turn_sums;
 
-static cord_turns turns_of(const thr_plan *plan, const thr_cord *cord)
+/* Computes the turning of a cord, its sharpest turn (both rad) and its number of U-turns. */
+static turn_sums measure_turns(const thr_plan *plan, const thr_cord *cord)
 {
-  cord_turns x = {0};
-  int n = turns_least(plan) ? thr_cord_turns(&plan->options, cord) : cord->n_passes - 1;
+  turn_sums sums = {0};
+  int n = minimizes_turning(plan) ? thr_cord_turns(&plan->options, cord) : cord->n_passes - 1;
+
+  /* A U-turn goes on with the other half-edge of the same edge. */
   for (int k = 0; k < n; k++) {
     int out = cord->half[(k + 1) % cord->n_passes];
     double angle = thr_turn_angle(&plan->frame, cord->half[k], out);
-    x.turning += angle;
-    x.sharpest = fmax(x.sharpest, angle);
-    x.u_turns += out == (cord->half[k] ^ 1);
+    sums.turning += angle;
+    sums.sharpest = fmax(sums.sharpest, angle);
+    sums.u_turns += out == (cord->half[k] ^ 1);
   }
-  return x;
+
+  return sums;
 }
 
-/* pull: times the seating tension, N at the harder end. seated: the cord's evaluation in N, NULL if
- * there is none; it knows what the other end takes, which is said where that is less. */
+/* Appends the line of a cord. pull: at the harder end, as a factor on the seating tension. seated:
+ * the cord's evaluation in N, NULL if there is none; it knows the pull at the other end, which is
+ * printed where it is less. */
 static void put_cord(thr_text *text, const thr_plan *plan, const thr_cord *cord, double pull,
                      const thr_eval_cord *seated)
 {
-  const cord_turns x = turns_of(plan, cord);
+  const turn_sums turns = measure_turns(plan, cord);
   const char *from = plan->frame.name[thr_cord_start(&plan->frame, cord)],
              *to = plan->frame.name[thr_cord_end(&plan->frame, cord)];
   char factor[24], force[64];
   const double newton = pull * plan->options.physics.seating;
+
+  /* The sharpest turn matters for least turning, the capstan factor for those who ask. */
   plain_both(seated ? fmin(seated->force, seated->other_force) : newton, newton, force);
   thr_text_printf(text, "%-5s %7d %14.3f %6.0f deg ", cord->id, cord->n_passes,
-                  thr_cord_length(&plan->frame, cord), thr_degrees(x.turning));
-  if (turns_least(plan)) thr_text_printf(text, "%6.0f deg ", thr_degrees(x.sharpest));
-  thr_text_printf(text, "%8d ", x.u_turns);
+                  thr_cord_length(&plan->frame, cord), thr_degrees(turns.turning));
+  if (minimizes_turning(plan)) thr_text_printf(text, "%6.0f deg ", thr_degrees(turns.sharpest));
+  thr_text_printf(text, "%8d ", turns.u_turns);
   if (cli_verbose)
-    thr_text_printf(text, "%12s ",
-                    turning_factor(turning_capstan(plan->options.physics.mu, x.turning), factor));
+    thr_text_printf(
+        text, "%12s ",
+        turning_factor(turning_capstan(plan->options.physics.mu, turns.turning), factor));
+
+  /* A closed cord begins and ends at the same node. */
   thr_text_printf(text, "%18s", force);
   thr_text_printf(text, cord->closed ? "  both at %s\n" : "  %s and %s\n", from, to);
 }
 
+/* Appends the table of at most 12 cords. pull: of each, as a factor on the seating tension. */
 static void put_cords(thr_text *text, const thr_plan *plan, const double *pull,
                       const thr_eval *seated)
 {
   enum { MOST = 12 };
+
   thr_text_printf(text, "%-5s %7s %14s %10s ", "cord", "passes", "length", "turning");
-  if (turns_least(plan)) thr_text_printf(text, "%10s ", "sharpest");
+  if (minimizes_turning(plan)) thr_text_printf(text, "%10s ", "sharpest");
   thr_text_printf(text, "%8s ", "U-turns");
   if (cli_verbose) thr_text_printf(text, "%12s ", "capstan");
   thr_text_printf(text, "%18s  %s\n", "pull", "ends");
+
+  /* A line per cord, the first twelve. */
   for (int i = 0; i < plan->n_cords && i < MOST; i++)
     put_cord(text, plan, &plan->cord[i], pull[i], seated ? &seated->record.cord[i] : NULL);
   if (plan->n_cords > MOST) thr_text_printf(text, "..    and %d more\n", plan->n_cords - MOST);
@@ -74,12 +98,15 @@ static void put_cords(thr_text *text, const thr_plan *plan, const double *pull,
 
 /* ---- text ---- */
 
-/* How many cords were asked for. */
+/* Appends how many cords were asked for, and what each of them has to keep to: even lengths, a
+ * largest length, a largest pull in N. */
 static void put_number(thr_text *text, const thr_plan *plan, int components)
 {
   enum { NO_LIMIT = 1000 };
   const thr_request *options = &plan->options;
   const char *each = components > 1 ? " in each component" : "";
+
+  /* A single cord goes without saying; 1000 stands for any number. */
   if (!thr_plan_counted(options) || options->ends == THR_ENDS_COUNTS)
     thr_text_printf(text, "; %d %s", plan->n_cords, cli_plural(plan->n_cords, "cord", "cords"));
   else if (options->max_pull > 0 && plan->pull_claim.present)
@@ -90,6 +117,8 @@ static void put_number(thr_text *text, const thr_plan *plan, int components)
     thr_text_printf(text, "; %d cords and more%s", options->cords_least, each);
   else if (options->cords_least == options->cords && options->cords > 1)
     thr_text_printf(text, "; %d cords%s", options->cords, each);
+
+  /* What limits single cords. */
   if (thr_wants_balance(options)) thr_text_append(text, "; of even length");
   if (options->max_length > 0)
     thr_text_printf(text, "; none longer than %g %s", options->max_length, plan->frame.units);
@@ -98,33 +127,43 @@ static void put_number(thr_text *text, const thr_plan *plan, int components)
                     options->max_pull * options->physics.seating);
 }
 
+/* Appends what was asked for: "49 pieces, 84 interfaces, 1 component; 1 pass per interface; ends:
+ * closed". With tube joints the pieces are the edges. */
 static void put_head(thr_text *text, const thr_plan *plan)
 {
   const thr_request *options = &plan->options;
   int components = thr_plan_components(plan);
   bool tubes = options->joint == THR_JOINT_TUBE;
+
+  /* What is threaded. */
   if (tubes)
     thr_text_printf(text, "%d %s, %d joints", plan->frame.n_edges,
                     cli_plural(plan->frame.n_edges, "tube", "tubes"), plan->frame.n_nodes);
   else
     thr_text_printf(text, "%d pieces, %d %s", plan->frame.n_nodes, plan->frame.n_edges,
                     cli_plural(plan->frame.n_edges, "interface", "interfaces"));
+
+  /* How often. */
   thr_text_printf(text, ", %d %s; %d %s per %s", components,
                   cli_plural(components, "component", "components"), options->cover,
                   cli_plural(options->cover, "pass", "passes"), tubes ? "tube" : "interface");
   if (plan->frame.cover) thr_text_append(text, " or as the framework says");
   if (options->capacity) thr_text_printf(text, ", at most %d", options->capacity);
+
+  /* By which cords. */
   thr_text_printf(text, "; ends: %s", thr_ends_name(options->ends));
   if (tubes) thr_text_append(text, "; joints: tube");
   put_number(text, plan, components);
   thr_text_append(text, "\n\n");
 }
 
-/* Whether fewer cords would do. */
+/* Appends the number of cords and what is proved of it: whether fewer would do. */
 static void put_fewest(thr_text *text, const thr_plan *plan, int fewest, bool optimal,
                        const char *within)
 {
   thr_text_printf(text, "cords    %d", plan->n_cords);
+
+  /* What is proved, what was asked for, or what is open. */
   if (plain_put_fewest(text, plan, fewest, "", within))
     ;
   else if (optimal && thr_plan_cords_least(&plan->options) > 1)
@@ -134,46 +173,60 @@ static void put_fewest(thr_text *text, const thr_plan *plan, int fewest, bool op
   thr_text_append(text, "\n");
 }
 
-/* How long the longest cord is, and whether fewer would do. */
+/* Appends how long the longest cord is, and what is proved of that and of the number of cords.
+ * word: what the search found out but the checker cannot verify. */
 static void put_claim(thr_text *text, const thr_plan *plan, thr_cords_word word)
 {
   const thr_cords_claim *claim = &plan->cords_claim;
   const char *units = plan->frame.units;
+
   if (!claim->present) return;
   thr_text_printf(text, "longest  %.7g %s", claim->longest, units);
+
+  /* Where evenness was not asked for, only a proof of it is worth a clause. */
   if (claim->longest_optimal || thr_wants_balance(&plan->options)) {
     thr_text_append(text, "; ");
     plain_put_proof(text, claim->longest_optimal, claim->longest, claim->longest_bound,
                     "the longest cord can be no shorter", "shortest possible");
   }
+
   thr_text_append(text, "\n");
+
+  /* The search may know more than a proof shows. */
   if (!claim->longest_optimal && thr_wants_balance(&plan->options) && word.longest_least)
     thr_text_append(text, "         the search ruled out every shorter one (not verified)\n");
   if (claim->fewest > 0) put_fewest(text, plan, claim->fewest, claim->fewest_optimal, "");
 }
 
-/* What hand and cord feel, and whether fewer cords would do with it. */
+/* Appends the largest pull where a limit on it was asked for, in N, and whether fewer cords would
+ * do within that limit. */
 static void put_pull_limit(thr_text *text, const thr_plan *plan, double largest)
 {
   const thr_request *options = &plan->options;
   const thr_pull_claim *claim = &plan->pull_claim;
   double seating = options->physics.seating;
   char force[64];
+
   if (options->max_pull <= 0) return;
+
+  /* A limit and a claim are factors on the seating tension. */
   thr_text_printf(text, "hand     %s at most at the end of a cord; %.6g N are allowed\n",
                   plain_force(largest * seating, force), options->max_pull * seating);
   if (claim->present) put_fewest(text, plan, claim->fewest, claim->optimal, " within that pull");
 }
 
-/* What the checker has verified, and whether GLPK's exact simplex finds the same minimum on these
- * cuts: for those who ask. */
+/* Appends, for those who ask, how many odd cuts prove the length, and whether GLPK's exact
+ * simplex finds the same minimum on the same cuts. */
 static void put_certificate(thr_text *text, const thr_plan *plan)
 {
   const thr_length_proof *proof = &plan->proof;
   int cuts = thr_length_proof_cuts(proof);
   bool agreed = proof->confirmed > 0 && proof->unconfirmed == 0;
   bool missed = proof->unconfirmed > 0 && plan->options.confirm == THR_CONFIRM_ALWAYS;
+
   if (!cli_verbose && plan->options.confirm != THR_CONFIRM_ALWAYS) return;
+
+  /* GLPK's word counts only if it confirmed, and never denied, the minimum. */
   thr_text_printf(text, "         certificate: %d %s, verified; at least %.6f %s%s\n", cuts,
                   cli_cuts_word(plan, cuts), proof->lower_bound, plan->frame.units,
                   agreed   ? "; GLPK agrees"
@@ -181,12 +234,16 @@ static void put_certificate(thr_text *text, const thr_plan *plan)
                            : "");
 }
 
+/* Appends what is proved of the length. */
 static void put_length_status(thr_text *text, const thr_plan *plan, thr_cords_word word)
 {
   const thr_length_proof *proof = &plan->proof;
+
   thr_text_append(text, "         ");
   plain_put_length_proof(text, plan);
   thr_text_append(text, "\n");
+
+  /* The search may have ruled out more than the proof shows. */
   if (!proof->optimal && word.passes_least && plan->options.max_length == 0 &&
       !thr_wants_balance(&plan->options))
     thr_text_append(
@@ -195,8 +252,8 @@ static void put_length_status(thr_text *text, const thr_plan *plan, thr_cords_wo
   put_certificate(text, plan);
 }
 
-/* What has no other cord, by cord: interfaces between rigid pieces, or with tube joints the pieces.
- */
+/* Returns how many edges only this cord passes: interfaces between rigid pieces or, with tube
+ * joints, pieces. only[n_edges]: the one cord over each edge (thr_cords_only). */
 static int edges_alone(const thr_plan *plan, const int *only, int cord)
 {
   int n = 0;
@@ -205,23 +262,29 @@ static int edges_alone(const thr_plan *plan, const int *only, int cord)
   return n;
 }
 
-/* With tube joints a piece is an edge, else a node. */
+/* Returns the number of pieces: edges with tube joints, else nodes. */
 static int count_pieces(const thr_plan *plan)
 {
   return plan->options.joint == THR_JOINT_TUBE ? plan->frame.n_edges : plan->frame.n_nodes;
 }
 
-/* Have all interfaces of a piece no other cord? */
+/* Returns whether no other cord passes any interface of a piece, or the piece itself with tube
+ * joints. */
 static bool is_alone(const thr_plan *plan, const int *only, int cord, int piece)
 {
   const thr_frame *frame = &plan->frame;
+
   if (plan->options.joint == THR_JOINT_TUBE) return only[piece] == cord;
+
+  /* A node without edges is held by no cord. */
   bool alone = thr_degree(frame, piece) > 0;
   for (int i = frame->first[piece]; i < frame->first[piece + 1]; i++)
     alone = alone && only[frame->half[i] >> 1] == cord;
+
   return alone;
 }
 
+/* Returns how many pieces come wholly loose without a cord. */
 static int pieces_alone(const thr_plan *plan, const int *only, int cord)
 {
   int n = 0;
@@ -230,6 +293,7 @@ static int pieces_alone(const thr_plan *plan, const int *only, int cord)
   return n;
 }
 
+/* Appends the name of a piece: a node, or the two ends of an edge. */
 static void put_piece(thr_text *text, const thr_plan *plan, int piece)
 {
   const thr_frame *frame = &plan->frame;
@@ -240,43 +304,53 @@ static void put_piece(thr_text *text, const thr_plan *plan, int piece)
   thr_text_append_clean(text, frame->name[frame->edge[piece][1]]);
 }
 
-/* The names of the pieces that are wholly loose without a cord. */
+/* Appends the names of the pieces that come wholly loose without a cord. */
 static void put_loose(thr_text *text, const thr_plan *plan, const int *only, int cord)
 {
   const char *between = ": ";
+
   for (int i = 0; i < count_pieces(plan); i++) {
+    /* Pieces that another cord passes, too, stay where they are. */
     if (!is_alone(plan, only, cord, i)) continue;
     thr_text_append(text, between);
     put_piece(text, plan, i);
     between = ", ";
   }
+
   thr_text_append(text, "\n");
 }
 
-/* What comes loose if one of several cords is cut: the worst of them, and each if more is to be
- * said. */
+/* Appends what comes loose if one of several cords is cut: the worst case, and with --verbose each
+ * cord. */
 static void put_cut(thr_text *text, const thr_plan *plan)
 {
   int worst = 0, most = 0,
       *only = plan->n_cords > 1 ? thr_calloc((size_t)plan->frame.n_edges, sizeof *only) : NULL;
   const char *what = plan->options.joint == THR_JOINT_TUBE ? "piece" : "interface";
+
   if (plan->n_cords <= 1) return;
   if (!only) {
     text->failed = true;
     return;
   }
+
+  /* The cord that holds most edges alone. */
   thr_cords_only(&plan->frame, plan->cord, plan->n_cords, only);
+
   for (int i = 0; i < plan->n_cords; i++) {
     int n = edges_alone(plan, only, i);
     if (n > most) worst = i;
     if (n > most) most = n;
   }
+
   if (most == 0)
     thr_text_printf(text, "cut      whichever cord is cut, every %s keeps another\n", what);
   else
     thr_text_printf(
         text, "cut      if one cord is cut, at worst %d of %d %ss are left without any (cord %s)\n",
         most, plan->frame.n_edges, what, plan->cord[worst].id);
+
+  /* Cord by cord. */
   for (int i = 0; i < plan->n_cords && cli_verbose && most > 0; i++) {
     thr_text_printf(text, "         cord %s: %d without any, %d %s wholly loose", plan->cord[i].id,
                     edges_alone(plan, only, i), pieces_alone(plan, only, i),
@@ -286,7 +360,7 @@ static void put_cut(thr_text *text, const thr_plan *plan)
   free(only);
 }
 
-/* By how many different cords the edges are passed, where that was asked for. */
+/* Appends how many edges are passed by as many different cords as was asked for. */
 static void put_distinct(thr_text *text, const thr_plan *plan)
 {
   int asked = plan->options.distinct, met = plan->metrics.distinct, n = plan->frame.n_edges;
@@ -295,17 +369,25 @@ static void put_distinct(thr_text *text, const thr_plan *plan)
                     asked);
 }
 
-/* seated: what the pulls do, NULL if they are more than a number holds. */
+/* Appends the whole summary. pull[n_cords] and largest: factors on the seating tension. seated:
+ * what pulls in N do, NULL if they are more than a number holds. rivals: what a plan of least
+ * turning is compared with, else NULL. */
 static void put_text(thr_text *text, const thr_plan *plan, const double *pull, double largest,
                      const thr_eval *seated, const thr_rivals *rivals, thr_cords_word word)
 {
   const thr_metrics *metrics = &plan->metrics;
   const thr_physics *physics = &plan->options.physics;
+
+  /* What was asked for and what each cord is. */
   put_head(text, plan);
   put_cords(text, plan, pull, seated);
   if (plan->symmetry.present) symmetry_put_paths(text, plan);
+
+  /* Length: the passes that every edge needs, and overlap beyond that. */
   thr_text_printf(text, "\nlength   %.7g %s = %.7g for ", metrics->length, plan->frame.units,
                   metrics->base_length);
+
+  /* A framework may say how often each edge is to be passed. */
   if (plan->frame.cover)
     thr_text_append(text, "the passes that every edge needs");
   else
@@ -313,11 +395,15 @@ static void put_text(thr_text *text, const thr_plan *plan, const double *pull, d
                     cli_plural(plan->options.cover, "pass", "passes"));
   thr_text_printf(text, " + %.7g overlap (%.1f %%)\n", metrics->overlap,
                   100 * metrics->overlap / metrics->base_length);
+
+  /* What is proved of length and number of cords, and what they mean for hand and knife. */
   put_length_status(text, plan, word);
   put_claim(text, plan, word);
   put_distinct(text, plan);
   put_cut(text, plan);
   put_pull_limit(text, plan, largest);
+
+  /* Turning and pull. */
   if (rivals) turning_put_status(text, plan, rivals);
   if (cli_verbose)
     thr_text_append(text,
@@ -326,12 +412,16 @@ static void put_text(thr_text *text, const thr_plan *plan, const double *pull, d
                   "pull     at both ends of every cord, so that %g N is left where it is slackest "
                   "(friction mu = %g)\n",
                   physics->seating, physics->mu);
+
+  /* Holding, and comparisons. */
   if (seated) seated_put_holding(text, "hold     ", plan, &seated->record);
   if (rivals) turning_put_table(text, plan, rivals);
   if (rivals) turning_put_frontier(text, plan, rivals);
 }
 
-static double *pulls_of(thr_text *text, const thr_plan *plan, double *largest)
+/* Returns the pull of each cord as a factor on the seating tension; the caller frees it. NULL when
+ * memory runs out, which whoever writes the text reports. */
+static double *compute_pulls(thr_text *text, const thr_plan *plan, double *largest)
 {
   double *pull = thr_calloc((size_t)plan->n_cords, sizeof *pull);
   if (!pull) text->failed = true; /* which whoever writes the text reports */
@@ -342,7 +432,7 @@ static double *pulls_of(thr_text *text, const thr_plan *plan, double *largest)
 void plan_put_summary(thr_text *text, const thr_plan *plan, const thr_rivals *rivals,
                       thr_cords_word word)
 {
-  double largest, *pull = pulls_of(text, plan, &largest);
+  double largest, *pull = compute_pulls(text, plan, &largest);
   thr_eval seated;
   const bool known = turning_seat(plan, plan->options.physics.seating, &seated);
   if (pull) put_text(text, plan, pull, largest, known ? &seated : NULL, rivals, word);
@@ -352,26 +442,34 @@ void plan_put_summary(thr_text *text, const thr_plan *plan, const thr_rivals *ri
 
 /* ---- JSON ---- */
 
+/* Writes what is known of the longest cord and of the number of cords. */
 static void put_claim_json(thr_writer *writer, const thr_plan *plan, thr_cords_word word)
 {
   const thr_cords_claim *claim = &plan->cords_claim;
+
   thr_write_number(writer, "longest", claim->longest);
   thr_write_number(writer, "longest_bound", claim->longest_bound);
+
+  /* "by the solver's word": not verified. */
   thr_write_string(writer, "longest_status",
                    claim->longest_optimal ? "optimal"
                    : word.longest_least   ? "bound, optimal by the solver's word"
                                           : "bound");
+
   if (!claim->fewest) return;
   thr_write_int(writer, "fewest_cords", claim->fewest);
   thr_write_string(writer, "fewest_status", claim->fewest_optimal ? "optimal" : "bound");
 }
 
+/* Writes the names of the pieces that come wholly loose without a cord. */
 static void put_loose_json(thr_writer *writer, const thr_plan *plan, const int *only, int cord)
 {
   thr_write_row(writer, "loose");
   for (int i = 0; i < count_pieces(plan); i++) {
     thr_text name = {0};
     if (!is_alone(plan, only, cord, i)) continue;
+
+    /* A name may have any bytes, so that it is written as a JSON string. */
     put_piece(&name, plan, i);
     thr_write_string(writer, NULL, name.data ? name.data : "");
     writer->out->failed |= name.failed;
@@ -380,22 +478,27 @@ static void put_loose_json(thr_writer *writer, const thr_plan *plan, const int *
   thr_write_close(writer);
 }
 
-/* Of several cords, the edges that each alone passes, and which pieces come wholly loose without
- * it. */
+/* Writes, for each of several cords, the edges that it alone passes, and the pieces that come
+ * wholly loose without it. */
 static void put_cut_json(thr_writer *writer, const thr_plan *plan)
 {
   int *only = thr_calloc((size_t)plan->frame.n_edges, sizeof *only);
+
   if (!only) {
     writer->out->failed = true;
     return;
   }
+
   thr_cords_only(&plan->frame, plan->cord, plan->n_cords, only);
   thr_write_array(writer, "cut");
+
   for (int i = 0; i < plan->n_cords; i++) {
     thr_write_object(writer, NULL);
     thr_write_string(writer, "cord", plan->cord[i].id);
     thr_write_int(writer, "pieces", pieces_alone(plan, only, i));
     put_loose_json(writer, plan, only, i);
+
+    /* Edges by their numbers in the plan's framework. */
     thr_write_row(writer, "edges");
     for (int e = 0; e < plan->frame.n_edges; e++)
       if (only[e] == i) thr_write_int(writer, NULL, e);
@@ -410,11 +513,15 @@ void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *r
                    thr_cords_word word)
 {
   const thr_metrics *metrics = &plan->metrics;
+
+  /* The framework, and how many cords are in it. */
   thr_write_hash(writer, "framework", thr_frame_hash(&plan->frame));
   thr_write_int(writer, "nodes", plan->frame.n_nodes);
   thr_write_int(writer, "edges", plan->frame.n_edges);
   thr_write_int(writer, "cords", plan->n_cords);
   thr_write_string(writer, "units", plan->frame.units);
+
+  /* Lengths in units, angles in rad. */
   thr_write_number(writer, "length", metrics->length);
   thr_write_number(writer, "base_length", metrics->base_length);
   thr_write_number(writer, "overlap", metrics->overlap);
@@ -424,17 +531,24 @@ void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *r
   thr_write_number(writer, "max_turning", metrics->max_turning);
   thr_write_number(writer, "mu", plan->options.physics.mu);
   thr_write_string(writer, "status", plan->proof.optimal ? "optimal" : "bound");
+
+  /* Pulls: as factors on the seating tension, and in N. */
   double factor = turning_pull(plan, NULL);
   thr_write_number(writer, "pull_factor", factor);
   thr_write_number(writer, "pull", factor * plan->options.physics.seating);
   turning_put_ends_json(writer, plan);
+
+  /* What is proved of the number of cords. */
   if (plan->options.max_pull > 0) thr_write_number(writer, "max_pull", plan->options.max_pull);
   if (plan->pull_claim.present) {
     thr_write_int(writer, "fewest_cords_for_pull", plan->pull_claim.fewest);
     thr_write_string(writer, "fewest_cords_for_pull_status",
                      plan->pull_claim.optimal ? "optimal" : "bound");
   }
+
   if (plan->cords_claim.present) put_claim_json(writer, plan, word);
+
+  /* What only some plans have. */
   if (plan->options.distinct > 0) thr_write_int(writer, "distinct", metrics->distinct);
   if (plan->n_cords > 1) put_cut_json(writer, plan);
   if (rivals) turning_put_json(writer, plan, rivals);

@@ -1,5 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* An order of plans by a value of which more or less is known. Used by compare. */
+/* Ranks plans by a value of which only an interval is known. Used by thread compare.
+ *
+ * Plan i is surely less than plan k if the interval of i ends before that of k begins. This is an
+ * interval order (Fishburn 1970): the rank of a plan is 1 plus the number of plans that are surely
+ * less, and plans whose intervals overlap tie. Ties are not transitive: of [1, 3], [2, 5], [4, 6]
+ * the first and the last do not tie, though both tie with the middle one.
+ *
+ * Example: values 12.3, 12.4, 14.1 with an error of 1 % have the ranks 1, 1, 3.
+ *
+ * A ranking of the largest values first stores them negated, so that less always means better. */
 #include "cli/print/print.h"
 
 #include <math.h>
@@ -8,236 +17,289 @@
 
 const char *const ranking_bands[RANKING_BANDS] = {"band", "band_beads"};
 
-thr_status ranking_init(ranking *r, int n, thr_err *err)
+thr_status ranking_init(ranking *ranked, int n, thr_err *err)
 {
   size_t count = (size_t)n;
-  r->value = thr_calloc(count, sizeof *r->value);
-  r->low = thr_calloc(count, sizeof *r->low);
-  r->high = thr_calloc(count, sizeof *r->high);
+
+  ranked->value = thr_calloc(count, sizeof *ranked->value);
+  ranked->low = thr_calloc(count, sizeof *ranked->low);
+  ranked->high = thr_calloc(count, sizeof *ranked->high);
+
+  /* The values at the ends of the bands of friction. */
   bool there = true;
   for (int k = 0; k < RANKING_ENDS; k++)
-    there &= (r->end[k] = thr_calloc(count, sizeof *r->end[k])) != NULL;
-  r->order = thr_calloc(count, sizeof *r->order);
-  r->rank = thr_calloc(count, sizeof *r->rank);
-  if (!there || !r->value || !r->low || !r->high || !r->order || !r->rank) {
-    ranking_destroy(r);
+    there &= (ranked->end[k] = thr_calloc(count, sizeof *ranked->end[k])) != NULL;
+  ranked->order = thr_calloc(count, sizeof *ranked->order);
+  ranked->rank = thr_calloc(count, sizeof *ranked->rank);
+
+  /* On failure nothing is left allocated. */
+  if (!there || !ranked->value || !ranked->low || !ranked->high || !ranked->order ||
+      !ranked->rank) {
+    ranking_destroy(ranked);
     return thr_nomem(err);
   }
-  r->n = n;
+
+  ranked->n = n;
+
+  /* NAN: not known, until the caller fills it in. */
   for (int i = 0; i < n; i++)
-    r->value[i] = NAN;
+    ranked->value[i] = NAN;
   for (int k = 0; k < RANKING_ENDS; k++)
     for (int i = 0; i < n; i++)
-      r->end[k][i] = NAN;
+      ranked->end[k][i] = NAN;
+
   return THR_OK;
 }
 
-void ranking_destroy(ranking *r)
+void ranking_destroy(ranking *ranked)
 {
-  free(r->value);
-  free(r->low);
-  free(r->high);
+  free(ranked->value);
+  free(ranked->low);
+  free(ranked->high);
   for (int k = 0; k < RANKING_ENDS; k++)
-    free(r->end[k]);
-  free(r->order);
-  free(r->rank);
-  *r = (ranking){0};
+    free(ranked->end[k]);
+  free(ranked->order);
+  free(ranked->rank);
+  *ranked = (ranking){0};
 }
 
-bool ranking_tells_apart(const ranking *r)
+bool ranking_tells_apart(const ranking *ranked)
 {
   /* The largest rank comes last. */
-  return r->n_ranked > 1 && r->rank[r->order[r->n_ranked - 1]] > 1;
+  return ranked->n_ranked > 1 && ranked->rank[ranked->order[ranked->n_ranked - 1]] > 1;
 }
 
-/* Values that differ in their last digits only stay in the order of the plans. */
+/* Returns whether a is less than b by more than rounding (a millionth): else the plans stay in the
+ * order in which they were given. */
 static bool is_less(double a, double b)
 {
   const double alike = 1e-6;
   return a + alike * fabs(a) < b;
 }
 
-static bool surely_less(const ranking *r, int i, int k)
+/* Returns whether the interval of plan i ends before that of plan k begins. */
+static bool is_surely_less(const ranking *ranked, int i, int k)
 {
-  return !isnan(r->value[i]) && !isnan(r->value[k]) && r->high[i] < r->low[k];
+  return !isnan(ranked->value[i]) && !isnan(ranked->value[k]) && ranked->high[i] < ranked->low[k];
 }
 
-static bool comes_before(const ranking *r, int i, int k)
+/* Returns whether plan i stands before plan k in the list: by rank, then by value. */
+static bool is_before(const ranking *ranked, int i, int k)
 {
-  return r->rank[i] < r->rank[k] || (r->rank[i] == r->rank[k] && is_less(r->value[i], r->value[k]));
+  return ranked->rank[i] < ranked->rank[k] ||
+         (ranked->rank[i] == ranked->rank[k] && is_less(ranked->value[i], ranked->value[k]));
 }
 
-void ranking_make(ranking *r)
+void ranking_make(ranking *ranked)
 {
-  r->n_ranked = 0;
-  for (int i = 0; i < r->n; i++) {
-    r->rank[i] = !isnan(r->value[i]);
-    for (int k = 0; r->rank[i] && k < r->n; k++)
-      r->rank[i] += surely_less(r, k, i);
+  ranked->n_ranked = 0;
+
+  /* Ranks: 1 and one more for every plan that is surely less; 0 where nothing is known. */
+  for (int i = 0; i < ranked->n; i++) {
+    ranked->rank[i] = !isnan(ranked->value[i]);
+    for (int k = 0; ranked->rank[i] && k < ranked->n; k++)
+      ranked->rank[i] += is_surely_less(ranked, k, i);
   }
-  for (int i = 0; i < r->n; i++) {
-    if (!r->rank[i]) continue;
-    int k = r->n_ranked++;
-    for (; k > 0 && comes_before(r, i, r->order[k - 1]); k--)
-      r->order[k] = r->order[k - 1];
-    r->order[k] = i;
+
+  /* The order: an insertion sort, which is stable. */
+  for (int i = 0; i < ranked->n; i++) {
+    if (!ranked->rank[i]) continue;
+
+    /* Plan i is inserted before the first plan that it is better than. */
+    int k = ranked->n_ranked++;
+    for (; k > 0 && is_before(ranked, i, ranked->order[k - 1]); k--)
+      ranked->order[k] = ranked->order[k - 1];
+    ranked->order[k] = i;
   }
 }
 
-bool ranking_is_tie(const ranking *r, int i, int k)
+bool ranking_is_tie(const ranking *ranked, int i, int k)
 {
-  return r->rank[i] && r->rank[k] && r->low[i] <= r->high[k] && r->low[k] <= r->high[i];
+  return ranked->rank[i] && ranked->rank[k] && ranked->low[i] <= ranked->high[k] &&
+         ranked->low[k] <= ranked->high[i];
 }
 
-/* What plan i has, as people count it. */
+/* Value and interval of a plan in the sense in which people count: without the sign of a ranking of
+ * the largest values. */
 typedef struct {
   double value, low, high;
 } counted;
 
-static counted count_of(const ranking *r, int i)
+/* Returns what plan i has. A negated interval is turned round. */
+static counted unsigned_values(const ranking *ranked, int i)
 {
-  if (r->most) return (counted){-r->value[i], -r->high[i], -r->low[i]};
-  return (counted){r->value[i], r->low[i], r->high[i]};
+  if (ranked->most) return (counted){-ranked->value[i], -ranked->high[i], -ranked->low[i]};
+  return (counted){ranked->value[i], ranked->low[i], ranked->high[i]};
 }
 
-/* +-0.4 %, or from .. to. */
-static void put_interval(const ranking *r, int i, thr_text *text)
+/* Appends the interval of plan i: "+-0.4 %", "from .. to", or "at least" where there is no upper
+ * end. Nothing if it is no wider than its digits. */
+static void put_interval(const ranking *ranked, int i, thr_text *text)
 {
-  const double low = count_of(r, i).low, high = count_of(r, i).high;
+  const double low = unsigned_values(ranked, i).low, high = unsigned_values(ranked, i).high;
+
+  /* Without an upper end, as an error, or as an interval. */
   if (!isfinite(high))
-    thr_text_printf(text, " (at least %.4g%s%s%s)", low, r->unit, r->open ? ": " : "",
-                    r->open ? r->open : "");
-  else if (r->error && r->value[i] > 0)
-    thr_text_printf(text, " (+-%.3g %%)", 100 * (high / r->value[i] - 1));
-  else if (!r->error && high > low * (1 + 1e-5))
-    thr_text_printf(text, " (%.4g .. %.4g%s)", low, high, r->unit);
+    thr_text_printf(text, " (at least %.4g%s%s%s)", low, ranked->unit, ranked->open ? ": " : "",
+                    ranked->open ? ranked->open : "");
+  else if (ranked->error && ranked->value[i] > 0)
+    thr_text_printf(text, " (+-%.3g %%)", 100 * (high / ranked->value[i] - 1));
+  else if (!ranked->error && high > low * (1 + 1e-5))
+    thr_text_printf(text, " (%.4g .. %.4g%s)", low, high, ranked->unit);
 }
 
-static void put_value(const ranking *r, int i, thr_text *text)
+/* Appends the value of plan i with its interval. INFINITY: proved that no value will do. */
+static void put_value(const ranking *ranked, int i, thr_text *text)
 {
-  if (isinf(r->value[i])) {
+  /* A lower bound of INFINITY: no value will do. */
+  if (isinf(ranked->value[i])) {
     thr_text_append(text, "none, proved");
     return;
   }
-  thr_text_printf(text, "%.4g%s", count_of(r, i).value, r->unit);
-  put_interval(r, i, text);
+  thr_text_printf(text, "%.4g%s", unsigned_values(ranked, i).value, ranked->unit);
+  put_interval(ranked, i, text);
 }
 
-/* With whom of those before it the plan in place k ties, named where it is not just the one before.
- */
-static void put_ties(const ranking *r, int k, const char *const *name, thr_text *text)
+/* Appends with which of the plans before it the plan at place k ties. Their names are given only
+ * where it is not just the one before, or all. */
+static void put_ties(const ranking *ranked, int k, const char *const *name, thr_text *text)
 {
   int ties = 0;
+
   for (int j = 0; j < k; j++)
-    ties += ranking_is_tie(r, r->order[j], r->order[k]);
+    ties += ranking_is_tie(ranked, ranked->order[j], ranked->order[k]);
+
+  /* Told apart from all before, or with which of them it ties. */
   if (ties == 0)
-    thr_text_append(text, r->most ? "  less, beyond the error" : "  more, beyond the error");
-  else if (ties == 1 && ranking_is_tie(r, r->order[k - 1], r->order[k]))
+    thr_text_append(text, ranked->most ? "  less, beyond the error" : "  more, beyond the error");
+  else if (ties == 1 && ranking_is_tie(ranked, ranked->order[k - 1], ranked->order[k]))
     thr_text_append(text, "  tie, within the error");
   else if (ties == k)
     thr_text_append(text, "  tie with all before, within the error");
   else {
+    /* Some of the plans before: by name. */
     const char *with = "  tie with ";
     for (int j = 0; j < k; j++) {
-      if (!ranking_is_tie(r, r->order[j], r->order[k])) continue;
-      thr_text_printf(text, "%s%s", with, name[r->order[j]]);
+      if (!ranking_is_tie(ranked, ranked->order[j], ranked->order[k])) continue;
+      thr_text_printf(text, "%s%s", with, name[ranked->order[j]]);
       with = ", ";
     }
     thr_text_append(text, ", within the error");
   }
 }
 
-void ranking_put_text(const ranking *r, const char *const *name, thr_text *text)
+void ranking_put_text(const ranking *ranked, const char *const *name, thr_text *text)
 {
   int widest = 0;
-  for (int i = 0; i < r->n; i++)
+
+  for (int i = 0; i < ranked->n; i++)
     if ((int)strlen(name[i]) > widest) widest = (int)strlen(name[i]);
-  thr_text_printf(text, "ranking by %s\n", r->title);
-  for (int k = 0; k < r->n_ranked; k++) {
-    int i = r->order[k];
-    thr_text_printf(text, "  %d. %-*s ", r->rank[i], widest, name[i]);
-    put_value(r, i, text);
-    if (k > 0) put_ties(r, k, name, text);
+  thr_text_printf(text, "ranking by %s\n", ranked->title);
+
+  /* Plans with a rank. */
+  for (int k = 0; k < ranked->n_ranked; k++) {
+    int i = ranked->order[k];
+    thr_text_printf(text, "  %d. %-*s ", ranked->rank[i], widest, name[i]);
+
+    /* A value with its interval, and how it stands to those before. */
+    put_value(ranked, i, text);
+    if (k > 0) put_ties(ranked, k, name, text);
     thr_text_append(text, "\n");
   }
-  for (int i = 0; i < r->n; i++)
-    if (!r->rank[i]) thr_text_printf(text, "  -  %-*s not known\n", widest, name[i]);
+
+  /* Plans of which nothing is known. */
+  for (int i = 0; i < ranked->n; i++)
+    if (!ranked->rank[i]) thr_text_printf(text, "  -  %-*s not known\n", widest, name[i]);
 }
 
-/* Do two plans, of which i is surely less, change places at an end of a band? */
-static bool swaps(const ranking *r, int end, int i, int k)
+/* Returns whether two plans, of which i is surely less, change places at an end of a band of
+ * friction. */
+static bool is_swapped(const ranking *ranked, int end, int i, int k)
 {
-  return surely_less(r, i, k) && is_less(r->end[end][k], r->end[end][i]);
+  return is_surely_less(ranked, i, k) && is_less(ranked->end[end][k], ranked->end[end][i]);
 }
 
-/* Is the order of any two plans known at both ends of a band? */
-static bool is_banded(const ranking *r, int band)
+/* Returns whether the values of two plans and more are known at both ends of a band. */
+static bool is_banded(const ranking *ranked, int band)
 {
   int known = 0;
-  for (int i = 0; i < r->n; i++)
-    known += r->rank[i] && !isnan(r->end[2 * band][i]) && !isnan(r->end[2 * band + 1][i]);
+  for (int i = 0; i < ranked->n; i++)
+    known +=
+        ranked->rank[i] && !isnan(ranked->end[2 * band][i]) && !isnan(ranked->end[2 * band + 1][i]);
   return known > 1;
 }
 
-/* Counts plans that change places at either end of a band. */
-static int count_swaps(const ranking *r, int band)
+/* Returns how many pairs of plans change places at either end of a band. */
+static int count_swaps(const ranking *ranked, int band)
 {
   int n = 0;
   for (int end = 2 * band; end < 2 * band + 2; end++)
-    for (int i = 0; i < r->n; i++)
-      for (int k = 0; k < r->n; k++)
-        n += swaps(r, end, i, k);
+    for (int i = 0; i < ranked->n; i++)
+      for (int k = 0; k < ranked->n; k++)
+        n += is_swapped(ranked, end, i, k);
   return n;
 }
 
-void ranking_put_bands(const ranking *r, const char *const *name, char at[RANKING_ENDS][40],
+void ranking_put_bands(const ranking *ranked, const char *const *name, char at[RANKING_ENDS][40],
                        thr_text *text)
 {
   enum { MOST = 3 };
-  if (!ranking_tells_apart(r)) return;
+
+  if (!ranking_tells_apart(ranked)) return;
+
   for (int band = 0; band < RANKING_BANDS; band++) {
-    const int all = is_banded(r, band) ? count_swaps(r, band) : -1;
+    /* -1: the values at the ends of this band are not known. */
+    const int all = is_banded(ranked, band) ? count_swaps(ranked, band) : -1;
     int said = 0;
+
+    /* Either nothing changes, or the first three pairs that change places are named. */
     if (all == 0)
       thr_text_printf(text, "     the same order at %s and at %s\n", at[2 * band],
                       at[2 * band + 1]);
+
     for (int end = 2 * band; end < 2 * band + 2 && all > 0; end++)
-      for (int i = 0; i < r->n; i++)
-        for (int k = 0; k < r->n; k++)
-          if (swaps(r, end, i, k) && said++ < MOST)
+      for (int i = 0; i < ranked->n; i++)
+        for (int k = 0; k < ranked->n; k++)
+          if (is_swapped(ranked, end, i, k) && said++ < MOST)
             thr_text_printf(text, "     at %s: %s before %s\n", at[end], name[k], name[i]);
+
     if (said > MOST) thr_text_printf(text, "     and %d more change places\n", said - MOST);
   }
 }
 
-void ranking_put_json(const ranking *r, const char *const *name, thr_writer *writer)
+void ranking_put_json(const ranking *ranked, const char *const *name, thr_writer *writer)
 {
   thr_write_object(writer, NULL);
-  thr_write_string(writer, "by", r->key);
-  thr_write_string(writer, "first", r->most ? "most" : "least");
+  thr_write_string(writer, "by", ranked->key);
+  thr_write_string(writer, "first", ranked->most ? "most" : "least");
+
   thr_write_array(writer, "order");
-  for (int k = 0; k < r->n_ranked; k++) {
-    int i = r->order[k];
+  for (int k = 0; k < ranked->n_ranked; k++) {
+    int i = ranked->order[k];
     thr_write_object(writer, NULL);
     thr_write_string(writer, "plan", name[i]);
-    thr_write_number(writer, "value", count_of(r, i).value);
-    thr_write_number(writer, "low", count_of(r, i).low);
-    thr_write_number(writer, "high", count_of(r, i).high);
-    thr_write_int(writer, "rank", r->rank[i]);
+    thr_write_number(writer, "value", unsigned_values(ranked, i).value);
+    thr_write_number(writer, "low", unsigned_values(ranked, i).low);
+    thr_write_number(writer, "high", unsigned_values(ranked, i).high);
+    thr_write_int(writer, "rank", ranked->rank[i]);
+
+    /* The values at the ends of each band. */
     for (int band = 0; band < RANKING_BANDS; band++) {
-      if (!is_banded(r, band)) continue;
+      if (!is_banded(ranked, band)) continue;
       thr_write_array(writer, ranking_bands[band]);
       for (int end = 2 * band; end < 2 * band + 2; end++)
-        thr_write_number(writer, NULL, r->most ? -r->end[end][i] : r->end[end][i]);
+        thr_write_number(writer, NULL, ranked->most ? -ranked->end[end][i] : ranked->end[end][i]);
       thr_write_close(writer);
     }
     thr_write_close(writer);
   }
   thr_write_close(writer);
+
+  /* Whether the order is the same at the ends of each band. */
   for (int band = 0; band < RANKING_BANDS; band++)
-    if (is_banded(r, band))
+    if (is_banded(ranked, band))
       thr_write_bool(writer, band ? "same_over_band_beads" : "same_over_band",
-                     count_swaps(r, band) == 0);
+                     count_swaps(ranked, band) == 0);
   thr_write_close(writer);
 }
 
@@ -245,10 +307,13 @@ bool ranking_disagree(const ranking *a, const ranking *b, int pair[2])
 {
   for (int i = 0; i < a->n; i++)
     for (int k = 0; k < a->n; k++) {
-      if (!surely_less(a, i, k) || !surely_less(b, k, i)) continue;
+      /* Ties contradict nothing: both rankings must tell the two plans apart. */
+      if (!is_surely_less(a, i, k) || !is_surely_less(b, k, i)) continue;
+
       pair[0] = i;
       pair[1] = k;
       return true;
     }
+
   return false;
 }

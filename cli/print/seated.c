@@ -1,6 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Prints which part of the gaps between pieces is closed by which pull, and by one cord or the
- * other. */
+ * other, and from which pull on the pieces may hold.
+ *
+ * A gap between two pieces is seated when the tensions of all passes through it add up to the
+ * seating tension T, N. While all pulled ends are drawn with the same force P, a pass has P times
+ * the larger of its losses to the pulled ends, so that a gap is seated from P = T / (sum of these)
+ * on (docs/method.md, "Which gaps close when"; thesis, Fig. 22).
+ *
+ * Seating knows no weight: the limit analysis says by which factor the seating tensions have to be
+ * multiplied before anything can hold the pieces while the cords are drawn in.
+ *
+ * Example: one cord through the 7 x 7 dome seats 25 % of the gaps at 2.255 N, 50 % at 11.5 N, 75 %
+ * at 51.85 N, all at 180.7 N. */
 #include "cli/print/print.h"
 
 #include "graph/limits.h"
@@ -13,34 +24,46 @@
 
 enum { MOST_ALONE = 8 }; /* cords, a line each */
 
-/* How many gaps each cord seats while the others are slack, and the pull that takes. */
+/* Appends, for each cord that is pulled, how many gaps it seats while the others are slack, and the
+ * pull that takes, N. pull: room for n_edges values. */
 static thr_status put_alone(thr_text *text, const thr_plan *plan, double *pull)
 {
   thr_status st = THR_OK;
+
   for (int i = 0; i < plan->n_cords && !st; i++) {
     int n = 0, seated = 0;
     if (plan->evaluation.cord[i].pull == THR_PULL_NONE) continue;
+
+    /* Pulls ascend, and those of gaps that the cord does not seat are INFINITY. */
     st = thr_seating_pulls(&plan->frame, plan->cord, &plan->evaluation, i, pull, &n, NULL);
     while (seated < n && isfinite(pull[seated]))
       seated++;
+
     thr_text_printf(text, "  cord %s alone, the others slack: %d of %d gaps, the last at %.4g N\n",
                     plan->cord[i].id, seated, n, seated > 0 ? pull[seated - 1] : 0);
   }
+
   return st;
 }
 
-/* The pulls, in ascending order, up to which parts of the gaps are seated. */
+/* Appends the pulls from which on a quarter, a half, three quarters and all of the gaps are seated.
+ * pull[n]: ascending, N. */
 static void put_parts(thr_text *text, const double *pull, int n, double seating)
 {
   static const int percent[] = {25, 50, 75, 100};
   int said = 0;
+
   thr_text_printf(text,
                   "gaps seated (pressed by %g N), with equal pulls at all pulled ends:", seating);
+
+  /* A part of n gaps is rounded up to a whole gap. */
   for (size_t k = 0; k < sizeof percent / sizeof *percent; k++) {
     const int needed = (int)(((long)percent[k] * n + 99) / 100);
     if (isfinite(pull[needed - 1]))
       thr_text_printf(text, "%s %d %% at %.4g N", said++ ? "," : "", percent[k], pull[needed - 1]);
   }
+
+  /* Gaps that no pull seats are passed by slack cords only. */
   if (!isfinite(pull[n - 1]))
     thr_text_printf(text, "%s only slack cords go through the others", said ? ";" : "");
   thr_text_append(text, "\n");
@@ -50,24 +73,33 @@ void seated_put(thr_text *text, const thr_plan *plan)
 {
   const thr_evaluation *evaluation = &plan->evaluation;
   const double seating = evaluation->physics.seating;
+
   if (!evaluation->seated_known) return;
+
+  /* After a schedule there is no pull to ask for: the tensions seat what they seat. */
   if (evaluation->schedule.n > 0) {
     thr_text_printf(text, "gaps seated (pressed by %g N): %.4g %%\n", seating,
                     100 * evaluation->seated);
     return;
   }
+
+  /* All cords together. */
   int n = 0, pulled = 0;
   double *pull = thr_calloc((size_t)plan->frame.n_edges + 1, sizeof *pull);
   for (int i = 0; i < evaluation->n_cords; i++)
     pulled += evaluation->cord[i].pull != THR_PULL_NONE;
+
   thr_status st = pull ? thr_seating_pulls(&plan->frame, plan->cord, evaluation, -1, pull, &n, NULL)
                        : THR_ENOMEM;
+
+  /* Alone, each cord seats only what it passes itself. */
   if (!st && n > 0) put_parts(text, pull, n, seating);
   if (!st && pulled > 1 && pulled <= MOST_ALONE) st = put_alone(text, plan, pull);
   if (st) text->failed = true;
   free(pull);
 }
 
+/* Returns whether the framework says on which nodes it stands. */
 static bool has_feet(const thr_frame *frame)
 {
   for (int v = 0; v < frame->n_nodes; v++)
@@ -75,29 +107,40 @@ static bool has_feet(const thr_frame *frame)
   return false;
 }
 
-/* Returns the factor on the pulls from which on the pieces may hold; NAN if there is nothing to
- * say: what falls over on its lowest pieces, without feet, was perhaps not meant to stand there. */
-static double holds_from(thr_text *text, const thr_plan *plan, const thr_evaluation *evaluation)
+/* Returns the factor on the pulls below which nothing holds the pieces, as the limit analysis
+ * proves; NAN if there is nothing to say. What falls over on its lowest pieces, without feet, was
+ * perhaps not meant to stand there. */
+static double compute_holding_factor(thr_text *text, const thr_plan *plan,
+                                     const thr_evaluation *evaluation)
 {
   const thr_limits none = {0};
   double times = NAN;
+
+  /* Tubes have no shape in the limit analysis; method structure and schedules have answers of their
+   * own. */
   if (plan->options.joint == THR_JOINT_TUBE || evaluation->method == THR_STRUCTURE ||
       evaluation->schedule.n > 0)
     return NAN;
+
   for (int i = 0; i < evaluation->n_cords; i++)
     if (!evaluation->cord[i].known) return NAN;
+
   if (thr_eval_holds_from(&plan->frame, plan->cord, evaluation, &none, &times, NULL))
     text->failed = true;
+
   return isinf(times) && !has_feet(&plan->frame) ? NAN : times;
 }
 
 void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,
                         const thr_evaluation *evaluation)
 {
-  const double times = holds_from(text, plan, evaluation), largest = evaluation->largest;
+  const double times = compute_holding_factor(text, plan, evaluation),
+               largest = evaluation->largest;
   const thr_physics *physics = &evaluation->physics;
   double least = INFINITY;
   char from[24], to[24], needed[64];
+
+  /* Beyond some size the programme takes too long for a line in passing. */
   if (plan->frame.n_nodes > THR_HOLDS_LARGEST && plan->options.joint != THR_JOINT_TUBE) {
     thr_text_printf(text,
                     "%swhat holding takes is not computed for more than %d pieces: thread eval "
@@ -105,6 +148,7 @@ void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,
                     label, THR_HOLDS_LARGEST);
     return;
   }
+
   if (!(times > 1)) return;
 
   /* The pulls that seat the cords, as one number if they are one. */
@@ -112,9 +156,12 @@ void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,
     if (evaluation->cord[i].pull != THR_PULL_NONE) least = fmin(least, evaluation->cord[i].force);
   plain_newtons(least, from);
   plain_newtons(largest, to);
+
   thr_text_printf(text, "%sseated by %s%s%s N, but while the cords are drawn in %s hold ", label,
                   from, strcmp(from, to) ? " to " : "", strcmp(from, to) ? to : "",
                   has_feet(&plan->frame) ? "the pieces" : "the pieces, on the lowest of them,");
+
+  /* From which pull on: a factor where the cords need different pulls. */
   if (!isfinite(times))
     thr_text_append(text, "at no pull");
   else if (strcmp(from, to) == 0)
@@ -122,6 +169,8 @@ void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,
   else
     thr_text_printf(text, "only from %.3g times that, %s at the hardest", times,
                     plain_force(times * largest, needed));
+
+  /* A proof holds at the frictions that are stated with it. */
   thr_text_printf(text,
                   " (proved at frictions of %g bead on bead, %g on the ground, %g of the cord)%s\n",
                   physics->mu_bead, physics->mu_ground, physics->mu,
@@ -132,7 +181,7 @@ void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,
 void seated_put_holding_json(thr_writer *writer, const thr_plan *plan,
                              const thr_evaluation *evaluation)
 {
-  const double times = holds_from(writer->out, plan, evaluation);
+  const double times = compute_holding_factor(writer->out, plan, evaluation);
   if (isnan(times)) return;
   thr_write_number(writer, "holds_from", times * evaluation->largest);
 }

@@ -1,5 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of groups, and how the cords of a symmetric plan are copies of each other. */
+/* Prints the table of symmetry groups, and how the cords of a symmetric plan are copies of each
+ * other.
+ *
+ * A row is a subgroup of the framework's automorphisms (or, with --geometric, of its isometries) up
+ * to conjugacy, with the best threading that the subgroup maps onto itself. Its cords fall into
+ * orbits: one cord of each orbit is a unique path to be learned, the others are its copies. So a
+ * threading of 12 cords in 3 orbits of 4 is "3 x 4".
+ *
+ * Example of a line about copies: "A: unique; B, C, D: copies of A by C4, C2, C4^3".
+ *
+ * What the solver proves of a row no checker verifies; JSON says "by the solver's word". */
 #include "cli/print/print.h"
 #include "graph/angle.h"
 #include "graph/plan/plan_measures.h"
@@ -13,7 +23,7 @@
 
 /* ---- words ---- */
 
-/* "8", "1.2e+40". */
+/* Appends the order of a group, mantissa x 10^exponent: "8", "1.2e+40". */
 static void put_order(thr_text *text, double mantissa, int exponent)
 {
   double digits = floor(log10(mantissa));
@@ -23,7 +33,8 @@ static void put_order(thr_text *text, double mantissa, int exponent)
     thr_text_printf(text, "%.3ge+%d", mantissa / pow(10, digits), exponent + (int)digits);
 }
 
-/* "identity, 3 rotations, 4 mirrors". */
+/* Appends how many elements of each kind a group has: "3 rotations, 4 mirrors"; of the trivial
+ * group "identity". */
 static void put_kinds(thr_text *text, const thr_symmetry_row *row)
 {
   static const char *const word[][2] = {
@@ -33,7 +44,10 @@ static void put_kinds(thr_text *text, const thr_symmetry_row *row)
       [THR_ISO_ROTOREFLECTION] = {"rotoreflection", "rotoreflections"},
       [THR_ISO_NONE] = {"of the graph only", "of the graph only"}};
   const char *comma = "";
+
+  /* The identity is named only where there is nothing else. */
   if (row->order == 1) thr_text_append(text, "identity");
+
   for (int k = THR_ISO_IDENTITY + 1; k <= THR_ISO_NONE; k++) {
     if (row->kinds[k] == 0) continue;
     thr_text_printf(text, "%s%d %s", comma, row->kinds[k],
@@ -42,7 +56,8 @@ static void put_kinds(thr_text *text, const thr_symmetry_row *row)
   }
 }
 
-/* "C4v", or what else to call it. */
+/* Appends the name of a point group (Schoenflies), "C4v", or what else to call a group that is no
+ * group of isometries. */
 static void put_name(thr_text *text, const thr_symmetry_row *row)
 {
   if (*row->name)
@@ -51,9 +66,9 @@ static void put_name(thr_text *text, const thr_symmetry_row *row)
     thr_text_printf(text, "order %d of the graph", row->order);
 }
 
-/* Paths and the copies of each, itself among them: "2 x 4", or "3 x 4-8" if some have more than
- * others. */
-static void copies_of(const thr_symmetry_row *row, char out[40])
+/* Formats unique paths and the copies of each, itself among them: "2 x 4", or "3 x 4-8" if some
+ * have more than others. */
+static void format_copies(const thr_symmetry_row *row, char out[40])
 {
   int paths = row->record.unique_paths;
   if (row->least_copies == row->most_copies)
@@ -62,21 +77,25 @@ static void copies_of(const thr_symmetry_row *row, char out[40])
     snprintf(out, 40, "%d x %d-%d", paths, row->least_copies, row->most_copies);
 }
 
-/* The solver's word, which no checker verifies: "nothing", or the first aim that may not be as low
- * as can be. */
-static const char *solvers_word(const thr_request *options, const thr_symmetry_row *row)
+/* Returns the first aim, in the order that was asked for, that may not be as low as can be: its
+ * value is above its bound. "nothing" if all are optimal by the solver's word. */
+static const char *find_unproved_aim(const thr_request *options, const thr_symmetry_row *row)
 {
   static const char *const no[] = {[THR_AIM_OVERLAP] = "overlap",
                                    [THR_AIM_STEPS] = "steps",
                                    [THR_AIM_PATHS] = "paths",
                                    [THR_AIM_TURNING] = "turning"};
   thr_aim order[THR_N_AIMS];
+
   if (row->why.code == THR_OK) return "nothing";
   thr_aims_order(options, order);
+
+  /* A value counts as its bound within a millionth. If no other aim is open, the last one is. */
   for (int k = 0; k < THR_N_AIMS - 1; k++) {
     thr_aim aim = order[k];
     if (row->value[aim] > row->bound[aim] + 1e-6 * fmax(1, fabs(row->value[aim]))) return no[aim];
   }
+
   return no[order[THR_N_AIMS - 1]];
 }
 
@@ -89,6 +108,9 @@ void symmetry_put_head(thr_text *text, const thr_frame *frame, const thr_request
   double kept = shape ? symmetries->keep_lengths[0] : symmetries->mantissa;
   int exponent = shape ? (int)symmetries->keep_lengths[1] : symmetries->exponent;
   const char *ways = exponent == 0 && kept == 1 ? "way" : "ways";
+
+  /* The group: isometries within a tolerance among the automorphisms that keep edge lengths, or all
+   * automorphisms. */
   if (shape)
     thr_text_printf(text, "%.0f %s of the shape within %g, of ", symmetries->mantissa,
                     symmetries->mantissa == 1 ? "motion" : "motions", options->symmetry.geometric);
@@ -96,15 +118,20 @@ void symmetry_put_head(thr_text *text, const thr_frame *frame, const thr_request
   thr_text_printf(text, " %s to map the framework onto itself%s", ways,
                   shape ? " with edges as long" : "");
   if (cli_verbose) thr_text_printf(text, " (automorphisms by nauty %s)", thr_nauty_version());
+
+  /* Nodes and edges by orbits, and whether all subgroups are listed. */
   thr_text_printf(text, "; %d %s among %d nodes, %d among %d edges; %d %s of groups%s\n",
                   symmetries->node_orbits, cli_plural(symmetries->node_orbits, "kind", "kinds"),
                   frame->n_nodes, symmetries->edge_orbits, frame->n_edges, symmetries->n,
                   cli_plural(symmetries->n, "kind", "kinds"),
                   symmetries->listed ? "" : ", not all:");
   if (!symmetries->listed) thr_text_printf(text, "%s\n", symmetries->note);
+
+  /* What the overlap of a threading is measured from: the passes that every edge needs. */
   double base = 0;
   for (int e = 0; e < frame->n_edges; e++)
     base += thr_plan_cover(frame, options, e) * frame->length[e];
+
   thr_text_printf(
       text, "ends: %s; %d %s per edge%s; the shortest plan with %s has %.1f %% overlap%s\n\n",
       thr_ends_name(options->ends), options->cover, cli_plural(options->cover, "pass", "passes"),
@@ -114,45 +141,57 @@ void symmetry_put_head(thr_text *text, const thr_frame *frame, const thr_request
       symmetries->shortest_optimal ? "" : " (not proved)");
 }
 
-/* N at the hardest end. */
+/* Returns the pull at the hardest end of the cords of a row, N. */
 static double row_pull(const thr_request *options, const thr_symmetry_row *row)
 {
   return options->physics.seating * turning_capstan(options->physics.mu, row->pulled);
 }
 
+/* Appends row i of the table. */
 static void put_row(thr_text *text, const thr_request *options, const thr_symmetries *symmetries,
                     int i)
 {
   const thr_symmetry_row *row = &symmetries->row[i];
   const thr_metrics *metrics = &row->metrics;
   char copies[40], force[24];
+
   thr_text_printf(text, "%c %4d %6d  %-6s ", i == symmetries->chosen ? '*' : ' ', i + 1, row->order,
                   *row->name ? row->name : "graph");
+
+  /* A threading, or why there is none. */
   if (row->n_cords > 0) {
-    copies_of(row, copies);
+    format_copies(row, copies);
     thr_text_printf(text, "%7.1f %% %14s %8.6g %5d %6d %8.0f deg %8.0f deg %12s %11s",
                     100 * metrics->overlap / metrics->base_length, copies, row->record.steps,
                     row->instructions, row->n_cords, thr_degrees(metrics->turning),
                     thr_degrees(metrics->max_turning), plain_newtons(row_pull(options, row), force),
-                    solvers_word(options, row));
+                    find_unproved_aim(options, row));
   } else {
+    /* Not in time, or a failure; a row without a threading has none, or was not asked for. */
     bool open = row->why.code == THR_ELIMIT || row->why.code == THR_ESOLVER;
     thr_text_printf(text, "  %-95.95s",
                     open            ? row->why.text
                     : row->why.code ? "no threading"
                                     : "not asked for");
   }
+
+  /* How far the elements are from isometries, and of which kinds they are. */
   thr_text_printf(text, " %8.3f  ", row->residual);
   put_kinds(text, row);
   thr_text_append(text, "\n");
 }
 
+/* Appends why the chosen group was chosen. */
 static void put_reason(thr_text *text, const thr_request *options, const thr_symmetries *symmetries)
 {
   double percent = 100 * thr_symmetry_slack;
   const thr_symmetry_row *row = &symmetries->row[symmetries->chosen];
+
+  /* Rows are counted from 1. */
   thr_text_printf(text, "* group %d, ", symmetries->chosen + 1);
   put_name(text, row);
+
+  /* Asked for, the fewest steps within the slack on the length, or the least cord. */
   if (*options->symmetry.group)
     thr_text_printf(text, ": asked for as --group %s", options->symmetry.group);
   else if (symmetries->within)
@@ -165,21 +204,27 @@ static void put_reason(thr_text *text, const thr_request *options, const thr_sym
   thr_text_append(text, "\n");
 }
 
+/* Returns whether row i is in the table: not if another row is better whatever threading it may
+ * have, and with --group only rows that were asked for. */
 static bool is_shown(const thr_request *options, const thr_symmetries *symmetries, int i)
 {
   const thr_symmetry_row *row = &symmetries->row[i];
   return !row->behind && (!*options->symmetry.group || row->n_cords > 0 || row->why.code);
 }
 
-/* Rows first .. last - 1 of those that are shown, the chosen one among them: at most `most`. */
+/* Chooses rows first .. last - 1 of those that are shown: at most `most`, with the chosen one in
+ * the middle if that is possible. */
 static void choose_window(const thr_request *options, const thr_symmetries *symmetries, int most,
                           int *first, int *last)
 {
   int n = 0, at = 0;
+
+  /* n: rows that are shown; at: the place of the chosen one among them. */
   for (int i = 0; i < symmetries->n; i++) {
     if (i == symmetries->chosen) at = n;
     n += is_shown(options, symmetries, i);
   }
+
   *first = n <= most || at < most / 2 ? 0 : at - most / 2 > n - most ? n - most : at - most / 2;
   *last = n < *first + most ? n : *first + most;
 }
@@ -188,20 +233,28 @@ void symmetry_put_table(thr_text *text, const thr_request *options,
                         const thr_symmetries *symmetries, int most)
 {
   int first, last, behind = 0, at = 0;
+
   choose_window(options, symmetries, *options->symmetry.group ? symmetries->n : most, &first,
                 &last);
+
+  /* "read": instructions; "may be less": the first aim that is not proved. */
   thr_text_printf(text, "%6s %6s  %-6s %9s %14s %8s %5s %6s %12s %12s %12s %11s %8s  %s\n",
                   "number", "order", "group", "overlap", "paths x copies", "steps", "read", "cords",
                   "turning", "largest", "pull, N", "may be less", "residual", "elements");
   if (first > 0) thr_text_printf(text, "    ..  %d larger\n", first);
+
+  /* Rows by descending order of their groups; those outside of the window are counted. */
   for (int i = 0; i < symmetries->n; i++) {
     behind += symmetries->row[i].behind > 0;
     if (!is_shown(options, symmetries, i)) continue;
     if (at >= first && at < last) put_row(text, options, symmetries, i);
     at++;
   }
+
   if (last < at) thr_text_printf(text, "    ..  %d smaller\n", at - last);
   if (symmetries->chosen >= 0) put_reason(text, options, symmetries);
+
+  /* Rows that cannot be better than another one. */
   if (behind > 0)
     thr_text_printf(text, "  %d other %s cannot be better; `thread symmetries` shows %s\n", behind,
                     cli_plural(behind, "group", "groups"), cli_plural(behind, "it", "them"));
@@ -209,6 +262,7 @@ void symmetry_put_table(thr_text *text, const thr_request *options,
 
 /* ---- copies ---- */
 
+/* Appends what the permutation number `image` of the plan's record is as an isometry: "C4^3". */
 static void put_isometry(thr_text *text, const thr_plan *plan, int image)
 {
   thr_isometry iso;
@@ -217,18 +271,26 @@ static void put_isometry(thr_text *text, const thr_plan *plan, int image)
   thr_text_append(text, iso.name);
 }
 
+/* Appends the line of a unique path: its copies, and the elements that map it onto each of them. At
+ * most 24 are named. */
 static void put_copies_of(thr_text *text, const thr_plan *plan, int path)
 {
   enum { MOST = 24 };
   const thr_symmetry_record *record = &plan->symmetry;
   int n = 0;
+
   thr_text_printf(text, "         %s: unique", plan->cord[path].id);
+
+  /* The copies by name. */
   for (int i = 0; i < plan->n_cords; i++)
     if (i != path && record->unique[i] == path && n++ < MOST)
       thr_text_printf(text, n == 1 ? "; %s" : ", %s", plan->cord[i].id);
+
   if (n > MOST) thr_text_printf(text, " and %d more", n - MOST);
   if (n > 0)
     thr_text_printf(text, ": %s of %s by ", cli_plural(n, "copy", "copies"), plan->cord[path].id);
+
+  /* The elements, in the same order. */
   n = 0;
   for (int i = 0; i < plan->n_cords; i++)
     if (i != path && record->unique[i] == path && n++ < MOST) {
@@ -238,22 +300,33 @@ static void put_copies_of(thr_text *text, const thr_plan *plan, int path)
   thr_text_append(text, n > MOST ? ", ..\n" : "\n");
 }
 
-/* "to read: 16 instructions; beads straight on are one, 7 paths are others moved along". */
+/* Appends how many instructions there are to be read: "to read: 16 instructions; beads straight on
+ * are one, 7 paths are others moved along". */
 static void put_reading(thr_text *text, const thr_plan *plan)
 {
   const thr_reading reading = thr_reading_of(plan);
+
+  /* A run of beads straight on is one instruction. */
   thr_text_printf(text, "         to read: %d %s; beads straight on are one", reading.instructions,
                   cli_plural(reading.instructions, "instruction", "instructions"));
+
+  /* Paths that need fewer words than passes: they repeat themselves, are images of their own
+   * beginning, or are other paths moved along. */
   if (reading.repeated > 0)
     thr_text_printf(text, ", %d %s the same again further on", reading.repeated,
                     cli_plural(reading.repeated, "path does", "paths do"));
+
+  /* The rest of such a path is the beginning, turned or mirrored. */
   if (reading.mapped > 0)
     thr_text_printf(text, ", %d %s turned or mirrored", reading.mapped,
                     cli_plural(reading.mapped, "path goes on as its beginning",
                                "paths go on as their beginning"));
+
+  /* Such a path is not read at all. */
   if (reading.moved > 0)
     thr_text_printf(text, ", %d %s moved along", reading.moved,
                     cli_plural(reading.moved, "path is another", "paths are others"));
+
   thr_text_append(text, "\n");
 }
 
@@ -262,10 +335,13 @@ void symmetry_put_paths(thr_text *text, const thr_plan *plan)
   enum { MOST = 12 };
   const thr_symmetry_record *record = &plan->symmetry;
   int n = 0;
+
   thr_text_printf(text, "\npaths    %d unique, %g learned %s of %d passes", record->unique_paths,
                   record->steps, record->steps == 1 ? "step" : "steps", plan->metrics.passes);
   thr_text_printf(text, "; group %s%s of order %d\n", *record->name ? record->name : "of the graph",
                   *record->name ? "" : ",", record->order);
+
+  /* A cord is a unique path if it is its own representative. */
   for (int i = 0; i < plan->n_cords; i++)
     if (record->unique[i] == i && n++ < MOST) put_copies_of(text, plan, i);
   if (n > MOST) thr_text_printf(text, "         .. and %d more unique paths\n", n - MOST);
@@ -274,6 +350,7 @@ void symmetry_put_paths(thr_text *text, const thr_plan *plan)
 
 /* ---- JSON ---- */
 
+/* Writes the order of a group as a number of any size. */
 static void put_order_json(thr_writer *writer, const char *key, double mantissa, int exponent)
 {
   thr_text digits = {0};
@@ -283,7 +360,7 @@ static void put_order_json(thr_writer *writer, const char *key, double mantissa,
   thr_text_destroy(&digits);
 }
 
-/* Text, or null if there is none. */
+/* Writes the name of a group, or null if it has none. */
 static void put_name_json(thr_writer *writer, const char *name)
 {
   if (*name)
@@ -292,9 +369,11 @@ static void put_name_json(thr_writer *writer, const char *name)
     thr_write_null(writer, "name");
 }
 
+/* Returns the JSON word for what is known of a row. */
 static const char *row_status(const thr_symmetry_row *row)
 {
   switch (row->why.code) {
+  /* A row without cords was left out, or was not asked for. */
   case THR_OK:
     return row->n_cords > 0 ? "optimal by the solver's word"
            : row->behind    ? "not chosen"
@@ -305,30 +384,39 @@ static const char *row_status(const thr_symmetry_row *row)
   }
 }
 
+/* Writes the threading of a row: cord, paths, turning (rad), the largest pull (N), and the bound on
+ * each aim. */
 static void put_threading_json(thr_writer *writer, const thr_request *options,
                                const thr_symmetry_row *row)
 {
   const thr_metrics *metrics = &row->metrics;
+
   thr_write_number(writer, "overlap", metrics->overlap);
   thr_write_number(writer, "overlap_percent", 100 * metrics->overlap / metrics->base_length);
   thr_write_number(writer, "length", metrics->length);
+
+  /* What is to be learned. */
   thr_write_int(writer, "unique_paths", row->record.unique_paths);
   thr_write_int(writer, "least_copies", row->least_copies);
   thr_write_int(writer, "most_copies", row->most_copies);
   thr_write_int(writer, "cords", row->n_cords);
   thr_write_number(writer, "steps", row->record.steps);
   thr_write_int(writer, "instructions", row->instructions);
+
+  /* How hard the cords are to pull. */
   thr_write_number(writer, "turning", metrics->turning);
   thr_write_number(writer, "max_turning", metrics->max_turning);
   thr_write_number(writer, "max_capstan",
                    turning_capstan(options->physics.mu, metrics->max_turning));
   thr_write_number(writer, "pull", row_pull(options, row));
+
   thr_write_object(writer, "bound");
   for (int a = 0; a < THR_N_AIMS; a++)
     thr_write_number(writer, thr_aim_name(a), row->bound[a]);
   thr_write_close(writer);
 }
 
+/* Writes row i as an object; members of a threading only if there is one. */
 static void put_row_json(thr_writer *writer, const thr_request *options,
                          const thr_symmetries *symmetries, int i)
 {
@@ -339,17 +427,24 @@ static void put_row_json(thr_writer *writer, const thr_request *options,
                                      [THR_ISO_ROTOREFLECTION] = "rotoreflection",
                                      [THR_ISO_NONE] = "none"};
   const thr_symmetry_row *row = &symmetries->row[i];
+
   thr_write_line(writer, 1);
   thr_write_object(writer, NULL);
   thr_write_int(writer, "number", i + 1);
   thr_write_int(writer, "order", row->order);
   put_name_json(writer, row->name);
+
+  /* 0: the number of groups in its class is not known. */
   thr_write_number(writer, "conjugates", row->conjugates > 0 ? (double)row->conjugates : NAN);
   thr_write_number(writer, "residual", row->residual);
+
+  /* Elements by kind, the identity among them. */
   thr_write_object(writer, "elements");
   for (int k = 0; k <= THR_ISO_NONE; k++)
     thr_write_int(writer, kind[k], row->kinds[k]);
   thr_write_close(writer);
+
+  /* The best threading, or why there is none. */
   thr_write_string(writer, "status", row_status(row));
   if (row->why.code) thr_write_string(writer, "why", row->why.text);
   if (row->behind) thr_write_int(writer, "behind", row->behind);
@@ -361,6 +456,8 @@ void symmetry_put_table_json(thr_writer *writer, const thr_request *options,
                              const thr_symmetries *symmetries)
 {
   const bool geometric = options->symmetry.geometric >= 0;
+
+  /* The group that all rows are subgroups of. */
   put_order_json(writer, "order", symmetries->mantissa, symmetries->exponent);
   thr_write_int(writer, "node_orbits", symmetries->node_orbits);
   thr_write_int(writer, "edge_orbits", symmetries->edge_orbits);
@@ -370,12 +467,15 @@ void symmetry_put_table_json(thr_writer *writer, const thr_request *options,
   if (geometric)
     put_order_json(writer, "length_keeping", symmetries->keep_lengths[0],
                    (int)symmetries->keep_lengths[1]);
+
+  /* What rows are compared by, and which one is chosen, counted from 1. */
   thr_write_number(writer, "mu", options->physics.mu);
   thr_write_number(writer, "shortest", symmetries->shortest);
   thr_write_string(writer, "shortest_status", symmetries->shortest_optimal ? "optimal" : "bound");
   thr_write_number(writer, "chosen",
                    symmetries->chosen >= 0 ? (double)symmetries->chosen + 1 : NAN);
   thr_write_bool(writer, "within_slack", symmetries->within);
+
   thr_write_array(writer, "groups");
   for (int i = 0; i < symmetries->n; i++)
     put_row_json(writer, options, symmetries, i);
@@ -385,10 +485,13 @@ void symmetry_put_table_json(thr_writer *writer, const thr_request *options,
 void symmetry_put_json(thr_writer *writer, const thr_plan *plan)
 {
   const thr_symmetry_record *record = &plan->symmetry;
+
   thr_write_object(writer, "group");
   thr_write_int(writer, "order", record->order);
   put_name_json(writer, record->name);
   thr_write_close(writer);
+
+  /* What is to be learned and read. */
   thr_write_int(writer, "unique_paths", record->unique_paths);
   thr_write_number(writer, "steps", record->steps);
   const thr_reading reading = thr_reading_of(plan);
@@ -396,10 +499,13 @@ void symmetry_put_json(thr_writer *writer, const thr_plan *plan)
   thr_write_int(writer, "repeated_paths", reading.repeated);
   thr_write_int(writer, "mapped_paths", reading.mapped);
   thr_write_int(writer, "moved_paths", reading.moved);
+
+  /* Each cord with its unique path, and the element that maps that onto it. */
   thr_write_array(writer, "copies");
   for (int i = 0; i < plan->n_cords; i++) {
     thr_text by = {0};
     put_isometry(&by, plan, record->element[i]);
+
     thr_write_object(writer, NULL);
     thr_write_string(writer, "cord", plan->cord[i].id);
     thr_write_string(writer, "of", plan->cord[record->unique[i]].id);
