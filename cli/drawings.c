@@ -52,7 +52,7 @@ const cli_option drawings_options[] = {
              "(default: a hundredth of the median edge)"},
     {0}};
 
-thr_status drawings_chains(const thr_plan *plan, const drawings_args *a, thr_text *text,
+thr_status drawings_chains(const thr_plan *plan, const drawings_args *args, thr_text *text,
                            thr_err *err)
 {
   thr_chains chains, planned;

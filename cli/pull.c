@@ -76,6 +76,7 @@ static bool is_named_twice(const char *value, const char *end, const char id[12]
   return false;
 }
 
+/* Takes a value of --pull: a word, or a list without a cord that is named twice. */
 static bool take_pull(void *into, const cli_option *option, const char *value)
 {
   const char *command = cli_command_name();
@@ -169,8 +170,8 @@ const cli_option pull_tuned[] = {
     {"start", .kind = CLI_AMOUNT, AT(options.start), .low = 1e-9, .high = 1e12},
     {0}};
 
-/* What would be ignored is refused. Compare shows the closed form whatever the method. */
-int pull_check(const pull_args *a, const char *command)
+/* Refuses options that would be ignored. */
+int pull_check(const pull_args *args, const char *command)
 {
   bool one = args->method != PULL_ALL_METHODS, structure = args->method == THR_STRUCTURE || !one;
   bool closed = args->method == THR_CAPSTAN || strcmp(command, "compare") == 0;
@@ -178,9 +179,11 @@ int pull_check(const pull_args *a, const char *command)
   /* thread compare shows the closed form whatever the method. */
   if (args->options.law != THR_LAW_CAPSTAN && !closed)
     return cli_usage(command, "--law is for --method capstan");
-  if (a->options.start > 0 && !structure)
+
+  /* The simulation is one of the structure. */
+  if (args->options.start > 0 && !structure)
     return cli_usage(command, "--tune start needs --method structure");
-  if (!a->options.dynamics && !structure)
+  if (!args->options.dynamics && !structure)
     return cli_usage(command, "--no-dynamics needs --method structure");
   if (args->options.large && !structure)
     return cli_usage(command, "--dynamics needs --method structure");
@@ -188,8 +191,9 @@ int pull_check(const pull_args *a, const char *command)
   /* What excludes each other. */
   if (args->options.large && !args->options.dynamics)
     return cli_usage(command, "--dynamics and --no-dynamics exclude each other");
-  if (a->options.start > 0 && !a->options.dynamics)
+  if (args->options.start > 0 && !args->options.dynamics)
     return cli_usage(command, "--tune start is of the simulation that --no-dynamics leaves out");
+
   return EXIT_OK;
 }
 

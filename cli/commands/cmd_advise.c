@@ -76,10 +76,10 @@ static const char *type_name(int type)
 static bool take_hand(void *into, const cli_option *option, const char *value)
 {
   (void)option;
-  return cli_hand("advise", value, &((arguments *)into)->hand);
+  return cli_hand("advise", value, &((advise_arguments *)into)->hand);
 }
 
-#define AT(member) .offset = offsetof(arguments, member)
+#define AT(member) .offset = offsetof(advise_arguments, member)
 
 static const cli_option own_options[] = {
     {"type", 'T', NULL, "a table (default), or a picture", .kind = CLI_WORD, AT(type),
@@ -97,29 +97,34 @@ static const cli_option time_options[] = {
                                "it some two seconds, counted: the same rows on every machine)"},
     {0}};
 
-static int parse(int argc, char **argv, arguments *a)
+/* Parses the command line into *args. Returns -1 to go on, or the exit code of the command. */
+static int parse(int argc, char **argv, advise_arguments *args)
 {
   static const cli_syntax syntax = {"advise", intro, outro};
   static cli_option asked[2];
-  *a = (arguments){.frame = cli_frame_args_default(),
-                   .guard = guard_limits_default(),
-                   .request = thr_request_default(),
-                   .output = "-",
-                   .hand = thr_hand_always};
+  *args = (advise_arguments){.frame = cli_frame_args_default(),
+                             .guard = guard_limits_default(),
+                             .request = thr_request_default(),
+                             .output = "-",
+                             .hand = thr_hand_always};
   asked[0] = request_option_of("cover");
-  const cli_group groups[] = {{"Options", own_options, a},
-                              {NULL, asked, &a->request},
-                              {NULL, time_options, &a->guard},
-                              {NULL, guard_memory_options, &a->guard},
-                              {"Framework", cli_frame_options, &a->frame},
-                              {CLI_PHYSICS_HEADING, cli_physics_options(), &a->physics},
+  const cli_group groups[] = {{"Options", own_options, args},
+                              {NULL, asked, &args->request},
+                              {NULL, time_options, &args->guard},
+                              {NULL, guard_memory_options, &args->guard},
+                              {"Framework", cli_frame_options, &args->frame},
+                              {CLI_PHYSICS_HEADING, cli_physics_options(), &args->physics},
                               {NULL}};
   const int code = cli_options(argc, argv, &syntax, groups);
   if (code >= 0) return code;
+
+  /* One operand: the framework. */
   if (optind + 1 != argc)
     return cli_usage("advise", optind == argc ? "which framework?" : "one framework at a time");
-  a->path = argv[optind];
-  if (a->json && a->type == TYPE_SVG && strcmp(a->output, "-") == 0)
+  args->path = argv[optind];
+
+  /* Outputs. */
+  if (args->json && args->type == TYPE_SVG && strcmp(args->output, "-") == 0)
     return cli_usage("advise",
                      "--json and the picture both want stdout; -o FILE takes the picture");
 
@@ -263,8 +268,11 @@ static int write_advice(const advise_arguments *args, const thr_frame *frame,
   thr_status st = THR_OK;
   int code = EXIT_OK;
   thr_plan chosen;
-  const bool laid_out = chosen_plan(l, &a->request, advice, &chosen);
-  advice_command_options(&a->physics, &options);
+  const bool laid_out = lay_out_chosen(state, &args->request, advice, &chosen);
+
+  /* The command that makes the recommended plan, with the options that the framework was read
+   * with. */
+  advice_command_options(&args->physics, &options);
   if (advice->chosen >= 0)
     advice_put_command(&command, args->path, options.data ? options.data : "",
                        &advice->row[advice->chosen]);

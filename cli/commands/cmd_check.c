@@ -39,8 +39,8 @@ static const char outro[] =
     "Exit codes: 0 all plans hold, 1 a violation (printed with its place), 2 usage, 3 not a plan,\n"
     "5 not verified in the time or memory\n";
 
-/* Of a plan for the least turning, whether its length is the shortest or not: that is another
- * claim. */
+/* Appends what is verified of the turning of a plan that was made for it. Whether its length is the
+ * shortest or not is another claim. */
 static void put_turning(thr_text *text, const thr_plan *plan)
 {
   const thr_turning_claim *claim = &plan->turning;
@@ -348,10 +348,10 @@ static int put_unjudged(const char *name, bool json, const guard_end *end)
 typedef struct {
   guard_limits guard;
   bool json;
-} arguments;
+} check_arguments;
 
 static const cli_option own_options[] = {{"json", .kind = CLI_FLAG,
-                                          .offset = offsetof(arguments, json),
+                                          .offset = offsetof(check_arguments, json),
                                           .help = "one JSON line per plan"},
                                          {0}};
 static const cli_option time_options[] = {
@@ -359,24 +359,29 @@ static const cli_option time_options[] = {
      .help = "give up after S seconds, 0 = never (default: 7 for each plan of up to 20 MB)"},
     {0}};
 
+/* Runs `thread check` and returns the largest exit code of all plans. */
 int cmd_check(int argc, char **argv)
 {
   static const cli_syntax syntax = {"check", intro, outro};
-  arguments a = {.guard = guard_limits_default()};
+  check_arguments args = {.guard = guard_limits_default()};
   guard_end end;
-  const cli_group groups[] = {{"Options", own_options, &a},
-                              {NULL, time_options, &a.guard},
-                              {NULL, guard_memory_options, &a.guard},
+  const cli_group groups[] = {{"Options", own_options, &args},
+                              {NULL, time_options, &args.guard},
+                              {NULL, guard_memory_options, &args.guard},
                               {NULL}};
   int code = cli_options(argc, argv, &syntax, groups);
   if (code >= 0) return code;
   code = EXIT_OK;
+
   if (optind == argc) return cli_usage("check", "which plan?");
 
   /* What cannot be judged in its time leaves the plans behind it to another process. */
   for (char **path = argv + optind, **last = argv + argc; path < last;) {
-    if (!guard_fork(&a.guard, &end))
-      return check_all(path, (int)(last - path), a.json, a.guard.seconds < 0);
+    /* A child for all plans that are left. */
+    if (!guard_fork(&args.guard, &end))
+      return check_all(path, (int)(last - path), args.json, args.guard.seconds < 0);
+
+    /* The child judged all plans that were left, or could not say which one it was at. */
     if (end.reason == GUARD_DONE || end.reason == GUARD_INTERRUPTED || end.kept.length == 0) {
       const int one = guard_conclude(&end, "not verified");
       return one > code ? one : code;
@@ -384,7 +389,7 @@ int cmd_check(int argc, char **argv)
 
     /* It was ended at plan number end.kept; the ones before it were judged. */
     path += atoi(end.kept.data);
-    const int one = put_unjudged(name_of(*path++), a.json, &end);
+    const int one = put_unjudged(name_of(*path++), args.json, &end);
     if (one > code) code = one;
     thr_text_destroy(&end.kept);
   }

@@ -790,6 +790,8 @@ static thr_status run_simulations(const pull_args *args, entry *entries, const i
   thr_status st = found && finished
                       ? thr_workers_run(&work, cli_processes(), &limits, found, finished, err)
                       : thr_nomem(err);
+
+  /* Jobs that were not finished leave their values NAN. */
   for (int i = 0; i < 2 * n && found && finished; i++) {
     entry *of = &entries[plan[i / 2]];
     if (!finished[i]) continue;
@@ -911,13 +913,16 @@ static int compare(const pull_args *args, const structure_actions *actions, char
  * exit code. */
 static int check_actions(pull_args *args, structure_actions *actions)
 {
-  const bool structure = a->method == THR_STRUCTURE || a->method == PULL_ALL_METHODS,
-             any = load_any(&d->load) || d->schedule;
-  if (!structure && (any || d->load.rays || d->load.taut))
+  const bool structure = args->method == THR_STRUCTURE || args->method == PULL_ALL_METHODS,
+             any = load_any(&actions->load) || actions->schedule;
+
+  /* Options of method structure. */
+  if (!structure && (any || actions->load.rays || actions->load.taut))
     return cli_usage("compare",
                      "--load, --tilt, --clamp-feet, --taut, --tune rays and --schedule are "
                      "of --method structure or all");
-  if (d->schedule && !*d->schedule)
+
+  if (actions->schedule && !*actions->schedule)
     return cli_usage("compare", "--schedule: an empty one does nothing");
 
   /* A load and the pull at which it hangs. */
@@ -925,11 +930,16 @@ static int check_actions(pull_args *args, structure_actions *actions)
     return cli_usage("compare", "--load-pulls needs --load");
   if (actions->load.n_pulls > 1)
     return cli_usage("compare", "--load-pulls: one pull, to rank by what is carried at it");
-  if (any && a->options.start > 0)
+
+  /* The simulation knows cords and weights only. */
+  if (any && args->options.start > 0)
     return cli_usage("compare",
                      "--tune start is of the simulation, which knows no loads and schedules");
-  if (d->load.load && !d->load.n_pulls) d->load.pulls[d->load.n_pulls++] = 10;
-  if (any) a->options.dynamics = false;
+
+  if (actions->load.load && !actions->load.n_pulls)
+    actions->load.pulls[actions->load.n_pulls++] = 10;
+  if (any) args->options.dynamics = false;
+
   return EXIT_OK;
 }
 
@@ -937,27 +947,29 @@ static int check_actions(pull_args *args, structure_actions *actions)
 typedef struct {
   pull_args pull;
   guard_limits guard;
-  deeds deeds;
+  structure_actions actions;
   const char *plot;
-} arguments;
+} compare_arguments;
 
-#define AT(member) .offset = offsetof(arguments, member)
+#define AT(member) .offset = offsetof(compare_arguments, member)
 
 static const cli_option own_options[] = {
     {"method", .value = "joint|capstan|structure|all", .kind = CLI_WORD, AT(pull.method),
      .word = pull_method_name, .n_words = PULL_ALL_METHODS + 1,
      .help = "what to rank by (default: joint); the closed form is always shown beside it"},
-    {"schedule", .value = "TEXT", .kind = CLI_TEXT, AT(deeds.schedule),
+    {"schedule", .value = "TEXT", .kind = CLI_TEXT, AT(actions.schedule),
      .help = "structure: and after what is done to the cords, as `thread eval` takes it"},
     {"plot", .value = "FILE", .kind = CLI_OUTPUT, AT(plot),
      .help = "write a picture as SVG: the plans side by side, small, with pull, cord and number of "
              "cords"},
     {0}};
 
+/* Runs `thread compare`: parses the options, does the work in a guarded child process, and returns
+ * the exit code. */
 int cmd_compare(int argc, char **argv)
 {
   static const cli_syntax syntax = {"compare", intro, outro};
-  arguments asked = {.guard = guard_limits_default()};
+  compare_arguments asked = {.guard = guard_limits_default()};
   guard_end end;
   pull_args_init(&asked.pull, THR_JOINT);
   const cli_group groups[] = {{"Options", own_options, &asked},
@@ -966,27 +978,35 @@ int cmd_compare(int argc, char **argv)
                               {NULL, pull_run_options, &asked.pull},
                               {NULL, guard_options, &asked.guard},
                               {"What acts on the structure, to rank by what the plans carry",
-                               cli_load_options, &asked.deeds.load},
+                               cli_load_options, &asked.actions.load},
                               {CLI_PHYSICS_HEADING, cli_physics_options(), &asked.pull.physics},
                               {cli_tuned, pull_tuned, &asked.pull},
-                              {cli_tuned, cli_load_tuned, &asked.deeds.load},
+                              {cli_tuned, cli_load_tuned, &asked.actions.load},
                               {NULL}};
   int code = cli_options(argc, argv, &syntax, groups);
   if (code >= 0) return code;
-  const int n = argc - optind;
+
+  /* Every operand is a plan. */
+  int n = argc - optind;
   if (n < 1) return cli_usage("compare", "which plans?");
   if (asked.pull.json && asked.plot && strcmp(asked.plot, "-") == 0)
     return cli_usage("compare", "--json and --plot - both want stdout");
+
   code = pull_check(&asked.pull, "compare");
-  if (!code) code = check_deeds(&asked.pull, &asked.deeds);
+  if (!code) code = check_actions(&asked.pull, &asked.actions);
   if (code) return code;
+
+  /* From here on in the child, whose time and memory are bounded. */
   if (guard_fork(&asked.guard, &end)) return guard_conclude(&end, "no comparison");
-  entry *e = thr_calloc((size_t)n, sizeof *e);
-  if (!e) {
+  entry *entries = thr_calloc((size_t)n, sizeof *entries);
+  if (!entries) {
     cli_error("out of memory");
     return EXIT_INTERNAL;
   }
-  code = compare(&asked.pull, &asked.deeds, argv + optind, n, e, asked.plot);
+
+  code = compare(&asked.pull, &asked.actions, argv + optind, n, entries, asked.plot);
+
+  /* Plans and evaluations that were never filled in are all 0, which is valid. */
   for (int i = 0; i < n; i++) {
     thr_plan_destroy(&entries[i].plan);
     for (int k = 0; k < THR_N_METHODS; k++)

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* thread complete: prints what may stand next on a command line, for the completions of shells.
  *
- * Each command is run with nothing but a listener: cli_show_options makes it show its table of
- * options and its help instead of doing anything. So completions follow from the help texts, and
- * there is no second list.
+ * Each command is run with nothing but a listener: cli_show_options makes it show its rows of
+ * options (cli/args/options.h) instead of doing anything, so that there is no second list.
  *
  * Example: `thread complete plan --ob` prints a line for each option of thread plan, "--objective"
  * with what its help says first among them; the shell chooses what fits. */
@@ -65,7 +64,7 @@ static void show_rows(const cli_option *option)
   }
 }
 
-static void show(const cli_group *groups)
+static void show_groups(const cli_group *groups)
 {
   for (const cli_group *group = groups; group->option; group++) {
     if (group->heading != cli_tuned) show_rows(group->option);
@@ -91,7 +90,7 @@ static void ask_command(const cli_command *command, const char *option)
 
   /* The command's own parsing ends as soon as it has shown its options. */
   wanted = option;
-  cli_show_options = show_options;
+  cli_show_options = show_groups;
   (void)command->run(1, argv);
   cli_show_options = NULL;
 }

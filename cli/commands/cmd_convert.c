@@ -27,14 +27,14 @@ typedef struct {
   cli_frame_args frame;
   guard_limits guard;
   const char *output, *type;
-} arguments;
+} convert_arguments;
 
 static const cli_option own_options[] = {
     {"output", 'o', "FILE", ".json, .obj, .csv, .ply, .dxf or .graphml (default: stdout)",
-     .kind = CLI_TEXT, .offset = offsetof(arguments, output)},
+     .kind = CLI_TEXT, .offset = offsetof(convert_arguments, output)},
     {"type", 'T', "json|obj|csv|ply|dxf|graphml",
      "the format, if the file's name does not say (default: json)", .kind = CLI_TEXT,
-     .offset = offsetof(arguments, type)},
+     .offset = offsetof(convert_arguments, type)},
     {0}};
 
 /* Reads and writes. Returns an exit code. */
@@ -58,20 +58,24 @@ static int convert(const char *path, const cli_frame_args *args, const thr_forma
 int cmd_convert(int argc, char **argv)
 {
   static const cli_syntax syntax = {"convert", intro, NULL};
-  arguments a = {cli_frame_args_default(), guard_limits_default(), .output = "-"};
+  convert_arguments args = {cli_frame_args_default(), guard_limits_default(), .output = "-"};
   guard_end end;
-  const cli_group groups[] = {{"Options", own_options, &a},
-                              {NULL, guard_options, &a.guard},
-                              {"Framework", cli_frame_options, &a.frame},
+  const cli_group groups[] = {{"Options", own_options, &args},
+                              {NULL, guard_options, &args.guard},
+                              {"Framework", cli_frame_options, &args.frame},
                               {NULL}};
   const int code = cli_options(argc, argv, &syntax, groups);
   if (code >= 0) return code;
+
+  /* One operand: the framework. */
   if (optind + 1 != argc)
     return cli_usage("convert", optind == argc ? "which framework?" : "one framework at a time");
 
   /* The output's name and --type must agree. */
   const thr_format *format;
-  if (!cli_output_format("convert", a.output, a.type, &format)) return EXIT_USAGE;
-  if (guard_fork(&a.guard, &end)) return guard_conclude(&end, "nothing is written");
-  return convert(argv[optind], &a.frame, format, a.output);
+  if (!cli_output_format("convert", args.output, args.type, &format)) return EXIT_USAGE;
+
+  if (guard_fork(&args.guard, &end)) return guard_conclude(&end, "nothing is written");
+
+  return convert(argv[optind], &args.frame, format, args.output);
 }

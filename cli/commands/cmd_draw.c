@@ -37,6 +37,7 @@ static const char intro[] =
 static const char outro[] =
     "Exit codes: 0 drawn, 2 usage, 3 not a plan, 5 not all drawn in the time or memory\n";
 
+/* Returns the value of --up for a choice: 0 = y, 1 = z. */
 static const char *up_name(int up)
 {
   return up ? "z" : "y";
@@ -61,9 +62,9 @@ typedef struct {
   guard_limits guard;
   int type, up;
   const char *output;
-} arguments;
+} draw_arguments;
 
-#define AT(member) .offset = offsetof(arguments, member)
+#define AT(member) .offset = offsetof(draw_arguments, member)
 
 static const cli_option own_options[] = {
     {"type", 'T', "TYPE", "what to make (default: svg)", .kind = CLI_WORD, AT(type),
@@ -82,8 +83,9 @@ static const cli_option own_options[] = {
      .help = "millimetres on paper per edge (default: 24, less for large frameworks)"},
     {0}};
 
-/* One document to output, a file, a folder or NULL. */
-static int draw_one(const thr_plan *plan, int type, const char *output, const drawings_args *a)
+/* Writes one document to output: a file, a folder or NULL, the current folder. Returns an exit
+ * code. */
+static int draw_one(const thr_plan *plan, int type, const char *output, const drawings_args *args)
 {
   char inside[1200];
   int code = EXIT_OK;
@@ -112,7 +114,7 @@ int cmd_draw(int argc, char **argv)
 {
   static const cli_syntax syntax = {"draw", intro, outro};
   static cli_option own[sizeof own_options / sizeof *own_options];
-  arguments asked = {.guard = guard_limits_default(), .up = 1};
+  draw_arguments asked = {.guard = guard_limits_default(), .up = 1};
   guard_end end;
   memcpy(own, own_options, sizeof own_options);
   own[0].n_words = thr_documents_count() + 1;
@@ -122,11 +124,13 @@ int cmd_draw(int argc, char **argv)
                               {NULL}};
   int code = cli_options(argc, argv, &syntax, groups);
   if (code >= 0) return code;
-  drawings_args *a = &asked.drawings;
+  drawings_args *args = &asked.drawings;
   const char *output = asked.output;
   const int type = asked.type;
   const bool all = type == thr_documents_count();
-  a->lines.up_y = asked.up == 0;
+  args->lines.up_y = asked.up == 0;
+
+  /* The output must fit what is made. */
   if (all && output && strcmp(output, "-") == 0)
     return cli_usage("draw", "--type all makes several files: -o names a folder");
   if (!all && output && cli_misnamed(output, thr_document_file(type)))
@@ -141,23 +145,27 @@ int cmd_draw(int argc, char **argv)
   const char *folder = !output ? "." : cli_is_folder(output) || all ? output : NULL;
   const int claimed = folder ? drawings_claim("draw", folder, all ? -1 : type) : EXIT_OK;
   if (claimed) return claimed;
+
+  /* The child does all of the work. */
   if (guard_fork(&asked.guard, &end))
     return guard_conclude(&end, all ? "not all documents are drawn" : "nothing is drawn");
 
   thr_plan plan;
+
   code = cli_read_plan(argv[optind], &plan);
   if (code) return code;
 
   /* All documents, or one. */
   if (all) {
     char names[DRAWINGS_NAMES];
-    drawings_names(&plan, a, names);
-    code = drawings_write_all(&plan, output ? output : ".", a);
+    drawings_names(&plan, args, names);
+    code = drawings_write_all(&plan, output ? output : ".", args);
     if (!code && !output) cli_note("drawn in the current folder: %s", names);
-  } else {
-    code = draw_one(&plan, type, output, a);
-  }
-  if (!code && (all || thr_document_threads(type))) note_chains(&plan, a);
+  } else
+    code = draw_one(&plan, type, output, args);
+
+  /* Documents that show how to thread also say how loose the work is meanwhile. */
+  if (!code && (all || thr_document_threads(type))) note_chains(&plan, args);
   thr_plan_destroy(&plan);
 
   return code;

@@ -101,10 +101,10 @@ static const char *method_meaning(int method)
 static bool take_hand(void *into, const cli_option *option, const char *value)
 {
   (void)option;
-  return cli_hand("eval", value, &((arguments *)into)->pull.options.hand);
+  return cli_hand("eval", value, &((eval_arguments *)into)->pull.options.hand);
 }
 
-#define AT(member) .offset = offsetof(arguments, member)
+#define AT(member) .offset = offsetof(eval_arguments, member)
 
 static const cli_option method_options[] = {{"method", .kind = CLI_WORD, AT(pull.method),
                                              .word = pull_method_name, .meaning = method_meaning,
@@ -153,33 +153,34 @@ static const cli_option own_options[] = {
              "to print), by --bore mm"},
     {0}};
 
-static int parse(int argc, char **argv, arguments *a)
+/* Parses the command line into *args. Returns -1 to go on, or the exit code of the command. */
+static int parse(int argc, char **argv, eval_arguments *args)
 {
   static const cli_syntax syntax = {"eval", intro, outro};
   static cli_option own[sizeof own_options / sizeof *own_options];
-  *a = (arguments){.guard = guard_limits_default()};
-  pull_args_init(&a->pull, THR_CAPSTAN);
+  *args = (eval_arguments){.guard = guard_limits_default()};
+  pull_args_init(&args->pull, THR_CAPSTAN);
   memcpy(own, own_options, sizeof own_options);
   for (cli_option *option = own; option->name; option++) {
     if (option->word == thr_knot_name) {
       option->n_words = thr_n_knots;
     }
   }
-  const cli_group groups[] = {{"Options", method_options, a},
-                              {NULL, own, a},
-                              {NULL, pull_options, &a->pull},
+  const cli_group groups[] = {{"Options", method_options, args},
+                              {NULL, own, args},
+                              {NULL, pull_options, &args->pull},
                               {NULL, cli_processes_options, NULL},
-                              {NULL, pull_run_options, &a->pull},
-                              {NULL, guard_options, &a->guard},
-                              {"What acts on the structure", cli_load_options, &a->load},
-                              {CLI_PHYSICS_HEADING, cli_physics_options(), &a->pull.physics},
-                              {cli_tuned, pull_tuned, &a->pull},
-                              {cli_tuned, cli_load_tuned, &a->load},
+                              {NULL, pull_run_options, &args->pull},
+                              {NULL, guard_options, &args->guard},
+                              {"What acts on the structure", cli_load_options, &args->load},
+                              {CLI_PHYSICS_HEADING, cli_physics_options(), &args->pull.physics},
+                              {cli_tuned, pull_tuned, &args->pull},
+                              {cli_tuned, cli_load_tuned, &args->load},
                               {NULL}};
   const int code = cli_options(argc, argv, &syntax, groups);
   if (code >= 0) return code;
-  a->pull.options.erect = a->stills != NULL;
-  if (a->calibrate) return calibrate(a, optind < argc);
+  args->pull.options.erect = args->stills != NULL;
+  if (args->calibrate) return calibrate(args, optind < argc);
   if (optind + 1 != argc)
     return cli_usage("eval", optind == argc ? "which plan?"
                                             : "one plan at a time; `thread compare` takes several");
@@ -213,12 +214,14 @@ static int parse(int argc, char **argv, arguments *a)
     return cli_usage("eval", "--stills draws the cords in; take --schedule away");
   if (load_any(&args->load) && args->pull.method != THR_STRUCTURE)
     return cli_usage("eval", "--load, --tilt and --clamp-feet are of --method structure");
-  if ((a->load.rays || a->load.taut) && a->pull.method != THR_STRUCTURE)
+  if ((args->load.rays || args->load.taut) && args->pull.method != THR_STRUCTURE)
     return cli_usage("eval", "%s is of --method structure",
-                     a->load.rays ? "--tune rays" : "--taut");
-  if (a->load.n_pulls && !a->load.load) return cli_usage("eval", "--load-pulls needs --load");
-  const char *shows = a->still ? "--still" : a->stills ? "--stills" : NULL;
-  if (shows && a->load.load)
+                     args->load.rays ? "--tune rays" : "--taut");
+  if (args->load.n_pulls && !args->load.load) return cli_usage("eval", "--load-pulls needs --load");
+
+  /* Pictures of the simulation. */
+  const char *shows = args->still ? "--still" : args->stills ? "--stills" : NULL;
+  if (shows && args->load.load)
     return cli_usage("eval", "%s shows a simulation, which knows no loads", shows);
   if (shows && !args->pull.options.dynamics)
     return cli_usage("eval", "%s shows a simulation; take --no-dynamics away", shows);

@@ -45,7 +45,6 @@ static const char intro[] =
     "together (--joint tube); joints of solid beads need not be.\n";
 
 enum { MOST_DEGREES = 64, MOST_NAMES = 20, MOST_BARS = 50000 };
-
 /* What was found out about a framework. */
 typedef struct {
   int degree[MOST_DEGREES + 1]; /* nodes of each degree; the last counts all higher ones too */
@@ -383,24 +382,30 @@ typedef struct {
   cli_frame_args frame;
   guard_limits guard;
   bool json;
-} arguments;
+} info_arguments;
 
 static const cli_option own_options[] = {
-    {"json", .kind = CLI_FLAG, .offset = offsetof(arguments, json), .help = "as JSON"}, {0}};
+    {"json", .kind = CLI_FLAG, .offset = offsetof(info_arguments, json), .help = "as JSON"}, {0}};
 
+/* Runs `thread info` and returns the exit code. */
 int cmd_info(int argc, char **argv)
 {
   static const cli_syntax syntax = {"info", intro, NULL};
-  arguments a = {.frame = cli_frame_args_default(), .guard = guard_limits_default()};
+  info_arguments args = {.frame = cli_frame_args_default(), .guard = guard_limits_default()};
   guard_end end;
-  const cli_group groups[] = {{"Options", own_options, &a},
-                              {NULL, guard_options, &a.guard},
-                              {"Framework", cli_frame_options, &a.frame},
+  const cli_group groups[] = {{"Options", own_options, &args},
+                              {NULL, guard_options, &args.guard},
+                              {"Framework", cli_frame_options, &args.frame},
                               {NULL}};
   const int code = cli_options(argc, argv, &syntax, groups);
   if (code >= 0) return code;
+
+  /* One operand: the framework, or a plan that holds one. */
   if (optind + 1 != argc)
     return cli_usage("info", optind == argc ? "which framework?" : "one framework at a time");
-  if (guard_fork(&a.guard, &end)) return guard_conclude(&end, "nothing is known");
-  return tell(argv[optind], &a.frame, a.json);
+
+  /* The child does all of the work. */
+  if (guard_fork(&args.guard, &end)) return guard_conclude(&end, "nothing is known");
+
+  return print_facts(argv[optind], &args.frame, args.json);
 }

@@ -46,14 +46,12 @@ static int find_shape(const char *name)
   return -1;
 }
 
-/* The values of options, NULL = not given: which are valid depends on the shape, which comes
- * last. */
 typedef struct {
   thr_make_options wanted; /* usual values of the shape where nothing is said */
   const char *output;
-} arguments;
+} make_arguments;
 
-#define AT(member) .offset = offsetof(arguments, member)
+#define AT(member) .offset = offsetof(make_arguments, member)
 
 static const cli_option own_options[] = {
     {"size", .value = "N", .kind = CLI_COUNT, AT(wanted.size), .low = 1, .high = 1000000,
@@ -69,7 +67,7 @@ static const cli_option own_options[] = {
     {0}};
 
 /* The usual values of a shape, and over them what was said. */
-static bool apply(const arguments *a, thr_make_options *options)
+static bool apply_options(const make_arguments *args, thr_make_options *options)
 {
   const bool has_rise = options->shape == THR_MAKE_DOME || options->shape == THR_MAKE_HONEYCOMB;
   const char *foreign = cli_given("rings") && options->shape != THR_MAKE_TUBE ? "--rings"
@@ -79,10 +77,10 @@ static bool apply(const arguments *a, thr_make_options *options)
     cli_usage("make", "a %s has no %s", thr_shape_name(options->shape), foreign);
     return false;
   }
-  if (cli_given("size")) options->size = a->wanted.size;
-  if (cli_given("rings")) options->rings = a->wanted.rings;
-  if (cli_given("pitch")) options->pitch = a->wanted.pitch;
-  if (cli_given("rise")) options->rise = a->wanted.rise;
+  if (cli_given("size")) options->size = args->wanted.size;
+  if (cli_given("rings")) options->rings = args->wanted.rings;
+  if (cli_given("pitch")) options->pitch = args->wanted.pitch;
+  if (cli_given("rise")) options->rise = args->wanted.rise;
   return true;
 }
 
@@ -114,10 +112,12 @@ static int make(const thr_make_options *options, const thr_format *format, const
 int cmd_make(int argc, char **argv)
 {
   static const cli_syntax syntax = {"make", intro, NULL};
-  arguments a = {.output = "-"};
-  const cli_group groups[] = {{"Options", own_options, &a}, {NULL}};
+  make_arguments args = {.output = "-"};
+  const cli_group groups[] = {{"Options", own_options, &args}, {NULL}};
   const int code = cli_options(argc, argv, &syntax, groups);
   if (code >= 0) return code;
+
+  /* One operand: the shape. */
   if (optind + 1 != argc)
     return cli_usage("make", optind == argc
                                  ? "which shape? dome, geodesic, sphere, tube or honeycomb"

@@ -74,9 +74,9 @@ typedef struct {
   const char *path, *output, *draw;
   drawings_args drawings;
   bool json, compare, force, progress;
-} arguments;
+} plan_arguments;
 
-#define AT(member) .offset = offsetof(arguments, member)
+#define AT(member) .offset = offsetof(plan_arguments, member)
 
 static const cli_option time_options[] = {
     {GUARD_TIME_LIMIT,
@@ -104,43 +104,47 @@ static const cli_option output_options[] = {
      .help = "pull of this plan beside those for the other objectives, joints simulated"},
     {0}};
 
-static int parse(int argc, char **argv, arguments *a)
+/* Parses the command line into *args. Returns -1 to go on, or the exit code of the command. */
+static int parse(int argc, char **argv, plan_arguments *args)
 {
   static const cli_syntax syntax = {"plan", intro, outro};
-  *a = (arguments){.frame = cli_frame_args_default(),
-                   .symmetry = symmetry_args_default(),
-                   .request = request_args_default(),
-                   .guard = guard_limits_default(),
-                   .drawings = {.quick = true}};
-  pull_args_init(&a->pull, THR_JOINT);
+  *args = (plan_arguments){.frame = cli_frame_args_default(),
+                           .symmetry = symmetry_args_default(),
+                           .request = request_args_default(),
+                           .guard = guard_limits_default(),
+                           .drawings = {.quick = true}};
+  pull_args_init(&args->pull, THR_JOINT);
   const cli_group groups[] = {
-      {"What is planned", request_options(REQUEST_PLANNED), &a->request},
-      {NULL, time_options, &a->guard},
-      {NULL, guard_memory_options, &a->guard},
+      {"What is planned", request_options(REQUEST_PLANNED), &args->request},
+      {NULL, time_options, &args->guard},
+      {NULL, guard_memory_options, &args->guard},
       {"Least turning (with --objective tortuosity)", request_options(REQUEST_TURNING),
-       &a->request},
+       &args->request},
       {"Symmetry (with --objective symmetry; thread symmetries --help says more)",
-       cli_symmetry_options, &a->symmetry},
-      {"Framework", cli_frame_options, &a->frame},
-      {"Output", output_options, a},
-      {NULL, drawings_options, &a->drawings},
+       cli_symmetry_options, &args->symmetry},
+      {"Framework", cli_frame_options, &args->frame},
+      {"Output", output_options, args},
+      {NULL, drawings_options, &args->drawings},
       {NULL, cli_processes_options, NULL},
-      {NULL, pull_run_options, &a->pull},
-      {CLI_PHYSICS_HEADING, cli_physics_options(), &a->pull.physics},
-      {cli_tuned, request_options(REQUEST_TUNED), &a->request},
+      {NULL, pull_run_options, &args->pull},
+      {CLI_PHYSICS_HEADING, cli_physics_options(), &args->pull.physics},
+      {cli_tuned, request_options(REQUEST_TUNED), &args->request},
       {NULL}};
   const int code = cli_options(argc, argv, &syntax, groups);
   if (code >= 0) return code;
-  if (a->progress) progress_begin();
+  if (args->progress) progress_begin();
   if (optind + 1 != argc)
     return cli_usage("plan", optind == argc ? "which framework?" : "one framework at a time");
-  a->path = argv[optind];
-  if (a->output && cli_no_plan_name("plan", a->output)) return EXIT_USAGE;
-  const char *wordy = a->json               ? "--json"
-                      : a->compare          ? "--compare-objectives"
-                      : a->request.frontier ? "--frontier"
-                                            : NULL;
-  if (wordy && a->output && strcmp(a->output, "-") == 0)
+  args->path = argv[optind];
+
+  /* Outputs: names that a file can have, and one text at most on stdout. */
+  if (args->output && cli_no_plan_name("plan", args->output)) return EXIT_USAGE;
+
+  const char *wordy = args->json               ? "--json"
+                      : args->compare          ? "--compare-objectives"
+                      : args->request.frontier ? "--frontier"
+                                               : NULL;
+  if (wordy && args->output && strcmp(args->output, "-") == 0)
     return cli_usage("plan", "%s and -o - both want stdout", wordy);
 
   return request_args_check(&args->request, &args->symmetry, &args->wanted);
@@ -644,7 +648,10 @@ static int print_places(const plan_arguments *args, const thr_plan *plan, const 
   if (!usual) advice_put_hint(plan, &text);
   int code = cli_write(&text, "-");
   if (code || !usual) return code;
-  advice_put_after_plan(p, a->path, &a->pull.physics, &text);
+
+  /* Advice takes a search of its own, so what is known is printed first. */
+  advice_put_after_plan(plan, args->path, &args->pull.physics, &text);
+
   return cli_write(&text, "-");
 }
 
