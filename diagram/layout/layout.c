@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Makes candidate layouts, where each node goes on paper, and chooses the best of all: the
- * projections here, unrolled, spread and in panels in the other files of the room.
+ * projections here, unrolled, spread and in panels in the other files of this folder.
  *
  * A candidate is judged by its faults (pairs of edges that cross on paper but not in space, and
  * edges too short for a bead), then by the ratio of its shortest edge to the median. Projections
@@ -157,31 +157,31 @@ static void project(thr_layout *layout, const thr_frame *frame, const double rig
 
 /* ---- best-fit plane ---- */
 
-/* Makes one Jacobi rotation, which zeroes a[p][q] of a symmetric matrix; vec collects the
+/* Makes one Jacobi rotation, which zeroes element p, q of a symmetric matrix; vectors collects the
  * eigenvectors as columns. The angle phi has cot(2 phi) = (a_qq - a_pp) / (2 a_pq); t = tan(phi) is
  * the smaller root of t^2 + 2 t cot(2 phi) - 1 = 0 (Golub & Van Loan, Matrix Computations). */
-static void rotate(double a[3][3], double vec[3][3], int p, int q)
+static void rotate(double matrix[3][3], double vectors[3][3], int p, int q)
 {
   /* tan(phi), and from it cos(phi) and sin(phi). */
-  if (a[p][q] == 0) return;
-  double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
-  double t = (theta >= 0 ? 1 : -1) / (fabs(theta) + sqrt(theta * theta + 1)),
-         cosine = 1 / sqrt(t * t + 1), sine = t * cosine;
+  if (matrix[p][q] == 0) return;
+  double cotangent = (matrix[q][q] - matrix[p][p]) / (2 * matrix[p][q]);
+  double tangent = (cotangent >= 0 ? 1 : -1) / (fabs(cotangent) + sqrt(cotangent * cotangent + 1)),
+         cosine = 1 / sqrt(tangent * tangent + 1), sine = tangent * cosine;
 
   /* Columns, then rows; the eigenvectors are rotated as the columns. */
   for (int k = 0; k < 3; k++) {
-    double x = a[k][p], y = a[k][q];
-    a[k][p] = cosine * x - sine * y;
-    a[k][q] = sine * x + cosine * y;
+    double x = matrix[k][p], y = matrix[k][q];
+    matrix[k][p] = cosine * x - sine * y;
+    matrix[k][q] = sine * x + cosine * y;
   }
 
   for (int k = 0; k < 3; k++) {
-    double x = a[p][k], y = a[q][k];
-    a[p][k] = cosine * x - sine * y;
-    a[q][k] = sine * x + cosine * y;
-    x = vec[k][p], y = vec[k][q];
-    vec[k][p] = cosine * x - sine * y;
-    vec[k][q] = sine * x + cosine * y;
+    double x = matrix[p][k], y = matrix[q][k];
+    matrix[p][k] = cosine * x - sine * y;
+    matrix[q][k] = sine * x + cosine * y;
+    x = vectors[k][p], y = vectors[k][q];
+    vectors[k][p] = cosine * x - sine * y;
+    vectors[k][q] = sine * x + cosine * y;
   }
 }
 
@@ -190,29 +190,29 @@ static void rotate(double a[3][3], double vec[3][3], int p, int q)
  * a wall to the front (-y) or the side (+x). */
 static void plane_normal(const thr_frame *frame, double normal[3])
 {
-  double mean[3], a[3][3] = {{0}}, vec[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  double mean[3], covariance[3][3] = {{0}}, vectors[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
   /* The covariance matrix, but for a factor. */
   thr_layout_mean_point(frame, mean);
   for (int v = 0; v < frame->n_nodes; v++)
     for (int i = 0; i < 3; i++)
       for (int j = 0; j < 3; j++)
-        a[i][j] += (frame->xyz[v][i] - mean[i]) * (frame->xyz[v][j] - mean[j]);
+        covariance[i][j] += (frame->xyz[v][i] - mean[i]) * (frame->xyz[v][j] - mean[j]);
 
   /* Each sweep makes the elements off the diagonal much smaller; 30 are more than enough for 3 x
    * 3. */
   for (int sweep = 0; sweep < 30; sweep++) {
-    rotate(a, vec, 0, 1);
-    rotate(a, vec, 0, 2);
-    rotate(a, vec, 1, 2);
+    rotate(covariance, vectors, 0, 1);
+    rotate(covariance, vectors, 0, 2);
+    rotate(covariance, vectors, 1, 2);
   }
 
   /* The least eigenvalue, and its vector. */
   int least = 2;
   for (int i = 1; i >= 0; i--)
-    if (a[i][i] < a[least][least]) least = i;
+    if (covariance[i][i] < covariance[least][least]) least = i;
   for (int i = 0; i < 3; i++)
-    normal[i] = vec[i][least];
+    normal[i] = vectors[i][least];
 
   /* Of a normal and its opposite that is taken which points to the viewer. */
   double sign = fabs(normal[2]) > 1e-6   ? normal[2]

@@ -1,7 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where the nodes of a framework go on paper. Several candidates are made and measured; the one
- * with the fewest faults is drawn. A layout keeps the handedness of the framework seen from
- * outside, so that "turn left" on paper is "turn left" in the hand. */
+/* Computes where the nodes of a framework go on paper.
+ *
+ * Several candidates are made and measured: projections, unrolled domes and tubes, closed shells
+ * spread flat or cut into two halves, and at last a drawing by springs. The one with the fewest
+ * faults is drawn: pairs of edges that cross on paper but not in space, and edges too short for a
+ * bead. A layout keeps the handedness of the framework seen from outside, so that "turn left" on
+ * paper is "turn left" in the hand.
+ *
+ * Order in which to read the files: layout.c (projections, and the choice among all candidates),
+ * layout_measure.c (what makes a layout good), then layout_unroll.c, layout_spread.c and
+ * layout_panels.c, one kind of candidate each. */
 #ifndef THR_LAYOUT_H
 #define THR_LAYOUT_H
 

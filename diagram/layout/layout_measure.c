@@ -39,8 +39,8 @@ typedef struct {
 /* Returns the length of an edge on paper. */
 static double edge_length(const thr_layout *layout, const thr_frame *paper, int e)
 {
-  const double *a = layout->xy[paper->edge[e][0]], *b = layout->xy[paper->edge[e][1]];
-  return hypot(b[0] - a[0], b[1] - a[1]);
+  const double *from = layout->xy[paper->edge[e][0]], *to = layout->xy[paper->edge[e][1]];
+  return hypot(to[0] - from[0], to[1] - from[1]);
 }
 
 /* Computes the median of the edges' lengths, the ratio of the shortest to the median, the number of
@@ -72,33 +72,33 @@ static thr_status measure_lengths(thr_layout *layout, const thr_frame *frame, do
   return THR_OK;
 }
 
-/* Returns whether point p is nearer to the segment from a to b than near: t is where on the segment
- * the nearest point is, from 0 at a to 1 at b. */
-static bool touches(const double *p, const double *a, const double *b, double near)
+/* Returns whether a point is nearer to a segment than near: part is where on the segment the
+ * nearest point is, from 0 at its one end to 1 at the other. */
+static bool touches(const double *point, const double *from, const double *to, double near)
 {
-  double dx = b[0] - a[0], dy = b[1] - a[1], d2 = dx * dx + dy * dy;
+  double dx = to[0] - from[0], dy = to[1] - from[1], square = dx * dx + dy * dy;
 
   /* The foot of the perpendicular, kept within the segment. */
-  double t = d2 > 0 ? ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / d2 : 0;
-  t = t < 0 ? 0 : t > 1 ? 1 : t;
+  double part = square > 0 ? ((point[0] - from[0]) * dx + (point[1] - from[1]) * dy) / square : 0;
+  part = part < 0 ? 0 : part > 1 ? 1 : part;
 
   /* The distance from there. */
-  double x = p[0] - a[0] - t * dx, y = p[1] - a[1] - t * dy;
+  double x = point[0] - from[0] - part * dx, y = point[1] - from[1] - part * dy;
   return x * x + y * y < near * near;
 }
 
-/* Returns on which side of the line from a to b point p is: twice the signed area of the triangle,
- * positive to the left. */
-static double side_of(const double *a, const double *b, const double *p)
+/* Returns on which side of a line a point is: twice the signed area of the triangle, positive to
+ * the left. */
+static double side_of(const double *from, const double *to, const double *point)
 {
-  return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+  return (to[0] - from[0]) * (point[1] - from[1]) - (to[1] - from[1]) * (point[0] - from[0]);
 }
 
-/* Returns whether two edges from node v to p and to q leave v in nearly the same direction, or are
+/* Returns whether the edges from node v to two others leave v in nearly the same direction, or are
  * so short that this cannot be seen. With the angle phi between them |a x b| = |a| |b| sin(phi). */
-static bool fold_over(const edge_grid *grid, int v, int p, int q)
+static bool fold_over(const edge_grid *grid, int v, int first, int second)
 {
-  const double *common = grid->xy[v], *a = grid->xy[p], *b = grid->xy[q];
+  const double *common = grid->xy[v], *a = grid->xy[first], *b = grid->xy[second];
 
   /* Both directions, from the common node. */
   double ax = a[0] - common[0], ay = a[1] - common[1], bx = b[0] - common[0], by = b[1] - common[1];
@@ -109,11 +109,11 @@ static bool fold_over(const edge_grid *grid, int v, int p, int q)
   return ax * bx + ay * by > 0 && fabs(ax * by - ay * bx) < NEAR_ANGLE * la * lb;
 }
 
-/* Returns whether edges e and d cross, touch or lie on each other on paper. Edges at a common node
- * meet there, so only their directions count. */
-static bool cross(const edge_grid *grid, int e, int d)
+/* Returns whether edge e and another one cross, touch or lie on each other on paper. Edges at a
+ * common node meet there, so only their directions count. */
+static bool cross(const edge_grid *grid, int e, int other)
 {
-  const int *first = grid->paper->edge[e], *second = grid->paper->edge[d];
+  const int *first = grid->paper->edge[e], *second = grid->paper->edge[other];
 
   /* Edges with a common node. */
   for (int i = 0; i < 2; i++)
@@ -150,20 +150,20 @@ static int cell_of(double x, double low, double cell, int n)
 
 /* Computes the columns that edge e touches in row r of the grid, widened by near: from span[0] to
  * span[1]. */
-static void row_span(const edge_grid *grid, int e, int r, int span[2])
+static void row_span(const edge_grid *grid, int e, int row, int span[2])
 {
-  const double *a = grid->xy[grid->paper->edge[e][0]], *b = grid->xy[grid->paper->edge[e][1]];
+  const double *from = grid->xy[grid->paper->edge[e][0]], *to = grid->xy[grid->paper->edge[e][1]];
 
   /* The row with what is near on both sides. */
-  double y0 = grid->low[1] + r * grid->cell - grid->near, y1 = y0 + grid->cell + 2 * grid->near;
-  double low = fmin(a[0], b[0]), high = fmax(a[0], b[0]), dy = b[1] - a[1];
+  double y0 = grid->low[1] + row * grid->cell - grid->near, y1 = y0 + grid->cell + 2 * grid->near;
+  double low = fmin(from[0], to[0]), high = fmax(from[0], to[0]), dy = to[1] - from[1];
 
   /* The part of the edge in the row; a level edge is there with all of its length. */
   if (fabs(dy) > 1e-9 * grid->cell) {
-    double s = (y0 - a[1]) / dy, t = (y1 - a[1]) / dy;
-    s = s < 0 ? 0 : s > 1 ? 1 : s;
-    t = t < 0 ? 0 : t > 1 ? 1 : t;
-    double x0 = a[0] + s * (b[0] - a[0]), x1 = a[0] + t * (b[0] - a[0]);
+    double enter = (y0 - from[1]) / dy, leave = (y1 - from[1]) / dy;
+    enter = enter < 0 ? 0 : enter > 1 ? 1 : enter;
+    leave = leave < 0 ? 0 : leave > 1 ? 1 : leave;
+    double x0 = from[0] + enter * (to[0] - from[0]), x1 = from[0] + leave * (to[0] - from[0]);
     low = fmin(x0, x1);
     high = fmax(x0, x1);
   }
@@ -175,9 +175,9 @@ static void row_span(const edge_grid *grid, int e, int r, int span[2])
 /* Computes the rows that edge e touches, widened by near: from rows[0] to rows[1]. */
 static void row_range(const edge_grid *grid, int e, int rows[2])
 {
-  const double *a = grid->xy[grid->paper->edge[e][0]], *b = grid->xy[grid->paper->edge[e][1]];
-  rows[0] = cell_of(fmin(a[1], b[1]) - grid->near, grid->low[1], grid->cell, grid->rows);
-  rows[1] = cell_of(fmax(a[1], b[1]) + grid->near, grid->low[1], grid->cell, grid->rows);
+  const double *from = grid->xy[grid->paper->edge[e][0]], *to = grid->xy[grid->paper->edge[e][1]];
+  rows[0] = cell_of(fmin(from[1], to[1]) - grid->near, grid->low[1], grid->cell, grid->rows);
+  rows[1] = cell_of(fmax(from[1], to[1]) + grid->near, grid->low[1], grid->cell, grid->rows);
 }
 
 /* Chooses the grid: cells as wide as the mean edge, but not many more cells than edges, and wider
@@ -195,15 +195,15 @@ static void size_grid(edge_grid *grid, double mean)
     }
 
   /* At most some 2 n_edges cells, also where the layout is much longer than wide. */
-  double w = high[0] - grid->low[0], h = high[1] - grid->low[1];
-  double wanted = fmax(sqrt(w * h / (2.0 * grid->paper->n_edges + 1)),
-                       (w + h) / (2.0 * grid->paper->n_edges + 1));
+  double width = high[0] - grid->low[0], height = high[1] - grid->low[1];
+  double wanted = fmax(sqrt(width * height / (2.0 * grid->paper->n_edges + 1)),
+                       (width + height) / (2.0 * grid->paper->n_edges + 1));
 
   /* The cell, and how many of them. */
   grid->cell = fmax(fmax(mean, wanted), 4 * grid->near);
   if (!(grid->cell > 0)) grid->cell = 1;
-  grid->columns = (int)(w / grid->cell) + 1;
-  grid->rows = (int)(h / grid->cell) + 1;
+  grid->columns = (int)(width / grid->cell) + 1;
+  grid->rows = (int)(height / grid->cell) + 1;
 }
 
 /* Sorts the edges into cells by counting: the first pass counts how many edges each cell has, the
@@ -220,10 +220,10 @@ static thr_status fill_grid(edge_grid *grid, thr_err *err)
     for (int e = 0; e < grid->paper->n_edges; e++) {
       int rows[2], span[2];
       row_range(grid, e, rows);
-      for (int r = rows[0]; r <= rows[1]; r++) {
-        row_span(grid, e, r, span);
-        for (int c = span[0]; c <= span[1]; c++) {
-          int *at = &grid->first[r * grid->columns + c + (fill ? 1 : 2)];
+      for (int row = rows[0]; row <= rows[1]; row++) {
+        row_span(grid, e, row, span);
+        for (int column = span[0]; column <= span[1]; column++) {
+          int *at = &grid->first[row * grid->columns + column + (fill ? 1 : 2)];
           if (fill) grid->entry[*at] = e;
           ++*at;
         }
@@ -265,8 +265,8 @@ static int choose_step(int n)
 }
 
 /* Counts the crossings of edge e with those edges whose turn is later, so that every pair counts
- * once. seen[d] = e + 1 says that d was met in an earlier cell. Returns how many entries were
- * looked at. */
+ * once. seen[other] = e + 1 says that this edge was met in an earlier cell. Returns how many
+ * entries were looked at. */
 static long count_edge(const edge_grid *grid, int e, int *seen, long *crossings)
 {
   int rows[2], span[2];
@@ -274,28 +274,28 @@ static long count_edge(const edge_grid *grid, int e, int *seen, long *crossings)
 
   /* Row by row. */
   row_range(grid, e, rows);
-  for (int r = rows[0]; r <= rows[1]; r++) {
-    row_span(grid, e, r, span);
+  for (int row = rows[0]; row <= rows[1]; row++) {
+    row_span(grid, e, row, span);
 
     /* All cells of the span are next to each other in entry. */
-    for (int i = grid->first[r * grid->columns + span[0]];
-         i < grid->first[r * grid->columns + span[1] + 1]; i++) {
-      int d = grid->entry[i];
+    for (int i = grid->first[row * grid->columns + span[0]];
+         i < grid->first[row * grid->columns + span[1] + 1]; i++) {
+      int other = grid->entry[i];
       pairs++;
-      if (grid->turn[d] <= grid->turn[e] || seen[d] == e + 1) continue;
-      seen[d] = e + 1;
-      *crossings += cross(grid, e, d);
+      if (grid->turn[other] <= grid->turn[e] || seen[other] == e + 1) continue;
+      seen[other] = e + 1;
+      *crossings += cross(grid, e, other);
     }
   }
 
   return pairs;
 }
 
-/* Returns the part of all pairs of n edges that the first m have with each other and with the rest:
- * 1 - (n - m)(n - m - 1) / (n (n - 1)). */
-static double part_counted(int m, int n)
+/* Returns the part of all pairs of n edges that the first m = counted have with each other and with
+ * the rest: 1 - (n - m)(n - m - 1) / (n (n - 1)). */
+static double part_counted(int counted, int n)
 {
-  return m < n ? 1 - (double)(n - m) / n * (n - m - 1) / (n - 1) : 1;
+  return counted < n ? 1 - (double)(n - counted) / n * (n - counted - 1) / (n - 1) : 1;
 }
 
 /* Counts the crossings, or estimates them from as many edges as there is time for: FREE entries at

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the files that make layouts share. Private to diagram/. */
+/* Declares what the files that make layouts share: candidates of one kind each, the best-fit
+ * sphere, and the directions of the nodes seen from its centre. Private to diagram/. */
 #ifndef THR_LAYOUT_PARTS_H
 #define THR_LAYOUT_PARTS_H
 

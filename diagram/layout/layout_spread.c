@@ -32,9 +32,9 @@ static double nearest_node(const double (*unit)[3], int n, const double directio
  * sphere (Gonzalez 2010). Successive directions turn by the golden angle pi (3 - sqrt(5)). */
 static void lattice(int i, int n, double direction[3])
 {
-  double z = (2.0 * i + 1) / n - 1, r = sqrt(1 - z * z), turn = i * THR_PI * (3 - sqrt(5));
-  direction[0] = r * cos(turn);
-  direction[1] = r * sin(turn);
+  double z = (2.0 * i + 1) / n - 1, radius = sqrt(1 - z * z), turn = i * THR_PI * (3 - sqrt(5));
+  direction[0] = radius * cos(turn);
+  direction[1] = radius * sin(turn);
   direction[2] = z;
 }
 

@@ -25,28 +25,28 @@ void thr_layout_mean_point(const thr_frame *frame, double mean[3])
 }
 
 /* Solves the symmetric 4 x 4 system in place by Gauss-Jordan elimination with pivoting: unknown i
- * is a[i][4] / a[i][i] then. Returns false when the system is singular. */
-static bool solve4(double a[4][5])
+ * is then matrix[i][4] / matrix[i][i]. Returns false when the system is singular. */
+static bool solve4(double matrix[4][5])
 {
   for (int k = 0; k < 4; k++) {
     /* The pivot is the largest element of the column. */
     int pivot = k;
     for (int i = k + 1; i < 4; i++)
-      if (fabs(a[i][k]) > fabs(a[pivot][k])) pivot = i;
-    if (!(fabs(a[pivot][k]) > 1e-9)) return false;
+      if (fabs(matrix[i][k]) > fabs(matrix[pivot][k])) pivot = i;
+    if (!(fabs(matrix[pivot][k]) > 1e-9)) return false;
 
     /* Exchange the rows. */
     for (int j = 0; j < 5; j++) {
-      double swapped = a[k][j];
-      a[k][j] = a[pivot][j];
-      a[pivot][j] = swapped;
+      double swapped = matrix[k][j];
+      matrix[k][j] = matrix[pivot][j];
+      matrix[pivot][j] = swapped;
     }
 
     /* All other rows lose their part of the column. */
     for (int i = 0; i < 4; i++) {
-      double factor = a[i][k] / a[k][k];
+      double factor = matrix[i][k] / matrix[k][k];
       for (int j = k; j < 5 && i != k; j++)
-        a[i][j] -= factor * a[k][j];
+        matrix[i][j] -= factor * matrix[k][j];
     }
   }
   return true;
@@ -57,7 +57,7 @@ static bool solve4(double a[4][5])
  * means something. Returns false for a flat frame, whose centre is too far away. */
 bool thr_layout_fit_sphere(const thr_frame *frame, double centre[3])
 {
-  double mean[3], a[4][5] = {{0}}, size = thr_frame_diagonal(frame);
+  double mean[3], normal[4][5] = {{0}}, size = thr_frame_diagonal(frame);
   thr_layout_mean_point(frame, mean);
 
   /* All nodes in one point have no sphere. */
@@ -73,18 +73,18 @@ bool thr_layout_fit_sphere(const thr_frame *frame, double centre[3])
     }
     for (int i = 0; i < 4; i++)
       for (int j = 0; j < 5; j++)
-        a[i][j] += row[i] * row[j] / frame->n_nodes;
+        normal[i][j] += row[i] * row[j] / frame->n_nodes;
   }
 
   /* Coplanar nodes make the system singular. */
-  if (!solve4(a)) return false;
+  if (!solve4(normal)) return false;
 
   /* The centre in the frame's units, and how far it is from the mean point. */
   double radius2 = 0;
   for (int i = 0; i < 3; i++) {
-    double c = a[i][4] / a[i][i] / 2;
-    centre[i] = mean[i] + c * size;
-    radius2 += c * c;
+    double part = normal[i][4] / normal[i][i] / 2;
+    centre[i] = mean[i] + part * size;
+    radius2 += part * part;
   }
 
   /* Far away in units of the diagonal: flat. */
@@ -153,9 +153,10 @@ static double arc_at(const meridian_station *station, int count, double theta, i
     ++*at;
 
   /* The stations on both sides; the crown is one at 0. */
-  const meridian_station *b = &station[*at], crown = {0}, *a = *at ? b - 1 : &crown;
-  if (!(b->theta > a->theta)) return b->arc;
-  return a->arc + (b->arc - a->arc) * (theta - a->theta) / (b->theta - a->theta);
+  const meridian_station *upper = &station[*at], crown = {0}, *lower = *at ? upper - 1 : &crown;
+  if (!(upper->theta > lower->theta)) return upper->arc;
+  return lower->arc +
+         (upper->arc - lower->arc) * (theta - lower->theta) / (upper->theta - lower->theta);
 }
 
 /* Returns the mean length of the edges in space. */
@@ -163,9 +164,9 @@ static double mean_length(const thr_frame *frame)
 {
   double sum = 0;
   for (int e = 0; e < frame->n_edges; e++) {
-    const double *a = frame->xyz[frame->edge[e][0]], *b = frame->xyz[frame->edge[e][1]];
-    double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    sum += sqrt(thr_dot(d, d));
+    const double *from = frame->xyz[frame->edge[e][0]], *to = frame->xyz[frame->edge[e][1]];
+    double offset[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+    sum += sqrt(thr_dot(offset, offset));
   }
   return sum / frame->n_edges;
 }

@@ -1,5 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Charts: plans by pull, frontiers, loads, advice. */
+/* Draws charts as SVG sheets: advice (pull and cord against the number of cords), a comparison of
+ * plans, the trade-off between cord and pull, and what a structure carries.
+ *
+ * All but the last one measure a plan by the pull (N) that its hardest end needs, on a logarithmic
+ * axis, because the pull grows like exp(mu theta) with the turning theta of a cord (rad); the band
+ * of mu from mu_low to mu_high shows how uncertain friction makes it. pull_axis.c, at the end, has
+ * what they share, and is the file to read first. */
 #ifndef THR_CHARTS_H
 #define THR_CHARTS_H
 
@@ -122,7 +128,7 @@ void thr_pull_choose(thr_pull_axis *axis, double low, double high, double hand, 
 double thr_pull_y(const thr_pull_axis *axis, double newton);
 bool thr_pull_beyond(const thr_pull_axis *axis, double newton);
 
-/* "3.5", "151", "10430", "2e6"; "> 1e300". */
+/* "3.5", "151", "10430", "2e6"; ">1e300". */
 void thr_pull_words(double newton, char words[24]);
 
 /* A line for every power of ten, or for every so many where they are more than 12, with its number

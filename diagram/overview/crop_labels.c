@@ -45,15 +45,15 @@ static bool inside(thr_box outer, thr_box box)
 
 /* Adds a line as a row of squares, half mm wide on each side, of a kind. At most 200 of them, so
  * that a very long line may have gaps. */
-static thr_status box_line(crop_labels *labels, const double a[2], const double b[2], double half,
-                           int kind, thr_err *err)
+static thr_status box_line(crop_labels *labels, const double from[2], const double to[2],
+                           double half, int kind, thr_err *err)
 {
   thr_status st = THR_OK;
 
   /* Squares at most half their size apart. */
-  int n = 1 + (int)fmin(hypot(b[0] - a[0], b[1] - a[1]) / fmax(half, 0.3), 200);
+  int n = 1 + (int)fmin(hypot(to[0] - from[0], to[1] - from[1]) / fmax(half, 0.3), 200);
   for (int k = 0; k <= n && !st; k++) {
-    double at[2] = {a[0] + k * (b[0] - a[0]) / n, a[1] + k * (b[1] - a[1]) / n};
+    double at[2] = {from[0] + k * (to[0] - from[0]) / n, from[1] + k * (to[1] - from[1]) / n};
     st = thr_boxes_add(&labels->boxes, thr_box_around(at[0], at[1], half, half), kind, err);
   }
 

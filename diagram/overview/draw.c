@@ -175,7 +175,8 @@ static void write_solid(const scene_drawing *drawing, int v, thr_text *text)
 static void write_tube(const scene_drawing *drawing, int e, thr_text *text)
 {
   const thr_scene *scene = drawing->scene;
-  const double *a = scene->at[scene->paper->edge[e][0]], *b = scene->at[scene->paper->edge[e][1]];
+  const double *from = scene->at[scene->paper->edge[e][0]],
+               *to = scene->at[scene->paper->edge[e][1]];
   double along[2], width = scene->bead[e], near = scene->gap[2 * e], far = scene->gap[2 * e + 1];
 
   /* A tube between nodes that are very close together stays visible: at least 0.3 of its width
@@ -184,8 +185,8 @@ static void write_tube(const scene_drawing *drawing, int e, thr_text *text)
   thr_scene_direction(scene, 2 * e, along);
 
   /* The middle between the gaps; their sizes may differ. */
-  double x = 0.5 * (a[0] + b[0] + (near - far) * along[0]),
-         y = 0.5 * (a[1] + b[1] + (near - far) * along[1]);
+  double x = 0.5 * (from[0] + to[0] + (near - far) * along[0]),
+         y = 0.5 * (from[1] + to[1] + (near - far) * along[1]);
   if (!in_window(drawing, thr_box_around(x, y, 0.5 * (length + width), 0.5 * (length + width))))
     return;
 
@@ -371,11 +372,12 @@ static void write_pass(const scene_drawing *drawing, int i, thr_text *text)
   thr_text_append(text, "</g>\n");
 }
 
+/* Most passes of a batch: each new one is compared with all of them. */
+enum { BATCH = 64 };
+
 /* A batch: passes of a cord that do not touch each other, but where one leads to the next. Drawn
  * together in a few elements they look as they would one by one, because none covers another, and
  * are read in a fraction of the time. */
-enum { BATCH = 64 };
-
 typedef struct {
   const char *colour; /* of passes drawn now; NULL: of earlier ones */
   int n, pass[BATCH];

@@ -57,10 +57,10 @@ void thr_guide_ordinal(int n, char word[16])
 /* Computes the unit vector along half-edge h in space; returns false if the edge has no length. */
 static bool direction(const thr_frame *frame, int h, double unit[3])
 {
-  const double *a = frame->xyz[thr_tail(frame, h)], *b = frame->xyz[thr_head(frame, h)];
+  const double *from = frame->xyz[thr_tail(frame, h)], *to = frame->xyz[thr_head(frame, h)];
 
   for (int i = 0; i < 3; i++)
-    unit[i] = b[i] - a[i];
+    unit[i] = to[i] - from[i];
   double length = sqrt(thr_dot(unit, unit));
   for (int i = 0; i < 3 && length > 0; i++)
     unit[i] /= length;
@@ -93,9 +93,9 @@ static thr_status find_outward(thr_guide *guide, thr_err *err)
 
   /* Directions on paper. */
   for (int h = 0; h < 2 * frame->n_edges && !st; h++) {
-    const double *a = guide->layout.xy[thr_tail(paper, h)],
-                 *b = guide->layout.xy[thr_head(paper, h)];
-    angle[h] = atan2(b[1] - a[1], b[0] - a[0]);
+    const double *from = guide->layout.xy[thr_tail(paper, h)],
+                 *to = guide->layout.xy[thr_head(paper, h)];
+    angle[h] = atan2(to[1] - from[1], to[0] - from[0]);
   }
 
   if (!st) st = thr_layout_around(paper, angle, around, err);
@@ -154,10 +154,11 @@ static void turn_round(int *list, int first, int end)
 static double points_up(const thr_guide *guide, int h)
 {
   const thr_frame *paper = thr_layout_paper(&guide->layout, guide->f);
-  const double *a = guide->layout.xy[thr_tail(paper, h)], *b = guide->layout.xy[thr_head(paper, h)];
+  const double *from = guide->layout.xy[thr_tail(paper, h)],
+               *to = guide->layout.xy[thr_head(paper, h)];
 
-  double length = hypot(b[0] - a[0], b[1] - a[1]);
-  return length > 0 ? nearbyint((b[1] - a[1]) / length * 1e6) / 1e6 : 0;
+  double length = hypot(to[0] - from[0], to[1] - from[1]);
+  return length > 0 ? nearbyint((to[1] - from[1]) / length * 1e6) / 1e6 : 0;
 }
 
 /* Orders the arms round each node clockwise as seen from outside, and begins with the one that

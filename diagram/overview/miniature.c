@@ -55,15 +55,15 @@ static void write_beads(const small_scene *miniature, thr_text *text)
 static void write_pass(const small_scene *miniature, int i, bool joined, thr_text *text)
 {
   const thr_scene_pass *pass = &miniature->scene->pass[i];
-  double a[2], b[2], at[2];
+  double first[2], second[2], at[2];
 
   place(miniature, pass->from, at);
 
   /* A joined pass begins where the path is, at the end of the pass before. */
   if (joined) {
-    place(miniature, pass->turn[0], a);
-    place(miniature, pass->turn[1], b);
-    thr_svg_curve(text, a, b, at);
+    place(miniature, pass->turn[0], first);
+    place(miniature, pass->turn[1], second);
+    thr_svg_curve(text, first, second, at);
   } else {
     thr_svg_move(text, at);
   }

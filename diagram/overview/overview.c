@@ -25,6 +25,7 @@ thr_overview_options thr_overview_options_default(void)
       .title = NULL, .pitch_mm = 0, .layout = NULL, .colour = THR_COLOUR_CORD, .motion = NULL};
 }
 
+/* Returns what the command line and documents call a choice of colours. */
 const char *thr_overview_colour_name(int c)
 {
   static const char *const name[] = {"cord", "tension", "turning"};

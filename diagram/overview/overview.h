@@ -1,5 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pictures of whole plans: overview, steps, poster, stills, tension. */
+/* Draws whole plans: the overview page, steps in words, a poster, stills of the structure, the
+ * tension plot, and the charts (charts.h).
+ *
+ * This folder turns a plan into SVG or text for people who thread it. A picture is made in three
+ * steps: a layout says where each node goes on paper (diagram/layout), a scene says where
+ * everything else goes, in mm (diagram/scene), and the files here write the scene as elements. All
+ * of it is deterministic: the same plan and options give the same bytes.
+ *
+ * Order in which to read the files: svg.c (numbers, words, paths), draw_parts.c and draw.c (a scene
+ * as elements), legend.c and overview.c (the page round the drawing), poster.c; crop.c with
+ * crop_labels.c and crop_pieces.c (parts of a scene for the pages of a booklet), miniature.c;
+ * guide.c, steps.c and tighten.c (words); tension.c and still.c; pull_axis.c and then the charts.
+ * overview_parts.h has what these files share with the other folders of diagram/. */
 #ifndef THR_OVERVIEW_H
 #define THR_OVERVIEW_H
 

@@ -1,5 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the pictures share: drawing, crops, guides, legends. */
+/* Declares what the files of this folder share with each other and with the other folders
+ * of diagram/: drawing a scene, pictures of parts of a scene, the names of places and turns, the
+ * legend, miniatures, and how cords are tightened. Private to diagram/.
+ *
+ * The sections are in the order in which a page uses them: a scene is drawn (draw.c), as a whole or
+ * as a part (crop.c), with words for what is seen (guide.c) and a key (legend.c). */
 #ifndef THR_OVERVIEW_PARTS_H
 #define THR_OVERVIEW_PARTS_H
 

@@ -52,17 +52,17 @@ typedef struct {
  * vector part. */
 static void turn(const double pose[7], const double v[3], double out[3])
 {
-  /* a = u x v + w v */
-  const double *q = pose + 3;
-  double a[3], b[3];
-  thr_cross(q, v, a);
+  /* once = u x v + w v */
+  const double *axis = pose + 3;
+  double once[3], twice[3];
+  thr_cross(axis, v, once);
   for (int k = 0; k < 3; k++)
-    a[k] += q[3] * v[k];
+    once[k] += axis[3] * v[k];
 
-  /* v + 2 u x a */
-  thr_cross(q, a, b);
+  /* v + 2 u x once */
+  thr_cross(axis, once, twice);
   for (int k = 0; k < 3; k++)
-    out[k] = v[k] + 2 * b[k];
+    out[k] = v[k] + 2 * twice[k];
 }
 
 /* Sets the directions of the view: the eye, to the right, and up; unit vectors at right angles.

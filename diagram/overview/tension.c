@@ -486,7 +486,7 @@ static void label_cord(const tension_plot *plot, int c, char label[96])
  * where they would touch. */
 static void write_line_labels(const tension_plot *plot, thr_text *text)
 {
-  double at[THR_TENSION_LINES], room = 1.5 * TEXT_SIZE;
+  double at[THR_TENSION_LINES], spacing = 1.5 * TEXT_SIZE;
   int order[THR_TENSION_LINES];
 
   /* Sort the labels by height (insertion: there are few). */
@@ -502,11 +502,11 @@ static void write_line_labels(const tension_plot *plot, thr_text *text)
 
   /* From below upwards, so that the lowest label stays in the panel; then from above downwards. */
   for (int k = plot->n_shown - 1; k >= 0; k--)
-    at[order[k]] = fmin(at[order[k]],
-                        k + 1 < plot->n_shown ? at[order[k + 1]] - room : plot->y + plot->height);
+    at[order[k]] = fmin(at[order[k]], k + 1 < plot->n_shown ? at[order[k + 1]] - spacing
+                                                            : plot->y + plot->height);
 
   for (int k = 0; k < plot->n_shown; k++)
-    at[order[k]] = fmax(at[order[k]], k > 0 ? at[order[k - 1]] + room : plot->y);
+    at[order[k]] = fmax(at[order[k]], k > 0 ? at[order[k - 1]] + spacing : plot->y);
 
   /* A short piece of the line, and what the cord is called. */
   for (int i = 0; i < plot->n_shown; i++) {
