@@ -207,7 +207,7 @@ thr_status thr_layout_panels(thr_layout *out, const thr_frame *frame, thr_err *e
   double least = 0;
   thr_status st = find_halves(&halves, frame, err);
 
-  /* With very many edges only the first axis, and its two best cuts. */
+  /* With very many edges only the first axis, and its two cuts nearest to the equator. */
   int n = frame->n_edges > MANY_EDGES ? 2 : 3 * CUTS;
   for (int i = 0; i < n && !st; i++) {
     st = cut_at(&candidate, frame, &halves, axes[i / CUTS], FIRST_CUT + cuts[i % CUTS] * CUT_STEP,

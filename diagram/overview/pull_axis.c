@@ -49,8 +49,8 @@ bool thr_pull_beyond(const thr_pull_axis *axis, double newton)
 
 /* ---- words ---- */
 
-/* Writes a force with about three digits: "3.5", "151", "10430", from 100,000 on "2e6"; ">1e300" if
- * it is infinite. */
+/* Writes a force: below 10 N with one decimal, then in whole newtons, from 100,000 N on as one
+ * digit and a power of ten: "3.5", "151", "10430", "2e6"; ">1e300" if infinite. */
 void thr_pull_words(double newton, char words[24])
 {
   if (isinf(newton))
