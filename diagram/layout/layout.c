@@ -75,7 +75,7 @@ thr_status thr_layout_copy(thr_layout *to, const thr_layout *from, thr_err *err)
   size_t n = (size_t)from->n_points;
   thr_status st = THR_OK;
 
-  /* Arrays of its own for the copy. */
+  /* The copy has arrays of its own, made before anything is filled in. */
   layout.paper = (thr_frame){0};
   layout.xy = thr_calloc(n, sizeof *layout.xy);
   layout.node = from->node ? thr_calloc(n, sizeof *layout.node) : NULL;
@@ -92,7 +92,7 @@ thr_status thr_layout_copy(thr_layout *to, const thr_layout *from, thr_err *err)
     return st;
   }
 
-  /* Everything is there: fill it. */
+  /* All memory is there, so that nothing can fail from here on. */
   if (n) memcpy(layout.xy, from->xy, n * sizeof *layout.xy);
   if (layout.node) memcpy(layout.node, from->node, n * sizeof *layout.node);
   *to = layout;
@@ -129,7 +129,7 @@ bool thr_layout_better(const thr_layout *a, const thr_layout *b)
 {
   long faults_a = a->crossings + a->squeezed, faults_b = b->crossings + b->squeezed;
 
-  /* Faults count first. */
+  /* A fault misleads the hand, a small ratio only strains the eye. */
   if (faults_a != faults_b) return faults_a < faults_b;
   return a->ratio > CLEARLY * b->ratio;
 }

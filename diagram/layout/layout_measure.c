@@ -115,7 +115,7 @@ static bool cross(const edge_grid *grid, int e, int other)
 {
   const int *first = grid->paper->edge[e], *second = grid->paper->edge[other];
 
-  /* Edges with a common node. */
+  /* Edges with a common node touch there in any layout. */
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 2; j++)
       if (first[i] == second[j]) return fold_over(grid, first[i], first[1 - i], second[1 - j]);
@@ -199,7 +199,7 @@ static void size_grid(edge_grid *grid, double mean)
   double wanted = fmax(sqrt(width * height / (2.0 * grid->paper->n_edges + 1)),
                        (width + height) / (2.0 * grid->paper->n_edges + 1));
 
-  /* The cell, and how many of them. */
+  /* At least one column and one row, also where all points coincide. */
   grid->cell = fmax(fmax(mean, wanted), 4 * grid->near);
   if (!(grid->cell > 0)) grid->cell = 1;
   grid->columns = (int)(width / grid->cell) + 1;
@@ -272,7 +272,7 @@ static long count_edge(const edge_grid *grid, int e, int *seen, long *crossings)
   int rows[2], span[2];
   long pairs = 0;
 
-  /* Row by row. */
+  /* A row's span holds few cells that the edge does not touch. */
   row_range(grid, e, rows);
   for (int row = rows[0]; row <= rows[1]; row++) {
     row_span(grid, e, row, span);
@@ -328,7 +328,7 @@ thr_status thr_layout_measure(thr_layout *layout, const thr_frame *frame, thr_er
   thr_status st = measure_lengths(layout, framework, &mean, err);
   if (st) return st;
 
-  /* The grid over the paper's points. */
+  /* The grid holds the paper's edges, which may be more points than nodes. */
   edge_grid grid = {
       .paper = framework, .xy = (const double(*)[2])layout->xy, .near = NEAR * layout->median};
   size_grid(&grid, mean);

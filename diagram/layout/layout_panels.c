@@ -114,7 +114,7 @@ typedef struct {
 static thr_status cut_at(thr_layout *layout, const thr_frame *frame, shell_halves *halves, int axis,
                          double angle, thr_err *err)
 {
-  /* Which panel each edge is in. */
+  /* Assign every edge to a panel. */
   int n_right = 0;
   for (int e = 0; e < frame->n_edges; e++)
     n_right += halves->right[e] =
@@ -171,7 +171,7 @@ static thr_status find_halves(shell_halves *halves, const thr_frame *frame, thr_
   halves->right = thr_calloc((size_t)frame->n_edges, sizeof *halves->right);
   if (!halves->point || !halves->edge || !halves->right) return thr_nomem(err);
 
-  /* The mean distance from the centre. */
+  /* The mean distance from the centre is the radius of the sphere that is drawn. */
   thr_layout_fit_sphere(frame, centre);
   for (int v = 0; v < frame->n_nodes; v++) {
     double offset[3] = {frame->xyz[v][0] - centre[0], frame->xyz[v][1] - centre[1],

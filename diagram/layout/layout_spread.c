@@ -75,7 +75,7 @@ static double centre_opening(const double (*unit)[3], int n, double direction[3]
       for (int j = 0; j < 3; j++)
         moved_to[j] /= size;
 
-      /* Only a wider cap counts. */
+      /* A larger cosine is a nearer node: the cap is not wider. */
       double near = nearest_node(unit, n, moved_to);
       if (near >= best) continue;
       best = near;
@@ -83,7 +83,7 @@ static double centre_opening(const double (*unit)[3], int n, double direction[3]
       moved = true;
     }
 
-    /* No step helps: try smaller ones. */
+    /* At this step the direction is in the middle: refine. */
     if (!moved) step /= 2;
   }
 

@@ -130,7 +130,7 @@ static int mean_meridian(const polar_node *node, int n, double band, meridian_st
       now->height += node[i].height;
     }
 
-    /* The means of the band. */
+    /* The station is at the means of its nodes. */
     now->theta /= i - from;
     now->rho /= i - from;
     now->height /= i - from;
@@ -246,7 +246,7 @@ thr_status thr_layout_unroll(thr_layout *layout, const thr_frame *frame, int axi
   thr_layout best = {0}, now = {0};
   thr_status st = make_meridian(&meridian, frame, axis, err);
 
-  /* Try the openings. */
+  /* Try every opening, the narrowest first. */
   for (int i = 0; i < 4 && !st; i++) {
     lay_rings(layout, &meridian, opening[i] * meridian.mean_length);
     st = thr_layout_measure(layout, frame, err);

@@ -169,7 +169,7 @@ static void write_band(const advice_picture *picture, thr_text *text)
                  (double[2]){place_x(picture, i),
                              thr_pull_y(&picture->axis, picture->row[i].pull[THR_ADVICE_LOW])});
 
-  /* The line on top. */
+  /* The line of the pull at mu lies on the band. */
   thr_text_append(text, "Z\"/>\n<path class=\"pull\" d=\"");
   for (int i = 0; i < picture->n; i++) {
     const double at[2] = {place_x(picture, i),
@@ -249,7 +249,7 @@ static void write_lines(const advice_picture *picture, double y, thr_text *text)
     double size = line == LINE_CORDS ? TEXT_SIZE : SMALL;
     thr_svg_text(text, picture->axis.x - 1.6, y, SMALL, " class=\"end\"", title[line]);
 
-    /* A cell per row of the advice. */
+    /* Numbers stand below the bar of their row. */
     for (int i = 0; i < picture->n; i++) {
       char words[24];
       cell_words(picture, (table_line)line, i, words);
@@ -362,7 +362,7 @@ static double write_heading(const advice_picture *picture, thr_text *text)
   thr_svg_text(text, MARGIN, y, TITLE_SIZE, " font-weight=\"bold\"", "How many cords?");
   y = thr_svg_wrap(text, MARGIN, y + 6.5, NAME_SIZE, WIDTH, "", picture->chart->name);
 
-  /* How the pulls were found. */
+  /* The assumptions: the tension left in the slackest pass, and the friction. */
   snprintf(line, sizeof line,
            "Pull at both ends of every cord, so that %g N is left where it is slackest (closed "
            "form; mu = %g, band %g to %g), "
@@ -421,7 +421,7 @@ thr_status thr_advice_svg(const thr_advice *advice, const thr_advice_chart *char
   advice_picture picture = {.advice = advice, .chart = chart};
   thr_text body = {0};
 
-  /* The body from above downwards. */
+  /* Heading and panels, each below the one before. */
   choose_axis(&picture);
   double y = write_heading(&picture, &body);
   y = write_kind(&picture, THR_ENDS_FEET, y, &body);

@@ -53,7 +53,7 @@ static void choose_axis(compare_picture *picture)
         high = fmax(high, column->pull[k]);
       }
 
-    /* The scales of the bars. */
+    /* The largest of all plans set the scales of the bars. */
     picture->longest = fmax(picture->longest,
                             fmax(column->plan->metrics.length, column->plan->metrics.base_length));
     picture->most_cords =
@@ -121,7 +121,7 @@ static void write_bars(const compare_picture *picture, int i, double cord, doubl
                thr_svg_round(BARS * metrics->length / picture->longest) - base, column->frontier,
                text);
 
-  /* The number of cords. */
+  /* The number of cords as a bar, to its own scale. */
   double height = thr_svg_round(BARS * column->plan->n_cords / picture->most_cords);
   thr_text_printf(
       text, "<rect class=\"count%s\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n",
@@ -159,7 +159,7 @@ static void write_numbers(const compare_picture *picture, int i, const double y[
       column->frontier ? " class=\"middle\" font-weight=\"bold\"" : " class=\"middle\"";
   char words[96], length[64];
 
-  /* The pull. */
+  /* The pull with its band, as far as known. */
   pull_words(column, words);
   thr_svg_text(text, middle(picture, i), y[0], SMALL, attributes, words);
 
@@ -169,7 +169,7 @@ static void write_numbers(const compare_picture *picture, int i, const double y[
            fmax(0, 100 * (metrics->length / metrics->base_length - 1)));
   thr_svg_text(text, middle(picture, i), y[1], SMALL, attributes, words);
 
-  /* The number of cords. */
+  /* The number of cords is what one compares first, in larger letters. */
   snprintf(words, sizeof words, "%d", column->plan->n_cords);
   thr_svg_text(text, middle(picture, i), y[2], TEXT_SIZE, attributes, words);
 }

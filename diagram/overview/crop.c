@@ -92,7 +92,7 @@ static thr_box box_of_view(const thr_scene *scene, const thr_crop *crop)
   const thr_box all = scene->extent;
   thr_box box = {at[0], at[1], at[0], at[1]};
 
-  /* The passes drawn now. */
+  /* All points that a pass may reach: its lane, the turn before it, its marks. */
   for (int k = 0; k < crop->n_now; k++) {
     int i = crop->now[k];
     box_point(&box, scene->pass[i].from);
@@ -112,7 +112,7 @@ static thr_box box_of_view(const thr_scene *scene, const thr_crop *crop)
  * window is centred. */
 static double slide(double from, double to, double length, double low, double high)
 {
-  /* In the middle of from .. to. */
+  /* The window is centred on from .. to, unless this shows what is beyond low .. high. */
   double start = 0.5 * (from + to - length);
   if (high - low <= length) return 0.5 * (low + high - length);
   return fmin(fmax(start, low), high - length);
@@ -137,7 +137,7 @@ thr_status thr_crop_fit(thr_crops *crops, const thr_crop *crop, const double roo
   *view = (thr_crop_view){.scale = 0};
   if (st) return st;
 
-  /* The size of the box in pitches. */
+  /* In pitches the size is nearly the same at all scales. */
   thr_box box = box_of_view(&crops->scene[BASE], crop);
   double pitches[2] = {(box.x1 - box.x0) / PITCH[BASE], (box.y1 - box.y0) / PITCH[BASE]};
 
@@ -344,12 +344,12 @@ void thr_crop_locate(thr_crops *crops, const thr_crop *crop, const thr_crop_view
   const double map[3] = {factor, paper.x1 - factor * all.x1, paper.y0 - factor * all.y0},
                beyond = 1;
 
-  /* Beads below, in grey. */
+  /* The edges lie below the passes. */
   char colour[8];
   thr_scene_colour(scene, crop->now[0], colour);
   put_edges(crops, view->scale, map, paper, text);
 
-  /* The passes drawn now. */
+  /* The passes drawn now as one line, thicker than the edges. */
   thr_text_printf(text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"0.60\" d=\"",
                   crop->colour ? crop->colour : colour);
   put_now(scene, crop, map, text);
@@ -395,7 +395,7 @@ thr_status thr_crop_whole(const thr_plan *plan, const thr_layout *layout,
     pitch *= over > 1 ? 0.98 / over : 1;
   }
 
-  /* In the middle of the paper. */
+  /* The picture is centred on the paper, whatever its own coordinates are. */
   double x = 0.5 * (paper.x0 + paper.x1 - scene.extent.x0 - scene.extent.x1),
          y = 0.5 * (paper.y0 + paper.y1 - scene.extent.y0 - scene.extent.y1);
   thr_draw_style style = {.state = state, .anonymous = true, .no_pieces = true};

@@ -246,7 +246,7 @@ static thr_status box_beads(crop_labels *labels, thr_err *err)
   const thr_scene *scene = labels->scene;
   thr_status st = THR_OK;
 
-  /* The pads. */
+  /* Pads of feet are wider than beads. */
   for (int v = 0; v < scene->layout->n_points && !st; v++)
     if (scene->frame->foot[thr_layout_node(scene->layout, v)] &&
         inside(labels->window,
@@ -264,7 +264,7 @@ static thr_status box_beads(crop_labels *labels, thr_err *err)
                                                         pass->from[1]}))
       continue;
 
-    /* From both ends to the middle. */
+    /* Squares as wide as the bead, from both ends to the middle. */
     double middle[2] = {0.5 * (pass->from[0] + pass->to[0]), 0.5 * (pass->from[1] + pass->to[1])};
     st =
         box_line(labels, pass->from, middle, 0.5 * scene->bead[pass->half >> 1], THR_BOX_BEAD, err);

@@ -97,7 +97,7 @@ static thr_status put_tubes(const thr_scene *scene, const unsigned char *state,
   int n = 0;
   if (!tube) return thr_nomem(err);
 
-  /* Those that are seen. */
+  /* Keep the tubes in the window. */
   for (int e = 0; e < scene->frame->n_edges; e++) {
     tube[n] = capsule_of(scene, e, state ? (thr_piece_state)state[e] : THR_PIECE_PLAIN);
     n += is_seen(&tube[n], window);
@@ -108,7 +108,7 @@ static thr_status put_tubes(const thr_scene *scene, const unsigned char *state,
   for (int i = 0, next; i < n; i = next) {
     thr_text data = {0};
 
-    /* All of one look are one path. */
+    /* The run of tubes with the look of tube i is one path. */
     for (next = i;
          next < n && tube[next].state == tube[i].state && tube[next].width == tube[i].width;
          next++) {

@@ -359,7 +359,7 @@ static void write_pass(const scene_drawing *drawing, int i, thr_text *text)
     write_strand(scene, i, text);
   }
 
-  /* The line. */
+  /* The line itself, in the colour of the group. */
   thr_text_append(text, "\"/><path class=\"cord\"");
   thr_draw_dash(scene, thr_scene_dash(scene, scene_pass->cord), text);
   thr_text_append(text, " d=\"");
@@ -417,7 +417,7 @@ static void write_batch(const scene_drawing *drawing, pass_batch *batch, thr_tex
   if (rimmed) write_strands(drawing, batch, "rim", rim, text);
   write_strands(drawing, batch, "cord", NULL, text);
 
-  /* Earlier passes have no arrows. */
+  /* Only passes drawn now have arrows. */
   if (batch->colour) {
     thr_text_printf(text, "<path class=\"arrow\" fill=\"%s\" d=\"", rimmed ? rim : batch->colour);
     for (int k = 0; k < batch->n; k++)
@@ -474,7 +474,7 @@ static void write_cords(const scene_drawing *drawing, thr_draw_state state, thr_
         thr_text_printf(text, "<g stroke=\"%s\"", EARLIER);
       thr_text_printf(text, "%s>\n", copy ? " class=\"copy\"" : "");
 
-      /* One by one, or in batches. */
+      /* Passes with colours of their own are groups, all others go into batches. */
       for (int i = scene->first_pass[c]; i < scene->first_pass[c + 1]; i++)
         if (state_of(drawing, i) != state || !in_window(drawing, box_of_pass(scene, i)))
           continue;

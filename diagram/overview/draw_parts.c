@@ -169,7 +169,7 @@ void thr_draw_css(const thr_scene *scene, const char *scope, thr_text *text)
   const char *in = scope;
   double cord = scene->size.cord, casing = scene->size.casing, thin = thr_draw_outline(scene);
 
-  /* Text. */
+  /* Widths of text are estimated for these wide faces. */
   thr_text_printf(
       text,
       "<style>\n.%s text{stroke:none;fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}\n",
@@ -179,7 +179,7 @@ void thr_draw_css(const thr_scene *scene, const char *scope, thr_text *text)
       in, in, in);
   thr_text_printf(text, ".%s .place text.own{fill:#111;font-weight:bold}\n", in);
 
-  /* Pieces and feet. */
+  /* Pieces and feet are pale, so that cords stand out. */
   thr_text_printf(text, ".%s .piece{fill:%s;stroke:%s;stroke-width:%.2f;stroke-linejoin:round}\n",
                   in, look[THR_PIECE_PLAIN].fill, look[THR_PIECE_PLAIN].outline, thin);
   thr_text_printf(text, ".%s .foot{fill:#e3d6b8;stroke:#8f7c4f;stroke-width:%.2f}\n", in, thin);
@@ -216,7 +216,7 @@ void thr_draw_css(const thr_scene *scene, const char *scope, thr_text *text)
                     ".%s .copy .cord{stroke-width:%.2f}.%s .copy .casing{stroke-width:%.2f}\n", in,
                     0.7 * cord, in, 0.7 * cord + 2 * casing);
 
-  /* What is written on the cords. */
+  /* Numbers and marks are white or black, with a rim in the colour of their cord. */
   thr_text_printf(text,
                   ".%s .pill{fill:#fff;stroke-width:%.2f}.%s .mark{fill:#111;stroke-width:0.80}.%s "
                   ".mark.pale{fill:#fff}\n",

@@ -71,7 +71,7 @@ static void write_ticks(const frontier_picture *picture, thr_text *text)
   int n = thr_svg_ticks(chart->mark[0].length, chart->mark[chart->n - 1].length, false, MOST_TICKS,
                         tick);
 
-  /* A tick with its number. */
+  /* Ticks stand below the plot, their numbers below them. */
   for (int i = 0; i < n; i++) {
     double x = thr_svg_round(place_x(picture, tick[i]));
     thr_text_printf(text, "<path class=\"axis\" d=\"M%.2f %.2fv1.20\"/>\n", x, y);
@@ -92,7 +92,7 @@ static void write_line(const frontier_picture *picture, thr_text *text)
   const thr_frontier_chart *chart = picture->chart;
   double width = fmin(BAND, picture->axis.width / (2 * chart->n));
 
-  /* The line through the pulls at mu. */
+  /* A thin line joins the pulls at mu; plans between two points are not known. */
   thr_text_append(text, "<path class=\"thin\" d=\"");
   for (int i = 0; i < chart->n; i++) {
     const double at[2] = {place_x(picture, chart->mark[i].length),
@@ -219,7 +219,7 @@ thr_status thr_frontier_svg(const thr_frontier_chart *chart, thr_text *svg, thr_
 
   choose_axis(&picture);
 
-  /* The plot lies below the heading. */
+  /* The plot begins where the heading ends, which depends on the name's length. */
   picture.axis.x = MARGIN + LEFT;
   picture.axis.y = write_heading(&picture, &body);
   picture.axis.width = ACROSS - LEFT - RIGHT;

@@ -91,7 +91,7 @@ static thr_status find_outward(thr_guide *guide, thr_err *err)
   int *around = thr_calloc(2 * (size_t)frame->n_edges, sizeof *around);
   thr_status st = angle && around ? THR_OK : thr_nomem(err);
 
-  /* Directions on paper. */
+  /* The direction of every half-edge on paper, rad. */
   for (int h = 0; h < 2 * frame->n_edges && !st; h++) {
     const double *from = guide->layout.xy[thr_tail(paper, h)],
                  *to = guide->layout.xy[thr_head(paper, h)];

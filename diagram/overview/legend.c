@@ -170,7 +170,7 @@ double thr_legend_heading(const thr_scene *scene, const char *title, double x, d
     snprintf(line, sizeof line, "%s.%s", numbers, pale);
   y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line);
 
-  /* Names of places. */
+  /* At a small pitch places have no names, or only those on the rims. */
   if (!scene->places.n_columns && scene->size.pitch < THR_SCENE_NAMED)
     return thr_svg_wrap(text, x, y, TEXT_SIZE, width, "",
                         scene->layout->node ? "Only places on the rims have names at this scale."
@@ -240,7 +240,7 @@ static double write_key(const thr_scene *scene, double x, double y, thr_text *te
   thr_draw_mark(scene, &mark, true, false, ring, x, y, text);
   thr_svg_text(text, x += mark.radius + 1.5, line, TEXT_SIZE, "", "end");
 
-  /* The number of a pass. */
+  /* A pill with the number of the first pass. */
   x += 14;
   thr_draw_pill(scene, scene->plan->n_cords > 1 ? "A1" : "1", colour, x, y, text);
   thr_svg_text(text, x += 5, line, TEXT_SIZE, "", "number of a pass");
@@ -280,7 +280,7 @@ static void write_swatch(const thr_scene *scene, int c, const char *colour, doub
   thr_text_printf(text, "<g class=\"swatch%s\" data-for=\"%s\" stroke=\"%s\" fill=\"%s\">",
                   thr_scene_is_copy(scene, c) ? " copy" : "", scene->id[c], colour, colour);
 
-  /* A pale colour has a dark rim. */
+  /* A colour that is too pale on white has a dark rim. */
   if (rimmed) {
     thr_text_printf(text, "<path class=\"rim\" stroke=\"%s\" d=\"M%.2f %.2fh%.2f\"", rim, x, y,
                     SWATCH - 3);
@@ -352,7 +352,7 @@ static void describe_cord(const thr_scene *scene, int c, int *seen, char line[32
     seen[piece] = c + 1;
   }
 
-  /* Length and ends. */
+  /* The length in the frame's units, and the places of both ends. */
   thr_svg_length(thr_cord_length(frame, cord), frame->units, length);
   thr_places_name(&scene->places, frame, thr_cord_start(frame, cord), from);
   thr_places_name(&scene->places, frame, thr_cord_end(frame, cord), to);
@@ -433,7 +433,7 @@ static double write_ramp(const thr_scene *scene, const colour_ramp *ramp, double
   }
   thr_text_append(text, "</g>\n");
 
-  /* The axis with its numbers. */
+  /* Ticks stand at their values, by the logarithm if the ramp has one. */
   for (int i = 0; i < ramp->n_ticks; i++) {
     double at = thr_svg_round(x + ramp_part(ramp, ramp->tick[i]) * RAMP);
     thr_text_printf(text, "<path class=\"bar\" d=\"M%.2f %.2fv1.20\"/>\n", at, y + high);
@@ -512,7 +512,7 @@ static double write_turning_scale(const thr_scene *scene, double x, double y, do
     ramp.n_ticks++;
   }
 
-  /* All cords together. */
+  /* The sum over all cords, which the rows below divide. */
   describe_turning(scene, 0, scene->plan->n_cords, sum);
   snprintf(line, sizeof line, "%s%s.", scene->plan->n_cords > 1 ? "All cords: " : "", sum);
   y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line);

@@ -105,7 +105,7 @@ static void write_band(const load_picture *picture, thr_text *text)
     begun = true;
   }
 
-  /* The line, along the lower edge. */
+  /* The line lies on the lower edge: what is carried for certain. */
   thr_text_append(text, "Z\"/>\n<path class=\"pull\" d=\"");
   begun = false;
   for (int i = 0; i < chart->n; i++) {
@@ -224,7 +224,7 @@ thr_status thr_load_svg(const thr_load_chart *chart, thr_text *svg, thr_err *err
     return thr_fail(err, THR_EINPUT, "nothing to plot: at no pull is it decided what is carried");
   if (!(picture.highest > 0)) picture.highest = 1;
 
-  /* The plot lies below the heading. */
+  /* The plot begins where the heading ends, which depends on the words of the load. */
   picture.x = MARGIN + LEFT;
   picture.y = write_heading(&picture, &body);
   picture.width = ACROSS - LEFT - RIGHT;

@@ -118,7 +118,7 @@ void thr_miniature_draw(const thr_scene *scene, thr_text *text)
   thr_text_append(text, "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n");
   write_beads(&miniature, text);
 
-  /* A group for each cord. */
+  /* Ids as in the overview, because this draws overviews of very many passes. */
   for (int c = 0; c < scene->plan->n_cords; c++) {
     thr_text_printf(text, "<g id=\"cord-%s\">\n", scene->id[c]);
     write_cord(&miniature, c, text);

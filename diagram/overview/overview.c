@@ -48,7 +48,7 @@ static thr_status write_sheet(const thr_scene *scene, const char *given, thr_tex
   double drawn = scene->extent.x1 - scene->extent.x0 + near_room + far_room,
          width = fmax(drawn, THR_LEGEND_WIDTH);
 
-  /* The heading. */
+  /* The heading comes first: its height depends on the words. */
   thr_legend_title(scene, given, title);
   double y = thr_legend_heading(scene, title, MARGIN, MARGIN, width, &body);
   y += far_room;
@@ -60,7 +60,7 @@ static thr_status write_sheet(const thr_scene *scene, const char *given, thr_tex
   thr_draw_scene(scene, &(thr_draw_style){0}, &scene->extent, &body);
   thr_text_append(&body, "</g>\n");
 
-  /* The legend. */
+  /* The legend below the drawing and its letters. */
   y += scene->extent.y1 - scene->extent.y0 + near_room;
   thr_status st = thr_legend_foot(scene, MARGIN, y + 2, width, &body, &bottom, err);
   if (st) goto done;
@@ -114,7 +114,7 @@ thr_status thr_overview_svg(const thr_plan *plan, const thr_overview_options *op
   if (!st) scene.motion = options->motion;
   if (!st) scene.lines = scene.n_passes > THR_SCENE_LINES && options->colour != THR_COLOUR_TURNING;
 
-  /* What the colours show. */
+  /* Colours of tension need the range, those of turning the angles. */
   if (!st && options->colour == THR_COLOUR_TENSION) {
     scene.tension = &plan->evaluation;
     thr_evaluation_range(scene.tension, scene.tension_range);

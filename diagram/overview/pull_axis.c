@@ -188,7 +188,7 @@ void thr_pull_bar(double x, double y, double wide, double base, double over, boo
                   "<rect class=\"base%s\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n",
                   mark, x, y - base, wide, base);
 
-  /* The overlap on top. */
+  /* The overlap stands on what the edges need. */
   if (over > 0)
     thr_text_printf(
         text, "<rect class=\"over%s\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n",
@@ -239,7 +239,7 @@ thr_status thr_pull_sheet(const thr_text *body, double width, double height, con
   if (body->data) thr_text_append_bytes(&out, body->data, body->length);
   thr_text_append(&out, "</svg>\n");
 
-  /* All or nothing. */
+  /* svg gets all of the sheet or nothing. */
   bool failed = body->failed || out.failed;
   if (!failed) thr_text_append_bytes(svg, out.data, out.length);
   thr_text_destroy(&out);

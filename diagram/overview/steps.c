@@ -210,7 +210,7 @@ static void put_copy(steps_list *list, int c)
   char how[192];
   const thr_cord *cord = &list->plan->cord[c];
 
-  /* What the copy's motion is called. */
+  /* The motion in words: ", turned by 90 degrees". */
   thr_copies_words(list->plan, list->copy, c, list->motion, how);
 
   /* Without a motion the path cannot be carried over in one's head. */
@@ -247,7 +247,7 @@ static void put_path(steps_list *list, int c, int n_paths)
     thr_text_append(&words, "Cord ");
   thr_text_append(&words, list->plan->cord[c].id);
 
-  /* What the path takes, and its rows. */
+  /* The heading says what the path takes; the rows follow. */
   put_measure(list, c, &words);
   put_wrapped(list, "", &words);
   put_rows(list, c);
@@ -276,7 +276,7 @@ static void put_example(steps_list *list)
     i++;
   if (i == list->n_visits) return;
 
-  /* An example from this plan. */
+  /* The words are an example of what the rows call this piece. */
   int piece = list->visit[i].piece;
   thr_pieces_kind_name(&list->pieces, list->pieces.kind[piece], name);
   thr_pieces_pick(&list->pieces, (const char(*)[THR_LABEL])list->guide.label, piece, &words);
@@ -360,7 +360,7 @@ static thr_status prepare(steps_list *list, double tolerance, int needles, const
            ? thr_guide_make(&list->guide, list->frame, layout, err)
            : thr_nomem(err);
 
-  /* Copies, and kinds of pieces. */
+  /* Which cords repeat others, and what the pieces are called. */
   if (!st) st = thr_copies_find(plan, list->copy, err);
   if (!st) st = thr_pieces_make(&list->pieces, plan, tolerance, err);
   if (st) return st;
@@ -394,7 +394,7 @@ thr_status thr_steps_text(const thr_plan *plan, const char *const *motion, doubl
     if (list.copy[c].of == c) put_path(&list, c, n_paths);
   put_tightening(&list);
 
-  /* All or nothing. */
+  /* out gets all of the text or nothing. */
   if (!text.failed) thr_text_append_bytes(out, text.data, text.length);
   if (text.failed || out->failed) st = thr_nomem(err);
 done:

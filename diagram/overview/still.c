@@ -186,9 +186,10 @@ static int add_arm(still_view *view, int n, const double (*pose)[7], int h)
       four[3][k] = corner[1][i][k];
     }
 
-    /* The end in the middle of the edge. */
     n = add_face(view, n, pose[v], (const double(*)[3])four, normal, first ? FIRST : BEAD);
   }
+
+  /* The end in the middle of the edge, which another bead hides while the joint is closed. */
   return add_face(view, n, pose[v], (const double(*)[3])corner[1], axis, first ? FIRST_END : END);
 }
 
@@ -308,11 +309,11 @@ static void write_panel(still_view *view, const char *id, const double (*pose)[7
                   "transform=\"translate(%.2f %.2f)\">\n",
                   id, x, y);
 
-  /* The ground lies below everything. */
+  /* The ground is drawn first, and so lies below everything. */
   ground_corners(view, corner);
   write_polygon(view, (const double(*)[2])corner, " class=\"ground\"", text);
 
-  /* The beads. */
+  /* The beads stand on the ground, the farthest faces first. */
   int n = collect(view, pose);
   for (int i = 0; i < n; i++) {
     snprintf(attributes, sizeof attributes, " fill=\"%s\"", view->face[i].hex);

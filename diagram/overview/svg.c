@@ -93,7 +93,7 @@ double thr_svg_wrap(thr_text *text, double x, double y, double size, double widt
     while (n > 1 && thr_text_is_inside(words[n]))
       n--;
 
-    /* The line, and on to the next word. */
+    /* Write the line; the next one begins with a word. */
     snprintf(line, sizeof line, "%.*s", n, words);
     thr_svg_text(text, x, y, size, attributes, line);
     y += 1.45 * size;
@@ -220,7 +220,7 @@ static int log_ticks(double low, double high, int most, double *tick)
  * `most` allows. */
 int thr_svg_ticks(double low, double high, bool logarithmic, int most, double *tick)
 {
-  /* An axis of one value. */
+  /* Without a range there is one value to name. */
   if (!(high > low)) {
     tick[0] = low;
     return 1;

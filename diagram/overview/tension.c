@@ -197,7 +197,7 @@ static void choose_axes(tension_plot *plot)
                : range[1] > 0    ? 1.06 * range[1]
                                  : 1;
 
-  /* The longest cord shown. */
+  /* The x axis is as long as the longest cord shown. */
   for (int i = 0; i < plot->n_shown; i++) {
     double along = 0;
     for (int k = 0; k < plot->plan->cord[plot->shown[i]].n_passes; k++)
@@ -447,7 +447,7 @@ static void write_cord_marks(const tension_plot *plot, int c, thr_text *text)
                   thr_palette(c).hex, thr_svg_round(place_x(plot, slackest)),
                   thr_svg_round(place_y(plot, cord->tension[cord->slackest])), 0.7 * SIGN);
 
-  /* The pulled ends. */
+  /* Each pulled end has a triangle that points away from the cord. */
   if (cord->pull == THR_PULL_NONE) return;
   if (cord->pull != THR_PULL_END) write_pulled_end(plot, c, 0, cord->tension[0], -1, text);
   if (cord->pull != THR_PULL_START)
@@ -598,7 +598,7 @@ static double write_heading(const tension_plot *plot, const char *title, thr_tex
   for (int c = 0; c < evaluation->n_cords; c++)
     error = fmax(error, evaluation->cord[c].error);
 
-  /* How the tensions were found. */
+  /* The method, friction and the seating tension decide what the tensions are. */
   if (plot->seating)
     snprintf(seating, sizeof seating, ", seating tension %g N", evaluation->physics.seating);
   snprintf(line, sizeof line, "Method %s (%s); mu = %g%s.", thr_method_name(evaluation->method),
@@ -620,13 +620,13 @@ static double write_heading(const tension_plot *plot, const char *title, thr_tex
   snprintf(line + strlen(line), sizeof line - strlen(line), ".");
   y = thr_svg_wrap(text, MARGIN, y, TEXT_SIZE, WIDTH, "", line);
 
-  /* What the plot does not show. */
+  /* Say what the plot does not show: cords that are not known .. */
   line[0] = '\0';
   if (plot->n_known < evaluation->n_cords)
     snprintf(line, sizeof line, "The evaluation was stopped: %d of %d cords are not known. ",
              evaluation->n_cords - plot->n_known, evaluation->n_cords);
 
-  /* Cords that are known but not shown. */
+  /* .. and cords for which there is no panel. */
   if (plot->n_shown < plot->n_known)
     snprintf(line + strlen(line), sizeof line - strlen(line),
              "Shown: the %d cords with the largest pull, of %d.", plot->n_shown, plot->n_known);
@@ -643,7 +643,7 @@ static double write_key_of_limits(const tension_plot *plot, double y, thr_text *
   double x = MARGIN + LEFT, base = y + 0.36 * TEXT_SIZE;
   char words[120];
 
-  /* The fan. */
+  /* The fan, a pale box in grey because fans have the colours of their cords. */
   if (plot->options->low && plot->options->high) {
     thr_text_printf(text,
                     "<rect class=\"fan\" fill=\"#555\" x=\"%.2f\" y=\"%.2f\" width=\"8.00\" "
@@ -664,7 +664,7 @@ static double write_key_of_limits(const tension_plot *plot, double y, thr_text *
     y += 5.5;
   }
 
-  /* The strength of the cord. */
+  /* The strength of the cord is named even if its line is beyond the axis. */
   if (plot->options->strength > 0) {
     thr_text_printf(text, "<path class=\"strength\" d=\"M%.2f %.2fh8.00\"/>\n", x, y);
     snprintf(words, sizeof words, "at %g N the cord breaks", plot->options->strength);
@@ -747,7 +747,7 @@ static thr_status choose_cords(tension_plot *plot, thr_err *err)
     if (k < THR_TENSION_PANELS) plot->shown[k] = c;
   }
 
-  /* Sort back to the plan's order. */
+  /* Sort back to the plan's order, so that panels are easy to find. */
   for (int i = 1; i < plot->n_shown; i++)
     for (int k = i; k > 0 && plot->shown[k - 1] > plot->shown[k]; k--) {
       int c = plot->shown[k];
