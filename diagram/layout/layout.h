@@ -1,7 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where the nodes of a framework go on paper. Several candidates are made and measured; the one
- * with the fewest faults is drawn. A layout keeps the handedness of the framework seen from
- * outside, so that "turn left" on paper is "turn left" in the hand. */
+/* Computes where the nodes of a framework go on paper.
+ *
+ * Several candidates are made and measured: projections, unrolled domes and tubes, closed shells
+ * spread flat or cut into two halves, and at last a drawing by springs. The one with the fewest
+ * faults is drawn: pairs of edges that cross on paper but not in space, and edges too short for a
+ * bead. A layout keeps the handedness of the framework seen from outside, so that "turn left" on
+ * paper is "turn left" in the hand.
+ *
+ * Order in which to read the files: layout.c (projections, and the choice among all candidates),
+ * layout_measure.c (what makes a layout good), then layout_unroll.c, layout_spread.c and
+ * layout_panels.c, one kind of candidate each. */
 #ifndef THR_LAYOUT_H
 #define THR_LAYOUT_H
 
@@ -53,13 +61,14 @@ typedef struct {
   double ratio;   /* shortest edge on paper over median, 0 .. 1; 0 when the median is 0 */
 } thr_layout;
 
-/* What edges join on paper: the framework's nodes, or the layout's points. Either is a frame to ask
- * for ends and half-edges; of a layout's points no more is known. */
+/* Returns what edges join on paper: the framework's nodes, or the layout's points. Either is a
+ * frame to ask for ends and half-edges; of a layout's points no more is known. */
 static inline const thr_frame *thr_layout_paper(const thr_layout *layout, const thr_frame *frame)
 {
   return layout->node ? &layout->paper : frame;
 }
 
+/* Returns the node that a point shows. */
 static inline int thr_layout_node(const thr_layout *layout, int point)
 {
   return layout->node ? layout->node[point] : point;
@@ -83,31 +92,33 @@ thr_status thr_layout_adopt(thr_layout *layout, const thr_frame *frame, const do
 thr_status thr_layout_measure(thr_layout *layout, const thr_frame *frame,
                               thr_err *err) THR_MUST_CHECK;
 
-/* The layout to draw, by crossings + squeezed, then ratio; of nearly equal candidates (ratio within
- * a quarter) the earlier kind wins, so a plan view with no crossing and a ratio of 0.8 or more is
- * always taken, and one of 0.5 unless unrolling opens up a rim that it shows foreshortened. Two
- * panels are only considered when every single picture has faults or a ratio under 0.5; a drawing
- * by the algorithm of Kamada & Kawai (graph/framework/make.h), for up to THR_LAYOUT_DRAWN_NODES
- * nodes, only when all others have faults. extra[n_extra] are further measured candidates (NULL and
- * 0 for none), only used if they are better; the best is copied. */
+/* Chooses the layout to draw, by crossings + squeezed, then ratio; of nearly equal candidates
+ * (ratio within a quarter) the earlier kind wins, so a plan view with no crossing and a ratio of
+ * 0.8 or more is always taken, and one of 0.5 unless unrolling opens up a rim that it shows
+ * foreshortened. Two panels are only considered when every single picture has faults or a ratio
+ * under 0.5; a drawing by the algorithm of Kamada & Kawai (graph/framework/make.h), for up to
+ * THR_LAYOUT_DRAWN_NODES nodes, only when all others have faults. extra[n_extra] are further
+ * measured candidates (NULL and 0 for none), only used if they are better; the best is copied. */
 thr_status thr_layout_choose(thr_layout *best, const thr_frame *frame, const thr_layout *extra,
                              int n_extra, thr_err *err) THR_MUST_CHECK;
 
-/* Is one candidate clearly better than another? The order of thr_layout_choose. */
+/* Returns whether candidate a is clearly better than b, in the order of thr_layout_choose. */
 bool thr_layout_better(const thr_layout *a, const thr_layout *b);
 
+/* Copy a layout, and release one. */
 thr_status thr_layout_copy(thr_layout *to, const thr_layout *from, thr_err *err) THR_MUST_CHECK;
 void thr_layout_destroy(thr_layout *layout);
 
-const char *thr_layout_words(
-    thr_layout_kind kind); /* for the reader of a diagram: "seen from outside (from above)", .. */
+/* Returns a sentence for the reader of a diagram: "Plan, seen from outside (from above)." */
+const char *thr_layout_words(thr_layout_kind kind);
 
-/* Half-edges as paper->half, but by ascending angle[2 * n_edges] (rad, in (-pi, pi]) within a node,
- * in around[2 * n_edges]. */
+/* Lists the half-edges as paper->half, but by ascending angle[2 * n_edges] (rad, in (-pi, pi])
+ * within a node, in around[2 * n_edges]. */
 thr_status thr_layout_around(const thr_frame *paper, const double *angle, int *around,
                              thr_err *err) THR_MUST_CHECK;
 
-/* Are distances on paper those of the framework, up to the foreshortening of a projection? */
+/* Returns whether distances on paper are those of the framework, up to the foreshortening of a
+ * projection. */
 bool thr_layout_to_scale(thr_layout_kind kind);
 
 #endif

@@ -1,25 +1,32 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How good is a layout: crossings, squeezed edges and the spread of edge lengths.
+/* Measures how good a layout is: edges that cross on paper, edges too short for a bead, and the
+ * spread of edge lengths.
  *
- * Crossings are counted with a hash grid whose cells are as wide as the mean edge, so that an edge
- * lies in a few cells and meets only its neighbourhood. Where edges are so long that it meets most
- * others, pairs are counted for as many edges, spread evenly over the list, as n log n of time is
- * enough for, and the rest is estimated. */
+ * Crossings are counted with a grid of cells as wide as the mean edge, so that an edge lies in a
+ * few cells and meets only its neighbourhood. Where edges are so long that an edge meets most
+ * others, only as many edges as n log n of time allows are compared with the rest, and the number
+ * of crossings is estimated from them. Edges are taken in steps of the golden section of their
+ * number, because any first few of these are spread evenly over the list.
+ *
+ * Example: a square with both diagonals has one crossing, no squeezed edge, a median of 1 (four
+ * sides, two diagonals of 1.41) and a ratio of 1. */
 #include "diagram/layout/layout.h"
 #include "graph/sort.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* On paper two cords nearer than this share of a bead cannot be told apart. */
+/* Shares of the median edge: cords nearer than NEAR of it cannot be told apart on paper, and edges
+ * shorter than SQUEEZED of it have no room for a bead. */
 static const double NEAR = 0.02;
 static const double NEAR_ANGLE = 0.017; /* rad, 1 degree */
 static const double SQUEEZED = 0.2;
 static const double PAIRS = 8;     /* tried for each edge and doubling of their number */
 static const double FREE = 200000; /* tried at least */
 
+/* The grid over the layout. Arrays are owned. */
 typedef struct {
-  const thr_frame *f; /* the paper */
+  const thr_frame *paper; /* points and edges on paper */
   const double (*xy)[2];
   double near;         /* distance that counts as touching, in units of xy */
   double low[2], cell; /* the grid's corner and cell width */
@@ -27,170 +34,228 @@ typedef struct {
   int *first; /* [columns * rows + 1] into entry */
   int *entry; /* edges by cell */
   int *turn;  /* [n_edges] when an edge's pairs are counted */
-} grid;
+} edge_grid;
 
+/* Returns the length of an edge on paper. */
 static double edge_length(const thr_layout *layout, const thr_frame *paper, int e)
 {
-  const double *a = layout->xy[paper->edge[e][0]], *b = layout->xy[paper->edge[e][1]];
-  return hypot(b[0] - a[0], b[1] - a[1]);
+  const double *from = layout->xy[paper->edge[e][0]], *to = layout->xy[paper->edge[e][1]];
+  return hypot(to[0] - from[0], to[1] - from[1]);
 }
 
+/* Computes the median of the edges' lengths, the ratio of the shortest to the median, the number of
+ * squeezed edges, and the mean length. */
 static thr_status measure_lengths(thr_layout *layout, const thr_frame *frame, double *mean,
                                   thr_err *err)
 {
   double *length = thr_calloc((size_t)frame->n_edges, sizeof *length);
   if (!length) return thr_nomem(err);
+
+  /* The mean, which is the size of the grid's cells. */
   *mean = 0;
   for (int e = 0; e < frame->n_edges; e++) {
     length[e] = edge_length(layout, frame, e);
     *mean += length[e] / frame->n_edges;
   }
+
+  /* In ascending order the squeezed edges come first. */
   thr_sort_doubles(length, (size_t)frame->n_edges);
   layout->median = frame->n_edges ? length[frame->n_edges / 2] : 0;
   layout->ratio = layout->median > 0 ? length[0] / layout->median : 0;
   layout->squeezed = 0;
   while (layout->squeezed < frame->n_edges && length[layout->squeezed] < SQUEEZED * layout->median)
     layout->squeezed++;
+
+  /* Without a positive median no edge can be drawn. */
   if (!(layout->median > 0)) layout->squeezed = frame->n_edges;
   free(length);
   return THR_OK;
 }
 
-/* Is point p nearer to the segment a b than that? */
-static bool touches(const double *p, const double *a, const double *b, double near)
+/* Returns whether a point is nearer to a segment than near: part is where on the segment the
+ * nearest point is, from 0 at its one end to 1 at the other. */
+static bool touches(const double *point, const double *from, const double *to, double near)
 {
-  double dx = b[0] - a[0], dy = b[1] - a[1], d2 = dx * dx + dy * dy;
-  double t = d2 > 0 ? ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / d2 : 0;
-  t = t < 0 ? 0 : t > 1 ? 1 : t;
-  double x = p[0] - a[0] - t * dx, y = p[1] - a[1] - t * dy;
+  double dx = to[0] - from[0], dy = to[1] - from[1], square = dx * dx + dy * dy;
+
+  /* The foot of the perpendicular, kept within the segment. */
+  double part = square > 0 ? ((point[0] - from[0]) * dx + (point[1] - from[1]) * dy) / square : 0;
+  part = part < 0 ? 0 : part > 1 ? 1 : part;
+
+  /* The distance from there. */
+  double x = point[0] - from[0] - part * dx, y = point[1] - from[1] - part * dy;
   return x * x + y * y < near * near;
 }
 
-static double side_of(const double *a, const double *b, const double *p)
+/* Returns on which side of a line a point is: twice the signed area of the triangle, positive to
+ * the left. */
+static double side_of(const double *from, const double *to, const double *point)
 {
-  return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+  return (to[0] - from[0]) * (point[1] - from[1]) - (to[1] - from[1]) * (point[0] - from[0]);
 }
 
-/* Do two edges that share node v leave it in nearly the same direction? */
-static bool fold_over(const grid *g, int v, int p, int q)
+/* Returns whether the edges from node v to two others leave v in nearly the same direction, or are
+ * so short that this cannot be seen. With the angle phi between them |a x b| = |a| |b| sin(phi). */
+static bool fold_over(const edge_grid *grid, int v, int first, int second)
 {
-  const double *o = g->xy[v], *a = g->xy[p], *b = g->xy[q];
-  double ax = a[0] - o[0], ay = a[1] - o[1], bx = b[0] - o[0], by = b[1] - o[1];
+  const double *common = grid->xy[v], *a = grid->xy[first], *b = grid->xy[second];
+
+  /* Both directions, from the common node. */
+  double ax = a[0] - common[0], ay = a[1] - common[1], bx = b[0] - common[0], by = b[1] - common[1];
   double la = hypot(ax, ay), lb = hypot(bx, by);
-  if (la <= g->near || lb <= g->near) return true;
+
+  /* An edge hardly longer than near points nowhere. */
+  if (la <= grid->near || lb <= grid->near) return true;
   return ax * bx + ay * by > 0 && fabs(ax * by - ay * bx) < NEAR_ANGLE * la * lb;
 }
 
-static bool cross(const grid *g, int e, int d)
+/* Returns whether edge e and another one cross, touch or lie on each other on paper. Edges at a
+ * common node meet there, so only their directions count. */
+static bool cross(const edge_grid *grid, int e, int other)
 {
-  const int *p = g->f->edge[e], *q = g->f->edge[d];
+  const int *first = grid->paper->edge[e], *second = grid->paper->edge[other];
+
+  /* Edges with a common node touch there in any layout. */
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 2; j++)
-      if (p[i] == q[j]) return fold_over(g, p[i], p[1 - i], q[1 - j]);
-  const double *a = g->xy[p[0]], *b = g->xy[p[1]], *c = g->xy[q[0]], *h = g->xy[q[1]];
+      if (first[i] == second[j]) return fold_over(grid, first[i], first[1 - i], second[1 - j]);
+
+  /* Most pairs are apart: their boxes, widened by near, do not overlap. */
+  const double *from = grid->xy[first[0]], *to = grid->xy[first[1]],
+               *other_from = grid->xy[second[0]], *other_to = grid->xy[second[1]];
   for (int k = 0; k < 2; k++) {
-    double low = a[k] < b[k] ? a[k] : b[k], high = a[k] < b[k] ? b[k] : a[k];
-    if ((c[k] > high + g->near && h[k] > high + g->near) ||
-        (c[k] < low - g->near && h[k] < low - g->near))
+    double low = from[k] < to[k] ? from[k] : to[k], high = from[k] < to[k] ? to[k] : from[k];
+    if ((other_from[k] > high + grid->near && other_to[k] > high + grid->near) ||
+        (other_from[k] < low - grid->near && other_to[k] < low - grid->near))
       return false;
   }
-  if (side_of(a, b, c) * side_of(a, b, h) < 0 && side_of(c, h, a) * side_of(c, h, b) < 0)
+
+  /* Each edge has its ends on both sides of the other one: they cross. */
+  if (side_of(from, to, other_from) * side_of(from, to, other_to) < 0 &&
+      side_of(other_from, other_to, from) * side_of(other_from, other_to, to) < 0)
     return true;
-  return touches(a, c, h, g->near) || touches(b, c, h, g->near) || touches(c, a, b, g->near) ||
-         touches(h, a, b, g->near);
+
+  /* Else they can only be near at one of the four ends. */
+  return touches(from, other_from, other_to, grid->near) ||
+         touches(to, other_from, other_to, grid->near) ||
+         touches(other_from, from, to, grid->near) || touches(other_to, from, to, grid->near);
 }
 
+/* Returns the column or row of a coordinate; what is beyond the grid counts to the border. */
 static int cell_of(double x, double low, double cell, int n)
 {
   int i = (int)floor((x - low) / cell);
   return i < 0 ? 0 : i >= n ? n - 1 : i;
 }
 
-/* Columns that edge e touches while it is in grid row r, widened by near: from[0] .. from[1]. */
-static void row_span(const grid *g, int e, int r, int span[2])
+/* Computes the columns that edge e touches in row r of the grid, widened by near: from span[0] to
+ * span[1]. */
+static void row_span(const edge_grid *grid, int e, int row, int span[2])
 {
-  const double *a = g->xy[g->f->edge[e][0]], *b = g->xy[g->f->edge[e][1]];
-  double y0 = g->low[1] + r * g->cell - g->near, y1 = y0 + g->cell + 2 * g->near;
-  double low = fmin(a[0], b[0]), high = fmax(a[0], b[0]), dy = b[1] - a[1];
-  if (fabs(dy) > 1e-9 * g->cell) {
-    double s = (y0 - a[1]) / dy, t = (y1 - a[1]) / dy;
-    s = s < 0 ? 0 : s > 1 ? 1 : s;
-    t = t < 0 ? 0 : t > 1 ? 1 : t;
-    double x0 = a[0] + s * (b[0] - a[0]), x1 = a[0] + t * (b[0] - a[0]);
+  const double *from = grid->xy[grid->paper->edge[e][0]], *to = grid->xy[grid->paper->edge[e][1]];
+
+  /* The row with what is near on both sides. */
+  double y0 = grid->low[1] + row * grid->cell - grid->near, y1 = y0 + grid->cell + 2 * grid->near;
+  double low = fmin(from[0], to[0]), high = fmax(from[0], to[0]), dy = to[1] - from[1];
+
+  /* The part of the edge in the row; a level edge is there with all of its length. */
+  if (fabs(dy) > 1e-9 * grid->cell) {
+    double enter = (y0 - from[1]) / dy, leave = (y1 - from[1]) / dy;
+    enter = enter < 0 ? 0 : enter > 1 ? 1 : enter;
+    leave = leave < 0 ? 0 : leave > 1 ? 1 : leave;
+    double x0 = from[0] + enter * (to[0] - from[0]), x1 = from[0] + leave * (to[0] - from[0]);
     low = fmin(x0, x1);
     high = fmax(x0, x1);
   }
-  span[0] = cell_of(low - g->near, g->low[0], g->cell, g->columns);
-  span[1] = cell_of(high + g->near, g->low[0], g->cell, g->columns);
+
+  span[0] = cell_of(low - grid->near, grid->low[0], grid->cell, grid->columns);
+  span[1] = cell_of(high + grid->near, grid->low[0], grid->cell, grid->columns);
 }
 
-/* Rows of edge e: from rows[0] to rows[1]. */
-static void row_range(const grid *g, int e, int rows[2])
+/* Computes the rows that edge e touches, widened by near: from rows[0] to rows[1]. */
+static void row_range(const edge_grid *grid, int e, int rows[2])
 {
-  const double *a = g->xy[g->f->edge[e][0]], *b = g->xy[g->f->edge[e][1]];
-  rows[0] = cell_of(fmin(a[1], b[1]) - g->near, g->low[1], g->cell, g->rows);
-  rows[1] = cell_of(fmax(a[1], b[1]) + g->near, g->low[1], g->cell, g->rows);
+  const double *from = grid->xy[grid->paper->edge[e][0]], *to = grid->xy[grid->paper->edge[e][1]];
+  rows[0] = cell_of(fmin(from[1], to[1]) - grid->near, grid->low[1], grid->cell, grid->rows);
+  rows[1] = cell_of(fmax(from[1], to[1]) + grid->near, grid->low[1], grid->cell, grid->rows);
 }
 
-/* Chooses the grid: cells of the mean edge length, but not many more cells than edges. */
-static void size_grid(grid *g, double mean)
+/* Chooses the grid: cells as wide as the mean edge, but not many more cells than edges, and wider
+ * than 4 near. */
+static void size_grid(edge_grid *grid, double mean)
 {
   double high[2] = {-HUGE_VAL, -HUGE_VAL};
-  g->low[0] = g->low[1] = HUGE_VAL;
-  for (int v = 0; v < g->f->n_nodes; v++)
+
+  /* The bounding box of all points. */
+  grid->low[0] = grid->low[1] = HUGE_VAL;
+  for (int v = 0; v < grid->paper->n_nodes; v++)
     for (int i = 0; i < 2; i++) {
-      g->low[i] = fmin(g->low[i], g->xy[v][i]);
-      high[i] = fmax(high[i], g->xy[v][i]);
+      grid->low[i] = fmin(grid->low[i], grid->xy[v][i]);
+      high[i] = fmax(high[i], grid->xy[v][i]);
     }
-  double w = high[0] - g->low[0], h = high[1] - g->low[1];
-  double wanted =
-      fmax(sqrt(w * h / (2.0 * g->f->n_edges + 1)), (w + h) / (2.0 * g->f->n_edges + 1));
-  g->cell = fmax(fmax(mean, wanted), 4 * g->near);
-  if (!(g->cell > 0)) g->cell = 1;
-  g->columns = (int)(w / g->cell) + 1;
-  g->rows = (int)(h / g->cell) + 1;
+
+  /* At most some 2 n_edges cells, also where the layout is much longer than wide. */
+  double width = high[0] - grid->low[0], height = high[1] - grid->low[1];
+  double wanted = fmax(sqrt(width * height / (2.0 * grid->paper->n_edges + 1)),
+                       (width + height) / (2.0 * grid->paper->n_edges + 1));
+
+  /* At least one column and one row, also where all points coincide. */
+  grid->cell = fmax(fmax(mean, wanted), 4 * grid->near);
+  if (!(grid->cell > 0)) grid->cell = 1;
+  grid->columns = (int)(width / grid->cell) + 1;
+  grid->rows = (int)(height / grid->cell) + 1;
 }
 
-/* Sorts the edges into cells by counting; a second pass over the edges fills. */
-static thr_status fill_grid(grid *g, thr_err *err)
+/* Sorts the edges into cells by counting: the first pass counts how many edges each cell has, the
+ * second one fills them in. An edge is in every cell that it touches. */
+static thr_status fill_grid(edge_grid *grid, thr_err *err)
 {
-  int cells = g->columns * g->rows;
-  g->first = thr_calloc((size_t)cells + 2, sizeof *g->first);
-  if (!g->first) return thr_nomem(err);
+  int cells = grid->columns * grid->rows;
+  grid->first = thr_calloc((size_t)cells + 2, sizeof *grid->first);
+  if (!grid->first) return thr_nomem(err);
+
+  /* first is shifted by two places while counting and by one while filling, so that first[i] ..
+   * first[i + 1] are the entries of cell i in the end. */
   for (int fill = 0; fill < 2; fill++) {
-    for (int e = 0; e < g->f->n_edges; e++) {
+    for (int e = 0; e < grid->paper->n_edges; e++) {
       int rows[2], span[2];
-      row_range(g, e, rows);
-      for (int r = rows[0]; r <= rows[1]; r++) {
-        row_span(g, e, r, span);
-        for (int c = span[0]; c <= span[1]; c++) {
-          int *at = &g->first[r * g->columns + c + (fill ? 1 : 2)];
-          if (fill) g->entry[*at] = e;
+      row_range(grid, e, rows);
+      for (int row = rows[0]; row <= rows[1]; row++) {
+        row_span(grid, e, row, span);
+        for (int column = span[0]; column <= span[1]; column++) {
+          int *at = &grid->first[row * grid->columns + column + (fill ? 1 : 2)];
+          if (fill) grid->entry[*at] = e;
           ++*at;
         }
       }
     }
+
+    /* Sums turn numbers into places. */
     if (fill) break;
     for (int i = 2; i < cells + 2; i++)
-      g->first[i] += g->first[i - 1];
-    g->entry = thr_calloc((size_t)g->first[cells + 1] + 1, sizeof *g->entry);
-    if (!g->entry) return thr_nomem(err);
+      grid->first[i] += grid->first[i - 1];
+    grid->entry = thr_calloc((size_t)grid->first[cells + 1] + 1, sizeof *grid->entry);
+    if (!grid->entry) return thr_nomem(err);
   }
+
   return THR_OK;
 }
 
+/* Returns the greatest common divisor (Euclid). */
 static int common_divisor(int a, int b)
 {
   return b ? common_divisor(b, a % b) : a;
 }
 
-/* The k-th edge whose turn it is: steps of the golden section of their number visit all, and any
- * first few of them evenly. */
+/* Returns the k-th edge to be counted. The step has no divisor in common with n, so that k = 0 .. n
+ * - 1 visits every edge once. */
 static int edge_of_turn(int k, int step, int n)
 {
   return (int)((int64_t)k * step % n);
 }
 
+/* Chooses the step: the golden section of n, or the next number without a divisor in common with
+ * n. */
 static int choose_step(int n)
 {
   int step = (int)(0.6180339887498949 * n);
@@ -199,46 +264,62 @@ static int choose_step(int n)
   return n > 1 ? step : 1;
 }
 
-/* Pairs of edge e with those whose turn is later; seen[d] = e + 1: d was met in an earlier cell.
- * Returns how many were tried. */
-static long count_edge(const grid *g, int e, int *seen, long *crossings)
+/* Counts the crossings of edge e with those edges whose turn is later, so that every pair counts
+ * once. seen[other] = e + 1 says that this edge was met in an earlier cell. Returns how many
+ * entries were looked at. */
+static long count_edge(const edge_grid *grid, int e, int *seen, long *crossings)
 {
   int rows[2], span[2];
   long pairs = 0;
-  row_range(g, e, rows);
-  for (int r = rows[0]; r <= rows[1]; r++) {
-    row_span(g, e, r, span);
-    for (int i = g->first[r * g->columns + span[0]]; i < g->first[r * g->columns + span[1] + 1];
-         i++) {
-      int d = g->entry[i];
+
+  /* A row's span holds few cells that the edge does not touch. */
+  row_range(grid, e, rows);
+  for (int row = rows[0]; row <= rows[1]; row++) {
+    row_span(grid, e, row, span);
+
+    /* All cells of the span are next to each other in entry. */
+    for (int i = grid->first[row * grid->columns + span[0]];
+         i < grid->first[row * grid->columns + span[1] + 1]; i++) {
+      int other = grid->entry[i];
       pairs++;
-      if (g->turn[d] <= g->turn[e] || seen[d] == e + 1) continue;
-      seen[d] = e + 1;
-      *crossings += cross(g, e, d);
+      if (grid->turn[other] <= grid->turn[e] || seen[other] == e + 1) continue;
+      seen[other] = e + 1;
+      *crossings += cross(grid, e, other);
     }
   }
+
   return pairs;
 }
 
-/* Of all pairs of n edges, those of the first m with each other and with the rest are this part. */
-static double part_counted(int m, int n)
+/* Returns the part of all pairs of n edges that the first m = counted have with each other and with
+ * the rest: 1 - (n - m)(n - m - 1) / (n (n - 1)). */
+static double part_counted(int counted, int n)
 {
-  return m < n ? 1 - (double)(n - m) / n * (n - m - 1) / (n - 1) : 1;
+  return counted < n ? 1 - (double)(n - counted) / n * (n - counted - 1) / (n - 1) : 1;
 }
 
-static void count_crossings(const grid *g, int *seen, thr_layout *layout)
+/* Counts the crossings, or estimates them from as many edges as there is time for: FREE entries at
+ * least, PAIRS for each edge and doubling of their number. */
+static void count_crossings(const edge_grid *grid, int *seen, thr_layout *layout)
 {
-  int n = g->f->n_edges, step = choose_step(n), done = 0;
+  int n = grid->paper->n_edges, step = choose_step(n), done = 0;
   double most = fmax(FREE, PAIRS * n * (1 + log2(n + 1.0)));
   long pairs = 0, crossings = 0;
+
+  /* Turns in the order of the golden section. */
   for (int k = 0; k < n; k++)
-    g->turn[edge_of_turn(k, step, n)] = k;
+    grid->turn[edge_of_turn(k, step, n)] = k;
+
+  /* Stop when enough entries were looked at. */
   for (; done < n && (double)pairs < most; done++)
-    pairs += count_edge(g, edge_of_turn(done, step, n), seen, &crossings);
+    pairs += count_edge(grid, edge_of_turn(done, step, n), seen, &crossings);
+
+  /* The crossings that were counted are this part of all. */
   layout->estimated = done < n;
   layout->crossings = n ? (long)nearbyint((double)crossings / part_counted(done, n)) : 0;
 }
 
+/* Measures lengths, then crossings. */
 thr_status thr_layout_measure(thr_layout *layout, const thr_frame *frame, thr_err *err)
 {
   const thr_frame *framework = thr_layout_paper(layout, frame);
@@ -246,21 +327,28 @@ thr_status thr_layout_measure(thr_layout *layout, const thr_frame *frame, thr_er
   int *seen = NULL;
   thr_status st = measure_lengths(layout, framework, &mean, err);
   if (st) return st;
-  grid g = {.f = framework, .xy = (const double(*)[2])layout->xy, .near = NEAR * layout->median};
-  size_grid(&g, mean);
-  st = fill_grid(&g, err);
+
+  /* The grid holds the paper's edges, which may be more points than nodes. */
+  edge_grid grid = {
+      .paper = framework, .xy = (const double(*)[2])layout->xy, .near = NEAR * layout->median};
+  size_grid(&grid, mean);
+  st = fill_grid(&grid, err);
   if (st) goto done;
+
+  /* Marks of edges met, and the order of counting. */
   seen = thr_calloc((size_t)framework->n_edges, sizeof *seen);
-  g.turn = thr_calloc((size_t)framework->n_edges, sizeof *g.turn);
-  if (!seen || !g.turn) {
+  grid.turn = thr_calloc((size_t)framework->n_edges, sizeof *grid.turn);
+  if (!seen || !grid.turn) {
     st = thr_nomem(err);
     goto done;
   }
-  count_crossings(&g, seen, layout);
+
+  count_crossings(&grid, seen, layout);
+
 done:
-  free(g.first);
-  free(g.entry);
-  free(g.turn);
+  free(grid.first);
+  free(grid.entry);
+  free(grid.turn);
   free(seen);
   return st;
 }

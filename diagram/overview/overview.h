@@ -1,5 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pictures of whole plans: overview, steps, poster, stills, tension. */
+/* Draws whole plans: the overview page, steps in words, a poster, stills of the structure, the
+ * tension plot, and the charts (charts.h).
+ *
+ * This folder turns a plan into SVG or text for people who thread it. A picture is made in three
+ * steps: a layout says where each node goes on paper (diagram/layout), a scene says where
+ * everything else goes, in mm (diagram/scene), and the files here write the scene as elements. All
+ * of it is deterministic: the same plan and options give the same bytes.
+ *
+ * Order in which to read the files: svg.c (numbers, words, paths), draw_parts.c and draw.c (a scene
+ * as elements), legend.c and overview.c (the page round the drawing), poster.c; crop.c with
+ * crop_labels.c and crop_pieces.c (parts of a scene for the pages of a booklet), miniature.c;
+ * guide.c, steps.c and tighten.c (words); tension.c and still.c; pull_axis.c and then the charts.
+ * overview_parts.h has what these files share with the other folders of diagram/. */
 #ifndef THR_OVERVIEW_H
 #define THR_OVERVIEW_H
 
@@ -22,7 +34,8 @@ typedef enum {
   THR_N_COLOURS
 } thr_overview_colour;
 
-const char *thr_overview_colour_name(int c); /* "cord", "tension", "turning" */
+/* Returns "cord", "tension" or "turning". */
+const char *thr_overview_colour_name(int c);
 
 typedef struct {
   const char *title; /* NULL or "": "Cord A: 49 pieces, 86 passes"; borrowed */
@@ -60,12 +73,16 @@ thr_status thr_overview_svg(const thr_plan *plan, const thr_overview_options *op
 
 /* Appends UTF-8 text of at most 100 columns. Places are called as in the overview. A path is a
  * heading, a line "start at PLACE", a row for every piece that the needle comes to, as
- * thr_pieces_say has it, [ ]  S  start, pick up L-1 (A7): out to A6 [ ]  4 pick up X-10 (B5): in
- * from A5, out to C5 [ ]  8  through F5, on cord A since its row 3: in from E5, out to G5 numbered
- * as the passes are that lead into them; and a line "the needle comes out at PLACE". Long rows go
- * on in indented lines. Copies are a row each, "Cord B: the same, ..", or listed in full if no
- * motion in space makes them. motion: as in thr_overview_options; tolerance: as in thr_pieces_make;
- * layout: as in thr_guide_make. The same plan gives the same bytes. needles: as in
+ * thr_pieces_say has it,
+ *
+ *   [ ]  S  start, pick up L-1 (A7): out to A6
+ *   [ ]  4  pick up X-10 (B5): in from A5, out to C5
+ *   [ ]  8  through F5, on cord A since its row 3: in from E5, out to G5
+ *
+ * numbered as the passes are that lead into them; and a line "the needle comes out at PLACE". Long
+ * rows go on in indented lines. Copies are a row each, "Cord B: the same, ..", or listed in full if
+ * no motion in space makes them. motion: as in thr_overview_options; tolerance: as in
+ * thr_pieces_make; layout: as in thr_guide_make. The same plan gives the same bytes. needles: as in
  * thr_pieces_parts; of a cord that is threaded from its fold the rows of the right needle come
  * first, then, after a line, those of the left one. THR_EINPUT for a plan without cords and for
  * cords that do not fit the framework. O(n log n). out is unchanged on failure. */
@@ -109,12 +126,12 @@ typedef struct {
 /* Appends the picture to svg: all panels seen from one side, to one scale, faces shaded and drawn
  * back to front; ends of arms are pale, so that gaps show. What has gone far away from the first
  * panel is cut off at the edge. The same input gives the same bytes. THR_EINPUT for poses that are
- * not finite, a width <= 0 or a bead out of range. O(n log n). svg is unchanged on failure.
- */
+ * not finite, a width <= 0 or a bead out of range. O(n log n). svg is unchanged on
+ * failure. */
 thr_status thr_still_svg(const thr_frame *frame, const thr_still *still, thr_text *svg,
                          thr_err *err) THR_MUST_CHECK;
 
-/* ---- tension.c: The tension plot: how the pull dies away along every cord. */
+/* ---- tension.c: The tension plot: the tension of every pass along every cord. */
 
 typedef struct {
   const char *title; /* NULL or "": "Tension along 3 cords"; borrowed */
@@ -139,52 +156,55 @@ enum { THR_TENSION_LINES = 6, THR_TENSION_PANELS = 48 };
  * by index as in the overview. Lines of class "hand" and "strength" are drawn where they lie within
  * the axis, which reaches up to the nearest one that is at most 5 times as much as the pull. The
  * same plan and options give the same bytes. THR_EINPUT if the plan has no evaluation, no known
- * cord, or one that does not fit its cords. O(n). svg is unchanged on failure.
- */
+ * cord, or one that does not fit its cords. O(n). svg is unchanged on
+ * failure. */
 thr_status thr_tension_svg(const thr_plan *plan, const thr_tension_options *options, thr_text *svg,
                            thr_err *err) THR_MUST_CHECK;
 
-/* THR_EINPUT with advice unless the plan's evaluation is there and has a tension per pass of every
- * known cord. */
+/* Checks that the plan's evaluation is there and has a tension per pass of every known cord;
+ * THR_EINPUT with advice otherwise. */
 thr_status thr_tension_usable(const thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
-/* "joints measured in simulation, .. ": what a method's tensions are. */
+/* Returns what a method's tensions are: "joints measured in simulation, ..". */
 const char *thr_tension_method_words(const thr_evaluation *evaluation);
 
 /* ---- svg.c: Small pieces of SVG: numbers, text, paths. */
 
-/* Rounded to the two decimals that are printed, and never -0. */
+/* Rounds to the two decimals that are printed; the result is never -0. */
 double thr_svg_round(double value);
 
-/* The document up to its description, in mm; title and description are escaped. Close it with
- * </svg>. */
+/* Appends the document up to its description, in mm; title and description are escaped. The
+ * caller closes it with </svg>. */
 void thr_svg_open(thr_text *text, double width, double height, const char *title,
                   const char *description);
 
-/* <text> at the baseline point; attributes is put in as it is ("" for none), e.g. "
+/* Appends <text> at the baseline point; attributes is put in as it is ("" for none), e.g. "
  * text-anchor=\"middle\"". */
 void thr_svg_text(thr_text *text, double x, double y, double size, const char *attributes,
                   const char *s);
 
-/* The same in lines of at most width mm (estimated for a wide face), broken at spaces, but for "mu
- * = 0.2" and "1 N", and in a name that is too wide behind a slash; returns the y of the next line.
- */
+/* Appends the same in lines of at most width mm (estimated for a wide face), broken at spaces, but
+ * for "mu = 0.2" and "1 N", and in a name that is too wide behind a slash; returns the y of the
+ * next
+ * line. */
 double thr_svg_wrap(thr_text *text, double x, double y, double size, double width,
                     const char *attributes, const char *words);
 
+/* Append path data: move to a point, a line there, a Bezier curve there with control points a and
+ * b. */
 void thr_svg_move(thr_text *text, const double at[2]);
 void thr_svg_line(thr_text *text, const double at[2]);
 void thr_svg_curve(thr_text *text, const double a[2], const double b[2], const double at[2]);
 
-/* A length in the frame's units with about four digits: "2413 mm", "12.35 m". */
+/* Writes a length in the frame's units with about four digits: "2413 mm", "12.35 m". */
 void thr_svg_length(double value, const char *units, char text[64]);
 
-/* A force with about three digits: "12.3 N". */
+/* Writes a force with about three digits: "12.3 N". */
 void thr_svg_force(double newton, char text[32]);
 
-/* Round values for an axis from low to high, at most `most` (>= 3) of them, ascending; returns
- * their number. Logarithmic (low > 0): powers of ten, with their 2 and 5 fold where these are few;
- * even steps where that leaves fewer than two. */
+/* Lists round values for an axis from low to high, at most `most` (>= 3) of them, ascending;
+ * returns their number. Logarithmic (low > 0): powers of ten, with their 2 and 5 fold where these
+ * are few; even steps where that leaves fewer than two. */
 int thr_svg_ticks(double low, double high, bool logarithmic, int most, double *tick);
 
 #endif

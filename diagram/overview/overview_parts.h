@@ -1,5 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the pictures share: drawing, crops, guides, legends. */
+/* Declares what the files of this folder share with each other and with the other folders
+ * of diagram/: drawing a scene, pictures of parts of a scene, the names of places and turns, the
+ * legend, miniatures, and how cords are tightened. Private to diagram/.
+ *
+ * The sections are in the order in which a page uses them: a scene is drawn (draw.c), as a whole or
+ * as a part (crop.c), with words for what is seen (guide.c) and a key (legend.c). */
 #ifndef THR_OVERVIEW_PARTS_H
 #define THR_OVERVIEW_PARTS_H
 
@@ -21,7 +26,7 @@ typedef enum {
   THR_DRAW_HIDDEN   /* not at all */
 } thr_draw_state;
 
-/* What is known of a piece when a picture is used. */
+/* What is known of a piece when a picture is used by whoever threads a plan. */
 typedef enum {
   THR_PIECE_PLAIN, /* nothing: pictures of the whole */
   THR_PIECE_LATER, /* it waits: white, its outline dashed */
@@ -30,8 +35,8 @@ typedef enum {
   THR_PIECE_STATES
 } thr_piece_state;
 
-/* {0}: everything, as in the overview. Arrays are borrowed. An S mark is drawn if its cord's first
- * pass is, an E mark if the last one is. */
+/* How a scene is drawn. {0}: everything, as in the overview. Arrays are borrowed. An S mark is
+ * drawn if its cord's first pass is, an E mark if the last one is. */
 typedef struct {
   const unsigned char *state; /* [n_passes] thr_draw_state; NULL: all are drawn now */
   const thr_box *
@@ -55,10 +60,11 @@ void thr_draw_scene(const thr_scene *scene, const thr_draw_style *style, const t
 /* Appends the pads of feet alone. */
 void thr_draw_feet(const thr_scene *scene, const thr_draw_style *style, thr_text *text);
 
-/* Are letters and numbers of places wanted on all four sides of the whole picture? */
+/* Returns whether letters and numbers of places stand on all four sides of the whole picture. */
 bool thr_draw_grid_both(const thr_scene *scene);
 
-/* Parts that the legend shows, too. A mark's ring has a colour of its own; pale: of a copy. */
+/* Append the parts that the legend shows, too, at a point in mm. A mark's ring has a colour of its
+ * own; pale: of a copy. */
 void thr_draw_mark(const thr_scene *scene, const thr_mark *mark, bool end, bool pale,
                    const char *ring, double x, double y, thr_text *text);
 void thr_draw_pill(const thr_scene *scene, const char *number, const char *colour, double x,
@@ -88,9 +94,10 @@ void thr_draw_dash(const thr_scene *scene, const double *dash, thr_text *text);
 /* ---- crop.c: Pictures for pages: the whole plan or a part of it, at a scale at which nothing is
  * under 7 pt. */
 
-/* Scenes of one plan at a few scales, each made when it is first asked for. */
+/* Number of scales. */
 enum { THR_CROP_SCALES = 20 };
 
+/* Scenes of one plan at a few scales, each made when it is first asked for. */
 typedef struct {
   const thr_plan *plan;
   const thr_layout *layout;
@@ -102,7 +109,8 @@ typedef struct {
   thr_box whole_paper[THR_CROP_SCALES]; /* where they are */
 } thr_crops;
 
-/* Plan and layout are borrowed and must outlive crops. */
+/* Makes crops without a scene. Plan and layout are borrowed and must outlive crops. Release with
+ * thr_crops_destroy. */
 void thr_crops_make(thr_crops *crops, const thr_plan *p, const thr_layout *l);
 void thr_crops_destroy(thr_crops *crops);
 
@@ -124,9 +132,9 @@ typedef struct {
   double size[2]; /* mm */
 } thr_crop_view;
 
-/* The largest scale at which the passes drawn now fit in room (width and height, mm) with a ring of
- * their neighbours around them. The window is at least as large as least, if there is room for
- * that. O(n_now), and O(n log n) the first time. */
+/* Finds the largest scale at which the passes drawn now fit in room (width and height, mm) with a
+ * ring of their neighbours around them. The window is at least as large as least, if there is room
+ * for that. O(n_now), and O(n log n) the first time. */
 thr_status thr_crop_fit(thr_crops *crops, const thr_crop *crop, const double room[2],
                         const double least[2], thr_crop_view *view, thr_err *err) THR_MUST_CHECK;
 
@@ -199,9 +207,9 @@ void thr_guide_destroy(thr_guide *guide);
 /* Appends "foot A1 (node 17)": the node's own name where it is called by its place. */
 void thr_guide_place(const thr_guide *guide, int v, thr_text *text);
 
-/* The half-edges that leave each node in around[2 * n_edges], as frame->half, but clockwise as seen
- * from outside where that is known, from the one on that points up most nearly in the picture. O(n
- * log n). */
+/* Lists the half-edges that leave each node in around[2 * n_edges], as frame->half, but clockwise
+ * as seen from outside where that is known, from the one on that points up most nearly in the
+ * picture. O(n log n). */
 thr_status thr_guide_around(const thr_guide *guide, int *around, thr_err *err) THR_MUST_CHECK;
 
 /* How half-edge out goes on from half-edge in (head(in) = tail(out)). */
@@ -214,22 +222,23 @@ typedef enum {
   THR_WAY_BACK  /* into the same edge */
 } thr_way;
 
+/* Returns which way the turn goes. */
 thr_way thr_guide_way(const thr_guide *guide, int in, int out);
 
 /* Appends "straight on", "turn left 90 degrees", "over the curve 24 degrees", "turn back". */
 void thr_guide_say(const thr_guide *guide, int in, int out, thr_text *text);
 
-/* "second", "third", "4th", "21st" */
+/* Writes an ordinal: "second", "third", "4th", "21st". */
 void thr_guide_ordinal(int n, char word[16]);
 
 /* ---- legend.c: What is written around the overview picture: heading, key, one line per cord,
  * scale bar. */
 
-/* The title to show: the given one, or one made from the counts. */
+/* Writes the title to show: the given one, or one made from the counts. */
 void thr_legend_title(const thr_scene *scene, const char *given, char title[160]);
 
-/* Appends title and explanations within width mm from the left margin x; returns the y below them.
- */
+/* Appends title and explanations within width mm from the left margin x; returns the y below
+ * them. */
 double thr_legend_heading(const thr_scene *scene, const char *title, double x, double y,
                           double width, thr_text *text);
 
@@ -237,7 +246,7 @@ double thr_legend_heading(const thr_scene *scene, const char *title, double x, d
 thr_status thr_legend_foot(const thr_scene *scene, double x, double y, double width, thr_text *text,
                            double *bottom, thr_err *err) THR_MUST_CHECK;
 
-/* Width that the longest line wants, mm. */
+/* Width that the longest line of the legend needs, mm. */
 enum { THR_LEGEND_WIDTH = 165 };
 
 /* ---- miniature.c: A plan as small as a stamp: its cords alone, without names and numbers. */
@@ -254,8 +263,9 @@ void thr_miniature_draw(const thr_scene *scene, thr_text *text);
 /* ---- tighten.c: How cords are tightened, in words: the steps of a plan's schedule
  * (graph/plan/schedule.h), for steps.txt and the booklet. */
 
-/* "Cord A, pass 25: grip it between E5 and D5 and draw it from the side of its start, with 15 N;
- * hold it until the next has taken its slack." Places are the guide's. */
+/* Appends a step as a sentence: "Cord A, pass 25: grip it between E5 and D5 and draw it from the
+ * side of its start, with 15 N; hold it until the next has taken its slack." Places are the
+ * guide's. */
 void thr_tighten_step(const thr_plan *plan, const thr_guide *guide, const thr_schedule_step *step,
                       thr_text *words);
 

@@ -1,6 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Still pictures: rigid beads before and after something gave way, or as they come up, side by
- * side. */
+/* Draws still pictures of rigid beads side by side: before and after something gave way, or as the
+ * structure comes up.
+ *
+ * A bead is its node's arms: boxes of square section from the node to the middles of its edges.
+ * Each panel is the same orthographic view, from a fixed direction and to one scale. Hidden faces
+ * are left out by the painter's algorithm: faces whose back is turned to the eye are dropped, the
+ * others are drawn by the depth of their middles, the farthest first. This may err where faces
+ * cross, but beads hardly do.
+ *
+ * Lengths are in units of the framework until they are on paper (mm). Example: two panels of a dome
+ * with 49 nodes and 84 edges draw at most 2 x 840 faces. */
 #include "diagram/overview/overview.h"
 
 #include "graph/vector.h"
@@ -9,75 +18,97 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static const double MARGIN = 10, PANEL = 130, GAP = 8, TITLE_SIZE = 5, TEXT_SIZE = 3.2; /* mm */
+/* Lengths in mm on paper. */
+static const double MARGIN = 10, PANEL = 130, GAP = 8, TITLE_SIZE = 5, TEXT_SIZE = 3.2;
 static const double AZIMUTH = -0.95, ELEVATION = 0.42; /* rad, of the eye */
 static const double LIGHT[3] = {0.32, -0.52, 0.79};    /* unit, towards the light */
 static const double ROAM = 0.3; /* share of the first picture by which the others may be larger */
 enum { MOST_IN_ROW = 3 };
+/* Red, green and blue, 0 to 255: sides and ends of the arms of all beads, and of the one that moves
+ * first. */
 static const int BEAD[3] = {205, 184, 140}, END[3] = {255, 246, 226}, FIRST[3] = {213, 94, 0},
                  FIRST_END[3] = {255, 190, 140};
 
+/* A face on the plane of view. */
 typedef struct {
   double depth; /* larger = nearer to the eye */
   double at[4][2];
   int order; /* among faces of equal depth */
   char hex[8];
-} face;
+} still_face;
 
+/* The view while it is drawn: directions, the part of the plane that is shown, and the faces of one
+ * panel. */
 typedef struct {
-  const thr_frame *f;
+  const thr_frame *frame;
   const thr_still *still;
   double right[3], up[3], eye[3];
   double low[2], high[2]; /* of both pictures on the plane of view, in units, y up */
   double scale;           /* mm per unit */
-  face *face;             /* [5 * 2 * n_edges] room for one panel */
-} view;
+  still_face *face;       /* [5 * 2 * n_edges] room for one panel */
+} still_view;
 
-/* v turned by the quaternion of a pose. */
+/* Rotates v by the quaternion of a pose, q = (x y z w): v + 2 u x (u x v + w v), where u is the
+ * vector part. */
 static void turn(const double pose[7], const double v[3], double out[3])
 {
-  const double *q = pose + 3;
-  double a[3], b[3];
-  thr_cross(q, v, a);
+  /* once = u x v + w v */
+  const double *axis = pose + 3;
+  double once[3], twice[3];
+  thr_cross(axis, v, once);
   for (int k = 0; k < 3; k++)
-    a[k] += q[3] * v[k];
-  thr_cross(q, a, b);
+    once[k] += axis[3] * v[k];
+
+  /* v + 2 u x once */
+  thr_cross(axis, once, twice);
   for (int k = 0; k < 3; k++)
-    out[k] = v[k] + 2 * b[k];
+    out[k] = v[k] + 2 * twice[k];
 }
 
-static void look(view *w)
+/* Sets the directions of the view: the eye, to the right, and up; unit vectors at right angles.
+ * Azimuth is counted from x towards y, elevation from the ground. */
+static void look(still_view *view)
 {
-  const double *e = w->eye;
-  w->eye[0] = cos(ELEVATION) * cos(AZIMUTH);
-  w->eye[1] = cos(ELEVATION) * sin(AZIMUTH);
-  w->eye[2] = sin(ELEVATION);
-  w->right[0] = -sin(AZIMUTH);
-  w->right[1] = cos(AZIMUTH);
-  w->right[2] = 0;
-  thr_cross(e, w->right, w->up);
+  const double *eye = view->eye;
+  view->eye[0] = cos(ELEVATION) * cos(AZIMUTH);
+  view->eye[1] = cos(ELEVATION) * sin(AZIMUTH);
+  view->eye[2] = sin(ELEVATION);
+
+  /* To the right is level, at right angles to the eye. */
+  view->right[0] = -sin(AZIMUTH);
+  view->right[1] = cos(AZIMUTH);
+  view->right[2] = 0;
+  thr_cross(eye, view->right, view->up);
 }
 
 /* ---- faces ---- */
 
-/* The arm of half-edge h in the bead's own axes: from half a width behind the node, so that joints
- * have corners, to the middle of the edge. */
-static void arm_corners(const view *w, int h, double axis[3], double side[2][3],
+/* Computes the arm of half-edge h where the bead was drawn: its direction, two unit vectors at
+ * right angles to the direction, the first one level, and the corners of both ends. The arm begins
+ * half a width behind the node, so that arms at a joint fill its corner, and ends in the middle of
+ * the edge. */
+static void arm_corners(const still_view *view, int h, double axis[3], double side[2][3],
                         double corner[2][4][3])
 {
   static const double turned[4][2] = {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
-  const double *from = w->f->xyz[thr_tail(w->f, h)], *to = w->f->xyz[thr_head(w->f, h)],
-               width = w->still->width;
+  const double *from = view->frame->xyz[thr_tail(view->frame, h)],
+               *to = view->frame->xyz[thr_head(view->frame, h)], width = view->still->width;
+
+  /* The direction; that of an edge without length is x. */
   for (int k = 0; k < 3; k++)
     axis[k] = to[k] - from[k];
   double length = sqrt(thr_dot(axis, axis));
   for (int k = 0; k < 3; k++)
     axis[k] = length > 0 ? axis[k] / length : k == 0;
+
+  /* A level side at right angles to the direction; a vertical arm has the x axis. */
   double level = hypot(axis[0], axis[1]);
   side[0][0] = level > 1e-9 ? -axis[1] / level : 1;
   side[0][1] = level > 1e-9 ? axis[0] / level : 0;
   side[0][2] = 0;
   thr_cross(axis, side[0], side[1]);
+
+  /* The corners of the square at each end, in the order of turned. */
   for (int end = 0; end < 2; end++)
     for (int i = 0; i < 4; i++)
       for (int k = 0; k < 3; k++)
@@ -85,6 +116,8 @@ static void arm_corners(const view *w, int h, double axis[3], double side[2][3],
                             width * (turned[i][0] * side[0][k] + turned[i][1] * side[1][k]);
 }
 
+/* Writes a colour as the light falls on a face with this normal: 0.58 of it in the shade, all of it
+ * facing the light. */
 static void shade(const int colour[3], const double normal[3], char hex[8])
 {
   double light = 0.58 + 0.42 * fmax(0, thr_dot(normal, LIGHT));
@@ -92,35 +125,49 @@ static void shade(const int colour[3], const double normal[3], char hex[8])
            (unsigned)(colour[2] * light));
 }
 
-/* Adds the face with these corners in the bead's axes unless its back is turned to the eye. */
-static int add_face(view *w, int n, const double pose[7], const double corner[4][3],
+/* Adds the face with these corners, given where the bead was drawn, moved as the pose says, unless
+ * its back is turned to the eye. Returns the new number of faces. */
+static int add_face(still_view *view, int n, const double pose[7], const double corner[4][3],
                     const double normal[3], const int colour[3])
 {
   double turned[3];
   turn(pose, normal, turned);
-  if (thr_dot(turned, w->eye) <= 0) return n;
-  face *a = &w->face[n];
-  *a = (face){.order = n};
+
+  /* Faces whose back is turned to the eye are hidden by others. */
+  if (thr_dot(turned, view->eye) <= 0) return n;
+  still_face *added = &view->face[n];
+  *added = (still_face){.order = n};
+
+  /* The corners in space, then on the plane of view; the depth of the face is that of its
+   * middle. */
   for (int i = 0; i < 4; i++) {
     double at[3];
     turn(pose, corner[i], at);
     for (int k = 0; k < 3; k++)
       at[k] += pose[k];
-    a->depth += 0.25 * thr_dot(at, w->eye);
-    a->at[i][0] = thr_dot(at, w->right);
-    a->at[i][1] = thr_dot(at, w->up);
+    added->depth += 0.25 * thr_dot(at, view->eye);
+    added->at[i][0] = thr_dot(at, view->right);
+    added->at[i][1] = thr_dot(at, view->up);
   }
-  shade(colour, turned, a->hex);
+
+  shade(colour, turned, added->hex);
   return n + 1;
 }
 
-static int add_arm(view *w, int n, const double (*pose)[7], int h)
+/* Adds the faces of the arm of half-edge h: four sides, and the pale end in the middle of the edge.
+ * Returns the new number of faces. Two ends that meet hide each other; pale ends that show are
+ * gaps. */
+static int add_arm(still_view *view, int n, const double (*pose)[7], int h)
 {
   double axis[3], side[2][3], corner[2][4][3], normal[3];
-  int v = thr_tail(w->f, h);
-  bool first = v == w->still->first_bead;
-  arm_corners(w, h, axis, side, corner);
-  for (int i = 0; i < 4; i++) { /* the side between corners i and i + 1 */
+  int v = thr_tail(view->frame, h);
+  bool first = v == view->still->first_bead;
+
+  arm_corners(view, h, axis, side, corner);
+
+  /* The side between corners i and i + 1: its normal is -side[1], side[0], side[1], -side[0] in
+   * turn. */
+  for (int i = 0; i < 4; i++) {
     double four[4][3];
     for (int k = 0; k < 3; k++) {
       normal[k] = (i == 0   ? -1
@@ -131,34 +178,43 @@ static int add_arm(view *w, int n, const double (*pose)[7], int h)
                    : i == 3 ? -1
                             : 0) *
                       side[0][k];
+
+      /* Around the side: two corners at the node's end, two in the middle of the edge. */
       four[0][k] = corner[0][i][k];
       four[1][k] = corner[0][(i + 1) % 4][k];
       four[2][k] = corner[1][(i + 1) % 4][k];
       four[3][k] = corner[1][i][k];
     }
-    n = add_face(w, n, pose[v], (const double(*)[3])four, normal, first ? FIRST : BEAD);
+
+    n = add_face(view, n, pose[v], (const double(*)[3])four, normal, first ? FIRST : BEAD);
   }
-  return add_face(w, n, pose[v], (const double(*)[3])corner[1], axis, first ? FIRST_END : END);
+
+  /* The end in the middle of the edge, which another bead hides while the joint is closed. */
+  return add_face(view, n, pose[v], (const double(*)[3])corner[1], axis, first ? FIRST_END : END);
 }
 
+/* Compares two faces for qsort: the farther one first, then in the order in which they were added,
+ * so that the same input gives the same bytes. */
 static int back_to_front(const void *a, const void *b)
 {
-  const face *p = a, *q = b;
-  if (p->depth != q->depth) return p->depth < q->depth ? -1 : 1;
-  return p->order - q->order;
+  const still_face *first = a, *second = b;
+  if (first->depth != second->depth) return first->depth < second->depth ? -1 : 1;
+  return first->order - second->order;
 }
 
-static int collect(view *w, const double (*pose)[7])
+/* Fills in the faces of one panel, from back to front. Returns how many. */
+static int collect(still_view *view, const double (*pose)[7])
 {
   int n = 0;
-  for (int h = 0; h < 2 * w->f->n_edges; h++)
-    n = add_arm(w, n, pose, h);
-  qsort(w->face, (size_t)n, sizeof *w->face, back_to_front);
+  for (int h = 0; h < 2 * view->frame->n_edges; h++)
+    n = add_arm(view, n, pose, h);
+  qsort(view->face, (size_t)n, sizeof *view->face, back_to_front);
   return n;
 }
 
 /* ---- paper ---- */
 
+/* Extends a box, low to high, to a point. */
 static void stretch(double low[2], double high[2], const double at[2])
 {
   for (int k = 0; k < 2; k++) {
@@ -167,150 +223,202 @@ static void stretch(double low[2], double high[2], const double at[2])
   }
 }
 
-/* The ground: a rectangle round where the beads stand in the first picture. */
-static void ground_corners(const view *w, double at[4][2])
+/* Computes the corners of the ground on the plane of view: a rectangle round where the beads stand
+ * in the first panel, with a margin of two widths. */
+static void ground_corners(const still_view *view, double at[4][2])
 {
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
-  for (int v = 0; v < w->f->n_nodes; v++)
-    stretch(low, high, w->still->panel[0].pose[v]);
-  double room = 2 * w->still->width;
+  for (int v = 0; v < view->frame->n_nodes; v++)
+    stretch(low, high, view->still->panel[0].pose[v]);
+
+  /* The corners in space, at the height of the ground. */
+  double margin = 2 * view->still->width;
   for (int i = 0; i < 4; i++) {
-    double p[3] = {i == 0 || i == 3 ? low[0] - room : high[0] + room,
-                   i < 2 ? low[1] - room : high[1] + room, w->still->ground};
-    at[i][0] = thr_dot(p, w->right);
-    at[i][1] = thr_dot(p, w->up);
+    double corner[3] = {i == 0 || i == 3 ? low[0] - margin : high[0] + margin,
+                        i < 2 ? low[1] - margin : high[1] + margin, view->still->ground};
+    at[i][0] = thr_dot(corner, view->right);
+    at[i][1] = thr_dot(corner, view->up);
   }
 }
 
-/* Round the faces of a panel. */
-static void bound(view *w, const double (*pose)[7], double low[2], double high[2])
+/* Extends a box to all faces of a panel. */
+static void bound(still_view *view, const double (*pose)[7], double low[2], double high[2])
 {
-  const int n = collect(w, pose);
+  const int n = collect(view, pose);
   for (int i = 0; i < n; i++)
     for (int k = 0; k < 4; k++)
-      stretch(low, high, w->face[i].at[k]);
+      stretch(low, high, view->face[i].at[k]);
 }
 
-/* All panels, but what is far from the first one. */
-static void measure(view *w)
+/* Chooses what part of the plane of view is shown, the same for all panels: all of the first panel
+ * with the ground, and of the others what lies within a share ROAM of its size beyond. A bead that
+ * has flown off would make all others tiny. Sets the scale, too. */
+static void measure(still_view *view)
 {
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL}, corner[4][2];
-  bound(w, w->still->panel[0].pose, low, high);
-  ground_corners(w, corner);
+
+  /* The first panel and the ground. */
+  bound(view, view->still->panel[0].pose, low, high);
+  ground_corners(view, corner);
   for (int i = 0; i < 4; i++)
     stretch(low, high, corner[i]);
-  const double room = ROAM * fmax(high[0] - low[0], high[1] - low[1]);
+
+  /* The others, cut off where they are too far away. */
+  const double margin = ROAM * fmax(high[0] - low[0], high[1] - low[1]);
   double all_low[2] = {low[0], low[1]}, all_high[2] = {high[0], high[1]};
-  for (int p = 1; p < w->still->n_panels; p++)
-    bound(w, w->still->panel[p].pose, all_low, all_high);
+  for (int panel = 1; panel < view->still->n_panels; panel++)
+    bound(view, view->still->panel[panel].pose, all_low, all_high);
   for (int k = 0; k < 2; k++) {
-    w->low[k] = fmax(all_low[k], low[k] - room);
-    w->high[k] = fmin(all_high[k], high[k] + room);
+    view->low[k] = fmax(all_low[k], low[k] - margin);
+    view->high[k] = fmin(all_high[k], high[k] + margin);
   }
-  w->scale = PANEL / fmax(w->high[0] - w->low[0], w->high[1] - w->low[1]);
+
+  /* The longer side of a panel is PANEL mm. */
+  view->scale = PANEL / fmax(view->high[0] - view->low[0], view->high[1] - view->low[1]);
 }
 
-static void write_polygon(const view *w, const double at[4][2], const char *attributes,
+/* Appends a quadrilateral of the plane of view as a path, in mm; y grows downwards on paper. */
+static void write_polygon(const still_view *view, const double at[4][2], const char *attributes,
                           thr_text *text)
 {
   thr_text_printf(text, "<path%s d=\"", attributes);
+
+  /* From units on the plane of view to mm. */
   for (int i = 0; i < 4; i++) {
-    double p[2] = {(at[i][0] - w->low[0]) * w->scale, (w->high[1] - at[i][1]) * w->scale};
+    double point[2] = {(at[i][0] - view->low[0]) * view->scale,
+                       (view->high[1] - at[i][1]) * view->scale};
     if (i)
-      thr_svg_line(text, p);
+      thr_svg_line(text, point);
     else
-      thr_svg_move(text, p);
+      thr_svg_move(text, point);
   }
   thr_text_append(text, "z\"/>\n");
 }
 
-static void write_panel(view *w, const char *id, const double (*pose)[7], double x, double y,
-                        thr_text *text)
+/* Appends a panel as a group with its upper left corner at (x, y) mm, clipped to its size: the
+ * ground, then all faces from back to front. */
+static void write_panel(still_view *view, const char *id, const double (*pose)[7], double x,
+                        double y, thr_text *text)
 {
   double corner[4][2];
   char attributes[32];
+
+  /* clip-path cuts off what lies outside of the part of the plane that is shown. */
   thr_text_printf(text,
                   "<g id=\"%s\" class=\"panel\" clip-path=\"url(#panel)\" "
                   "transform=\"translate(%.2f %.2f)\">\n",
                   id, x, y);
-  ground_corners(w, corner);
-  write_polygon(w, (const double(*)[2])corner, " class=\"ground\"", text);
-  int n = collect(w, pose);
+
+  /* The ground is drawn first, and so lies below everything. */
+  ground_corners(view, corner);
+  write_polygon(view, (const double(*)[2])corner, " class=\"ground\"", text);
+
+  /* The beads stand on the ground, the farthest faces first. */
+  int n = collect(view, pose);
   for (int i = 0; i < n; i++) {
-    snprintf(attributes, sizeof attributes, " fill=\"%s\"", w->face[i].hex);
-    write_polygon(w, (const double(*)[2])w->face[i].at, attributes, text);
+    snprintf(attributes, sizeof attributes, " fill=\"%s\"", view->face[i].hex);
+    write_polygon(view, (const double(*)[2])view->face[i].at, attributes, text);
   }
   thr_text_append(text, "</g>\n");
 }
 
-static void write_sheet(view *w, thr_text *text)
+/* Appends the whole sheet: title, panels in rows of MOST_IN_ROW with their captions, the note. */
+static void write_sheet(still_view *view, thr_text *text)
 {
-  const thr_still *still = w->still;
+  const thr_still *still = view->still;
   const char *title = still->title && *still->title ? still->title : "Before and after";
   const int in_row = still->n_panels < MOST_IN_ROW ? still->n_panels : MOST_IN_ROW;
   thr_text body = {0};
-  double wide = (w->high[0] - w->low[0]) * w->scale, high = (w->high[1] - w->low[1]) * w->scale;
-  double column = fmax(wide, 75),
-         width = in_row * column + (in_row - 1) * GAP; /* captions need room too */
+
+  /* The size of a panel, mm. */
+  double panel_width = (view->high[0] - view->low[0]) * view->scale,
+         panel_height = (view->high[1] - view->low[1]) * view->scale;
+
+  /* A column is at least 75 mm wide, because captions need space, too. */
+  double column_width = fmax(panel_width, 75), width = in_row * column_width + (in_row - 1) * GAP;
+
   double y = thr_svg_wrap(&body, MARGIN, MARGIN + TITLE_SIZE, TITLE_SIZE, width,
                           " font-weight=\"bold\"", title),
          bottom = 0;
-  for (int p = 0; p < still->n_panels; p++) {
-    const thr_still_panel *panel = &still->panel[p];
-    double x = MARGIN + p % in_row * (column + GAP);
-    if (p > 0 && p % in_row == 0) y = bottom + 1;
-    write_panel(w, panel->id, panel->pose, x + 0.5 * (column - wide), y, &body);
-    bottom = fmax(bottom, thr_svg_wrap(&body, x, y + high + 2 + TEXT_SIZE, TEXT_SIZE, column, "",
-                                       panel->caption));
+
+  /* A row begins below the longest caption of the row before. */
+  for (int i = 0; i < still->n_panels; i++) {
+    const thr_still_panel *panel = &still->panel[i];
+    double x = MARGIN + i % in_row * (column_width + GAP);
+    if (i > 0 && i % in_row == 0) y = bottom + 1;
+    write_panel(view, panel->id, panel->pose, x + 0.5 * (column_width - panel_width), y, &body);
+    bottom = fmax(bottom, thr_svg_wrap(&body, x, y + panel_height + 2 + TEXT_SIZE, TEXT_SIZE,
+                                       column_width, "", panel->caption));
   }
+
+  /* The note, across all columns. */
   if (still->note)
     bottom = thr_svg_wrap(&body, MARGIN, bottom + 1, TEXT_SIZE, width, "", still->note);
   width += 2 * MARGIN;
   bottom += MARGIN - TEXT_SIZE;
+
+  /* The document: style, the clip path that all panels share, white ground, body. */
   thr_svg_open(text, width, bottom, title, "Rigid beads, seen from one side, drawn back to front.");
   thr_text_append(
       text,
       "<style>\n.thread text{stroke:none;fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}\n"
       ".thread .panel{stroke:#4a4030;stroke-width:0.12;stroke-linejoin:round}\n"
       ".thread .ground{fill:#eef0ea;stroke:#9aa08c;stroke-width:0.25}\n</style>\n");
+
+  /* The clip path leaves 0.5 mm on each side for the outlines of the faces. */
   thr_text_printf(text,
                   "<clipPath id=\"panel\"><rect x=\"-0.50\" y=\"-0.50\" width=\"%.2f\" "
                   "height=\"%.2f\"/></clipPath>\n",
-                  wide + 1, high + 1);
+                  panel_width + 1, panel_height + 1);
   thr_text_printf(text, "<rect width=\"%.2f\" height=\"%.2f\" fill=\"#fff\"/>\n", width, bottom);
   if (body.data) thr_text_append_bytes(text, body.data, body.length);
   thr_text_append(text, "</svg>\n");
+
   text->failed = text->failed || body.failed;
   thr_text_destroy(&body);
 }
 
-static thr_status check(const thr_frame *frame, const thr_still *s, thr_err *err)
+/* Checks what cannot be drawn: the width of the arms, the number of the first bead, poses that are
+ * not finite. */
+static thr_status check(const thr_frame *frame, const thr_still *still, thr_err *err)
 {
-  if (!(s->width > 0) || !isfinite(s->width))
-    return thr_fail(err, THR_EINPUT, "arms %g wide cannot be drawn", s->width);
-  if (s->first_bead < -1 || s->first_bead >= frame->n_nodes)
-    return thr_fail(err, THR_EINPUT, "bead %d is not one of the %d", s->first_bead, frame->n_nodes);
-  for (int i = 0; i < s->n_panels * frame->n_nodes; i++)
+  if (!(still->width > 0) || !isfinite(still->width))
+    return thr_fail(err, THR_EINPUT, "arms %g wide cannot be drawn", still->width);
+  if (still->first_bead < -1 || still->first_bead >= frame->n_nodes)
+    return thr_fail(err, THR_EINPUT, "bead %d is not one of the %d", still->first_bead,
+                    frame->n_nodes);
+
+  /* Each of the 7 numbers of every pose. */
+  for (int i = 0; i < still->n_panels * frame->n_nodes; i++)
     for (int v = i % frame->n_nodes, k = 0; k < 7; k++)
-      if (!(fabs(s->panel[i / frame->n_nodes].pose[v][k]) < 1e100))
+      if (!(fabs(still->panel[i / frame->n_nodes].pose[v][k]) < 1e100))
         return thr_fail(err, THR_EINPUT, "bead %s has no place in space to be drawn at",
                         frame->name[v]);
+
   return THR_OK;
 }
 
-thr_status thr_still_svg(const thr_frame *frame, const thr_still *s, thr_text *svg, thr_err *err)
+/* Checks the input, chooses the view and draws the sheet. */
+thr_status thr_still_svg(const thr_frame *frame, const thr_still *still, thr_text *svg,
+                         thr_err *err)
 {
-  view w = {.f = frame, .still = s};
+  still_view view = {.frame = frame, .still = still};
   thr_text out = {0};
-  thr_status st = check(frame, s, err);
+  thr_status st = check(frame, still, err);
   if (st) return st;
-  if (!(w.face = thr_calloc((size_t)frame->n_edges * 10, sizeof *w.face))) return thr_nomem(err);
-  look(&w);
-  measure(&w);
-  write_sheet(&w, &out);
+
+  /* Each half-edge is an arm with five faces: 5 x 2 x n_edges. */
+  if (!(view.face = thr_calloc((size_t)frame->n_edges * 10, sizeof *view.face)))
+    return thr_nomem(err);
+
+  /* Write into a text of its own, so that svg is unchanged on failure. */
+  look(&view);
+  measure(&view);
+  write_sheet(&view, &out);
+
   if (!out.failed) thr_text_append_bytes(svg, out.data, out.length);
   if (out.failed || svg->failed) st = thr_nomem(err);
   thr_text_destroy(&out);
-  free(w.face);
+  free(view.face);
   return st;
 }
