@@ -56,8 +56,7 @@ struct thr_paper {
 enum { NUMBER = 16, NUMBERS = 6 }; /* bytes of a number at most; numbers of an operator */
 
 /* Prints a number with up to three decimals and a blank: "12.5 ", "-0.013 ". What is beyond any
- * page is cut off there. Returns the length. Faster than printf, which would take most of the time
- * of a page. */
+ * page is cut off there. Returns the length. */
 static size_t print_number(double value, char *to)
 {
   const double most = 100000000;
