@@ -51,6 +51,7 @@ static font_table find(const thr_font *font, const char *tag)
   for (unsigned i = 0; i < n; i++) {
     size_t at = font->start + HEADER + (size_t)i * RECORD;
 
+    /* The directory of a file that was cut off ends early. */
     if (at + RECORD > font->file.length) break;
 
     /* A record holds the table's name, a sum of its bytes, where it is, and how long. */
@@ -98,6 +99,8 @@ static bool read_letters(thr_font *font)
 
     /* Platform 0 is Unicode, platform 3 Windows. */
     bool unicode = platform == 0 || (platform == 3 && encoding == 1);
+
+    /* Only tables of segments (format 4) are read. */
     if (!unicode || thr_font_16(font, at) != 4) continue;
 
     read_segments(font, at);
@@ -194,6 +197,7 @@ static font_table outline_of(const thr_font *font, int glyph)
   font_table glyf = find(font, "glyf"), loca = find(font, "loca");
   bool wide = thr_font_16(font, find(font, "head").at + 50) != 0;
 
+  /* A glyph ends where the next one begins, so loca has one place more than glyphs. */
   size_t i = (size_t)glyph, from, to;
 
   if ((wide ? 4 : 2) * (i + 2) > loca.n) return (font_table){0, 0};
@@ -201,6 +205,7 @@ static font_table outline_of(const thr_font *font, int glyph)
   to = wide ? read_32(font, loca.at + 4 * i + 4)
             : 2 * (size_t)thr_font_16(font, loca.at + 2 * i + 2);
 
+  /* A blank has no bytes. */
   return from < to && to <= glyf.n ? (font_table){glyf.at + from, to - from} : (font_table){0, 0};
 }
 
@@ -227,6 +232,7 @@ static void mark_parts(const thr_font *font, int glyph, unsigned char *used)
     /* A simple glyph has a number of contours >= 0 and no parts. */
     if (outline.n < 10 || thr_font_signed(font, outline.at) >= 0) continue;
 
+    /* Another part follows as long as the flags say so and the outline has bytes left. */
     unsigned flags = MORE;
     for (size_t at = outline.at + 10; flags & MORE && at + 4 <= outline.at + outline.n;) {
       int part = (int)thr_font_16(font, at + 2);
@@ -255,6 +261,7 @@ static void put_outlines(const thr_font *font, const unsigned char *used, thr_te
   for (int i = 0; i < font->n_glyphs; i++) {
     put_32(loca, glyf->length);
 
+    /* The number of a glyph stays the same, so the glyphs before it need places, too. */
     font_table outline = used[i] ? outline_of(font, i) : (font_table){0, 0};
     if (outline.n) thr_text_append_bytes(glyf, font->file.data + outline.at, outline.n);
 
@@ -325,6 +332,7 @@ thr_status thr_font_subset(const thr_font *font, unsigned char *used, thr_text *
   for (int i = 0; i < font->n_glyphs; i++)
     if (used[i]) mark_parts(font, i, used);
 
+  /* Both tables are made before the file that holds them. */
   put_outlines(font, used, &glyf, &loca);
 
   bool ok = !glyf.failed && !loca.failed;

@@ -97,6 +97,7 @@ static bool tell(FcPattern *font, thr_text *out)
     plain[n] = '\0';
   }
 
+  /* The lower 16 bits are the font's index in a collection; variants of it are above them. */
   thr_text_printf(out, "%d %s\n%s\n", index & 0xffff, *plain ? plain : "Font", (char *)path);
   return true;
 }
@@ -108,6 +109,7 @@ static thr_status find_face(const char *words, thr_text *out, thr_err *err)
   FcPattern *pattern = lib.FcNameParse((const FcChar8 *)words);
   if (!pattern || !lib.FcConfigSubstitute(NULL, pattern, FcMatchPattern)) return thr_nomem(err);
 
+  /* What the pattern leaves open comes from the system's configuration. */
   lib.FcDefaultSubstitute(pattern);
 
   /* Sorted by likeness: the first one with TrueType outlines is taken. */
@@ -119,6 +121,7 @@ static thr_status find_face(const char *words, thr_text *out, thr_err *err)
   if (set) lib.FcFontSetDestroy(set);
   lib.FcPatternDestroy(pattern);
 
+  /* Without a set there was no memory; with one there may be no such font. */
   if (out->failed || (!set && result == FcResultOutOfMemory)) return thr_nomem(err);
   return found ? THR_OK
                : thr_fail(err, THR_ESOLVER,
@@ -138,10 +141,12 @@ static thr_status find_faces(void *user, const thr_limits *limits, thr_sender *t
   (void)user;
   (void)limits;
 
+  /* In a child, so that only this process ends when fontconfig runs out of memory. */
   bound_time();
   thr_status st = thr_lazy_load(&lib.loaded, THR_LIBRARY_FONTCONFIG, symbol,
                                 sizeof symbol / sizeof *symbol, err);
 
+  /* In the order of THR_FACE_BOLD and THR_FACE_MONO: regular, bold, mono, bold mono. */
   for (int i = 0; i < THR_FACES && !st; i++)
     st = find_face(face[i], &out, err);
   if (!st) st = thr_child_send(to, &out, err);
@@ -178,9 +183,11 @@ static thr_status ask(thr_text *answer, thr_err *err)
                            .advice = "free memory, or draw without it (-T svg)",
                            .run = find_faces};
 
+  /* Finding fonts takes a moment: no limit of the work's time is passed on. */
   const thr_limits none = {0};
   thr_status st = thr_child_run(&child, &none, answer, err);
 
+  /* | | The four faces asked for: the usual case. */
   if (st || is_family(answer)) return st;
   thr_text_destroy(answer);
   return thr_child_run(&child, &none, answer, err);
@@ -194,10 +201,9 @@ thr_status thr_fonts_find(thr_font *font, thr_err *err)
   char *left = answer.data;
   for (int i = 0; i < THR_FACES && !st; i++) {
     char *head = next_line(&left), *path = next_line(&left), name[64];
-
     int index;
 
-    /* Two lines for each face, in the order of faces. */
+    /* Two lines for each face, in the order of faces; the name is what the PDF calls the font. */
     if (!head || !path || sscanf(head, "%d %63s", &index, name) != 2)
       st = thr_fail(err, THR_ESOLVER, "no fonts were found for the PDF");
     else

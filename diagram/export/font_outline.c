@@ -31,6 +31,7 @@ static bool read_points(const thr_font *font, size_t at, size_t end, outline_poi
   for (int i = 0; i < n;) {
     if (at + 1 > end) return false;
 
+    /* A flag may be repeated up to 255 times. */
     unsigned flag = thr_font_8(font, at++), again = 1;
     if (flag & REPEATED) again += thr_font_8(font, at++);
 
@@ -39,6 +40,7 @@ static bool read_points(const thr_font *font, size_t at, size_t end, outline_poi
   }
 
   for (int axis = 0; axis < 2; axis++) {
+    /* All x come before all y; each axis begins at 0. */
     const unsigned small = axis ? SHORT_Y : SHORT_X, same = axis ? SAME_Y : SAME_X;
     double value = 0;
     for (int i = 0; i < n; i++) {

@@ -48,6 +48,7 @@ thr_status thr_letters_open(thr_letters_set **out, thr_err *err)
     return THR_OK;
   }
 
+  /* Half a set is of no use. */
   thr_letters_close(set);
   *out = NULL;
   return st;

@@ -37,6 +37,7 @@ thr_status thr_pages_open(thr_pages **out, const char *name, thr_page_size size,
   thr_pages *pages = *out = thr_calloc(1, sizeof *pages);
   if (!pages) return thr_nomem(err);
 
+  /* Borrowed until the document is closed. */
   pages->name = name;
   pages->limits = limits;
   return thr_pdf_open(&pages->pdf, size, title, err);
@@ -45,6 +46,7 @@ thr_status thr_pages_open(thr_pages **out, const char *name, thr_page_size size,
 /* Releases the pages that wait and counts them as drawn. */
 static void empty(thr_pages *pages)
 {
+  /* A leaf that was never drawn is zero, which may be released, too. */
   for (int i = 0; i < pages->n; i++) {
     thr_text_destroy(&pages->svg[i]);
     thr_leaf_destroy(&pages->leaf[i]);
@@ -78,10 +80,12 @@ static thr_status draw_one(void *user, int i, const thr_limits *limits, thr_err 
 /* Draws all pages that wait and adds them to the file. THR_ELIMIT if the work was interrupted. */
 static thr_status draw(thr_pages *pages, thr_err *err)
 {
+  /* Between two batches the work may be stopped. */
   if (thr_limits_stop(pages->limits))
     return thr_fail(err, THR_ELIMIT, "interrupted at page %d of the %s", pages->drawn + 1,
                     pages->name);
 
+  /* Every page is drawn and compressed in some thread. */
   thr_status st = thr_threads_run(pages->n, draw_one, pages, pages->limits, err);
 
   /* In order, whichever thread was faster. */

@@ -97,6 +97,8 @@ static void put_number(thr_text *out, double value)
 static void put(thr_text *out, int n, const double *number, const char *operator)
 {
   char text[NUMBERS * NUMBER + 8];
+
+  /* Collected first: one call for a line costs less than one for each number. */
   size_t length = 0;
   for (int i = 0; i < n; i++)
     length += print_number(number[i], text + length);
@@ -221,6 +223,7 @@ static void put_path(thr_paper *paper, int points, const double *point, const ch
 static void put_part(thr_paper *paper, int points, const double *point, const char *operator)
 {
   if (paper->trim >= 0) {
+    /* The box around the pen and all points of the part. */
     thr_box box = {paper->pen[0], paper->pen[1], paper->pen[0], paper->pen[1]};
     for (int i = 0; i < points; i++)
       thr_box_extend(&box,
@@ -292,6 +295,7 @@ void thr_paper_rect(thr_paper *paper, const double at[2], const double size[2], 
 {
   const double box[4] = {at[0], at[1], size[0], size[1]};
 
+  /* Square corners have an operator of their own. */
   if (radius <= 0) {
     thr_box_extend(&paper->box, (thr_box){at[0], at[1], at[0] + size[0], at[1] + size[1]});
     put(&paper->path, 4, box, "re");
@@ -299,6 +303,7 @@ void thr_paper_rect(thr_paper *paper, const double at[2], const double size[2], 
   }
   /* Corners right and low, left and low, left and high, right and high. */
   for (int i = 0; i < 4; i++) {
+    /* A quarter around the middle of each corner; lines lead from one to the next. */
     double middle[2] = {i == 0 || i == 3 ? at[0] + size[0] - radius : at[0] + radius,
                         i < 2 ? at[1] + size[1] - radius : at[1] + radius};
     double from[2] = {middle[0] + radius * cos(i * THR_PI / 2),
@@ -332,6 +337,7 @@ static void take_ink(thr_paper *paper, const thr_ink *ink, bool stroke)
   double *colour = stroke ? now->stroke : now->fill;
   int *opacity = stroke ? &now->stroke_opacity : &now->fill_opacity;
 
+  /* Hundredths are fine enough, and a file has at most 202 such states. */
   int part = (int)lround(100 * fmin(fmax(ink->opacity, 0), 1));
 
   /* Opacities are graphics states /s0 .. /s100 and /f0 .. /f100 of the file, which must know which
@@ -342,6 +348,7 @@ static void take_ink(thr_paper *paper, const thr_ink *ink, bool stroke)
     *opacity = part;
   }
 
+  /* The colour, unless it is the current one. */
   if (memcmp(colour, ink->colour, sizeof ink->colour) == 0) return;
 
   put(&paper->out, 3, ink->colour, stroke ? "RG" : "rg");
@@ -356,6 +363,8 @@ static void take_line(thr_paper *paper, const thr_line *line)
   int cap = line->round_ends, join = line->round_corners;
 
   take_ink(paper, &line->ink, true);
+
+  /* Each property is written only if it changes. */
   if (line->width != now->width) put(&paper->out, 1, &line->width, "w");
   if (cap != now->cap) put(&paper->out, 0, NULL, cap ? "1 J" : "0 J");
   if (join != now->join) put(&paper->out, 0, NULL, join ? "1 j" : "0 j");
@@ -460,10 +469,12 @@ static bool open_span(thr_paper *paper, const char *words)
 {
   bool beyond = false;
 
+  /* Letters beyond the basic plane begin with a byte of 0xf0 or more in UTF-8. */
   for (const char *c = words; *c; c++)
     beyond = beyond || (unsigned char)*c >= 0xf0;
   if (!beyond) return false;
 
+  /* FEFF says that UTF-16 follows, the higher byte first. */
   thr_text_append(&paper->out, "/Span <</ActualText <FEFF");
   for (const char *c = words; *c;) {
     const unsigned char *s = (const unsigned char *)c;
@@ -488,6 +499,7 @@ void thr_paper_text(thr_paper *paper, const double at[2], const thr_letters *let
 {
   int face = (letters->bold ? THR_FACE_BOLD : 0) + (letters->mono ? THR_FACE_MONO : 0);
 
+  /* Where the text begins, from the width of all its letters. */
   const double size = letters->size, width = size * width_of(&paper->font[face], words),
                left = at[0] - letters->anchor * width;
 

@@ -65,6 +65,8 @@ thr_status thr_pdf_open(thr_pdf **out, thr_page_size size, const char *title, th
 void thr_pdf_destroy(thr_pdf *pdf)
 {
   if (!pdf) return;
+
+  /* Fonts, and the sets of letters that were needed of them. */
   for (int i = 0; i < THR_FACES; i++) {
     thr_font_destroy(&pdf->font[i]);
     free(pdf->needs.letter[i]);
@@ -108,6 +110,8 @@ static int put_stream(thr_pdf *pdf, const thr_text *small, const char *more)
 {
   int object = begin_new(pdf);
   if (!object) return 0;
+
+  /* A stream is a dictionary with the number of bytes, and the bytes. */
   thr_text_printf(&pdf->out, "<</Length %zu/Filter/FlateDecode%s>>\nstream\n", small->length, more);
 
   if (small->length) thr_text_append_bytes(&pdf->out, small->data, small->length);
@@ -143,6 +147,8 @@ void thr_leaf_destroy(thr_leaf *leaf)
 static thr_status add_needs(thr_paper_needs *all, const thr_paper_needs *more, thr_err *err)
 {
   enum { BYTES = THR_FONT_LETTERS / 8 };
+
+  /* Opacities are numbered by hundredths. */
   for (int i = 0; i < THR_OPACITIES; i++) {
     all->fill[i] |= more->fill[i];
     all->stroke[i] |= more->stroke[i];
@@ -167,6 +173,7 @@ thr_status thr_pdf_add(thr_pdf *pdf, int nth, const thr_leaf *leaf, thr_err *err
 
   if (st) return st;
 
+  /* The page's drawing is in the file from here on; only its number is kept. */
   int object = put_stream(pdf, &leaf->small, "");
   if (!object) return thr_nomem(err);
 
@@ -192,6 +199,7 @@ static void put_pages(thr_pdf *pdf, bool last_first)
     /* The page that was added last may come first: 0, 1, 2 become 2, 0, 1. */
     const pdf_page *this_page = &pdf->page[!last_first ? k : k ? k - 1 : pdf->n_pages - 1];
 
+    /* The dictionary of a page names its parent and its one or two streams. */
     int object = begin_new(pdf);
     thr_text_printf(&kids, "%d 0 R\n", object);
     thr_text_printf(&pdf->out, "<</Type/Page/Parent %d 0 R/Contents[%d 0 R", PAGES,
@@ -238,6 +246,8 @@ static int put_file(thr_pdf *pdf, const thr_font *font, const unsigned char *let
   /* From letters to glyphs. */
   for (int letter = 0; letter < THR_FONT_LETTERS && used; letter++)
     if (is_set(letters, letter)) used[font->glyph[letter]] = 1;
+
+  /* Only their outlines, compressed. */
   if (!*st) *st = thr_font_subset(font, used, &part, err);
   if (!*st) *st = thr_deflate(part.data, part.length, &small, err);
 
@@ -261,12 +271,14 @@ static int put_glyphs(thr_pdf *pdf, const thr_font *font, const unsigned char *l
 {
   thr_text map = {0}, small = {0};
 
+  /* A code that is not used leads to glyph 0. */
   for (int letter = 0; letter < THR_FONT_LETTERS; letter++) {
     int glyph = is_set(letters, letter) ? font->glyph[letter] : 0;
     thr_text_byte(&map, (char)(glyph >> 8));
     thr_text_byte(&map, (char)(glyph & 255));
   }
 
+  /* The map is as long as the basic plane, whatever is used of it. */
   *st = map.failed ? thr_nomem(err) : thr_deflate(map.data, map.length, &small, err);
   int object = *st ? 0 : put_stream(pdf, &small, "");
 
@@ -284,6 +296,7 @@ static int put_words(thr_pdf *pdf, const unsigned char *letters, thr_err *err, t
 
   int n = 0;
 
+  /* The frame of a CMap, which is a small PostScript program. */
   thr_text_append(&map, "/CIDInit /ProcSet findresource begin\n12 dict begin\nbegincmap\n/CMapName "
                         "/Letters def\n/CMapType 2 def\n"
                         "1 begincodespacerange\n<0000> <FFFF>\nendcodespacerange\n");
@@ -326,6 +339,7 @@ static int put_descriptor(thr_pdf *pdf, const thr_font *font, int face, int file
   enum { FIXED = 1, SYMBOLIC = 4 };
   double em = 1000.0 / font->units;
 
+  /* em turns units of the font file into thousandths of an em. */
   int object = begin_new(pdf);
   thr_text_append(&pdf->out, "<</Type/FontDescriptor/FontName");
   put_name(pdf, font, face);
@@ -394,9 +408,11 @@ static thr_status put_resources(thr_pdf *pdf, thr_err *err)
   int font[THR_FACES] = {0};
   thr_status st = THR_OK;
 
+  /* Fonts are objects of their own, and so come before this one. */
   for (int i = 0; i < THR_FACES && !st; i++)
     if (pdf->needs.letter[i]) font[i] = put_font(pdf, i, err, &st);
 
+  /* The dictionary that the page tree hands down to all pages. */
   begin(pdf, RESOURCES);
   thr_text_append(&pdf->out, "<</Font<<");
   for (int i = 0; i < THR_FACES; i++)
@@ -421,6 +437,8 @@ static void put_info(thr_pdf *pdf)
   static const char epoch[] = "(D:20000101000000Z)";
 
   begin(pdf, INFO);
+
+  /* FEFF says UTF-16; a title is ASCII. */
   thr_text_append(&pdf->out, "<</Title<FEFF");
   for (const char *c = pdf->title; *c; c++)
     thr_text_printf(&pdf->out, "%04X",
@@ -449,8 +467,8 @@ thr_status thr_pdf_close(thr_pdf *pdf, bool last_first, thr_text *out, thr_err *
   thr_text_printf(&pdf->out, "xref\n0 %d\n0000000000 65535 f \n", pdf->n_objects);
 
   for (int i = 1; i < pdf->n_objects; i++)
-
     thr_text_printf(&pdf->out, "%010zu 00000 n \n", pdf->object[i]);
+
   thr_text_printf(&pdf->out,
                   "trailer\n<</Size %d/Root %d 0 R/Info %d 0 R>>\nstartxref\n%zu\n%%%%EOF\n",
                   pdf->n_objects, CATALOG, INFO, table);

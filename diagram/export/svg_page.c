@@ -106,6 +106,8 @@ static thr_status read_attributes(svg_reader *reader, thr_slice text, svg_tag *t
       return broken(reader, "the attributes", text);
 
     skip(&rest, 2);
+
+    /* The value reaches to the next quote and may hold blanks. */
     if (!take_until(&rest, '"', &next.value)) return broken(reader, "the attribute", text);
     tag->attribute[tag->n_attributes++] = next;
     text = rest;
@@ -129,6 +131,7 @@ static thr_status next_tag(svg_reader *reader, thr_slice *between, svg_tag *tag)
     return THR_OK;
   }
 
+  /* A tag reaches to the next ">", which attributes must not hold. */
   if (!take_until(&reader->left, '>', &inside)) return broken(reader, "the tag", reader->left);
   if (inside.n && *inside.s == '?') return THR_OK;
 
@@ -138,6 +141,7 @@ static thr_status next_tag(svg_reader *reader, thr_slice *between, svg_tag *tag)
   tag->empty = inside.n && inside.s[inside.n - 1] == '/';
   inside.n -= tag->empty;
 
+  /* The name, and behind it the attributes. */
   tag->name = (thr_slice){inside.s, name_length(inside)};
   skip(&inside, tag->name.n);
   return tag->name.n ? read_attributes(reader, inside, tag) : broken(reader, "the tag", inside);
@@ -190,6 +194,7 @@ static bool is_known(const svg_tag *tag, thr_slice name)
       {"path", "d"},
       {"text", "x", "y"}};
 
+  /* Every element may have properties of style, a class, and what says nothing of the picture. */
   if (thr_svg_is_property(name)) return true;
   for (size_t i = 0; i < sizeof any / sizeof *any; i++)
     if (thr_slice_is(name, any[i])) return true;
@@ -211,6 +216,7 @@ static thr_status push(svg_reader *reader, const svg_tag *tag)
   if (reader->depth == DEPTH) return broken(reader, "too deep is", tag->name);
   open_element *new = &reader->open[reader->depth];
 
+  /* The parent's style, since all properties are inherited. */
   new->style = reader->depth ? reader->open[reader->depth - 1].style : thr_svg_style_first();
   new->element =
       (thr_svg_element){.name = tag->name, .dashed = find(tag, "stroke-dasharray") != NULL};
@@ -248,6 +254,8 @@ static bool ink_of(const thr_svg_style *style, thr_svg_property colour, thr_svg_
 static bool line_of(const thr_svg_style *style, thr_line *line)
 {
   const thr_svg_value *dash = &style->value[THR_SVG_DASHARRAY];
+
+  /* Filled even if nothing is drawn, as the result says. */
   *line = (thr_line){.width = style->value[THR_SVG_STROKE_WIDTH].x[0],
                      .dash_offset = style->value[THR_SVG_DASHOFFSET].x[0],
                      .n_dash = dash->n,
@@ -328,6 +336,7 @@ static thr_status trace_path(svg_reader *reader, thr_slice data)
     } else if (command == 'M' || command == 'm')
       command = command == 'M' ? 'L' : 'l';
 
+    /* All numbers of the command, with blanks or commas between them. */
     int n = count_numbers(command);
     if (!n) return broken(reader, "the path", data);
     for (int i = 0; i < n; i++)
@@ -348,17 +357,20 @@ static thr_status trace_shape(svg_reader *reader, const svg_tag *tag)
   double number[5] = {0};
   thr_status st;
 
+  /* A path must have its data. */
   if (thr_slice_is(tag->name, "path")) {
     const thr_slice *data = find(tag, "d");
     return data ? trace_path(reader, *data) : broken(reader, "without d is", tag->name);
   }
 
+  /* A circle: middle and radius. */
   if (thr_slice_is(tag->name, "circle")) {
     st = read_numbers(reader, tag, 3, circle, number);
     if (!st) thr_paper_circle(reader->paper, number, number[2]);
     return st;
   }
 
+  /* A rectangle, perhaps with round corners. */
   st = read_numbers(reader, tag, 5, rect, number);
   /* Larger radii would make an ellipse; the tolerance is for rounding in what is written. */
   double most = 0.5 * fmin(number[2], number[3]);
@@ -386,6 +398,7 @@ static thr_status shift(svg_reader *reader, thr_slice text)
 
   double by[2], degrees;
 
+  /* First the translation, which must be there. */
   if (!take_word(&rest, "translate(") || !thr_slice_number(&rest, &by[0]) ||
       !thr_slice_number(&rest, &by[1]) || !take_word(&rest, ")"))
     return broken(reader, "not known is", text);
@@ -393,6 +406,7 @@ static thr_status shift(svg_reader *reader, thr_slice text)
   thr_paper_shift(reader->paper, by);
   if (!rest.n) return THR_OK;
 
+  /* Then a rotation, or nothing. */
   if (!take_word(&rest, " rotate(") || !thr_slice_number(&rest, &degrees) ||
       !thr_slice_is(rest, ")"))
     return broken(reader, "not known is", text);
@@ -423,6 +437,7 @@ static thr_status draw_shape(svg_reader *reader, const svg_tag *tag)
 
   if (st) return st;
 
+  /* The element ends at once: its style is looked at and forgotten. */
   const thr_svg_style *style = &reader->open[--reader->depth].style;
 
   /* Only of a plain open line may parts outside the clip be left out: dashes count from the
@@ -465,6 +480,7 @@ static thr_status put_words(svg_reader *reader, thr_slice text)
 
     if (!text.n) break;
 
+    /* Five entities are written; any other one is an error. */
     for (i = 0; i < sizeof entity / sizeof *entity; i++)
       if (text.n >= strlen(entity[i][0]) && memcmp(text.s, entity[i][0], strlen(entity[i][0])) == 0)
         break;
@@ -496,6 +512,7 @@ static thr_status draw_text(svg_reader *reader, const svg_tag *tag)
 
   if (st) return st;
 
+  /* Size, weight and family choose the face; the anchor is a share of the width. */
   const thr_svg_style *style = &reader->open[--reader->depth].style;
   thr_letters letters = {.size = style->value[THR_SVG_FONT_SIZE].x[0],
                          .anchor = 0.5 * style->value[THR_SVG_ANCHOR].x[0],
@@ -522,6 +539,7 @@ static thr_status clip_to(svg_reader *reader, thr_slice text)
         memcmp(text.s + 5, path->id.s, path->id.n) != 0)
       continue;
 
+    /* What was clipped before stays clipped: the new box is inside the old one. */
     thr_paper_rect(reader->paper, path->at, path->size, 0);
     thr_paper_clip(reader->paper);
     return THR_OK;
@@ -536,6 +554,7 @@ static thr_status open_group(svg_reader *reader, const svg_tag *tag)
   thr_status st = push(reader, tag);
   if (st) return st;
 
+  /* close_element restores what is saved here. */
   thr_paper_push(reader->paper);
   if (transform) st = shift(reader, *transform);
   if (!st && clipping) st = clip_to(reader, *clipping);
@@ -566,6 +585,7 @@ static thr_status read_clip(svg_reader *reader, const svg_tag *tag)
   if (!st && (!end.closes || !thr_slice_is(end.name, "clipPath")))
     return broken(reader, "not known in clipPath is", end.name);
 
+  /* The slice stays valid as long as the document. */
   reader->clip[reader->n_clips++] =
       (clip_rectangle){.id = *id, .at = {number[0], number[1]}, .size = {number[2], number[3]}};
   return st;
@@ -628,6 +648,7 @@ thr_status thr_svg_page(thr_paper *paper, const thr_text *svg, thr_err *err)
   if (svg->failed) return thr_nomem(err);
   thr_err why = {0};
 
+  /* Some kilobytes, mostly styles of open elements: kept off the stack. */
   svg_reader *reader = thr_calloc(1, sizeof *reader);
   if (!reader) return thr_nomem(err);
   *reader = (svg_reader){.paper = paper, .left = {svg->data, svg->length}, .err = err ? err : &why};

@@ -66,6 +66,7 @@ bool thr_slice_number(thr_slice *text, double *value)
 {
   size_t n = 0, end;
 
+  /* Blanks and commas before the number. */
   while (n < text->n && (is_blank(text->s[n]) || text->s[n] == ','))
     n++;
 
@@ -174,6 +175,8 @@ static bool read_colour(thr_slice text, thr_svg_value *value)
 
   /* One digit counts twice: #fc8 is #ffcc88. */
   size_t each = text.n / 3;
+
+  /* Two digits of each colour, or the same one twice. */
   for (size_t i = 0; i < 3; i++) {
     int high = hex_digit(text.s[1 + i * each]), low = hex_digit(text.s[i * each + each]);
     if (high < 0 || low < 0) return false;
@@ -197,6 +200,8 @@ static bool read_numbers(thr_slice text, int most, thr_svg_value *value)
 static bool read_word(thr_slice text, const char *const *word, thr_svg_value *value)
 {
   thr_slice first = take_until(&text, ',');
+
+  /* Words are compared as they are written here, quotes and all. */
   for (int i = 0; i < WORDS && word[i]; i++)
     if (thr_slice_is(first, word[i])) {
       *value = (thr_svg_value){1, {i}};
@@ -212,6 +217,7 @@ static thr_status read_property(thr_slice name, thr_slice text, int *which, thr_
   *which = find_property(name);
   *value = (thr_svg_value){0};
 
+  /* An unknown property might change the picture. */
   if (*which < 0) return unknown("property", name, err);
   value_kind how = property[*which].kind;
 
@@ -286,14 +292,18 @@ static thr_status read_compound(thr_slice text, compound_selector *selector, thr
   thr_slice whole = text;
   *selector = (compound_selector){0};
 
+  /* The element's name, up to a dot or a colon. */
   selector->name = (thr_slice){text.s, word_length(text)};
   text = (thr_slice){text.s + selector->name.n, text.n - selector->name.n};
+
+  /* Classes, each with a dot before it. */
   while (text.n && *text.s == '.' && selector->n_classes < CLASSES) {
     thr_slice rest = {text.s + 1, text.n - 1}, name = {rest.s, word_length(rest)};
     selector->class[selector->n_classes++] = name;
     text = (thr_slice){rest.s + name.n, rest.n - name.n};
   }
 
+  /* Only one more condition is known, and it must be the last. */
   selector->not_dashed = thr_slice_is(text, not_dashed);
   return !text.n || selector->not_dashed ? THR_OK : unknown("selector", whole, err);
 }
@@ -305,6 +315,8 @@ static thr_status read_selector(thr_slice text, thr_svg_rule *rule, thr_err *err
   thr_status st = THR_OK;
   while (text.n && !st) {
     thr_slice part = take_until(&text, ' ');
+
+    /* Several blanks count as one. */
     if (!part.n) continue;
     if (rule->n == COMPOUNDS) return unknown("selector", whole, err);
 
@@ -325,11 +337,13 @@ static thr_status read_declarations(thr_svg_sheet *sheet, thr_slice list, thr_er
   while (list.n && !st) {
     thr_slice text = take_until(&list, ';'), name = take_until(&text, ':');
 
+    /* An empty declaration, as behind the last semicolon. */
     if (!name.n) continue;
     st = thr_grow(&sheet->declaration, sheet->n_declarations, &sheet->declarations_capacity,
                   sizeof *sheet->declaration, err);
     if (st) break;
 
+    /* Values are read once here, not for every element that the rule meets. */
     thr_svg_declaration *next = &sheet->declaration[sheet->n_declarations++];
     st = read_property(name, text, &next->property, &next->value, err);
   }
@@ -374,6 +388,7 @@ static bool has_class(thr_slice classes, thr_slice wanted)
 /* Returns whether an element meets a compound selector. */
 static bool meets(const compound_selector *selector, const thr_svg_element *element)
 {
+  /* The name, if the selector has one; then all its classes. */
   if (selector->name.n && (selector->name.n != element->name.n ||
                            memcmp(selector->name.s, element->name.s, selector->name.n) != 0))
     return false;
@@ -391,6 +406,7 @@ static bool rule_meets(const thr_svg_rule *rule, const thr_svg_element *const *e
 {
   int left = rule->n - 1;
 
+  /* The innermost selector must meet the element itself. */
   if (!meets(&rule->compound[left], element[n - 1])) return false;
   for (int i = n - 2; i >= 0 && left > 0; i--)
     left -= meets(&rule->compound[left - 1], element[i]);
@@ -401,6 +417,7 @@ static bool rule_meets(const thr_svg_rule *rule, const thr_svg_element *const *e
 void thr_svg_sheet_apply(const thr_svg_sheet *sheet, const thr_svg_element *const *element, int n,
                          thr_svg_style *style)
 {
+  /* From the weakest rule to the strongest, so that the strongest is applied last. */
   for (int i = 0; i < sheet->n_rules; i++) {
     const thr_svg_rule *rule = &sheet->rule[i];
 

@@ -37,6 +37,7 @@ void thr_test_piece_svg(double bore, thr_text *svg)
   thr_svg_open(svg, 140, 120, "A test piece for the friction of a cord",
                "A block with two bores that meet at a right angle, 1:1.");
 
+  /* Styles, paper and the block seen from the side. */
   thr_text_append(svg, "<style>.thread text{fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}"
                        ".block{fill:#f3e6b8;stroke:#222;stroke-width:.35}.bore{fill:none;stroke:#"
                        "222;stroke-width:.2;stroke-dasharray:1.5 1}"
@@ -105,6 +106,7 @@ static void put_triangle(thr_text *stl, const double a[3], const double b[3], co
 {
   double u[3], v[3], n[3];
 
+  /* Two sides of the triangle; their cross product is its normal. */
   for (int k = 0; k < 3; k++) {
     u[k] = b[k] - a[k];
     v[k] = c[k] - a[k];
@@ -112,9 +114,13 @@ static void put_triangle(thr_text *stl, const double a[3], const double b[3], co
 
   for (int k = 0; k < 3; k++)
     n[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+
+  /* STL wants a normal of length 1. */
   const double size = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
   thr_text_printf(stl, "facet normal %.6f %.6f %.6f\nouter loop\n", n[0] / size, n[1] / size,
                   n[2] / size);
+
+  /* The corners in the order that the normal came from. */
   for (int i = 0; i < 3; i++) {
     const double *vertex = i == 0 ? a : i == 1 ? b : c;
     thr_text_printf(stl, "vertex %.6f %.6f %.6f\n", vertex[0], vertex[1], vertex[2]);

@@ -111,11 +111,14 @@ static void put_nodes(plan_viewer *viewer)
 static void put_edges(plan_viewer *viewer)
 {
   const thr_frame *frame = viewer->frame;
+
+  /* By number, as half-edge 2 e and 2 e + 1 belong to edge e. */
   thr_write_array(next_line(viewer), "edges");
   for (int e = 0; e < frame->n_edges; e++)
     thr_write_ints(&viewer->out, NULL, frame->edge[e], 2);
   thr_write_close(&viewer->out);
 
+  /* Lengths may differ from the distance between both ends. */
   thr_write_array(next_line(viewer), "lengths");
   for (int e = 0; e < frame->n_edges; e++)
     thr_write_printf(&viewer->out, NULL, "%.7g", frame->length[e]);
@@ -127,6 +130,7 @@ static void put_pieces(plan_viewer *viewer)
 {
   char kind[24];
 
+  /* Names as in beads.csv. */
   thr_write_array(next_line(viewer), "pieces");
   for (int i = 0; i < viewer->pieces.n; i++) {
     thr_text name = {0};
@@ -135,6 +139,7 @@ static void put_pieces(plan_viewer *viewer)
   }
   thr_write_close(&viewer->out);
 
+  /* Kinds as there. */
   thr_write_array(next_line(viewer), "kinds");
   for (int i = 0; i < viewer->pieces.n; i++) {
     thr_pieces_kind_name(&viewer->pieces, viewer->pieces.kind[i], kind);
@@ -152,6 +157,7 @@ static void put_tension(plan_viewer *viewer, const thr_eval_cord *cord)
   char text[32], words[64], hex[8];
   thr_svg_force(cord->force, text);
 
+  /* Which end is pulled, and how hard. */
   if (cord->pull == THR_PULL_NONE)
     snprintf(words, sizeof words, "not pulled");
   else
@@ -210,6 +216,7 @@ static void put_cord(plan_viewer *viewer, int c)
   if (viewer->copy[c].of != c)
     thr_copies_words(viewer->plan, viewer->copy, c, viewer->motion, words);
 
+  /* The name, and how a copy repeats its path. */
   thr_write_object(next_line(viewer), NULL);
   thr_write_string(writer, "id", cord->id);
   thr_write_bool(writer, "closed", cord->closed);
@@ -229,6 +236,7 @@ static void put_cord(plan_viewer *viewer, int c)
   thr_write_ints(writer, "half", cord->half, cord->n_passes);
   thr_write_int(writer, "fold", thr_cord_fold(viewer->frame, viewer->needles, cord));
 
+  /* Tensions only of cords that were evaluated. */
   put_visits(viewer, c);
   if (viewer->tension && viewer->plan->evaluation.cord[c].known)
     put_tension(viewer, &viewer->plan->evaluation.cord[c]);
@@ -247,6 +255,7 @@ static void put_ticks(plan_viewer *viewer)
   int n = thr_svg_ticks(viewer->range[0], viewer->range[1], viewer->range[0] > 0, TICKS, tick);
   thr_write_array(writer, "ticks");
   for (int i = 0; i < n; i++) {
+    /* "2.5 N", as force is written everywhere. */
     thr_svg_force(tick[i], text);
     thr_write_array(writer, NULL);
     thr_write_printf(writer, NULL, "%.7g", tick[i]);
@@ -263,6 +272,7 @@ static void put_scale(plan_viewer *viewer)
   char hex[8];
   thr_write_object(next_line(viewer), "scale");
 
+  /* The scale's range and what the tensions were computed by. */
   thr_write_string(writer, "method", thr_tension_method_words(&viewer->plan->evaluation));
   thr_write_printf(writer, "low", "%.7g", viewer->range[0]);
   thr_write_printf(writer, "high", "%.7g", viewer->range[1]);
@@ -288,10 +298,12 @@ static void put_head(plan_viewer *viewer)
   const thr_plan *plan = viewer->plan;
   thr_writer *writer = &viewer->out;
 
+  /* What the page checks before anything else. */
   thr_write_string(writer, "format", "thread-viewer");
   thr_write_int(writer, "version", 1);
   thr_write_hash(writer, "frame", thr_frame_hash(viewer->frame));
 
+  /* How to speak of the framework. */
   thr_write_string(writer, "units", viewer->frame->units);
   thr_write_string(writer, "seen", thr_layout_words(viewer->guide.layout.kind));
   thr_write_bool(writer, "solid", viewer->pieces.solid);
@@ -315,6 +327,8 @@ static void put_plan(plan_viewer *viewer)
 
   /* No scale without tensions. */
   if (viewer->tension) put_scale(viewer);
+
+  /* Cords last: the page can draw the framework without them. */
   thr_write_array(next_line(viewer), "cords");
   for (int c = 0; c < viewer->plan->n_cords; c++)
     put_cord(viewer, c);
@@ -347,6 +361,7 @@ static thr_status prepare(plan_viewer *viewer, double tolerance, const thr_layou
   const thr_plan *plan = viewer->plan;
   int n_passes;
 
+  /* Cords must fit the framework, and there must be one. */
   thr_status st = thr_scene_check_cords(plan, &n_passes, err);
   if (!st && !plan->n_cords) st = thr_fail(err, THR_EINPUT, "the plan has no cord to thread");
 
@@ -357,6 +372,7 @@ static thr_status prepare(plan_viewer *viewer, double tolerance, const thr_layou
 
   if (st) return st;
 
+  /* What every cord repeats, names of places, kinds of pieces. */
   viewer->copy = thr_calloc((size_t)plan->n_cords, sizeof *viewer->copy);
   thr_part *part = thr_calloc(2 * (size_t)plan->n_cords, sizeof *part);
 
@@ -384,6 +400,7 @@ thr_status thr_viewer_html(const thr_plan *plan, const char *const *motion, doub
                         .needles = needles,
                         .out = {.out = &json, .compact = true}};
 
+  /* The page was built with the mark in it. */
   const char *mark = strstr(thr_viewer_page, THR_VIEWER_MARK);
   assert(mark);
 
