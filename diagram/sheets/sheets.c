@@ -135,6 +135,7 @@ static thr_status start(thr_sheets **out, const thr_plan *plan, const thr_sheets
   thr_sheets *sheets = *out = thr_calloc(1, sizeof *sheets);
   if (!sheets) return thr_nomem(err);
 
+  /* Everything is borrowed from the caller until the pages are laid out. */
   sheets->plan = plan;
   sheets->f = &plan->frame;
   sheets->o = *options;
@@ -157,6 +158,7 @@ thr_status thr_sheets_make(thr_sheets **out, const thr_plan *plan,
   thr_status st = start(out, plan, options, limits, err);
   if (st) return st;
 
+  /* Failures stick to the sheets: one look at the end is enough. */
   lay_out(*out);
 
   /* The sheets outlive the caller's limits. */
@@ -250,6 +252,8 @@ static thr_status send_body(const thr_sheets *sheets, const thr_text *body, thr_
 {
   thr_text svg = {0};
   open_page(sheets, &svg);
+
+  /* A page without text, as after a failure, is still a document. */
   if (body->data) thr_text_append_bytes(&svg, body->data, body->length);
   if (body->failed) svg.failed = true;
 
@@ -296,6 +300,7 @@ thr_status thr_sheets_pdf(const thr_sheets *sheets, const thr_limits *limits, th
   thr_pages *pages = NULL;
   thr_sheets_heading(sheets, title);
 
+  /* The sheets stay as they are: they can be drawn again. */
   thr_status st = thr_pages_open(&pages, NAME, sheets->o.page, title, limits, err);
 
   /* Bodies first, then the feet, just as thr_sheets_write does: both give the same bytes. */
@@ -315,6 +320,7 @@ thr_status thr_sheets_write(const thr_plan *plan, const thr_sheets_options *opti
   thr_status st = start(&sheets, plan, options, limits, err);
   if (st) return st;
 
+  /* The heading needs no page, so the file can be opened first. */
   thr_sheets_heading(sheets, title);
   st = thr_pages_open(&sheets->pages, NAME, options->page, title, limits, err);
 

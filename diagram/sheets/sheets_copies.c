@@ -35,6 +35,7 @@ static void put_picture(thr_sheets *sheets, int path)
       state[i++] = own;
   }
 
+  /* The lower half of the page is for the words. */
   double height = 0.52 * (thr_sheets_bottom(sheets) - sheets->y);
   thr_box paper = {THR_SHEET_MARGIN, sheets->y, sheets->size[0] - THR_SHEET_MARGIN,
                    sheets->y + height};
@@ -67,6 +68,7 @@ static void put_copy(thr_sheets *sheets, int c)
   char how[192];
   const thr_cord *cord = &sheets->plan->cord[c];
 
+  /* "turned by 90 degrees": the symmetry, as far as it has a name. */
   thr_copies_words(sheets->plan, sheets->copy, c, sheets->o.motion, how);
   thr_text_printf(&words, "Repeat as cord %s%s: start at ", cord->id, how);
   thr_guide_place(&sheets->guide, thr_cord_start(sheets->f, cord), &words);

@@ -129,6 +129,7 @@ static double price_of_end(const divided_path *path, int last)
   const thr_visit *visit = &sheets->visit[path->first + last];
   if (thr_step_ends(sheets, path->first + last)) return 0;
 
+  /* At the start of a cord there is no turn: a step had better not end there. */
   int out = sheets->visit[path->first + last + 1].in;
   bool turns = visit->number && thr_degrees(thr_turn_angle(sheets->f, visit->in, out)) > TURNED;
 
@@ -168,6 +169,7 @@ thr_status thr_step_divide(thr_sheets *sheets, int c, int **ends, int *n_steps, 
   path.lines = thr_calloc(n, sizeof *path.lines);
   path.reach = thr_calloc(n, sizeof *path.reach);
 
+  /* All arrays at once; each has a place for every end 0 .. n. */
   thr_status st = least && begin_of && end && path.lines && path.reach ? THR_OK : thr_nomem(err);
 
   /* Sums of lines let is_good ask for the height of any range. */

@@ -28,6 +28,7 @@ static void put_counts(thr_sheets *sheets)
 
   int feet = 0, n = sheets->pieces.n, cords = sheets->plan->n_cords;
 
+  /* Cord through the middles of the pieces, without tails, knots and turns. */
   for (int c = 0; c < cords; c++)
     total += thr_cord_length(frame, &sheets->plan->cord[c]);
   for (int v = 0; v < frame->n_nodes; v++)
@@ -50,6 +51,7 @@ static void put_counts(thr_sheets *sheets)
                   feet == 1 ? "foot" : "feet", cords, plural(cords), sheets->n_passes,
                   sheets->n_passes == 1 ? "" : "es", length);
 
+  /* In one paragraph, however many lines. */
   if (words.failed)
     thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
   else
@@ -118,6 +120,8 @@ void thr_sheets_front(thr_sheets *sheets, const int *first)
   thr_sheets_page(sheets, "Step sheets", "");
 
   if (sheets->st) return;
+
+  /* Words first. */
   put_counts(sheets);
   put_goal(sheets);
   put_contents(sheets, first);

@@ -21,6 +21,7 @@ static const char *next_name(const char *at)
 {
   const char *best = NULL;
   for (int k = 0; k < N_BEFORE; k++) {
+    /* The nearest of all prefixes counts, by where the name behind it begins. */
     const char *found = strstr(at, before_name[k]);
     if (found && (!best || found + strlen(before_name[k]) < best))
       best = found + strlen(before_name[k]);
@@ -34,6 +35,7 @@ static const char *next_name(const char *at)
 static const char *put_names(thr_text *html, const char *at, int page)
 {
   for (;;) {
+    /* A name ends at a blank, a quote or a bracket; a blank means that another one follows. */
     const size_t n = strcspn(at, " \")");
     thr_text_printf(html, "p%d-", page);
     thr_text_append_bytes(html, at, n);
@@ -59,6 +61,7 @@ static void put_page(thr_text *html, const thr_text *svg, int page)
     at = put_names(html, name, page);
   }
 
+  /* What is left behind the last name. */
   thr_text_append(html, at);
   thr_text_append(html, "</section>\n");
 }
@@ -71,11 +74,13 @@ static void put_head(const thr_sheets *sheets, thr_text *html)
   char title[96];
   thr_sheets_heading(sheets, title);
 
+  /* The language is for hyphens and for readers of screens. */
   thr_text_append(
       html, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>");
   thr_text_append(html, title);
 
+  /* One page per sheet of paper, without margins of the browser's own. */
   thr_text_printf(
       html,
       "</title>\n<style>\n@page{size:%gmm %gmm;margin:0}\nhtml{background:#777}\nbody{margin:0}\n"

@@ -26,6 +26,7 @@ static int find_hub(const thr_sheets *sheets, const thr_step *step)
 {
   int best = -1, most = MANY - 1;
   for (int i = step->first; i < step->end && sheets->pieces.solid; i++) {
+    /* Tubes have no arms to tell apart. */
     const thr_visit *v = &sheets->visit[i];
     int arms = thr_degree(sheets->f, v->piece);
 
@@ -121,6 +122,8 @@ static bool find_corner(thr_box picture, const double (*busy)[2], int n, double 
 {
   for (int k = 0; k < 4; k++) {
     bool free = true;
+
+    /* k counts the corners: bit 0 is right, below 2 is the lower edge. */
     corner[0] = k % 2 ? picture.x1 - SIDE : picture.x0;
     corner[1] = k < 2 ? picture.y1 - SIDE : picture.y0;
 

@@ -59,6 +59,7 @@ static void put_members(thr_sheets *sheets, int kind, double x, double y, double
 {
   thr_text words = {0};
 
+  /* All names of the kind, in the order of pieces. */
   for (int i = 0; i < sheets->pieces.n; i++)
     if (sheets->pieces.kind[i] == kind)
       thr_text_printf(&words, "%s%s", words.length ? " " : "", sheets->guide.label[i]);
@@ -109,6 +110,7 @@ static void put_card(thr_sheets *sheets, int kind, double x, double y, double wi
     return;
   }
 
+  /* Around the picture, and below it. */
   put_lengths(sheets, scene, point, at);
   put_members(sheets, kind, x, y + CARD - 2, width);
 }
@@ -119,12 +121,14 @@ static void put_crossings(thr_sheets *sheets)
   thr_channels channels = {0};
   char line[200];
 
+  /* The channels are only counted here. */
   thr_status st = thr_channels_make(&channels, sheets->plan, &sheets->why);
   if (st) {
     thr_sheets_fail(sheets, st, NULL);
     return;
   }
 
+  /* Where some cross, a maker needs the table. */
   if (channels.crossed)
     snprintf(line, sizeof line,
              "%d piece%s cords that cross inside: there one channel lies above the other "
@@ -204,6 +208,7 @@ void thr_sheets_name_tags(thr_sheets *sheets)
   double longest = 0;
   int n = sheets->pieces.n;
 
+  /* A tube has no side to stick a name on. */
   if (!sheets->pieces.solid || sheets->st) return;
 
   /* The longest name decides how many tags stand in a row, 14 at most. */

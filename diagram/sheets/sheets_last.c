@@ -60,6 +60,7 @@ int thr_sheets_hardest(const thr_sheets *sheets)
 {
   cord_pull first = pull_of(sheets, 0);
 
+  /* The first in the order of by_hardness, without sorting all. */
   for (int c = 1; c < sheets->plan->n_cords; c++) {
     cord_pull other = pull_of(sheets, c);
     if (by_hardness(&other, &first) < 0) first = other;
@@ -91,6 +92,7 @@ static void put_too_hard(thr_sheets *sheets, const cord_pull *pulls)
     n += pulls[i].known && pulls[i].hardness > thr_hand_most;
   if (!n) return;
 
+  /* "The cord asks ..", "3 of 4 cords ask ..". */
   if (sheets->plan->n_cords == 1)
     thr_text_append(&words, "The cord");
   else
@@ -230,6 +232,7 @@ static void put_knots(thr_sheets *sheets)
   char line[320];
   thr_sheets_title(sheets, "Knots");
 
+  /* A knot takes a length that is proportional to the cord's diameter. */
   if (sheets->supplies.mm > 0)
     snprintf(line, sizeof line,
              "An overhand knot at each end, drawn up to its piece; it takes %.0f mm of this cord. "
@@ -260,6 +263,7 @@ static void put_checks(thr_sheets *sheets)
            thr_pieces_word(sheets->plan, sheets->pieces.n));
   thr_sheets_tick(sheets, line);
 
+  /* A closed cord has two ends as well, which meet at one place. */
   snprintf(line, sizeof line, "All %d ends of cord come out where the cut list says.",
            2 * sheets->plan->n_cords);
   thr_sheets_tick(sheets, line);
@@ -282,6 +286,7 @@ void thr_sheets_last(thr_sheets *sheets)
     return;
   }
 
+  /* In the order of work. */
   thr_sheets_page(sheets, "Last", "Last (continued)");
   put_pulling(sheets, pulls);
   put_knots(sheets);

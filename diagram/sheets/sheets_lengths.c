@@ -37,6 +37,8 @@ static double drawn_by_one(const thr_sheets *sheets)
   double drawn = 0;
   for (int c = 0; c < sheets->plan->n_cords; c++) {
     const thr_cord *cord = &sheets->plan->cord[c];
+
+    /* What is behind the needle after each pass. */
     double rest = thr_cord_length(sheets->f, cord);
 
     for (int k = 0; k < cord->n_passes; k++)
@@ -96,6 +98,7 @@ void thr_sheets_lengths(thr_sheets *sheets)
   int said = 0;
   bool late = false;
 
+  /* Without a size in mm no length of cord can be compared with an arm's reach. */
   if (!(mm > 0)) return;
 
   /* What is drawn through in all, and what a single needle would draw. */
@@ -107,6 +110,7 @@ void thr_sheets_lengths(thr_sheets *sheets)
     thr_text_printf(&words, ", with two needles from the fold; %s with one from the end", one);
   thr_text_append(&words, ". ");
 
+  /* Part by part, since each begins with a new end of cord. */
   for (int i = 0; i < sheets->n_visits;)
     i = put_joins(sheets, i, working / mm, &said, &late, &joins);
   snprintf(now, sizeof now, "%g m", working / 1000);

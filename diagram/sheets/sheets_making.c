@@ -178,6 +178,7 @@ static void add_segment(segment_list *segments, const double from[3], const doub
  * (the painter's algorithm). */
 static void put_strands(const instruction_panel *panel, segment_list *segments)
 {
+  /* Height is that of the middle of each segment. */
   qsort(segments->segment, (size_t)segments->n, sizeof *segments->segment, by_height);
 
   /* Each segment has a casing with square ends and a core with round ones, which closes the joints.
@@ -231,6 +232,8 @@ static void add_coil(segment_list *segments, double x, double y, double dir, con
 {
   enum { N = 60 };
   double before[3] = {0};
+
+  /* Height sin t: above the line's cord half of the time, below it the other half. */
   for (int i = 0; i <= N; i++) {
     double angle = 4 * THR_PI * i / N;
     double at[3] = {x + dir * 0.45 * angle, y - 2.4 * cos(angle), sin(angle)};
@@ -269,6 +272,7 @@ static double widest_bore(const thr_sheets *sheets, bool narrowest)
 {
   double found = 0;
 
+  /* An edge without a pass has no bore. */
   for (int e = 0; e < sheets->f->n_edges; e++) {
     double bore = thr_supplies_bore(&sheets->supplies, e);
     if (bore > 0 && (found == 0 || (narrowest ? bore < found : bore > found))) found = bore;
@@ -311,6 +315,7 @@ static void put_need(instruction_panel *panel, thr_text *words)
   if (most > least * (1 + 1e-9)) thr_text_printf(words, " to %s", to);
   thr_text_append(words, " (cut list); a needle");
 
+  /* The needle must pass the narrowest bore, the stopper none. */
   if (sheets->supplies.mm > 0)
     thr_text_printf(
         words,
@@ -365,6 +370,7 @@ static double widest_gap(int n, const double *angle)
       if (sweep > 0 && sweep < gap) gap = sweep;
     }
 
+    /* Of equal gaps the first one, whatever rounding does. */
     if (gap > widest + 1e-9) {
       widest = gap;
       best = angle[i] + gap / 2;
@@ -405,6 +411,7 @@ static void put_example(const instruction_panel *panel, const thr_visit *visit)
   for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
     angle[n++] = direction(panel->sheets, frame->half[i]);
 
+  /* The piece itself, new, and the two arms of the visit. */
   put_piece(panel, panel->x, panel->y, n, angle, 8, THR_PIECE_NEW);
   put_arm(panel, visit->in ^ 1, false);
   put_arm(panel, visit->out, true);
@@ -423,6 +430,7 @@ static void put_lay(instruction_panel *panel, thr_text *words)
   const thr_sheets *sheets = panel->sheets;
   int shown = sheets->pieces.solid ? example(sheets) : -1;
 
+  /* A piece of this plan if one is simple enough, else three tubes. */
   if (shown >= 0)
     put_example(panel, &sheets->visit[shown]);
   else {
@@ -464,6 +472,8 @@ static void put_start(instruction_panel *panel, thr_text *words)
 
   /* The text. A cord that is threaded from its fold has no tail yet: its other half waits there. */
   thr_text_append(words, "Thread the needle, fold the end of the cord back and tape it flat. ");
+
+  /* Where the cord starts, or what to do with the fold. */
   if (sheets->fold[part->cord])
     thr_text_append(words, "A cord that is threaded from its middle has the stopper at its fold "
                            "(cut list), until the left needle's turn.");
@@ -489,6 +499,8 @@ static void put_slack(instruction_panel *panel, thr_text *words)
   put_row(panel, panel->x + 2, panel->y, 2, 0.5, state + 2);
   put_cord(panel, panel->x - 33, panel->y, panel->x + 36, panel->y, OLD);
   put_stopper(panel, panel->x - 33, panel->y);
+
+  /* The needle's end is drawn, the pieces on the left are held. */
   put_arrow(panel, panel->x + 30, panel->y - 4, panel->x + 38, panel->y - 4);
   put_label(panel, panel->x + 34, panel->y - 6.5, "draw");
   put_label(panel, panel->x - 23, panel->y - 9, "hold");
@@ -515,6 +527,7 @@ static void put_wrong(instruction_panel *panel, thr_text *words)
   put_line(panel, panel->x - 2, panel->y - 8, panel->x - 2, panel->y + 8, 0.8, "#009e73");
   put_label(panel, panel->x - 2, panel->y - 9.5, "last check");
 
+  /* The cord goes back the way it came. */
   put_arrow(panel, panel->x + 28, panel->y - 8, panel->x + 12, panel->y - 8);
   put_label(panel, panel->x + 20, panel->y - 10, "back, one by one");
 
@@ -541,6 +554,7 @@ static void put_join(instruction_panel *panel, thr_text *words)
   add_coil(&segments, panel->x - 6, panel->y, -1, NEW);
   put_strands(panel, &segments);
 
+  /* Which cord is which, and how both knots are drawn together. */
   put_label(panel, panel->x - 29, panel->y + 6, "old cord");
   put_label(panel, panel->x + 29, panel->y + 6, "new length");
   put_arrow(panel, panel->x - 12, panel->y + 7, panel->x - 4, panel->y + 7);
@@ -585,6 +599,7 @@ static void put_schedule(const thr_sheets *sheets, int c, thr_text *words)
   char force[32];
   int n = 0;
 
+  /* The hardest pull comes first: a maker sees whether a hand can do it. */
   thr_svg_force(thr_schedule_hardest(schedule, c), force);
   thr_text_printf(words, "No pull above %s. ", force);
 
@@ -696,6 +711,8 @@ static void put_knot(instruction_panel *panel, thr_text *words)
   put_arrow(panel, panel->x - 4, panel->y + 8, panel->x - 14, panel->y + 8);
 
   thr_text_append(words, "When all cords are tight, an overhand knot at each end");
+
+  /* How much cord it takes, if the cord's diameter is known. */
   if (panel->sheets->supplies.mm > 0)
     thr_text_printf(words, " (it takes %.0f mm of this cord)",
                     ceil(THR_SUPPLIES_KNOT * panel->sheets->supplies.cord));

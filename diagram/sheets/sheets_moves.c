@@ -17,6 +17,7 @@ static void index_visits(thr_sheets *sheets)
   int part = -1, first = 0;
   double used = 0;
 
+  /* Passes are numbered cord by cord, as in a scene. */
   for (int c = 0; c < sheets->plan->n_cords; first += sheets->plan->cord[c++].n_passes)
     sheets->first_pass[c] = first;
   for (int i = 0, left = 0; i < sheets->n_visits; i++, left--) {
@@ -95,6 +96,7 @@ void thr_sheets_cord_words(const thr_sheets *sheets, int c, char words[96])
 {
   static const char *const dash[THR_DASHES] = {"", ", dashed", ", dotted", ", dash-dotted"};
 
+  /* Hues repeat after THR_COLOURS paths; dashes tell those apart. */
   int n = sheets->plan->n_cords, hue = sheets->copy[c].path;
 
   /* A single cord needs no colour to be told by. Copies have a pale shade of their path's

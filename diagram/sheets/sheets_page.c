@@ -104,6 +104,7 @@ double thr_sheets_text(thr_sheets *sheets, double x, double y, double size, doub
     memcpy(line, words, n);
     line[n] = '\0';
 
+    /* Blanks at the break are dropped. */
     thr_svg_text(thr_sheets_out(sheets), x, y, size, attributes, line);
     words += n;
     words += strspn(words, " ");
@@ -127,6 +128,7 @@ void thr_sheets_page(thr_sheets *sheets, const char *heading, const char *runnin
     return;
   }
 
+  /* An empty page, with its heading at the top. */
   sheets->page[sheets->n_pages++] = (thr_text){0};
 
   /* The running heading is copied before it is overwritten: the heading itself may be the old one.
@@ -182,6 +184,7 @@ static void flow(thr_sheets *sheets, double x, const char *words)
     thr_sheets_room(sheets, 0);
     sheets->y = thr_sheets_text(sheets, x, sheets->y, THR_SHEET_TEXT, 2 * width, "", line);
 
+    /* Then the rest, from the next word on. */
     words += n;
     words += strspn(words, " ");
   }
@@ -209,6 +212,7 @@ void thr_sheets_tick(thr_sheets *sheets, const char *words)
 
 void thr_sheets_cells(thr_sheets *sheets, int n, const double *x, char (*cell)[96], bool bold)
 {
+  /* A row is never cut by the end of a page. */
   thr_sheets_room(sheets, 0);
   for (int i = 0; i < n && !sheets->st; i++) {
     /* A negative column says where its right edge is. */

@@ -87,6 +87,7 @@ static void put_cords(thr_sheets *sheets)
   if (some_folded(sheets)) snprintf(head[7], 96, "fold at");
   thr_sheets_cells(sheets, 9, x, head, true);
 
+  /* In the order of the plan, which is that of their names. */
   for (int c = 0; c < sheets->plan->n_cords; c++)
     put_cord(sheets, c, x);
   sheets->y += 1;
@@ -257,6 +258,7 @@ static void put_pieces(thr_sheets *sheets)
     return;
   }
 
+  /* A tube has no letter, and its length says which one it is. */
   bool together = find_kinds(sheets, row) > MOST_SINGLE && pieces->solid;
 
   /* The heading counts pieces and kinds, before any are merged. */
@@ -308,6 +310,7 @@ static void put_reading(thr_sheets *sheets)
 {
   thr_sheets_title(sheets, "How to read the steps");
 
+  /* What a row says. */
   thr_sheets_paragraph(sheets, 0,
                        sheets->pieces.solid
                            ? "Each row is a piece that the needle comes to. Pick up: a new piece "
@@ -323,12 +326,14 @@ static void put_reading(thr_sheets *sheets)
                              "back through: against that way. The "
                              "number of a row is that in the picture.");
 
+  /* What a name says. */
   thr_sheets_paragraph(sheets, 0,
                        "A piece has its kind in the box, by letter and number, and its place in "
                        "the whole: X-10 (B5) is one of kind X-10 "
                        "that comes to B5. Put its place on it when it goes on the cord: later rows "
                        "call it by that.");
 
+  /* What a picture says. */
   thr_sheets_paragraph(sheets, 0,
                        "In the pictures pieces to pick up have a bold outline, those that are on a "
                        "cord are grey, those that wait are "
@@ -336,6 +341,7 @@ static void put_reading(thr_sheets *sheets)
                        "The small picture shows where they are. "
                        "S: a cord starts. E: it ends.");
 
+  /* Two needles, if any cord needs them. */
   if (some_folded(sheets))
     thr_sheets_paragraph(sheets, 0,
                          "Cords that have a fold in the cut list are threaded from there with a "

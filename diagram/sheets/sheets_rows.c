@@ -46,6 +46,7 @@ static void put_beginning(const thr_sheets *sheets, int i, thr_text *text)
 {
   thr_needle needle = sheets->move[i].needle;
 
+  /* Only the first step of a needle has a beginning. */
   if (!thr_step_begins(sheets, i)) return;
 
   /* Threaded from its end: a tail stays there, to be pulled and knotted. */
@@ -72,6 +73,7 @@ static void put_check(const thr_sheets *sheets, int last, thr_text *text)
   int at = visit->number ? thr_head(sheets->f, visit->in) : visit->piece;
   bool solid = sheets->pieces.solid;
 
+  /* Which needle, if there are two, and where it is. */
   thr_text_printf(text, "Check: the %sneedle comes out %s ",
                   needle == THR_NEEDLE_RIGHT  ? "right "
                   : needle == THR_NEEDLE_LEFT ? "left "
@@ -191,6 +193,7 @@ static void put_tally(const thr_sheets *sheets, const thr_step *step, thr_text *
   else
     snprintf(left, sizeof left, "none");
 
+  /* With two needles the lengths are those of the needle in hand. */
   thr_text_printf(text,
                   "%d %s to pick up, %d on a cord already; %d of %d are threaded then; cord used%s "
                   "%s, left for the way %s",
@@ -266,6 +269,7 @@ void thr_step_put_legend(thr_sheets *sheets, double y, const char *what)
       [THR_PIECE_NEW] = now, [THR_PIECE_HELD] = "on a cord already", [THR_PIECE_LATER] = "later"};
   double x = THR_SHEET_MARGIN;
 
+  /* The same looks serve the maps of sections. */
   snprintf(now, sizeof now, "pick up in this %s", what);
 
   /* From the piece that is picked up now to the one that waits, as the maker needs them. */
@@ -295,6 +299,7 @@ static void put_row(thr_sheets *sheets, const thr_step *step, int i, double x, d
   const thr_visit *visit = &sheets->visit[step->first + i];
   if (visit->number) snprintf(number, sizeof number, "%d", visit->number);
 
+  /* From left to right: box, number, words. */
   thr_sheets_box(thr_sheets_out(sheets), x, y);
   thr_svg_text(thr_sheets_out(sheets), x + BOX + COUNT - 1.5, y, THR_SHEET_SMALL,
                " text-anchor=\"end\" font-weight=\"bold\"", number);
@@ -306,6 +311,7 @@ void thr_step_put_rows(thr_sheets *sheets, const thr_step *step)
 {
   sheets->y += THR_SHEET_LINE;
 
+  /* What to do first, over the whole width. */
   put_words(sheets, &step->before, " style=\"fill:#444\"");
   if (step->lines_before) sheets->y += 1;
 

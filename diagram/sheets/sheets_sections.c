@@ -62,6 +62,7 @@ static void put_kinds(thr_sheets *sheets, int first, int end)
     any = true;
   }
 
+  /* The list ends with a full stop. */
   thr_text_append(&words, ".");
   if (words.failed)
     thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
@@ -93,6 +94,7 @@ static thr_status put_map(thr_sheets *sheets, int first, int end, thr_err *err)
   for (int i = 0; i < sheets->n_passes && !st; i++)
     state[i] = THR_DRAW_HIDDEN;
 
+  /* The same projection as the pictures of steps. */
   if (!st && sheets->in_space)
     st = thr_space_whole(&sheets->space, piece, paper, thr_sheets_out(sheets), err);
   if (!st && !sheets->in_space)
@@ -112,6 +114,7 @@ void thr_sheets_section(thr_sheets *sheets, int nth, int n, int first, int end, 
   /* Steps that wait come before this page. */
   thr_sheets_flush(sheets);
 
+  /* Steps are numbered on from those that are laid out. */
   if (n > 1)
     snprintf(title, sizeof title, "Section %d of %d of cord %.11s: steps %d to %d", nth, n, id,
              sheets->n_steps + 1, sheets->n_steps + steps);

@@ -92,6 +92,7 @@ static thr_status put_flat(thr_sheets *sheets, thr_step *step, const thr_crop *c
       busy[2 * i + 1][k] = at[k] + scene->pass[crop->now[i]].to[k] - corner;
     }
 
+  /* The inset, if there is one, lies on top of the picture. */
   thr_box picture = {at[0], at[1], at[0] + step->view.size[0], sheets->y};
   if (!st)
     thr_step_put_hub(sheets, step, NULL, crop->colour, picture, (const double(*)[2])busy,
@@ -132,6 +133,7 @@ static thr_status put_in_space(thr_sheets *sheets, const thr_step *step, const t
       busy[i][k] = at[k] + seen[k];
   }
 
+  /* The inset, if there is one, lies on top of the picture. */
   thr_box picture = {at[0], at[1], at[0] + view.size[0], sheets->y};
   if (!st)
     thr_step_put_hub(sheets, step, &view.camera, crop->colour, picture, (const double(*)[2])busy,
@@ -169,6 +171,7 @@ static thr_status put_pictures(thr_sheets *sheets, thr_step *step, double top, d
   crop.state = state;
   crop.piece = piece;
 
+  /* In space or flat, the same for all steps of a booklet. */
   double room[2] = {thr_sheets_width(sheets), step->height + extra};
   if (!st && sheets->in_space) st = put_in_space(sheets, step, &crop, room, top, err);
   if (!st && !sheets->in_space) st = put_flat(sheets, step, &crop, room, top, err);
@@ -242,6 +245,8 @@ static bool has_room(const thr_sheets *sheets, const thr_step *step)
 static void poll(thr_sheets *sheets, int first)
 {
   const thr_limits *limits = sheets->limits;
+
+  /* Progress by visits: pages are not counted before. */
   if (limits->advance)
     limits->advance(limits->user, "pages of the step sheets", (double)first / sheets->n_visits);
 

@@ -100,6 +100,8 @@ static void tube_of(const thr_sheets *sheets, const thr_camera *camera, int half
 {
   double d[2];
   direction(sheets, camera, half, d);
+
+  /* As long as the reach on both sides, whatever the tube's length is. */
   double length = hypot(d[0], d[1]);
 
   /* The needle comes in behind and goes out in front. */
@@ -158,6 +160,7 @@ static void put_path(thr_text *data, const char *fill, const char *stroke, doubl
                     "stroke-width=\"%.2f\" d=\"%s\"/>\n",
                     fill, stroke, width, data->data);
 
+  /* A failure while the data were made is kept. */
   text->failed |= data->failed;
   thr_text_destroy(data);
 }
@@ -224,6 +227,7 @@ static void put_name(thr_sheets *sheets, int visit, double x, double y, double w
     snprintf(words, sizeof words, "%.90s", name.data);
   thr_text_destroy(&name);
 
+  /* What is picked up is bold, what is passed through is grey. */
   snprintf(attributes, sizeof attributes, " text-anchor=\"middle\"%s",
            new ? " font-weight=\"bold\"" : " style=\"fill:#444\"");
   if (thr_scene_text_width(words, THR_SHEET_SMALL) <= width)

@@ -145,6 +145,7 @@ static bool tips_meet(int n, const double (*a)[3], const double (*b)[3], double 
   bool taken[THR_KINDS_ARMS] = {false};
 
   for (int i = 0; i < n; i++) {
+    /* Only tips within the tolerance count. */
     int nearest = -1;
     double least = tolerance;
     for (int j = 0; j < n; j++) {
@@ -156,6 +157,7 @@ static bool tips_meet(int n, const double (*a)[3], const double (*b)[3], double 
       nearest = j;
     }
 
+    /* A tip without a partner: the beads differ. */
     if (nearest < 0) return false;
     taken[nearest] = true;
   }
@@ -302,6 +304,7 @@ thr_status thr_kinds_find(const thr_frame *frame, double tolerance, int *edge, i
   int most = frame->n_edges > frame->n_nodes ? frame->n_edges : frame->n_nodes;
   double median;
 
+  /* One array serves edges and nodes in turn. */
   keyed *sorted = thr_calloc((size_t)most, sizeof *sorted);
   int *next = thr_calloc((size_t)frame->n_edges, sizeof *next);
   thr_status st = sorted && next ? THR_OK : thr_nomem(err);

@@ -23,6 +23,7 @@ thr_status thr_supplies_make(thr_supplies *supplies, const thr_plan *plan, thr_e
   int n;
   *supplies = (thr_supplies){.plan = plan};
 
+  /* Cords must fit the framework, and there must be one. */
   thr_status st = thr_scene_check_cords(plan, &n, err);
   if (!st && !plan->n_cords) st = thr_fail(err, THR_EINPUT, "the plan has no cord to thread");
   if (st) return st;
@@ -74,6 +75,7 @@ bool thr_supplies_doubt(const thr_supplies *supplies, char line[160])
   const double thinnest = 0.2, thickest = 15; /* mm: of sewing thread, of rope */
   const thr_physics *asked = &supplies->plan->options.physics;
 
+  /* Sizes that the user gave are taken as they are. */
   bool said = asked->cord_diameter > 0 || asked->bore > 0 || asked->bead_diameter > 0;
   if (said || !(supplies->mm > 0) || (supplies->cord >= thinnest && supplies->cord <= thickest))
     return false;
@@ -128,6 +130,7 @@ thr_cut_length thr_supplies_cut(const thr_supplies *supplies, int c)
   const thr_cord *cord = &supplies->plan->cord[c];
   thr_cut_length cut = {.length = thr_cord_length(&supplies->plan->frame, cord)};
 
+  /* Allowances are multiples of sizes in mm. */
   if (!(supplies->mm > 0)) return cut;
 
   /* Both ends have a tail and a knot, those of a closed cord too. All in mm, then in units. */

@@ -129,6 +129,7 @@ static thr_status table_make(table_writer *table, const thr_plan *plan, double t
 
   if (st) return st;
 
+  /* Every table names the path that a cord repeats, or the kind of a piece. */
   table->copy = thr_calloc((size_t)plan->n_cords, sizeof *table->copy);
   if (!table->copy) return thr_nomem(err);
   st = thr_copies_find(plan, table->copy, err);
@@ -142,6 +143,7 @@ static thr_status table_close(table_writer *table, thr_status st, thr_text *out,
   if (!st && !table->out->failed) thr_text_append_bytes(out, table->out->data, table->out->length);
   if (!st && (table->out->failed || out->failed)) st = thr_nomem(err);
 
+  /* Nothing of the table is left but its text. */
   thr_text_destroy(table->out);
   thr_guide_destroy(&table->guide);
   thr_supplies_destroy(&table->supplies);
@@ -263,6 +265,7 @@ static void put_step(table_writer *table, const thr_visit *visit, needle *now)
   double pass = visit->number ? table->frame->length[visit->in >> 1] : 0;
   now->used += pass;
 
+  /* Which piece, and whether it is picked up or passed. */
   put_text(table, cord->id);
   put_int(table, visit->number);
   put_name(table, visit->piece);
@@ -316,6 +319,7 @@ static int put_part(table_writer *table, const thr_part *part, const thr_visit *
   for (int k = part->first; k < part->end; k++)
     now.length += table->frame->length[cord->half[k] >> 1];
 
+  /* With solid joints a part that begins a cord has a visit for the start. */
   for (int i = 0; i < n; i++)
     put_step(table, &visit[i], &now);
   return n;
@@ -345,6 +349,7 @@ thr_status thr_table_steps(const thr_plan *plan, double tolerance, int needles,
                          "path_step,edge,from_node,to_node,"
                          "needle,unit\n");
 
+  /* put_part says how many visits each part has. */
   for (int k = 0, i = 0; k < parts && !st; k++)
     i += put_part(&table, &part[k], visit + i);
 
@@ -396,6 +401,7 @@ thr_status thr_table_cords(const thr_plan *plan, const char *const *motion,
   table_writer table;
   thr_text text = {0};
 
+  /* Without sizes the columns of allowances stay empty. */
   thr_status st = table_make(&table, plan, 0, layout, &text, err);
   if (!st) st = thr_supplies_find_sizes(&table.supplies, err);
 
@@ -426,6 +432,7 @@ static void put_arms(table_writer *table, int piece, const int *around)
 {
   thr_text faces = {0}, cords = {0};
 
+  /* A tube has two ends and the same cords at both. */
   if (!table->pieces.solid) {
     thr_text_printf(&faces, "%s %s", place(table, table->frame->edge[piece][0]),
                     place(table, table->frame->edge[piece][1]));
@@ -475,6 +482,7 @@ static void put_piece(table_writer *table, int piece, const int *around, const i
   put_int(table, piece);
   put_int(table, thr_pieces_arms(&table->pieces, piece));
 
+  /* Its neighbours, and its size. */
   put_arms(table, piece, around);
   put_number(table, length_of(table, piece));
 
@@ -493,6 +501,7 @@ thr_status thr_table_beads(const thr_plan *plan, double tolerance, const thr_lay
   table_writer table;
   thr_text text = {0};
 
+  /* Bores in mm need sizes. */
   thr_status st = table_make(&table, plan, tolerance, layout, &text, err);
   if (!st) st = thr_supplies_find_sizes(&table.supplies, err);
 
@@ -525,6 +534,7 @@ static void put_channel(table_writer *table, const thr_channel *channel, int pie
   put_name(table, piece);
   put_kind(table, piece);
 
+  /* Whose channel, and between which arms. */
   put_text(table, table->plan->cord[channel->cord].id);
   put_int(table, channel->pass + 1);
   put_arm(table, channel->in);
@@ -560,6 +570,7 @@ thr_status thr_table_channels(const thr_plan *plan, double tolerance, const thr_
   thr_text text = {0};
   thr_channels channels = {0};
 
+  /* Crossings are known with solid joints only. */
   thr_status st = table_make(&table, plan, tolerance, layout, &text, err);
   if (!st) st = thr_channels_make(&channels, plan, err);
 
