@@ -36,8 +36,8 @@ static void put_32(thr_text *out, size_t value)
   put_16(out, (unsigned)(value & 0xffff));
 }
 
-/* Bytes at .. at + n - 1 of the file: a table of the font, or a part of one. n = 0: there is none.
- */
+/* Bytes at .. at + n - 1 of the file: a table of the font, or a part of one. n = 0: there is
+ * none. */
 typedef struct {
   size_t at, n;
 } font_table;

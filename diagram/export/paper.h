@@ -43,15 +43,14 @@ unsigned thr_font_letter(const char **words);
 double thr_font_advance(const thr_font *font, int glyph);
 
 /* Appends a font file with the same numbers of glyphs, of which only those with used[glyph], and
- * those that they are composed of, have an outline. used: [n_glyphs], extended by these. O(bytes).
- */
+ * those that they are composed of, have an outline. used: [n_glyphs], extended by these.
+ * O(bytes). */
 thr_status thr_font_subset(const thr_font *font, unsigned char *used, thr_text *out,
                            thr_err *err) THR_MUST_CHECK;
 
 /* Appends the outline of a glyph to an SVG path: closed curves, quadratic ones, with numbers of
  * three decimals. A point x, y of it, in units, goes to place[0] x + place[2] y + place[4],
- * place[1] x + place[3] y + place[5]. Nothing for a blank. O(points).
- */
+ * place[1] x + place[3] y + place[5]. Nothing for a blank. O(points). */
 void thr_font_outline(const thr_font *font, int glyph, const double place[6], thr_text *path);
 
 /* The faces that pages are set in, found by fontconfig: DejaVu Sans or what it puts in its place.
@@ -204,8 +203,7 @@ void thr_test_piece_stl(double bore, thr_text *stl);
  * thr_cord_folded; layout: as in thr_guide_make. The same plan gives the same bytes; beside the
  * page (about 0.6 MB) some 70 bytes per pass. THR_EINPUT for a plan without cords, for cords that
  * do not fit the framework and for an evaluation that does not fit the cords. O(n log n). html is
- * unchanged on failure.
- */
+ * unchanged on failure. */
 thr_status thr_viewer_html(const thr_plan *plan, const char *const *motion, double tolerance,
                            int needles, const thr_layout *layout, thr_text *html,
                            thr_err *err) THR_MUST_CHECK;

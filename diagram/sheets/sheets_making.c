@@ -181,8 +181,8 @@ static void put_strands(const instruction_panel *panel, segment_list *segments)
   /* Height is that of the middle of each segment. */
   qsort(segments->segment, (size_t)segments->n, sizeof *segments->segment, by_height);
 
-  /* Each segment has a casing with square ends and a core with round ones, which closes the joints.
-   */
+  /* Each segment has a casing with square ends and a core with round ones, which closes the
+   * joints. */
   for (int i = 0; i < segments->n; i++)
     for (int above = 0; above < 2; above++)
       thr_text_printf(panel->out,
@@ -327,9 +327,9 @@ static void put_need(instruction_panel *panel, thr_text *words)
   thr_text_append(words, "; tape, scissors, and overview.svg to lay the pieces on.");
 }
 
-/* Returns the visit that explains best how a piece lies: the first one that picks up a piece, comes
- * in and goes out, and whose piece has the most arms, but no more than four; -1 if there is none.
- */
+/* Returns the visit that explains best how a piece lies: the first one that picks up a piece,
+ * comes in and goes out, and whose piece has the most arms, but no more than four; -1 if there
+ * is none. */
 static int example(const thr_sheets *sheets)
 {
   int best = -1, arms = 0;

@@ -131,8 +131,8 @@ void thr_sheets_page(thr_sheets *sheets, const char *heading, const char *runnin
   /* An empty page, with its heading at the top. */
   sheets->page[sheets->n_pages++] = (thr_text){0};
 
-  /* The running heading is copied before it is overwritten: the heading itself may be the old one.
-   */
+  /* The running heading is copied before it is overwritten: the heading itself may be the old
+   * one. */
   thr_text copy = {0}; /* heading may be sheets->running */
   thr_text_append(&copy, running);
 

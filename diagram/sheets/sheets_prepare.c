@@ -28,8 +28,8 @@ static void put_length(const thr_sheets *sheets, double length, char cell[96])
     snprintf(cell, 96, "%.5g", length);
 }
 
-/* Returns whether any cord is threaded from its fold with two needles, which makes two parts of it.
- */
+/* Returns whether any cord is threaded from its fold with two needles, which makes two parts of
+ * it. */
 static bool some_folded(const thr_sheets *sheets)
 {
   return sheets->n_parts > sheets->plan->n_cords;
@@ -69,8 +69,8 @@ static void put_cord(thr_sheets *sheets, int c, const double *x)
   thr_sheets_cells(sheets, 9, x, cell, false);
 }
 
-/* Writes the cut list: a heading with the cord's thickness, a row per cord, and what "cut" adds up.
- */
+/* Writes the cut list: a heading with the cord's thickness, a row per cord, and what "cut" adds
+ * up. */
 static void put_cords(thr_sheets *sheets)
 {
   static const double x[9] = {0, -58, -75, -90, -104, -118, -134, -150, 153};

@@ -320,8 +320,8 @@ void thr_sheets_steps(thr_sheets *sheets, int c)
   for (int i = 0; i < n && !sheets->st; first = end[i++]) {
     poll(sheets, first);
 
-    /* Section s of m ends when s / m of all pieces are threaded; the last one takes all steps left.
-     */
+    /* Section s of m ends when s / m of all pieces are threaded; the last one takes all steps
+     * left. */
     if (!sheets->st && i == next && section < sections) {
       int steps = section + 1 < sections
                       ? steps_of_section(sheets, end, n, i, new, all * (section + 1) / sections)

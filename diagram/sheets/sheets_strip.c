@@ -23,8 +23,8 @@ static const double NAME = 4.2;     /* mm below an icon for its name */
 static const double AIR = 1.5;      /* mm above the first row */
 static const double ARM = 0.42, CORD = 0.14; /* widths of an arm and of the cord, times the reach */
 static const double CROWD = 0.8; /* an arm takes at most this share of the circle over the arms */
-/* mm that an icon is right of the middle of its place, for a number of up to three, of four digits.
- */
+/* mm that an icon is right of the middle of its place, for a number of up to three, of four
+ * digits. */
 static const double ASIDE[2] = {1.5, 2.6};
 static const double LINE[2] = {0.25, 0.5}; /* mm: outlines of pieces on a cord, and of new ones */
 enum { CROWDED = 8 };                      /* a piece of more arms does not make all arms thinner */

@@ -279,8 +279,8 @@ static void sort_edges(const thr_frame *frame, keyed *sorted, double *median)
 }
 
 /* Numbers the kinds of edges. sorted: [n] edges by length; next: [n] scratch. A kind begins with
- * the first edge that is longer by more than the tolerance than the first edge of the kind before.
- */
+ * the first edge that is longer by more than the tolerance than the first edge of the kind
+ * before. */
 static void find_edges(int n, const keyed *sorted, double tolerance, int *edge, int *next)
 {
   double first = sorted[0].size;

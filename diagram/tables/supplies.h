@@ -48,8 +48,7 @@ double thr_supplies_bore_mm(const thr_supplies *supplies, double cords);
  * (V. Katritch et al., "Geometry and physics of knots", Nature 384, 1996: 16.33 for the ideal
  * trefoil, later computed as 16.37). In turns: beside other cords it may lie at the outer wall of
  * its bores all along, and a line at a distance r beside another one is longer by r times the angle
- * by which both turn, exactly: (bore - cord) / 2 each.
- */
+ * by which both turn, exactly: (bore - cord) / 2 each. */
 static const double THR_SUPPLIES_TAIL = 150;  /* mm */
 static const double THR_SUPPLIES_KNOT = 16.4; /* cord diameters */
 

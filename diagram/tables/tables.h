@@ -19,8 +19,7 @@ thr_status thr_table_steps(const thr_plan *plan, double tolerance, int needles,
                            const thr_layout *layout, thr_text *out, thr_err *err) THR_MUST_CHECK;
 
 /* A row per cord: the cut list, with allowances as in diagram/tables/supplies.h. motion: as in
- * thr_overview_options. O(n log n).
- */
+ * thr_overview_options. O(n log n). */
 thr_status thr_table_cords(const thr_plan *plan, const char *const *motion,
                            const thr_layout *layout, thr_text *out, thr_err *err) THR_MUST_CHECK;
 
