@@ -92,9 +92,8 @@ static void put_goal(thr_sheets *sheets)
     snprintf(line, sizeof line,
              "Goal: cords that repeat each other: %d path%s to learn, %d cop%s; %s", paths,
              plural(paths), plan->n_cords - paths, plan->n_cords - paths == 1 ? "y" : "ies", proof);
-
-    /* The length of cord alone. */
   } else {
+    /* The length of cord alone. */
     put_proof(proof, sizeof proof, "cord", plan->proof.present, plan->proof.optimal,
               plan->proof.gap);
     snprintf(line, sizeof line, "Goal: as little cord as possible; %s", proof);

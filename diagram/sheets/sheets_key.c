@@ -172,9 +172,8 @@ void thr_sheets_key(thr_sheets *sheets)
   if (!pieces->solid || sheets->st) return;
   put_crossings(sheets);
 
-  /* A flat picture would not tell them apart. */
-  if (!sheets->guide.sides || pieces->n_kinds > MOST_CARDS)
-    return; /* a flat picture would not tell them apart */
+  /* A flat picture would not tell the kinds apart, or there are too many. */
+  if (!sheets->guide.sides || pieces->n_kinds > MOST_CARDS) return;
   snprintf(title, sizeof title, "The %d %s: %d kind%s", pieces->n,
            thr_pieces_word(sheets->plan, pieces->n), pieces->n_kinds,
            pieces->n_kinds == 1 ? "" : "s");

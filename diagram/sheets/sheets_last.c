@@ -79,7 +79,7 @@ void thr_sheets_too_hard(double newton, thr_text *words)
 }
 
 /* Writes how many cords ask for a larger force than a hand has, and what helps; nothing if none
- * does. p: [n_cords] all cords. */
+ * does. pulls: [n_cords] all cords. */
 static void put_too_hard(thr_sheets *sheets, const cord_pull *pulls)
 {
   thr_text words = {0};
@@ -127,7 +127,7 @@ static void put_force(const thr_sheets *sheets, const thr_eval_cord *known, int 
   thr_svg_force(known->force, force);
   thr_svg_force(known->other_force, other);
 
-  /* The end from which the slackest pass is reached with the least force, or both. */
+  /* Which end the evaluation pulls, or both. */
   switch (known->pull) {
   case THR_PULL_START: snprintf(cell[1], 96, "start, at %.40s", from); break;
   case THR_PULL_END: snprintf(cell[1], 96, "end, at %.40s", to); break;
@@ -154,7 +154,7 @@ static void put_cord(thr_sheets *sheets, const cord_pull *row, const double *x)
 
   thr_sheets_cord_words(sheets, row->cord, cell[0]);
 
-  /* Where slack is drawn from: the pass in which an even pull leaves the least tension. */
+  /* Where slack is drawn from: the pass with the least tension. */
   if (known) {
     put_force(sheets, known, start, end, cell);
     int h = cord->half[known->slackest];
@@ -164,11 +164,11 @@ static void put_cord(thr_sheets *sheets, const cord_pull *row, const double *x)
   } else {
     /* A plan may be evaluated while one of its cords could not be. */
     if (sheets->plan->evaluation.present) snprintf(cell[2], 96, "not known");
-
-    /* Turning in whole degrees; a closed cord turns from its end into its start, too. */
     snprintf(cell[1], 96, "both, at %.30s and %.30s", sheets->guide.label[start],
              sheets->guide.label[end]);
   }
+
+  /* Turning in whole degrees; a closed cord turns from its end into its start, too. */
   snprintf(
       cell[5], 96, "%.0f",
       degrees(thr_cord_turning(sheets->f, cord, sheets->plan->options.ends == THR_ENDS_CLOSED)));
@@ -176,8 +176,8 @@ static void put_cord(thr_sheets *sheets, const cord_pull *row, const double *x)
   thr_sheets_cells(sheets, CELLS, x, cell, false);
 }
 
-/* Writes in which order and how the cords are pulled tight. p: [n_cords], receives the cords in
- * this order. */
+/* Writes in which order and how the cords are pulled tight. pulls: [n_cords], receives the
+ * cords in this order. */
 static void put_pulling(thr_sheets *sheets, cord_pull *pulls)
 {
   static const double x[CELLS] = {0, 38, -116, -130, 134, -186};

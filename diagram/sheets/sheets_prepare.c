@@ -87,7 +87,7 @@ static void put_cords(thr_sheets *sheets)
   if (some_folded(sheets)) snprintf(head[7], 96, "fold at");
   thr_sheets_cells(sheets, 9, x, head, true);
 
-  /* In the order of the plan, which is that of their names. */
+  /* In the order of the plan. */
   for (int c = 0; c < sheets->plan->n_cords; c++)
     put_cord(sheets, c, x);
   sheets->y += 1;
@@ -258,7 +258,7 @@ static void put_pieces(thr_sheets *sheets)
     return;
   }
 
-  /* A tube has no letter, and its length says which one it is. */
+  /* Tubes have no letter by which they could be counted. */
   bool together = find_kinds(sheets, row) > MOST_SINGLE && pieces->solid;
 
   /* The heading counts pieces and kinds, before any are merged. */

@@ -146,7 +146,6 @@ int thr_step_row_lines(thr_sheets *sheets, int visit)
   return lines;
 }
 
-/* Fills texts and lines. */
 void thr_step_find_text(thr_sheets *sheets, thr_step *step)
 {
   thr_step_destroy_text(step);
@@ -217,7 +216,6 @@ const char *thr_step_colour(const thr_sheets *sheets, const thr_step *step)
   return thr_palette(sheets->plan->n_cords == 1 ? VERMILLION : sheets->copy[c].path).hex;
 }
 
-/* Number, cord and passes; what there is to do. */
 void thr_step_put_heading(thr_sheets *sheets, const thr_step *step, double top)
 {
   int c = sheets->visit[step->first].cord, low = first_number(sheets, step),
@@ -261,7 +259,6 @@ void thr_step_put_heading(thr_sheets *sheets, const thr_step *step, double top)
   thr_text_destroy(&tally);
 }
 
-/* What the looks of pieces in the picture mean. */
 void thr_step_put_legend(thr_sheets *sheets, double y, const char *what)
 {
   char now[48];
@@ -322,6 +319,8 @@ void thr_step_put_rows(thr_sheets *sheets, const thr_step *step)
     put_row(sheets, step, i, THR_SHEET_MARGIN + (i < step->left ? 0 : column_width(sheets) + 4), y);
     y += step->lines[i] * line_height() + AFTER;
   }
+
+  /* Where the needle is then: a step is done only if this is right. */
   sheets->y += step->rows_height + 1;
   put_words(sheets, &step->after, " font-weight=\"bold\"");
 }

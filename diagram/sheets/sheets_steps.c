@@ -112,14 +112,14 @@ static thr_status put_in_space(thr_sheets *sheets, const thr_step *step, const t
   thr_box paper = {0, top, sheets->size[0] - THR_SHEET_MARGIN, top + LOCATOR[1]};
   paper.x0 = paper.x1 - LOCATOR[0];
 
-  thr_space_step scene = {.crop = *crop, .colour = crop->colour, .next = -1};
+  thr_space_step drawn = {.crop = *crop, .colour = crop->colour, .next = -1};
   thr_camera_view view = thr_space_fit(&sheets->space, crop, room);
   double at[2] = {THR_SHEET_MARGIN, top + THR_STEP_HEAD};
 
   /* The needle points on towards the next piece, unless the needle's part ends here. */
-  if (!thr_step_ends(sheets, step->end - 1)) scene.next = sheets->visit[step->end].in;
-  thr_status st = thr_space_draw(&sheets->space, &scene, &view, at, thr_sheets_out(sheets), err);
-  if (!st) st = thr_space_locate(&sheets->space, &scene, &view, paper, thr_sheets_out(sheets), err);
+  if (!thr_step_ends(sheets, step->end - 1)) drawn.next = sheets->visit[step->end].in;
+  thr_status st = thr_space_draw(&sheets->space, &drawn, &view, at, thr_sheets_out(sheets), err);
+  if (!st) st = thr_space_locate(&sheets->space, &drawn, &view, paper, thr_sheets_out(sheets), err);
 
   sheets->y = at[1] + view.size[1];
 

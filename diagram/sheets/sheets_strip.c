@@ -17,12 +17,12 @@
 
 /* Icons in a row: FEW large ones if two such rows are enough, else MANY smaller ones. */
 enum { FEW = 8, MANY = 12 };
-static const double REACH[2] = {6.2,
-                                5}; /* mm from a hub to the longest arm's end, large and small */
-static const double NAME = 4.2;     /* mm below an icon for its name */
-static const double AIR = 1.5;      /* mm above the first row */
+/* mm from a hub to the end of the longest arm, of large and small icons. */
+static const double REACH[2] = {6.2, 5};
+static const double NAME = 4.2;              /* mm below an icon for its name */
+static const double AIR = 1.5;               /* mm above the first row */
 static const double ARM = 0.42, CORD = 0.14; /* widths of an arm and of the cord, times the reach */
-static const double CROWD = 0.8; /* an arm takes at most this share of the circle over the arms */
+static const double CROWD = 0.8; /* an arm takes at most this share of its part of the circle */
 /* mm that an icon is right of the middle of its place, for a number of up to three, of four
  * digits. */
 static const double ASIDE[2] = {1.5, 2.6};
@@ -137,7 +137,7 @@ static void add_icon(const thr_sheets *sheets, int visit, const thr_camera *came
   else
     tube_of(sheets, camera, stay->in, reach, &arms, &in, &out);
 
-  /* The outline is half its width wider than the fill on each side. */
+  /* The fill ends before the outline does, by the width of the outline. */
   for (int k = 0; k < 2; k++)
     thr_arms_strokes(&arms, k ? LINE[new] : 0, &row->piece[new][k]);
 
