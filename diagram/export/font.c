@@ -183,7 +183,7 @@ unsigned thr_font_letter(const char **words)
 
 double thr_font_advance(const thr_font *font, int glyph)
 {
-  /* Glyphs behind the last width have this one, as in fonts of one width. */
+  /* Glyphs behind the last width have the same width, as in fonts of one width. */
   int i = glyph < font->n_metrics ? glyph : font->n_metrics - 1;
   return (double)thr_font_16(font, find(font, "hmtx").at + 4 * (size_t)i) / font->units;
 }
@@ -315,9 +315,9 @@ static void put_tables(const thr_font *font, const thr_text *glyf, const thr_tex
     } else if (old[i].n)
       thr_text_append_bytes(out, font->file.data + old[i].at, old[i].n);
 
-    /* loca has numbers of 32 bits now. */
-    if (i == HEAD && !out->failed && old[i].n > 52)
-      out->data[from + 51] = 1; /* places of outlines take 4 bytes */
+    /* head says how wide the numbers of loca are: 32 bits now. */
+    if (i == HEAD && !out->failed && old[i].n > 52) out->data[from + 51] = 1;
+
     while (!out->failed && (out->length - begin) % 4)
       thr_text_byte(out, '\0');
   }

@@ -74,7 +74,6 @@ static bool tell(FcPattern *font, thr_text *out)
 {
   FcChar8 *path = NULL, *format = NULL, *name = NULL;
   int index = 0;
-
   char plain[64] = "Font";
 
   /* Fonts without a file or with other outlines are passed over, and paths that would break the
@@ -187,7 +186,7 @@ static thr_status ask(thr_text *answer, thr_err *err)
   const thr_limits none = {0};
   thr_status st = thr_child_run(&child, &none, answer, err);
 
-  /* | | The four faces asked for: the usual case. */
+  /* The usual case: all four faces are of the family asked for. */
   if (st || is_family(answer)) return st;
   thr_text_destroy(answer);
   return thr_child_run(&child, &none, answer, err);
@@ -197,8 +196,8 @@ thr_status thr_fonts_find(thr_font *font, thr_err *err)
 {
   thr_text answer = {0};
   thr_status st = ask(&answer, err);
-
   char *left = answer.data;
+
   for (int i = 0; i < THR_FACES && !st; i++) {
     char *head = next_line(&left), *path = next_line(&left), name[64];
     int index;

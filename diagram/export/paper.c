@@ -94,7 +94,7 @@ static void put_number(thr_text *out, double value)
 }
 
 /* Appends an operator, a short word, behind n <= NUMBERS numbers, and ends the line. */
-static void put(thr_text *out, int n, const double *number, const char *operator)
+static void put(thr_text *out, int n, const double *number, const char *word)
 {
   char text[NUMBERS * NUMBER + 8];
 
@@ -102,8 +102,8 @@ static void put(thr_text *out, int n, const double *number, const char *operator
   size_t length = 0;
   for (int i = 0; i < n; i++)
     length += print_number(number[i], text + length);
-  for (; *operator&& length + 1<sizeof text; operator++)
-    text[length++] = *operator;
+  for (; *word && length + 1 < sizeof text; word++)
+    text[length++] = *word;
   text[length++] = '\n';
   thr_text_append_bytes(out, text, length);
 }
@@ -210,17 +210,17 @@ static bool is_hidden(const thr_paper *paper, thr_box box, double around)
 }
 
 /* Appends an operator of the path with its points, and extends the box around the path. */
-static void put_path(thr_paper *paper, int points, const double *point, const char *operator)
+static void put_path(thr_paper *paper, int points, const double *point, const char *word)
 {
   for (int i = 0; i < points; i++)
     thr_box_extend(&paper->box,
                    (thr_box){point[2 * i], point[2 * i + 1], point[2 * i], point[2 * i + 1]});
-  put(&paper->path, 2 * points, point, operator);
+  put(&paper->path, 2 * points, point, word);
 }
 
 /* Appends a part of the path, from the pen to the last of its points, unless all of it is clipped
  * away. The box of a cubic's points holds the curve, which lies in their convex hull. */
-static void put_part(thr_paper *paper, int points, const double *point, const char *operator)
+static void put_part(thr_paper *paper, int points, const double *point, const char *word)
 {
   if (paper->trim >= 0) {
     /* The box around the pen and all points of the part. */
@@ -237,7 +237,7 @@ static void put_part(thr_paper *paper, int points, const double *point, const ch
     memcpy(paper->pen, point + 2 * (points - 1), sizeof paper->pen);
     if (hidden) return;
   }
-  put_path(paper, points, point, operator);
+  put_path(paper, points, point, word);
 }
 
 void thr_paper_trim(thr_paper *paper, const thr_line *line)
@@ -277,8 +277,8 @@ static void put_quarter(thr_paper *paper, const double middle[2], double radius,
 {
   static const double cosine[] = {1, 0, -1, 0, 1}, sine[] = {0, 1, 0, -1, 0};
   const double inner = 4 * (sqrt(2) - 1) / 3;
-
   double point[6];
+
   for (int k = 0; k < 2; k++) {
     /* The tangent at angle i is (-sine, cosine). */
     const double *axis = k ? sine : cosine, *along = k ? cosine : sine;
@@ -397,12 +397,12 @@ static void forget_path(thr_paper *paper)
 
 /* Appends the path that grows, the operator that paints it or clips to it, and begins an empty
  * one. */
-static void end_path(thr_paper *paper, const char *operator)
+static void end_path(thr_paper *paper, const char *word)
 {
   if (paper->path.failed) paper->out.failed = true;
   if (paper->path.length) thr_text_append_bytes(&paper->out, paper->path.data, paper->path.length);
 
-  put(&paper->out, 0, NULL, operator);
+  put(&paper->out, 0, NULL, word);
   forget_path(paper);
 }
 
@@ -451,8 +451,8 @@ static double width_of(const thr_font *font, const char *words)
 static void put_letters(thr_paper *paper, int face, const char *words, thr_text *out)
 {
   static const char digit[] = "0123456789ABCDEF";
-
   unsigned char *needs = paper->needs.letter[face];
+
   while (*words) {
     /* The code of a letter in the file's fonts is its Unicode number. */
     unsigned letter = thr_font_letter(&words);

@@ -317,8 +317,8 @@ static int count_numbers(char command)
 static thr_status trace_path(svg_reader *reader, thr_slice data)
 {
   double now[2] = {0, 0}, first[2] = {0, 0}, number[6];
-
   char command = '\0';
+
   for (data = thr_slice_trim(data); data.n; data = thr_slice_trim(data)) {
     /* Z takes no number, and no command may be left out behind it. */
     if (*data.s == 'z' || *data.s == 'Z') {
@@ -395,7 +395,6 @@ static bool take_word(thr_slice *text, const char *word)
 static thr_status shift(svg_reader *reader, thr_slice text)
 {
   thr_slice rest = text;
-
   double by[2], degrees;
 
   /* First the translation, which must be there. */
@@ -473,8 +472,8 @@ static thr_status put_words(svg_reader *reader, thr_slice text)
   reader->words.length = 0;
   while (text.n) {
     /* Everything up to the next entity is copied as it is. */
-    const char *and = memchr(text.s, '&', text.n);
-    size_t n = and? (size_t)(and-text.s) : text.n, i;
+    const char *ampersand = memchr(text.s, '&', text.n);
+    size_t n = ampersand ? (size_t)(ampersand - text.s) : text.n, i;
     thr_text_append_bytes(&reader->words, text.s, n);
     skip(&text, n);
 
@@ -567,7 +566,6 @@ static thr_status read_clip(svg_reader *reader, const svg_tag *tag)
   static const char *const name[] = {"x", "y", "width", "height"};
   const thr_slice *id = find(tag, "id");
   double number[4] = {0};
-
   thr_slice between;
   svg_tag inner, end;
 

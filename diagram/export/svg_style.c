@@ -137,7 +137,7 @@ thr_svg_style thr_svg_style_first(void)
 {
   thr_svg_style style = {{{0}}};
 
-  /* No stroke and no dashes. */
+  /* No stroke and no dashes; what would be drawn is opaque, lines are 1 wide. */
   for (int i = 0; i < THR_SVG_PROPERTIES; i++)
     style.value[i].n = i == THR_SVG_STROKE || i == THR_SVG_DASHARRAY ? 0 : property[i].most;
   style.value[THR_SVG_FILL_OPACITY].x[0] = style.value[THR_SVG_STROKE_OPACITY].x[0] =
@@ -173,10 +173,8 @@ static bool read_colour(thr_slice text, thr_svg_value *value)
 {
   if ((text.n != 4 && text.n != 7) || *text.s != '#') return false;
 
-  /* One digit counts twice: #fc8 is #ffcc88. */
+  /* A single digit counts twice: #fc8 is #ffcc88. */
   size_t each = text.n / 3;
-
-  /* Two digits of each colour, or the same one twice. */
   for (size_t i = 0; i < 3; i++) {
     int high = hex_digit(text.s[1 + i * each]), low = hex_digit(text.s[i * each + each]);
     if (high < 0 || low < 0) return false;
@@ -253,7 +251,7 @@ thr_status thr_svg_style_list(thr_svg_style *style, thr_slice list, thr_err *err
 
 /* ---- style sheets ---- */
 
-enum { COMPOUNDS = 4, CLASSES = 2 };
+enum { COMPOUNDS = 4, CLASSES = 2 }; /* of a selector; of a compound selector */
 
 /* A compound selector such as "text.own:not([stroke-dasharray])". */
 typedef struct {

@@ -32,8 +32,8 @@ static void put_words(thr_text *svg, double x, double y, const char *words)
 void thr_test_piece_svg(double bore, thr_text *svg)
 {
   const double x = 75, y = 25, side = 30, middle = side / 2;
-
   char words[120];
+
   thr_svg_open(svg, 140, 120, "A test piece for the friction of a cord",
                "A block with two bores that meet at a right angle, 1:1.");
 

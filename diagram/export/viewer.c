@@ -139,7 +139,7 @@ static void put_pieces(plan_viewer *viewer)
   }
   thr_write_close(&viewer->out);
 
-  /* Kinds as there. */
+  /* Kinds in the same order. */
   thr_write_array(next_line(viewer), "kinds");
   for (int i = 0; i < viewer->pieces.n; i++) {
     thr_pieces_kind_name(&viewer->pieces, viewer->pieces.kind[i], kind);
@@ -211,8 +211,8 @@ static void put_cord(plan_viewer *viewer, int c)
   const thr_cord *cord = &viewer->plan->cord[c];
   thr_writer *writer = &viewer->out;
   thr_colour colour = thr_palette(viewer->copy[c].path);
-
   char words[192] = "";
+
   if (viewer->copy[c].of != c)
     thr_copies_words(viewer->plan, viewer->copy, c, viewer->motion, words);
 
@@ -279,9 +279,9 @@ static void put_scale(plan_viewer *viewer)
 
   put_ticks(viewer);
 
-  /* Colours at equal ratios of tension. */
+  /* Colours at equal ratios of tension: the scale is even over the logarithm. */
   thr_write_array(writer, "ramp");
-  for (int i = 0; i <= RAMP; i++) { /* the colours are even over the logarithm */
+  for (int i = 0; i <= RAMP; i++) {
     double part = (double)i / RAMP;
     thr_tension_colour(viewer->range,
                        viewer->range[0] * pow(viewer->range[1] / viewer->range[0], part), hex);
@@ -308,7 +308,8 @@ static void put_head(plan_viewer *viewer)
   thr_write_string(writer, "seen", thr_layout_words(viewer->guide.layout.kind));
   thr_write_bool(writer, "solid", viewer->pieces.solid);
   thr_write_int(writer, "paths", thr_copies_paths(viewer->copy, plan->n_cords));
-  /* one cord on its own changes its colour on the way, as in the overview */
+
+  /* One cord on its own changes its colour on the way, as in the overview. */
   thr_write_int(next_line(viewer), "run", plan->n_cords == 1 ? THR_COLOUR_PASSES : 0);
   thr_write_array(writer, "palette");
   for (int i = 0; i < THR_COLOURS; i++)
@@ -328,7 +329,7 @@ static void put_plan(plan_viewer *viewer)
   /* No scale without tensions. */
   if (viewer->tension) put_scale(viewer);
 
-  /* Cords last: the page can draw the framework without them. */
+  /* Cords refer to nodes, edges and pieces by number. */
   thr_write_array(next_line(viewer), "cords");
   for (int c = 0; c < viewer->plan->n_cords; c++)
     put_cord(viewer, c);

@@ -25,7 +25,6 @@ static void put_counts(thr_sheets *sheets)
   thr_text words = {0};
   const thr_frame *frame = sheets->f;
   double total = 0;
-
   int feet = 0, n = sheets->pieces.n, cords = sheets->plan->n_cords;
 
   /* Cord through the middles of the pieces, without tails, knots and turns. */

@@ -85,7 +85,6 @@ static void put_card(thr_sheets *sheets, int kind, double x, double y, double wi
 {
   char name[24], count[24];
   const thr_scene *scene;
-
   int model = sheets->pieces.model[kind], point;
   double at[2] = {x + 0.5 * width, y + 24};
   thr_text *text = thr_sheets_out(sheets);

@@ -84,7 +84,6 @@ static void put_too_hard(thr_sheets *sheets, const cord_pull *pulls)
 {
   thr_text words = {0};
   char force[32];
-
   int n = 0;
 
   /* Only forces compare with a hand; turning does not. */

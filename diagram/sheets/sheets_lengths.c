@@ -61,8 +61,8 @@ static int put_joins(const thr_sheets *sheets, int first, double working, int *s
                      thr_text *words)
 {
   double from = 0;
-
   int i = first, foot = -1;
+
   for (; i < sheets->n_visits && sheets->move[i].part == sheets->move[first].part; i++) {
     /* The last foot behind the last join at which a length could end. */
     bool more = i + 1 < sheets->n_visits && sheets->move[i + 1].part == sheets->move[i].part;

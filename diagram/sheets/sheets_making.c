@@ -268,7 +268,7 @@ typedef struct {
 
 /* Returns the widest bore of all edges that a cord passes, or the narrowest one, in mm rounded up;
  * 0 where sizes are not known. */
-static double widest_bore(const thr_sheets *sheets, bool narrowest)
+static double extreme_bore(const thr_sheets *sheets, bool narrowest)
 {
   double found = 0;
 
@@ -320,7 +320,7 @@ static void put_need(instruction_panel *panel, thr_text *words)
     thr_text_printf(
         words,
         " that with its cord goes through %.2f mm; a stopper that does not slip into %.2f mm",
-        widest_bore(sheets, true), widest_bore(sheets, false));
+        extreme_bore(sheets, true), extreme_bore(sheets, false));
   else
     thr_text_append(words, " thinner than the bores; a stopper wider than they are");
 

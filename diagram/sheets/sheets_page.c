@@ -173,8 +173,8 @@ static void flow(thr_sheets *sheets, double x, const char *words)
   double width = thr_sheets_width(sheets) + THR_SHEET_MARGIN - x;
   while (*words && !sheets->st) {
     size_t n = thr_sheets_fit(words, width, THR_SHEET_TEXT);
-
     char line[512];
+
     n = n < sizeof line ? n : sizeof line - 1;
     memcpy(line, words, n);
     line[n] = '\0';

@@ -39,8 +39,8 @@ static void put_kinds(thr_sheets *sheets, int first, int end)
 {
   thr_text words = {0};
   int *count = thr_calloc((size_t)sheets->pieces.n_kinds + 1, sizeof *count);
-
   bool any = false;
+
   if (!count) {
     thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
     return;

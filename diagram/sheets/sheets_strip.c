@@ -172,9 +172,10 @@ static void put_layers(icon_layers *row, double width, double reach, const char 
   static const char *const look[2][2] = {{"#857a64", "#d5ccb8"}, {"#5c4600", "#ffdf8c"}};
 
   /* Outlines below fills, pieces on a cord below new ones. */
-  for (int new = 0; new < 2; new ++)
+  for (int state = 0; state < 2; state++)
     for (int k = 0; k < 2; k++)
-      put_path(&row->piece[new][k], "none", look[new][k], width + (k ? -1 : 1) * LINE[new], text);
+      put_path(&row->piece[state][k], "none", look[state][k], width + (k ? -1 : 1) * LINE[state],
+               text);
 
   /* The cord over a white casing, then discs and arrows. */
   thr_text casing = {0};

@@ -49,7 +49,6 @@ thr_status thr_supplies_find_sizes(thr_supplies *supplies, thr_err *err)
   const thr_plan *plan = supplies->plan;
   const thr_physics *asked = &plan->options.physics;
   thr_physics sizes = plan->evaluation.physics;
-
   double mm;
 
   /* Units without a length in mm leave all sizes open. */

@@ -365,7 +365,6 @@ static void put_cord(table_writer *table, int c, const char *const *motion)
 {
   const thr_cord *cord = &table->plan->cord[c];
   thr_cut_length cut = thr_supplies_cut(&table->supplies, c);
-
   char words[192];
 
   /* Where the cord goes. */
