@@ -470,20 +470,21 @@ static bool open_span(thr_paper *paper, const char *words)
   bool beyond = false;
 
   /* Letters beyond the basic plane begin with a byte of 0xf0 or more in UTF-8. */
-  for (const char *c = words; *c; c++)
-    beyond = beyond || (unsigned char)*c >= 0xf0;
+  for (const char *place = words; *place; place++)
+    beyond = beyond || (unsigned char)*place >= 0xf0;
   if (!beyond) return false;
 
   /* FEFF says that UTF-16 follows, the higher byte first. */
   thr_text_append(&paper->out, "/Span <</ActualText <FEFF");
-  for (const char *c = words; *c;) {
-    const unsigned char *s = (const unsigned char *)c;
-    unsigned letter = thr_font_letter(&c);
+  for (const char *place = words; *place;) {
+    const unsigned char *bytes = (const unsigned char *)place;
+    unsigned letter = thr_font_letter(&place);
 
     /* UTF-16 writes such a letter as two surrogates (RFC 2781). */
-    if (*s >= 0xf0 && c - (const char *)s == 4) {
-      unsigned high =
-          ((*s & 7u) << 18 | (s[1] & 0x3fu) << 12 | (s[2] & 0x3fu) << 6 | (s[3] & 0x3fu)) - 0x10000;
+    if (*bytes >= 0xf0 && place - (const char *)bytes == 4) {
+      unsigned high = ((*bytes & 7u) << 18 | (bytes[1] & 0x3fu) << 12 | (bytes[2] & 0x3fu) << 6 |
+                       (bytes[3] & 0x3fu)) -
+                      0x10000;
       thr_text_printf(&paper->out, "%04X", 0xd800 | (high >> 10 & 0x3ff));
       letter = 0xdc00 | (high & 0x3ff);
     }

@@ -104,21 +104,22 @@ static void corner(double bore, int station, int k, double out[3])
 /* Appends a facet with its unit normal, by the right-hand rule from a, b, c. */
 static void put_triangle(thr_text *stl, const double a[3], const double b[3], const double c[3])
 {
-  double u[3], v[3], n[3];
+  double side[3], other_side[3], normal[3];
 
   /* Two sides of the triangle; their cross product is its normal. */
   for (int k = 0; k < 3; k++) {
-    u[k] = b[k] - a[k];
-    v[k] = c[k] - a[k];
+    side[k] = b[k] - a[k];
+    other_side[k] = c[k] - a[k];
   }
 
   for (int k = 0; k < 3; k++)
-    n[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+    normal[k] =
+        side[(k + 1) % 3] * other_side[(k + 2) % 3] - side[(k + 2) % 3] * other_side[(k + 1) % 3];
 
   /* STL wants a normal of length 1. */
-  const double size = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  thr_text_printf(stl, "facet normal %.6f %.6f %.6f\nouter loop\n", n[0] / size, n[1] / size,
-                  n[2] / size);
+  const double size = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+  thr_text_printf(stl, "facet normal %.6f %.6f %.6f\nouter loop\n", normal[0] / size,
+                  normal[1] / size, normal[2] / size);
 
   /* The corners in the order that the normal came from. */
   for (int i = 0; i < 3; i++) {

@@ -39,16 +39,16 @@ static void put_lengths(thr_sheets *sheets, const thr_scene *scene, int point, c
        i < paper->first[point + 1] && thr_degree(paper, point) <= MOST_NUMBERS; i++) {
     /* An arm is half an edge. */
     int h = paper->half[i];
-    double d[2], off = 0.5 * thr_scene_edge_length(scene, h >> 1) + NUMBER_OFF;
+    double outwards[2], off = 0.5 * thr_scene_edge_length(scene, h >> 1) + NUMBER_OFF;
     char number[32];
 
-    thr_scene_direction(scene, h, d);
+    thr_scene_direction(scene, h, outwards);
     snprintf(number, sizeof number, "%.3g", sheets->f->length[h >> 1] / 2);
 
     /* A figure is wider than high: beside a flat arm it needs more distance. */
-    off += fabs(d[0]) * 0.3 * THR_SHEET_SMALL * (double)strlen(number);
-    thr_svg_text(thr_sheets_out(sheets), at[0] + off * d[0],
-                 at[1] + off * d[1] + 0.36 * THR_SHEET_SMALL, THR_SHEET_SMALL,
+    off += fabs(outwards[0]) * 0.3 * THR_SHEET_SMALL * (double)strlen(number);
+    thr_svg_text(thr_sheets_out(sheets), at[0] + off * outwards[0],
+                 at[1] + off * outwards[1] + 0.36 * THR_SHEET_SMALL, THR_SHEET_SMALL,
                  " text-anchor=\"middle\" style=\"fill:#666\"", number);
   }
 }

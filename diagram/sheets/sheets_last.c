@@ -143,8 +143,9 @@ static void put_force(const thr_sheets *sheets, const thr_eval_cord *known, int 
   snprintf(cell[3], 96, "%.1f %%", 100 * known->loss);
 }
 
-/* Writes the row of a cord in the table of pulls; x: the columns' places (thr_sheets_cells). */
-static void put_cord(thr_sheets *sheets, const cord_pull *row, const double *x)
+/* Writes the row of a cord in the table of pulls; column: the columns' places
+ * (thr_sheets_cells). */
+static void put_cord(thr_sheets *sheets, const cord_pull *row, const double *column)
 {
   char cell[CELLS][96] = {""};
   const thr_cord *cord = &sheets->plan->cord[row->cord];
@@ -172,14 +173,14 @@ static void put_cord(thr_sheets *sheets, const cord_pull *row, const double *x)
       cell[5], 96, "%.0f",
       degrees(thr_cord_turning(sheets->f, cord, sheets->plan->options.ends == THR_ENDS_CLOSED)));
 
-  thr_sheets_cells(sheets, CELLS, x, cell, false);
+  thr_sheets_cells(sheets, CELLS, column, cell, false);
 }
 
 /* Writes in which order and how the cords are pulled tight. pulls: [n_cords], receives the
  * cords in this order. */
 static void put_pulling(thr_sheets *sheets, cord_pull *pulls)
 {
-  static const double x[CELLS] = {0, 38, -116, -130, 134, -186};
+  static const double column[CELLS] = {0, 38, -116, -130, 134, -186};
   const thr_evaluation *evaluation = &sheets->plan->evaluation;
   char line[320], head[CELLS][96] = {"cord", "pull at its", "", "", "", "turning"};
   int n = sheets->plan->n_cords;
@@ -218,9 +219,9 @@ static void put_pulling(thr_sheets *sheets, cord_pull *pulls)
 
   /* The table itself. */
   sheets->y += 1.5;
-  thr_sheets_cells(sheets, CELLS, x, head, true);
+  thr_sheets_cells(sheets, CELLS, column, head, true);
   for (int i = 0; i < n; i++)
-    put_cord(sheets, &pulls[i], x);
+    put_cord(sheets, &pulls[i], column);
 
   put_too_hard(sheets, pulls);
 }

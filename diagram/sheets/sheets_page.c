@@ -210,17 +210,17 @@ void thr_sheets_tick(thr_sheets *sheets, const char *words)
   flow(sheets, THR_SHEET_MARGIN + 5, words);
 }
 
-void thr_sheets_cells(thr_sheets *sheets, int n, const double *x, char (*cell)[96], bool bold)
+void thr_sheets_cells(thr_sheets *sheets, int n, const double *column, char (*cell)[96], bool bold)
 {
   /* A row is never cut by the end of a page. */
   thr_sheets_room(sheets, 0);
   for (int i = 0; i < n && !sheets->st; i++) {
     /* A negative column says where its right edge is. */
     char attributes[64] = "";
-    if (x[i] < 0) strcat(attributes, " text-anchor=\"end\"");
+    if (column[i] < 0) strcat(attributes, " text-anchor=\"end\"");
     if (bold) strcat(attributes, " font-weight=\"bold\"");
-    thr_svg_text(thr_sheets_out(sheets), THR_SHEET_MARGIN + fabs(x[i]), sheets->y, THR_SHEET_SMALL,
-                 attributes, cell[i]);
+    thr_svg_text(thr_sheets_out(sheets), THR_SHEET_MARGIN + fabs(column[i]), sheets->y,
+                 THR_SHEET_SMALL, attributes, cell[i]);
   }
 
   sheets->y += 4.1;

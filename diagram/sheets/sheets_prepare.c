@@ -35,8 +35,8 @@ static bool some_folded(const thr_sheets *sheets)
   return sheets->n_parts > sheets->plan->n_cords;
 }
 
-/* Writes the row of cord c in the cut list; x: the columns' places (thr_sheets_cells). */
-static void put_cord(thr_sheets *sheets, int c, const double *x)
+/* Writes the row of cord c in the cut list; column: the columns' places (thr_sheets_cells). */
+static void put_cord(thr_sheets *sheets, int c, const double *column)
 {
   const thr_cord *cord = &sheets->plan->cord[c];
   char cell[9][96] = {""};
@@ -66,14 +66,14 @@ static void put_cord(thr_sheets *sheets, int c, const double *x)
   snprintf(cell[8], 96, "%.30s - %.30s", sheets->guide.label[thr_cord_start(sheets->f, cord)],
            sheets->guide.label[thr_cord_end(sheets->f, cord)]);
 
-  thr_sheets_cells(sheets, 9, x, cell, false);
+  thr_sheets_cells(sheets, 9, column, cell, false);
 }
 
 /* Writes the cut list: a heading with the cord's thickness, a row per cord, and what "cut" adds
  * up. */
 static void put_cords(thr_sheets *sheets)
 {
-  static const double x[9] = {0, -58, -75, -90, -104, -118, -134, -150, 153};
+  static const double column[9] = {0, -58, -75, -90, -104, -118, -134, -150, 153};
   char head[9][96] = {"cord",  "passes", "length", "tails",    "knots",
                       "turns", "cut",    "",       "from - to"},
        line[320], cord[32] = "";
@@ -85,11 +85,11 @@ static void put_cords(thr_sheets *sheets)
 
   /* The column stays empty where no cord has a fold. */
   if (some_folded(sheets)) snprintf(head[7], 96, "fold at");
-  thr_sheets_cells(sheets, 9, x, head, true);
+  thr_sheets_cells(sheets, 9, column, head, true);
 
   /* In the order of the plan. */
   for (int c = 0; c < sheets->plan->n_cords; c++)
-    put_cord(sheets, c, x);
+    put_cord(sheets, c, column);
   sheets->y += 1;
 
   /* How the cut length comes about, or what is missing in it. */
@@ -170,7 +170,7 @@ static void put_kind(const thr_sheets *sheets, const kind_row *kind, char (*row)
 /* Writes n rows of the table of kinds, two beside each other on a line. */
 static void put_kinds(thr_sheets *sheets, const kind_row *row, int n)
 {
-  static const double x[2 * CELLS] = {-14, -28, -48, -64, -86, -109, -123, -143, -159, -181};
+  static const double column[2 * CELLS] = {-14, -28, -48, -64, -86, -109, -123, -143, -159, -181};
   char cell[2 * CELLS][96];
   const char *const head[CELLS] = {"kind", "pieces", sheets->pieces.solid ? "arms" : "length",
                                    "cords", "bore"};
@@ -179,13 +179,14 @@ static void put_kinds(thr_sheets *sheets, const kind_row *row, int n)
   /* The heading, over both halves of the table if both are used. */
   for (int i = 0; i < 2 * CELLS; i++)
     snprintf(cell[i], 96, "%s", head[i % CELLS]);
-  thr_sheets_cells(sheets, n > 1 ? 2 * CELLS : CELLS, x, cell, true);
+  thr_sheets_cells(sheets, n > 1 ? 2 * CELLS : CELLS, column, cell, true);
 
   /* A line is written when both halves are filled, or at the end. */
   for (int k = 0; k < n; k++) {
     put_kind(sheets, &row[k], cell + filled);
     filled = (filled + CELLS) % (2 * CELLS);
-    if (!filled || k == n - 1) thr_sheets_cells(sheets, filled ? CELLS : 2 * CELLS, x, cell, false);
+    if (!filled || k == n - 1)
+      thr_sheets_cells(sheets, filled ? CELLS : 2 * CELLS, column, cell, false);
   }
 }
 

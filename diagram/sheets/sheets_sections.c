@@ -30,7 +30,7 @@ int thr_sheets_sections(const thr_sheets *sheets, int first, int end)
   int n = sheets->pieces.n, size = n / MOST > SECTION ? n / MOST : SECTION,
       new = count_new(sheets, first, end);
 
-  /* Less than half a section's pieces are not worth a page. */
+  /* Less than half the pieces of a section get no page. */
   return n <= LARGE || 2 * new < size ? 0 : new < size ? 1 : new / size;
 }
 

@@ -50,40 +50,40 @@ double thr_step_strip_height(int visits)
 
 /* Computes the direction of half-edge h on paper, y downwards, in any unit: as the camera sees the
  * edge or, if there is no camera, as the layout draws it. */
-static void direction(const thr_sheets *sheets, const thr_camera *camera, int h, double d[2])
+static void direction(const thr_sheets *sheets, const thr_camera *camera, int h, double vector[2])
 {
-  const thr_frame *f = sheets->f, *paper = thr_layout_paper(&sheets->guide.layout, f);
+  const thr_frame *frame = sheets->f, *paper = thr_layout_paper(&sheets->guide.layout, frame);
 
   /* Coordinates along the camera's axes to the right and up. */
   if (camera) {
-    const double *a = f->xyz[thr_tail(f, h)], *b = f->xyz[thr_head(f, h)];
-    double along[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    d[0] = thr_dot(along, camera->right);
-    d[1] = -thr_dot(along, camera->up);
+    const double *tail = frame->xyz[thr_tail(frame, h)], *head = frame->xyz[thr_head(frame, h)];
+    double along[3] = {head[0] - tail[0], head[1] - tail[1], head[2] - tail[2]};
+    vector[0] = thr_dot(along, camera->right);
+    vector[1] = -thr_dot(along, camera->up);
     return;
   }
 
   /* The layout may cut the framework open: its own frame knows where each end is drawn. */
-  const double *a = sheets->guide.layout.xy[thr_tail(paper, h)],
-               *b = sheets->guide.layout.xy[thr_head(paper, h)];
-  d[0] = b[0] - a[0];
-  d[1] = a[1] - b[1];
+  const double *tail = sheets->guide.layout.xy[thr_tail(paper, h)],
+               *head = sheets->guide.layout.xy[thr_head(paper, h)];
+  vector[0] = head[0] - tail[0];
+  vector[1] = tail[1] - head[1];
 }
 
 void thr_step_arms(const thr_sheets *sheets, const thr_camera *camera, int v, double reach,
                    thr_arms *arms, int half_in, int half_out, int *in, int *out)
 {
-  const thr_frame *f = sheets->f;
+  const thr_frame *frame = sheets->f;
   double longest = 0;
   *in = *out = -1;
 
   /* All arms at their own lengths; in comes from outside, so the arm is the opposite half-edge. */
-  for (int i = f->first[v]; i < f->first[v + 1] && arms->n < THR_ARMS; i++) {
-    double *d = arms->end[arms->n];
-    direction(sheets, camera, f->half[i], d);
-    longest = fmax(longest, hypot(d[0], d[1]));
-    if (half_in >= 0 && f->half[i] == (half_in ^ 1)) *in = arms->n;
-    if (f->half[i] == half_out) *out = arms->n;
+  for (int i = frame->first[v]; i < frame->first[v + 1] && arms->n < THR_ARMS; i++) {
+    double *vector = arms->end[arms->n];
+    direction(sheets, camera, frame->half[i], vector);
+    longest = fmax(longest, hypot(vector[0], vector[1]));
+    if (half_in >= 0 && frame->half[i] == (half_in ^ 1)) *in = arms->n;
+    if (frame->half[i] == half_out) *out = arms->n;
     arms->n++;
   }
 
@@ -98,16 +98,16 @@ void thr_step_arms(const thr_sheets *sheets, const thr_camera *camera, int v, do
 static void tube_of(const thr_sheets *sheets, const thr_camera *camera, int half, double reach,
                     thr_arms *arms, int *in, int *out)
 {
-  double d[2];
-  direction(sheets, camera, half, d);
+  double vector[2];
+  direction(sheets, camera, half, vector);
 
   /* As long as the reach on both sides, whatever the tube's length is. */
-  double length = hypot(d[0], d[1]);
+  double length = hypot(vector[0], vector[1]);
 
   /* The needle comes in behind and goes out in front. */
   for (int k = 0; k < 2 && length > 0; k++) {
-    arms->end[0][k] = arms->hub[k] - reach / length * d[k];
-    arms->end[1][k] = arms->hub[k] + reach / length * d[k];
+    arms->end[0][k] = arms->hub[k] - reach / length * vector[k];
+    arms->end[1][k] = arms->hub[k] + reach / length * vector[k];
   }
 
   arms->n = length > 0 ? 2 : 0;

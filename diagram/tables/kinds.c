@@ -104,16 +104,16 @@ static void bead_make(const thr_frame *frame, int v, node_bead *bead)
  * side if i = j), and at right angles to both. */
 static void span(const node_bead *bead, int i, int j, double axis[3][3])
 {
-  const double *a = bead->tip[i];
+  const double *first = bead->tip[i];
   double other[3] = {0};
 
   /* For a single arm the coordinate axis most across it stands in for the second. */
-  int least = fabs(a[0]) <= fabs(a[1]) ? (fabs(a[0]) <= fabs(a[2]) ? 0 : 2)
-                                       : (fabs(a[1]) <= fabs(a[2]) ? 1 : 2);
+  int least = fabs(first[0]) <= fabs(first[1]) ? (fabs(first[0]) <= fabs(first[2]) ? 0 : 2)
+                                               : (fabs(first[1]) <= fabs(first[2]) ? 1 : 2);
   other[least] = 1;
 
   for (int k = 0; k < 3; k++) {
-    axis[0][k] = bead->length[i] > 0 ? a[k] / bead->length[i] : 0;
+    axis[0][k] = bead->length[i] > 0 ? first[k] / bead->length[i] : 0;
     if (i != j) other[k] = bead->tip[j][k];
   }
 
@@ -140,7 +140,7 @@ static void turn_into(const node_bead *bead, int i, int j, double tip[THR_KINDS_
 
 /* Returns whether every tip of one bead meets a different tip of the other one within the
  * tolerance. Each takes the nearest tip that is free. */
-static bool tips_meet(int n, const double (*a)[3], const double (*b)[3], double tolerance)
+static bool tips_meet(int n, const double (*own)[3], const double (*other)[3], double tolerance)
 {
   bool taken[THR_KINDS_ARMS] = {false};
 
@@ -149,7 +149,7 @@ static bool tips_meet(int n, const double (*a)[3], const double (*b)[3], double 
     int nearest = -1;
     double least = tolerance;
     for (int j = 0; j < n; j++) {
-      double d[3] = {a[i][0] - b[j][0], a[i][1] - b[j][1], a[i][2] - b[j][2]},
+      double d[3] = {own[i][0] - other[j][0], own[i][1] - other[j][1], own[i][2] - other[j][2]},
              apart = sqrt(thr_dot(d, d));
 
       if (taken[j] || apart > least) continue;
