@@ -539,7 +539,8 @@ static void put_wrong(instruction_panel *panel, thr_text *words)
 }
 
 /* Fills the panel "Joining a new length": a fisherman's knot, each end wound round the other cord.
- * A knot inside a piece would keep it from closing, so the text names feet, where there is room. */
+ * A knot between two faces keeps them apart, and one in a tube stops the cord, so the text names
+ * the feet. */
 static void put_join(instruction_panel *panel, thr_text *words)
 {
   const thr_frame *frame = panel->sheets->f;
