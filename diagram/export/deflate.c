@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bytes made small for PDF (FlateDecode): zlib, loaded when it is first used. Private to diagram/.
- */
+/* Compresses bytes for a PDF (FlateDecode) with zlib, which is loaded when it is first used.
+ *
+ * Level 1 of 9 is set here: higher levels take two to four times as long for a tenth less. */
 #include "diagram/export/export_parts.h"
 
 #include "graph/process/process.h"
@@ -25,8 +26,11 @@ thr_status thr_deflate(const char *bytes, size_t n, thr_text *out, thr_err *err)
 {
   enum { LEVEL = 1 }; /* of 9: higher ones take two to four times as long for a tenth less */
   uLongf size = lib.compressBound((uLong)n);
+
+  /* zlib says beforehand how long the result may get. */
   Bytef *to = thr_realloc(NULL, size, 1);
   bool done = to && lib.compress2(to, &size, (const Bytef *)bytes, (uLong)n, LEVEL) == Z_OK;
+
   if (done) thr_text_append_bytes(out, (const char *)to, size);
   free(to);
   return done && !out->failed ? THR_OK : thr_nomem(err);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the writers of pages share: fonts, PDF, SVG, compression. */
+/* What the writers of pages share: bytes of fonts, the PDF file, the reader of SVG and its styles,
+ * compression. Reading order: see paper.h. */
 #ifndef THR_EXPORT_PARTS_H
 #define THR_EXPORT_PARTS_H
 
@@ -7,9 +8,10 @@
 
 #include <stddef.h>
 
-/* ---- Bytes of a font: big-endian; what is beyond the end of the file is 0. Private to the files
- * font*.c. */
+/* ---- bytes of a font, for the files font*.c ---- */
 
+/* Return the byte, or the number of 16 bits without or with a sign, at a byte of the file.
+ * Big-endian; bytes beyond the end of the file are 0. */
 static inline unsigned thr_font_8(const thr_font *f, size_t at)
 {
   return at < f->file.length ? ((const unsigned char *)f->file.data)[at] : 0;
@@ -27,21 +29,20 @@ static inline int thr_font_signed(const thr_font *f, size_t at)
   return value >= 0x8000 ? value - 0x10000 : value;
 }
 
-/* Where the outline of a glyph stands in the file: *n bytes. False: it has none. */
+/* Finds the outline of a glyph: *n bytes at *at of the file. Returns whether the glyph has one. */
 bool thr_font_place(const thr_font *f, int glyph, size_t *at, size_t *n);
 
-/* ---- pdf.c: A PDF (1.4, ISO 32000-1) that grows page by page: each is compressed when it is
- * added, so that pages need not be kept. */
+/* ---- pdf.c: a PDF (1.4, ISO 32000-1) that grows page by page, compressed at once ---- */
 
 typedef struct thr_pdf thr_pdf;
 
-/* A document without pages. title: UTF-8 for the file's metadata, which have no date but a fixed
- * one and name no file. Finds fonts. Release with thr_pdf_destroy (NULL ok). */
+/* Begins a document without pages. title: UTF-8 for the file's metadata, which have no date but a
+ * fixed one and name no file. Finds fonts. Release with thr_pdf_destroy (NULL ok). */
 thr_status thr_pdf_open(thr_pdf **pdf, thr_page_size size, const char *title,
                         thr_err *err) THR_MUST_CHECK;
 void thr_pdf_destroy(thr_pdf *pdf);
 
-/* A page to draw on and then to compress, both in any thread; pdf must outlive it. */
+/* A page to draw on and then to compress, both in any thread; the pdf must outlive the leaf. */
 typedef struct {
   thr_paper *paper;
   thr_text small; /* its content, compressed */
@@ -50,8 +51,8 @@ thr_status thr_leaf_open(thr_leaf *leaf, const thr_pdf *pdf, thr_err *err) THR_M
 thr_status thr_leaf_squeeze(thr_leaf *leaf, thr_err *err) THR_MUST_CHECK;
 void thr_leaf_destroy(thr_leaf *leaf);
 
-/* Adds a squeezed leaf as another page; or, page >= 0, to what is on that page, which may be added
- * to once. One thread. */
+/* Adds a compressed leaf as another page; or, page >= 0, to what is on that page, which may be
+ * added to once. One thread at a time. */
 thr_status thr_pdf_add(thr_pdf *pdf, int page, const thr_leaf *leaf, thr_err *err) THR_MUST_CHECK;
 int thr_pdf_pages(const thr_pdf *pdf);
 
@@ -59,17 +60,15 @@ int thr_pdf_pages(const thr_pdf *pdf);
  * last_first. The same leaves and fonts give the same bytes. */
 thr_status thr_pdf_close(thr_pdf *pdf, bool last_first, thr_text *out, thr_err *err) THR_MUST_CHECK;
 
-/* ---- svg_page.c: A page drawn from SVG, read in one pass. */
+/* ---- svg_page.c: a page drawn from SVG, read in one pass ---- */
 
-/* Draws a whole SVG document on a page. Pages may be drawn in several threads. THR_ESOLVER with
- * what it does not know, so that nothing is left out silently. A style sheet holds for what comes
- * after it. O(bytes + elements times rules). */
+/* Draws a whole SVG document on a page. Pages may be drawn in several threads. THR_ESOLVER names
+ * what the reader does not know, so that nothing is left out silently. A style sheet holds for what
+ * comes after the sheet. O(bytes + elements times rules). */
 thr_status thr_svg_page(thr_paper *paper, const thr_text *svg, thr_err *err) THR_MUST_CHECK;
 
-/* ---- svg_style.c: Styles of the SVG that is written in diagram/. They come from presentation
- * attributes, from style="..", and from style sheets whose selectors are lists of elements and
- * classes with blanks between them, ".view-1 .place text.own", and :not([stroke-dasharray]). All
- * properties are inherited. */
+/* ---- svg_style.c: styles of the SVG that is written in diagram/, from presentation attributes,
+ * from style="..", and from style sheets; all properties are inherited ---- */
 
 /* Borrowed text that has no NUL at its end. */
 typedef struct {
@@ -77,13 +76,15 @@ typedef struct {
   size_t n;
 } thr_slice;
 
+/* Return whether a slice is just this word, and a slice without white space on either side. */
 bool thr_slice_is(thr_slice slice, const char *word);
-thr_slice thr_slice_trim(thr_slice slice); /* without blanks and ends of lines on either side */
+thr_slice thr_slice_trim(thr_slice slice);
 
-/* Takes a number off the front of text, with what stands before it of blanks and commas; false if
+/* Takes a number off the front of text, with blanks and commas before the number. Returns false if
  * there is none. */
 bool thr_slice_number(thr_slice *text, double *value);
 
+/* The properties that pages are drawn by, with what their numbers mean. */
 typedef enum {
   THR_SVG_FILL, /* none, or red, green, blue from 0 to 1 */
   THR_SVG_STROKE,
@@ -102,25 +103,28 @@ typedef enum {
   THR_SVG_PROPERTIES
 } thr_svg_property;
 
+/* The value of a property. */
 typedef struct {
-  int n; /* numbers in x; 0 = none */
+  int n; /* numbers in x; 0 = "none" */
   double x[4];
 } thr_svg_value;
 
+/* All properties of an element. */
 typedef struct {
   thr_svg_value value[THR_SVG_PROPERTIES];
 } thr_svg_style;
 
-/* The root's: black, without a stroke. */
+/* Returns the style of the root: black, without a stroke. */
 thr_svg_style thr_svg_style_first(void);
 
-/* Is the attribute a property? */
+/* Returns whether an attribute is a property. */
 bool thr_svg_is_property(thr_slice name);
 
+/* Sets one property. THR_ESOLVER if name or value is not known. */
 thr_status thr_svg_style_set(thr_svg_style *style, thr_slice name, thr_slice value,
                              thr_err *err) THR_MUST_CHECK;
 
-/* "fill:#fff;stroke:none". */
+/* Sets the properties of a list such as "fill:#fff;stroke:none". THR_ESOLVER as above. */
 thr_status thr_svg_style_list(thr_svg_style *style, thr_slice list, thr_err *err) THR_MUST_CHECK;
 
 /* ---- style sheets ---- */
@@ -128,7 +132,7 @@ thr_status thr_svg_style_list(thr_svg_style *style, thr_slice list, thr_err *err
 typedef struct thr_svg_rule thr_svg_rule;
 typedef struct thr_svg_declaration thr_svg_declaration;
 
-/* {0} is empty. Rules weakest first. */
+/* Rules of style sheets, the weakest first. {0} is empty. */
 typedef struct {
   thr_svg_rule *rule;
   int n_rules, rules_capacity;
@@ -136,28 +140,30 @@ typedef struct {
   int n_declarations, declarations_capacity;
 } thr_svg_sheet;
 
-/* An element: its name, its classes, whether it has the attribute stroke-dasharray. */
+/* What selectors look at: an element's name, its classes, whether stroke-dasharray is among its
+ * attributes. */
 typedef struct {
   thr_slice name, classes;
   bool dashed;
 } thr_svg_element;
 
-/* Adds the rules of CSS text, which is borrowed as long as the sheet lives. */
+/* Adds the rules of CSS text, which is borrowed as long as the sheet lives. THR_ESOLVER with what
+ * is not known. */
 thr_status thr_svg_sheet_add(thr_svg_sheet *sheet, thr_slice css, thr_err *err) THR_MUST_CHECK;
 
-/* Changes style as the rules say that meet the last of n elements, each of which is inside the one
- * before it. O(rules n). */
+/* Applies to a style all rules that meet the last of n elements, each of which is inside the one
+ * before. O(rules n). */
 void thr_svg_sheet_apply(const thr_svg_sheet *sheet, const thr_svg_element *const *element, int n,
                          thr_svg_style *style);
 
 void thr_svg_sheet_destroy(thr_svg_sheet *sheet);
 
-/* ---- deflate.c: Bytes made small for PDF (FlateDecode): zlib, loaded when it is first used. */
+/* ---- deflate.c: bytes compressed for a PDF (FlateDecode) by zlib ---- */
 
-/* Loads zlib: before the first thr_deflate, in one thread. */
+/* Loads zlib. To be called before the first thr_deflate, in one thread. */
 thr_status thr_deflate_load(thr_err *err) THR_MUST_CHECK;
 
-/* Appends the bytes as a zlib stream (RFC 1950), the same wherever and whenever. Any thread.
+/* Appends bytes as a zlib stream (RFC 1950). The same bytes give the same stream. Any thread.
  * THR_ENOMEM. */
 thr_status thr_deflate(const char *bytes, size_t n, thr_text *out, thr_err *err) THR_MUST_CHECK;
 

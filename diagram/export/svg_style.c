@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Styles of the SVG that is written in diagram/. They come from presentation attributes, from
- * style="..", and from style sheets whose selectors are lists of elements and classes with blanks
- * between them, ".view-1 .place text.own", and :not([stroke-dasharray]). All properties are
- * inherited. What is not known is an error. Private to diagram/export/. */
+/* Finds the style of an SVG element, for the SVG that diagram/ writes.
+ *
+ * Styles come from presentation attributes, from style="..", and from style sheets. Selectors are
+ * lists of elements and classes with blanks between them, as ".view-1 .place text.own", and
+ * :not([stroke-dasharray]). All properties are inherited. Rules are kept in the order of their
+ * specificity, 16 for each class and :not, 1 for an element, and of equal ones the later wins (CSS
+ * 2.1, 6.4.3). Whatever is not known is an error.
+ *
+ * Example: ".place text{fill:#222}" (17) beats "text{fill:#666}" (1) wherever it stands. */
 #include "diagram/export/export_parts.h"
 
 #include "graph/number.h"
@@ -18,6 +23,7 @@ bool thr_slice_is(thr_slice slice, const char *word)
   return strlen(word) == slice.n && memcmp(slice.s, word, slice.n) == 0;
 }
 
+/* Returns whether a character is white space. */
 static bool is_blank(char c)
 {
   return c == ' ' || c == '\n' || c == '\t' || c == '\r';
@@ -32,22 +38,26 @@ thr_slice thr_slice_trim(thr_slice slice)
   return slice;
 }
 
-/* "-12.34" by so few digits that both their number and the power of ten are exact, so that the
- * quotient is the nearest double. */
-static bool read_few_digits(const char *s, size_t n, double *value)
+/* Reads a number such as "-12.34" of so few digits that both the digits, as a whole number, and the
+ * power of ten are exact doubles. Then their quotient is rounded once and is the nearest double.
+ * Returns false for anything else. */
+static bool read_few_digits(const char *text, size_t n, double *value)
 {
   enum { MOST = 15 };
   static const double power[MOST + 1] = {1,   1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                          1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
-  const bool minus = n && *s == '-';
+  const bool minus = n && *text == '-';
   int64_t digits = 0;
   int behind = -1; /* digits behind the point; -1: there is none yet */
-  if (n <= minus || n > MOST || (s[minus] == '.' && n == 1u + minus)) return false;
+  if (n <= minus || n > MOST || (text[minus] == '.' && n == 1u + minus)) return false;
+
+  /* All digits make one whole number; count those behind the point. */
   for (size_t i = minus; i < n; i++) {
-    if (s[i] == '.' && behind >= 0) return false;
-    if (s[i] != '.') digits = 10 * digits + (s[i] - '0');
-    behind += behind >= 0 || s[i] == '.';
+    if (text[i] == '.' && behind >= 0) return false;
+    if (text[i] != '.') digits = 10 * digits + (text[i] - '0');
+    behind += behind >= 0 || text[i] == '.';
   }
+
   *value = (double)(minus ? -digits : digits) / power[behind > 0 ? behind : 0];
   return true;
 }
@@ -55,27 +65,37 @@ static bool read_few_digits(const char *s, size_t n, double *value)
 bool thr_slice_number(thr_slice *text, double *value)
 {
   size_t n = 0, end;
+
+  /* Blanks and commas before the number. */
   while (n < text->n && (is_blank(text->s[n]) || text->s[n] == ','))
     n++;
+
+  /* A sign, digits and points. No exponents: nothing here writes any. */
   for (end = n + (n < text->n && text->s[n] == '-'); end < text->n; end++)
     if ((text->s[end] < '0' || text->s[end] > '9') && text->s[end] != '.') break;
+
+  /* The fast way, or the exact one for long numbers. */
   if (!read_few_digits(text->s + n, end - n, value) &&
       !thr_number_parse(text->s + n, end - n, value))
     return false;
+
   *text = (thr_slice){text->s + end, text->n - end};
   return true;
 }
 
-/* Takes off the front what stands before a character, and the character; all if it is not there. */
+/* Takes off the front of a text what stands before a character, and the character; everything if
+ * the character is not there. Returns what was before it, trimmed. */
 static thr_slice take_until(thr_slice *text, char stop)
 {
   const char *end = text->n ? memchr(text->s, stop, text->n) : NULL;
   thr_slice taken = {text->s, end ? (size_t)(end - text->s) : text->n};
   size_t used = taken.n + (end != NULL);
+
   *text = (thr_slice){text->s + used, text->n - used};
   return thr_slice_trim(taken);
 }
 
+/* Fails with the first 60 bytes of what is not known. */
 static thr_status unknown(const char *what, thr_slice words, thr_err *err)
 {
   return thr_fail(err, THR_ESOLVER, "a page cannot be drawn: its %s '%.*s' is not known", what,
@@ -84,15 +104,18 @@ static thr_status unknown(const char *what, thr_slice words, thr_err *err)
 
 /* ---- properties ---- */
 
-typedef enum { COLOUR, NUMBERS, WORD } kind;
+/* How the values of a property are written. */
+typedef enum { COLOUR, NUMBERS, WORD } value_kind;
 
+/* Words that a property may have, at most. */
 enum { WORDS = 3 };
 
+/* All properties, in the order of thr_svg_property. */
 static const struct {
   const char *name;
-  kind kind;
-  int most;                /* numbers */
-  const char *word[WORDS]; /* the value is the place of the word */
+  value_kind kind;
+  int most;                /* numbers of a value, at most */
+  const char *word[WORDS]; /* of WORD: the value is the index of the word */
 } property[THR_SVG_PROPERTIES] = {
     [THR_SVG_FILL] = {"fill", COLOUR, 3, {NULL}},
     [THR_SVG_STROKE] = {"stroke", COLOUR, 3, {NULL}},
@@ -113,15 +136,18 @@ static const struct {
 thr_svg_style thr_svg_style_first(void)
 {
   thr_svg_style style = {{{0}}};
+
+  /* No stroke and no dashes; what would be drawn is opaque, lines are 1 wide. */
   for (int i = 0; i < THR_SVG_PROPERTIES; i++)
     style.value[i].n = i == THR_SVG_STROKE || i == THR_SVG_DASHARRAY ? 0 : property[i].most;
   style.value[THR_SVG_FILL_OPACITY].x[0] = style.value[THR_SVG_STROKE_OPACITY].x[0] =
       style.value[THR_SVG_STROKE_WIDTH].x[0] = 1;
+
   style.value[THR_SVG_FONT_SIZE].x[0] = 16;
   return style;
 }
 
-/* -1: not known. */
+/* Returns the number of a property, or -1 if the name is not known. */
 static int find_property(thr_slice name)
 {
   for (int i = 0; i < THR_SVG_PROPERTIES; i++)
@@ -134,6 +160,7 @@ bool thr_svg_is_property(thr_slice name)
   return find_property(name) >= 0;
 }
 
+/* Returns the value of a hexadecimal digit, or -1. */
 static int hex_digit(char c)
 {
   const char *digits = "0123456789abcdef",
@@ -141,20 +168,24 @@ static int hex_digit(char c)
   return at ? (int)(at - digits) : -1;
 }
 
-/* "#rgb" or "#rrggbb". */
+/* Reads "#rgb" or "#rrggbb" into three numbers from 0 to 1. */
 static bool read_colour(thr_slice text, thr_svg_value *value)
 {
   if ((text.n != 4 && text.n != 7) || *text.s != '#') return false;
+
+  /* A single digit counts twice: #fc8 is #ffcc88. */
   size_t each = text.n / 3;
   for (size_t i = 0; i < 3; i++) {
     int high = hex_digit(text.s[1 + i * each]), low = hex_digit(text.s[i * each + each]);
     if (high < 0 || low < 0) return false;
     value->x[i] = (16 * high + low) / 255.0;
   }
+
   value->n = 3;
   return true;
 }
 
+/* Reads 1 to most numbers. */
 static bool read_numbers(thr_slice text, int most, thr_svg_value *value)
 {
   for (value->n = 0; text.n; value->n++)
@@ -162,10 +193,13 @@ static bool read_numbers(thr_slice text, int most, thr_svg_value *value)
   return value->n > 0;
 }
 
-/* Of a list of fonts the first. */
+/* Reads one of the words of a property into the word's index; of a list of fonts the first one
+ * counts. */
 static bool read_word(thr_slice text, const char *const *word, thr_svg_value *value)
 {
   thr_slice first = take_until(&text, ',');
+
+  /* Words are compared as they are written here, quotes and all. */
   for (int i = 0; i < WORDS && word[i]; i++)
     if (thr_slice_is(first, word[i])) {
       *value = (thr_svg_value){1, {i}};
@@ -174,18 +208,25 @@ static bool read_word(thr_slice text, const char *const *word, thr_svg_value *va
   return false;
 }
 
+/* Reads a property's value. *which receives the property. */
 static thr_status read_property(thr_slice name, thr_slice text, int *which, thr_svg_value *value,
                                 thr_err *err)
 {
   *which = find_property(name);
   *value = (thr_svg_value){0};
+
+  /* An unknown property might change the picture. */
   if (*which < 0) return unknown("property", name, err);
-  kind k = property[*which].kind;
-  bool may_lack = k == COLOUR || *which == THR_SVG_DASHARRAY,
+  value_kind how = property[*which].kind;
+
+  /* Three properties may be "none", which is no number at all. */
+  bool may_lack = how == COLOUR || *which == THR_SVG_DASHARRAY,
        ok = may_lack && thr_slice_is(text, "none");
-  if (!ok && k == COLOUR) ok = read_colour(text, value);
-  if (!ok && k == NUMBERS) ok = read_numbers(text, property[*which].most, value);
-  if (!ok && k == WORD) ok = read_word(text, property[*which].word, value);
+
+  if (!ok && how == COLOUR) ok = read_colour(text, value);
+  if (!ok && how == NUMBERS) ok = read_numbers(text, property[*which].most, value);
+  if (!ok && how == WORD) ok = read_word(text, property[*which].word, value);
+
   return ok ? THR_OK : unknown(property[*which].name, text, err);
 }
 
@@ -210,26 +251,30 @@ thr_status thr_svg_style_list(thr_svg_style *style, thr_slice list, thr_err *err
 
 /* ---- style sheets ---- */
 
-enum { COMPOUNDS = 4, CLASSES = 2 };
+enum { COMPOUNDS = 4, CLASSES = 2 }; /* of a selector; of a compound selector */
 
-/* "text.own": an element (none: any) with classes. */
+/* A compound selector such as "text.own:not([stroke-dasharray])". */
 typedef struct {
-  thr_slice name, class[CLASSES];
+  thr_slice name; /* of the element; empty = any */
+  thr_slice class[CLASSES];
   int n_classes;
-  bool not_dashed;
-} compound;
+  bool not_dashed; /* does it ask for an element without stroke-dasharray? */
+} compound_selector;
 
+/* A rule: compound selectors with blanks between them, and declarations first .. end - 1. */
 struct thr_svg_rule {
-  compound compound[COMPOUNDS];
-  int n, strength; /* what CSS calls specificity */
-  int first, end;  /* declarations */
+  compound_selector compound[COMPOUNDS]; /* the outermost element's first */
+  int n, strength;                       /* compounds; what CSS calls specificity */
+  int first, end;
 };
 
+/* What a rule sets a property to. */
 struct thr_svg_declaration {
   int property;
   thr_svg_value value;
 };
 
+/* Returns how many bytes of a selector belong to the name at its front. */
 static size_t word_length(thr_slice text)
 {
   size_t n = 0;
@@ -238,46 +283,65 @@ static size_t word_length(thr_slice text)
   return n;
 }
 
-static thr_status read_compound(thr_slice text, compound *c, thr_err *err)
+/* Reads a compound selector: an element's name or none, then classes, then perhaps :not. */
+static thr_status read_compound(thr_slice text, compound_selector *selector, thr_err *err)
 {
   static const char not_dashed[] = ":not([stroke-dasharray])";
   thr_slice whole = text;
-  *c = (compound){0};
-  c->name = (thr_slice){text.s, word_length(text)};
-  text = (thr_slice){text.s + c->name.n, text.n - c->name.n};
-  while (text.n && *text.s == '.' && c->n_classes < CLASSES) {
+  *selector = (compound_selector){0};
+
+  /* The element's name, up to a dot or a colon. */
+  selector->name = (thr_slice){text.s, word_length(text)};
+  text = (thr_slice){text.s + selector->name.n, text.n - selector->name.n};
+
+  /* Classes, each with a dot before it. */
+  while (text.n && *text.s == '.' && selector->n_classes < CLASSES) {
     thr_slice rest = {text.s + 1, text.n - 1}, name = {rest.s, word_length(rest)};
-    c->class[c->n_classes++] = name;
+    selector->class[selector->n_classes++] = name;
     text = (thr_slice){rest.s + name.n, rest.n - name.n};
   }
-  c->not_dashed = thr_slice_is(text, not_dashed);
-  return !text.n || c->not_dashed ? THR_OK : unknown("selector", whole, err);
+
+  /* Only one more condition is known, and it must be the last. */
+  selector->not_dashed = thr_slice_is(text, not_dashed);
+  return !text.n || selector->not_dashed ? THR_OK : unknown("selector", whole, err);
 }
 
+/* Reads a rule's selector and adds up its specificity. */
 static thr_status read_selector(thr_slice text, thr_svg_rule *rule, thr_err *err)
 {
   thr_slice whole = text;
   thr_status st = THR_OK;
   while (text.n && !st) {
     thr_slice part = take_until(&text, ' ');
+
+    /* Several blanks count as one. */
     if (!part.n) continue;
     if (rule->n == COMPOUNDS) return unknown("selector", whole, err);
-    compound *c = &rule->compound[rule->n++];
-    st = read_compound(part, c, err);
-    rule->strength += 16 * (c->n_classes + c->not_dashed) + (c->name.n > 0);
+
+    /* The blank is the only combinator: any element further in. */
+    compound_selector *part_selector = &rule->compound[rule->n++];
+    st = read_compound(part, part_selector, err);
+    rule->strength +=
+        16 * (part_selector->n_classes + part_selector->not_dashed) + (part_selector->name.n > 0);
   }
+
   return rule->n || st ? st : unknown("selector", whole, err);
 }
 
+/* Appends the declarations "property:value;.." of a rule to the sheet. */
 static thr_status read_declarations(thr_svg_sheet *sheet, thr_slice list, thr_err *err)
 {
   thr_status st = THR_OK;
   while (list.n && !st) {
     thr_slice text = take_until(&list, ';'), name = take_until(&text, ':');
+
+    /* An empty declaration, as behind the last semicolon. */
     if (!name.n) continue;
     st = thr_grow(&sheet->declaration, sheet->n_declarations, &sheet->declarations_capacity,
                   sizeof *sheet->declaration, err);
     if (st) break;
+
+    /* Values are read once here, not for every element that the rule meets. */
     thr_svg_declaration *next = &sheet->declaration[sheet->n_declarations++];
     st = read_property(name, text, &next->property, &next->value, err);
   }
@@ -289,13 +353,18 @@ thr_status thr_svg_sheet_add(thr_svg_sheet *sheet, thr_slice css, thr_err *err)
   thr_status st = THR_OK;
   for (css = thr_slice_trim(css); css.n && !st; css = thr_slice_trim(css)) {
     thr_svg_rule rule = {.first = sheet->n_declarations};
+
+    /* "selector{declarations}" */
     thr_slice selector = take_until(&css, '{'), list = take_until(&css, '}');
     st = read_selector(selector, &rule, err);
     if (!st) st = read_declarations(sheet, list, err);
     if (!st)
       st = thr_grow(&sheet->rule, sheet->n_rules, &sheet->rules_capacity, sizeof *sheet->rule, err);
+
     if (st) break;
     rule.end = sheet->n_declarations;
+
+    /* Insert the rule behind all that are no stronger: the later of equal ones is applied last. */
     int at = sheet->n_rules++;
     for (; at > 0 && sheet->rule[at - 1].strength > rule.strength; at--)
       sheet->rule[at] = sheet->rule[at - 1];
@@ -304,6 +373,7 @@ thr_status thr_svg_sheet_add(thr_svg_sheet *sheet, thr_slice css, thr_err *err)
   return st;
 }
 
+/* Returns whether a list of classes holds the wanted one. */
 static bool has_class(thr_slice classes, thr_slice wanted)
 {
   while (classes.n) {
@@ -313,31 +383,42 @@ static bool has_class(thr_slice classes, thr_slice wanted)
   return false;
 }
 
-static bool meets(const compound *c, const thr_svg_element *element)
+/* Returns whether an element meets a compound selector. */
+static bool meets(const compound_selector *selector, const thr_svg_element *element)
 {
-  if (c->name.n &&
-      (c->name.n != element->name.n || memcmp(c->name.s, element->name.s, c->name.n) != 0))
+  /* The name, if the selector has one; then all its classes. */
+  if (selector->name.n && (selector->name.n != element->name.n ||
+                           memcmp(selector->name.s, element->name.s, selector->name.n) != 0))
     return false;
-  for (int i = 0; i < c->n_classes; i++)
-    if (!has_class(element->classes, c->class[i])) return false;
-  return !c->not_dashed || !element->dashed;
+
+  for (int i = 0; i < selector->n_classes; i++)
+    if (!has_class(element->classes, selector->class[i])) return false;
+
+  return !selector->not_dashed || !element->dashed;
 }
 
-/* The last compound is the element's, those before it are met from the inside out. */
+/* Returns whether the last of n elements, each inside the one before, meets a rule. The last
+ * compound is the element's own; those before it are matched greedily from the inside out, which
+ * finds a match if there is one. */
 static bool rule_meets(const thr_svg_rule *rule, const thr_svg_element *const *element, int n)
 {
   int left = rule->n - 1;
+
+  /* The innermost selector must meet the element itself. */
   if (!meets(&rule->compound[left], element[n - 1])) return false;
   for (int i = n - 2; i >= 0 && left > 0; i--)
     left -= meets(&rule->compound[left - 1], element[i]);
+
   return left == 0;
 }
 
 void thr_svg_sheet_apply(const thr_svg_sheet *sheet, const thr_svg_element *const *element, int n,
                          thr_svg_style *style)
 {
+  /* From the weakest rule to the strongest, so that the strongest is applied last. */
   for (int i = 0; i < sheet->n_rules; i++) {
     const thr_svg_rule *rule = &sheet->rule[i];
+
     if (!rule_meets(rule, element, n)) continue;
     for (int d = rule->first; d < rule->end; d++)
       style->value[sheet->declaration[d].property] = sheet->declaration[d].value;

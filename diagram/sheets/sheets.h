@@ -1,5 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The booklet for the hand. */
+/* The booklet: a plan laid out on pages to thread from, as SVG, PDF or HTML.
+ *
+ * A picture of a whole framework with hundreds of passes cannot be threaded from. This room cuts a
+ * plan into steps of some twenty passes, each with a picture of these passes alone, a string of the
+ * pieces in the order of threading and rows to tick off; and adds what a maker needs before and
+ * after: lengths to cut, pieces to make, how to handle them, how to pull tight and what to check.
+ * Names of places and kinds of pieces are those of all other documents (diagram/overview).
+ *
+ * Reading order: sheets_parts.h (the state that all pages share); sheets.c (order of the pages, and
+ * the files that are written of them); sheets_page.c (a page being filled: lines, paragraphs,
+ * tables); sheets_moves.c (the visits of the needle). Then the heart: sheets_divide.c (where steps
+ * end, a dynamic programme), sheets_steps.c (steps on pages), sheets_rows.c (their words),
+ * sheets_strip.c and sheets_hub.c (their icons). Then the other pages, in the booklet's order:
+ * front, making, prepare with lengths, key, sections, copies, last. sheets_html.c stands alone. */
 #ifndef THR_SHEETS_H
 #define THR_SHEETS_H
 
@@ -10,14 +23,13 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-/* ---- sheets.c: Step sheets: a plan as a booklet to thread from, with a pencil to tick off what is
- * done. */
+/* ---- sheets.c: a plan as a booklet to thread from, with a pencil to tick off what is done ---- */
 
+/* How a booklet is laid out. Start from thr_sheets_options_default. */
 typedef struct {
   thr_page_size page;
-  int needles; /* cords are threaded with (thr_cord_folded): 1; 2 = from their fold; 0 = as is usual
-                */
-  double working_mm;         /* cord that is worked with at a time; 0 = THR_SHEETS_WORKING */
+  int needles;               /* per cord (thr_cord_folded): 1; 2 = from the fold; 0 = as is usual */
+  double working_mm;         /* mm of cord that is worked with at a time; 0 = THR_SHEETS_WORKING */
   double kind_tolerance;     /* as in thr_pieces_make */
   const char *const *motion; /* as in thr_overview_options; borrowed */
   const thr_layout *layout;  /* the same */
@@ -25,6 +37,7 @@ typedef struct {
 
 static const double THR_SHEETS_WORKING = 2000; /* mm: somewhat more than both arms reach */
 
+/* Returns A4, one or two needles as is usual, and the usual tolerance and length. */
 thr_sheets_options thr_sheets_options_default(void);
 
 /* Pages that are laid out and not yet written. Release with thr_sheets_destroy (NULL ok). */
@@ -43,9 +56,10 @@ thr_status thr_sheets_make(thr_sheets **sheets, const thr_plan *plan,
                            thr_err *err) THR_MUST_CHECK;
 void thr_sheets_destroy(thr_sheets *sheets);
 
+/* Returns the number of pages, with the title page. */
 int thr_sheets_pages(const thr_sheets *sheets);
 
-/* A page as a whole SVG document in mm, i from 0. Appended to svg; THR_ENOMEM. */
+/* Appends page i, from 0, as a whole SVG document in mm. THR_ENOMEM. */
 thr_status thr_sheets_svg(const thr_sheets *sheets, int i, thr_text *svg,
                           thr_err *err) THR_MUST_CHECK;
 
@@ -56,14 +70,14 @@ thr_status thr_sheets_svg(const thr_sheets *sheets, int i, thr_text *svg,
 thr_status thr_sheets_pdf(const thr_sheets *sheets, const thr_limits *limits, thr_text *pdf,
                           thr_err *err) THR_MUST_CHECK;
 
-/* The same PDF without sheets that are kept: pages are drawn as they are laid out, so that little
- * memory is taken beyond the file's own size. *n_pages receives how many they are. Errors: as of
+/* Appends the same PDF without keeping sheets: pages are drawn as they are laid out, so that little
+ * memory is taken beyond the file's own size. *n_pages receives the number of pages. Errors: as of
  * thr_sheets_make. */
 thr_status thr_sheets_write(const thr_plan *plan, const thr_sheets_options *options,
                             const thr_limits *limits, int *n_pages, thr_text *pdf,
                             thr_err *err) THR_MUST_CHECK;
 
-/* ---- sheets_html.c: The booklet for browsers, which print it as they show it. */
+/* ---- sheets_html.c: the booklet for browsers, which print it as they show it ---- */
 
 /* Appends all pages as one HTML file without scripts or links, of the same words and pictures as
  * thr_sheets_pdf. Names within a page's SVG get its number before them. html is unchanged on

@@ -1,5 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The copies of a path: all in one picture, how each repeats it, and the places of each in full. */
+/* Lays out the copies of a path: a picture of all of them, how each repeats the path, and the
+ * places of each in full.
+ *
+ * A copy is a cord that a symmetry of the framework maps a path to (scene.h, thr_copy). Its steps
+ * need no pictures of their own: who has threaded the path repeats it from another place. The lists
+ * of places are there to check by.
+ *
+ * Example: "[ ] Repeat as cord B, turned by 90 degrees: start at foot G1, first to F1 E1 D1, end at
+ * A7" and "[ ] Cord B, passes 1-16: G1 to F1 E1 (D1) .." */
 #include "diagram/sheets/sheets_parts.h"
 
 #include <stdio.h>
@@ -8,14 +16,17 @@
 
 enum { ROW = 16 }; /* passes in a row of places */
 
-/* The path bold, its copies pale, other cords grey if they are threaded already. */
+/* Draws the path and its copies bold, cords that are threaded already grey, over half the page. */
 static void put_picture(thr_sheets *sheets, int path)
 {
   unsigned char *state = thr_calloc((size_t)sheets->n_passes, sizeof *state);
+
   if (!state) {
     thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
     return;
   }
+
+  /* All passes of a cord have its state; i counts them in the order of the scene. */
   for (int c = 0, i = 0; c < sheets->plan->n_cords; c++) {
     unsigned char own = sheets->copy[c].of == path  ? THR_DRAW_NOW
                         : sheets->copy[c].of < path ? THR_DRAW_EARLIER
@@ -23,17 +34,23 @@ static void put_picture(thr_sheets *sheets, int path)
     for (int k = 0; k < sheets->plan->cord[c].n_passes; k++)
       state[i++] = own;
   }
+
+  /* The lower half of the page is for the words. */
   double height = 0.52 * (thr_sheets_bottom(sheets) - sheets->y);
   thr_box paper = {THR_SHEET_MARGIN, sheets->y, sheets->size[0] - THR_SHEET_MARGIN,
                    sheets->y + height};
+
   thr_status st = thr_crop_whole(sheets->plan, &sheets->guide.layout, state, NULL, paper, NULL,
                                  sheets->limits, thr_sheets_out(sheets), &sheets->why);
+
   if (st) thr_sheets_fail(sheets, st, NULL);
+
+  /* Two lines of air below the picture. */
   sheets->y += height + 2 * THR_SHEET_LINE;
   free(state);
 }
 
-/* Words that are said with a box to tick. */
+/* Writes words with a box to tick and releases them. */
 static void tick(thr_sheets *sheets, thr_text *words)
 {
   if (words->failed)
@@ -43,52 +60,69 @@ static void tick(thr_sheets *sheets, thr_text *words)
   thr_text_destroy(words);
 }
 
-/* "Cord B, turned by 90 degrees: start at foot G1, first to F1 E1 D1, end at A7" */
+/* Writes how a copy repeats its path: by which symmetry, where it starts, its first places, where
+ * it ends. */
 static void put_copy(thr_sheets *sheets, int c)
 {
   thr_text words = {0};
   char how[192];
   const thr_cord *cord = &sheets->plan->cord[c];
+
+  /* "turned by 90 degrees": the symmetry, as far as it has a name. */
   thr_copies_words(sheets->plan, sheets->copy, c, sheets->o.motion, how);
   thr_text_printf(&words, "Repeat as cord %s%s: start at ", cord->id, how);
   thr_guide_place(&sheets->guide, thr_cord_start(sheets->f, cord), &words);
+
+  /* Three places show the direction. */
   thr_text_append(&words, ", first to");
   for (int k = 0; k < cord->n_passes && k < 3; k++)
     thr_text_printf(&words, " %s", sheets->guide.label[thr_head(sheets->f, cord->half[k])]);
+
   thr_text_append(&words, ", end at ");
   thr_guide_place(&sheets->guide, thr_cord_end(sheets->f, cord), &words);
+
   tick(sheets, &words);
 }
 
-/* A piece that holds cord already is in brackets. */
+/* Appends the place of a node, in brackets if the piece holds cord already. */
 static void put_place(const thr_sheets *sheets, int node, bool held, thr_text *words)
 {
   thr_text_printf(words, held ? " (%s)" : " %s", sheets->guide.label[node]);
 }
 
-/* "Cord B, passes 1-16: G1 to F1 E1 (D1) ..": of tubes the brackets tell of the way to a place.
- * Returns the visit after them. */
+/* Writes the places of the next visits, at most ROW passes of one needle. Returns the visit behind
+ * them. With tubes the brackets are about the tube on the way to a place. */
 static int put_places(thr_sheets *sheets, int first, int end)
 {
   thr_text words = {0};
   const thr_visit *visit = &sheets->visit[first];
   int part = sheets->move[first].part;
+
+  /* A visit that starts the cord has no pass: its piece is the first place. */
   bool starts = visit->number == 0, held = starts ? visit->nth > 1 : sheets->pieces.solid;
+
   if (starts) visit = &sheets->visit[++first];
+
+  /* As many passes as a row takes, of one needle. */
   int next = first + 1;
   while (next < end && next < first + ROW && sheets->move[next].part == part)
     next++;
+
   thr_needle needle = sheets->move[first].needle;
   thr_text_printf(&words, "Cord %s%s, ", sheets->plan->cord[visit->cord].id,
                   needle == THR_NEEDLE_RIGHT  ? ", right needle"
                   : needle == THR_NEEDLE_LEFT ? ", left needle"
                                               : "");
+
   thr_text_printf(&words, next > first + 1 ? "passes %d-%d:" : "pass %d:", visit->number,
                   sheets->visit[next - 1].number);
   put_place(sheets, thr_tail(sheets->f, visit->in), held, &words);
   thr_text_append(&words, " to");
+
+  /* Each pass leads to the node at the head of its half-edge. */
   for (int i = first; i < next; i++)
     put_place(sheets, thr_head(sheets->f, sheets->visit[i].in), sheets->visit[i].nth > 1, &words);
+
   tick(sheets, &words);
   return next;
 }
@@ -97,15 +131,22 @@ void thr_sheets_copies(thr_sheets *sheets, int c)
 {
   char line[160];
   int n = sheets->plan->n_cords, copies = thr_copies_count(sheets->copy, n, c);
+
   if (!copies || sheets->st) return;
+
+  /* Steps that wait come before this page. */
   thr_sheets_flush(sheets);
   snprintf(line, sizeof line, "Repeat cord %s with %d other cord%s", sheets->plan->cord[c].id,
            copies, copies == 1 ? "" : "s");
   thr_sheets_page(sheets, line, line);
+
   if (sheets->st) return;
   put_picture(sheets, c);
+
+  /* First how, for all copies; then the places of each. */
   for (int i = 0; i < n; i++)
     if (i != c && sheets->copy[i].of == c) put_copy(sheets, i);
+
   thr_sheets_title(sheets, "The places of these cords, in order");
   thr_sheets_paragraph(
       sheets, 0,
@@ -113,8 +154,11 @@ void thr_sheets_copies(thr_sheets *sheets, int c)
           ? "To check by. In brackets: pieces that hold cord already. All others are picked up."
           : "To check by. In brackets: the way there is through a tube that holds cord already. "
             "All others are picked up.");
+
   for (int i = 0; i < n; i++) {
     if (i == c || sheets->copy[i].of != c) continue;
+
+    /* put_places returns where the next row begins. */
     int end = thr_sheets_end(sheets, i);
     for (int k = sheets->first_visit[i]; k < end && !sheets->st;)
       k = put_places(sheets, k, end);

@@ -1,17 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where the steps of a path end. */
+/* Divides the visits of a path into steps, by a dynamic programme over the ends of steps.
+ *
+ * A step must fit on a page, with every pass legible in its picture. Among all divisions into such
+ * steps the cheapest one is taken: few steps, which end where the cord turns and at a piece that is
+ * on a cord already, since a maker who puts the work down finds such a place again. Let cost(e) be
+ * the least cost of dividing the visits before e; then
+ *
+ *   cost(e) = min over i of cost(i) + STEP + price_of_end(e - 1) + SHORT * max(FEW - (e - i), 0)
+ *
+ * over all i from which a step may reach e. reach(i), the largest such e, never falls as i grows,
+ * so that two pointers find all of them with O(n) pictures. */
 #include "diagram/sheets/sheets_parts.h"
 #include "graph/angle.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { SMALLEST = 13 }; /* number of the least scale of a flat picture */
-static const double TURNED =
-    40; /* degrees: a cord that turns by more has come to the end of a run */
-static const double STEP = 4, STRAIGHT = 20, NEW = 6,
-                    SHORT = 4; /* prices: of a step, of one that ends badly, */
-enum { FEW = 6 };              /* of each visit that it has less than so many */
+enum { SMALLEST = 13 };          /* number of the least scale of a flat picture */
+static const double TURNED = 40; /* degrees: a turn by more ends a straight run of the cord */
+/* Costs that the division of a path minimises the sum of. */
+static const double STEP = 4;      /* of every step: few steps are better */
+static const double STRAIGHT = 20; /* of an end within a straight run of the cord */
+static const double NEW = 6;       /* of an end at a piece that is picked up by its last visit */
+static const double SHORT = 4;     /* of each visit that a step has less than FEW */
+enum { FEW = 6 };
 
 bool thr_step_begins(const thr_sheets *sheets, int i)
 {
@@ -30,119 +42,157 @@ int thr_step_now(const thr_sheets *sheets, int first, int end, int *now)
     const thr_visit *visit = &sheets->visit[i];
     if (visit->number) now[n++] = sheets->first_pass[visit->cord] + visit->number - 1;
   }
+
   return n;
 }
 
-/* The path that is divided, its visits counted from its first one. */
+/* A path that is divided into steps. Its visits are numbered from 0 here. */
 typedef struct {
   thr_sheets *sheets;
-  int first, n;
-  int *lines; /* [n + 1] of the rows before */
-  int *reach; /* [n] the last end of a step that begins there */
-  int view;   /* of pictures in space, from which the last was legible */
-} path;
+  int first;  /* number of the path's first visit in sheets->visit */
+  int n;      /* visits of the path */
+  int *lines; /* [n + 1] lines of text in the rows of all visits before */
+  int *reach; /* [n] the last possible end of a step that begins with a visit */
+  int view;   /* the view in space in which the last picture was legible, tried first next time */
+} divided_path;
 
-/* A step that is nothing but the start of a cord has no pass to draw. */
-static int fewest(const path *p, int i)
+/* Returns how many visits a step that begins at visit i needs, 1 or 2: the start of a cord alone
+ * has no pass to draw. */
+static int fewest(const divided_path *path, int i)
 {
-  return p->sheets->visit[p->first + i].number || i + 1 == p->n ? 1 : 2;
+  return path->sheets->visit[path->first + i].number || i + 1 == path->n ? 1 : 2;
 }
 
-/* Does a page take these visits, with every pass legible in the picture? */
-static thr_status is_good(path *p, int i, int end, bool *good, thr_err *err)
+/* Finds out whether the visits i .. end - 1 may be a step: *good says whether a page takes them
+ * with every pass legible in the picture. */
+static thr_status is_good(divided_path *path, int i, int end, bool *good, thr_err *err)
 {
-  thr_sheets *sheets = p->sheets;
+  thr_sheets *sheets = path->sheets;
   int now[THR_STEP_VISITS];
-  thr_crop crop = {.now = now, .n_now = thr_step_now(sheets, p->first + i, p->first + end, now)};
-  crop.backward = sheets->move[p->first + i].needle == THR_NEEDLE_LEFT;
+
+  thr_crop crop = {.now = now,
+                   .n_now = thr_step_now(sheets, path->first + i, path->first + end, now)};
+  crop.backward = sheets->move[path->first + i].needle == THR_NEEDLE_LEFT;
+
+  /* Everything but the picture has a known height; the text before and after the rows takes a line
+   * each. */
   double below =
       THR_STEP_LEGEND + thr_step_strip_height(end - i) +
-      thr_step_words_height(thr_step_rows_height(p->lines[end] - p->lines[i], end - i), 1, 1);
+      thr_step_words_height(thr_step_rows_height(path->lines[end] - path->lines[i], end - i), 1, 1);
   double room[2] = {thr_sheets_width(sheets),
                     thr_sheets_bottom(sheets) - THR_SHEET_MARGIN - THR_STEP_HEAD - below};
+
   thr_crop_view view;
   *good = room[1] >= THR_STEP_PICTURE[1];
   if (!*good) return THR_OK;
+
+  /* In space some view must show every pass long enough. */
   if (sheets->in_space) {
-    *good = thr_space_legible(&sheets->space, &crop, room, &p->view);
+    *good = thr_space_legible(&sheets->space, &crop, room, &path->view);
     return THR_OK;
   }
+
+  /* A flat picture must fit at a scale that is large enough. */
   thr_status st = thr_crop_fit(&sheets->crops, &crop, room, THR_STEP_PICTURE, &view, err);
   *good = view.scale <= SMALLEST;
+
   return st;
 }
 
-/* What is good stays good when its first visit goes: the last ends only grow. */
-static thr_status find_reach(path *p, thr_err *err)
+/* Computes path->reach. A step that is good stays good without its first visit, so each search
+ * begins at the end that was found for the visit before. */
+static thr_status find_reach(divided_path *path, thr_err *err)
 {
   thr_status st = THR_OK;
-  for (int i = 0, end = 0; i < p->n && !st; i++) {
+  for (int i = 0, end = 0; i < path->n && !st; i++) {
     bool good = true;
-    if (end < i + fewest(p, i)) end = i + fewest(p, i);
-    while (good && !st && end < p->n && end < i + THR_STEP_VISITS &&
-           !thr_step_ends(p->sheets, p->first + end - 1)) {
-      st = is_good(p, i, end + 1, &good, err);
+
+    /* The least that any step has is accepted unseen: there is no smaller one. */
+    if (end < i + fewest(path, i)) end = i + fewest(path, i);
+
+    /* One visit more, as long as the page takes it and the needle's part goes on. */
+    while (good && !st && end < path->n && end < i + THR_STEP_VISITS &&
+           !thr_step_ends(path->sheets, path->first + end - 1)) {
+      st = is_good(path, i, end + 1, &good, err);
       end += good;
     }
-    p->reach[i] = end;
+
+    path->reach[i] = end;
   }
   return st;
 }
 
-/* Price of ending a step behind a visit. */
-static double price_of_end(const path *p, int last)
+/* Returns the cost of ending a step behind a visit: 0 where the needle's part ends anyway. */
+static double price_of_end(const divided_path *path, int last)
 {
-  const thr_sheets *sheets = p->sheets;
-  const thr_visit *visit = &sheets->visit[p->first + last];
-  if (thr_step_ends(sheets, p->first + last)) return 0;
-  int out = sheets->visit[p->first + last + 1].in;
+  const thr_sheets *sheets = path->sheets;
+  const thr_visit *visit = &sheets->visit[path->first + last];
+  if (thr_step_ends(sheets, path->first + last)) return 0;
+
+  /* At the start of a cord there is no turn: a step had better not end there. */
+  int out = sheets->visit[path->first + last + 1].in;
   bool turns = visit->number && thr_degrees(thr_turn_angle(sheets->f, visit->in, out)) > TURNED;
+
   return (turns ? 0 : STRAIGHT) + (visit->nth == 1 ? NEW : 0);
 }
 
-/* Cheapest ends: of all ways to divide the visits up to each. before[e]: where the step begins that
- * ends there. */
-static void choose(const path *p, double *least, int *before)
+/* Computes the least cost of dividing the visits up to each end, and before[e]: where the last step
+ * begins that ends at e. */
+static void choose(const divided_path *path, double *least, int *begin_of)
 {
   least[0] = 0;
-  for (int e = 1; e <= p->n; e++)
+  for (int e = 1; e <= path->n; e++)
     least[e] = HUGE_VAL;
-  for (int i = 0; i < p->n; i++)
-    for (int e = i + fewest(p, i); e <= p->reach[i]; e++) {
+
+  /* Costs are final when i is reached, as steps only lead forwards. */
+  for (int i = 0; i < path->n; i++)
+    for (int e = i + fewest(path, i); e <= path->reach[i]; e++) {
       double price =
-          least[i] + STEP + price_of_end(p, e - 1) + (e - i < FEW ? (FEW - e + i) * SHORT : 0);
+          least[i] + STEP + price_of_end(path, e - 1) + (e - i < FEW ? (FEW - e + i) * SHORT : 0);
+
+      /* Of equal costs the first one stays, the longer last step. */
       if (price >= least[e]) continue;
       least[e] = price;
-      before[e] = i;
+      begin_of[e] = i;
     }
 }
 
 thr_status thr_step_divide(thr_sheets *sheets, int c, int **ends, int *n_steps, thr_err *err)
 {
-  path p = {.sheets = sheets,
-            .first = sheets->first_visit[c],
-            .n = thr_sheets_end(sheets, c) - sheets->first_visit[c]};
-  size_t n = (size_t)p.n + 1;
+  divided_path path = {.sheets = sheets,
+                       .first = sheets->first_visit[c],
+                       .n = thr_sheets_end(sheets, c) - sheets->first_visit[c]};
+
+  size_t n = (size_t)path.n + 1;
   double *least = thr_calloc(n, sizeof *least);
-  int *before = thr_calloc(n, sizeof *before), *end = *ends = thr_calloc(n, sizeof *end);
-  p.lines = thr_calloc(n, sizeof *p.lines);
-  p.reach = thr_calloc(n, sizeof *p.reach);
-  thr_status st = least && before && end && p.lines && p.reach ? THR_OK : thr_nomem(err);
-  for (int i = 0; i < p.n && !st; i++)
-    p.lines[i + 1] = p.lines[i] + thr_step_row_lines(sheets, p.first + i);
+  int *begin_of = thr_calloc(n, sizeof *begin_of), *end = *ends = thr_calloc(n, sizeof *end);
+  path.lines = thr_calloc(n, sizeof *path.lines);
+  path.reach = thr_calloc(n, sizeof *path.reach);
+
+  /* All arrays at once; each has a place for every end 0 .. n. */
+  thr_status st = least && begin_of && end && path.lines && path.reach ? THR_OK : thr_nomem(err);
+
+  /* Sums of lines let is_good ask for the height of any range. */
+  for (int i = 0; i < path.n && !st; i++)
+    path.lines[i + 1] = path.lines[i] + thr_step_row_lines(sheets, path.first + i);
   if (!st) st = sheets->st;
-  if (!st) st = find_reach(&p, err);
+
+  if (!st) st = find_reach(&path, err);
   *n_steps = 0;
+
+  /* Follow the chosen beginnings back from the end: once to count the steps, once to list their
+   * ends. */
   if (!st) {
-    choose(&p, least, before);
-    for (int e = p.n; e > 0; e = before[e])
+    choose(&path, least, begin_of);
+    for (int e = path.n; e > 0; e = begin_of[e])
       ++*n_steps;
-    for (int e = p.n, k = *n_steps; e > 0; e = before[e])
-      end[--k] = p.first + e;
+    for (int e = path.n, k = *n_steps; e > 0; e = begin_of[e])
+      end[--k] = path.first + e;
   }
+
   free(least);
-  free(before);
-  free(p.lines);
-  free(p.reach);
+  free(begin_of);
+  free(path.lines);
+  free(path.reach);
   return st;
 }

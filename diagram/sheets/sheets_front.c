@@ -1,18 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The title page of step sheets: counts, what the plan is good for, where things are, the picture
- * of the whole. */
+/* Lays out the title page: counts of pieces and cords, what is proved of the plan, on which pages
+ * the parts of the booklet begin, and the picture of the whole.
+ *
+ * Example: "49 pieces (4 L, 20 T, 25 X) that meet in 84 places, face to face; 4 feet; 1 cord, 86
+ * passes, 1771 mm of cord." and "Goal: as little cord as possible; proved: with these options no
+ * plan has less cord." */
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "graph/plan/request.h"
 
 #include <stdio.h>
 
+/* Returns the ending of a plural. */
 static const char *plural(int n)
 {
   return n == 1 ? "" : "s";
 }
 
-/* "49 pieces (4 L, 20 T, 25 X) meet at 84 faces, 4 feet; 1 cord, 86 passes, 1771 mm of cord." */
+/* Writes how many pieces, places, feet, cords and passes there are, and how much cord is on the
+ * way. */
 static void put_counts(thr_sheets *sheets)
 {
   char length[64];
@@ -20,12 +26,17 @@ static void put_counts(thr_sheets *sheets)
   const thr_frame *frame = sheets->f;
   double total = 0;
   int feet = 0, n = sheets->pieces.n, cords = sheets->plan->n_cords;
+
+  /* Cord through the middles of the pieces, without tails, knots and turns. */
   for (int c = 0; c < cords; c++)
     total += thr_cord_length(frame, &sheets->plan->cord[c]);
   for (int v = 0; v < frame->n_nodes; v++)
     feet += frame->foot[v];
+
   thr_svg_length(total, frame->units, length);
   thr_text_printf(&words, "%d %s", n, thr_pieces_word(sheets->plan, n));
+
+  /* Solid pieces meet at the middles of edges, tubes at nodes. */
   if (sheets->pieces.solid) {
     thr_text_append(&words, " (");
     thr_pieces_shapes(&sheets->pieces, &words);
@@ -34,17 +45,22 @@ static void put_counts(thr_sheets *sheets)
   } else
     thr_text_printf(&words, " of %d length%s between %d places", sheets->pieces.n_kinds,
                     plural(sheets->pieces.n_kinds), frame->n_nodes);
+
   thr_text_printf(&words, "; %d %s; %d cord%s, %d pass%s, %s of cord.", feet,
                   feet == 1 ? "foot" : "feet", cords, plural(cords), sheets->n_passes,
                   sheets->n_passes == 1 ? "" : "es", length);
+
+  /* In one paragraph, however many lines. */
   if (words.failed)
     thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
   else
     thr_sheets_paragraph(sheets, 0, words.data);
+
   thr_text_destroy(&words);
 }
 
-/* What the plan says that is proved: "as little as possible", or how far from it. */
+/* Writes into line what is proved: that no plan has less, or how much less is not ruled out. gap:
+ * share of the plan's value. */
 static void put_proof(char *line, size_t size, const char *of_what, bool present, bool optimal,
                       double gap)
 {
@@ -56,10 +72,14 @@ static void put_proof(char *line, size_t size, const char *of_what, bool present
     snprintf(line, size, "at most %.3g %% of its %s could be saved.", 100 * gap, of_what);
 }
 
+/* Writes what was minimised and what is proved of the plan's value: turning, cord under symmetry,
+ * or cord. */
 static void put_goal(thr_sheets *sheets)
 {
   const thr_plan *plan = sheets->plan;
   char line[320], proof[128];
+
+  /* Turning has a proof of its own in the plan; both other goals have one of length. */
   if (thr_wants_turning(&plan->options)) {
     put_proof(proof, sizeof proof, "turning", plan->turning.present, plan->turning.optimal,
               plan->turning.gap);
@@ -72,14 +92,17 @@ static void put_goal(thr_sheets *sheets)
              "Goal: cords that repeat each other: %d path%s to learn, %d cop%s; %s", paths,
              plural(paths), plan->n_cords - paths, plan->n_cords - paths == 1 ? "y" : "ies", proof);
   } else {
+    /* The length of cord alone. */
     put_proof(proof, sizeof proof, "cord", plan->proof.present, plan->proof.optimal,
               plan->proof.gap);
     snprintf(line, sizeof line, "Goal: as little cord as possible; %s", proof);
   }
+
   thr_sheets_paragraph(sheets, 0, line);
 }
 
-/* The title page is page 1. */
+/* Writes on which pages the parts begin. Page numbers count the title page and begin with 1, hence
+ * + 2. */
 static void put_contents(thr_sheets *sheets, const int *first)
 {
   char line[160];
@@ -93,20 +116,30 @@ static void put_contents(thr_sheets *sheets, const int *first)
 void thr_sheets_front(thr_sheets *sheets, const int *first)
 {
   thr_sheets_page(sheets, "Step sheets", "");
+
   if (sheets->st) return;
+
+  /* Words first. */
   put_counts(sheets);
   put_goal(sheets);
   put_contents(sheets, first);
+
+  /* A warning where sizes that were worked out look wrong. */
   char doubt[160];
   if (thr_supplies_doubt(&sheets->supplies, doubt)) thr_sheets_paragraph(sheets, 0, doubt);
+
   if (sheets->plan->n_cords == 1 && !sheets->in_space)
     thr_sheets_paragraph(sheets, 0, "In this picture the colour changes every twenty passes.");
+
+  /* The picture takes what is left of the page. */
   thr_box paper = {THR_SHEET_MARGIN, sheets->y, sheets->size[0] - THR_SHEET_MARGIN,
                    thr_sheets_bottom(sheets)};
+
   thr_status st =
       sheets->in_space
           ? thr_space_whole(&sheets->space, NULL, paper, thr_sheets_out(sheets), &sheets->why)
           : thr_crop_whole(sheets->plan, &sheets->guide.layout, NULL, NULL, paper, NULL,
                            sheets->limits, thr_sheets_out(sheets), &sheets->why);
+
   if (st) thr_sheets_fail(sheets, st, NULL);
 }

@@ -1,37 +1,45 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The booklet for browsers, which print it as they show it.
+/* Writes the booklet as one HTML file for browsers, which print it as they show it.
  *
- * The sheets as one HTML file: page after page the SVG that the PDF is drawn from, on paper of the
- * same size. */
+ * Page after page holds the SVG that the PDF is drawn from, on paper of the same size (CSS @page).
+ * All pages share one document, in which ids must be unique: each id, and each reference to one,
+ * gets its page's number.
+ *
+ * Example: on page 3 id="clip-1" .. clip-path="url(#clip-1)" become id="p3-clip-1" ..
+ * clip-path="url(#p3-clip-1)". */
 #include "diagram/sheets/sheets_parts.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* Before these a page's names stand; each page gets its own, since all share one document. */
+/* What stands before an id or a reference to one. */
 static const char *const before_name[] = {" id=\"", "url(#", " aria-labelledby=\"", "href=\"#"};
 enum { N_BEFORE = sizeof before_name / sizeof *before_name };
 
-/* The first place from `at` on behind which a name stands; NULL = none. */
+/* Returns the first name behind `at`, an id or a reference to one, or NULL if there is none. */
 static const char *next_name(const char *at)
 {
   const char *best = NULL;
   for (int k = 0; k < N_BEFORE; k++) {
+    /* The nearest of all prefixes counts, by where the name behind it begins. */
     const char *found = strstr(at, before_name[k]);
     if (found && (!best || found + strlen(before_name[k]) < best))
       best = found + strlen(before_name[k]);
   }
+
   return best;
 }
 
-/* A list of names, as "title desc": the page's number before each. The rest of it begins at what is
- * returned. */
+/* Appends a list of names such as "title desc" with the page's number before each. Returns what
+ * follows the list. */
 static const char *put_names(thr_text *html, const char *at, int page)
 {
   for (;;) {
+    /* A name ends at a blank, a quote or a bracket; a blank means that another one follows. */
     const size_t n = strcspn(at, " \")");
     thr_text_printf(html, "p%d-", page);
     thr_text_append_bytes(html, at, n);
+
     at += n;
     if (*at != ' ') return at;
     thr_text_append(html, " ");
@@ -39,29 +47,40 @@ static const char *put_names(thr_text *html, const char *at, int page)
   }
 }
 
-/* Without the XML declaration, which HTML does not know. */
+/* Appends a page's SVG as a section. The XML declaration, which HTML does not know, is left out. */
 static void put_page(thr_text *html, const thr_text *svg, int page)
 {
   const char *at = strstr(svg->data, "<svg");
+
   thr_text_printf(html, "<section class=\"page\" id=\"page-%d\" aria-label=\"Page %d\">\n", page,
                   page);
+
+  /* Copy up to each name, then the name with its page's number. */
   for (const char *name = next_name(at); name; name = next_name(at)) {
     thr_text_append_bytes(html, at, (size_t)(name - at));
     at = put_names(html, name, page);
   }
+
+  /* What is left behind the last name. */
   thr_text_append(html, at);
   thr_text_append(html, "</section>\n");
 }
 
+/* Appends the head of the document: title and style. A page is as large as the paper; on a screen
+ * it shrinks with the window. */
 static void put_head(const thr_sheets *sheets, thr_text *html)
 {
   const double *mm = sheets->size;
   char title[96];
   thr_sheets_heading(sheets, title);
+
+  /* The language is for hyphens and for readers of screens. */
   thr_text_append(
       html, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>");
   thr_text_append(html, title);
+
+  /* One page per sheet of paper, without margins of the browser's own. */
   thr_text_printf(
       html,
       "</title>\n<style>\n@page{size:%gmm %gmm;margin:0}\nhtml{background:#777}\nbody{margin:0}\n"
@@ -78,14 +97,20 @@ thr_status thr_sheets_html(const thr_sheets *sheets, thr_text *html, thr_err *er
   thr_status st = THR_OK;
   const size_t before = html->length;
   put_head(sheets, html);
+
   for (int i = 0; i < thr_sheets_pages(sheets) && !st; i++) {
+    /* One page at a time, so that memory does not hold all of them twice. */
     thr_text svg = {0};
     st = thr_sheets_svg(sheets, i, &svg, err);
     if (!st) put_page(html, &svg, i + 1);
     thr_text_destroy(&svg);
   }
+
   thr_text_append(html, "</body>\n</html>\n");
   if (!st && html->failed) st = thr_nomem(err);
+
+  /* On failure html ends where it ended before. */
   if (st) html->length = before;
+
   return st;
 }

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A hub of many arms, which run together in the picture and in an icon, alone and large in a corner
- * of the picture. */
+/* Draws a hub of many arms alone and large, in a corner of a step's picture.
+ *
+ * The arms of such a hub run together in the picture and in an icon. The inset shows all of them
+ * with one length, the two arms of the visit bold, and says by how many arms the needle goes on,
+ * which can be counted on the piece in the hand: "out 4 on from in, clockwise". */
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "graph/angle.h"
@@ -8,42 +11,53 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { MANY = 9 }; /* arms from which a piece is shown alone */
-static const double SIDE = 56, REACH = 17,
-                    HEADING = 9; /* mm: of the inset; from the hub to the ends; above it */
-static const double THIN = 0.35, BOLD = 2.2,
-                    CORD = 0.9; /* mm: an arm without cord and with it; the cord */
-static const double CLEAR = 8;  /* mm between the inset and what is of the step */
+enum { MANY = 9 };               /* arms from which a piece is shown alone */
+static const double SIDE = 56;   /* mm: the inset */
+static const double REACH = 17;  /* mm from the hub to the ends of its arms */
+static const double HEADING = 9; /* mm above the picture of the inset */
+static const double THIN = 0.35; /* mm: width of an arm that the visit does not use */
+static const double BOLD = 2.2;  /* mm: width of the two arms by which the needle comes and goes */
+static const double CORD = 0.9;  /* mm: width of the cord */
+static const double CLEAR = 8;   /* mm between the inset and the ends of the step's passes */
 
-/* The visit that passes through the piece of most arms, at least MANY; -1 = none. */
+/* Returns the visit that passes through the piece with the most arms, at least MANY; -1 if there is
+ * none. */
 static int find_hub(const thr_sheets *sheets, const thr_step *step)
 {
   int best = -1, most = MANY - 1;
   for (int i = step->first; i < step->end && sheets->pieces.solid; i++) {
+    /* Tubes have no arms to tell apart. */
     const thr_visit *v = &sheets->visit[i];
     int arms = thr_degree(sheets->f, v->piece);
+
+    /* Where a cord starts or ends there are no two arms to count between. */
     if (arms <= most || v->in < 0 || v->out < 0) continue;
     most = arms;
     best = i;
   }
+
   return best;
 }
 
+/* Returns the angle of arm i on paper, rad; y points down, so that angles grow clockwise. */
 static double angle_of(const thr_arms *arms, int i)
 {
   return atan2(arms->end[i][1] - arms->hub[1], arms->end[i][0] - arms->hub[0]);
 }
 
-/* Arms from one to another, clockwise on paper, where y goes down. */
+/* Returns how many arms further than one arm another one is, clockwise on paper. */
 static int count_clockwise(const thr_arms *arms, int from, int to)
 {
   int n = 1;
   double wide = thr_scene_sweep(angle_of(arms, from), angle_of(arms, to));
+
+  /* One more than the arms between both. */
   for (int i = 0; i < arms->n; i++)
     if (i != from && i != to) n += thr_scene_sweep(angle_of(arms, from), angle_of(arms, i)) < wide;
   return n;
 }
 
+/* Draws arm i as a straight line of a width in mm. */
 static void put_arm(const thr_arms *arms, int i, double width, const char *colour, thr_text *text)
 {
   thr_text_printf(text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"", colour,
@@ -53,51 +67,67 @@ static void put_arm(const thr_arms *arms, int i, double width, const char *colou
   thr_text_append(text, "\"/>\n");
 }
 
+/* Writes the name of the piece that arm i faces beyond the end of the arm. */
 static void put_facing(const thr_sheets *sheets, const thr_arms *arms, int i, int node,
                        thr_text *text)
 {
   double turn = angle_of(arms, i),
          half = 0.5 * thr_scene_text_width(sheets->guide.label[node], THR_SHEET_SMALL);
+
+  /* The middle of the name is off the end by half the extent of the name in the arm's direction. */
   double far = REACH + 1.5 + fabs(cos(turn)) * half + fabs(sin(turn)) * 0.5 * THR_SHEET_SMALL;
   thr_svg_text(text, arms->hub[0] + far * cos(turn),
                arms->hub[1] + far * sin(turn) + 0.36 * THR_SHEET_SMALL, THR_SHEET_SMALL,
                " font-weight=\"bold\" text-anchor=\"middle\"", sheets->guide.label[node]);
 }
 
-/* All arms as long as each other, those with the cord bold. */
-static void put_piece(const thr_sheets *sheets, const thr_visit *v, thr_arms *arms, int in, int out,
-                      const char *colour, thr_text *text)
+/* Draws the hub of a visit with all arms equally long, those with the cord bold, the cord with its
+ * casing and arrow, and the names at both ends. */
+static void put_piece(const thr_sheets *sheets, const thr_visit *visit, thr_arms *arms, int in,
+                      int out, const char *colour, thr_text *text)
 {
+  /* Lengths carry no meaning here: only directions are counted. */
   for (int i = 0; i < arms->n; i++) {
     double turn = angle_of(arms, i);
     arms->end[i][0] = arms->hub[0] + REACH * cos(turn);
     arms->end[i][1] = arms->hub[1] + REACH * sin(turn);
   }
+
+  /* Thin arms lie below the bold ones. */
   for (int i = 0; i < arms->n; i++)
     if (i != in && i != out) put_arm(arms, i, THIN, "#857a64", text);
   put_arm(arms, in, BOLD, "#857a64", text);
   put_arm(arms, out, BOLD, "#857a64", text);
+
+  /* The cord over a wider white line. */
   for (int casing = 1; casing >= 0; casing--) {
     thr_text_printf(text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"",
                     casing ? "#ffffff" : colour, casing ? 1.6 * CORD : CORD);
     thr_arms_way(arms, in, out, CORD, text);
     thr_text_append(text, "\"/>\n");
   }
+
   thr_text_printf(text, "<path fill=\"%s\" stroke=\"#ffffff\" stroke-width=\"0.20\" d=\"", colour);
   thr_arms_tip(arms, out, CORD, text);
   thr_text_append(text, "\"/>\n");
-  put_facing(sheets, arms, in, thr_tail(sheets->f, v->in), text);
-  put_facing(sheets, arms, out, thr_head(sheets->f, v->out), text);
+
+  /* The names of the pieces that the needle comes from and goes to. */
+  put_facing(sheets, arms, in, thr_tail(sheets->f, visit->in), text);
+  put_facing(sheets, arms, out, thr_head(sheets->f, visit->out), text);
 }
 
-/* The corner of the picture, of those in which nothing of the step is, that comes first; false if
- * there is none. */
+/* Finds a corner of the picture that is free of the points of the step: below before above, left
+ * before right. Returns whether there is one. */
 static bool find_corner(thr_box picture, const double (*busy)[2], int n, double corner[2])
 {
   for (int k = 0; k < 4; k++) {
     bool free = true;
+
+    /* k counts the corners: bit 0 is right, below 2 is the lower edge. */
     corner[0] = k % 2 ? picture.x1 - SIDE : picture.x0;
     corner[1] = k < 2 ? picture.y1 - SIDE : picture.y0;
+
+    /* A point closer to the inset than CLEAR takes the corner. */
     for (int i = 0; i < n && free; i++)
       free = busy[i][0] < corner[0] - CLEAR || busy[i][0] > corner[0] + SIDE + CLEAR ||
              busy[i][1] < corner[1] - CLEAR || busy[i][1] > corner[1] + SIDE + CLEAR;
@@ -112,25 +142,33 @@ void thr_step_put_hub(thr_sheets *sheets, const thr_step *step, const thr_camera
   double corner[2];
   char line[96];
   int visit = find_hub(sheets, step), in, out;
+
   if (visit < 0 || sheets->st || picture.x1 - picture.x0 < 2 * SIDE ||
       picture.y1 - picture.y0 < SIDE)
     return;
+
   if (!find_corner(picture, busy, n_busy, corner)) return;
-  const thr_visit *v = &sheets->visit[visit];
+  const thr_visit *stay = &sheets->visit[visit];
   double x = corner[0], y = corner[1];
+
+  /* The hub is in the middle of what the heading leaves. */
   thr_arms arms = {.hub = {x + 0.5 * SIDE, y + HEADING + 0.5 * (SIDE - HEADING)}};
+
   thr_text *text = thr_sheets_out(sheets);
-  thr_step_arms(sheets, camera, v->piece, REACH, &arms, v->in, v->out, &in, &out);
+  thr_step_arms(sheets, camera, stay->piece, REACH, &arms, stay->in, stay->out, &in, &out);
   if (in < 0 || out < 0) return; /* beyond the arms that are drawn */
   thr_text_printf(
       text,
       "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"#fff\" stroke=\"#999\" "
       "stroke-width=\"0.25\"/>\n",
       x, y, SIDE, SIDE);
-  snprintf(line, sizeof line, "%d: hub %.20s, %d arms", v->number, sheets->guide.label[v->piece],
-           arms.n);
+
+  /* Two lines of heading: which visit, and what to count. */
+  snprintf(line, sizeof line, "%d: hub %.20s, %d arms", stay->number,
+           sheets->guide.label[stay->piece], arms.n);
   thr_svg_text(text, x + 2, y + 4, THR_SHEET_SMALL, " font-weight=\"bold\"", line);
   snprintf(line, sizeof line, "out %d on from in, clockwise", count_clockwise(&arms, in, out));
   thr_svg_text(text, x + 2, y + 8, THR_SHEET_SMALL, "", line);
-  put_piece(sheets, v, &arms, in, out, colour, text);
+
+  put_piece(sheets, stay, &arms, in, out, colour, text);
 }

@@ -1,5 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The pieces on paper: a card for every kind, and a tag for every piece. */
+/* Lays out pieces on paper: a card for every kind of solid piece, with its outline and the lengths
+ * of its arms, and a tag with the name of every piece, to cut out and stick on.
+ *
+ * A card shows the first piece of the kind as the layout draws that piece, outer side up, at the
+ * largest scale at which its arms stay within ROOM mm. Where the layout has no sides, or there are
+ * more than MOST_CARDS kinds, cards would not tell kinds apart and are left out.
+ *
+ * Example: 25 kinds in rows of four make seven rows of 46 mm: two pages. */
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "graph/plan/plan_measures.h"
@@ -9,48 +16,58 @@
 #include <string.h>
 
 enum {
-  CARDS = 4,
-  MOST_CARDS = 80,
-  MOST_NUMBERS = 6
-};                                        /* in a row; in all; arms whose lengths are said */
-static const double CARD = 46, AIR = 1.5; /* mm: height of a card; between two of them */
-static const double
-    ROOM = 12.5,
-    NUMBER_OFF = 2; /* mm: from the hub to the ends of its arms; from there to their lengths */
-static const double NAME = 4; /* mm: size of the letters on a card and a tag */
-static const double TAG = 9;  /* mm: height of a tag */
-enum { SOME_TAGS = 4 };       /* rows for which a page is begun */
+  CARDS = 4,       /* in a row */
+  MOST_CARDS = 80, /* in all: more kinds have no cards */
+  MOST_NUMBERS = 6 /* a piece of more arms has no lengths written at them */
+};
+static const double CARD = 46;      /* mm: height of a card */
+static const double AIR = 1.5;      /* mm between two cards */
+static const double ROOM = 12.5;    /* mm from the hub to the end of the longest arm, at most */
+static const double NUMBER_OFF = 2; /* mm from the end of an arm to its length in figures */
+static const double NAME = 4;       /* mm: size of the letters on a card and a tag */
+static const double TAG = 9;        /* mm: height of a tag */
+enum { SOME_TAGS = 4 };             /* rows of tags that must fit below what is on a page */
 
 /* ---- cards ---- */
 
-/* Lengths of the arms, in units, beyond their ends. */
+/* Writes the length of each arm of a piece, in units, beyond the end of the arm. point: the piece
+ * in the scene; at: its hub on the page, mm. */
 static void put_lengths(thr_sheets *sheets, const thr_scene *scene, int point, const double at[2])
 {
   const thr_frame *paper = scene->paper;
   for (int i = paper->first[point];
        i < paper->first[point + 1] && thr_degree(paper, point) <= MOST_NUMBERS; i++) {
+    /* An arm is half an edge. */
     int h = paper->half[i];
-    double d[2], off = 0.5 * thr_scene_edge_length(scene, h >> 1) + NUMBER_OFF;
+    double outwards[2], off = 0.5 * thr_scene_edge_length(scene, h >> 1) + NUMBER_OFF;
     char number[32];
-    thr_scene_direction(scene, h, d);
+
+    thr_scene_direction(scene, h, outwards);
     snprintf(number, sizeof number, "%.3g", sheets->f->length[h >> 1] / 2);
-    off += fabs(d[0]) * 0.3 * THR_SHEET_SMALL * (double)strlen(number);
-    thr_svg_text(thr_sheets_out(sheets), at[0] + off * d[0],
-                 at[1] + off * d[1] + 0.36 * THR_SHEET_SMALL, THR_SHEET_SMALL,
+
+    /* A figure is wider than high: beside a flat arm it needs more distance. */
+    off += fabs(outwards[0]) * 0.3 * THR_SHEET_SMALL * (double)strlen(number);
+    thr_svg_text(thr_sheets_out(sheets), at[0] + off * outwards[0],
+                 at[1] + off * outwards[1] + 0.36 * THR_SHEET_SMALL, THR_SHEET_SMALL,
                  " text-anchor=\"middle\" style=\"fill:#666\"", number);
   }
 }
 
-/* Where the pieces of a kind come to: as many as a line takes. */
+/* Writes the places of all pieces of a kind in a line, centred in a card, with ".." where some do
+ * not fit. */
 static void put_members(thr_sheets *sheets, int kind, double x, double y, double width)
 {
   thr_text words = {0};
+
+  /* All names of the kind, in the order of pieces. */
   for (int i = 0; i < sheets->pieces.n; i++)
     if (sheets->pieces.kind[i] == kind)
       thr_text_printf(&words, "%s%s", words.length ? " " : "", sheets->guide.label[i]);
+
   if (words.failed || !words.data) {
     thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
   } else {
+    /* As many whole names as the width takes. */
     size_t n = thr_sheets_fit(words.data, width - 4, THR_SHEET_SMALL);
     char line[256];
     snprintf(line, sizeof line, "%.*s%s", (int)(n < 250 ? n : 250), words.data,
@@ -58,9 +75,12 @@ static void put_members(thr_sheets *sheets, int kind, double x, double y, double
     thr_svg_text(thr_sheets_out(sheets), x + 0.5 * width, y, THR_SHEET_SMALL,
                  " text-anchor=\"middle\"", line);
   }
+
   thr_text_destroy(&words);
 }
 
+/* Draws the card of a kind with its upper left corner at (x, y): name and number of pieces above,
+ * outline and lengths in the middle, places below. */
 static void put_card(thr_sheets *sheets, int kind, double x, double y, double width)
 {
   char name[24], count[24];
@@ -68,6 +88,8 @@ static void put_card(thr_sheets *sheets, int kind, double x, double y, double wi
   int model = sheets->pieces.model[kind], point;
   double at[2] = {x + 0.5 * width, y + 24};
   thr_text *text = thr_sheets_out(sheets);
+
+  /* The frame, then name and number. */
   thr_text_printf(text,
                   "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" rx=\"1.50\" "
                   "fill=\"none\" stroke=\"#bbb\" "
@@ -78,26 +100,34 @@ static void put_card(thr_sheets *sheets, int kind, double x, double y, double wi
   thr_svg_text(text, x + 2, y + 5.5, NAME, " font-weight=\"bold\"", name);
   thr_svg_text(text, x + width - 2, y + 5.5, NAME, " font-weight=\"bold\" text-anchor=\"end\"",
                count);
+
+  /* The piece at a scale of its own: cards show shapes, not relative sizes. */
   thr_status st =
       thr_crop_piece(&sheets->crops, model, at, ROOM, &scene, &point, text, &sheets->why);
   if (st) {
     thr_sheets_fail(sheets, st, NULL);
     return;
   }
+
+  /* Around the picture, and below it. */
   put_lengths(sheets, scene, point, at);
   put_members(sheets, kind, x, y + CARD - 2, width);
 }
 
-/* How many pieces hold cords that cross inside them. */
+/* Writes in how many pieces cords cross: such pieces need channels one above the other. */
 static void put_crossings(thr_sheets *sheets)
 {
   thr_channels channels = {0};
   char line[200];
+
+  /* The channels are only counted here. */
   thr_status st = thr_channels_make(&channels, sheets->plan, &sheets->why);
   if (st) {
     thr_sheets_fail(sheets, st, NULL);
     return;
   }
+
+  /* Where some cross, a maker needs the table. */
   if (channels.crossed)
     snprintf(line, sizeof line,
              "%d piece%s cords that cross inside: there one channel lies above the other "
@@ -105,19 +135,27 @@ static void put_crossings(thr_sheets *sheets)
              channels.crossed, channels.crossed == 1 ? " holds" : "s hold");
   else
     snprintf(line, sizeof line, "No cords cross inside a piece.");
+
   thr_channels_destroy(&channels);
   thr_sheets_paragraph(sheets, 0, line);
 }
 
-/* Below what is on the page, if that takes fewer pages than to begin a new one; else there. */
+/* Begins the cards below what is on the page, if the cards take fewer further pages then than on a
+ * page of their own; else on a new page. */
 static void begin_key(thr_sheets *sheets, const char *title)
 {
   const double head = 12, row = CARD + AIR, here = thr_sheets_bottom(sheets) - sheets->y - head - 5;
   const double page = thr_sheets_bottom(sheets) - THR_SHEET_MARGIN - head;
+
+  /* Rows of cards in all, and as many as a whole page takes. */
   const int rows = (sheets->pieces.n_kinds + CARDS - 1) / CARDS,
             fit = (int)floor((page + AIR) / row);
-  const int now = here > 0 ? (int)floor((here + AIR) / row) : 0, left = rows > now ? rows - now : 0;
-  if (now > 0 && (left + fit - 1) / fit < (rows + fit - 1) / fit) {
+
+  /* Rows below what is there; (left + fit - 1) / fit pages take the others. */
+  const int rows_here = here > 0 ? (int)floor((here + AIR) / row) : 0,
+            left = rows > rows_here ? rows - rows_here : 0;
+
+  if (rows_here > 0 && (left + fit - 1) / fit < (rows + fit - 1) / fit) {
     snprintf(sheets->running, sizeof sheets->running, "%s", title);
     thr_sheets_title(sheets, title);
   } else
@@ -129,19 +167,25 @@ void thr_sheets_key(thr_sheets *sheets)
   char title[96];
   const thr_pieces *pieces = &sheets->pieces;
   double width = (thr_sheets_width(sheets) - (CARDS - 1) * AIR) / CARDS;
+
   if (!pieces->solid || sheets->st) return;
   put_crossings(sheets);
-  if (!sheets->guide.sides || pieces->n_kinds > MOST_CARDS)
-    return; /* a flat picture would not tell them apart */
+
+  /* A flat picture would not tell the kinds apart, or there are too many. */
+  if (!sheets->guide.sides || pieces->n_kinds > MOST_CARDS) return;
   snprintf(title, sizeof title, "The %d %s: %d kind%s", pieces->n,
            thr_pieces_word(sheets->plan, pieces->n), pieces->n_kinds,
            pieces->n_kinds == 1 ? "" : "s");
+
   begin_key(sheets, title);
   if (sheets->st) return;
+
   snprintf(title, sizeof title,
            "Outer side up, as in the picture. Numbers: arms from the hub to the face, in %.15s.",
            sheets->f->units);
   thr_sheets_paragraph(sheets, 0, title);
+
+  /* Kinds count from 1. A row of cards begins on a new page if this one is full. */
   for (int k = 1; k <= pieces->n_kinds && !sheets->st; k++) {
     int column = (k - 1) % CARDS;
     if (column == 0 && k > 1) sheets->y += CARD + AIR;
@@ -149,6 +193,7 @@ void thr_sheets_key(thr_sheets *sheets)
     if (!sheets->st)
       put_card(sheets, k, THR_SHEET_MARGIN + column * (width + AIR), sheets->y, width);
   }
+
   sheets->y += CARD + 2 * AIR;
 }
 
@@ -160,24 +205,34 @@ void thr_sheets_name_tags(thr_sheets *sheets)
                               "letters up, as in the picture.";
   double longest = 0;
   int n = sheets->pieces.n;
+
+  /* A tube has no side to stick a name on. */
   if (!sheets->pieces.solid || sheets->st) return;
+
+  /* The longest name decides how many tags stand in a row, 14 at most. */
   for (int i = 0; i < n; i++)
     longest = fmax(longest, thr_text_columns(sheets->guide.label[i], SIZE_MAX));
   int columns = (int)fmax(1, floor(thr_sheets_width(sheets) / (0.75 * NAME * longest + 3)));
   columns = columns > 14 ? 14 : columns;
+
   double width = thr_sheets_width(sheets) / columns;
+
+  /* A few rows below what is on the page, or a page of their own. */
   if (sheets->y + SOME_TAGS * TAG < thr_sheets_bottom(sheets)) {
     snprintf(sheets->running, sizeof sheets->running, "Names to stick on (continued)");
     thr_sheets_title(sheets, "Names to stick on");
   } else
     thr_sheets_page(sheets, "Names to stick on", "Names to stick on (continued)");
+
   if (!sheets->st) thr_sheets_paragraph(sheets, 0, words);
   for (int i = 0; i < n && !sheets->st; i++) {
+    /* Row by row, over as many pages as needed. */
     int column = i % columns;
     double x = THR_SHEET_MARGIN + column * width;
     if (column == 0 && i) sheets->y += TAG;
     if (column == 0) thr_sheets_room(sheets, TAG);
     if (sheets->st) return;
+
     thr_text_printf(thr_sheets_out(sheets),
                     "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"none\" "
                     "stroke=\"#999\" stroke-width=\"0.15\"/>\n",

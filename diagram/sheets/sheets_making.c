@@ -1,6 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How pieces are handled, in eight panels: what is needed, laying a piece, starting, slack, a row
- * that went wrong, joining, tightening, knots. Lengths, places and forces are those of the plan. */
+/* Lays out the page "Before you begin": how pieces, needle and cord are handled, in 2 x 4 panels.
+ *
+ * Each panel has a title, a small picture drawn from lines, and a text of a few lines at its foot:
+ * what is needed, laying a piece, starting, drawing the slack, undoing, joining a new length,
+ * tightening, knots. Lengths, names of places and forces come from the plan, so that every sentence
+ * is true of the framework at hand.
+ *
+ * Example: "8 Knots .. an overhand knot at each end (it takes 17 mm of this cord)", as a tight
+ * overhand knot takes THR_SUPPLIES_KNOT = 16.4 diameters of a cord, here one of 1 mm. */
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "graph/angle.h"
@@ -11,190 +18,243 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { COLUMNS = 2, ROWS = 4, LINES = 5, NAMED = 4 };  /* feet that are named */
-static const double AIR = 3, INDENT = 3;               /* mm: between panels; of what is in one */
-static const double ARM = 5, CORD = 1.4, CASING = 2.4; /* mm: widths */
-static const char *const OLD = "#d55e00", *const NEW = "#0072b2"; /* cords of the pictures */
+enum {
+  COLUMNS = 2, /* of panels on the page */
+  ROWS = 4,    /* of panels on the page */
+  LINES = 5,   /* of text that a panel reserves at its foot */
+  NAMED = 4    /* feet that the panel on joining names, at most */
+};
+static const double AIR = 3;                           /* mm between two panels */
+static const double INDENT = 3;                        /* mm from the edge of a panel to its text */
+static const double ARM = 5, CORD = 1.4, CASING = 2.4; /* mm: widths of the lines */
+static const char *const OLD = "#d55e00";              /* colour of a cord */
+static const char *const NEW = "#0072b2"; /* colour of a second cord that is tied to it */
 
-/* A panel being filled: the picture is around (x, y), which is its middle. */
+/* A panel that is being filled. Drawing functions take coordinates of the page in mm, y downwards,
+ * mostly as offsets from the middle of the panel's picture. */
 typedef struct {
   thr_sheets *sheets;
-  thr_text *out;
-  double left, top, width, height;
-  double x, y;
-} panel;
+  thr_text *out;                   /* SVG of the page */
+  double left, top, width, height; /* mm: the frame of the panel */
+  double x, y;                     /* mm: the middle of its picture */
+} instruction_panel;
 
 /* ---- what pictures are made of ---- */
 
-static void put_label(const panel *p, double x, double y, const char *words)
+/* Writes words centred at (x, y), where y is the base line. */
+static void put_label(const instruction_panel *panel, double x, double y, const char *words)
 {
-  thr_svg_text(p->out, x, y, THR_SHEET_SMALL, " text-anchor=\"middle\"", words);
+  thr_svg_text(panel->out, x, y, THR_SHEET_SMALL, " text-anchor=\"middle\"", words);
 }
 
-static void put_line(const panel *p, double x0, double y0, double x1, double y1, double width,
-                     const char *colour)
+/* Draws a straight line of a width in mm from (x0, y0) to (x1, y1). */
+static void put_line(const instruction_panel *panel, double x0, double y0, double x1, double y1,
+                     double width, const char *colour)
 {
   thr_text_printf(
-      p->out,
+      panel->out,
       "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"M%.2f %.2fL%.2f %.2f\"/>\n",
       colour, width, x0, y0, x1, y1);
 }
 
-/* A straight arrow to (x1, y1). */
-static void put_arrow(const panel *p, double x0, double y0, double x1, double y1)
+/* Draws a straight arrow from (x0, y0) to its tip at (x1, y1). The points must differ. */
+static void put_arrow(const instruction_panel *panel, double x0, double y0, double x1, double y1)
 {
+  /* (dx, dy) is the length of the head along the shaft; 0.45 of it, turned by a right angle, is
+   * half the head's width. */
   double length = hypot(x1 - x0, y1 - y0), dx = 2.2 * (x1 - x0) / length,
          dy = 2.2 * (y1 - y0) / length;
-  put_line(p, x0, y0, x1 - dx, y1 - dy, 0.5, "#222");
-  thr_text_printf(p->out, "<path fill=\"#222\" d=\"M%.2f %.2fL%.2f %.2fL%.2f %.2fz\"/>\n", x1, y1,
-                  x1 - dx - 0.45 * dy, y1 - dy + 0.45 * dx, x1 - dx + 0.45 * dy,
+
+  put_line(panel, x0, y0, x1 - dx, y1 - dy, 0.5, "#222");
+  thr_text_printf(panel->out, "<path fill=\"#222\" d=\"M%.2f %.2fL%.2f %.2fL%.2f %.2fz\"/>\n", x1,
+                  y1, x1 - dx - 0.45 * dy, y1 - dy + 0.45 * dx, x1 - dx + 0.45 * dy,
                   y1 - dy - 0.45 * dx);
 }
 
-static void put_cord(const panel *p, double x0, double y0, double x1, double y1, const char *colour)
+/* Draws a straight cord with a white casing, which separates it from what lies below. */
+static void put_cord(const instruction_panel *panel, double x0, double y0, double x1, double y1,
+                     const char *colour)
 {
-  put_line(p, x0, y0, x1, y1, CASING, "#fff");
-  put_line(p, x0, y0, x1, y1, CORD, colour);
+  put_line(panel, x0, y0, x1, y1, CASING, "#fff");
+  put_line(panel, x0, y0, x1, y1, CORD, colour);
 }
 
-static void put_stopper(const panel *p, double x, double y)
+/* Draws a stopper, an upright bar, centred at (x, y). */
+static void put_stopper(const instruction_panel *panel, double x, double y)
 {
   thr_text_printf(
-      p->out, "<rect x=\"%.2f\" y=\"%.2f\" width=\"2.4\" height=\"6\" rx=\"0.6\" fill=\"#222\"/>\n",
+      panel->out,
+      "<rect x=\"%.2f\" y=\"%.2f\" width=\"2.4\" height=\"6\" rx=\"0.6\" fill=\"#222\"/>\n",
       x - 1.2, y - 3);
 }
 
-static void put_needle(const panel *p, double x, double y, double length)
+/* Draws a needle as a slender outline from its eye at (x, y) to its tip at (x + length, y). */
+static void put_needle(const instruction_panel *panel, double x, double y, double length)
 {
-  thr_text_printf(p->out,
+  thr_text_printf(panel->out,
                   "<path fill=\"#ddd\" stroke=\"#222\" stroke-width=\"0.3\" d=\"M%.2f %.2fL%.2f "
                   "%.2fL%.2f %.2fL%.2f %.2fz\"/>\n",
                   x, y - 0.7, x + 0.8 * length, y - 0.5, x + length, y, x + 0.8 * length, y + 0.7);
 }
 
+/* Returns the colour of the inside of a piece in a state. */
 static const char *fill_of(thr_piece_state state)
 {
   return state == THR_PIECE_NEW ? "#ffe08a" : state == THR_PIECE_HELD ? "#d3ccbf" : "#fff";
 }
 
-/* A piece with its hub at (x, y) and n arms of a length by their angles, as lines with a dark edge
- * below and their colour above.
- */
-static void put_piece(const panel *p, double x, double y, int n, const double *angle, double length,
-                      thr_piece_state state)
+/* Draws a piece with its hub at (x, y) and n arms, all of one length in mm, at angles in rad
+ * (counter-clockwise from the right). Wide dark lines first and narrower coloured ones above them
+ * leave an outline around the union of the arms. */
+static void put_piece(const instruction_panel *panel, double x, double y, int n,
+                      const double *angle, double length, thr_piece_state state)
 {
   double edge = state == THR_PIECE_NEW ? 1.2 : 0.8;
   for (int above = 0; above < 2; above++) {
     double grow = above ? 0 : edge, tip = length + grow / 2;
     const char *colour = above ? fill_of(state) : state == THR_PIECE_LATER ? "#999" : "#222";
+
+    /* The page's y axis points down, hence the minus sign before the sine. */
     for (int i = 0; i < n; i++)
-      put_line(p, x, y, x + tip * cos(angle[i]), y - tip * sin(angle[i]), ARM + grow, colour);
+      put_line(panel, x, y, x + tip * cos(angle[i]), y - tip * sin(angle[i]), ARM + grow, colour);
+
+    /* Lines end square: a disc at the hub fills the notches between three and more arms. */
     if (n > 2)
-      thr_text_printf(p->out, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"%s\"/>\n", x, y,
-                      (ARM + grow) / 2, colour);
+      thr_text_printf(panel->out, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"%s\"/>\n", x,
+                      y, (ARM + grow) / 2, colour);
   }
 }
 
+/* Angles of the arms of a cross, rad. */
 static const double CROSS[4] = {0, THR_PI / 2, THR_PI, -THR_PI / 2};
 
-/* A row of n pieces like those of the plan, from (x, y) to the right: crosses, or tubes. */
-static double put_row(const panel *p, double x, double y, int n, double gap,
+/* Draws n pieces of the plan's kind from (x, y) to the right, gap mm apart: crosses of four arms
+ * with solid joints, else tubes. state[n]: how each looks. Returns x behind the last gap. */
+static double put_row(const instruction_panel *panel, double x, double y, int n, double gap,
                       const thr_piece_state *state)
 {
-  bool solid = p->sheets->pieces.solid;
+  bool solid = panel->sheets->pieces.solid;
   static const double tube[2] = {0, THR_PI};
+
   for (int i = 0; i < n; i++, x += 13 + gap)
-    put_piece(p, x + 6, y, solid ? 4 : 2, solid ? CROSS : tube, 6, state[i]);
+    put_piece(panel, x + 6, y, solid ? 4 : 2, solid ? CROSS : tube, 6, state[i]);
   return x;
 }
 
 /* ---- cords that cross ---- */
 
-enum { MOST_BITS = 400 };
+/* Most short segments in one picture. */
+enum { MOST_SEGMENTS = 400 };
 
 /* Short straight pieces of cords, painted from the lowest to the highest. */
 typedef struct {
   double from[2], to[2], height;
   const char *colour;
-} bit;
+} segment;
 
 typedef struct {
   int n;
-  bit bit[MOST_BITS];
-} strands;
+  segment segment[MOST_SEGMENTS];
+} segment_list;
 
+/* Orders segments by height, the lowest first, for qsort. */
 static int by_height(const void *a, const void *b)
 {
-  const bit *p = a, *q = b;
-  return p->height < q->height ? -1 : p->height > q->height;
+  const segment *one = a, *other = b;
+  return one->height < other->height ? -1 : one->height > other->height;
 }
 
-static void add_bit(strands *s, const double from[3], const double to[3], const char *colour)
+/* Appends a segment between two points with heights; a full list drops it. */
+static void add_segment(segment_list *segments, const double from[3], const double to[3],
+                        const char *colour)
 {
-  if (s->n < MOST_BITS)
-    s->bit[s->n++] = (bit){{from[0], from[1]}, {to[0], to[1]}, (from[2] + to[2]) / 2, colour};
+  if (segments->n < MOST_SEGMENTS)
+    segments->segment[segments->n++] =
+        (segment){{from[0], from[1]}, {to[0], to[1]}, (from[2] + to[2]) / 2, colour};
 }
 
-static void put_strands(const panel *p, strands *s)
+/* Paints all segments from the lowest to the highest, each over a casing in white. A segment that
+ * passes above another one cuts through its line, so that the picture shows which cord lies above
+ * (the painter's algorithm). */
+static void put_strands(const instruction_panel *panel, segment_list *segments)
 {
-  qsort(s->bit, (size_t)s->n, sizeof *s->bit, by_height);
-  for (int i = 0; i < s->n; i++)
+  /* Height is that of the middle of each segment. */
+  qsort(segments->segment, (size_t)segments->n, sizeof *segments->segment, by_height);
+
+  /* Each segment has a casing with square ends and a core with round ones, which closes the
+   * joints. */
+  for (int i = 0; i < segments->n; i++)
     for (int above = 0; above < 2; above++)
-      thr_text_printf(p->out,
+      thr_text_printf(panel->out,
                       "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" "
                       "stroke-linecap=\"%s\" d=\"M%.2f %.2fL%.2f %.2f\"/>\n",
-                      above ? s->bit[i].colour : "#fff", above ? CORD : CASING,
-                      above ? "round" : "butt", s->bit[i].from[0], s->bit[i].from[1],
-                      s->bit[i].to[0], s->bit[i].to[1]);
+                      above ? segments->segment[i].colour : "#fff", above ? CORD : CASING,
+                      above ? "round" : "butt", segments->segment[i].from[0],
+                      segments->segment[i].from[1], segments->segment[i].to[0],
+                      segments->segment[i].to[1]);
 }
 
-/* An overhand knot: a trefoil, opened at the lobe that points down; its ends go on to the left and
- * to the right along a line. */
-static void add_overhand(strands *s, double x, double y, double size)
+/* Appends an overhand knot in the middle at (x, y): the trefoil (sin t + 2 sin 2t, cos t - 2 cos
+ * 2t, -sin 3t), scaled by size in mm and opened at the lobe that points down. The two ends go on to
+ * the left and to the right along a line below. */
+static void add_overhand(segment_list *segments, double x, double y, double size)
 {
   enum { N = 120 };
   double before[3] = {0};
+
+  /* The closed curve would run over 2 pi; 0.35 rad are left out on both sides of the lobe. */
   for (int i = 0; i <= N; i++) {
-    double t = THR_PI + 0.35 + (2 * THR_PI - 0.7) * i / N;
-    double at[3] = {x + size * (sin(t) + 2 * sin(2 * t)), y - size * (cos(t) - 2 * cos(2 * t)),
-                    -sin(3 * t)};
-    if (i) add_bit(s, before, at, OLD);
+    double angle = THR_PI + 0.35 + (2 * THR_PI - 0.7) * i / N;
+    double at[3] = {x + size * (sin(angle) + 2 * sin(2 * angle)),
+                    y - size * (cos(angle) - 2 * cos(2 * angle)), -sin(3 * angle)};
+    if (i) add_segment(segments, before, at, OLD);
     for (int k = 0; k < 3; k++)
       before[k] = at[k];
   }
+
+  /* Both ends: from the tip of the curve down to the line, then outwards along this line. */
   double low = y + 3.3 * size;
-  for (int side = 0; side < 2; side++) { /* the end of the curve is on the left */
+  for (int side = 0; side < 2; side++) { /* the curve ends on the left, side 0 */
     double sign = side ? 1 : -1;
     const double tip[3] = {x + sign * size * 0.945, y + size * 2.47, 0},
                  bend[3] = {x + sign * size * 1.8, low, 0};
+
     const double far[3] = {x + sign * size * 8, low, 0};
-    add_bit(s, tip, bend, OLD);
-    add_bit(s, bend, far, OLD);
+    add_segment(segments, tip, bend, OLD);
+    add_segment(segments, bend, far, OLD);
   }
 }
 
-/* Two turns about a line from x on, and a short end. */
-static void add_coil(strands *s, double x, double y, double dir, const char *colour)
+/* Appends a helix of two turns about the line at height y, which begins at x and advances to the
+ * right (dir = 1) or to the left (-1), and a short end that sticks out. Drawn together with the
+ * cord along the line, this is one cord tied round the other. */
+static void add_coil(segment_list *segments, double x, double y, double dir, const char *colour)
 {
   enum { N = 60 };
   double before[3] = {0};
+
+  /* Height sin t: above the line's cord half of the time, below it the other half. */
   for (int i = 0; i <= N; i++) {
-    double t = 4 * THR_PI * i / N;
-    double at[3] = {x + dir * 0.45 * t, y - 2.4 * cos(t), sin(t)};
-    if (i) add_bit(s, before, at, colour);
+    double angle = 4 * THR_PI * i / N;
+    double at[3] = {x + dir * 0.45 * angle, y - 2.4 * cos(angle), sin(angle)};
+    if (i) add_segment(segments, before, at, colour);
     for (int k = 0; k < 3; k++)
       before[k] = at[k];
   }
+
+  /* The free end leaves the last turn upwards. */
   double end[3] = {before[0] + dir * 3, before[1] - 2.5, 1};
-  add_bit(s, before, end, colour);
+  add_segment(segments, before, end, colour);
 }
 
-static void add_straight(strands *s, double x0, double x1, double y, const char *colour)
+/* Appends a straight cord at height 0, cut into short segments so that each is painted at the right
+ * moment between the turns of a helix. */
+static void add_straight(segment_list *segments, double x0, double x1, double y, const char *colour)
 {
   enum { N = 40 };
   for (int i = 0; i < N; i++) {
     double from[3] = {x0 + (x1 - x0) * i / N, y, 0}, to[3] = {x0 + (x1 - x0) * (i + 1) / N, y, 0};
-    add_bit(s, from, to, colour);
+    add_segment(segments, from, to, colour);
   }
 }
 
@@ -202,69 +262,92 @@ static void add_straight(strands *s, double x0, double x1, double y, const char 
 
 typedef struct {
   const char *title;
-  void (*put)(panel *p, thr_text *words); /* draws, and says */
-} subject;
+  void (*put)(instruction_panel *panel,
+              thr_text *words); /* draws the picture and appends the text to words */
+} panel_subject;
 
-static double widest_bore(const thr_sheets *sheets, bool narrowest)
+/* Returns the widest bore of all edges that a cord passes, or the narrowest one, in mm rounded up;
+ * 0 where sizes are not known. */
+static double extreme_bore(const thr_sheets *sheets, bool narrowest)
 {
   double found = 0;
+
+  /* An edge without a pass has no bore. */
   for (int e = 0; e < sheets->f->n_edges; e++) {
     double bore = thr_supplies_bore(&sheets->supplies, e);
     if (bore > 0 && (found == 0 || (narrowest ? bore < found : bore > found))) found = bore;
   }
+
   return thr_supplies_bore_mm(&sheets->supplies, found);
 }
 
-static void put_need(panel *p, thr_text *words)
+/* Fills the panel "What you need": cord, needle and stopper, with the lengths to cut and the bores
+ * that needle and stopper have to fit. */
+static void put_need(instruction_panel *panel, thr_text *words)
 {
-  thr_sheets *sheets = p->sheets;
+  thr_sheets *sheets = panel->sheets;
   int n = sheets->plan->n_cords;
   double least = INFINITY, most = 0;
   char from[64], to[64];
+
+  /* Shortest and longest cord to cut; where sizes in mm are unknown, without tails and knots. */
   for (int c = 0; c < n; c++) {
     double cut = thr_supplies_cut(&sheets->supplies, c).cut;
     if (!(sheets->supplies.mm > 0)) cut = thr_supplies_cut(&sheets->supplies, c).length;
     least = fmin(least, cut);
     most = fmax(most, cut);
   }
+
   thr_svg_length(least, sheets->f->units, from);
   thr_svg_length(most, sheets->f->units, to);
-  put_cord(p, p->x - 36, p->y - 3, p->x - 8, p->y - 3, OLD);
-  put_label(p, p->x - 22, p->y + 2, "cord");
-  put_needle(p, p->x + 12, p->y - 3, 22);
-  put_label(p, p->x + 23, p->y + 2, "needle, blunt");
-  put_stopper(p, p->x + 2, p->y - 3);
-  put_label(p, p->x + 2, p->y + 5, "stopper");
+
+  /* The picture: cord, stopper and needle side by side. */
+  put_cord(panel, panel->x - 36, panel->y - 3, panel->x - 8, panel->y - 3, OLD);
+  put_label(panel, panel->x - 22, panel->y + 2, "cord");
+  put_needle(panel, panel->x + 12, panel->y - 3, 22);
+  put_label(panel, panel->x + 23, panel->y + 2, "needle, blunt");
+  put_stopper(panel, panel->x + 2, panel->y - 3);
+  put_label(panel, panel->x + 2, panel->y + 5, "stopper");
+
+  /* The text. */
   thr_text_printf(words, "%d %s; %d cord%s of %s", sheets->pieces.n,
                   thr_pieces_word(sheets->plan, sheets->pieces.n), n, n == 1 ? "" : "s", from);
   if (most > least * (1 + 1e-9)) thr_text_printf(words, " to %s", to);
   thr_text_append(words, " (cut list); a needle");
+
+  /* The needle must pass the narrowest bore, the stopper none. */
   if (sheets->supplies.mm > 0)
     thr_text_printf(
         words,
         " that with its cord goes through %.2f mm; a stopper that does not slip into %.2f mm",
-        widest_bore(sheets, true), widest_bore(sheets, false));
+        extreme_bore(sheets, true), extreme_bore(sheets, false));
   else
     thr_text_append(words, " thinner than the bores; a stopper wider than they are");
+
   thr_text_append(words, "; tape, scissors, and overview.svg to lay the pieces on.");
 }
 
-/* The first stay of a needle in a new piece that it comes into and leaves, with as many arms as can
- * be: -1 = none. */
+/* Returns the visit that explains best how a piece lies: the first one that picks up a piece,
+ * comes in and goes out, and whose piece has the most arms, but no more than four; -1 if there
+ * is none. */
 static int example(const thr_sheets *sheets)
 {
   int best = -1, arms = 0;
   for (int i = 0; i < sheets->n_visits; i++) {
     const thr_visit *visit = &sheets->visit[i];
+
+    /* Four arms at most: more would not leave room for the names around them. */
     int n = thr_pieces_arms(&sheets->pieces, visit->piece);
     if (visit->nth > 1 || visit->in < 0 || visit->out < 0 || n > 4 || n <= arms) continue;
     arms = n;
     best = i;
   }
+
   return best;
 }
 
-/* Direction in which a half-edge leaves its place in the pictures. */
+/* Returns the angle in rad at which a half-edge leaves its node in the layout that all pictures
+ * use. */
 static double direction(const thr_sheets *sheets, int half)
 {
   const thr_layout *layout = &sheets->guide.layout;
@@ -273,69 +356,94 @@ static double direction(const thr_sheets *sheets, int half)
   return atan2(to[1] - from[1], to[0] - from[0]);
 }
 
-/* The middle of the widest gap between arms: the name goes there. */
+/* Returns the angle in the middle of the widest gap between n arms, where the piece's name is
+ * written. */
 static double widest_gap(int n, const double *angle)
 {
   double best = 0, widest = 0;
+
+  /* The gap behind arm i reaches counter-clockwise to the next arm. */
   for (int i = 0; i < n; i++) {
     double gap = 2 * THR_PI;
     for (int k = 0; k < n; k++) {
       double sweep = thr_scene_sweep(angle[i], angle[k]);
       if (sweep > 0 && sweep < gap) gap = sweep;
     }
+
+    /* Of equal gaps the first one, whatever rounding does. */
     if (gap > widest + 1e-9) {
       widest = gap;
       best = angle[i] + gap / 2;
     }
   }
+
   return best;
 }
 
-/* The cord from the hub out of an arm, and what that arm faces: beside the end of a steep arm,
- * beyond that of a flat one. */
-static void put_arm(const panel *p, int half, bool out)
+/* Draws the cord from the hub along one arm and names the piece that the arm faces: "out to C5"
+ * with an arrow, "in from A5" without one. half leaves the piece. */
+static void put_arm(const instruction_panel *panel, int half, bool out)
 {
-  double a = direction(p->sheets, half), x = cos(a), y = -sin(a),
+  double angle = direction(panel->sheets, half), x = cos(angle), y = -sin(angle),
          far = fabs(y) > 0.4 ? 13 * fmin(fabs(y), 1) : 0;
   char words[THR_LABEL + 16];
-  put_cord(p, p->x, p->y, p->x + 11.5 * x, p->y + 11.5 * y, OLD);
-  if (out) put_arrow(p, p->x + 9 * x, p->y + 9 * y, p->x + 14 * x, p->y + 14 * y);
+
+  /* The cord ends 11.5 mm from the hub, well beyond the end of the arm (8 mm). */
+  put_cord(panel, panel->x, panel->y, panel->x + 11.5 * x, panel->y + 11.5 * y, OLD);
+  if (out)
+    put_arrow(panel, panel->x + 9 * x, panel->y + 9 * y, panel->x + 14 * x, panel->y + 14 * y);
+
+  /* The name stands beside the end of a steep arm, but beyond the end of a flat one. */
   snprintf(words, sizeof words, "%s %.20s", out ? "out to" : "in from",
-           p->sheets->guide.label[thr_head(p->sheets->f, half)]);
-  put_label(p, p->x + (x < -0.1 ? -1 : 1) * (fabs(24 * x) + (far > 0 ? far - 10 * fabs(x) : 0)),
-            p->y + 11 * y + 1, words);
+           panel->sheets->guide.label[thr_head(panel->sheets->f, half)]);
+  put_label(panel,
+            panel->x + (x < -0.1 ? -1 : 1) * (fabs(24 * x) + (far > 0 ? far - 10 * fabs(x) : 0)),
+            panel->y + 11 * y + 1, words);
 }
 
-static void put_example(const panel *p, const thr_visit *visit)
+/* Draws the piece of a visit as it lies in the overview, with its name in the widest gap and the
+ * cord in by one arm and out by another. The piece has at most four arms. */
+static void put_example(const instruction_panel *panel, const thr_visit *visit)
 {
-  const thr_frame *frame = p->sheets->f;
+  const thr_frame *frame = panel->sheets->f;
   int v = visit->piece, n = 0;
   double angle[4] = {0};
   for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
-    angle[n++] = direction(p->sheets, frame->half[i]);
-  put_piece(p, p->x, p->y, n, angle, 8, THR_PIECE_NEW);
-  put_arm(p, visit->in ^ 1, false);
-  put_arm(p, visit->out, true);
+    angle[n++] = direction(panel->sheets, frame->half[i]);
+
+  /* The piece itself, new, and the two arms of the visit. */
+  put_piece(panel, panel->x, panel->y, n, angle, 8, THR_PIECE_NEW);
+  put_arm(panel, visit->in ^ 1, false);
+  put_arm(panel, visit->out, true);
+
+  /* The name clears the arms, which are 8 mm long, in the middle of the widest gap. */
   double name = widest_gap(n, angle);
-  thr_svg_text(p->out, p->x + 7.5 * cos(name), p->y - 7.5 * sin(name) + 1, THR_SHEET_SMALL,
-               " text-anchor=\"middle\" font-weight=\"bold\"", p->sheets->guide.label[v]);
+  thr_svg_text(panel->out, panel->x + 7.5 * cos(name), panel->y - 7.5 * sin(name) + 1,
+               THR_SHEET_SMALL, " text-anchor=\"middle\" font-weight=\"bold\"",
+               panel->sheets->guide.label[v]);
 }
 
-static void put_lay(panel *p, thr_text *words)
+/* Fills the panel "Laying a piece": which side up, and what "in by the arm that faces" means, shown
+ * on a piece of this plan; for tubes a row of three with the cord through two. */
+static void put_lay(instruction_panel *panel, thr_text *words)
 {
-  const thr_sheets *sheets = p->sheets;
-  int i = sheets->pieces.solid ? example(sheets) : -1;
-  if (i >= 0)
-    put_example(p, &sheets->visit[i]);
+  const thr_sheets *sheets = panel->sheets;
+  int shown = sheets->pieces.solid ? example(sheets) : -1;
+
+  /* A piece of this plan if one is simple enough, else three tubes. */
+  if (shown >= 0)
+    put_example(panel, &sheets->visit[shown]);
   else {
     static const thr_piece_state state[3] = {THR_PIECE_HELD, THR_PIECE_NEW, THR_PIECE_LATER};
-    put_row(p, p->x - 20, p->y, 3, 1.5, state);
-    put_cord(p, p->x - 28, p->y, p->x + 5, p->y, OLD);
+    put_row(panel, panel->x - 20, panel->y, 3, 1.5, state);
+    put_cord(panel, panel->x - 28, panel->y, panel->x + 5, panel->y, OLD);
   }
-  if (i >= 0) {
+
+  /* The text names the same piece, for the maker to find it in the overview. */
+  if (shown >= 0) {
     thr_text_append(
         words, "Lay each piece as the overview shows it: its outer side up, its name upright. ");
-    const thr_visit *visit = &sheets->visit[i];
+    const thr_visit *visit = &sheets->visit[shown];
     thr_text_printf(words, "Here %s: in by the arm that faces %s, out by the one that faces %s.",
                     sheets->guide.label[visit->piece],
                     sheets->guide.label[thr_tail(sheets->f, visit->in)],
@@ -345,19 +453,27 @@ static void put_lay(panel *p, thr_text *words)
                            "by which of its two ends the needle goes in.");
 }
 
-static void put_start(panel *p, thr_text *words)
+/* Fills the panel "How to start": stopper, tail and needle on the first piece of the first part. */
+static void put_start(instruction_panel *panel, thr_text *words)
 {
-  const thr_sheets *sheets = p->sheets;
+  const thr_sheets *sheets = panel->sheets;
   const thr_part *part = &sheets->part[0];
   static const thr_piece_state state[1] = {THR_PIECE_NEW};
-  put_row(p, p->x - 2, p->y, 1, 0, state);
-  put_cord(p, p->x - 34, p->y, p->x + 18, p->y, OLD);
-  put_stopper(p, p->x - 5, p->y);
-  put_needle(p, p->x + 18, p->y, 18);
-  put_label(p, p->x - 5, p->y - 5, "stopper");
-  put_label(p, p->x - 24, p->y + 5, sheets->fold[part->cord] ? "other half" : "tail 150 mm");
-  put_label(p, p->x + 27, p->y + 5, "needle");
+
+  /* The picture: a piece on the cord between stopper and needle. */
+  put_row(panel, panel->x - 2, panel->y, 1, 0, state);
+  put_cord(panel, panel->x - 34, panel->y, panel->x + 18, panel->y, OLD);
+  put_stopper(panel, panel->x - 5, panel->y);
+  put_needle(panel, panel->x + 18, panel->y, 18);
+  put_label(panel, panel->x - 5, panel->y - 5, "stopper");
+  put_label(panel, panel->x - 24, panel->y + 5,
+            sheets->fold[part->cord] ? "other half" : "tail 150 mm");
+  put_label(panel, panel->x + 27, panel->y + 5, "needle");
+
+  /* The text. A cord that is threaded from its fold has no tail yet: its other half waits there. */
   thr_text_append(words, "Thread the needle, fold the end of the cord back and tape it flat. ");
+
+  /* Where the cord starts, or what to do with the fold. */
   if (sheets->fold[part->cord])
     thr_text_append(words, "A cord that is threaded from its middle has the stopper at its fold "
                            "(cut list), until the left needle's turn.");
@@ -372,37 +488,49 @@ static void put_start(panel *p, thr_text *words)
   }
 }
 
-static void put_slack(panel *p, thr_text *words)
+/* Fills the panel "Drawing the slack": hold the pieces that sit, draw, and the gap closes. */
+static void put_slack(instruction_panel *panel, thr_text *words)
 {
   static const thr_piece_state state[4] = {THR_PIECE_HELD, THR_PIECE_HELD, THR_PIECE_NEW,
                                            THR_PIECE_NEW};
-  put_row(p, p->x - 29, p->y, 2, 0.5, state);
-  put_row(p, p->x + 2, p->y, 2, 0.5, state + 2);
-  put_cord(p, p->x - 33, p->y, p->x + 36, p->y, OLD);
-  put_stopper(p, p->x - 33, p->y);
-  put_arrow(p, p->x + 30, p->y - 4, p->x + 38, p->y - 4);
-  put_label(p, p->x + 34, p->y - 6.5, "draw");
-  put_label(p, p->x - 23, p->y - 9, "hold");
-  put_label(p, p->x, p->y + 10, "this gap closes");
-  put_arrow(p, p->x - 1, p->y + 7, p->x - 1, p->y + 2);
+
+  /* The picture: two pairs of pieces with a gap between them. */
+  put_row(panel, panel->x - 29, panel->y, 2, 0.5, state);
+  put_row(panel, panel->x + 2, panel->y, 2, 0.5, state + 2);
+  put_cord(panel, panel->x - 33, panel->y, panel->x + 36, panel->y, OLD);
+  put_stopper(panel, panel->x - 33, panel->y);
+
+  /* The needle's end is drawn, the pieces on the left are held. */
+  put_arrow(panel, panel->x + 30, panel->y - 4, panel->x + 38, panel->y - 4);
+  put_label(panel, panel->x + 34, panel->y - 6.5, "draw");
+  put_label(panel, panel->x - 23, panel->y - 9, "hold");
+  put_label(panel, panel->x, panel->y + 10, "this gap closes");
+  put_arrow(panel, panel->x - 1, panel->y + 7, panel->x - 1, panel->y + 2);
+
   thr_text_append(words, "Draw the slack every few rows, and at every check: hold the last piece "
                          "that sits, draw the cord until ");
-  thr_text_append(words, p->sheets->pieces.solid ? "the faces touch" : "the tubes meet");
+  thr_text_append(words, panel->sheets->pieces.solid ? "the faces touch" : "the tubes meet");
   thr_text_append(
       words,
       ", go on to the next one, from the stopper to the needle. Never a long way in one pull.");
 }
 
-static void put_wrong(panel *p, thr_text *words)
+/* Fills the panel "When a row went wrong": the cord is drawn back to the last check that held. */
+static void put_wrong(instruction_panel *panel, thr_text *words)
 {
   static const thr_piece_state state[4] = {THR_PIECE_HELD, THR_PIECE_HELD, THR_PIECE_LATER,
                                            THR_PIECE_LATER};
-  put_row(p, p->x - 29, p->y, 4, 0.5, state);
-  put_cord(p, p->x - 33, p->y, p->x - 1.5, p->y, OLD);
-  put_line(p, p->x - 2, p->y - 8, p->x - 2, p->y + 8, 0.8, "#009e73");
-  put_label(p, p->x - 2, p->y - 9.5, "last check");
-  put_arrow(p, p->x + 28, p->y - 8, p->x + 12, p->y - 8);
-  put_label(p, p->x + 20, p->y - 10, "back, one by one");
+
+  /* The picture: two pieces up to the check, two more from which the cord was drawn. */
+  put_row(panel, panel->x - 29, panel->y, 4, 0.5, state);
+  put_cord(panel, panel->x - 33, panel->y, panel->x - 1.5, panel->y, OLD);
+  put_line(panel, panel->x - 2, panel->y - 8, panel->x - 2, panel->y + 8, 0.8, "#009e73");
+  put_label(panel, panel->x - 2, panel->y - 9.5, "last check");
+
+  /* The cord goes back the way it came. */
+  put_arrow(panel, panel->x + 28, panel->y - 8, panel->x + 12, panel->y - 8);
+  put_label(panel, panel->x + 20, panel->y - 10, "back, one by one");
+
   thr_text_append(words,
                   "A row went wrong: take the needle off the cord. Draw the bare cord back by "
                   "hand, piece by piece, as "
@@ -410,42 +538,59 @@ static void put_wrong(panel *p, thr_text *words)
                   "Lay the pieces back in their places, untick the rows, begin again from there.");
 }
 
-static void put_join(panel *p, thr_text *words)
+/* Fills the panel "Joining a new length": a fisherman's knot, each end wound round the other cord.
+ * A knot between two faces keeps them apart, and one in a tube stops the cord, so the text names
+ * the feet. */
+static void put_join(instruction_panel *panel, thr_text *words)
 {
-  const thr_frame *frame = p->sheets->f;
-  strands s = {0};
+  const thr_frame *frame = panel->sheets->f;
+  segment_list segments = {0};
   int feet = 0;
-  add_straight(&s, p->x - 36, p->x + 6, p->y + 1, OLD);
-  add_straight(&s, p->x - 6, p->x + 36, p->y - 1, NEW);
-  add_coil(&s, p->x + 6, p->y, 1, OLD);
-  add_coil(&s, p->x - 6, p->y, -1, NEW);
-  put_strands(p, &s);
-  put_label(p, p->x - 29, p->y + 6, "old cord");
-  put_label(p, p->x + 29, p->y + 6, "new length");
-  put_arrow(p, p->x - 12, p->y + 7, p->x - 4, p->y + 7);
-  put_arrow(p, p->x + 12, p->y + 7, p->x + 4, p->y + 7);
+
+  /* Old cord from the left, new length from the right; they overlap in the middle, where each is
+   * wound round the other. */
+  add_straight(&segments, panel->x - 36, panel->x + 6, panel->y + 1, OLD);
+  add_straight(&segments, panel->x - 6, panel->x + 36, panel->y - 1, NEW);
+  add_coil(&segments, panel->x + 6, panel->y, 1, OLD);
+  add_coil(&segments, panel->x - 6, panel->y, -1, NEW);
+  put_strands(panel, &segments);
+
+  /* Which cord is which, and how both knots are drawn together. */
+  put_label(panel, panel->x - 29, panel->y + 6, "old cord");
+  put_label(panel, panel->x + 29, panel->y + 6, "new length");
+  put_arrow(panel, panel->x - 12, panel->y + 7, panel->x - 4, panel->y + 7);
+  put_arrow(panel, panel->x + 12, panel->y + 7, panel->x + 4, panel->y + 7);
+
   thr_text_append(
       words,
       "To join a new length, tie each end round the other cord and draw both knots together. ");
-  thr_text_append(words, p->sheets->pieces.solid ? "Join only at a foot or where a hub is open"
-                                                 : "Join only at a foot or where tubes leave room");
+  thr_text_append(words, panel->sheets->pieces.solid
+                             ? "Join only at a foot or where a hub is open"
+                             : "Join only at a foot or where tubes leave room");
+
+  /* The first few feet by name, or that there is none. */
   for (int v = 0; v < frame->n_nodes; v++)
     if (frame->foot[v] && feet++ < NAMED)
-      thr_text_printf(words, "%s%s", feet > 1 ? ", " : " (feet: ", p->sheets->guide.label[v]);
+      thr_text_printf(words, "%s%s", feet > 1 ? ", " : " (feet: ", panel->sheets->guide.label[v]);
+
   thr_text_append(words, feet > NAMED ? ", ..)" : feet ? ")" : "; this frame has no foot");
-  thr_text_append(words, p->sheets->pieces.solid ? ": a knot between two faces keeps them apart."
-                                                 : ": a knot in a tube stops the cord.");
+  thr_text_append(words, panel->sheets->pieces.solid
+                             ? ": a knot between two faces keeps them apart."
+                             : ": a knot in a tube stops the cord.");
 }
 
-static void put_pull(const panel *p, double side, const char *place)
+/* Draws an arrow outwards at one end of the row (side = -1: left, 1: right) and names the place. */
+static void put_pull(const instruction_panel *panel, double side, const char *place)
 {
   char words[THR_LABEL + 16];
-  put_arrow(p, p->x + side * 30, p->y - 4.5, p->x + side * 38, p->y - 4.5);
+
+  put_arrow(panel, panel->x + side * 30, panel->y - 4.5, panel->x + side * 38, panel->y - 4.5);
   snprintf(words, sizeof words, "at %.12s", place);
-  put_label(p, p->x + side * 33, p->y + 5, words);
+  put_label(panel, panel->x + side * 33, panel->y + 5, words);
 }
 
-/* The grips of cord c in the schedule, the first few by their places; all stand in steps.txt. */
+/* Appends how cord c is tightened by the plan's schedule: the largest pull and the first few grips
+ * by their places; steps.txt lists all of them. */
 static void put_schedule(const thr_sheets *sheets, int c, thr_text *words)
 {
   enum { FEW = 4 };
@@ -454,8 +599,12 @@ static void put_schedule(const thr_sheets *sheets, int c, thr_text *words)
   const int grips = thr_schedule_grips(schedule, c);
   char force[32];
   int n = 0;
+
+  /* The hardest pull comes first: a maker sees whether a hand can do it. */
   thr_svg_force(thr_schedule_hardest(schedule, c), force);
   thr_text_printf(words, "No pull above %s. ", force);
+
+  /* Only grips of this cord; draws and other cords' steps are left out. */
   for (int k = 0; k < schedule->n && n < FEW; k++) {
     const thr_schedule_step *step = &schedule->step[k];
     if (step->cord != c || step->deed != THR_DEED_GRIP) continue;
@@ -464,39 +613,52 @@ static void put_schedule(const thr_sheets *sheets, int c, thr_text *words)
                     sheets->guide.label[thr_tail(sheets->f, half)],
                     sheets->guide.label[thr_head(sheets->f, half)], step->pass + 1);
   }
+
+  /* What the list leaves out, and what to do between two grips. */
   if (grips > n) thr_text_printf(words, " and at %d more places (steps.txt)", grips - n);
   thr_text_append(words, grips ? ", last pull its end: each time draw the slack of the part "
                                  "before, and hold until the next grip has taken it."
                                : "Pull as steps.txt says.");
 }
 
-/* Which cord is first, where it is held and where it is drawn: of an evaluated plan the slack
- * starts where it is slackest. */
-static void put_tighten(panel *p, thr_text *words)
+/* Fills the panel "Tightening" for the cord that is tightened first: where it is gripped, towards
+ * which ends it is drawn, how hard. Of an evaluated plan with a schedule the schedule says so; of
+ * one without a schedule the slack starts at its slackest pass; else in the middle. */
+static void put_tighten(instruction_panel *panel, thr_text *words)
 {
-  const thr_sheets *sheets = p->sheets;
+  const thr_sheets *sheets = panel->sheets;
   int c = thr_sheets_hardest(sheets);
   const thr_cord *cord = &sheets->plan->cord[c];
   const thr_evaluation *evaluation = &sheets->plan->evaluation;
   const char *start = sheets->guide.label[thr_cord_start(sheets->f, cord)],
              *end = sheets->guide.label[thr_cord_end(sheets->f, cord)];
+
   static const thr_piece_state state[4] = {THR_PIECE_HELD, THR_PIECE_HELD, THR_PIECE_HELD,
                                            THR_PIECE_HELD};
-  put_row(p, p->x - 27, p->y, 4, 0.5, state);
-  put_cord(p, p->x - 36, p->y, p->x + 36, p->y, OLD);
+
+  /* The picture: a row of pieces on the cord, to which the cases below add arrows. */
+  put_row(panel, panel->x - 27, panel->y, 4, 0.5, state);
+  put_cord(panel, panel->x - 36, panel->y, panel->x + 36, panel->y, OLD);
+
   thr_text_printf(words, "%sord %s%s. ",
                   sheets->plan->n_cords > 1 ? "The order is on the page \"Last\": first c" : "C",
                   cord->id, sheets->plan->n_cords > 1 ? "" : " is tightened when all is threaded");
+
   bool from_start = true, from_end = true,
        known = evaluation->present && evaluation->cord[c].known &&
                evaluation->cord[c].pull != THR_PULL_NONE;
+
+  /* A schedule replaces everything below. */
   if (known && evaluation->schedule.n > 0) {
     put_schedule(sheets, c, words);
-    put_label(p, p->x, p->y + 10, "first grip");
-    put_arrow(p, p->x - 1, p->y + 7.5, p->x - 1, p->y + 3.5);
-    put_pull(p, 1, end);
+    put_label(panel, panel->x, panel->y + 10, "first grip");
+    put_arrow(panel, panel->x - 1, panel->y + 7.5, panel->x - 1, panel->y + 3.5);
+    put_pull(panel, 1, end);
     return;
   }
+
+  /* Without a schedule the cord is drawn from its slackest pass towards the ends that were
+   * evaluated. */
   if (known) {
     int pull = evaluation->cord[c].pull, half = cord->half[evaluation->cord[c].slackest];
     from_start = pull != THR_PULL_END;
@@ -507,16 +669,20 @@ static void put_tighten(panel *p, thr_text *words)
                     evaluation->cord[c].slackest + 1,
                     sheets->guide.label[thr_tail(sheets->f, half)],
                     sheets->guide.label[thr_head(sheets->f, half)]);
-    put_label(p, p->x, p->y + 10, "first grip");
-    put_arrow(p, p->x - 1, p->y + 7.5, p->x - 1, p->y + 3.5);
+    put_label(panel, panel->x, panel->y + 10, "first grip");
+    put_arrow(panel, panel->x - 1, panel->y + 7.5, panel->x - 1, panel->y + 3.5);
   } else
     thr_text_append(words, "Draw the slack from its middle pass, grip by grip, to ");
+
+  /* Towards which places the cord is drawn; a closed cord has both ends at one. */
   if (from_start && from_end && cord->closed)
     thr_text_printf(words, "both ends, at %s", start);
   else if (from_start && from_end)
     thr_text_printf(words, "both ends, at %s and %s", start, end);
   else
     thr_text_printf(words, "its %s, at %s", from_start ? "start" : "end", from_start ? start : end);
+
+  /* How hard: the larger pull of both ends. */
   if (known) {
     char force[32];
     double pull = fmax(evaluation->cord[c].force, evaluation->cord[c].other_force);
@@ -524,24 +690,34 @@ static void put_tighten(panel *p, thr_text *words)
     thr_text_printf(words, ", with %s at most", force);
     thr_sheets_too_hard(pull, words);
   }
+
   thr_text_append(words, ". Then once more.");
-  if (from_start) put_pull(p, -1, start);
-  if (from_end) put_pull(p, 1, end);
+
+  /* An arrow at each end that is drawn. */
+  if (from_start) put_pull(panel, -1, start);
+  if (from_end) put_pull(panel, 1, end);
 }
 
-static void put_knot(panel *p, thr_text *words)
+/* Fills the panel "Knots": an overhand knot with its tail, up against the last piece. */
+static void put_knot(instruction_panel *panel, thr_text *words)
 {
-  strands s = {0};
+  segment_list segments = {0};
   static const thr_piece_state state[1] = {THR_PIECE_HELD};
-  put_row(p, p->x - 32, p->y + 4, 1, 0, state);
-  add_overhand(&s, p->x, p->y - 4.58, 2.6);
-  put_strands(p, &s);
-  put_label(p, p->x + 14, p->y + 9, "tail");
-  put_arrow(p, p->x - 4, p->y + 8, p->x - 14, p->y + 8);
+
+  /* The picture: a piece, and the knot on the cord that comes out of it. */
+  put_row(panel, panel->x - 32, panel->y + 4, 1, 0, state);
+  add_overhand(&segments, panel->x, panel->y - 4.58, 2.6);
+  put_strands(panel, &segments);
+  put_label(panel, panel->x + 14, panel->y + 9, "tail");
+  put_arrow(panel, panel->x - 4, panel->y + 8, panel->x - 14, panel->y + 8);
+
   thr_text_append(words, "When all cords are tight, an overhand knot at each end");
-  if (p->sheets->supplies.mm > 0)
+
+  /* How much cord it takes, if the cord's diameter is known. */
+  if (panel->sheets->supplies.mm > 0)
     thr_text_printf(words, " (it takes %.0f mm of this cord)",
-                    ceil(THR_SUPPLIES_KNOT * p->sheets->supplies.cord));
+                    ceil(THR_SUPPLIES_KNOT * panel->sheets->supplies.cord));
+
   thr_text_append(words,
                   ", drawn up to its piece with the needle's tip in the loop. Two ends that come "
                   "out at one place may be tied together. "
@@ -550,45 +726,62 @@ static void put_knot(panel *p, thr_text *words)
 
 /* ---- the page ---- */
 
-static void put_panel(thr_sheets *sheets, int number, const subject *about, double height)
+/* Draws a panel: frame, title, picture and text. number: from 0, row by row; height in mm. */
+static void put_panel(thr_sheets *sheets, int number, const panel_subject *about, double height)
 {
   double width = (thr_sheets_width(sheets) - AIR) / COLUMNS;
-  panel p = {.sheets = sheets, .out = thr_sheets_out(sheets), .width = width, .height = height};
-  p.left = THR_SHEET_MARGIN + number % COLUMNS * (width + AIR);
-  p.top = sheets->y + number / COLUMNS * (height + AIR);
+  instruction_panel panel = {
+      .sheets = sheets, .out = thr_sheets_out(sheets), .width = width, .height = height};
+
+  /* Panels fill the page row by row. */
+  panel.left = THR_SHEET_MARGIN + number % COLUMNS * (width + AIR);
+  panel.top = sheets->y + number / COLUMNS * (height + AIR);
+
+  /* The picture's middle is halfway between title and text. */
   double words_height = LINES * 1.45 * THR_SHEET_SMALL, head = 7;
-  p.x = p.left + width / 2;
-  p.y = p.top + head + (height - head - words_height) / 2;
+  panel.x = panel.left + width / 2;
+  panel.y = panel.top + head + (height - head - words_height) / 2;
+
   char title[96];
   thr_text words = {0};
-  thr_text_printf(p.out,
+
+  /* The frame and the numbered title. */
+  thr_text_printf(panel.out,
                   "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" rx=\"2\" "
                   "fill=\"#fcfcf9\" stroke=\"#bbb\" "
                   "stroke-width=\"0.3\"/>\n",
-                  p.left, p.top, width, height);
+                  panel.left, panel.top, width, height);
+
   snprintf(title, sizeof title, "%d  %s", number + 1, about->title);
-  thr_svg_text(p.out, p.left + INDENT, p.top + 5.2, 3.4, " font-weight=\"bold\"", title);
-  about->put(&p, &words);
+  thr_svg_text(panel.out, panel.left + INDENT, panel.top + 5.2, 3.4, " font-weight=\"bold\"",
+               title);
+
+  /* The picture is drawn at once; the text comes back and is set from the panel's foot upwards. */
+  about->put(&panel, &words);
   if (words.failed)
     thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
   else {
     double size = THR_SHEET_SMALL, room = width - 2 * INDENT;
     int lines = thr_sheets_lines(words.data, room, size);
-    thr_sheets_text(sheets, p.left + INDENT, p.top + height - 2 - (lines - 1) * 1.45 * size, size,
-                    room, "", words.data);
+    thr_sheets_text(sheets, panel.left + INDENT, panel.top + height - 2 - (lines - 1) * 1.45 * size,
+                    size, room, "", words.data);
   }
   thr_text_destroy(&words);
 }
 
 void thr_sheets_making(thr_sheets *sheets)
 {
-  static const subject subjects[COLUMNS * ROWS] = {
+  /* In reading order, row by row. */
+  static const panel_subject subjects[COLUMNS * ROWS] = {
       {"What you need", put_need},          {"Laying a piece", put_lay},
       {"How to start", put_start},          {"Drawing the slack", put_slack},
       {"When a row went wrong", put_wrong}, {"Joining a new length", put_join},
       {"Tightening", put_tighten},          {"Knots", put_knot}};
+
   thr_sheets_page(sheets, "Before you begin", "Before you begin (continued)");
   if (sheets->st) return;
+
+  /* All panels are equally high, and together as high as the page. */
   double height = (thr_sheets_bottom(sheets) - sheets->y - (ROWS - 1) * AIR) / ROWS;
   for (int i = 0; i < COLUMNS * ROWS && !sheets->st; i++)
     put_panel(sheets, i, &subjects[i], height);

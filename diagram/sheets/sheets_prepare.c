@@ -1,5 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What to prepare: cords to cut, pieces to make, feet; and how the sheets are read. */
+/* Lays out the pages "Prepare first": how the steps are read, the cords to cut, the feet, the
+ * pieces to make.
+ *
+ * The cut list has a row per cord, the table of pieces a row per kind. Kinds that a framework has
+ * only once, as on a free form, would fill pages with rows that no step refers to: these are
+ * counted together by letter, cords and bore.
+ *
+ * Example: 40 kinds X-1 .. X-40 of one piece each, 2 cords in a bore of 3.2 mm, become the row "X
+ * 40 pieces  4 arms  2 cords  3.20 mm". */
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 
@@ -10,7 +18,8 @@
 
 /* ---- cords ---- */
 
-/* A length to a tenth of a mm, without its unit. */
+/* Writes a length in units without naming the unit: to a tenth of a mm where the size of a unit is
+ * known (1000 mm a unit: 4 decimals), else with five digits. */
 static void put_length(const thr_sheets *sheets, double length, char cell[96])
 {
   if (sheets->supplies.mm > 0)
@@ -19,23 +28,30 @@ static void put_length(const thr_sheets *sheets, double length, char cell[96])
     snprintf(cell, 96, "%.5g", length);
 }
 
-/* Is a cord threaded from its fold? */
+/* Returns whether any cord is threaded from its fold with two needles, which makes two parts of
+ * it. */
 static bool some_folded(const thr_sheets *sheets)
 {
   return sheets->n_parts > sheets->plan->n_cords;
 }
 
-static void put_cord(thr_sheets *sheets, int c, const double *x)
+/* Writes the row of cord c in the cut list; column: the columns' places (thr_sheets_cells). */
+static void put_cord(thr_sheets *sheets, int c, const double *column)
 {
   const thr_cord *cord = &sheets->plan->cord[c];
   char cell[9][96] = {""};
   thr_cut_length cut = thr_supplies_cut(&sheets->supplies, c);
   double fold = cut.tails / 2 + cut.knots / 2;
+
+  /* The fold lies between two passes: count tail, knot and all passes before. */
   for (int k = 0; k < sheets->fold[c]; k++)
     fold += sheets->f->length[cord->half[k] >> 1];
+
   thr_sheets_cord_words(sheets, c, cell[0]);
   snprintf(cell[1], 96, "%d", cord->n_passes);
   put_length(sheets, cut.length, cell[2]);
+
+  /* Allowances are in mm of cord and bore: without a size they stay open. */
   for (int i = 3; i < 7; i++)
     snprintf(cell[i], 96, "-");
   if (sheets->supplies.mm > 0) {
@@ -44,27 +60,39 @@ static void put_cord(thr_sheets *sheets, int c, const double *x)
     put_length(sheets, cut.turns, cell[5]);
     put_length(sheets, cut.cut, cell[6]);
   }
+
+  /* Only cords that are threaded from their middle have a fold to mark. */
   if (sheets->fold[c]) put_length(sheets, fold, cell[7]);
   snprintf(cell[8], 96, "%.30s - %.30s", sheets->guide.label[thr_cord_start(sheets->f, cord)],
            sheets->guide.label[thr_cord_end(sheets->f, cord)]);
-  thr_sheets_cells(sheets, 9, x, cell, false);
+
+  thr_sheets_cells(sheets, 9, column, cell, false);
 }
 
+/* Writes the cut list: a heading with the cord's thickness, a row per cord, and what "cut" adds
+ * up. */
 static void put_cords(thr_sheets *sheets)
 {
-  static const double x[9] = {0, -58, -75, -90, -104, -118, -134, -150, 153};
+  static const double column[9] = {0, -58, -75, -90, -104, -118, -134, -150, 153};
   char head[9][96] = {"cord",  "passes", "length", "tails",    "knots",
                       "turns", "cut",    "",       "from - to"},
        line[320], cord[32] = "";
+
   if (sheets->supplies.mm > 0)
     snprintf(cord, sizeof cord, ", %.3g mm thick", sheets->supplies.cord);
   snprintf(line, sizeof line, "Cut these cords (lengths in %s%s)", sheets->f->units, cord);
   thr_sheets_title(sheets, line);
+
+  /* The column stays empty where no cord has a fold. */
   if (some_folded(sheets)) snprintf(head[7], 96, "fold at");
-  thr_sheets_cells(sheets, 9, x, head, true);
+  thr_sheets_cells(sheets, 9, column, head, true);
+
+  /* In the order of the plan. */
   for (int c = 0; c < sheets->plan->n_cords; c++)
-    put_cord(sheets, c, x);
+    put_cord(sheets, c, column);
   sheets->y += 1;
+
+  /* How the cut length comes about, or what is missing in it. */
   if (sheets->supplies.mm > 0)
     snprintf(line, sizeof line,
              "Cut = length through the middles of the pieces + a tail of %.0f mm to hold at each "
@@ -77,6 +105,7 @@ static void put_cords(thr_sheets *sheets)
   else
     snprintf(line, sizeof line,
              "The size of cord and pieces is not known: add tails, knots and what turns take.");
+
   thr_sheets_paragraph(sheets, 0, line);
   thr_sheets_lengths(sheets);
 }
@@ -85,7 +114,7 @@ static void put_cords(thr_sheets *sheets)
 
 enum { CELLS = 5 };
 
-/* How much cord a bore has to take, in diameters of it and, if known, in mm. */
+/* Writes the width of a bore given in cord diameters: in mm if sizes are known. */
 static void put_bore(const thr_sheets *sheets, double cords, char cell[96])
 {
   if (sheets->supplies.mm > 0)
@@ -94,33 +123,42 @@ static void put_bore(const thr_sheets *sheets, double cords, char cell[96])
     snprintf(cell, 96, "%.2f cords", cords);
 }
 
-/* Most cords in an arm of a piece. */
+/* Returns the most cords in one arm of a piece, or in a tube. */
 static int most_cords(const thr_sheets *sheets, int piece)
 {
   int most = 0;
   if (!sheets->pieces.solid) return sheets->supplies.passes[piece];
+
+  /* An arm of a solid piece is half an edge: as many cords as the edge has passes. */
   for (int i = sheets->f->first[piece]; i < sheets->f->first[piece + 1]; i++) {
     int n = sheets->supplies.passes[sheets->f->half[i] >> 1];
     most = n > most ? n : most;
   }
+
   return most;
 }
 
-/* A row of the table: a kind, or so many that have one piece each, of one shape, with as many cords
- * and as wide a bore. */
+/* A row of the table of kinds: one kind; or several kinds of a single piece each that agree in
+ * letter, cords and bore, counted together. */
 typedef struct {
-  char name[24];
-  int model, pieces, cords;
-  double bore; /* the widest that one of its pieces needs */
+  char name[24]; /* "X-10", or "X" of several kinds */
+  int model;     /* a piece of the kind */
+  int pieces;    /* how many pieces to make */
+  int cords;     /* the most in one arm of a piece, or in a tube */
+  double bore;   /* the widest that a piece needs, in cord diameters */
 } kind_row;
 
-/* More kinds of one piece each are counted together: no step calls them by their numbers. */
+/* More kinds of a single piece than this are counted together: no step calls them by their
+ * numbers. */
 enum { MOST_SINGLE = 12 };
 
+/* Fills the five cells of a row of the table of kinds. */
 static void put_kind(const thr_sheets *sheets, const kind_row *kind, char (*row)[96])
 {
   snprintf(row[0], 96, "%s", kind->name);
   snprintf(row[1], 96, "%d", kind->pieces);
+
+  /* The number of arms describes a solid piece, the length a tube. */
   if (sheets->pieces.solid)
     snprintf(row[2], 96, "%d", thr_pieces_arms(&sheets->pieces, kind->model));
   else
@@ -129,55 +167,69 @@ static void put_kind(const thr_sheets *sheets, const kind_row *kind, char (*row)
   put_bore(sheets, kind->bore, row[4]);
 }
 
-/* Rows in two columns, from left to right, then down. */
+/* Writes n rows of the table of kinds, two beside each other on a line. */
 static void put_kinds(thr_sheets *sheets, const kind_row *row, int n)
 {
-  static const double x[2 * CELLS] = {-14, -28, -48, -64, -86, -109, -123, -143, -159, -181};
+  static const double column[2 * CELLS] = {-14, -28, -48, -64, -86, -109, -123, -143, -159, -181};
   char cell[2 * CELLS][96];
   const char *const head[CELLS] = {"kind", "pieces", sheets->pieces.solid ? "arms" : "length",
                                    "cords", "bore"};
   int filled = 0;
+
+  /* The heading, over both halves of the table if both are used. */
   for (int i = 0; i < 2 * CELLS; i++)
     snprintf(cell[i], 96, "%s", head[i % CELLS]);
-  thr_sheets_cells(sheets, n > 1 ? 2 * CELLS : CELLS, x, cell, true);
+  thr_sheets_cells(sheets, n > 1 ? 2 * CELLS : CELLS, column, cell, true);
+
+  /* A line is written when both halves are filled, or at the end. */
   for (int k = 0; k < n; k++) {
     put_kind(sheets, &row[k], cell + filled);
     filled = (filled + CELLS) % (2 * CELLS);
-    if (!filled || k == n - 1) thr_sheets_cells(sheets, filled ? CELLS : 2 * CELLS, x, cell, false);
+    if (!filled || k == n - 1)
+      thr_sheets_cells(sheets, filled ? CELLS : 2 * CELLS, column, cell, false);
   }
 }
 
-/* Of each kind k, from 1, the most cords and the widest bore: row[k - 1]. Returns how many have one
- * piece only. */
+/* Fills row[k - 1] for every kind k = 1, 2, ..: its pieces, and the most cords and the widest bore
+ * that one of them needs, so that all pieces of a kind can be made alike. Returns how many kinds
+ * have a single piece. */
 static int find_kinds(const thr_sheets *sheets, kind_row *row)
 {
   const thr_pieces *pieces = &sheets->pieces;
   int single = 0;
+
+  /* What a kind is by itself. */
   for (int k = 0; k < pieces->n_kinds; k++) {
     thr_pieces_kind_name(pieces, k + 1, row[k].name);
     row[k].model = pieces->model[k + 1];
     row[k].pieces = pieces->members[k + 1];
     single += row[k].pieces == 1;
   }
+
+  /* What its pieces need: the maximum over all of them. */
   for (int i = 0; i < pieces->n; i++) {
     kind_row *kind = &row[pieces->kind[i] - 1];
     int cords = most_cords(sheets, i);
     double bore = pieces->solid ? thr_supplies_node_bore(&sheets->supplies, i)
                                 : thr_supplies_bore(&sheets->supplies, i);
+
     kind->cords = cords > kind->cords ? cords : kind->cords;
     kind->bore = fmax(kind->bore, bore);
   }
+
   return single;
 }
 
-/* Kinds of one piece each become one row where only their numbers differ. Returns how many rows are
- * left of n. */
+/* Merges the rows of kinds that have a single piece where letter, cords and bore agree. Returns how
+ * many rows are left of n; they stay in order. */
 static int count_together(kind_row *row, int n)
 {
   int left = 0;
   for (int k = 0; k < n; k++) {
     kind_row kind = row[k];
     int same = left;
+
+    /* Without its number, "X-10" becomes "X"; look for a row that it can be added to. */
     if (kind.pieces == 1) {
       kind.name[strcspn(kind.name, "-")] = '\0';
       for (same = 0; same < left; same++)
@@ -185,14 +237,18 @@ static int count_together(kind_row *row, int n)
             fabs(row[same].bore - kind.bore) < 1e-9)
           break;
     }
+
+    /* No such row: this one stays. Larger kinds always do. */
     if (same == left)
       row[left++] = kind;
     else
       row[same].pieces++;
   }
+
   return left;
 }
 
+/* Writes the table of the pieces to make, kind by kind. */
 static void put_pieces(thr_sheets *sheets)
 {
   const thr_pieces *pieces = &sheets->pieces;
@@ -202,30 +258,42 @@ static void put_pieces(thr_sheets *sheets)
     thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
     return;
   }
+
+  /* Tubes have no letter by which they could be counted. */
   bool together = find_kinds(sheets, row) > MOST_SINGLE && pieces->solid;
+
+  /* The heading counts pieces and kinds, before any are merged. */
   int n = snprintf(line, sizeof line, "%d %s in %d kind%s by shape", pieces->n,
                    thr_pieces_word(sheets->plan, pieces->n), pieces->n_kinds,
                    pieces->n_kinds == 1 ? "" : "s");
   if (!pieces->solid)
     snprintf(line + n, sizeof line - (size_t)n, " (lengths in %s)", sheets->f->units);
   thr_sheets_title(sheets, line);
+
+  /* Merging happens in place, so the number of rows comes from the call. */
   put_kinds(sheets, row, together ? count_together(row, pieces->n_kinds) : pieces->n_kinds);
   if (together)
     thr_sheets_paragraph(sheets, 0,
                          "Letters without a number: so many pieces, each one of a kind.");
+
   free(row);
 }
 
+/* Writes the places of all feet in a line, or "None.". */
 static void put_feet(thr_sheets *sheets)
 {
   thr_text words = {0};
   int n = 0;
+
+  /* Two blanks between names. */
   for (int v = 0; v < sheets->f->n_nodes; v++) {
     if (!sheets->f->foot[v]) continue;
     if (n++) thr_text_append(&words, "  ");
     thr_text_append(&words, sheets->guide.label[v]);
   }
   thr_text_append(&words, n ? "." : "None.");
+
+  /* The heading comes only with a text below. */
   if (words.failed)
     thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
   else {
@@ -237,9 +305,13 @@ static void put_feet(thr_sheets *sheets)
 
 /* ---- how to read ---- */
 
+/* Explains the rows of steps, the names of pieces, the looks in pictures and, if any cord has a
+ * fold, the order of the two needles. Solid joints and tubes are read in different ways. */
 static void put_reading(thr_sheets *sheets)
 {
   thr_sheets_title(sheets, "How to read the steps");
+
+  /* What a row says. */
   thr_sheets_paragraph(sheets, 0,
                        sheets->pieces.solid
                            ? "Each row is a piece that the needle comes to. Pick up: a new piece "
@@ -254,17 +326,23 @@ static void put_reading(thr_sheets *sheets)
                              "already, and the needle goes the way that the cord in it went last; "
                              "back through: against that way. The "
                              "number of a row is that in the picture.");
+
+  /* What a name says. */
   thr_sheets_paragraph(sheets, 0,
                        "A piece has its kind in the box, by letter and number, and its place in "
                        "the whole: X-10 (B5) is one of kind X-10 "
                        "that comes to B5. Put its place on it when it goes on the cord: later rows "
                        "call it by that.");
+
+  /* What a picture says. */
   thr_sheets_paragraph(sheets, 0,
                        "In the pictures pieces to pick up have a bold outline, those that are on a "
                        "cord are grey, those that wait are "
                        "dashed. Grey lines are earlier passes, coloured ones those of the step. "
                        "The small picture shows where they are. "
                        "S: a cord starts. E: it ends.");
+
+  /* Two needles, if any cord needs them. */
   if (some_folded(sheets))
     thr_sheets_paragraph(sheets, 0,
                          "Cords that have a fold in the cut list are threaded from there with a "

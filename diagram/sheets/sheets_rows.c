@@ -1,5 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is written on the page of a step: heading, rows to tick off, where the needle comes out. */
+/* Writes what a step says: its heading with number, cord, passes and tally; a row to tick off for
+ * every visit; what to do before the first row; and a check of where the needle is after the last.
+ *
+ * Rows stand in two columns of nearly equal height. Texts are made before the step is placed, since
+ * their height decides which steps share a page (sheets_steps.c).
+ *
+ * Example of a row: "[ ] 17  pick up X-10 (B5): in from A5, out to C5". */
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 
@@ -9,15 +15,17 @@
 
 static const double NUMBER = 9;   /* mm: the number of a step */
 static const double LOCATOR = 44; /* mm: width of the small picture in the corner */
-static const double BOX = 5,
-                    COUNT = 8;   /* mm: a box to tick, and white behind it; the number of a row */
-static const double AFTER = 0.7; /* mm after a row */
+static const double BOX = 5;      /* mm from the left edge of a box to tick to the number */
+static const double COUNT = 8;    /* mm for the number of a row, with the blank behind it */
+static const double AFTER = 0.7;  /* mm after a row */
 
+/* Returns the width of one of the two columns of rows, mm. */
 static double column_width(const thr_sheets *sheets)
 {
   return 0.5 * (thr_sheets_width(sheets) - 4);
 }
 
+/* Returns the distance between two lines of a row, mm. */
 static double line_height(void)
 {
   return 1.45 * THR_SHEET_SMALL;
@@ -25,18 +33,23 @@ static double line_height(void)
 
 /* ---- what is said beside the rows ---- */
 
-/* Where the needle is before a visit. */
+/* Returns the node at which the needle is before a visit. */
 static int place_before(const thr_sheets *sheets, int i)
 {
   const thr_visit *visit = &sheets->visit[i];
   return visit->number ? thr_tail(sheets->f, visit->in) : visit->piece;
 }
 
-/* What is done before the first visit of a needle; empty in other steps. */
+/* Appends what is done before the first visit of a needle: where the tail is left, or where the
+ * fold lies. Appends nothing in other steps. */
 static void put_beginning(const thr_sheets *sheets, int i, thr_text *text)
 {
   thr_needle needle = sheets->move[i].needle;
+
+  /* Only the first step of a needle has a beginning. */
   if (!thr_step_begins(sheets, i)) return;
+
+  /* Threaded from its end: a tail stays there, to be pulled and knotted. */
   if (needle == THR_NEEDLE_ONLY) {
     thr_text_append(text, "Begin at ");
     thr_guide_place(&sheets->guide, place_before(sheets, i), text);
@@ -51,20 +64,25 @@ static void put_beginning(const thr_sheets *sheets, int i, thr_text *text)
   }
 }
 
-/* "Check: the needle comes out of F12 and points at E12." Tubes: "Check: the needle comes out at
- * F12; next E12." */
+/* Appends the sentence by which a maker checks a step: "Check: the needle comes out of F12 and
+ * points at E12." With tubes: "Check: the needle comes out at F12; next E12." */
 static void put_check(const thr_sheets *sheets, int last, thr_text *text)
 {
   const thr_visit *visit = &sheets->visit[last];
   thr_needle needle = sheets->move[last].needle;
   int at = visit->number ? thr_head(sheets->f, visit->in) : visit->piece;
   bool solid = sheets->pieces.solid;
+
+  /* Which needle, if there are two, and where it is. */
   thr_text_printf(text, "Check: the %sneedle comes out %s ",
                   needle == THR_NEEDLE_RIGHT  ? "right "
                   : needle == THR_NEEDLE_LEFT ? "left "
                                               : "",
                   solid ? "of" : "at");
+
   thr_guide_place(&sheets->guide, at, text);
+
+  /* Within a part the next place tells the direction; at its end there is none. */
   if (!thr_step_ends(sheets, last))
     thr_text_printf(text, solid ? " and points at %s." : "; next %s.",
                     sheets->guide.label[thr_head(sheets->f, sheets->visit[last + 1].in)]);
@@ -75,30 +93,35 @@ static void put_check(const thr_sheets *sheets, int last, thr_text *text)
                                                     : ": the end of the cord.");
 }
 
-void thr_step_destroy_text(thr_step *p)
+void thr_step_destroy_text(thr_step *step)
 {
-  for (int i = 0; i < p->n_rows; i++)
-    thr_text_destroy(&p->row[i]);
-  thr_text_destroy(&p->before);
-  thr_text_destroy(&p->after);
-  p->n_rows = 0;
+  for (int i = 0; i < step->n_rows; i++)
+    thr_text_destroy(&step->row[i]);
+  thr_text_destroy(&step->before);
+  thr_text_destroy(&step->after);
+  step->n_rows = 0;
 }
 
+/* Returns how many lines words take in a width, 0 for an empty text. Fails the sheets if memory ran
+ * out while the text was made. */
 static int count_lines(thr_sheets *sheets, const thr_text *words, double width, double size)
 {
   if (words->failed) thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
   return words->data && !words->failed ? thr_sheets_lines(words->data, width, size) : 0;
 }
 
-/* Parts the rows into two columns of nearly equal height. */
-static void part_rows(thr_step *p)
+/* Parts the rows into two columns of nearly equal height, in order: the left column takes rows
+ * until it is at least half as high as all. */
+static void part_rows(thr_step *step)
 {
   double total = 0, left = 0;
-  for (int i = 0; i < p->n_rows; i++)
-    total += p->lines[i] * line_height() + AFTER;
-  for (p->left = 0; p->left < p->n_rows && left < 0.5 * total - 1e-6; p->left++)
-    left += p->lines[p->left] * line_height() + AFTER;
-  p->rows_height = fmax(left, total - left);
+  for (int i = 0; i < step->n_rows; i++)
+    total += step->lines[i] * line_height() + AFTER;
+
+  for (step->left = 0; step->left < step->n_rows && left < 0.5 * total - 1e-6; step->left++)
+    left += step->lines[step->left] * line_height() + AFTER;
+
+  step->rows_height = fmax(left, total - left);
 }
 
 double thr_step_rows_height(int lines, int rows)
@@ -117,109 +140,136 @@ int thr_step_row_lines(thr_sheets *sheets, int visit)
   thr_text row = {0};
   thr_pieces_say(&sheets->pieces, thr_sheets_labels(sheets), sheets->visit, visit, sheets->step,
                  &row);
+
   int lines = count_lines(sheets, &row, column_width(sheets) - BOX - COUNT, THR_SHEET_SMALL);
   thr_text_destroy(&row);
   return lines;
 }
 
-/* Fills texts and lines. */
-void thr_step_find_text(thr_sheets *sheets, thr_step *p)
+void thr_step_find_text(thr_sheets *sheets, thr_step *step)
 {
-  thr_step_destroy_text(p);
-  for (int i = p->first; i < p->end && !sheets->st; i++) {
-    thr_text *row = &p->row[p->n_rows];
+  thr_step_destroy_text(step);
+
+  /* A row for each visit, with the number of its lines. */
+  for (int i = step->first; i < step->end && !sheets->st; i++) {
+    thr_text *row = &step->row[step->n_rows];
     *row = (thr_text){0};
     thr_pieces_say(&sheets->pieces, thr_sheets_labels(sheets), sheets->visit, i, sheets->step, row);
-    p->lines[p->n_rows++] =
+    step->lines[step->n_rows++] =
         count_lines(sheets, row, column_width(sheets) - BOX - COUNT, THR_SHEET_SMALL);
   }
-  part_rows(p);
-  put_beginning(sheets, p->first, &p->before);
-  put_check(sheets, p->end - 1, &p->after);
-  p->lines_before = count_lines(sheets, &p->before, thr_sheets_width(sheets), THR_SHEET_TEXT);
-  p->lines_after = count_lines(sheets, &p->after, thr_sheets_width(sheets), THR_SHEET_TEXT);
+
+  part_rows(step);
+
+  /* Text before and after the rows spans both columns. */
+  put_beginning(sheets, step->first, &step->before);
+  put_check(sheets, step->end - 1, &step->after);
+
+  step->lines_before = count_lines(sheets, &step->before, thr_sheets_width(sheets), THR_SHEET_TEXT);
+  step->lines_after = count_lines(sheets, &step->after, thr_sheets_width(sheets), THR_SHEET_TEXT);
 }
 
-/* "11 pieces to pick up, 5 that are on a cord already; 38 of 49 are threaded then; cord used 640.1
- * mm, left 1773 mm" */
-static void put_tally(const thr_sheets *sheets, const thr_step *p, thr_text *text)
+/* Appends what a step amounts to: "11 pieces to pick up, 5 on a cord already; 38 of 49 are threaded
+ * then; cord used 640.1 mm, left for the way 1773 mm". Lengths are in the framework's units. */
+static void put_tally(const thr_sheets *sheets, const thr_step *step, thr_text *text)
 {
   char used[64], left[64];
-  const thr_move *move = &sheets->move[p->end - 1];
-  int picked = 0, before = 0, last = p->end - 1, n = sheets->pieces.n;
-  for (int i = 0; i < p->end; i++) {
-    picked += i >= p->first && sheets->visit[i].nth == 1;
+  const thr_move *move = &sheets->move[step->end - 1];
+  int picked = 0, before = 0, last = step->end - 1, n = sheets->pieces.n;
+
+  /* Pieces picked up in this step, and in all steps up to its end. */
+  for (int i = 0; i < step->end; i++) {
+    picked += i >= step->first && sheets->visit[i].nth == 1;
     before += sheets->visit[i].nth == 1;
   }
+
+  /* The way that is left reaches from here to the end of the needle's part. */
   while (!thr_step_ends(sheets, last))
     last++;
   thr_svg_length(move->used, sheets->f->units, used);
-  if (last >= p->end)
+  if (last >= step->end)
     thr_svg_length(sheets->move[last].used - move->used, sheets->f->units, left);
   else
     snprintf(left, sizeof left, "none");
+
+  /* With two needles the lengths are those of the needle in hand. */
   thr_text_printf(text,
                   "%d %s to pick up, %d on a cord already; %d of %d are threaded then; cord used%s "
                   "%s, left for the way %s",
-                  picked, thr_pieces_word(sheets->plan, picked), p->end - p->first - picked, before,
-                  n, move->needle == THR_NEEDLE_ONLY ? "" : " by this needle", used, left);
+                  picked, thr_pieces_word(sheets->plan, picked), step->end - step->first - picked,
+                  before, n, move->needle == THR_NEEDLE_ONLY ? "" : " by this needle", used, left);
 }
 
-/* Number of the first pass that a step draws. */
-static int first_number(const thr_sheets *sheets, const thr_step *p)
+/* Returns the number of the first pass that a step draws: a visit that only starts a cord (number
+ * 0) has none. */
+static int first_number(const thr_sheets *sheets, const thr_step *step)
 {
-  const thr_visit *visit = &sheets->visit[p->first];
-  return visit->number || p->first + 1 == p->end ? visit->number : visit[1].number;
+  const thr_visit *visit = &sheets->visit[step->first];
+  return visit->number || step->first + 1 == step->end ? visit->number : visit[1].number;
 }
 
-const char *thr_step_colour(const thr_sheets *sheets, const thr_step *p)
+const char *thr_step_colour(const thr_sheets *sheets, const thr_step *step)
 {
   enum { VERMILLION = 1 };
-  int c = sheets->visit[p->first].cord;
+
+  int c = sheets->visit[step->first].cord;
   return thr_palette(sheets->plan->n_cords == 1 ? VERMILLION : sheets->copy[c].path).hex;
 }
 
-/* Number, cord and passes; what there is to do. */
-void thr_step_put_heading(thr_sheets *sheets, const thr_step *p, double top)
+void thr_step_put_heading(thr_sheets *sheets, const thr_step *step, double top)
 {
-  int c = sheets->visit[p->first].cord, low = first_number(sheets, p),
-      high = sheets->visit[p->end - 1].number;
-  thr_needle needle = sheets->move[p->first].needle;
+  int c = sheets->visit[step->first].cord, low = first_number(sheets, step),
+      high = sheets->visit[step->end - 1].number;
+  thr_needle needle = sheets->move[step->first].needle;
   char cord[96], line[256], colour[64], big[16];
-  const char *own = thr_step_colour(sheets, p);
+  const char *own = thr_step_colour(sheets, step);
   thr_sheets_cord_words(sheets, c, cord);
+
+  /* "Cord A (blue), right needle: passes 17-36 of 86". low may exceed high with the left needle. */
   int n = snprintf(line, sizeof line, "%s%s: ", cord,
                    needle == THR_NEEDLE_RIGHT  ? ", right needle"
                    : needle == THR_NEEDLE_LEFT ? ", left needle"
                                                : "");
+
   n += snprintf(line + n, sizeof line - (size_t)n, low == high ? "pass %d" : "passes %d-%d", low,
                 high);
   snprintf(line + n, sizeof line - (size_t)n, " of %d", sheets->plan->cord[c].n_passes);
   snprintf(colour, sizeof colour, " font-weight=\"bold\" style=\"fill:%s\"", own);
-  snprintf(big, sizeof big, "%d", p->number);
+
+  snprintf(big, sizeof big, "%d", step->number);
   thr_text tally = {0};
-  put_tally(sheets, p, &tally);
+  put_tally(sheets, step, &tally);
+
+  /* The number stands large on the left; the small picture of the whole takes the right corner. */
   double x = THR_SHEET_MARGIN, width = thr_sheets_width(sheets) + THR_SHEET_MARGIN - LOCATOR - 3;
   thr_svg_text(thr_sheets_out(sheets), x, top + 6.5, NUMBER, " font-weight=\"bold\"", big);
   x += fmax(14, 0.72 * NUMBER * (double)strlen(big) + 3);
+
+  /* The line shrinks to fit between both; bold letters are at most 0.66 em wide on average. */
   thr_svg_text(thr_sheets_out(sheets), x, top + 3.5,
                fmin(4.4, (width - x) / (0.66 * (double)strlen(line))), colour, line);
+
+  /* The tally below in as many lines as needed. */
   if (tally.failed)
     thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
   else
     thr_sheets_text(sheets, x, top + 9, THR_SHEET_SMALL, width - x, " style=\"fill:#444\"",
                     tally.data);
+
   thr_text_destroy(&tally);
 }
 
-/* What the looks of pieces in the picture mean. */
 void thr_step_put_legend(thr_sheets *sheets, double y, const char *what)
 {
   char now[48];
   const char *const words[THR_PIECE_STATES] = {
       [THR_PIECE_NEW] = now, [THR_PIECE_HELD] = "on a cord already", [THR_PIECE_LATER] = "later"};
   double x = THR_SHEET_MARGIN;
+
+  /* The same looks serve the maps of sections. */
   snprintf(now, sizeof now, "pick up in this %s", what);
+
+  /* From the piece that is picked up now to the one that waits, as the maker needs them. */
   for (int state = THR_PIECE_STATES - 1; state > THR_PIECE_PLAIN; state--) {
     thr_draw_key(x, y - 2.4, 5, 2.8, (thr_piece_state)state, thr_sheets_out(sheets));
     thr_svg_text(thr_sheets_out(sheets), x + 6.5, y, THR_SHEET_SMALL, "", words[state]);
@@ -229,6 +279,7 @@ void thr_step_put_legend(thr_sheets *sheets, double y, const char *what)
 
 /* ---- rows ---- */
 
+/* Writes flowing text over the whole width at the current height and moves on below. */
 static void put_words(thr_sheets *sheets, const thr_text *words, const char *attributes)
 {
   if (words->data)
@@ -236,30 +287,40 @@ static void put_words(thr_sheets *sheets, const thr_text *words, const char *att
                                 thr_sheets_width(sheets), attributes, words->data);
 }
 
-/* A row with its box and number. */
-static void put_row(thr_sheets *sheets, const thr_step *p, int i, double x, double y)
+/* Writes row i of a step at (x, y): a box, the number of the pass ("S" where a cord starts), the
+ * words. Rows that pick up a piece are black, rows through a piece that is on a cord already are
+ * grey. */
+static void put_row(thr_sheets *sheets, const thr_step *step, int i, double x, double y)
 {
   char number[16] = "S";
-  const thr_visit *visit = &sheets->visit[p->first + i];
+  const thr_visit *visit = &sheets->visit[step->first + i];
   if (visit->number) snprintf(number, sizeof number, "%d", visit->number);
+
+  /* From left to right: box, number, words. */
   thr_sheets_box(thr_sheets_out(sheets), x, y);
   thr_svg_text(thr_sheets_out(sheets), x + BOX + COUNT - 1.5, y, THR_SHEET_SMALL,
                " text-anchor=\"end\" font-weight=\"bold\"", number);
   thr_sheets_text(sheets, x + BOX + COUNT, y, THR_SHEET_SMALL, column_width(sheets) - BOX - COUNT,
-                  visit->nth == 1 ? "" : " style=\"fill:#444\"", p->row[i].data);
+                  visit->nth == 1 ? "" : " style=\"fill:#444\"", step->row[i].data);
 }
 
-void thr_step_put_rows(thr_sheets *sheets, const thr_step *p)
+void thr_step_put_rows(thr_sheets *sheets, const thr_step *step)
 {
   sheets->y += THR_SHEET_LINE;
-  put_words(sheets, &p->before, " style=\"fill:#444\"");
-  if (p->lines_before) sheets->y += 1;
+
+  /* What to do first, over the whole width. */
+  put_words(sheets, &step->before, " style=\"fill:#444\"");
+  if (step->lines_before) sheets->y += 1;
+
+  /* The second column begins at the height of the first. */
   double y = sheets->y;
-  for (int i = 0; i < p->n_rows && !sheets->st; i++) {
-    if (i == p->left) y = sheets->y;
-    put_row(sheets, p, i, THR_SHEET_MARGIN + (i < p->left ? 0 : column_width(sheets) + 4), y);
-    y += p->lines[i] * line_height() + AFTER;
+  for (int i = 0; i < step->n_rows && !sheets->st; i++) {
+    if (i == step->left) y = sheets->y;
+    put_row(sheets, step, i, THR_SHEET_MARGIN + (i < step->left ? 0 : column_width(sheets) + 4), y);
+    y += step->lines[i] * line_height() + AFTER;
   }
-  sheets->y += p->rows_height + 1;
-  put_words(sheets, &p->after, " font-weight=\"bold\"");
+
+  /* Where the needle is then: a step is done only if this is right. */
+  sheets->y += step->rows_height + 1;
+  put_words(sheets, &step->after, " font-weight=\"bold\"");
 }

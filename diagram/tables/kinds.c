@@ -1,4 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Finds which edges and which node beads are alike.
+ *
+ * Edges are sorted by length; a kind reaches as far as the tolerance from its first, shortest edge.
+ *
+ * Two node beads are alike if a rotation maps the tips of one on to those of the other. Two arms
+ * that are not in line fix a rotation. So one pair of arms of the first bead, as near to a right
+ * angle as its first arm has one, is laid on every pair of arms of the second whose lengths fit,
+ * and then all tips must meet. No mirroring: a piece and its mirror image are two kinds. A size
+ * that is the same for beads that are alike (the sum of all distances between tips and node) sorts
+ * beads, so that only neighbours in this order are compared.
+ *
+ * Example: with a tolerance of 0.1, edges of 10, 10.05, 10.2 and 10.25 make two kinds: 1 1 2 2. */
 #include "diagram/tables/kinds.h"
 
 #include "graph/vector.h"
@@ -6,26 +18,32 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* An edge or a node with a size by which like ones are found next to each other. */
 typedef struct {
   double size;
-  int item, group; /* group: only items of one group are compared */
+  int item;  /* number of the edge or node */
+  int group; /* only items of one group are compared */
 } keyed;
 
+/* Orders items by group, then by size, then by number, for qsort. */
 static int by_size(const void *a, const void *b)
 {
-  const keyed *p = a, *q = b;
-  if (p->group != q->group) return p->group - q->group;
-  if (p->size != q->size) return p->size < q->size ? -1 : 1;
-  return p->item - q->item;
+  const keyed *one = a, *other = b;
+  if (one->group != other->group) return one->group - other->group;
+  if (one->size != other->size) return one->size < other->size ? -1 : 1;
+  return one->item - other->item;
 }
 
-/* Kinds come as found; they are numbered again by their first item. next: [n] scratch. */
+/* Renumbers kinds, which come in any order from 0, to 1, 2, .. in the order of their first items.
+ * next: [n] scratch. */
 static void renumber(int *kind, int n, int *next)
 {
   int count = 0;
   for (int i = 0; i < n; i++)
     next[i] = 0;
+
   for (int i = 0; i < n; i++) {
+    /* A kind gets its number when its first item comes. */
     if (!next[kind[i]]) next[kind[i]] = ++count;
     kind[i] = next[kind[i]];
   }
@@ -36,161 +54,213 @@ static void renumber(int *kind, int n, int *next)
 /* The tips of a bead's arms, seen from the frame that two of them span. */
 typedef struct {
   int n;
-  double tip[THR_KINDS_ARMS][3];
-  double length[THR_KINDS_ARMS];
+  double tip[THR_KINDS_ARMS][3]; /* from the node, in units */
+  double length[THR_KINDS_ARMS]; /* of each arm, in units */
   int base[2]; /* arms that span the frame: along the first, beside it the second; equal if all arms
                   are in one line */
   double slant; /* sine of the angle between them */
-} bead;
+} node_bead;
 
 static const double IN_LINE = THR_KINDS_TOLERANCE; /* sine: the tips of arms so nearly in line are
                                                       within the tolerance of one */
 
-/* Sine of the angle between two arms. */
-static double sine(const bead *b, int i, int j)
+/* Returns the sine of the angle between arms i and j of a bead. */
+static double sine(const node_bead *bead, int i, int j)
 {
-  double cross[3], area = b->length[i] * b->length[j];
-  thr_cross(b->tip[i], b->tip[j], cross);
+  double cross[3], area = bead->length[i] * bead->length[j];
+  thr_cross(bead->tip[i], bead->tip[j], cross);
   return area > 0 ? sqrt(thr_dot(cross, cross)) / area : 0;
 }
 
-static void bead_make(const thr_frame *frame, int v, bead *b)
+/* Fills the bead of node v: its arms from the node to the middles of its edges, and the pair of
+ * arms that spans its frame. */
+static void bead_make(const thr_frame *frame, int v, node_bead *bead)
 {
-  *b = (bead){0};
+  *bead = (node_bead){0};
   for (int i = frame->first[v]; i < frame->first[v + 1]; i++) {
     const double *from = frame->xyz[v], *to = frame->xyz[thr_head(frame, frame->half[i])];
-    double d[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]}, apart = sqrt(thr_dot(d, d));
-    b->length[b->n] = frame->length[frame->half[i] >> 1] / 2;
+
+    /* Directions come from coordinates, lengths from the edges' own, which may differ. */
+    double to_other[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]},
+           apart = sqrt(thr_dot(to_other, to_other));
+    bead->length[bead->n] = frame->length[frame->half[i] >> 1] / 2;
     for (int k = 0; k < 3; k++)
-      b->tip[b->n][k] = apart > 0 ? d[k] / apart * b->length[b->n] : 0;
-    b->n++;
+      bead->tip[bead->n][k] = apart > 0 ? to_other[k] / apart * bead->length[bead->n] : 0;
+
+    bead->n++;
   }
-  for (int j = 1; j < b->n; j++) {
-    double s = sine(b, 0, j);
-    if (s <= IN_LINE || s <= b->slant * (1 + 1e-9)) continue;
-    b->slant = s;
-    b->base[1] = j;
+
+  /* Arm 0 and the arm at the largest sine to it: the frame is best determined at a right angle.
+   * Ties go to the first arm, whatever rounding does. */
+  for (int j = 1; j < bead->n; j++) {
+    double this_sine = sine(bead, 0, j);
+    if (this_sine <= IN_LINE || this_sine <= bead->slant * (1 + 1e-9)) continue;
+    bead->slant = this_sine;
+    bead->base[1] = j;
   }
 }
 
-/* Unit vectors: along arm i, at right angles to it towards arm j (any if i = j), and at right
- * angles to both. */
-static void span(const bead *b, int i, int j, double axis[3][3])
+/* Computes a frame of unit vectors: along arm i, at right angles to it towards arm j (towards any
+ * side if i = j), and at right angles to both. */
+static void span(const node_bead *bead, int i, int j, double axis[3][3])
 {
-  const double *a = b->tip[i];
+  const double *first = bead->tip[i];
   double other[3] = {0};
-  int least = fabs(a[0]) <= fabs(a[1]) ? (fabs(a[0]) <= fabs(a[2]) ? 0 : 2)
-                                       : (fabs(a[1]) <= fabs(a[2]) ? 1 : 2);
+
+  /* For a single arm the coordinate axis most across it stands in for the second. */
+  int least = fabs(first[0]) <= fabs(first[1]) ? (fabs(first[0]) <= fabs(first[2]) ? 0 : 2)
+                                               : (fabs(first[1]) <= fabs(first[2]) ? 1 : 2);
   other[least] = 1;
+
   for (int k = 0; k < 3; k++) {
-    axis[0][k] = b->length[i] > 0 ? a[k] / b->length[i] : 0;
-    if (i != j) other[k] = b->tip[j][k];
+    axis[0][k] = bead->length[i] > 0 ? first[k] / bead->length[i] : 0;
+    if (i != j) other[k] = bead->tip[j][k];
   }
+
+  /* The third axis is the normal of both, the second completes a right-handed frame (Gram and
+   * Schmidt). */
   thr_cross(axis[0], other, axis[2]);
   double length = sqrt(thr_dot(axis[2], axis[2]));
   for (int k = 0; k < 3; k++)
     axis[2][k] = length > 0 ? axis[2][k] / length : 0;
+
   thr_cross(axis[2], axis[0], axis[1]);
 }
 
-static void turn_into(const bead *b, int i, int j, double tip[THR_KINDS_ARMS][3])
+/* Computes the tips of a bead in the frame that its arms i and j span. */
+static void turn_into(const node_bead *bead, int i, int j, double tip[THR_KINDS_ARMS][3])
 {
   double axis[3][3];
-  span(b, i, j, axis);
-  for (int arm = 0; arm < b->n; arm++)
+  span(bead, i, j, axis);
+
+  for (int arm = 0; arm < bead->n; arm++)
     for (int k = 0; k < 3; k++)
-      tip[arm][k] = thr_dot(b->tip[arm], axis[k]);
+      tip[arm][k] = thr_dot(bead->tip[arm], axis[k]);
 }
 
-/* Does every tip of one bead meet another one of the other bead? */
-static bool tips_meet(int n, const double (*a)[3], const double (*b)[3], double tolerance)
+/* Returns whether every tip of one bead meets a different tip of the other one within the
+ * tolerance. Each takes the nearest tip that is free. */
+static bool tips_meet(int n, const double (*own)[3], const double (*other)[3], double tolerance)
 {
   bool taken[THR_KINDS_ARMS] = {false};
+
   for (int i = 0; i < n; i++) {
+    /* Only tips within the tolerance count. */
     int nearest = -1;
     double least = tolerance;
     for (int j = 0; j < n; j++) {
-      double d[3] = {a[i][0] - b[j][0], a[i][1] - b[j][1], a[i][2] - b[j][2]},
+      double d[3] = {own[i][0] - other[j][0], own[i][1] - other[j][1], own[i][2] - other[j][2]},
              apart = sqrt(thr_dot(d, d));
+
       if (taken[j] || apart > least) continue;
       least = apart;
       nearest = j;
     }
+
+    /* A tip without a partner: the beads differ. */
     if (nearest < 0) return false;
     taken[nearest] = true;
   }
   return true;
 }
 
-static bool alike(const bead *a, const bead *b, double tolerance)
+/* Returns whether a rotation maps the other bead on to this one within the tolerance. Both have as
+ * many arms. */
+static bool alike(const node_bead *one, const node_bead *other, double tolerance)
 {
   double own[THR_KINDS_ARMS][3], turned[THR_KINDS_ARMS][3];
-  int first = a->base[0], second = a->base[1];
-  turn_into(a, first, second, own);
-  for (int i = 0; i < b->n; i++) {
-    if (fabs(b->length[i] - a->length[first]) > tolerance) continue;
-    for (int j = 0; j < b->n; j++) {
-      if ((i == j) != (first == second) || fabs(b->length[j] - a->length[second]) > tolerance)
+  int first = one->base[0], second = one->base[1];
+
+  turn_into(one, first, second, own);
+  for (int i = 0; i < other->n; i++) {
+    /* Arm i of the other bead is laid on the first base arm of this one, arm j on the second:
+     * lengths must fit. */
+    if (fabs(other->length[i] - one->length[first]) > tolerance) continue;
+    for (int j = 0; j < other->n; j++) {
+      /* A bead whose arms are in one line has no second arm. */
+      if ((i == j) != (first == second) || fabs(other->length[j] - one->length[second]) > tolerance)
         continue;
-      if (i != j && sine(b, i, j) < IN_LINE / 2) continue;
-      turn_into(b, i, j, turned);
-      if (tips_meet(a->n, (const double(*)[3])own, (const double(*)[3])turned, tolerance))
+
+      /* Two arms in line determine no rotation. */
+      if (i != j && sine(other, i, j) < IN_LINE / 2) continue;
+
+      turn_into(other, i, j, turned);
+      if (tips_meet(one->n, (const double(*)[3])own, (const double(*)[3])turned, tolerance))
         return true;
     }
   }
   return false;
 }
 
-/* Of beads that are alike it differs by at most sway(arms): the distances of their tips from each
- * other and from the node. */
-static double bead_size(const bead *b)
+/* Returns the sum of all distances between the tips of a bead, and from these to the node. Sizes of
+ * beads that are alike differ by at most sway(arms). */
+static double bead_size(const node_bead *bead)
 {
   double size = 0;
-  for (int i = 0; i < b->n; i++) {
-    size += b->length[i];
+  for (int i = 0; i < bead->n; i++) {
+    size += bead->length[i];
     for (int j = 0; j < i; j++) {
-      double d[3] = {b->tip[i][0] - b->tip[j][0], b->tip[i][1] - b->tip[j][1],
-                     b->tip[i][2] - b->tip[j][2]};
-      size += sqrt(thr_dot(d, d));
+      /* Each pair of tips once. */
+      double apart[3] = {bead->tip[i][0] - bead->tip[j][0], bead->tip[i][1] - bead->tip[j][1],
+                         bead->tip[i][2] - bead->tip[j][2]};
+      size += sqrt(thr_dot(apart, apart));
     }
   }
   return size;
 }
 
+/* Returns by how much the sizes of two beads that are alike may differ: each tip moves by at most
+ * the tolerance, which changes a distance to the node by as much and one between two tips by twice
+ * as much, arms + 2 * arms (arms - 1) / 2 times in all. */
 static double sway(int arms, double tolerance)
 {
   return tolerance * (arms + arms * (arms - 1.0)) * (1 + 1e-9);
 }
 
-static thr_status find_nodes(const thr_frame *frame, double tolerance, int *node, keyed *k,
+/* Numbers the kinds of node beads. sorted: [n_nodes] scratch. */
+static thr_status find_nodes(const thr_frame *frame, double tolerance, int *node, keyed *sorted,
                              thr_err *err)
 {
   int n = frame->n_nodes, kinds = 0;
-  int *model = thr_calloc((size_t)n, sizeof *model); /* place in k of the first of every kind */
+  int *model =
+      thr_calloc((size_t)n, sizeof *model); /* place in sorted of the first of every kind */
   if (!model) return thr_nomem(err);
-  bead b, other;
+
+  node_bead bead_here, other;
+
+  /* Beads with very many arms have no size: each of them is a kind of its own. */
   for (int v = 0; v < n; v++) {
-    k[v] = (keyed){.item = v, .group = thr_degree(frame, v)};
-    if (k[v].group > THR_KINDS_ARMS) continue;
-    bead_make(frame, v, &b);
-    k[v].size = bead_size(&b);
+    sorted[v] = (keyed){.item = v, .group = thr_degree(frame, v)};
+    if (sorted[v].group > THR_KINDS_ARMS) continue;
+    bead_make(frame, v, &bead_here);
+    sorted[v].size = bead_size(&bead_here);
   }
-  qsort(k, (size_t)n, sizeof *k, by_size);
+
+  qsort(sorted, (size_t)n, sizeof *sorted, by_size);
+
+  /* Compare each bead with the first one of every kind found before, the nearest in size first. */
   for (int i = 0; i < n; i++) {
-    int found = -1, arms = k[i].group;
-    if (arms <= THR_KINDS_ARMS) bead_make(frame, k[i].item, &b);
-    for (int m = kinds - 1; m >= 0 && found < 0 && arms <= THR_KINDS_ARMS; m--) {
-      const keyed *like = &k[model[m]];
-      if (like->group != arms || k[i].size - like->size > sway(arms, tolerance)) break;
+    int found = -1, arms = sorted[i].group;
+    if (arms <= THR_KINDS_ARMS) bead_make(frame, sorted[i].item, &bead_here);
+    for (int kind = kinds - 1; kind >= 0 && found < 0 && arms <= THR_KINDS_ARMS; kind--) {
+      const keyed *like = &sorted[model[kind]];
+
+      /* Kinds before this one are smaller still: none of them can be alike. */
+      if (like->group != arms || sorted[i].size - like->size > sway(arms, tolerance)) break;
       bead_make(frame, like->item, &other);
-      if (alike(&other, &b, tolerance)) found = m;
+
+      if (alike(&other, &bead_here, tolerance)) found = kind;
     }
+
+    /* A new kind, with this bead as its first. */
     if (found < 0) {
       model[kinds] = i;
       found = kinds++;
     }
-    node[k[i].item] = found;
+
+    node[sorted[i].item] = found;
   }
+
   renumber(node, n, model);
   free(model);
   return THR_OK;
@@ -198,26 +268,33 @@ static thr_status find_nodes(const thr_frame *frame, double tolerance, int *node
 
 /* ---- edges ---- */
 
-/* *median receives their median length. */
-static void sort_edges(const thr_frame *frame, keyed *k, double *median)
+/* Sorts the edges by length; *median receives the median length, in units. */
+static void sort_edges(const thr_frame *frame, keyed *sorted, double *median)
 {
   for (int e = 0; e < frame->n_edges; e++)
-    k[e] = (keyed){.size = frame->length[e], .item = e};
-  qsort(k, (size_t)frame->n_edges, sizeof *k, by_size);
-  *median = k[frame->n_edges / 2].size;
+    sorted[e] = (keyed){.size = frame->length[e], .item = e};
+
+  qsort(sorted, (size_t)frame->n_edges, sizeof *sorted, by_size);
+  *median = sorted[frame->n_edges / 2].size;
 }
 
-static void find_edges(int n, const keyed *k, double tolerance, int *edge, int *next)
+/* Numbers the kinds of edges. sorted: [n] edges by length; next: [n] scratch. A kind begins with
+ * the first edge that is longer by more than the tolerance than the first edge of the kind
+ * before. */
+static void find_edges(int n, const keyed *sorted, double tolerance, int *edge, int *next)
 {
-  double first = k[0].size;
+  double first = sorted[0].size;
   int kinds = 0;
+
   for (int i = 0; i < n; i++) {
-    if (k[i].size - first > tolerance * (1 + 1e-9)) {
-      first = k[i].size;
+    /* The margin keeps lengths that differ by exactly the tolerance together. */
+    if (sorted[i].size - first > tolerance * (1 + 1e-9)) {
+      first = sorted[i].size;
       kinds++;
     }
-    edge[k[i].item] = kinds;
+    edge[sorted[i].item] = kinds;
   }
+
   renumber(edge, n, next);
 }
 
@@ -226,16 +303,22 @@ thr_status thr_kinds_find(const thr_frame *frame, double tolerance, int *edge, i
 {
   int most = frame->n_edges > frame->n_nodes ? frame->n_edges : frame->n_nodes;
   double median;
-  keyed *k = thr_calloc((size_t)most, sizeof *k);
+
+  /* One array serves edges and nodes in turn. */
+  keyed *sorted = thr_calloc((size_t)most, sizeof *sorted);
   int *next = thr_calloc((size_t)frame->n_edges, sizeof *next);
-  thr_status st = k && next ? THR_OK : thr_nomem(err);
+  thr_status st = sorted && next ? THR_OK : thr_nomem(err);
+
   if (!st) {
-    sort_edges(frame, k, &median);
+    sort_edges(frame, sorted, &median);
+
+    /* The usual tolerance is a share of the median edge. */
     if (tolerance == 0) tolerance = THR_KINDS_TOLERANCE * median;
-    if (edge) find_edges(frame->n_edges, k, tolerance, edge, next);
-    if (node) st = find_nodes(frame, tolerance, node, k, err);
+    if (edge) find_edges(frame->n_edges, sorted, tolerance, edge, next);
+    if (node) st = find_nodes(frame, tolerance, node, sorted, err);
   }
-  free(k);
+
+  free(sorted);
   free(next);
   return st;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which beads are alike, so that a maker cuts or prints few kinds. Private to diagram/. */
+/* Which edges and which node beads are alike, so that a maker cuts or prints few kinds. Private to
+ * diagram/. */
 #ifndef THR_KINDS_H
 #define THR_KINDS_H
 

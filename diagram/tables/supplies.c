@@ -1,4 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Computes what has to be at hand before threading: cord to cut for each path, bores of the beads.
+ *
+ * cut = length + 2 tails + 2 knots + turns, where length is the way through the middles of the
+ * beads. In a turn by an angle a (rad) a cord that lies at the outer wall of its bores is longer by
+ * (bore - cord) / 2 * a: a parallel curve at distance r is longer by r times the angle turned.
+ *
+ * Example: a cord of 1 mm in bores of 2 mm that turns by 90 degrees 80 times takes 0.5 * 1.571 * 80
+ * = 63 mm more. */
 #include "diagram/tables/supplies.h"
 
 #include "diagram/scene/scene.h"
@@ -14,11 +22,16 @@ thr_status thr_supplies_make(thr_supplies *supplies, const thr_plan *plan, thr_e
 {
   int n;
   *supplies = (thr_supplies){.plan = plan};
+
+  /* Cords must fit the framework, and there must be one. */
   thr_status st = thr_scene_check_cords(plan, &n, err);
   if (!st && !plan->n_cords) st = thr_fail(err, THR_EINPUT, "the plan has no cord to thread");
   if (st) return st;
+
   supplies->passes = thr_calloc((size_t)plan->frame.n_edges, sizeof *supplies->passes);
   if (!supplies->passes) return thr_nomem(err);
+
+  /* An edge is passed as often as cords run through it, in both directions together. */
   for (int c = 0; c < plan->n_cords; c++)
     for (int k = 0; k < plan->cord[c].n_passes; k++)
       supplies->passes[plan->cord[c].half[k] >> 1]++;
@@ -37,13 +50,19 @@ thr_status thr_supplies_find_sizes(thr_supplies *supplies, thr_err *err)
   const thr_physics *asked = &plan->options.physics;
   thr_physics sizes = plan->evaluation.physics;
   double mm;
+
+  /* Units without a length in mm leave all sizes open. */
   if (thr_units_in_mm(plan->frame.units, &mm, NULL)) return THR_OK;
+
+  /* Not evaluated: sizes as asked for, or worked out from the framework. Where nothing was asked, a
+   * framework without a sensible size is no mistake of the user. */
   if (!plan->evaluation.present) {
     thr_err why = {0};
     bool said = asked->cord_diameter > 0 || asked->bore > 0 || asked->bead_diameter > 0;
     thr_status st = thr_physics_resolve(asked, &plan->frame, &sizes, &why);
     if (st) return st == THR_EINPUT && !said ? THR_OK : thr_fail(err, st, "%s", why.text);
   }
+
   supplies->mm = mm;
   supplies->cord = sizes.cord_diameter;
   supplies->bore = sizes.bore;
@@ -54,9 +73,12 @@ bool thr_supplies_doubt(const thr_supplies *supplies, char line[160])
 {
   const double thinnest = 0.2, thickest = 15; /* mm: of sewing thread, of rope */
   const thr_physics *asked = &supplies->plan->options.physics;
+
+  /* Sizes that the user gave are taken as they are. */
   bool said = asked->cord_diameter > 0 || asked->bore > 0 || asked->bead_diameter > 0;
   if (said || !(supplies->mm > 0) || (supplies->cord >= thinnest && supplies->cord <= thickest))
     return false;
+
   snprintf(line, 160,
            "A cord of %.3g mm through bores of %.4g mm: is that the size to be built? Else plan it "
            "with --units or --scale.",
@@ -74,6 +96,7 @@ double thr_supplies_node_bore(const thr_supplies *supplies, int v)
 {
   const thr_frame *frame = &supplies->plan->frame;
   double bore = 0;
+
   for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
     bore = fmax(bore, thr_supplies_bore(supplies, frame->half[i] >> 1));
   return bore;
@@ -84,13 +107,16 @@ double thr_supplies_bore_mm(const thr_supplies *supplies, double cords)
   return supplies->mm > 0 ? ceil(cords * supplies->cord * 100 - 1e-6) / 100 : 0;
 }
 
-/* Cord that turns take at most beside the way through the middles, mm. */
+/* Returns how much cord the turns of a cord take at most, in mm (see the head of this file). */
 static double in_turns(const thr_supplies *supplies, const thr_cord *cord)
 {
   double sum = 0;
+
   int turns = thr_cord_turns(&supplies->plan->options, cord);
   for (int k = 0; k < turns; k++) {
+    /* A turn lies between two edges: the wider bore bounds both. */
     int in = cord->half[k], out = cord->half[(k + 1) % cord->n_passes];
+
     double bore = supplies->cord *
                   fmax(thr_supplies_bore(supplies, in >> 1), thr_supplies_bore(supplies, out >> 1));
     sum += (bore - supplies->cord) / 2 * thr_turn_angle(&supplies->plan->frame, in, out);
@@ -102,13 +128,19 @@ thr_cut_length thr_supplies_cut(const thr_supplies *supplies, int c)
 {
   const thr_cord *cord = &supplies->plan->cord[c];
   thr_cut_length cut = {.length = thr_cord_length(&supplies->plan->frame, cord)};
+
+  /* Allowances are multiples of sizes in mm. */
   if (!(supplies->mm > 0)) return cut;
+
+  /* Both ends have a tail and a knot, those of a closed cord too. All in mm, then in units. */
   double tails = 2 * THR_SUPPLIES_TAIL, knots = 2 * THR_SUPPLIES_KNOT * supplies->cord,
          turns = in_turns(supplies, cord);
+
   cut.tails = tails / supplies->mm;
   cut.knots = knots / supplies->mm;
   cut.turns = turns / supplies->mm;
   cut.cut = cut.length + (tails + knots + turns) / supplies->mm;
+
   return cut;
 }
 
@@ -116,6 +148,8 @@ void thr_supplies_visits(const thr_plan *plan, int *visits)
 {
   for (int c = 0; c < plan->n_cords; c++) {
     const thr_cord *cord = &plan->cord[c];
+
+    /* Each pass leaves its tail; the last head counts unless the cord closes there. */
     for (int k = 0; k < cord->n_passes; k++)
       visits[thr_tail(&plan->frame, cord->half[k])]++;
     if (!cord->closed) visits[thr_cord_end(&plan->frame, cord)]++;
