@@ -326,6 +326,7 @@ static void apply(cord_state *state, const thr_schedule_step *step)
     if (step->slip > 0) {
       let_go(state);
       let_slip(state, step->end, step->slip);
+
       /* With slip the stiffness is known, and the state is unique. */
       memcpy(state->most, state->tension, (size_t)state->n * sizeof *state->most);
     }
@@ -370,8 +371,8 @@ static thr_status state_init(cord_state *state, const thr_frame *frame, const th
   return st;
 }
 
-/* Returns whether the state is known as a range only: whether `most` is above `tension` anywhere.
- */
+/* Returns whether the state is known as a range only: whether `most` is above `tension`
+ * anywhere. */
 static bool is_open(const cord_state *state)
 {
   for (int k = 0; k < state->n; k++)
@@ -390,6 +391,7 @@ static thr_status take_state(const cord_state *state, double hardest, thr_eval_c
     if (state->tension[k] < state->tension[slackest]) slackest = k;
 
   memcpy(out->tension, state->tension, (size_t)state->n * sizeof *state->tension);
+
   /* Record the upper tensions only where they differ. */
   if (is_open(state)) {
     if (!(out->most = thr_calloc((size_t)state->n, sizeof *out->most))) return thr_nomem(err);
@@ -413,6 +415,7 @@ static const char *remark_on(const cord_state *state, const thr_schedule_step *s
 {
   const bool grips = step->deed == THR_DEED_GRIP;
   if (step->deed == THR_DEED_KNOT) return NULL;
+
   /* A grip whose sides all have free ends draws in cord without any tension. */
   if (grips && (!at_start(step->end) || state->start_free) &&
       (!at_end(step->end) || state->end_free))
@@ -532,6 +535,7 @@ static int parts_within(const thr_eval_cord *cord, bool backward, double most, d
 
   for (int k = 0; k + 1 < cord->n_passes; k++) {
     const double exponent = cord->exponent[backward ? cord->n_passes - 2 - k : k];
+
     /* The turn would overload the hand: the part ends before this turn. */
     if (part + exponent > most) {
       if (last) last[parts] = k;
@@ -599,6 +603,7 @@ static thr_status grip_on(const thr_eval_cord *cord, int i, double seating,
                           thr_schedule *schedule, thr_err *err)
 {
   const bool backward = cord->pull == THR_PULL_START, both = cord->pull == THR_PULL_BOTH;
+
   /* The end where the work begins, and the end where it stops. */
   const thr_pull near = backward ? THR_PULL_END : THR_PULL_START,
                  far = backward ? THR_PULL_START : THR_PULL_END;
@@ -628,6 +633,7 @@ static thr_status grip_cord(const thr_eval_cord *cord, const char *id, int i,
                             thr_err *err)
 {
   const thr_friction friction = thr_friction_of(physics);
+
   /* `hand` can draw in a part with exponents of ln(hand / seating), and no more. */
   const double seating = physics->seating,
                most = fmax(0, thr_friction_exponent(&friction, hand, seating)) * (1 + SAME);
@@ -647,6 +653,7 @@ static thr_status grip_cord(const thr_eval_cord *cord, const char *id, int i,
   /* The number of parts first, then the least largest part for this number. */
   double largest;
   int parts = parts_within(cord, backward, most, &largest, NULL);
+
   /* Both ends at once draw in two parts without any grip. */
   const bool at_once = cord->pull == THR_PULL_BOTH && parts <= 2;
   largest = even_parts(cord, backward, most, at_once ? 2 : parts) * (1 + SAME);

@@ -138,8 +138,8 @@ static mitre_opening make_opening(const double u[3], const double w[3], double s
 }
 
 /* Scales the half-axis in the plane of the turn to the half-axis that a cord has which turns by
- * `turn` rad. radius: of the cord, in clearances. With the nominal turn n the half-axis is
- * (bore radius - radius cos(n / 2) / cos(turn / 2)) / cos(n / 2), bore radius = 1 + radius. */
+ * `turn` rad. radius: of the cord, in clearances. With the nominal turn n the half-axis is (bore
+ * radius - radius cos(n / 2) / cos(turn / 2)) / cos(n / 2), bore radius = 1 + radius. */
 static void open_to(const mitre_opening *opening, double radius, double turn, double axis[2][3])
 {
   if (opening->cosine == 0) return;

@@ -13,6 +13,7 @@ extern "C" {
 
 typedef struct thr_world thr_world;
 
+/* How a world is simulated. */
 typedef struct {
   double time_step; /* s */
   int iterations;   /* of sequential impulse; with cones: linear systems in a step, at most */
@@ -29,9 +30,9 @@ typedef struct {
 thr_status thr_world_create(thr_world **w, const thr_world_options *o, thr_err *err) THR_MUST_CHECK;
 void thr_world_destroy(thr_world *w);
 
-/* A body of one or more convex hulls. points: all hulls' corners one after the other in the body's
- * own frame (origin = mass centre), n_points[h] of each. mass 0 = static; moments of inertia from
- * the hulls' bounding boxes; no collision margin. pose: position and quaternion (x y z w).
+/* Adds a body of one or more convex hulls. points: all hulls' corners one after the other in the
+ * body's own frame (origin = mass centre), n_points[h] of each. mass 0 = static; moments of inertia
+ * from the hulls' bounding boxes; no collision margin. pose: position and quaternion (x y z w).
  * group/mask: collision filter bits. *body receives its index. */
 typedef struct {
   int n_hulls;
@@ -45,11 +46,11 @@ typedef struct {
 thr_status thr_world_add_hulls(thr_world *w, const thr_world_hulls *h, int *body,
                                thr_err *err) THR_MUST_CHECK;
 
-/* A body of one or more boxes that meets only other such bodies, and there only boxes of the same
- * tag: what is to touch is known beforehand, and arms that cross inside a joint do not. Two boxes
- * meet end to end along their own third axes, and touch at the four corners of the narrower end,
- * which may be off by 1e-4 m. half: half sides; place: position and quaternion of each box in the
- * body's frame (origin = mass centre). The rest as above. */
+/* Adds a body of one or more boxes that meets only other such bodies, and there only boxes of the
+ * same tag: what is to touch is known beforehand, and arms that cross inside a joint do not. Two
+ * boxes meet end to end along their own third axes, and touch at the four corners of the narrower
+ * end, which may be off by 1e-4 m. half: half sides; place: position and quaternion of each box in
+ * the body's frame (origin = mass centre). The rest as above. */
 typedef struct {
   int n_boxes;
   const double (*half)[3];
@@ -63,21 +64,22 @@ typedef struct {
 thr_status thr_world_add_boxes(thr_world *w, const thr_world_boxes *b, int *body,
                                thr_err *err) THR_MUST_CHECK;
 
-/* A sphere that does not rotate (angular factor 0). */
+/* Adds a sphere that does not rotate (angular factor 0). */
 thr_status thr_world_add_sphere(thr_world *w, double radius, double mass, const double at[3],
                                 double friction, int group, int mask, int *body,
                                 thr_err *err) THR_MUST_CHECK;
 
-/* Keeps the distance of two bodies' origins: one row, along the line between them. *link receives
- * its index. */
+/* Adds a link that keeps the distance of two bodies' origins: one row, along the line between them.
+ * *link receives its index. */
 thr_status thr_world_add_link(thr_world *w, int a, int b, double length, int *link,
                               thr_err *err) THR_MUST_CHECK;
 double thr_world_link_force(const thr_world *w, int link); /* N in the last step, > 0 = tension */
 
-/* Applied in the next step only. */
+/* Applies a force, N, at a body's centre or at a place, in the next step only. */
 void thr_world_force(thr_world *w, int body, const double force[3]);
 void thr_world_force_at(thr_world *w, int body, const double force[3],
                         const double at[3]); /* at: world coordinates */
+/* Takes a step. THR_ESOLVER: the simulation diverged. */
 thr_status thr_world_step(thr_world *w, thr_err *err) THR_MUST_CHECK;
 
 void thr_world_position(const thr_world *w, int body, double at[3]);
@@ -87,7 +89,8 @@ void thr_world_set_velocity(thr_world *w, int body, const double linear[3],
                             const double angular[3]);
 void thr_world_set_damping(thr_world *w, int body, double linear, double angular);
 
-int thr_bullet_version(void); /* 324 */
+/* Returns Bullet's version, 324 for 3.24. */
+int thr_bullet_version(void);
 
 #ifdef __cplusplus
 }
