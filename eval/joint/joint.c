@@ -176,7 +176,6 @@ static thr_status measure_joints(measuring *work, const thr_eval_options *option
   joint_table *table = work->table;
   thr_work jobs = {.result_size = sizeof(thr_drag_result),
                    .run = measure_job,
-
                    .done = keep_job,
                    .user = work,
                    .what = "measuring joints",
@@ -437,9 +436,7 @@ static thr_status raise_to_closed_form(const thr_frame *frame, const thr_cord *c
 /* Fails with THR_EINPUT if all turns that cost anything were refused. Called when no turn was
  * measured, which is no error if none costs anything. */
 static thr_status check_any_measured(const thr_eval *eval, const thr_drag *drag,
-                                     double largest_turn,
-
-                                     thr_err *err)
+                                     double largest_turn, thr_err *err)
 {
   int sharp = eval->refused_sharp, outside = eval->refused_outside,
       unsettled = eval->refused_unsettled;
