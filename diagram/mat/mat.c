@@ -34,6 +34,7 @@ static const double MARK = 3;                          /* mm: half a register ma
 static const double BAR = 100;                         /* mm */
 enum { OFFSETS = 60, MARKS = 3 };                      /* tried for the seams; marks along a seam */
 
+/* A mat that is laid out. */
 struct thr_mat {
   const thr_plan *plan;
   const thr_frame *frame;
@@ -225,16 +226,16 @@ static thr_status number_pages(thr_mat *mat, thr_err *err)
     return thr_fail(err, THR_EINPUT, "a mat of true size would be %d pages wide and %d high",
                     mat->tiles[0], mat->tiles[1]);
 
-  int n = mat->tiles[0] * mat->tiles[1];
-  mat->tile = thr_calloc((size_t)n, sizeof *mat->tile);
-  mat->number = thr_calloc((size_t)n, sizeof *mat->number);
+  int n_tiles = mat->tiles[0] * mat->tiles[1];
+  mat->tile = thr_calloc((size_t)n_tiles, sizeof *mat->tile);
+  mat->number = thr_calloc((size_t)n_tiles, sizeof *mat->number);
   if (!mat->tile || !mat->number) return thr_nomem(err);
 
   /* A tile without any piece is no page. */
-  for (int t = 0; t < n; t++) {
+  for (int tile = 0; tile < n_tiles; tile++) {
     double corner[2];
     bool used = false;
-    tile_corner(mat, t, corner);
+    tile_corner(mat, tile, corner);
 
     for (int i = 0; i < count_items(mat) && !used; i++) {
       thr_arms arms;
@@ -244,8 +245,8 @@ static thr_status number_pages(thr_mat *mat, thr_err *err)
 
     /* Pages are numbered from 1. */
     if (!used) continue;
-    mat->tile[mat->n++] = t;
-    mat->number[t] = mat->n;
+    mat->tile[mat->n++] = tile;
+    mat->number[tile] = mat->n;
   }
 
   if (mat->n <= THR_MAT_PAGES) return THR_OK;
@@ -574,21 +575,21 @@ static void put_map(const mat_page *page, int tile)
   double cell = fmin(7, fmin(60.0 / mat->tiles[0], (HEAD - 4) / mat->tiles[1])),
          right = mat->size[0] - MARGIN;
 
-  for (int t = 0; t < mat->tiles[0] * mat->tiles[1]; t++) {
-    double x = right - (mat->tiles[0] - t % mat->tiles[0]) * cell,
-           y = MARGIN + t / mat->tiles[0] * cell;
+  for (int other = 0; other < mat->tiles[0] * mat->tiles[1]; other++) {
+    double x = right - (mat->tiles[0] - other % mat->tiles[0]) * cell,
+           y = MARGIN + other / mat->tiles[0] * cell;
     char number[16];
     thr_text_printf(page->svg,
                     "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"%s\" "
                     "stroke=\"#222\" stroke-width=\"0.3\"/>\n",
-                    x, y, cell, cell, t == tile ? "#222" : "#fff");
+                    x, y, cell, cell, other == tile ? "#222" : "#fff");
 
     /* Numbers where the cells are large enough. */
-    snprintf(number, sizeof number, "%d", mat->number[t]);
-    if (mat->number[t] && cell >= 5)
+    snprintf(number, sizeof number, "%d", mat->number[other]);
+    if (mat->number[other] && cell >= 5)
       put_word(page, (const double[]){x + 0.5 * cell, y + 0.5 * cell}, TEXT,
-               t == tile ? " text-anchor=\"middle\" style=\"fill:#fff\""
-                         : " text-anchor=\"middle\"",
+               other == tile ? " text-anchor=\"middle\" style=\"fill:#fff\""
+                             : " text-anchor=\"middle\"",
                number);
   }
 }

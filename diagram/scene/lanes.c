@@ -14,6 +14,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* Limits that keep the work on crowded edges and nodes small. */
 enum {
   LOOK_AHEAD = 60, /* passes that two cords are followed */
   MAX_LANES = 24,  /* of a bead; lanes of fuller beads stay in the order of the passes */

@@ -433,7 +433,7 @@ static thr_status box_beads(thr_scene *scene, thr_err *err)
         half = 0.5 * scene->bead[e],
         length = thr_scene_edge_length(scene, e) - scene->gap[2 * e] - scene->gap[2 * e + 1];
 
-    const double *a = scene->at[scene->paper->edge[e][0]];
+    const double *tail = scene->at[scene->paper->edge[e][0]];
     thr_scene_direction(scene, 2 * e, direction);
 
     /* Squares whose centres are evenly spaced, the outer ones at the ends. */
@@ -443,8 +443,8 @@ static thr_status box_beads(thr_scene *scene, thr_err *err)
                      (n > 1 ? fmin(half, 0.5 * length) + i * fmax(length - 2 * half, 0) / (n - 1)
                             : 0.5 * length);
       st = thr_boxes_add(&scene->boxes,
-                         thr_box_around(a[0] + along * direction[0], a[1] + along * direction[1],
-                                        seen * half, seen * half),
+                         thr_box_around(tail[0] + along * direction[0],
+                                        tail[1] + along * direction[1], seen * half, seen * half),
                          THR_BOX_BEAD, err);
     }
   }

@@ -72,15 +72,15 @@ void thr_shadow_edges(const thr_frame *frame, const double *at, int stride, doub
     thr_text_append(text, "<path fill=\"none\" stroke=\"#bbb\" stroke-width=\"0.20\" d=\"");
 
   for (int e = 0; e < frame->n_edges; e++) {
-    const double *a = at + (size_t)stride * (size_t)frame->edge[e][0],
-                 *b = at + (size_t)stride * (size_t)frame->edge[e][1];
+    const double *tail = at + (size_t)stride * (size_t)frame->edge[e][0],
+                 *head = at + (size_t)stride * (size_t)frame->edge[e][1];
 
     /* One line in the path, or cells in the shadow. */
     if (lines) {
-      thr_svg_move(text, a);
-      thr_svg_line(text, b);
+      thr_svg_move(text, tail);
+      thr_svg_line(text, head);
     } else
-      thr_shadow_line(&shadow, a, b);
+      thr_shadow_line(&shadow, tail, head);
   }
 
   if (lines)

@@ -19,10 +19,10 @@ typedef struct {
   double size[2]; /* of the paper, mm */
 } thr_camera_view;
 
-/* What is to be drawn: a line for every pass as the needle goes, from hub to hub. Arrays are
- * borrowed. */
+/* So many passes of a step are shown at most. */
 enum { THR_CAMERA_PASSES = 32 };
 
+/* What is to be drawn: a line for every pass as the needle goes, from hub to hub. */
 typedef struct {
   int n; /* 1 to THR_CAMERA_PASSES */
   double from[THR_CAMERA_PASSES][3], to[THR_CAMERA_PASSES][3];

@@ -235,23 +235,25 @@ static double bend(const piece *line, const double x[3], const double y[3])
  * gradient of the length in it. */
 static void turn_basis(taut_path *path, int i)
 {
-  block *b = &path->block[i];
+  block *here = &path->block[i];
 
   /* At the middle of the opening any basis will do. */
   double radius = hypot(path->z[i][0], path->z[i][1]);
-  b->radial[0] = radius > 0 ? path->z[i][0] / radius : 1;
-  b->radial[1] = radius > 0 ? path->z[i][1] / radius : 0;
+  here->radial[0] = radius > 0 ? path->z[i][0] / radius : 1;
+  here->radial[1] = radius > 0 ? path->z[i][1] / radius : 0;
 
   for (int k = 0; k < 3; k++) {
-    b->axis[0][k] = b->radial[0] * path->axis[i][0][k] + b->radial[1] * path->axis[i][1][k];
-    b->axis[1][k] = b->radial[0] * path->axis[i][1][k] - b->radial[1] * path->axis[i][0][k];
+    here->axis[0][k] =
+        here->radial[0] * path->axis[i][0][k] + here->radial[1] * path->axis[i][1][k];
+    here->axis[1][k] =
+        here->radial[0] * path->axis[i][1][k] - here->radial[1] * path->axis[i][0][k];
   }
 
   /* A vertex pulls on its two pieces: the gradient is the difference of their unit vectors. */
   for (int k = 0; k < 2; k++) {
-    b->gradient[k] = 0;
-    if (i > 0) b->gradient[k] += thr_dot(b->axis[k], path->piece[i - 1].unit);
-    if (i < path->n) b->gradient[k] -= thr_dot(b->axis[k], path->piece[i].unit);
+    here->gradient[k] = 0;
+    if (i > 0) here->gradient[k] += thr_dot(here->axis[k], path->piece[i - 1].unit);
+    if (i < path->n) here->gradient[k] -= thr_dot(here->axis[k], path->piece[i].unit);
   }
 }
 

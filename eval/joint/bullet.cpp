@@ -367,6 +367,8 @@ Ends::Maker make_ends;
 
 } // namespace
 
+/* A world owns all of Bullet's objects. Shapes are shared by bodies, so that they have a list of
+ * their own. */
 struct thr_world {
   thr_world_options options;
   btDefaultCollisionConfiguration *configuration;

@@ -134,25 +134,28 @@ static thr_status renew(thr_contacts *cones, int n_bodies, int n_contacts,
 {
   /* A contact has at most 6 entries of either body in each of its columns. */
   empty(cones);
-  const size_t n = 6 * (size_t)n_bodies, m = 3 * (size_t)n_contacts, entries = 12 * m + n;
+  const size_t n_rows = 6 * (size_t)n_bodies, n_cone_columns = 3 * (size_t)n_contacts,
+               entries = 12 * n_cone_columns + n_rows;
 
   cones->n_bodies = n_bodies;
   cones->n_contacts = n_contacts;
-  cones->n_columns = (int)(m + n);
+  cones->n_columns = (int)(n_cone_columns + n_rows);
 
   cones->body = thr_scratch_array(&cones->own, (size_t)n_contacts, sizeof *cones->body);
-  cones->start = thr_scratch_array(&cones->own, m + n + 1, sizeof *cones->start);
+  cones->start = thr_scratch_array(&cones->own, n_cone_columns + n_rows + 1, sizeof *cones->start);
   cones->row = thr_scratch_array(&cones->own, entries, sizeof *cones->row);
   cones->value = thr_scratch_array(&cones->own, entries, sizeof *cones->value);
-  cones->impulse = thr_scratch_array(&cones->own, m + n, sizeof *cones->impulse);
-  cones->last = thr_scratch_array(&cones->own, m, sizeof *cones->last);
-  cones->residual = thr_scratch_array(&cones->own, m + n, sizeof *cones->residual);
-  cones->found = thr_scratch_array(&cones->own, m + n, sizeof *cones->found);
-  cones->along = thr_scratch_array(&cones->own, m + n, sizeof *cones->along);
-  cones->weight = thr_scratch_array(&cones->own, 2 * m + n, sizeof *cones->weight);
-  cones->change = thr_scratch_array(&cones->own, n, sizeof *cones->change);
-  cones->direction = thr_scratch_array(&cones->own, n, sizeof *cones->direction);
-  cones->descent = thr_scratch_array(&cones->own, n, sizeof *cones->descent);
+  cones->impulse = thr_scratch_array(&cones->own, n_cone_columns + n_rows, sizeof *cones->impulse);
+  cones->last = thr_scratch_array(&cones->own, n_cone_columns, sizeof *cones->last);
+  cones->residual =
+      thr_scratch_array(&cones->own, n_cone_columns + n_rows, sizeof *cones->residual);
+  cones->found = thr_scratch_array(&cones->own, n_cone_columns + n_rows, sizeof *cones->found);
+  cones->along = thr_scratch_array(&cones->own, n_cone_columns + n_rows, sizeof *cones->along);
+  cones->weight =
+      thr_scratch_array(&cones->own, 2 * n_cone_columns + n_rows, sizeof *cones->weight);
+  cones->change = thr_scratch_array(&cones->own, n_rows, sizeof *cones->change);
+  cones->direction = thr_scratch_array(&cones->own, n_rows, sizeof *cones->direction);
+  cones->descent = thr_scratch_array(&cones->own, n_rows, sizeof *cones->descent);
 
   thr_status st = thr_scratch_check(&cones->own, err);
   if (st) return st;

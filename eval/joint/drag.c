@@ -88,6 +88,7 @@ const double thr_drag_least_bore = 1.01, thr_drag_largest_bore = 1e3;
  * where the cord wedges. */
 static const double PULL_MARGIN = 1.1, WEDGE_DOUBT = 0.1;
 
+/* Constants of the simulation, and limits of what is simulated. */
 enum {
   LINKS_MEASURED = 4, /* at either end, over which a tension is the mean */
   LIMIT_STEPS = 100,  /* between two looks at the limits */
@@ -588,19 +589,19 @@ static void damp(drag_run *run)
 {
   double rate = protocol.damping / (run->spheres * run->spacing),
          mass = protocol.density * run->spacing;
-  double before[3], here[3], next[3], d[3], v[3], spin[3], force[3];
+  double before[3], here[3], next[3], direction[3], velocity[3], spin[3], force[3];
 
   /* The direction at a sphere is that from the sphere before to the next one. */
   thr_world_position(run->world, run->sphere, before);
   thr_world_position(run->world, run->sphere + 1, here);
   for (int i = 1; i + 1 < run->spheres; i++) {
     thr_world_position(run->world, run->sphere + i + 1, next);
-    between(before, next, d);
+    between(before, next, direction);
 
     /* The velocity that is missing to the drag's speed in this direction. */
-    thr_world_velocity(run->world, run->sphere + i, v, spin);
+    thr_world_velocity(run->world, run->sphere + i, velocity, spin);
     for (int k = 0; k < 3; k++)
-      force[k] = rate * mass * (protocol.speed * d[k] - v[k]);
+      force[k] = rate * mass * (protocol.speed * direction[k] - velocity[k]);
     thr_world_force(run->world, run->sphere + i, force);
 
     memcpy(before, here, sizeof before);
@@ -629,14 +630,14 @@ static void add_to_path(const drag_run *run, double blocks, double (*path)[3])
  * short chords show how the chain trembles. Only places that spheres passed all the time count. */
 static double turning(const drag_run *run, double (*path)[3])
 {
-  double sum = 0, before[3] = {0}, d[3];
+  double sum = 0, before[3] = {0}, chord[3];
   int stride = (int)lround(fmax(1, 1 / run->spacing));
 
   /* Chords, and the angles between consecutive ones. */
   for (long i = run->blocks + 1 + stride; i < run->spheres; i += stride) {
-    between(path[i - stride], path[i], d);
-    if (i > run->blocks + 1 + stride) sum += thr_angle_between(before, d);
-    memcpy(before, d, sizeof before);
+    between(path[i - stride], path[i], chord);
+    if (i > run->blocks + 1 + stride) sum += thr_angle_between(before, chord);
+    memcpy(before, chord, sizeof before);
   }
   return sum;
 }
@@ -696,20 +697,20 @@ static thr_status simulate(drag_run *run, const thr_limits *limits, thr_drag_res
 
   /* Damp in the first three quarters of settling only, so that nothing of it is left in the
    * results. */
-  for (long b = -run->settle; st == THR_OK && b < run->blocks; b++) {
+  for (long number = -run->settle; st == THR_OK && number < run->blocks; number++) {
     for (long i = 0; st == THR_OK && i < run->block; i++) {
-      long done = (b + run->settle) * run->block + i;
+      long done = (number + run->settle) * run->block + i;
 
       if (done % LIMIT_STEPS == 0) st = advance(run, done, limits, err);
-      if (b < -run->settle / 4) damp(run);
+      if (number < -run->settle / 4) damp(run);
       if (st == THR_OK) st = step(run, err);
 
       /* Tensions near both ends, and the path in PHASES moments of a block. */
-      if (st != THR_OK || b < 0) continue;
-      block[b].hold += tension(run, 0);
-      block[b].drag += tension(run, run->spheres - 1 - MARGIN_LINKS - LINKS_MEASURED);
+      if (st != THR_OK || number < 0) continue;
+      block[number].hold += tension(run, 0);
+      block[number].drag += tension(run, run->spheres - 1 - MARGIN_LINKS - LINKS_MEASURED);
       if (i * PHASES % run->block < PHASES)
-        add_to_path(run, (double)b + (double)(i + 1) / (double)run->block, path);
+        add_to_path(run, (double)number + (double)(i + 1) / (double)run->block, path);
     }
   }
 

@@ -70,6 +70,7 @@ typedef struct {
   bool cache_failed;
 } measuring;
 
+/* Releases a table and leaves an empty one. */
 static void table_destroy(joint_table *table)
 {
   free(table->at);
