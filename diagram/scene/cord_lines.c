@@ -2,9 +2,9 @@
 /* Computes where a cord runs in space: as a line through the nodes, or with a lane for each of its
  * passes.
  *
- * The lanes of an edge lie side by side in a level plane (unless the edge is upright), `spacing`
- * apart and symmetric about the edge; each takes the middle 0.7 of the edge. Between two lanes the
- * cord runs straight. */
+ * The lanes of an edge lie side by side in a level direction (unless the edge is upright),
+ * `spacing` apart and symmetric about the edge; each takes the middle 0.7 of the edge. Between two
+ * lanes the cord runs straight. */
 #include "diagram/scene/scene.h"
 
 #include "graph/sort.h"

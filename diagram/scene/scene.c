@@ -494,7 +494,6 @@ thr_status thr_scene_build(thr_scene *scene, const thr_plan *plan, const thr_lay
   if ((st = thr_scene_name_seams(scene, err))) goto done;
   st = thr_scene_place_labels(scene, err);
 done:
-
   if (st) thr_scene_destroy(scene);
   return st;
 }

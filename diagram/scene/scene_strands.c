@@ -13,12 +13,12 @@
 #include <math.h>
 
 void thr_scene_curve_at(const double a[2], const double b[2], const double c[2], const double d[2],
-                        double along, double at[2])
+                        double t, double at[2])
 {
-  double rest = 1 - along;
+  double rest = 1 - t;
   for (int k = 0; k < 2; k++)
-    at[k] = rest * rest * rest * a[k] + 3 * rest * rest * along * b[k] +
-            3 * rest * along * along * c[k] + along * along * along * d[k];
+    at[k] = rest * rest * rest * a[k] + 3 * rest * rest * t * b[k] + 3 * rest * t * t * c[k] +
+            t * t * t * d[k];
 }
 
 /* Computes the end of the lane of pass i, mm, at the pass's start or its end. */

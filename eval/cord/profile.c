@@ -120,8 +120,8 @@ thr_status thr_profile_cord(thr_eval_cord *out, const thr_cord *cord, const doub
                                       : fmax(at_start, at_end);
   out->other_force = pull == THR_PULL_BOTH ? fmin(at_start, at_end) : 0;
 
-  /* The part of the larger force that friction takes on the way, and the work per mm of both
-   * ends. */
+  /* The part of the larger force that friction takes on the way, and the work, J per metre of cord
+   * drawn out at every pulled end. */
   out->loss = 1 - seating / out->force;
   out->work = out->force + out->other_force;
   out->slackest = slackest;

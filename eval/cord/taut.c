@@ -72,7 +72,6 @@ typedef struct {
 } taut_path;
 
 /* Returns the slack of the constraint |z|^2 / 2 <= 1 / 2: 0 on the wall, 1 / 2 at the middle. */
-
 static double slack(const double z[2])
 {
   return (1 - z[0] * z[0] - z[1] * z[1]) / 2;
@@ -121,6 +120,7 @@ static mitre_opening make_opening(const double u[3], const double w[3], double s
                            .sine = scale_to_unit(in_turn) / 2,
                            .short_edge = short_edge};
   if (opening.cosine < U_TURN / 2) return (mitre_opening){.cosine = 0};
+
   /* Straight on there is no plane of the turn: take any direction across, from the coordinate axis
    * that is furthest from the channel. */
   if (opening.sine < 1e-9) {
@@ -411,6 +411,7 @@ static bool take_step(taut_path *path, double barrier)
              path->block[i].gradient[1] * path->block[i].step[1];
     if (i < path->n) length += path->piece[i].length;
   }
+
   /* Near the end the true change is less than the rounding of the sum of differences. */
   double noise = 1e-15 * length;
 
