@@ -60,6 +60,7 @@ static int find_start(const copy_pair *pair, int *failure)
     matched += node == node_at(pair->f, pair->cord, matched);
     if (matched == pair->n) return i - pair->n + 1;
   }
+
   return -1;
 }
 

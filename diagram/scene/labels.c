@@ -232,6 +232,7 @@ static thr_status place_name(thr_scene *scene, int v, double share, int distance
       return thr_boxes_add(&scene->boxes, box, THR_BOX_NAME, err);
     }
   }
+
   return THR_OK;
 }
 

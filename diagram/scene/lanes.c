@@ -90,6 +90,7 @@ static int part(const thr_scene *scene, walker first, walker second)
     first.pass += first.step;
     second.pass += second.step;
   }
+
   return 0;
 }
 

@@ -132,5 +132,6 @@ thr_status thr_scene_place_marks(thr_scene *scene, thr_err *err)
     st = place_mark(scene, &mark[0], cord->half[0], err);
     if (!st) st = place_mark(scene, &mark[1], last ^ 1, err);
   }
+
   return st;
 }

@@ -312,6 +312,7 @@ int thr_pieces_parts(const thr_plan *plan, const thr_copy *copy, int needles, th
     for (int c = 0; c < plan->n_cords; c++)
       if (c != path && copy[c].of == path) n += add_parts(plan, c, needles, part + n);
   }
+
   return n;
 }
 

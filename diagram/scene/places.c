@@ -54,6 +54,7 @@ static int cluster(const double (*xy)[2], int n, int axis, double median, thr_ra
     if (ranked[i - 1].key - ranked[from].key > 0.1 * median) return 0;
     centre[count++] = ranked[from].key + sum / (i - from);
   }
+
   return count;
 }
 
@@ -111,6 +112,7 @@ static bool take_names(thr_places *places, const thr_frame *frame)
     snprintf(column_letter, 8, "%s", letter);
     snprintf(row_number, 8, "%s", number);
   }
+
   return true;
 }
 

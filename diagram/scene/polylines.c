@@ -172,6 +172,7 @@ static int colour_index(const char *hex)
       best = index;
     }
   }
+
   return best;
 }
 
@@ -365,6 +366,7 @@ static thr_status position(const double at[3], double metres, float out[3], thr_
     /* No negative zero: the same point gives the same bytes. */
     out[i] = value == 0 ? 0 : (float)value;
   }
+
   return THR_OK;
 }
 
@@ -389,6 +391,7 @@ static thr_status put_strip(thr_cord_lines *lines, int c, double metres, base64 
       put_float(buffer, at[i]);
     }
   }
+
   return THR_OK;
 }
 

@@ -448,6 +448,7 @@ static thr_status box_beads(thr_scene *scene, thr_err *err)
                          THR_BOX_BEAD, err);
     }
   }
+
   return st;
 }
 

@@ -80,6 +80,7 @@ static bool find_name_place(thr_scene *scene, int point, double half_width, doub
       found = true;
     }
   }
+
   return found;
 }
 
@@ -107,6 +108,7 @@ static thr_status name_both(thr_scene *scene, int point, double gap, thr_err *er
     st = thr_boxes_add(&scene->boxes, thr_box_around(at[k][0], at[k][1], half_width, half_height),
                        THR_BOX_NAME, err);
   }
+
   return st;
 }
 
@@ -223,6 +225,7 @@ static thr_status box_label(thr_scene *scene, const thr_mark *mark, thr_err *err
                                       origin[1] + along * (mark->at[1] - origin[1]), half, half),
                        THR_BOX_CORD, err);
   }
+
   return st;
 }
 

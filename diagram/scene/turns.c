@@ -57,6 +57,7 @@ static thr_status place_sign(thr_scene *scene, int i, thr_err *err)
     pass->sharp = true;
     return thr_boxes_add(&scene->boxes, box, THR_BOX_TURN, err);
   }
+
   return THR_OK;
 }
 

@@ -54,7 +54,7 @@ public:
   Link(btRigidBody &a, btRigidBody &b, double length)
       : btTypedConstraint(D6_CONSTRAINT_TYPE, a, b), rest(length)
   {
-    enableFeedback(true);
+    enableFeedback(true); /* of the impulse, for tension() */
   }
 
   /* Returns the unit vector from the first origin to the second. */
@@ -184,6 +184,7 @@ private:
   {
     number.resizeNoInitialize(m_tmpSolverBodyPool.size());
     mass.resizeNoInitialize(0);
+
     for (int i = 0; i < number.size(); i++) {
       const btRigidBody *body = m_tmpSolverBodyPool[i].m_originalBody;
       const bool moves = body && body->getInvMass() > 0;
@@ -275,6 +276,7 @@ public:
                         const btDispatcherInfo &, btManifoldResult *result) override
   {
     const End first(*a, *b), second(*b, *a);
+
     result->setPersistentManifold(manifold);
 
     /* The narrower end has the corners, the wider one the plane. */
@@ -418,13 +420,14 @@ thr_status thr_world_create(thr_world **out, const thr_world_options *options, t
   /* Bullet's parts, each made only if those before were. */
   thr_world *world = static_cast<thr_world *>(thr_calloc(1, sizeof *world));
   if (!world) return thr_nomem(err);
+
   world->options = *options;
   world->configuration = make<btDefaultCollisionConfiguration>();
   if (world->configuration) world->dispatcher = make<btCollisionDispatcher>(world->configuration);
   world->broadphase = make<btDbvtBroadphase>();
   world->solver = options->cones ? make<Cones>() : make<btSequentialImpulseConstraintSolver>();
 
-  /* The solver with our cones, or Bullet's. */
+  /* The world needs all of these parts. */
   if (world->dispatcher && world->broadphase && world->solver)
     world->dynamics = make<btDiscreteDynamicsWorld>(world->dispatcher, world->broadphase,
                                                     world->solver, world->configuration);
@@ -433,6 +436,8 @@ thr_status thr_world_create(thr_world **out, const thr_world_options *options, t
     thr_world_destroy(world);
     return thr_nomem(err);
   }
+
+  /* The cones' solver has memory of its own. */
   thr_status st =
       options->cones ? static_cast<Cones *>(world->solver)->begin(options->still, err) : THR_OK;
   if (st != THR_OK) {
@@ -460,6 +465,7 @@ void thr_world_destroy(thr_world *world)
     world->dynamics->removeConstraint(world->link[i]);
     unmake(world->link[i]);
   }
+
   for (int i = 0; i < world->n_bodies; i++) {
     world->dynamics->removeRigidBody(world->body[i]);
     unmake(world->body[i]);
@@ -566,6 +572,7 @@ thr_status thr_world_add_hulls(thr_world *world, const thr_world_hulls *hulls, i
   if (st != THR_OK) return st;
 
   /* Static bodies have mass 0 and no inertia. */
+  /* The last shape of the world is the body's. */
   btCollisionShape *shape = world->shape[world->n_shapes - 1];
   btVector3 inertia(0, 0, 0);
   if (hulls->mass > 0) shape->calculateLocalInertia(hulls->mass, inertia);
@@ -656,6 +663,7 @@ thr_status thr_world_add_sphere(thr_world *world, double radius, double mass, co
   btVector3 inertia(0, 0, 0);
   if (mass > 0) shape->calculateLocalInertia(mass, inertia);
   btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shape, inertia);
+
   info.m_startWorldTransform.setOrigin(vector_of(at));
   info.m_friction = friction;
 
@@ -722,8 +730,10 @@ void thr_world_position(const thr_world *world, int body, double at[3])
 
 void thr_world_pose(const thr_world *world, int body, double pose[7])
 {
+  /* Position, then the quaternion x y z w. */
   const btTransform &transform = world->body[body]->getCenterOfMassTransform();
   const btQuaternion rotation = transform.getRotation();
+
   copy_out(transform.getOrigin(), pose);
   for (int k = 0; k < 4; k++)
     pose[3 + k] = rotation[k];

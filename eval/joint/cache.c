@@ -1,17 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Stores measured joints as small text files in a folder, one file per joint, and reads them back.
- *
- * A file is named by a hash of its key, joint-0123456789abcdef.txt, and holds the key in plain
- * text, the values with 17 digits, and a checksum. So a collision of hashes is only a miss. A file
- * that is corrupt, truncated, of another key or unreadable counts as absent: the joint is measured
- * again.
- *
- *   joint measured by thread         the key: everything that the result depends on
- *   protocol spheres 0.2 apart ..
- *   turn 1.5707963267948966 ..
- *   status 0                         the values
- *   ratio 1.17 ..
- *   check 0123456789abcdef           FNV-1a of all bytes before */
+ * A file is named by a hash of its key and holds the key, so that a collision of hashes is only a
+ * miss. A file that is corrupt, truncated, of another key or unreadable counts as absent: the joint
+ * is measured again. What a file looks like: thr_cache_write. */
 #include "eval/joint/joint.h"
 #include "eval/joint/world.h"
 #include "graph/os.h"
@@ -51,6 +42,14 @@ void thr_cache_key(const thr_drag *drag, thr_text *key)
                   drag->seed, drag->time_step, drag->iterations, drag->spacing, drag->sides);
 }
 
+/* Example of a file, joint-0123456789abcdef.txt:
+ *
+ *   joint measured by thread         the key: everything that the result depends on
+ *   protocol spheres 0.2 apart ..
+ *   turn 1.5707963267948966 ..
+ *   status 0                         the values, with 17 digits
+ *   ratio 1.17 ..
+ *   check 0123456789abcdef           FNV-1a of all bytes before */
 void thr_cache_write(const thr_text *key, const thr_drag_result *result, thr_text *out)
 {
   size_t begin = out->length;

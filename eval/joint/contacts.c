@@ -336,10 +336,12 @@ static void newton(thr_contacts *cones)
 static double take(thr_contacts *cones)
 {
   double most = 0;
+
   for (int j = 0; j < 3 * cones->n_contacts; j++) {
     most = fmax(most, fabs(cones->found[j] - cones->impulse[j]) / cones->penalty);
     cones->impulse[j] = cones->found[j];
   }
+
   return most;
 }
 

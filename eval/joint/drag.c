@@ -485,6 +485,7 @@ static bool make_path(const drag_run *run, chain_piece *piece, double *links)
     *links += piece[i].straight + piece[i].links;
     cut = next;
   }
+
   return true;
 }
 
@@ -594,6 +595,7 @@ static void damp(drag_run *run)
   /* The direction at a sphere is that from the sphere before to the next one. */
   thr_world_position(run->world, run->sphere, before);
   thr_world_position(run->world, run->sphere + 1, here);
+
   for (int i = 1; i + 1 < run->spheres; i++) {
     thr_world_position(run->world, run->sphere + i + 1, next);
     between(before, next, direction);
@@ -639,6 +641,7 @@ static double turning(const drag_run *run, double (*path)[3])
     if (i > run->blocks + 1 + stride) sum += thr_angle_between(before, chord);
     memcpy(before, chord, sizeof before);
   }
+
   return sum;
 }
 

@@ -227,6 +227,8 @@ static bool left_out(const joint_table *table, int i, double *miss)
 
   const measured_joint *before = &table->at[i - 1], *here = &table->at[i],
                        *next = &table->at[i + 1];
+
+  /* Linear between the two neighbours. */
   double part = (here->turn - before->turn) / (next->turn - before->turn);
   *miss = (1 - part) * before->rate + part * next->rate - here->rate;
 
@@ -242,6 +244,8 @@ static void table_finish(const measuring *work, thr_eval *out)
   /* Rates, and their errors from the experiments. */
   for (int i = 0; i < table->n; i++) {
     measured_joint *joint = &table->at[i];
+
+    /* Joints that did not settle are counted, and not used. */
     if (joint->known && joint->result.status == THR_DRAG_UNSETTLED) out->joints_unsettled++;
     if (!settled(joint)) continue;
 
@@ -374,6 +378,7 @@ static thr_status fill_cord(thr_eval *out, thr_eval_cord *eval_cord, const thr_f
 {
   int count[SHARP + 1] = {0};
 
+  /* A cord with a joint that is not known has no record. */
   if (!cord_measured(table, frame, cord, taut)) return THR_OK;
   double *exponent = thr_calloc((size_t)cord->n_passes, sizeof *exponent);
   double *error = thr_calloc((size_t)cord->n_passes, sizeof *error);
