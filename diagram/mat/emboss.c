@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes the names of all pieces as closed outlines, true to size, row by row.
+ *
+ * All names have the same height: as high as lets the longest one lie on the hub of a piece (a
+ * square as wide as its arms), or along the shortest tube, and at most HIGH of the room across
+ * it. */
 #include "diagram/mat/emboss.h"
 
 #include "diagram/export/paper.h"
@@ -16,6 +21,7 @@ static const double WIDE = 0.9, HIGH = 0.6; /* of the room on a piece that a nam
 static const double APART = 4, ROW = 200;   /* mm: between names; width of a row */
 static const double PRINTED = 3;            /* mm: lower capitals come out of few printers */
 
+/* The names to be written. */
 typedef struct {
   const thr_plan *plan;
   thr_guide guide;
@@ -23,86 +29,110 @@ typedef struct {
   thr_letters_set *letters;
   double room[2]; /* mm: on a piece, along its name and across it */
   double height, widest;
-} embossed;
+} name_sheet;
 
-static thr_status name_of(const embossed *l, int piece, thr_text *name, thr_err *err)
+/* Writes the name of a piece into a new text, which the caller destroys. */
+static thr_status name_of(const name_sheet *sheet, int piece, thr_text *name, thr_err *err)
 {
   *name = (thr_text){0};
-  thr_pieces_name(&l->pieces, (const char(*)[THR_LABEL])l->guide.label, piece, name);
+  thr_pieces_name(&sheet->pieces, (const char(*)[THR_LABEL])sheet->guide.label, piece, name);
   if (name->data && !name->failed) return THR_OK;
   thr_text_destroy(name);
   return thr_nomem(err);
 }
 
-static thr_status find_room(embossed *l, thr_err *err)
+/* Finds the room for a name on a piece, mm. THR_EINPUT: the unit has no known length. */
+static thr_status find_room(name_sheet *sheet, thr_err *err)
 {
-  const thr_frame *f = &l->plan->frame;
+  const thr_frame *frame = &sheet->plan->frame;
   thr_physics physics;
   double mm, shortest = HUGE_VAL;
-  if (thr_units_in_mm(f->units, &mm, NULL))
+
+  if (thr_units_in_mm(frame->units, &mm, NULL))
     return thr_fail(
         err, THR_EINPUT,
         "labels are of true size, and nobody knows the framework's unit: plan it with --units");
-  thr_status st = thr_physics_resolve(&l->plan->options.physics, f, &physics, err);
-  for (int e = 0; e < f->n_edges; e++)
-    shortest = fmin(shortest, f->length[e] * mm);
-  l->room[1] = physics.bead_diameter;
-  l->room[0] = l->pieces.solid ? l->room[1] : fmax(l->room[1], shortest - l->room[1]);
+
+  /* The shortest tube decides; solid pieces have square hubs. */
+  thr_status st = thr_physics_resolve(&sheet->plan->options.physics, frame, &physics, err);
+  for (int e = 0; e < frame->n_edges; e++)
+    shortest = fmin(shortest, frame->length[e] * mm);
+
+  /* A tube is shorter than its edge by the bead's width, since other tubes meet it at its ends. */
+  sheet->room[1] = physics.bead_diameter;
+  sheet->room[0] =
+      sheet->pieces.solid ? sheet->room[1] : fmax(sheet->room[1], shortest - sheet->room[1]);
   return st;
 }
 
-static thr_status find_height(embossed *l, thr_err *err)
+/* Finds the height of all names from the widest one. Widths are per height. */
+static thr_status find_height(name_sheet *sheet, thr_err *err)
 {
   thr_status st = THR_OK;
-  for (int i = 0; i < l->pieces.n && !st; i++) {
+
+  for (int i = 0; i < sheet->pieces.n && !st; i++) {
     thr_text name;
-    if ((st = name_of(l, i, &name, err))) break;
-    l->widest = fmax(l->widest, thr_letters_width(l->letters, name.data));
+    if ((st = name_of(sheet, i, &name, err))) break;
+    sheet->widest = fmax(sheet->widest, thr_letters_width(sheet->letters, name.data));
     thr_text_destroy(&name);
   }
-  l->height = fmin(HIGH * l->room[1], WIDE * l->room[0] / l->widest);
+
+  /* Across, a name leaves some of the room; along, the widest name must fit. */
+  sheet->height = fmin(HIGH * sheet->room[1], WIDE * sheet->room[0] / sheet->widest);
   return st;
 }
 
-static thr_status put_all(const embossed *l, thr_text *svg, thr_err *err)
+/* Writes the document: each name in a cell of its own. */
+static thr_status put_all(const name_sheet *sheet, thr_text *svg, thr_err *err)
 {
-  const double step[2] = {l->widest * l->height + APART, l->height + APART};
+  /* As many cells in a row as fit into ROW mm. */
+  const double step[2] = {sheet->widest * sheet->height + APART, sheet->height + APART};
   const int columns = (int)fmax(1, floor((ROW - APART) / step[0])),
-            rows = (l->pieces.n + columns - 1) / columns;
+            rows = (sheet->pieces.n + columns - 1) / columns;
+
+  /* Say how high they are, and whether a printer can raise them. */
   char words[240];
-  snprintf(words, sizeof words, "Closed outlines in mm, capitals %.2f mm high%s.", l->height,
-           l->height < PRINTED ? ": fine for engraving; few printers raise letters below 3 mm"
-                               : "");
+  snprintf(words, sizeof words, "Closed outlines in mm, capitals %.2f mm high%s.", sheet->height,
+           sheet->height < PRINTED ? ": fine for engraving; few printers raise letters below 3 mm"
+                                   : "");
   thr_svg_open(svg, APART + columns * step[0], APART + rows * step[1],
                "Names of the pieces, to emboss", words);
-  for (int i = 0; i < l->pieces.n; i++) {
+
+  /* The base line of a name lies at the foot of its cell. */
+  for (int i = 0; i < sheet->pieces.n; i++) {
     const int row = i / columns;
     const double at[2] = {APART + i % columns * step[0], (1 + row) * step[1]};
+
     thr_text name;
-    thr_status st = name_of(l, i, &name, err);
+    thr_status st = name_of(sheet, i, &name, err);
     if (st) return st;
+
     thr_text_append(svg, "<g id=\"label-");
     thr_text_xml(svg, name.data);
     thr_text_append(svg, "\"><path d=\"");
-    thr_letters_put(l->letters, name.data, at, l->height, svg);
+    thr_letters_put(sheet->letters, name.data, at, sheet->height, svg);
     thr_text_append(svg, "\"/></g>\n");
     thr_text_destroy(&name);
   }
+
   thr_text_append(svg, "</svg>\n");
   return svg->failed ? thr_nomem(err) : THR_OK;
 }
 
 thr_status thr_emboss_svg(const thr_plan *plan, thr_text *svg, thr_err *err)
 {
-  embossed l = {.plan = plan};
-  thr_status st = thr_guide_make(&l.guide, &plan->frame, NULL, err);
-  if (!st) st = thr_pieces_make(&l.pieces, plan, 0, err);
-  if (!st) st = find_room(&l, err);
-  if (!st) st = thr_letters_open(&l.letters, err);
-  if (!st) st = find_height(&l, err);
-  if (!st) st = put_all(&l, svg, err);
-  thr_letters_close(l.letters);
-  thr_pieces_destroy(&l.pieces);
-  thr_guide_destroy(&l.guide);
+  name_sheet sheet = {.plan = plan};
+
+  /* Names, kinds and places are those of all other documents. */
+  thr_status st = thr_guide_make(&sheet.guide, &plan->frame, NULL, err);
+  if (!st) st = thr_pieces_make(&sheet.pieces, plan, 0, err);
+  if (!st) st = find_room(&sheet, err);
+  if (!st) st = thr_letters_open(&sheet.letters, err);
+  if (!st) st = find_height(&sheet, err);
+  if (!st) st = put_all(&sheet, svg, err);
+
+  thr_letters_close(sheet.letters);
+  thr_pieces_destroy(&sheet.pieces);
+  thr_guide_destroy(&sheet.guide);
   return st;
 }

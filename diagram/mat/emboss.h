@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The names of all pieces as closed outlines, true to size: to be raised on printed pieces,
+/* Writes the names of all pieces as closed outlines, true to size: to be raised on printed pieces,
  * engraved or cut. */
 #ifndef THR_EMBOSS_H
 #define THR_EMBOSS_H

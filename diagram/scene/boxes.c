@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What lies where on paper: rectangles in a grid, asked for overlaps when a number or a name looks
- * for room. */
+/* Keeps what lies where on paper: rectangles in a grid of cells, asked for overlaps when a number
+ * or a name looks for room.
+ *
+ * Each cell has a list of the rectangles that touch it; a question looks through the lists of the
+ * cells that it touches itself. Rectangles that lie in several of them count once: each remembers
+ * the number of the last question. O(rectangles near by) for each question. */
 #include "diagram/scene/scene.h"
 
 #include <math.h>
@@ -21,82 +25,106 @@ void thr_box_extend(thr_box *box, thr_box other)
   if (other.y1 > box->y1) box->y1 = other.y1;
 }
 
-thr_status thr_boxes_init(thr_boxes *b, thr_box bounds, double cell, thr_err *err)
+thr_status thr_boxes_init(thr_boxes *boxes, thr_box bounds, double cell, thr_err *err)
 {
-  double w = bounds.x1 - bounds.x0, h = bounds.y1 - bounds.y0;
-  *b = (thr_boxes){.bounds = bounds, .cell = fmax(cell, fmax(w, h) / MAX_CELLS_ACROSS)};
-  b->columns = (int)(w / b->cell) + 1;
-  b->rows = (int)(h / b->cell) + 1;
-  size_t n = (size_t)b->columns * (size_t)b->rows;
-  b->head = thr_calloc(n, sizeof *b->head);
-  if (!b->head) return thr_nomem(err);
-  for (size_t i = 0; i < n; i++)
-    b->head[i] = -1;
+  /* A cell is larger than asked for on a large sheet, so that the grid stays small. */
+  double width = bounds.x1 - bounds.x0, height = bounds.y1 - bounds.y0;
+  *boxes =
+      (thr_boxes){.bounds = bounds, .cell = fmax(cell, fmax(width, height) / MAX_CELLS_ACROSS)};
+
+  boxes->columns = (int)(width / boxes->cell) + 1;
+  boxes->rows = (int)(height / boxes->cell) + 1;
+
+  size_t n_cells = (size_t)boxes->columns * (size_t)boxes->rows;
+
+  /* No cell has a box yet. */
+  boxes->head = thr_calloc(n_cells, sizeof *boxes->head);
+  if (!boxes->head) return thr_nomem(err);
+  for (size_t i = 0; i < n_cells; i++)
+    boxes->head[i] = -1;
   return THR_OK;
 }
 
-void thr_boxes_destroy(thr_boxes *b)
+void thr_boxes_destroy(thr_boxes *boxes)
 {
-  free(b->head);
-  free(b->item);
-  free(b->link);
-  *b = (thr_boxes){0};
+  free(boxes->head);
+  free(boxes->item);
+  free(boxes->link);
+  *boxes = (thr_boxes){0};
 }
 
-static int clamp_cell(double t, int n)
+/* Returns the cell of a coordinate in cells; what is outside counts to the border. */
+static int clamp_cell(double at, int n)
 {
-  return t < 0 ? 0 : t >= n ? n - 1 : (int)t;
+  return at < 0 ? 0 : at >= n ? n - 1 : (int)at;
 }
 
-/* Cells that a box touches: span = first and last column, first and last row. */
-static void cells_of(const thr_boxes *b, const thr_box *box, int span[4])
+/* Fills span with the cells that a box touches: first and last column, first and last row. */
+static void cells_of(const thr_boxes *boxes, const thr_box *box, int span[4])
 {
-  span[0] = clamp_cell((box->x0 - b->bounds.x0) / b->cell, b->columns);
-  span[1] = clamp_cell((box->x1 - b->bounds.x0) / b->cell, b->columns);
-  span[2] = clamp_cell((box->y0 - b->bounds.y0) / b->cell, b->rows);
-  span[3] = clamp_cell((box->y1 - b->bounds.y0) / b->cell, b->rows);
+  span[0] = clamp_cell((box->x0 - boxes->bounds.x0) / boxes->cell, boxes->columns);
+  span[1] = clamp_cell((box->x1 - boxes->bounds.x0) / boxes->cell, boxes->columns);
+  span[2] = clamp_cell((box->y0 - boxes->bounds.y0) / boxes->cell, boxes->rows);
+  span[3] = clamp_cell((box->y1 - boxes->bounds.y0) / boxes->cell, boxes->rows);
 }
 
-thr_status thr_boxes_add(thr_boxes *b, thr_box box, int kind, thr_err *err)
+thr_status thr_boxes_add(thr_boxes *boxes, thr_box box, int kind, thr_err *err)
 {
+  /* Links and boxes refer to each other by number, since both arrays grow. */
   int span[4];
-  thr_status st = thr_grow(&b->item, b->n_boxes, &b->boxes_capacity, sizeof *b->item, err);
+  thr_status st =
+      thr_grow(&boxes->item, boxes->n_boxes, &boxes->boxes_capacity, sizeof *boxes->item, err);
   if (st) return st;
-  b->item[b->n_boxes] = (struct thr_boxes_item){box, kind, 0};
-  cells_of(b, &box, span);
+  boxes->item[boxes->n_boxes] = (struct thr_boxes_item){box, kind, 0};
+
+  /* Put the box in front of the list of each cell. */
+  cells_of(boxes, &box, span);
   for (int r = span[2]; r <= span[3]; r++)
     for (int c = span[0]; c <= span[1]; c++) {
-      st = thr_grow(&b->link, b->n_links, &b->links_capacity, sizeof *b->link, err);
+      st = thr_grow(&boxes->link, boxes->n_links, &boxes->links_capacity, sizeof *boxes->link, err);
       if (st) return st;
-      int *head = &b->head[r * b->columns + c];
-      b->link[b->n_links] = (struct thr_boxes_link){b->n_boxes, *head};
-      *head = b->n_links++;
+
+      int *head = &boxes->head[r * boxes->columns + c];
+      boxes->link[boxes->n_links] = (struct thr_boxes_link){boxes->n_boxes, *head};
+      *head = boxes->n_links++;
     }
-  b->n_boxes++;
+
+  boxes->n_boxes++;
   return THR_OK;
 }
 
+/* Returns the area that two boxes share, mm^2. */
 static double shared(const thr_box *a, const thr_box *b)
 {
+  /* Boxes that only touch share nothing. */
   if (a->x1 <= b->x0 || b->x1 <= a->x0 || a->y1 <= b->y0 || b->y1 <= a->y0) return 0;
+
   const double wide = (a->x1 < b->x1 ? a->x1 : b->x1) - (a->x0 > b->x0 ? a->x0 : b->x0);
   return wide * ((a->y1 < b->y1 ? a->y1 : b->y1) - (a->y0 > b->y0 ? a->y0 : b->y0));
 }
 
-double thr_boxes_overlap(thr_boxes *b, thr_box box, int kinds, double enough)
+double thr_boxes_overlap(thr_boxes *boxes, thr_box box, int kinds, double enough)
 {
   int span[4], looks = 0;
   double area = 0;
-  b->question++;
-  cells_of(b, &box, span);
+
+  /* A new question: no box has been met yet. */
+  boxes->question++;
+  cells_of(boxes, &box, span);
+
   for (int r = span[2]; r <= span[3]; r++)
     for (int c = span[0]; c <= span[1]; c++)
-      for (int i = b->head[r * b->columns + c]; i >= 0; i = b->link[i].next) {
-        struct thr_boxes_item *it = &b->item[b->link[i].item];
+      for (int i = boxes->head[r * boxes->columns + c]; i >= 0; i = boxes->link[i].next) {
+        struct thr_boxes_item *item = &boxes->item[boxes->link[i].item];
+
+        /* A crowded place counts as taken, as a whole. */
         if (++looks > MAX_LOOKS) return area + (box.x1 - box.x0) * (box.y1 - box.y0);
-        const double common = it->kind & kinds ? shared(&it->box, &box) : 0;
-        if (!(common > 0) || it->asked == b->question) continue;
-        it->asked = b->question;
+
+        /* Each box once, though it may lie in many cells. */
+        const double common = item->kind & kinds ? shared(&item->box, &box) : 0;
+        if (!(common > 0) || item->asked == boxes->question) continue;
+
+        item->asked = boxes->question;
         area += common;
         if (area >= enough) return area;
       }

@@ -1,16 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which lane each pass takes inside its bead, so that cords cross in few nodes.
+/* Chooses which lane each pass takes inside its bead, so that cords cross in few nodes.
  *
- * Two passes in a bead are first ordered by looking along both cords to where they part: the one
- * that parts to the left keeps left all the way, so a parallel run has at most one crossing (as in
- * metro maps: Bekos, Kaufmann, Potika, Symvonis 2008). Then lanes are swapped while that lowers the
- * number of crossings inside the two nodes of a bead. */
+ * First every two passes of a bead are compared by following both cords to where they part: the one
+ * that parts to the left keeps left all the way, so that a parallel run has at most one crossing
+ * (as in metro maps: Bekos, Kaufmann, Potika, Symvonis 2008). The passes of a bead are sorted by
+ * the sum of their comparisons. Then lanes are swapped while a swap lowers the number of crossings
+ * inside the two nodes of a bead, in a few sweeps.
+ *
+ * Example: cords A and B share nine beads in a row; A parts to the left, so A lies left of B in all
+ * nine. */
 #include "diagram/scene/scene.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { LOOK_AHEAD = 60, MAX_LANES = 24, MAX_CHORDS = 40, SWEEPS = 4 };
+/* Limits that keep the work on crowded edges and nodes small. */
+enum {
+  LOOK_AHEAD = 60, /* passes that two cords are followed */
+  MAX_LANES = 24,  /* of a bead; lanes of fuller beads stay in the order of the passes */
+  MAX_CHORDS = 40, /* through a node; crossings in fuller nodes are not counted */
+  SWEEPS = 4       /* over all edges */
+};
 
 /* The way a strand goes through a node, as two ports on the node's rim: half-edge rank, then place
  * in the half-edge. */
@@ -33,47 +43,60 @@ typedef struct {
   int pass, step;
 } walker;
 
-static int moving_half(const thr_scene *scene, walker w)
+/* Returns the half-edge of the walker's pass in its direction. */
+static int moving_half(const thr_scene *scene, walker walk)
 {
-  return w.step > 0 ? scene->pass[w.pass].half : scene->pass[w.pass].half ^ 1;
+  return walk.step > 0 ? scene->pass[walk.pass].half : scene->pass[walk.pass].half ^ 1;
 }
 
-/* Angle at which the walker leaves the point ahead, and the half-edge it leaves by (-1: to a mark).
- */
-static double leave(const thr_scene *scene, walker w, int *out)
+/* Returns the angle at which the walker leaves the point ahead; *out: the half-edge that the walker
+ * leaves by, -1 if to a mark. */
+static double leave(const thr_scene *scene, walker walk, int *out)
 {
-  const thr_mark *mark =
-      w.step > 0 ? thr_scene_mark_after(scene, w.pass) : thr_scene_mark_before(scene, w.pass);
+  const thr_mark *mark = walk.step > 0 ? thr_scene_mark_after(scene, walk.pass)
+                                       : thr_scene_mark_before(scene, walk.pass);
+
+  /* At a mark the cord ends on paper. */
   if (mark) {
     *out = -1;
     return mark->angle;
   }
-  *out = moving_half(scene, (walker){w.pass + w.step, w.step});
+  *out = moving_half(scene, (walker){walk.pass + walk.step, walk.step});
   return scene->angle[*out];
 }
 
-/* Follows two walkers that stand on one edge and move to the same node until they part: 1 if p then
- * goes to the side of the edge's normal (seen in the direction of movement), -1 if q does, 0 if
- * that cannot be said. */
-static int part(const thr_scene *scene, walker p, walker q)
+/* Follows two walkers that move on one edge to the same node until they part. Returns 1 if the
+ * first one then goes to the side of the edge's normal (seen in the direction of movement), -1 if
+ * the second one does, 0 if no side can be told. */
+static int part(const thr_scene *scene, walker first, walker second)
 {
   for (int i = 0; i < LOOK_AHEAD; i++) {
-    int to_p, to_q, h = moving_half(scene, p);
-    double a = leave(scene, p, &to_p), b = leave(scene, q, &to_q), back = scene->angle[h ^ 1];
-    if (to_p == (h ^ 1) || to_q == (h ^ 1)) return 0;
-    if (to_p != to_q || to_p < 0) {
-      double turn_p = thr_scene_sweep(back, a), turn_q = thr_scene_sweep(back, b);
-      return (turn_p > turn_q) - (turn_p < turn_q);
+    int first_out, second_out, h = moving_half(scene, first);
+
+    double first_angle = leave(scene, first, &first_out),
+           second_angle = leave(scene, second, &second_out), back = scene->angle[h ^ 1];
+
+    /* A walker that turns back parts from the other to no side. */
+    if (first_out == (h ^ 1) || second_out == (h ^ 1)) return 0;
+
+    /* They part: the larger turn, counted from where they come from, lies towards the normal. */
+    if (first_out != second_out || first_out < 0) {
+      double first_turn = thr_scene_sweep(back, first_angle),
+             second_turn = thr_scene_sweep(back, second_angle);
+      return (first_turn > second_turn) - (first_turn < second_turn);
     }
-    p.pass += p.step;
-    q.pass += q.step;
+
+    /* Go on together. */
+    first.pass += first.step;
+    second.pass += second.step;
   }
+
   return 0;
 }
 
-/* 1 if pass i should lie further towards the normal of their edge than pass j > i, -1 if less, 0 if
- * it does not matter. Walking with the earlier pass first gives the same answer all along a
- * parallel run. */
+/* Returns 1 if pass i should lie further towards the normal of their edge than pass j > i, -1 if
+ * less, 0 if both are as good. Walking with the earlier pass first gives the same answer all along
+ * a parallel run. */
 static int compare(const thr_scene *scene, int i, int j)
 {
   bool same = scene->pass[i].half == scene->pass[j].half;
@@ -82,28 +105,34 @@ static int compare(const thr_scene *scene, int i, int j)
   return scene->pass[i].half & 1 ? -verdict : verdict;
 }
 
-/* Orders the passes of edge e by the sum of their comparisons. */
+/* Sorts the passes of edge e by the sum of their comparisons, which need not be transitive. */
 static void order_edge(thr_scene *scene, int e)
 {
   int *on = &scene->on[scene->first_on[e]], n = scene->first_on[e + 1] - scene->first_on[e],
       score[MAX_LANES] = {0};
+
   if (n < 2 || n > MAX_LANES) return;
+
+  /* Each pass scores against each other. */
   for (int i = 0; i < n; i++)
     for (int j = i + 1; j < n; j++) {
-      int c = compare(scene, on[i], on[j]);
-      score[i] += c;
-      score[j] -= c;
+      int order = compare(scene, on[i], on[j]);
+      score[i] += order;
+      score[j] -= order;
     }
+
+  /* Insertion sort: stable, and short. */
   for (int i = 1; i < n; i++)
     for (int j = i; j > 0 && score[j] < score[j - 1]; j--) {
-      int t = score[j], p = on[j];
+      int moved_score = score[j], moved = on[j];
       score[j] = score[j - 1];
       on[j] = on[j - 1];
-      score[j - 1] = t;
-      on[j - 1] = p;
+      score[j - 1] = moved_score;
+      on[j - 1] = moved;
     }
 }
 
+/* Numbers the lanes of every edge in the order of its passes. */
 static void number_lanes(thr_scene *scene)
 {
   for (int e = 0; e < scene->frame->n_edges; e++)
@@ -113,38 +142,48 @@ static void number_lanes(thr_scene *scene)
 
 /* ---- then swap lanes ---- */
 
-/* Place on the rim of its node of the lane of pass i at its start (end = false) or its end. */
+/* Returns the place on the rim of its node of the lane of pass i, at its start (end = false) or its
+ * end: the rank of the half-edge there, plus a part in (0, 1) by lane. */
 static double port(const thr_scene *scene, int i, bool end)
 {
   const thr_scene_pass *scene_pass = &scene->pass[i];
+
   int h = end ? scene_pass->half ^ 1 : scene_pass->half, e = h >> 1,
       n = scene->first_on[e + 1] - scene->first_on[e];
-  /* seen from the node, the lanes lie by rising angle towards the normal of the outgoing direction
+
+  /* Seen from the node, the lanes lie by rising angle towards the normal of the outgoing direction.
    */
   int place = h & 1 ? n - 1 - scene_pass->lane : scene_pass->lane;
   return scene->rank[h] + (place + 1.0) / (n + 2);
 }
 
-/* Place on the rim of a mark: after the half-edge whose angle comes before it. */
+/* Returns the place on the rim of a mark: after the half-edge whose angle comes before the
+ * mark's. */
 static double mark_port(const thr_scene *scene, const thr_mark *mark)
 {
   const thr_frame *frame = scene->paper;
+
   int first = frame->first[mark->point], rank = 0;
   for (int i = 0; i < thr_degree(frame, mark->point); i++)
     if (scene->angle[scene->around[first + i]] <= mark->angle) rank = i + 1;
+
+  /* Marks in one sector are told apart by their angles. */
   return rank - 1 + 0.99 + 0.0001 * mark->angle;
 }
 
+/* Returns the chord of a joint through its node. */
 static chord chord_of(const thr_scene *scene, int joint)
 {
   if (joint < 0)
     return (chord){mark_port(scene, thr_scene_mark_before(scene, -1 - joint)),
                    port(scene, -1 - joint, false)};
+
   const thr_mark *mark = thr_scene_mark_after(scene, joint);
   return (chord){port(scene, joint, true),
                  mark ? mark_port(scene, mark) : port(scene, joint + 1, false)};
 }
 
+/* Returns the point where a joint is. */
 static int joint_point(const thr_scene *scene, int joint)
 {
   return joint < 0 ? thr_tail(scene->paper, scene->pass[-1 - joint].half)
@@ -156,46 +195,56 @@ static bool between(double x, chord c)
   return x > fmin(c.a, c.b) && x < fmax(c.a, c.b);
 }
 
-/* Crossings of the chords at a point, each pair once. */
+/* Returns the number of crossings of the chords at a point, each pair counted once. */
 static int crossings_at(const thr_scene *scene, const joints *at, int v)
 {
-  chord c[MAX_CHORDS];
+  chord chords[MAX_CHORDS];
   int n = at->first[v + 1] - at->first[v], count = 0;
   if (n > MAX_CHORDS) return 0;
+
   for (int i = 0; i < n; i++)
-    c[i] = chord_of(scene, at->joint[at->first[v] + i]);
+    chords[i] = chord_of(scene, at->joint[at->first[v] + i]);
+
+  /* Two chords of a circle cross if exactly one end of one lies between the ends of the other. */
   for (int i = 0; i < n; i++)
     for (int j = 0; j < i; j++)
-      count += between(c[j].a, c[i]) != between(c[j].b, c[i]);
+      count += between(chords[j].a, chords[i]) != between(chords[j].b, chords[i]);
   return count;
 }
 
+/* Returns the crossings at both ends of an edge. */
 static int crossings_of_edge(const thr_scene *scene, const joints *at, int e)
 {
   return crossings_at(scene, at, scene->paper->edge[e][0]) +
          crossings_at(scene, at, scene->paper->edge[e][1]);
 }
 
+/* Exchanges the lanes of the passes at places i and j of scene->on. */
 static void swap_lanes(thr_scene *scene, int i, int j)
 {
-  int t = scene->on[i], lane = scene->pass[t].lane;
-  scene->pass[t].lane = scene->pass[scene->on[j]].lane;
+  int moved = scene->on[i], lane = scene->pass[moved].lane;
+  scene->pass[moved].lane = scene->pass[scene->on[j]].lane;
   scene->pass[scene->on[j]].lane = lane;
   scene->on[i] = scene->on[j];
-  scene->on[j] = t;
+  scene->on[j] = moved;
 }
 
-/* Tries all swaps of two lanes of edge e; true if one was kept. */
+/* Tries all swaps of two lanes of edge e, and keeps those that lower the number of crossings;
+ * returns whether there were any. */
 static bool improve_edge(thr_scene *scene, const joints *at, int e)
 {
   int from = scene->first_on[e], to = scene->first_on[e + 1];
   bool better = false;
   if (to - from < 2 || to - from > MAX_LANES) return false;
+
+  /* Only the two nodes of the edge change. */
   int now = crossings_of_edge(scene, at, e);
   for (int i = from; i < to && now; i++)
     for (int j = i + 1; j < to && now; j++) {
       swap_lanes(scene, i, j);
       int then = crossings_of_edge(scene, at, e);
+
+      /* Keep the swap, or take it back. */
       if (then < now) {
         now = then;
         better = true;
@@ -206,21 +255,26 @@ static bool improve_edge(thr_scene *scene, const joints *at, int e)
   return better;
 }
 
-/* Is there a joint of this number? */
+/* Returns whether there is a joint of this number: every pass ends at one, and begins at one if it
+ * comes from a mark. */
 static bool is_joint(const thr_scene *scene, int joint)
 {
   return joint >= 0 || thr_scene_mark_before(scene, -1 - joint);
 }
 
-/* Lists the joints of every point by counting. */
+/* Lists the joints of every point by a counting sort. */
 static thr_status collect_joints(const thr_scene *scene, joints *at, thr_err *err)
 {
   int n = scene->paper->n_nodes;
+
+  /* One joint after each pass, and one before those that come from a mark. */
   at->first = thr_calloc((size_t)n + 2, sizeof *at->first);
   at->joint =
       thr_calloc((size_t)scene->n_passes + (size_t)scene->plan->n_cords + (size_t)scene->n_seams,
                  sizeof *at->joint);
   if (!at->first || !at->joint) return thr_nomem(err);
+
+  /* Count, then sum, then fill. */
   for (int i = -scene->n_passes; i < scene->n_passes; i++)
     if (is_joint(scene, i)) at->first[joint_point(scene, i) + 2]++;
   for (int v = 0; v < n; v++)
@@ -232,12 +286,17 @@ static thr_status collect_joints(const thr_scene *scene, joints *at, thr_err *er
 
 thr_status thr_scene_order_lanes(thr_scene *scene, thr_err *err)
 {
+  /* Where strands go through nodes does not depend on their lanes. */
   joints at = {0};
   thr_status st = collect_joints(scene, &at, err);
   if (st) goto done;
+
+  /* A first order from looking along the cords. */
   for (int e = 0; e < scene->frame->n_edges; e++)
     order_edge(scene, e);
   number_lanes(scene);
+
+  /* Swaps, until a sweep brings nothing. */
   bool better = true;
   for (int sweep = 0; sweep < SWEEPS && better; sweep++) {
     better = false;

@@ -1,5 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A scene: the framework projected, pieces, cords, copies, and how they are drawn. */
+/* The scene of a plan: where nodes, beads, cords, numbers and names lie on paper, before any format
+ * is written; and what all drawings and tables share: pieces and their names, copies, colours,
+ * places, cords as lines in space.
+ *
+ * Reading order: scene.c (the steps of thr_scene_build, with the sizes), then the steps: marks.c,
+ * seams.c, lanes.c, scene_strands.c, labels.c, turns.c; below them boxes.c, places.c, palette.c,
+ * outlines.c. pieces.c and copies.c stand by themselves, as do the small drawings (arms.c,
+ * shadow.c) and the cords for CAD (cord_lines.c, polylines.c). On paper lengths are in mm, y goes
+ * down; angles are in rad. */
 #ifndef THR_SCENE_H
 #define THR_SCENE_H
 
@@ -13,13 +21,15 @@
 
 #include <stdbool.h>
 
-/* ---- boxes.c: What lies where on paper: rectangles in a grid, asked for overlaps when a number or
- * a name looks for room. */
+/* ---- boxes.c: keeps what lies where on paper: rectangles in a grid, asked for overlaps when a
+ * number or a name looks for room. */
 
+/* A rectangle on paper. */
 typedef struct {
   double x0, y0, x1, y1; /* mm, x0 <= x1, y0 <= y1 */
 } thr_box;
 
+/* Kinds of things, which can be added. */
 enum {
   THR_BOX_BEAD = 1,
   THR_BOX_CORD = 2,
@@ -31,6 +41,7 @@ enum {
   THR_BOX_TURN = 128
 };
 
+/* All rectangles, and for each cell of the grid a list of those that touch it. */
 typedef struct {
   thr_box bounds;
   double cell; /* mm */
@@ -48,21 +59,23 @@ typedef struct {
   unsigned question;
 } thr_boxes;
 
-/* Boxes outside bounds are allowed and kept in the border cells. Release with thr_boxes_destroy. */
-thr_status thr_boxes_init(thr_boxes *b, thr_box bounds, double cell, thr_err *err) THR_MUST_CHECK;
-thr_status thr_boxes_add(thr_boxes *b, thr_box box, int kind, thr_err *err) THR_MUST_CHECK;
-void thr_boxes_destroy(thr_boxes *b);
+/* Makes a grid without boxes. Boxes outside bounds are allowed and kept in the border cells.
+ * Release with thr_boxes_destroy. */
+thr_status thr_boxes_init(thr_boxes *boxes, thr_box bounds, double cell,
+                          thr_err *err) THR_MUST_CHECK;
+thr_status thr_boxes_add(thr_boxes *boxes, thr_box box, int kind, thr_err *err) THR_MUST_CHECK;
+void thr_boxes_destroy(thr_boxes *boxes);
 
-/* Area in mm^2 that box shares with the boxes of the kinds (a sum of THR_BOX_..), overlaps counted
- * each time. Stops once it is enough (> 0). A place so crowded that 300 boxes were met counts as
- * taken. */
-double thr_boxes_overlap(thr_boxes *b, thr_box box, int kinds, double enough);
+/* Returns the area in mm^2 that box shares with the boxes of the kinds (a sum of THR_BOX_..),
+ * overlaps counted each time. Stops once it is enough (> 0). A place so crowded that 300 boxes were
+ * met counts as taken. */
+double thr_boxes_overlap(thr_boxes *boxes, thr_box box, int kinds, double enough);
 
 thr_box thr_box_around(double x, double y, double half_width, double half_height);
-void thr_box_extend(thr_box *b, thr_box other);
+void thr_box_extend(thr_box *box, thr_box other);
 
-/* ---- copies.c: Which cords of a symmetric plan are copies of a unique path, and how they run
- * through it. */
+/* ---- copies.c: finds which cords of a symmetric plan are copies of a unique path, and how they
+ * run through it. */
 
 /* Pass k of a copy is the image of pass start + k of its unique path; backward: of pass start - k,
  * run the other way. Closed cords go round. */
@@ -81,44 +94,47 @@ thr_status thr_copies_find(const thr_plan *plan, thr_copy *copy, thr_err *err) T
 int thr_copies_paths(const thr_copy *copy, int n_cords);         /* different unique paths */
 int thr_copies_count(const thr_copy *copy, int n_cords, int of); /* cords that are copies of one */
 
-/* How copy c repeats its path, to be put behind a name or a place: ", turned by 90 degrees,
+/* Writes how copy c repeats its path, to be put behind a name or a place: ", turned by 90 degrees,
  * threaded backwards". motion[c]: what moves the path there, NULL if no motion in space does;
  * motion NULL: not known. */
 void thr_copies_words(const thr_plan *plan, const thr_copy *copy, int c, const char *const *motion,
                       char words[192]);
 
-/* The image that maps the unique path of cord c to it: [n_nodes], of plan->symmetry. c is a copy.
+/* Returns the image that maps the unique path of cord c to it: [n_nodes], of plan->symmetry. c is a
+ * copy.
  */
 const int *thr_copies_image(const thr_plan *plan, int c);
 
-/* ---- palette.c: Colours of cords: Okabe & Ito 2008 without yellow (too pale on paper) and black
+/* ---- palette.c: colours of cords: Okabe & Ito 2008 without yellow (too pale on paper) and black
  * (text), told apart by colour-blind readers (least CIEDE2000 difference 22, without one kind of
  * cone 10.9), but not in grey print; a dash pattern for every further six cords. */
 
 enum { THR_COLOURS = 6, THR_DASHES = 4 };
 
+/* A colour of cords. */
 typedef struct {
   const char *hex;  /* "#0072B2" */
   const char *pale; /* the same hue for copies: "#9ECDF5" */
   const char *name; /* "blue" */
 } thr_colour;
 
-/* i >= 0; repeats every THR_COLOURS. */
+/* Returns colour i >= 0; repeats every THR_COLOURS. */
 thr_colour thr_palette(int i);
 
-/* A dark shade of a colour that is too pale on white (contrast below 3, WCAG 2.1) to line it with:
- * contrast 4.5. false: it needs none. */
+/* Writes a dark shade of a colour that is too pale on white (contrast below 3, WCAG 2.1) to line
+ * the colour with: contrast 4.5. Returns false if the colour needs none. */
 bool thr_palette_rim(const char *hex, char rim[8]);
 
-/* Dash pattern number i: on, off lengths in cord widths, 0-terminated; NULL for 0, the full line.
- * Repeats. */
+/* Returns dash pattern number i: on, off lengths in cord widths, 0-terminated; NULL for 0, the full
+ * line. Repeats. */
 const double *thr_palette_dash(int i);
 
-/* Colour of a turn by angle rad as "#rrggbb": equal steps in the Oklab space (B. Ottosson, 2020)
- * from pale lilac for straight on to dark violet, a hue that no cord has, for pi. */
+/* Writes the colour of a turn by angle rad as "#rrggbb": equal steps in the Oklab space (B.
+ * Ottosson, 2020) from pale lilac for straight on to dark violet, a hue that no cord has, for pi.
+ */
 void thr_turning_colour(double angle, char hex[8]);
 
-/* ---- places.c: Letter and number places of grid-like pictures: column letters from left to right,
+/* ---- places.c: letter and number places of grid-like pictures: column letters from left to right,
  * row numbers from the bottom up. */
 
 /* {0} is valid and means: not a grid, places are called by the nodes' names. Arrays are owned. */
@@ -134,18 +150,18 @@ typedef struct {
  * column, no two nodes share a place, and at least a third of the places is taken; otherwise places
  * is {0}. Names like "C4" that agree with the picture are taken over. O(n log n).
  */
-thr_status thr_places_find(thr_places *p, const thr_frame *frame, const double (*xy)[2],
+thr_status thr_places_find(thr_places *places, const thr_frame *frame, const double (*xy)[2],
                            double median, thr_err *err) THR_MUST_CHECK;
-void thr_places_destroy(thr_places *p);
+void thr_places_destroy(thr_places *places);
 
-/* "C4" on a grid, else the node's name, cut to 40 bytes. */
-void thr_places_name(const thr_places *p, const thr_frame *frame, int v, char name[48]);
+/* Writes "C4" on a grid, else the node's name, cut to 40 bytes. */
+void thr_places_name(const thr_places *places, const thr_frame *frame, int v, char name[48]);
 
-/* What the nodes are called in all documents, in label[n_nodes]: as above, blanks as "_", and names
- * that are there several times with the node's number, "x#17". O(n log n). */
+/* Writes what the nodes are called in all documents into label[n_nodes]: as above, blanks as "_",
+ * and names that are there several times with the node's number, "x#17". O(n log n). */
 enum { THR_LABEL = 64 };
-thr_status thr_places_labels(const thr_places *p, const thr_frame *frame, char (*label)[THR_LABEL],
-                             thr_err *err) THR_MUST_CHECK;
+thr_status thr_places_labels(const thr_places *places, const thr_frame *frame,
+                             char (*label)[THR_LABEL], thr_err *err) THR_MUST_CHECK;
 
 /* ---- scene.c: The overview picture before it is written: everything in mm on paper, x to the
  * right, y down, the nodes' bounding box at the origin. */
@@ -163,6 +179,7 @@ typedef struct {
   double text;   /* font size of numbers and names, >= 2.5 (7 pt = 2.47) */
 } thr_sizes;
 
+/* One pass of a cord in the picture. */
 typedef struct {
   int cord;              /* index in the plan */
   int number;            /* 1 .. n_passes of the cord */
@@ -196,6 +213,7 @@ typedef struct {
   char text[24];
 } thr_mark;
 
+/* The picture. */
 typedef struct {
   const thr_plan *plan;
   const thr_frame *frame;
@@ -250,35 +268,35 @@ typedef struct {
   thr_scratch own; /* the arrays */
 } thr_scene;
 
-/* Everything up to the labels, copies of cords pale and without numbers if wanted. layout and plan
- * are borrowed and must outlive the scene. */
-thr_status thr_scene_build(thr_scene *scene, const thr_plan *p, const thr_layout *l,
+/* Builds everything up to the labels, copies of cords pale and without numbers if wanted. layout
+ * and plan are borrowed and must outlive the scene. */
+thr_status thr_scene_build(thr_scene *scene, const thr_plan *plan, const thr_layout *layout,
                            double pitch_mm, bool pale_copies, thr_err *err) THR_MUST_CHECK;
 void thr_scene_destroy(thr_scene *scene);
 
-/* THR_EINPUT for half-edges out of range and consecutive passes that do not meet; counts the passes
- * of all cords. */
-thr_status thr_scene_check_cords(const thr_plan *p, int *n_passes, thr_err *err) THR_MUST_CHECK;
+/* Checks the cords: THR_EINPUT for half-edges out of range and consecutive passes that do not meet;
+ * counts the passes of all cords. */
+thr_status thr_scene_check_cords(const thr_plan *plan, int *n_passes, thr_err *err) THR_MUST_CHECK;
 
-/* What elements and objects of a cord are called by: its id if it is capital letters only, else the
- * id that its index has. */
-void thr_scene_cord_id(const thr_plan *p, int c, char id[12]);
+/* Writes what elements and objects of a cord are called by: its id if it is capital letters only,
+ * else the id that its index has. */
+void thr_scene_cord_id(const thr_plan *plan, int c, char id[12]);
 
-/* Is cord c drawn as a copy? Which of the hues has it: those of unique paths and copies are alike.
- */
+/* Return whether cord c is drawn as a copy, and which of the hues it has: those of unique paths and
+ * copies are alike. */
 bool thr_scene_is_copy(const thr_scene *scene, int c);
 int thr_scene_hue(const thr_scene *scene, int c);
 
-/* Its colour as "#rrggbb", where colours tell the cords apart. */
+/* Returns the colour of cord c as "#rrggbb", where colours tell the cords apart. */
 const char *thr_scene_cord_colour(const thr_scene *scene, int c);
 
-/* Colour of pass i as "#rrggbb": of its cord; when there is one cord only, of its twenty passes, or
- * grey if turning is shown. Or of its tension (grey if not known). */
+/* Writes the colour of pass i as "#rrggbb": of its cord; when there is one cord only, of its twenty
+ * passes, or grey if turning is shown. Or of its tension (grey if not known). */
 void thr_scene_colour(const thr_scene *scene, int i, char hex[8]);
 enum { THR_COLOUR_PASSES = 20 };
 
-/* Is cord c, in a colour, lined with a darker rim (see thr_palette_rim)? Copies are meant to be
- * pale, and turns have colours that need none. */
+/* Returns whether cord c, in a colour, is lined with a darker rim (see thr_palette_rim). Copies are
+ * meant to be pale, and turns have colours that need none. */
 bool thr_scene_rim(const thr_scene *scene, int c, const char *colour, char rim[8]);
 
 /* More passes are drawn as lines, without pieces, numbers, arrows and ids: 20,000 take some 13 MB
@@ -288,7 +306,7 @@ enum { THR_SCENE_LINES = 20000 };
 /* Smallest pitch at which places that are not in a grid are named, mm. */
 static const double THR_SCENE_NAMED = 8;
 
-/* Dash pattern of cord c (see thr_palette_dash). */
+/* Returns the dash pattern of cord c (see thr_palette_dash). */
 const double *thr_scene_dash(const thr_scene *scene, int c);
 
 /* The steps of thr_scene_build, in order. */
@@ -308,57 +326,57 @@ thr_status thr_scene_box_strands(thr_scene *scene, thr_err *err) THR_MUST_CHECK;
 thr_status thr_scene_find_turns(thr_scene *scene, thr_err *err) THR_MUST_CHECK;
 static const double THR_SCENE_SHARP = 1.57079632679489661923; /* rad */
 
-/* Angle of the turn from pass i to the next, rad; that of a closed cord's last pass closes it. -1 =
- * none. */
+/* Returns the angle of the turn from pass i to the next, rad; that of a closed cord's last pass
+ * closes it. -1 = none. */
 double thr_scene_turn_after(const thr_scene *scene, int i);
 
-/* Half the diagonal of the sign of a sharp turn, mm. */
+/* Returns half the diagonal of the sign of a sharp turn, mm. */
 double thr_scene_sharp_size(const thr_scene *scene);
 
-/* Point at t of the Bezier curve from a by b and c to d. */
+/* Computes the point at t of the Bezier curve from a by b and c to d. */
 void thr_scene_curve_at(const double a[2], const double b[2], const double c[2], const double d[2],
                         double t, double at[2]);
 
-/* Unit vector along half-edge h on paper; (1, 0) if it has no length there. */
+/* Computes the unit vector along half-edge h on paper; (1, 0) if it has no length there. */
 void thr_scene_direction(const thr_scene *scene, int h, double d[2]);
 double thr_scene_edge_length(const thr_scene *scene, int e);
 
-/* Angle in [0, 2 pi) by which one turns, with rising angle, from direction a to direction b. */
+/* Returns the angle in [0, 2 pi) by which one turns, with rising angle, from direction a to
+ * direction b. */
 double thr_scene_sweep(double a, double b);
 
-/* Is pass i followed by pass i + 1 of the same cord? */
+/* Returns whether pass i is followed by pass i + 1 of the same cord. */
 bool thr_scene_continues(const thr_scene *scene, int i);
 
-/* The mark that pass i comes from, or NULL: it comes from the pass before. The mark that it goes
- * to, or NULL: to the next pass.
- */
+/* Return the mark that pass i comes from, or NULL if the pass before; and the mark that pass i goes
+ * to, or NULL if the next pass. */
 const thr_mark *thr_scene_mark_before(const thr_scene *scene, int i);
 const thr_mark *thr_scene_mark_after(const thr_scene *scene, int i);
 
-/* Where the curve starts that leads to pass i: the end of the pass before, or a mark. */
+/* Returns where the curve starts that leads to pass i: the end of the pass before, or a mark. */
 const double *thr_scene_turn_start(const thr_scene *scene, int i);
 
-/* Are cords labelled where they go over to the other panel? Not at a small scale, where only the
- * places on the rims are named. */
+/* Returns whether cords are labelled where they go over to the other panel. At a small scale only
+ * the places on the rims are named. */
 bool thr_scene_labels_seams(const thr_scene *scene);
 
-/* What is written over panel 0 or 1: "from above". */
+/* Returns what is written over panel 0 or 1: "from above". */
 const char *thr_scene_caption(const thr_scene *scene, int panel);
 
-/* The name of the place that a point of the layout shows. */
+/* Writes the name of the place that a point of the layout shows. */
 void thr_scene_place_name(const thr_scene *scene, int point, char name[48]);
 
-/* Estimated width of a text in mm. */
+/* Returns the estimated width of a text in mm. */
 double thr_scene_text_width(const char *text, double font_size);
 
-/* Size of the pill behind a number, mm. */
+/* Return the size of the pill behind a number, mm. */
 double thr_scene_pill_width(const thr_scene *scene, const char *text);
 double thr_scene_pill_height(const thr_scene *scene);
 
-/* The text of a pass's number: "17", or "A17" when there are several cords. */
+/* Writes the text of a pass's number: "17", or "A17" when there are several cords. */
 void thr_scene_number(const thr_scene *scene, int pass, char text[32]);
 
-/* ---- pieces.c: The pieces of a plan: what a hand picks up. */
+/* ---- pieces.c: the pieces of a plan: what a hand picks up. */
 
 /* {0} is valid and empty. Arrays are owned, the plan is borrowed. A kind is called by the letter of
  * its shape, a hyphen and its number: P has one arm, I and L have two (I: in line, over
@@ -379,7 +397,7 @@ typedef struct {
 
 static const double THR_PIECES_IN_LINE = 2.6179938779914943654; /* rad, 150 degrees */
 
-/* How many there are, and what one is called: "piece" or "tube". */
+/* Return how many pieces there are, and what one is called: "piece" or "tube". */
 int thr_pieces_count(const thr_plan *plan);
 const char *thr_pieces_word(const thr_plan *plan, int n); /* "piece", "pieces" */
 
@@ -439,9 +457,9 @@ typedef struct {
 thr_status thr_pieces_follow(const thr_pieces *pieces, const thr_part *parts, int n_parts,
                              thr_visit **visits, int *n, thr_err *err) THR_MUST_CHECK;
 
-/* In part[2 * n_cords] all cords in the order of threading, every path before its copies: each from
- * its start to its end, or, if so many needles thread it from its fold (thr_cord_fold), on to its
- * end and then back to its start. Returns how many parts. */
+/* Fills part[2 * n_cords] with all cords in the order of threading, every path before its copies:
+ * each from its start to its end, or, if so many needles thread it from its fold (thr_cord_fold),
+ * on to its end and then back to its start. Returns how many parts. */
 int thr_pieces_parts(const thr_plan *plan, const thr_copy *copy, int needles, thr_part *part);
 
 /* Appends what is done at a visit: "start, pick up L-1 (A7): out to A6", "pick up X-10 (B5): in
@@ -452,7 +470,7 @@ int thr_pieces_parts(const thr_plan *plan, const thr_copy *copy, int needles, th
 void thr_pieces_say(const thr_pieces *pieces, const char (*label)[THR_LABEL],
                     const thr_visit *visit, int i, const int *step, thr_text *text);
 
-/* ---- cord_lines.c: Where a cord runs in space, as a line through the nodes or with a lane for
+/* ---- cord_lines.c: where a cord runs in space, as a line through the nodes or with a lane for
  * each of its passes. */
 
 /* How cords are drawn for CAD. {0}: through the nodes, z upwards. */
@@ -461,6 +479,7 @@ typedef struct {
   bool up_y;  /* y points up: a point at x, y, z stands at x, z, -y */
 } thr_line_options;
 
+/* The cords of a plan, to be asked for one after the other. */
 typedef struct {
   const thr_plan *plan;
   thr_line_options options;
@@ -471,9 +490,9 @@ typedef struct {
   int n_points; /* of the cord asked for last */
 } thr_cord_lines;
 
-/* lines is to be ended even after a failure. The distance of lanes is 0.115 of the median edge,
- * less on edges that are short or have many passes: all lanes of an edge lie within half its
- * length. */
+/* Begins with a plan's cords; lines is to be ended even after a failure. The distance of lanes is
+ * 0.115 of the median edge, less on edges that are short or have many passes: all lanes of an edge
+ * lie within half its length. */
 thr_status thr_cord_lines_begin(thr_cord_lines *lines, const thr_plan *plan,
                                 const thr_line_options *options, thr_err *err) THR_MUST_CHECK;
 
@@ -482,58 +501,59 @@ thr_status thr_cord_lines_begin(thr_cord_lines *lines, const thr_plan *plan,
  * those of other passes on the edge, and the node where it ends. */
 void thr_cord_lines_next(thr_cord_lines *lines, int c);
 
-/* xyz as the options say which way is up. */
+/* Turns xyz as the options say which way is up. */
 void thr_cord_lines_turn(const thr_line_options *options, const double xyz[3], double out[3]);
 
 void thr_cord_lines_end(thr_cord_lines *lines);
 
-/* ---- polylines.c: The cords as lines through the nodes, for CAD and for pictures made elsewhere.
- */
+/* ---- polylines.c: writes the cords as lines through the nodes, for CAD and for pictures made
+ * elsewhere. */
 
-/* Wavefront OBJ in the framework's units: all nodes, then per cord an object with a two-vertex l
- * record per pass, in order (Blender takes no more than the first two vertices of an l for an
- * edge); with lanes the points of the cords instead of the nodes. The reader of frameworks reads it
- * back, turned if y is up, which a comment says. */
+/* Writes Wavefront OBJ in the framework's units: all nodes, then per cord an object with a
+ * two-vertex l record per pass, in order (Blender takes no more than the first two vertices of an l
+ * for an edge); with lanes the points of the cords instead of the nodes. The reader of frameworks
+ * reads it back, turned if y is up, which a comment says. */
 thr_status thr_polylines_obj(const thr_plan *plan, const thr_line_options *options, thr_text *out,
                              thr_err *err) THR_MUST_CHECK;
 
-/* glTF 2.0 (Khronos 2021) in one JSON file with its buffer inside: a node, a mesh of one LINE_STRIP
- * and a material per cord, in metres, y upwards whatever the options say: (x, y, z) of the
- * framework becomes (x, z, -y), a quarter turn about x. Units that thr_units_in_mm does not know
- * count as mm; asset.extras says how many metres a unit was. Colours as in the overview. THR_EINPUT
- * also for coordinates that are too large for its 32-bit numbers. */
+/* Writes glTF 2.0 (Khronos 2021) in one JSON file with its buffer inside: a node, a mesh of one
+ * LINE_STRIP and a material per cord, in metres, y upwards whatever the options say: (x, y, z) of
+ * the framework becomes (x, z, -y), a quarter turn about x. Units that thr_units_in_mm does not
+ * know count as mm; asset.extras says how many metres a unit was. Colours as in the overview.
+ * THR_EINPUT also for coordinates that are too large for its 32-bit numbers. */
 thr_status thr_polylines_gltf(const thr_plan *plan, const thr_line_options *options, thr_text *out,
                               thr_err *err) THR_MUST_CHECK;
 
-/* DXF of release 12 with $INSUNITS: per cord a layer in the colour nearest to the overview's and a
- * polyline in space, its vertices in the order of the passes. */
+/* Writes DXF of release 12 with $INSUNITS: per cord a layer in the colour nearest to the overview's
+ * and a polyline in space, its vertices in the order of the passes. */
 thr_status thr_polylines_dxf(const thr_plan *plan, const thr_line_options *options, thr_text *out,
                              thr_err *err) THR_MUST_CHECK;
 
-/* JSON as COMPAS loads it: {"units": .., "up": .., "cords": [ .. ]}, each cord a
+/* Writes JSON as COMPAS loads it: {"units": .., "up": .., "cords": [ .. ]}, each cord a
  * compas.geometry/Polyline with its name. */
 thr_status thr_polylines_compas(const thr_plan *plan, const thr_line_options *options,
                                 thr_text *out, thr_err *err) THR_MUST_CHECK;
 
-/* ---- outlines.c: What pieces look like on paper. */
+/* ---- outlines.c: draws what pieces look like on paper. */
 
 /* Appends the outline of the solid piece at a point as path data: arms to the middles of its edges,
  * less half the gap between two faces; between neighbouring arms the corner where their sides meet.
  * Arms that stand too close for their width are narrower. */
 void thr_outline_solid(const thr_scene *scene, int point, thr_text *data);
 
-/* Around the arms of the piece at a point. */
+/* Returns a box around the arms of the piece at a point. */
 thr_box thr_outline_box(const thr_scene *scene, int point);
 
-/* Ends of the middle line of edge e's tube, half its width from its round ends. */
+/* Computes the ends of the middle line of edge e's tube, half its width from its round ends. */
 void thr_outline_tube(const thr_scene *scene, int e, double width, double end[2][2]);
 
-/* ---- arms.c: A solid piece drawn with a pen: strokes from its hub to the ends of its arms, for
+/* ---- arms.c: draws a solid piece with a pen: strokes from its hub to the ends of its arms, for
  * small pictures and for views in space, where an outline in one line would have arms in front of
  * each other. */
 
 enum { THR_ARMS = 64 }; /* of a piece are drawn, at most */
 
+/* A piece on paper. */
 typedef struct {
   double hub[2];           /* mm on paper */
   int n;                   /* arms, at most THR_ARMS */
@@ -546,27 +566,28 @@ typedef struct {
 /* Appends the piece in two elements. */
 void thr_arms_draw(const thr_arms *arms, thr_text *text);
 
-/* Path data of its strokes, whose ends are so far from the ends of its arms; {0} of a piece without
- * arms. */
+/* Appends path data of its strokes, whose ends are so far from the ends of its arms; {0} of a piece
+ * without arms. */
 void thr_arms_strokes(const thr_arms *arms, double back, thr_text *data);
 
-/* Path data of the way of a cord through it: in by arm `in`, out by arm `out`; -1: it starts or
- * ends at the hub. And of the tip at the end of that way. width: of the cord, mm. */
+/* Appends path data of the way of a cord through it: in by arm `in`, out by arm `out`; -1: it
+ * starts or ends at the hub. And of the tip at the end of that way. width: of the cord, mm. */
 void thr_arms_way(const thr_arms *arms, int in, int out, double width, thr_text *data);
 void thr_arms_tip(const thr_arms *arms, int out, double width, thr_text *data);
 
-/* ---- shadow.c: The whole of a framework in so small a picture that its lines would run together:
- * the area that they cover. */
+/* ---- shadow.c: draws the whole of a framework in so small a picture that its lines would run
+ * together: as the area that the lines cover. */
 
 enum { THR_SHADOW_CELLS = 64 }; /* across, at most */
 
+/* The cells that lines cover. */
 typedef struct {
   thr_box paper;
   double cell; /* mm */
   bool covered[THR_SHADOW_CELLS][THR_SHADOW_CELLS];
 } thr_shadow;
 
-/* With nothing in it. */
+/* Returns a shadow of nothing. */
 thr_shadow thr_shadow_on(thr_box paper);
 
 /* Adds a line; what is beyond the paper counts as on its edge. O(its length). */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From where a part of a framework in space is drawn: in parallel projection, upright, from the
- * direction in which the passes of a step are best told apart on paper. Private to diagram/. */
+/* Chooses from where a part of a framework in space is drawn: in parallel projection, upright, from
+ * the direction in which the passes of a step are best told apart on paper. */
 #ifndef THR_CAMERA_H
 #define THR_CAMERA_H
 
@@ -19,10 +19,10 @@ typedef struct {
   double size[2]; /* of the paper, mm */
 } thr_camera_view;
 
-/* What is to be seen: a line for every pass as the needle goes, from hub to hub. Arrays are
- * borrowed. */
+/* So many passes of a step are shown at most. */
 enum { THR_CAMERA_PASSES = 32 };
 
+/* What is to be drawn: a line for every pass as the needle goes, from hub to hub. */
 typedef struct {
   int n; /* 1 to THR_CAMERA_PASSES */
   double from[THR_CAMERA_PASSES][3], to[THR_CAMERA_PASSES][3];
@@ -36,22 +36,22 @@ typedef struct {
  * proportion. */
 static const double THR_CAMERA_PASS = 9;
 
-/* Is there a direction from which every pass is that long, and on a shell on the near side, on
- * paper of a size in mm? O(n) a direction, some hundred of them, of which number *first comes first
- * (0, or as it was left): it receives that of the one that is found, which is likely the one for a
- * little more of the same. */
+/* Returns whether there is a direction from which every pass is that long, and on a shell on the
+ * near side, on paper of a size in mm. O(n) a direction, some hundred of them, of which number
+ * *first comes first (0, or as it was left): it receives that of the one that is found, which is
+ * likely the one for a little more of the same. */
 bool thr_camera_legible(const thr_camera_scene *scene, const double size[2], int *first);
 
-/* The best direction: penalized are passes that are too short on paper, numbers that would lie on
- * each other, passes that cross; then the least foreshortened, seen from outside rather than from
- * inside. Deterministic. O(n^2) a direction. */
+/* Returns the view from the best direction: penalized are passes that are too short on paper,
+ * numbers that would lie on each other, passes that cross; then the least foreshortened, seen from
+ * outside rather than from inside. Deterministic. O(n^2) a direction. */
 thr_camera_view thr_camera_choose(const thr_camera_scene *scene, const double size[2]);
 
-/* Camera at an azimuth and elevation, rad. */
+/* Returns the camera at an azimuth and elevation, rad. */
 thr_camera thr_camera_at(double azimuth, double elevation);
 
-/* On paper, mm from its upper left corner; at[2] is the depth, in units, larger = nearer to the
- * eye. */
+/* Projects a point onto paper, mm from its upper left corner; at[2] is the depth, in units, larger
+ * = nearer to the eye. */
 void thr_camera_project(const thr_camera_view *view, const double point[3], double at[3]);
 
 #endif

@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pictures of steps in space, for frameworks that no flat picture shows without crossings: each
- * step from the direction in which its passes are best told apart, what is far away pale. Private
- * to diagram/. */
+ * step from the direction in which its passes are best told apart, what is far away pale.
+ *
+ * Reading order: camera.h and camera.c (the choice of a direction), space.c (what a camera is asked
+ * to show), space_draw.c (a step's picture, and all pieces), space_labels.c (numbers, arrows,
+ * names), space_locate.c (the whole in small beside a step). On paper lengths are in mm, y goes
+ * down; depths are in units of the framework, larger = nearer to the eye. */
 #ifndef THR_SPACE_H
 #define THR_SPACE_H
 
@@ -13,7 +17,8 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-/* {0} is valid and empty. Passes are counted cord by cord as in a scene. */
+/* What pictures are made from. {0} is valid and empty. Passes are counted cord by cord as in a
+ * scene. */
 typedef struct {
   const thr_plan *plan;
   const thr_frame *f;
@@ -41,12 +46,12 @@ typedef struct {
   int next;
 } thr_space_step;
 
-/* Does some view show every pass drawn now at least THR_CAMERA_PASS long? first: as in
+/* Returns whether some view shows every pass drawn now at least THR_CAMERA_PASS long. first: as in
  * thr_camera_legible. O(n_now). */
 bool thr_space_legible(const thr_space *space, const thr_crop *crop, const double room[2],
                        int *first);
 
-/* The best view for a picture that fills room (width and height, mm). O(n_now^2). */
+/* Returns the best view for a picture that fills room (width and height, mm). O(n_now^2). */
 thr_camera_view thr_space_fit(const thr_space *space, const thr_crop *crop, const double room[2]);
 
 /* Appends the picture, in a frame, its top left corner at a point of the page: a group of class
@@ -67,7 +72,7 @@ thr_status thr_space_locate(const thr_space *space, const thr_space_step *step,
 thr_status thr_space_whole(const thr_space *space, const unsigned char *state, thr_box paper,
                            thr_text *text, thr_err *err) THR_MUST_CHECK;
 
-/* The half-edge of pass i in the direction of the needle. */
+/* Returns the half-edge of pass i in the direction of the needle. */
 int thr_space_half(const thr_space *space, const thr_crop *crop, int i);
 
 /* ---- labels (space_labels.c) ---- */

@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A step's picture from its view: lines for what is far from it, pieces in grey around it, then the
- * pieces that it comes to, then the cord, which nothing hides. */
+/* Draws a step's picture from its view, back to front: lines for what is far from the step, pieces
+ * in grey around it, then the pieces that the step comes to, then the cord, which nothing hides.
+ *
+ * Colours are paler the further away from the step a thing is in depth: a part FADE of white at
+ * DEEP pitches. Within a layer pieces are sorted by depth (the painter's algorithm).
+ * thr_space_whole draws all pieces in the same way, without cords. */
 #include "diagram/overview/overview.h"
 #include "diagram/space/space.h"
 #include "graph/sort.h"
@@ -11,8 +15,9 @@
 #include <stdlib.h>
 
 enum { BINS = 4 }; /* of depth, for lines */
-static const double ARM = 0.33,
-                    LANE = 0.115; /* of the pitch: width of an arm; between two lanes, at most */
+
+/* of the pitch: width of an arm; between two lanes, at most */
+static const double ARM = 0.33, LANE = 0.115;
 static const double WIDEST = 7, CORD = 1.6, CASING = 0.6; /* mm */
 static const double GAP = 0.45;            /* mm from the middle of an edge to a face */
 static const double FADE = 0.55, DEEP = 3; /* how pale at most; so many pitches away */
@@ -21,6 +26,7 @@ static const double OPEN = 0.25; /* cosine to the eye from which an arm's openin
 /* What is near enough to be drawn as a piece. */
 typedef enum { FAR, AROUND, NOW } nearness;
 
+/* A picture while it is drawn. */
 typedef struct {
   const thr_space *space;
   const thr_space_step *step;
@@ -32,83 +38,98 @@ typedef struct {
       deep; /* mean depth of what is drawn now; so far from it colours are as pale as they get */
   double pitch, arm; /* mm */
   thr_text *text;
-} drawing;
+} step_drawing;
 
 /* ---- looks ---- */
 
-/* A colour with so much white in it. */
+/* Writes a colour with so much white in it, 0 to 1. */
 static void pale(const char *hex, double white, char out[8])
 {
-  unsigned c[3] = {0, 0, 0};
-  if (sscanf(hex, "#%2x%2x%2x", &c[0], &c[1], &c[2]) != 3) return;
+  unsigned value[3] = {0, 0, 0};
+  if (sscanf(hex, "#%2x%2x%2x", &value[0], &value[1], &value[2]) != 3) return;
+
   for (int k = 0; k < 3; k++)
-    c[k] = (unsigned)(c[k] + white * (255 - c[k]));
-  snprintf(out, 8, "#%02x%02x%02x", c[0] & 255, c[1] & 255, c[2] & 255);
+    value[k] = (unsigned)(value[k] + white * (255 - value[k]));
+  snprintf(out, 8, "#%02x%02x%02x", value[0] & 255, value[1] & 255, value[2] & 255);
 }
 
-static double fade_of(const drawing *d, double depth)
+/* Returns how much white a thing at a depth gets. */
+static double fade_of(const step_drawing *drawing, double depth)
 {
-  return FADE * fmin(1, fabs(depth - d->depth) / d->deep);
+  return FADE * fmin(1, fabs(depth - drawing->depth) / drawing->deep);
 }
 
-static bool seen(const drawing *d, const double *a, const double *b, double more)
+/* Returns whether a line between two places may be seen in the window, widened by `more` mm. */
+static bool seen(const step_drawing *drawing, const double *a, const double *b, double more)
 {
-  const thr_box *w = &d->window;
-  return fmin(a[0], b[0]) <= w->x1 + more && fmax(a[0], b[0]) >= w->x0 - more &&
-         fmin(a[1], b[1]) <= w->y1 + more && fmax(a[1], b[1]) >= w->y0 - more;
+  const thr_box *window = &drawing->window;
+  return fmin(a[0], b[0]) <= window->x1 + more && fmax(a[0], b[0]) >= window->x0 - more &&
+         fmin(a[1], b[1]) <= window->y1 + more && fmax(a[1], b[1]) >= window->y0 - more;
 }
 
-static int piece_of(const drawing *d, int h)
+/* Returns the piece that half-edge h begins in. */
+static int piece_of(const step_drawing *drawing, int h)
 {
-  return d->space->solid ? thr_tail(d->space->f, h) : h >> 1;
+  return drawing->space->solid ? thr_tail(drawing->space->f, h) : h >> 1;
 }
 
-static thr_piece_state state_of(const drawing *d, int piece)
+/* Returns whether a piece is new in this step, held by a cord, or comes later. */
+static thr_piece_state state_of(const step_drawing *drawing, int piece)
 {
-  return (thr_piece_state)d->step->crop.piece[piece];
+  return (thr_piece_state)drawing->step->crop.piece[piece];
 }
 
 /* ---- lines ---- */
 
-/* Edges whose pieces are not drawn, pale by depth: dark are those that hold a cord. */
-static void put_lines(const drawing *d)
+/* Draws the edges whose pieces are not drawn, pale by depth, in one path for each of a few bins,
+ * the palest first. Dark are those that hold a cord, over the others. */
+static void put_lines(const step_drawing *drawing)
 {
-  const thr_frame *f = d->space->f;
+  const thr_frame *frame = drawing->space->f;
   for (int held = 0; held < 2; held++)
     for (int bin = BINS - 1; bin >= 0; bin--) {
       thr_text data = {0};
       char colour[8];
-      for (int e = 0; e < f->n_edges; e++) {
-        const double *a = d->at[f->edge[e][0]], *b = d->at[f->edge[e][1]];
-        bool own = state_of(d, piece_of(d, 2 * e)) != THR_PIECE_LATER &&
-                   state_of(d, piece_of(d, 2 * e + 1)) != THR_PIECE_LATER;
-        double white = fade_of(d, 0.5 * (a[2] + b[2]));
-        if (own != held || (d->near[f->edge[e][0]] && d->near[f->edge[e][1]]) ||
-            !seen(d, a, b, 1) || (int)fmin(BINS * white / FADE, BINS - 1) != bin)
+
+      for (int e = 0; e < frame->n_edges; e++) {
+        const double *tail = drawing->at[frame->edge[e][0]], *head = drawing->at[frame->edge[e][1]];
+
+        /* Edges of this kind, in the window, in this bin of depth. */
+        bool own = state_of(drawing, piece_of(drawing, 2 * e)) != THR_PIECE_LATER &&
+                   state_of(drawing, piece_of(drawing, 2 * e + 1)) != THR_PIECE_LATER;
+        double white = fade_of(drawing, 0.5 * (tail[2] + head[2]));
+        if (own != held || (drawing->near[frame->edge[e][0]] && drawing->near[frame->edge[e][1]]) ||
+            !seen(drawing, tail, head, 1) || (int)fmin(BINS * white / FADE, BINS - 1) != bin)
           continue;
-        thr_svg_move(&data, a);
-        thr_svg_line(&data, b);
+
+        thr_svg_move(&data, tail);
+        thr_svg_line(&data, head);
       }
+
+      /* One path in the bin's colour. */
       pale(held ? "#b3aa98" : "#c8c8c8", FADE * (bin + 0.5) / BINS, colour);
       if (data.data)
-        thr_text_printf(d->text,
+        thr_text_printf(drawing->text,
                         "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" "
                         "stroke-linecap=\"round\" d=\"%s\"/>\n",
                         colour, held ? "0.80" : "0.35", data.data);
-      d->text->failed |= data.failed;
+      drawing->text->failed |= data.failed;
       thr_text_destroy(&data);
     }
 }
 
 /* ---- pieces ---- */
 
-static void arms_of(const drawing *d, int v, thr_arms *arms)
+/* Finds the arms of the piece at a node, as they are seen. */
+static void arms_of(const step_drawing *drawing, int v, thr_arms *arms)
 {
-  const thr_frame *f = d->space->f;
-  const double *hub = d->at[v];
-  *arms = (thr_arms){.hub = {hub[0], hub[1]}, .width = d->arm};
-  for (int i = f->first[v]; i < f->first[v + 1] && arms->n < THR_ARMS; i++) {
-    const double *other = d->at[thr_head(f, f->half[i])];
+  const thr_frame *frame = drawing->space->f;
+  const double *hub = drawing->at[v];
+  *arms = (thr_arms){.hub = {hub[0], hub[1]}, .width = drawing->arm};
+
+  /* To the middle of each edge, less a gap. */
+  for (int i = frame->first[v]; i < frame->first[v + 1] && arms->n < THR_ARMS; i++) {
+    const double *other = drawing->at[thr_head(frame, frame->half[i])];
     double length = hypot(other[0] - hub[0], other[1] - hub[1]),
            part = length > 0 ? 0.5 - fmin(GAP / length, 0.1) : 0;
     for (int k = 0; k < 2; k++)
@@ -117,49 +138,67 @@ static void arms_of(const drawing *d, int v, thr_arms *arms)
   }
 }
 
-/* The opening at the end of an arm that comes towards the eye: an ellipse, as four curves. */
-static void put_opening(const drawing *d, const double end[2], const double side[2], double open,
-                        const char *fill, const char *outline)
+/* Draws the opening at the end of an arm that comes towards the eye: an ellipse, as four Bezier
+ * curves. side: unit vector across the arm on paper; open: cosine between arm and eye. */
+static void put_opening(const step_drawing *drawing, const double end[2], const double side[2],
+                        double open, const char *fill, const char *outline)
 {
   static const double round = 0.5522847498; /* of a quarter of a circle */
-  double a = 0.5 * d->arm, b = a * open, u[2] = {side[0] * a, side[1] * a},
-         w[2] = {-side[1] * b, side[0] * b};
+
+  /* The half-axes of the ellipse. */
+  double half = 0.5 * drawing->arm, half_open = half * open,
+         across[2] = {side[0] * half, side[1] * half},
+         upwards[2] = {-side[1] * half_open, side[0] * half_open};
   static const double turn[5][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 0}};
-  thr_text_printf(d->text, "<path fill=\"%s\" stroke=\"%s\" stroke-width=\"0.25\" d=\"", fill,
+
+  thr_text_printf(drawing->text, "<path fill=\"%s\" stroke=\"%s\" stroke-width=\"0.25\" d=\"", fill,
                   outline);
-  for (int q = 0; q < 5; q++) {
+
+  /* One curve for each quarter. */
+  for (int quarter = 0; quarter < 5; quarter++) {
     double at[2], before[2], after[2];
     for (int k = 0; k < 2; k++) {
-      at[k] = end[k] + turn[q][0] * u[k] + turn[q][1] * w[k];
-      if (!q) continue;
-      double from = end[k] + turn[q - 1][0] * u[k] + turn[q - 1][1] * w[k];
-      before[k] = from + round * (turn[q][0] * u[k] + turn[q][1] * w[k]);
-      after[k] = at[k] + round * (turn[q - 1][0] * u[k] + turn[q - 1][1] * w[k]);
+      at[k] = end[k] + turn[quarter][0] * across[k] + turn[quarter][1] * upwards[k];
+      if (!quarter) continue;
+      double from = end[k] + turn[quarter - 1][0] * across[k] + turn[quarter - 1][1] * upwards[k];
+      before[k] = from + round * (turn[quarter][0] * across[k] + turn[quarter][1] * upwards[k]);
+      after[k] =
+          at[k] + round * (turn[quarter - 1][0] * across[k] + turn[quarter - 1][1] * upwards[k]);
     }
-    if (q)
-      thr_svg_curve(d->text, before, after, at);
+
+    if (quarter)
+      thr_svg_curve(drawing->text, before, after, at);
     else
-      thr_svg_move(d->text, at);
+      thr_svg_move(drawing->text, at);
   }
-  thr_text_append(d->text, "z\"/>\n");
+  thr_text_append(drawing->text, "z\"/>\n");
 }
 
-static void put_openings(const drawing *d, int v, const thr_arms *arms, const char *outline)
+/* Draws the openings of the arms that come towards the eye. */
+static void put_openings(const step_drawing *drawing, int v, const thr_arms *arms,
+                         const char *outline)
 {
-  const thr_frame *f = d->space->f;
+  const thr_frame *frame = drawing->space->f;
+
   for (int i = 0; i < arms->n; i++) {
-    const double *to = f->xyz[thr_head(f, f->half[f->first[v] + i])], *from = f->xyz[v];
+    /* How far the arm points to the eye, in space. */
+    const double *to = frame->xyz[thr_head(frame, frame->half[frame->first[v] + i])],
+                 *from = frame->xyz[v];
     double along[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]},
            length = sqrt(thr_dot(along, along));
-    double open = length > 0 ? thr_dot(along, d->view->camera.eye) / length : 0;
+    double open = length > 0 ? thr_dot(along, drawing->view->camera.eye) / length : 0;
+
+    /* Its direction on paper. */
     double flat[2] = {arms->end[i][0] - arms->hub[0], arms->end[i][1] - arms->hub[1]},
            wide = hypot(flat[0], flat[1]);
+
     if (open < OPEN) continue;
     double side[2] = {wide > 1e-6 ? -flat[1] / wide : 1, wide > 1e-6 ? flat[0] / wide : 0};
-    put_opening(d, arms->end[i], side, open, "#fff", outline);
+    put_opening(drawing, arms->end[i], side, open, "#fff", outline);
   }
 }
 
+/* How pieces look by their state. */
 static const struct {
   const char *fill, *outline;
   double line;
@@ -168,224 +207,295 @@ static const struct {
                              [THR_PIECE_HELD] = {"#d5ccb8", "#857a64", 0.3},
                              [THR_PIECE_NEW] = {"#ffdf8c", "#5c4600", 0.6}};
 
-static void put_solid(const drawing *d, int v, bool now)
+/* Draws a solid piece; now: in full colours. */
+static void put_solid(const step_drawing *drawing, int v, bool now)
 {
-  thr_piece_state state = state_of(d, v);
-  double white = now ? 0 : 0.35 + 0.65 * fade_of(d, d->at[v][2]);
+  thr_piece_state state = state_of(drawing, v);
+
+  /* Pieces around the step are a third white at least. */
+  double white = now ? 0 : 0.35 + 0.65 * fade_of(drawing, drawing->at[v][2]);
   char fill[8], outline[8];
+
   thr_arms arms;
-  arms_of(d, v, &arms);
+  arms_of(drawing, v, &arms);
   pale(looks[state].fill, white, fill);
   pale(looks[state].outline, white, outline);
   arms.fill = fill;
   arms.outline = outline;
   arms.line = looks[state].line;
-  thr_arms_draw(&arms, d->text);
-  put_openings(d, v, &arms, outline);
+
+  thr_arms_draw(&arms, drawing->text);
+  put_openings(drawing, v, &arms, outline);
 }
 
-/* Without its ends, so that the places at which tubes meet stay free. */
-static void put_tube(const drawing *d, int e, bool now)
+/* Draws a tube without its ends, so that the places at which tubes meet stay free. */
+static void put_tube(const step_drawing *drawing, int e, bool now)
 {
-  const thr_frame *f = d->space->f;
-  const double *a = d->at[f->edge[e][0]], *b = d->at[f->edge[e][1]];
-  thr_piece_state state = state_of(d, e);
-  double length = hypot(b[0] - a[0], b[1] - a[1]),
-         off = length > 0 ? fmin(0.5 * d->arm + 1, 0.3 * length) / length : 0;
-  double white = now ? 0 : 0.35 + 0.65 * fade_of(d, 0.5 * (a[2] + b[2]));
+  const thr_frame *frame = drawing->space->f;
+  const double *tail = drawing->at[frame->edge[e][0]], *head = drawing->at[frame->edge[e][1]];
+  thr_piece_state state = state_of(drawing, e);
+
+  double length = hypot(head[0] - tail[0], head[1] - tail[1]),
+         off = length > 0 ? fmin(0.5 * drawing->arm + 1, 0.3 * length) / length : 0;
+  double white = now ? 0 : 0.35 + 0.65 * fade_of(drawing, 0.5 * (tail[2] + head[2]));
+
+  /* The outline, and on it the tube itself. */
   for (int k = 0; k < 2; k++) {
     char colour[8];
     pale(k ? looks[state].fill : looks[state].outline, white, colour);
     thr_text_printf(
-        d->text,
+        drawing->text,
         "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" stroke-linecap=\"round\" d=\"",
-        colour, 0.8 * d->arm + (k ? -1 : 1) * looks[state].line);
-    thr_svg_move(d->text, (const double[]){a[0] + off * (b[0] - a[0]), a[1] + off * (b[1] - a[1])});
-    thr_svg_line(d->text, (const double[]){b[0] + off * (a[0] - b[0]), b[1] + off * (a[1] - b[1])});
-    thr_text_append(d->text, "\"/>\n");
+        colour, 0.8 * drawing->arm + (k ? -1 : 1) * looks[state].line);
+
+    thr_svg_move(drawing->text, (const double[]){tail[0] + off * (head[0] - tail[0]),
+                                                 tail[1] + off * (head[1] - tail[1])});
+    thr_svg_line(drawing->text, (const double[]){head[0] + off * (tail[0] - head[0]),
+                                                 head[1] + off * (tail[1] - head[1])});
+    thr_text_append(drawing->text, "\"/>\n");
   }
 }
 
-static nearness near_of(const drawing *d, int piece)
+/* Returns how near a piece is: of tubes both ends count. */
+static nearness near_of(const step_drawing *drawing, int piece)
 {
-  if (d->space->solid) return (nearness)d->near[piece];
-  const int *end = d->space->f->edge[piece];
-  return d->near[end[0]] && d->near[end[1]]
-             ? (nearness)(d->near[end[0]] == NOW && d->near[end[1]] == NOW ? NOW : AROUND)
+  if (drawing->space->solid) return (nearness)drawing->near[piece];
+  const int *end = drawing->space->f->edge[piece];
+  return drawing->near[end[0]] && drawing->near[end[1]]
+             ? (nearness)(drawing->near[end[0]] == NOW && drawing->near[end[1]] == NOW ? NOW
+                                                                                       : AROUND)
              : FAR;
 }
 
-/* Pieces that are so near and, of those that are drawn now, new or held; back to front. */
-static void put_pieces(const drawing *d, nearness near, bool new, thr_ranked *list)
+/* Draws the pieces that are so near and, of those that are drawn now, new or held; back to
+ * front. */
+static void put_pieces(const step_drawing *drawing, nearness near, bool new, thr_ranked *list)
 {
-  const thr_frame *f = d->space->f;
-  int n = 0, pieces = d->space->solid ? f->n_nodes : f->n_edges;
+  const thr_frame *frame = drawing->space->f;
+
+  int n = 0, pieces = drawing->space->solid ? frame->n_nodes : frame->n_edges;
+
+  /* List them by depth. */
   for (int i = 0; i < pieces; i++) {
-    const double *a = d->at[d->space->solid ? i : f->edge[i][0]],
-                 *b = d->at[d->space->solid ? i : f->edge[i][1]];
-    if (near_of(d, i) != near || (near == NOW && (state_of(d, i) == THR_PIECE_NEW) != new) ||
-        !seen(d, a, b, d->pitch))
+    const double *first = drawing->at[drawing->space->solid ? i : frame->edge[i][0]],
+                 *last = drawing->at[drawing->space->solid ? i : frame->edge[i][1]];
+    if (near_of(drawing, i) != near ||
+        (near == NOW && (state_of(drawing, i) == THR_PIECE_NEW) != new) ||
+        !seen(drawing, first, last, drawing->pitch))
       continue;
-    list[n++] = (thr_ranked){a[2] + b[2], i};
+    list[n++] = (thr_ranked){first[2] + last[2], i};
   }
+
+  /* Draw them from the furthest on. */
   thr_sort_ranked(list, (size_t)n);
   for (int i = 0; i < n; i++)
-    if (d->space->solid)
-      put_solid(d, list[i].index, near == NOW);
+    if (drawing->space->solid)
+      put_solid(drawing, list[i].index, near == NOW);
     else
-      put_tube(d, list[i].index, near == NOW);
+      put_tube(drawing, list[i].index, near == NOW);
 }
 
 /* ---- cords ---- */
 
-/* The lane of pass i on its edge, in the direction of the needle. */
-static thr_lane lane_of(const drawing *d, int i)
+/* Computes the lane of pass i on its edge, in the direction of the needle, mm. */
+static thr_lane lane_of(const step_drawing *drawing, int i)
 {
-  const thr_space *space = d->space;
-  int h = thr_space_half(space, &d->step->crop, i), e = h >> 1, rank = 0, n = 0;
-  const double *a = d->at[thr_tail(space->f, h)], *b = d->at[thr_head(space->f, h)];
-  thr_lane lane = {.hub = {{a[0], a[1]}, {b[0], b[1]}}, .length = hypot(b[0] - a[0], b[1] - a[1])};
+  const thr_space *space = drawing->space;
+  int h = thr_space_half(space, &drawing->step->crop, i), e = h >> 1, rank = 0, n = 0;
+  const double *tail = drawing->at[thr_tail(space->f, h)],
+               *head = drawing->at[thr_head(space->f, h)];
+
+  thr_lane lane = {.hub = {{tail[0], tail[1]}, {head[0], head[1]}},
+                   .length = hypot(head[0] - tail[0], head[1] - tail[1])};
+
+  /* Its rank among the passes on this edge that are drawn. */
   for (int k = space->first_on[e]; k < space->first_on[e + 1]; k++) {
-    if (d->step->crop.state[space->on[k]] == THR_DRAW_HIDDEN) continue;
+    if (drawing->step->crop.state[space->on[k]] == THR_DRAW_HIDDEN) continue;
     rank += space->on[k] < i;
     n++;
   }
+
+  /* Lanes lie side by side on the arm; they end before the hubs. */
   double off =
-      n > 1 ? (rank - 0.5 * (n - 1)) * fmin(LANE * d->pitch, (d->arm - CORD) / (n - 1)) : 0;
-  double back = fmin(0.3 * lane.length, 0.9 * d->arm), sign = h & 1 ? -1 : 1;
+      n > 1 ? (rank - 0.5 * (n - 1)) * fmin(LANE * drawing->pitch, (drawing->arm - CORD) / (n - 1))
+            : 0;
+  double back = fmin(0.3 * lane.length, 0.9 * drawing->arm), sign = h & 1 ? -1 : 1;
+
   for (int k = 0; k < 2; k++)
-    lane.along[k] = lane.length > 0 ? (b[k] - a[k]) / lane.length : 0;
+    lane.along[k] = lane.length > 0 ? (head[k] - tail[k]) / lane.length : 0;
+
+  /* The side is that of the edge's direction, whichever way the pass runs. */
   for (int k = 0; k < 2; k++) {
     double side = off * sign * (k ? lane.along[0] : -lane.along[1]);
-    lane.from[k] = a[k] + side + back * lane.along[k];
-    lane.to[k] = b[k] + side - back * lane.along[k];
+    lane.from[k] = tail[k] + side + back * lane.along[k];
+    lane.to[k] = head[k] + side - back * lane.along[k];
   }
   return lane;
 }
 
-/* From the end of one lane to the beginning of the next, rounded towards the hub. */
-static void put_turn(const thr_lane *a, const thr_lane *b, thr_text *text)
+/* Appends the curve from the end of one lane to the beginning of the next, rounded towards the
+ * hub. */
+static void put_turn(const thr_lane *before, const thr_lane *behind, thr_text *text)
 {
   double first[2], second[2],
-      far = 0.55 * (hypot(a->hub[1][0] - a->to[0], a->hub[1][1] - a->to[1]) +
-                    hypot(b->hub[0][0] - b->from[0], b->hub[0][1] - b->from[1]));
+      far =
+          0.55 * (hypot(before->hub[1][0] - before->to[0], before->hub[1][1] - before->to[1]) +
+                  hypot(behind->hub[0][0] - behind->from[0], behind->hub[0][1] - behind->from[1]));
+
   for (int k = 0; k < 2; k++) {
-    first[k] = a->to[k] + far * a->along[k];
-    second[k] = b->from[k] - far * b->along[k];
+    first[k] = before->to[k] + far * before->along[k];
+    second[k] = behind->from[k] - far * behind->along[k];
   }
-  thr_svg_curve(text, first, second, b->from);
+  thr_svg_curve(text, first, second, behind->from);
 }
 
-/* Cords that lie there already, in few elements. */
-static void put_earlier(const drawing *d)
+/* Draws the cords that lie there already, in two paths: a white casing, and grey. */
+static void put_earlier(const step_drawing *drawing)
 {
-  const thr_space *space = d->space;
+  const thr_space *space = drawing->space;
   thr_text data = {0};
   thr_lane before = {0};
+
+  /* Passes that are seen, between pieces that are drawn. */
   for (int i = 0, last = -2; i < space->n_passes; i++) {
     int h = space->half[i];
-    const double *a = d->at[thr_tail(space->f, h)], *b = d->at[thr_head(space->f, h)];
-    if (d->step->crop.state[i] != THR_DRAW_EARLIER || !seen(d, a, b, 1) ||
-        !(d->near[thr_tail(space->f, h)] && d->near[thr_head(space->f, h)]))
+    const double *tail = drawing->at[thr_tail(space->f, h)],
+                 *head = drawing->at[thr_head(space->f, h)];
+    if (drawing->step->crop.state[i] != THR_DRAW_EARLIER || !seen(drawing, tail, head, 1) ||
+        !(drawing->near[thr_tail(space->f, h)] && drawing->near[thr_head(space->f, h)]))
       continue;
-    thr_lane lane = lane_of(d, i);
+
+    thr_lane lane = lane_of(drawing, i);
+
+    /* Does it go on from the pass before? */
     bool on = last == i - 1 && space->cord[i] == space->cord[last];
-    if (d->step->crop.backward) { /* lanes are told as the needle goes; this one goes on from the
-                                     end of the one before */
-      thr_lane t = lane;
+
+    /* Lanes are told as the needle goes; here a lane goes on from the end of the one before. */
+    if (drawing->step->crop.backward) {
+      thr_lane lane_as_threaded = lane;
       for (int k = 0; k < 2; k++) {
-        lane.from[k] = t.to[k];
-        lane.to[k] = t.from[k];
-        lane.along[k] = -t.along[k];
-        lane.hub[0][k] = t.hub[1][k];
-        lane.hub[1][k] = t.hub[0][k];
+        lane.from[k] = lane_as_threaded.to[k];
+        lane.to[k] = lane_as_threaded.from[k];
+        lane.along[k] = -lane_as_threaded.along[k];
+        lane.hub[0][k] = lane_as_threaded.hub[1][k];
+        lane.hub[1][k] = lane_as_threaded.hub[0][k];
       }
     }
+
     if (on)
       put_turn(&before, &lane, &data);
     else
       thr_svg_move(&data, lane.from);
+
     thr_svg_line(&data, lane.to);
     before = lane;
     last = i;
   }
+
+  /* Casing, then cord. */
   for (int k = 0; k < 2 && data.data; k++)
-    thr_text_printf(d->text,
+    thr_text_printf(drawing->text,
                     "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" "
                     "stroke-linejoin=\"round\" d=\"%s\"/>\n",
                     k ? "#a2a2a2" : "#ffffff", k ? "0.90" : "1.60", data.data);
-  d->text->failed |= data.failed;
+
+  drawing->text->failed |= data.failed;
   thr_text_destroy(&data);
 }
 
-/* The cord of the step: from the first hub, and on into the arm into which the needle points. */
-static void put_cord(const drawing *d, const thr_lane *lane, int n)
+/* Draws the cord of the step: from the first hub, and on into the arm into which the needle
+ * points. */
+static void put_cord(const step_drawing *drawing, const thr_lane *lane, int n)
 {
-  const thr_frame *f = d->space->f;
+  const thr_frame *frame = drawing->space->f;
   const thr_lane *last = &lane[n - 1];
   thr_text data = {0};
   double tip[2] = {last->hub[1][0], last->hub[1][1]};
+
+  /* From the hub into the first lane, then lane by lane. */
   thr_svg_move(&data, lane[0].hub[0]);
   thr_svg_line(&data, lane[0].from);
   for (int i = 0; i < n; i++) {
     if (i) put_turn(&lane[i - 1], &lane[i], &data);
     thr_svg_line(&data, lane[i].to);
   }
-  if (d->step->next >= 0) {
-    const double *to = d->at[thr_head(f, d->step->next)];
+
+  /* On to where the needle points, or to the last hub. */
+  if (drawing->step->next >= 0) {
+    const double *to = drawing->at[thr_head(frame, drawing->step->next)];
     for (int k = 0; k < 2; k++)
       tip[k] = last->hub[1][k] + 0.5 * (to[k] - last->hub[1][k]);
     thr_svg_curve(&data, last->hub[1], last->hub[1], tip);
   } else
     thr_svg_line(&data, tip);
+
+  /* Casing, then cord. */
   for (int k = 0; k < 2 && data.data; k++)
-    thr_text_printf(d->text,
+    thr_text_printf(drawing->text,
                     "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" "
                     "stroke-linejoin=\"round\" d=\"%s\"/>\n",
-                    k ? d->step->colour : "#fff", k ? CORD : CORD + 2 * CASING, data.data);
-  d->text->failed |= data.failed;
+                    k ? drawing->step->colour : "#fff", k ? CORD : CORD + 2 * CASING, data.data);
+
+  drawing->text->failed |= data.failed;
   thr_text_destroy(&data);
 }
 
 /* ---- the picture ---- */
 
-static void find_near(drawing *d)
+/* Finds which nodes the step comes to and which are their neighbours, and the mean depth of the
+ * step's passes. */
+static void find_near(step_drawing *drawing)
 {
-  const thr_frame *f = d->space->f;
-  const thr_crop *crop = &d->step->crop;
-  d->depth = 0;
+  const thr_frame *frame = drawing->space->f;
+  const thr_crop *crop = &drawing->step->crop;
+
+  drawing->depth = 0;
   for (int i = 0; i < crop->n_now; i++) {
-    int h = d->space->half[crop->now[i]];
-    d->near[thr_tail(f, h)] = d->near[thr_head(f, h)] = NOW;
-    d->depth += 0.5 * (d->at[thr_tail(f, h)][2] + d->at[thr_head(f, h)][2]) / crop->n_now;
+    int h = drawing->space->half[crop->now[i]];
+    drawing->near[thr_tail(frame, h)] = drawing->near[thr_head(frame, h)] = NOW;
+    drawing->depth += 0.5 *
+                      (drawing->at[thr_tail(frame, h)][2] + drawing->at[thr_head(frame, h)][2]) /
+                      crop->n_now;
   }
-  for (int h = 0; h < 2 * f->n_edges; h++)
-    if (d->near[thr_tail(f, h)] == NOW && d->near[thr_head(f, h)] == FAR)
-      d->near[thr_head(f, h)] = AROUND;
+
+  /* The neighbours of these nodes. */
+  for (int h = 0; h < 2 * frame->n_edges; h++)
+    if (drawing->near[thr_tail(frame, h)] == NOW && drawing->near[thr_head(frame, h)] == FAR)
+      drawing->near[thr_head(frame, h)] = AROUND;
 }
 
-static thr_status put_all(drawing *d, thr_ranked *list, thr_err *err)
+/* Draws everything from the back to the front, then the labels. list: scratch. */
+static thr_status put_all(step_drawing *drawing, thr_ranked *list, thr_err *err)
 {
-  const thr_crop *crop = &d->step->crop;
+  const thr_crop *crop = &drawing->step->crop;
   thr_lane lane[THR_CAMERA_PASSES];
+
   int n = crop->n_now < THR_CAMERA_PASSES ? crop->n_now : THR_CAMERA_PASSES;
-  find_near(d);
-  put_lines(d);
-  put_pieces(d, AROUND, false, list);
-  put_pieces(d, NOW, false, list);
-  put_earlier(d);
-  put_pieces(d, NOW, true, list);
+  find_near(drawing);
+
+  /* What is behind the cord of the step. */
+  put_lines(drawing);
+  put_pieces(drawing, AROUND, false, list);
+  put_pieces(drawing, NOW, false, list);
+  put_earlier(drawing);
+  put_pieces(drawing, NOW, true, list);
+
+  /* The cord itself. */
   for (int i = 0; i < n; i++)
-    lane[i] = lane_of(d, crop->now[i]);
-  put_cord(d, lane, n);
-  return thr_space_label(d->space, d->step, lane, (const double(*)[3])d->at, d->window,
-                         0.5 * d->arm, d->text, err);
+    lane[i] = lane_of(drawing, crop->now[i]);
+  put_cord(drawing, lane, n);
+
+  return thr_space_label(drawing->space, drawing->step, lane, (const double(*)[3])drawing->at,
+                         drawing->window, 0.5 * drawing->arm, drawing->text, err);
 }
 
+/* Opens the group of a step's picture: its style, and a clip to its window. */
 static void open_group(const thr_space_step *step, const thr_camera_view *view, const double at[2],
                        thr_text *text)
 {
   int n = step->crop.number;
+
+  /* Class names have the picture's number, since a page has several pictures. */
   thr_text_printf(text,
                   "<style>.view-%d text{fill:#222;font-family:'DejaVu "
                   "Sans',Verdana,sans-serif;text-anchor:middle}",
@@ -394,6 +504,8 @@ static void open_group(const thr_space_step *step, const thr_camera_view *view, 
       text, ".view-%d .pill{fill:#fff;stroke-width:0.45}.view-%d .own{fill:#111;font-weight:bold}",
       n, n);
   thr_text_printf(text, ".view-%d .other{fill:#777}</style>\n<g class=\"view-%d\">\n", n, n);
+
+  /* Everything in the group is clipped, and moved to its place on the page. */
   thr_text_printf(text,
                   "<clipPath id=\"view-%d-0\"><rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" "
                   "height=\"%.2f\"/></clipPath>\n"
@@ -405,69 +517,86 @@ thr_status thr_space_draw(const thr_space *space, const thr_space_step *step,
                           const thr_camera_view *view, const double at[2], thr_text *text,
                           thr_err *err)
 {
-  const thr_frame *f = space->f;
-  int most = f->n_nodes > f->n_edges ? f->n_nodes : f->n_edges;
-  drawing d = {.space = space,
-               .step = step,
-               .view = view,
-               .text = text,
-               .window = {0, 0, view->size[0], view->size[1]}};
-  d.pitch = view->scale * space->pitch;
-  d.deep = DEEP * space->pitch;
-  d.arm = fmin(ARM * d.pitch, WIDEST);
-  d.at = thr_calloc((size_t)f->n_nodes, sizeof *d.at);
-  d.near = thr_calloc((size_t)f->n_nodes, sizeof *d.near);
+  const thr_frame *frame = space->f;
+  int most = frame->n_nodes > frame->n_edges ? frame->n_nodes : frame->n_edges;
+  step_drawing drawing = {.space = space,
+                          .step = step,
+                          .view = view,
+                          .text = text,
+                          .window = {0, 0, view->size[0], view->size[1]}};
+
+  /* Sizes on paper follow from the view's scale. */
+  drawing.pitch = view->scale * space->pitch;
+  drawing.deep = DEEP * space->pitch;
+  drawing.arm = fmin(ARM * drawing.pitch, WIDEST);
+
+  drawing.at = thr_calloc((size_t)frame->n_nodes, sizeof *drawing.at);
+  drawing.near = thr_calloc((size_t)frame->n_nodes, sizeof *drawing.near);
   thr_ranked *list = thr_calloc((size_t)most, sizeof *list);
-  thr_status st = d.at && d.near && list ? THR_OK : thr_nomem(err);
-  for (int v = 0; v < f->n_nodes && !st; v++)
-    thr_camera_project(view, f->xyz[v], d.at[v]);
+  thr_status st = drawing.at && drawing.near && list ? THR_OK : thr_nomem(err);
+
+  /* Where the nodes are on paper. */
+  for (int v = 0; v < frame->n_nodes && !st; v++)
+    thr_camera_project(view, frame->xyz[v], drawing.at[v]);
+
   open_group(step, view, at, text);
-  if (!st) st = put_all(&d, list, err);
+  if (!st) st = put_all(&drawing, list, err);
+
+  /* The frame lies over everything. */
   thr_text_append(text, "</g></g>\n");
   thr_text_printf(
       text,
       "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"none\" stroke=\"#999\" "
       "stroke-width=\"0.25\"/>\n</g>\n",
       at[0], at[1], view->size[0], view->size[1]);
-  free(d.at);
-  free(d.near);
+
+  free(drawing.at);
+  free(drawing.near);
   free(list);
   return st;
 }
 
 /* ---- the whole ---- */
 
-/* The names of nodes that have room, the nearest first. */
-static thr_status put_names(const drawing *d, thr_ranked *list, thr_err *err)
+/* Writes the names of nodes that have room, the nearest first. list: scratch. */
+static thr_status put_names(const step_drawing *drawing, thr_ranked *list, thr_err *err)
 {
   static const double size = 2.6; /* mm */
   thr_boxes boxes = {0};
-  thr_status st = thr_boxes_init(&boxes, d->window, 6, err);
-  int n = d->space->f->n_nodes;
+  thr_status st = thr_boxes_init(&boxes, drawing->window, 6, err);
+  int n = drawing->space->f->n_nodes;
+
+  /* Nearest to the eye first. */
   for (int v = 0; v < n; v++)
-    list[v] = (thr_ranked){d->at[v][2], v};
+    list[v] = (thr_ranked){drawing->at[v][2], v};
   thr_sort_ranked(list, (size_t)n);
-  thr_text_append(d->text, "<g fill=\"#222\" text-anchor=\"middle\">\n");
+
+  thr_text_append(drawing->text, "<g fill=\"#222\" text-anchor=\"middle\">\n");
   for (int i = n - 1; i >= 0 && !st; i--) {
-    const double *at = d->at[list[i].index];
-    const char *name = d->space->label[list[i].index];
+    /* A name that would cover another one is left out. */
+    const double *at = drawing->at[list[i].index];
+    const char *name = drawing->space->label[list[i].index];
     thr_box box =
         thr_box_around(at[0], at[1], 0.5 * thr_scene_text_width(name, size) + 0.3, 0.6 * size);
     if (thr_boxes_overlap(&boxes, box, ~0, 1e-9) > 0) continue;
-    thr_svg_text(d->text, at[0], at[1] + 0.36 * size, size, "", name);
+
+    thr_svg_text(drawing->text, at[0], at[1] + 0.36 * size, size, "", name);
     st = thr_boxes_add(&boxes, box, THR_BOX_NAME, err);
   }
-  thr_text_append(d->text, "</g>\n");
+
+  thr_text_append(drawing->text, "</g>\n");
   thr_boxes_destroy(&boxes);
   return st;
 }
 
-/* Sees all nodes from the front and above; where they are. */
+/* Returns a view of all nodes from the front and above; at[n_nodes]: where they are on paper. */
 static thr_camera_view view_of_all(const thr_space *space, const double size[2], double (*at)[3])
 {
   static const double azimuth = -1.05, elevation = 0.4; /* rad */
   thr_camera_view view = {.camera = thr_camera_at(azimuth, elevation), .scale = 1};
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+
+  /* The nodes' bounding box at scale 1. */
   for (int v = 0; v < space->f->n_nodes; v++) {
     thr_camera_project(&view, space->f->xyz[v], at[v]);
     for (int k = 0; k < 2; k++) {
@@ -475,12 +604,15 @@ static thr_camera_view view_of_all(const thr_space *space, const double size[2],
       high[k] = fmax(high[k], at[v][k]);
     }
   }
+
+  /* As large as the paper takes, with a rim. */
   view.scale = HUGE_VAL;
   for (int k = 0; k < 2; k++) {
     view.size[k] = size[k];
     view.middle[k] = 0.5 * (low[k] + high[k]);
     view.scale = fmin(view.scale, 0.94 * size[k] / fmax(high[k] - low[k], 1e-6 * space->pitch));
   }
+
   for (int v = 0; v < space->f->n_nodes; v++)
     thr_camera_project(&view, space->f->xyz[v], at[v]);
   return view;
@@ -489,39 +621,48 @@ static thr_camera_view view_of_all(const thr_space *space, const double size[2],
 thr_status thr_space_whole(const thr_space *space, const unsigned char *state, thr_box paper,
                            thr_text *text, thr_err *err)
 {
-  const thr_frame *f = space->f;
-  int most = f->n_nodes > f->n_edges ? f->n_nodes : f->n_edges;
+  const thr_frame *frame = space->f;
+  int most = frame->n_nodes > frame->n_edges ? frame->n_nodes : frame->n_edges;
   const double size[2] = {paper.x1 - paper.x0, paper.y1 - paper.y0};
   thr_space_step plain = {.next = -1};
-  drawing d = {.space = space, .step = &plain, .text = text, .window = {0, 0, size[0], size[1]}};
-  d.at = thr_calloc((size_t)f->n_nodes, sizeof *d.at);
-  d.near = thr_calloc((size_t)f->n_nodes, sizeof *d.near);
+  step_drawing drawing = {
+      .space = space, .step = &plain, .text = text, .window = {0, 0, size[0], size[1]}};
+
+  drawing.at = thr_calloc((size_t)frame->n_nodes, sizeof *drawing.at);
+  drawing.near = thr_calloc((size_t)frame->n_nodes, sizeof *drawing.near);
   thr_ranked *list = thr_calloc((size_t)most, sizeof *list);
   unsigned char *piece = thr_calloc((size_t)most, sizeof *piece);
-  thr_status st = d.at && d.near && list && piece ? THR_OK : thr_nomem(err);
+  thr_status st = drawing.at && drawing.near && list && piece ? THR_OK : thr_nomem(err);
   if (!st) {
-    thr_camera_view view = view_of_all(space, size, d.at);
+    /* Every node is drawn as a piece around; depths go from the nearest to the furthest node. */
+    thr_camera_view view = view_of_all(space, size, drawing.at);
     double low = HUGE_VAL, high = -HUGE_VAL;
-    for (int v = 0; v < f->n_nodes; v++) {
-      d.near[v] = AROUND;
-      low = fmin(low, d.at[v][2]);
-      high = fmax(high, d.at[v][2]);
+    for (int v = 0; v < frame->n_nodes; v++) {
+      drawing.near[v] = AROUND;
+      low = fmin(low, drawing.at[v][2]);
+      high = fmax(high, drawing.at[v][2]);
     }
+
+    /* Colours and sizes as in steps' pictures. */
     plain.crop.piece = piece;
-    d.view = &view;
-    d.depth = high;
-    d.deep = fmax(high - low, space->pitch);
-    d.pitch = view.scale * space->pitch;
-    d.arm = fmin(ARM * d.pitch, WIDEST);
+    drawing.view = &view;
+    drawing.depth = high;
+    drawing.deep = fmax(high - low, space->pitch);
+    drawing.pitch = view.scale * space->pitch;
+    drawing.arm = fmin(ARM * drawing.pitch, WIDEST);
+
     thr_text_printf(text, "<g transform=\"translate(%.2f %.2f)\">\n", paper.x0, paper.y0);
-    for (int i = 0; i < (space->solid ? f->n_nodes : f->n_edges); i++)
+
+    /* All pieces in the state that is asked for. */
+    for (int i = 0; i < (space->solid ? frame->n_nodes : frame->n_edges); i++)
       piece[i] = state ? state[i] : THR_PIECE_HELD;
-    put_pieces(&d, AROUND, false, list);
-    st = put_names(&d, list, err);
+    put_pieces(&drawing, AROUND, false, list);
+    st = put_names(&drawing, list, err);
     thr_text_append(text, "</g>\n");
   }
-  free(d.at);
-  free(d.near);
+
+  free(drawing.at);
+  free(drawing.near);
   free(list);
   free(piece);
   return st;

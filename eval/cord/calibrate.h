@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Friction of a cord at the bench: a weight hangs from one end of a cord that runs through a bend;
- * at the other end that weight is looked for which just draws it in, and that which just lets it
- * slip out.
+/* Friction from two experiments at the bench. Weighing: a known weight `hang` hangs from one end of
+ * a cord that runs through a bend of a known angle; at the other end one looks for the weight `in`
+ * that just draws the cord in, and for the weight `out` that just lets it slip out. Tilting: a
+ * piece lies on a board that is tilted until the piece slides.
  *
  * By the capstan law in = hang exp(mu angle) and out = hang exp(-mu angle): each weighing gives mu
  * twice, and ln(in / out) / 2 angle does not depend on what hangs.
@@ -13,10 +14,12 @@
 
 #include "graph/status.h"
 
+/* The three weights of one weighing. */
 typedef struct {
   double hang, in, out; /* of one kind: N, g, .. */
 } thr_weighing;
 
+/* A coefficient of friction with its range. */
 typedef struct {
   double mu, low, high; /* the mean of all; the least and the largest of single ones, and what the
                            weights leave open */
@@ -31,8 +34,9 @@ typedef struct {
 thr_status thr_calibrate_tilt(const double *angle, int n, double error, thr_fitted_friction *out,
                               thr_err *err) THR_MUST_CHECK;
 
-/* angle: rad, > 0; error: relative, of every weight, which moves mu by up to 2 error / angle.
- * THR_EINPUT: a weighing is no such thing (0 < out <= hang <= in). O(n). */
+/* Computes the friction of cord on bead from n weighings. angle: of the bend, rad, > 0; error:
+ * relative, of every weight, which moves mu by up to 2 error / angle. THR_EINPUT: a weighing is no
+ * such thing (0 < out <= hang <= in). O(n). */
 thr_status thr_calibrate(const thr_weighing *weighing, int n, double angle, double error,
                          thr_fitted_friction *out, thr_err *err) THR_MUST_CHECK;
 

@@ -2,24 +2,29 @@
 /* Computes what pulling, gripping, letting down and knotting leave of tension in a cord, in closed
  * form.
  *
- * Friction holds neighbouring passes apart by at most the factor of the turn between them: any
- * tensions with T(k) exp(-e(k)) <= T(k + 1) <= T(k) exp(e(k)) are a state of the cord at rest. A
- * pull P at pass j raises every pass that slides to P exp(-(exponents between)), and leaves the
- * tighter ones; letting down to f at j lowers every pass to f exp(+(exponents between)) at most,
- * and leaves the slacker ones (the same rules as for tendons that are stressed and released:
- * Eurocode 2, 5.10). A knot lets its end down until the cord is shorter by the slip: the sum of
- * (force lost) x length / EA.
+ * Friction lets the tensions of neighbouring passes differ by at most a factor exp(e(k)), where
+ * e(k) = mu x turn is the exponent of the turn between passes k and k + 1 (the capstan equation of
+ * Euler and Eytelwein). Any tensions with T(k) exp(-e(k)) <= T(k + 1) <= T(k) exp(e(k)) are a state
+ * of the cord at rest. With E(j, k) = the sum of the exponents between passes j and k:
  *
- * A grip that draws from one side holds the turn on its other side until the next grip or pull has
- * taken its slack. Then the cord slips over that turn, and over those beside it, until each holds
- * again. With the stiffness known the state is the one that keeps the sum of the elongations;
- * without it that state lies between the largest state below and the least one above.
+ *   pull P at pass j       T(k) becomes max(T(k), P exp(-E(j, k))): tighter passes do not move
+ *   let down to F at j     T(k) becomes min(T(k), F exp(E(j, k))): slacker passes do not move
+ *   knot that slips by u   the end is let down to the F at which the cord is shorter by u mm, which
+ *                          is the sum over the passes of (tension lost, N) x (length, mm) / EA
  *
- * An end that nobody has pulled, let down or knotted is free: it keeps no tension, and a grip draws
- * none from its side. Who pulls one end holds the other one.
+ * (the same rules as for tendons that are stressed and released: Eurocode 2, 5.10).
  *
- * Example: exponents ln 2, ln 2 between three passes; pulled at the end with 8 N: 2, 4, 8. Let down
- * to 1 N: 2, 2, 1. */
+ * A grip that draws cord from one side holds the turn on its other side until the next grip or pull
+ * has taken its slack. When the grip is let go, the cord slips over the held turn, and over the
+ * neighbouring turns, until each turn holds again. If the stiffness EA is known, the state after
+ * slipping is the one that keeps the sum of the elongations. If EA is not known, this state lies
+ * between the largest admissible state below and the least admissible state above; both are kept.
+ *
+ * An end that nobody has pulled, let down or knotted is free: a free end keeps no tension, and a
+ * grip draws no tension from its side. Pulling one end implies that the other one is held.
+ *
+ * Example: exponents ln 2, ln 2 between three passes. Pulled at the end with 8 N, the passes have
+ * 2, 4, 8 N. Let down to 1 N there, they have 2, 2, 1 N. */
 #include "eval/cord/profile.h"
 #include "graph/framework/units.h"
 #include "graph/plan/schedule.h"
@@ -29,8 +34,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A cord while things are done to it. With the stiffness known, tension is the elastic state, and
- * most the same. Without it the elastic state lies between the two. */
+/* The tensions of one cord while a schedule is carried out. If the stiffness is known, `tension` is
+ * the elastic state, and `most` the same. If the stiffness is 0 (not known), the elastic state lies
+ * between the two. */
 typedef struct {
   int n;
   double *sum;      /* [n] exponents before each pass */
@@ -39,10 +45,11 @@ typedef struct {
   double *most;     /* [n] N, the largest */
   double *length;   /* [n] mm */
   double stiffness;
+
   thr_friction friction;
   bool start_free, end_free; /* Nobody has held or tied this end yet. */
   int held; /* The turn that a grip keeps the cord from sliding over, or NO_TURN. */
-} state;
+} cord_state;
 
 enum { NO_TURN = -1 };
 static const double SAME = 1e-12; /* relative: a tension that a turn just holds */
@@ -57,326 +64,408 @@ static bool at_end(thr_pull end)
   return end != THR_PULL_START;
 }
 
-/* Raises every pass from `from` to `to` to what a pull at pass j leaves of itself there. */
-static void raise_from(state *s, int j, double pull, int from, int to)
+/* Raises every pass from `from` to `to` to what friction leaves there of a pull at pass j. */
+static void raise_from(cord_state *state, int j, double pull, int from, int to)
 {
   for (int k = from; k <= to; k++) {
-    const double reached = thr_friction_less(&s->friction, pull, fabs(s->sum[k] - s->sum[j]));
-    s->tension[k] = fmax(s->tension[k], reached);
-    s->most[k] = fmax(s->most[k], reached);
+    const double reached =
+        thr_friction_less(&state->friction, pull, fabs(state->sum[k] - state->sum[j]));
+    state->tension[k] = fmax(state->tension[k], reached);
+    state->most[k] = fmax(state->most[k], reached);
   }
 }
 
 /* Returns the tension of pass k after letting the end down to force, if it is at tension before. */
-static double lowered(const state *s, int k, thr_pull end, double force, double tension)
+static double lowered(const cord_state *state, int k, thr_pull end, double force, double tension)
 {
+  /* At pass k friction holds up to force x exp(E) against a tension of `force` at the end. */
   if (at_start(end))
-    tension = fmin(tension, thr_friction_more(&s->friction, force, s->sum[k] - s->sum[0]));
+    tension =
+        fmin(tension, thr_friction_more(&state->friction, force, state->sum[k] - state->sum[0]));
   if (at_end(end))
-    tension = fmin(tension, thr_friction_more(&s->friction, force, s->sum[s->n - 1] - s->sum[k]));
+    tension = fmin(tension, thr_friction_more(&state->friction, force,
+                                              state->sum[state->n - 1] - state->sum[k]));
   return tension;
 }
 
 /* Lets the end down to force; only the passes on this side of a held turn give way. */
-static void lower_to(state *s, thr_pull end, double force)
+static void lower_to(cord_state *state, thr_pull end, double force)
 {
-  const bool held = s->held != NO_TURN;
-  const int from = held && end == THR_PULL_END ? s->held + 1 : 0,
-            to = held && end == THR_PULL_START ? s->held : s->n - 1;
+  /* A held turn parts the cord: passes beyond the turn do not see the end. */
+  const bool held = state->held != NO_TURN;
+  const int from = held && end == THR_PULL_END ? state->held + 1 : 0,
+            to = held && end == THR_PULL_START ? state->held : state->n - 1;
+
   for (int k = from; k <= to; k++) {
-    s->tension[k] = lowered(s, k, end, force, s->tension[k]);
-    s->most[k] = lowered(s, k, end, force, s->most[k]);
+    state->tension[k] = lowered(state, k, end, force, state->tension[k]);
+    state->most[k] = lowered(state, k, end, force, state->most[k]);
   }
 }
 
 /* Returns by how many mm the cord is shorter when the end is let down to force. */
-static double shorter(const state *s, thr_pull end, double force)
+static double shorter(const cord_state *state, thr_pull end, double force)
 {
   double sum = 0;
-  for (int k = 0; k < s->n; k++)
-    sum += (s->tension[k] - lowered(s, k, end, force, s->tension[k])) * s->length[k] / s->stiffness;
+  for (int k = 0; k < state->n; k++)
+    sum += (state->tension[k] - lowered(state, k, end, force, state->tension[k])) *
+           state->length[k] / state->stiffness;
   return sum;
 }
 
-/* Lets the end down until the cord is shorter by the slip, or slack at that end; by halves to the
- * last bit. */
-static void let_slip(state *s, thr_pull end, double slip)
+/* Lets the end down until the cord is shorter by the slip, mm, or until the end is slack. Bisection
+ * on the force to the last bit: shorter() falls as the force rises. */
+static void let_slip(cord_state *state, thr_pull end, double slip)
 {
-  double low = 0, high = fmax(s->tension[0], s->tension[s->n - 1]);
-  if (shorter(s, end, 0) <= slip) high = 0;
+  double low = 0, high = fmax(state->tension[0], state->tension[state->n - 1]);
+
+  /* A slip longer than all of the elongation leaves the end without tension. */
+  if (shorter(state, end, 0) <= slip) high = 0;
+
   for (double middle = high / 2; middle > low && middle < high; middle = (low + high) / 2) {
-    if (shorter(s, end, middle) > slip)
+    if (shorter(state, end, middle) > slip)
       low = middle;
     else
       high = middle;
   }
-  lower_to(s, end, high);
+
+  lower_to(state, end, high);
 }
 
 /* ---- letting go of a grip ---- */
 
-/* Returns whether the cord slips over turn k, from the slack side to the tight one. */
-static bool slips(const state *s, const double *tension, int k, bool falling)
+/* Returns whether the cord slips over turn k. falling: towards pass k, so that tensions fall along
+ * the cord; else towards pass k + 1. */
+static bool slips(const cord_state *state, const double *tension, int k, bool falling)
 {
   const double tight = tension[falling ? k : k + 1], slack = tension[falling ? k + 1 : k];
-  return k != s->held &&
-         tight > thr_friction_more(&s->friction, slack, s->exponent[k]) * (1 + SAME);
+  return k != state->held &&
+         tight > thr_friction_more(&state->friction, slack, state->exponent[k]) * (1 + SAME);
 }
 
-/* Lowers (raises) tensions as little as turns need to hold them apart: a sweep from each end. */
-static void sweep(const state *s, double *tension, bool lower)
+/* Changes tensions to the largest state below them (lower) or to the least state above them in
+ * which every turn holds: one sweep forwards and one backwards, as for shortest paths on a line. */
+static void sweep(const cord_state *state, double *tension, bool lower)
 {
   for (int way = 0; way < 2; way++)
-    for (int i = 0; i + 1 < s->n; i++) {
-      const int k = way ? s->n - 2 - i : i, from = way ? k + 1 : k, to = way ? k : k + 1;
-      if (k == s->held) continue;
+    for (int i = 0; i + 1 < state->n; i++) {
+      const int k = way ? state->n - 2 - i : i, from = way ? k + 1 : k, to = way ? k : k + 1;
+
+      /* A held turn takes any difference. */
+      if (k == state->held) continue;
+
       if (lower)
-        tension[to] =
-            fmin(tension[to], thr_friction_more(&s->friction, tension[from], s->exponent[k]));
+        tension[to] = fmin(tension[to],
+                           thr_friction_more(&state->friction, tension[from], state->exponent[k]));
       else
-        tension[to] =
-            fmax(tension[to], thr_friction_less(&s->friction, tension[from], s->exponent[k]));
+        tension[to] = fmax(tension[to],
+                           thr_friction_less(&state->friction, tension[from], state->exponent[k]));
     }
 }
 
-/* Returns tension x length of passes a .. b if each turn between them holds as much as it can, with
- * `top` at the tight end. */
-static double profile_sum(const state *s, int a, int b, bool falling, double top)
+/* Returns tension x length, N mm, of passes a .. b if each turn between them holds as much as
+ * friction can, with tension `top` at the tight end. */
+static double profile_sum(const cord_state *state, int a, int b, bool falling, double top)
 {
   double sum = 0;
   for (int k = a; k <= b; k++)
-    sum += s->length[k] *
-           thr_friction_less(&s->friction, top, fabs(s->sum[k] - s->sum[falling ? a : b]));
+    sum += state->length[k] * thr_friction_less(&state->friction, top,
+                                                fabs(state->sum[k] - state->sum[falling ? a : b]));
   return sum;
 }
 
-/* Returns the tension at the tight end with which passes a .. b keep the sum of their elongations.
- */
-static double profile_top(const state *s, int a, int b, bool falling)
+/* Returns the tension at the tight end with which passes a .. b keep the sum of their elongations
+ * although each turn between them holds no more than friction can. */
+static double profile_top(const cord_state *state, int a, int b, bool falling)
 {
   double sum = 0, low = 0, high = 0;
+
+  /* The sum that is kept, N mm (EA is the same everywhere and cancels), and an upper bound. */
   for (int k = a; k <= b; k++) {
-    sum += s->length[k] * s->tension[k];
-    high = fmax(high, s->tension[k]);
+    sum += state->length[k] * state->tension[k];
+    high = fmax(high, state->tension[k]);
   }
-  if (s->friction.power == 1) return sum / profile_sum(s, a, b, falling, 1);
+
+  /* By the capstan law tensions are proportional to `top`. Other laws of friction need
+   * bisection. */
+  if (state->friction.power == 1) return sum / profile_sum(state, a, b, falling, 1);
+
   for (double middle = high / 2; middle > low && middle < high; middle = (low + high) / 2) {
-    if (profile_sum(s, a, b, falling, middle) < sum)
+    if (profile_sum(state, a, b, falling, middle) < sum)
       low = middle;
     else
       high = middle;
   }
+
   return high;
 }
 
 /* Lets the cord slip over turn k, and over the turns beside it that then hold no longer, until all
- * of them just hold: cord goes one way over all of them, the sum of the elongations of passes a ..
- * b stays. Extending the range on one side never takes a reason for extending it on the other, so
- * that the order does not matter (pooling of adjacent violators, as in isotonic regression: R. E.
- * Barlow et al., 1972). */
-static void relax_at(state *s, int k, bool falling)
+ * of them just hold. Cord moves in one direction over all of them, and the sum of the elongations
+ * of passes a .. b is kept. Extending the range on one side never removes a reason for extending
+ * the range on the other side, so that the order does not matter (pooling of adjacent violators, as
+ * in isotonic regression: R. E. Barlow et al., 1972). */
+static void relax_at(cord_state *state, int k, bool falling)
 {
   int a = k, b = k + 1;
   for (bool more = true; more;) {
-    const double top = profile_top(s, a, b, falling);
-    const double far = thr_friction_less(&s->friction, top, s->sum[b] - s->sum[a]);
+    /* Pool the range a .. b: its tensions fall by as much as friction can hold. */
+    const double top = profile_top(state, a, b, falling);
+    const double far = thr_friction_less(&state->friction, top, state->sum[b] - state->sum[a]);
     const double first = falling ? top : far, last = falling ? far : top;
     more = false;
 
-    /* Does the pass before the range pull cord out of it, or draw cord in? Does the pass behind it?
-     */
-    if (a > 0 && a - 1 != s->held) {
-      const double tight = falling ? s->tension[a - 1] : first,
-                   slack = falling ? first : s->tension[a - 1];
-      more = tight > thr_friction_more(&s->friction, slack, s->exponent[a - 1]) * (1 + SAME);
+    /* Extend the range if the pass before it now slips against its first pass, .. */
+    if (a > 0 && a - 1 != state->held) {
+      const double tight = falling ? state->tension[a - 1] : first,
+                   slack = falling ? first : state->tension[a - 1];
+      more =
+          tight > thr_friction_more(&state->friction, slack, state->exponent[a - 1]) * (1 + SAME);
       a -= more;
     }
-    if (!more && b + 1 < s->n && b != s->held) {
-      const double tight = falling ? last : s->tension[b + 1],
-                   slack = falling ? s->tension[b + 1] : last;
-      more = tight > thr_friction_more(&s->friction, slack, s->exponent[b]) * (1 + SAME);
+
+    /* .. or if the pass behind it slips against its last pass. */
+    if (!more && b + 1 < state->n && b != state->held) {
+      const double tight = falling ? last : state->tension[b + 1],
+                   slack = falling ? state->tension[b + 1] : last;
+      more = tight > thr_friction_more(&state->friction, slack, state->exponent[b]) * (1 + SAME);
       b += more;
     }
+
+    /* Nothing slips at the borders any more: the pooled tensions are the state. */
     for (int i = a; !more && i <= b; i++)
-      s->tension[i] =
-          thr_friction_less(&s->friction, top, fabs(s->sum[i] - s->sum[falling ? a : b]));
+      state->tension[i] = thr_friction_less(&state->friction, top,
+                                            fabs(state->sum[i] - state->sum[falling ? a : b]));
   }
 }
 
-/* Lets the cord slip until every turn holds the tensions on its two sides apart. The stiffness
- * tells which state that is: the elongation is kept. Without it that state lies between the largest
- * one below and the least one above. */
-static void relax(state *s)
+/* Lets the cord slip until every turn holds the tensions on its two sides apart. With the stiffness
+ * known, this is the state that keeps the elongation. Without the stiffness, `tension` becomes the
+ * largest state below and `most` the least state above. */
+static void relax(cord_state *state)
 {
-  if (s->stiffness == 0) {
-    sweep(s, s->tension, true);
-    sweep(s, s->most, false);
+  /* EA is not known: bounds from below and from above. */
+  if (state->stiffness == 0) {
+    sweep(state, state->tension, true);
+    sweep(state, state->most, false);
     return;
   }
-  for (int k = 0; k + 1 < s->n; k++)
+
+  /* EA is known: pool the passes round every turn that slips, in either direction. */
+  for (int k = 0; k + 1 < state->n; k++)
     for (int falling = 0; falling < 2; falling++)
-      if (slips(s, s->tension, k, falling)) relax_at(s, k, falling);
-  memcpy(s->most, s->tension, (size_t)s->n * sizeof *s->most);
+      if (slips(state, state->tension, k, falling)) relax_at(state, k, falling);
+
+  /* The elastic state is unique. */
+  memcpy(state->most, state->tension, (size_t)state->n * sizeof *state->most);
 }
 
-/* A free end gives way to any tension: it keeps what friction holds against none. */
-static void hang_free_ends(state *s)
+/* Lets the free ends down to 0 N. A free end gives way to any tension, so that the passes keep what
+ * friction alone holds. */
+static void hang_free_ends(cord_state *state)
 {
-  if (s->start_free) lower_to(s, THR_PULL_START, 0);
-  if (s->end_free) lower_to(s, THR_PULL_END, 0);
+  if (state->start_free) lower_to(state, THR_PULL_START, 0);
+  if (state->end_free) lower_to(state, THR_PULL_END, 0);
 }
 
 /* Lets go of the grip that is held, if any. */
-static void let_go(state *s)
+static void let_go(cord_state *state)
 {
-  s->held = NO_TURN;
-  relax(s);
-  hang_free_ends(s);
+  state->held = NO_TURN;
+  relax(state);
+  hang_free_ends(state);
 }
 
-/* Draws the cord out at a pass. From a side whose end is free it comes without tension. A grip that
- * is drawn from one side keeps the cord from sliding over the turn on its other side; the grip
- * before it is let go when this one has taken its slack. */
-static void grip(state *s, const thr_schedule_step *step)
+/* Draws the cord out at a pass. From a side whose end is free the cord comes without tension. A
+ * grip that is drawn from one side keeps the cord from sliding over the turn on its other side. The
+ * grip before this one is let go when this one has taken its slack. */
+static void grip(cord_state *state, const thr_schedule_step *step)
 {
-  const int last = s->n - 1, pass = step->pass;
-  const bool from_start = at_start(step->end) && !s->start_free,
-             from_end = at_end(step->end) && !s->end_free;
+  /* The sides that the cord comes from with tension. */
+  const int last = state->n - 1, pass = step->pass;
+  const bool from_start = at_start(step->end) && !state->start_free,
+             from_end = at_end(step->end) && !state->end_free;
+
+  /* The pull of the hand spreads to these sides. */
   if (from_start || from_end)
-    raise_from(s, pass, step->force, from_start ? 0 : pass, from_end ? last : pass);
-  s->held = from_start == from_end ? NO_TURN
-            : from_start           ? (pass < last ? pass : NO_TURN)
-                                   : pass - 1;
-  relax(s);
-  hang_free_ends(s);
+    raise_from(state, pass, step->force, from_start ? 0 : pass, from_end ? last : pass);
+
+  /* A grip from both sides holds nothing; a grip from one side holds the turn on the other side. */
+  state->held = from_start == from_end ? NO_TURN
+                : from_start           ? (pass < last ? pass : NO_TURN)
+                                       : pass - 1;
+
+  /* The grip before this one has been let go: relax() sees the new held turn only. */
+  relax(state);
+  hang_free_ends(state);
 }
 
-/* Who pulls one end holds the other one. */
-static void pull(state *s, const thr_schedule_step *step)
+/* Pulls one end or both. Pulling one end implies that the other one is held, so that no end is free
+ * afterwards. */
+static void pull(cord_state *state, const thr_schedule_step *step)
 {
-  const int last = s->n - 1;
-  s->start_free = s->end_free = false;
-  if (at_start(step->end)) raise_from(s, 0, step->force, 0, last);
-  if (at_end(step->end)) raise_from(s, last, step->force, 0, last);
-  let_go(s);
+  const int last = state->n - 1;
+  state->start_free = state->end_free = false;
+
+  if (at_start(step->end)) raise_from(state, 0, step->force, 0, last);
+  if (at_end(step->end)) raise_from(state, last, step->force, 0, last);
+  let_go(state);
 }
 
-static void apply(state *s, const thr_schedule_step *step)
+/* Carries out one step of the schedule. */
+static void apply(cord_state *state, const thr_schedule_step *step)
 {
   switch (step->deed) {
-  case THR_DEED_PULL: pull(s, step); return;
-  case THR_DEED_GRIP: grip(s, step); return;
+  case THR_DEED_PULL: pull(state, step); return;
+  case THR_DEED_GRIP: grip(state, step); return;
   case THR_DEED_RELEASE:
-    let_go(s);
-    lower_to(s, step->end, step->force);
+    let_go(state);
+    lower_to(state, step->end, step->force);
     break;
   default:
+    /* A knot: tension is lost only if the knot slips before it bites. */
     if (step->slip > 0) {
-      let_go(s);
-      let_slip(s, step->end, step->slip);
-      memcpy(s->most, s->tension, (size_t)s->n * sizeof *s->most);
+      let_go(state);
+      let_slip(state, step->end, step->slip);
+
+      /* With slip the stiffness is known, and the state is unique. */
+      memcpy(state->most, state->tension, (size_t)state->n * sizeof *state->most);
     }
   }
-  if (at_start(step->end)) s->start_free = false;
-  if (at_end(step->end)) s->end_free = false;
+
+  /* Who lets an end down or knots an end has the end in hand. */
+  if (at_start(step->end)) state->start_free = false;
+  if (at_end(step->end)) state->end_free = false;
 }
 
-static thr_status state_init(state *s, const thr_frame *frame, const thr_cord *cord,
+/* Makes the state of a cord before any step: no tension, both ends free. Lengths are in mm if the
+ * stiffness is known, else in units of the framework, which cancel. The arrays belong to own. */
+static thr_status state_init(cord_state *state, const thr_frame *frame, const thr_cord *cord,
                              const thr_eval_cord *eval_cord, const thr_physics *physics,
                              thr_scratch *own, thr_err *err)
 {
   const size_t n = (size_t)cord->n_passes;
   double mm = 1;
-  *s = (state){.n = cord->n_passes,
-               .exponent = eval_cord->exponent,
-               .stiffness = physics->stiffness,
-               .friction = thr_friction_of(physics),
-               .start_free = true,
-               .end_free = true,
-               .held = NO_TURN};
-  s->sum = thr_scratch_array(own, n, sizeof *s->sum);
-  s->length = thr_scratch_array(own, n, sizeof *s->length);
-  s->tension = thr_scratch_array(own, n, sizeof *s->tension);
-  s->most = thr_scratch_array(own, n, sizeof *s->most);
+
+  *state = (cord_state){.n = cord->n_passes,
+                        .exponent = eval_cord->exponent,
+                        .stiffness = physics->stiffness,
+                        .friction = thr_friction_of(physics),
+                        .start_free = true,
+                        .end_free = true,
+                        .held = NO_TURN};
+
+  state->sum = thr_scratch_array(own, n, sizeof *state->sum);
+  state->length = thr_scratch_array(own, n, sizeof *state->length);
+  state->tension = thr_scratch_array(own, n, sizeof *state->tension);
+  state->most = thr_scratch_array(own, n, sizeof *state->most);
   thr_status st = thr_scratch_check(own, err);
-  if (!st && s->stiffness > 0) st = thr_units_in_mm(frame->units, &mm, err);
-  for (int k = 0; k < s->n && !st; k++) {
-    s->length[k] = mm * frame->length[cord->half[k] >> 1];
-    if (k > 0) s->sum[k] = s->sum[k - 1] + eval_cord->exponent[k - 1];
+
+  /* Elongations in mm need a unit of known length. */
+  if (!st && state->stiffness > 0) st = thr_units_in_mm(frame->units, &mm, err);
+
+  /* Lengths, and running sums of the exponents: E(j, k) = |sum[k] - sum[j]|. */
+  for (int k = 0; k < state->n && !st; k++) {
+    state->length[k] = mm * frame->length[cord->half[k] >> 1];
+    if (k > 0) state->sum[k] = state->sum[k - 1] + eval_cord->exponent[k - 1];
   }
   return st;
 }
 
-/* Does the state have a second, larger one, which the cord may be in as well? */
-static bool is_open(const state *s)
+/* Returns whether the state is known as a range only: whether `most` is above `tension`
+ * anywhere. */
+static bool is_open(const cord_state *state)
 {
-  for (int k = 0; k < s->n; k++)
-    if (s->most[k] > s->tension[k] * (1 + 1e-9)) return true;
+  for (int k = 0; k < state->n; k++)
+    if (state->most[k] > state->tension[k] * (1 + 1e-9)) return true;
   return false;
 }
 
-/* The record of the cord from its tensions. THR_ENOMEM. */
-static thr_status take_state(const state *s, double hardest, thr_eval_cord *out, thr_err *err)
+/* Writes the record of the cord from its tensions. hardest: the largest force, N, that the cord is
+ * pulled with. THR_ENOMEM. */
+static thr_status take_state(const cord_state *state, double hardest, thr_eval_cord *out,
+                             thr_err *err)
 {
+  /* The bottleneck of the cord. */
   int slackest = 0;
-  for (int k = 0; k < s->n; k++)
-    if (s->tension[k] < s->tension[slackest]) slackest = k;
-  memcpy(out->tension, s->tension, (size_t)s->n * sizeof *s->tension);
-  if (is_open(s)) {
-    if (!(out->most = thr_calloc((size_t)s->n, sizeof *out->most))) return thr_nomem(err);
-    memcpy(out->most, s->most, (size_t)s->n * sizeof *s->most);
+  for (int k = 0; k < state->n; k++)
+    if (state->tension[k] < state->tension[slackest]) slackest = k;
+
+  memcpy(out->tension, state->tension, (size_t)state->n * sizeof *state->tension);
+
+  /* Record the upper tensions only where they differ. */
+  if (is_open(state)) {
+    if (!(out->most = thr_calloc((size_t)state->n, sizeof *out->most))) return thr_nomem(err);
+    memcpy(out->most, state->most, (size_t)state->n * sizeof *state->most);
   }
+
+  /* Totals. A schedule has no pull at a single end, so `pull` says both. */
   out->pull = THR_PULL_BOTH;
   out->force = hardest;
   out->other_force = 0;
   out->work = hardest;
   out->slackest = slackest;
-  out->loss = hardest > 0 ? 1 - s->tension[slackest] / hardest : 0;
+  out->loss = hardest > 0 ? 1 - state->tension[slackest] / hardest : 0;
   return THR_OK;
 }
 
-/* What of a step its giver may not have meant, or NULL; before: tensions, the most of them, and
- * whether a grip was held. */
-static const char *remark_on(const state *s, const thr_schedule_step *step, const double *before,
-                             bool held)
+/* Returns a remark if the giver of a step may not have meant it, else NULL. before: tensions and
+ * `most` before the step, [2 n]; held: whether a grip was held then. */
+static const char *remark_on(const cord_state *state, const thr_schedule_step *step,
+                             const double *before, bool held)
 {
   const bool grips = step->deed == THR_DEED_GRIP;
   if (step->deed == THR_DEED_KNOT) return NULL;
-  if (grips && (!at_start(step->end) || s->start_free) && (!at_end(step->end) || s->end_free))
+
+  /* A grip whose sides all have free ends draws in cord without any tension. */
+  if (grips && (!at_start(step->end) || state->start_free) &&
+      (!at_end(step->end) || state->end_free))
     return "the cord comes without tension: its end is free; knot or pull that first";
+
+  /* A step that lets go of a grip has done this at least. */
   if (held) return NULL;
-  for (int k = 0; k < s->n; k++)
-    if (fabs(s->tension[k] - before[k]) > SAME * before[k] ||
-        fabs(s->most[k] - before[s->n + k]) > SAME * before[s->n + k])
+
+  /* Did the step change any tension? */
+  for (int k = 0; k < state->n; k++)
+    if (fabs(state->tension[k] - before[k]) > SAME * before[k] ||
+        fabs(state->most[k] - before[state->n + k]) > SAME * before[state->n + k])
       return NULL;
+
   return step->deed == THR_DEED_RELEASE
              ? "this changes nothing: no pass is as tight as that lets it be"
              : "this changes nothing: no pass is as slack as that";
 }
 
+/* Carries out the steps of cord i, writes a remark into each, and fills the record `out`. */
 static thr_status follow(const thr_frame *frame, const thr_cord *cord, thr_schedule *schedule,
                          int i, const thr_physics *physics, thr_eval_cord *out, thr_err *err)
 {
   thr_scratch own = {0};
-  state s;
+  cord_state state;
   double *before = thr_scratch_array(&own, 2 * (size_t)cord->n_passes, sizeof *before);
-  thr_status st = state_init(&s, frame, cord, out, physics, &own, err);
+  thr_status st = state_init(&state, frame, cord, out, physics, &own, err);
+
+  /* Carry out the steps of this cord; compare the tensions before and after each. */
   for (int k = 0; k < schedule->n && !st; k++) {
     if (schedule->step[k].cord != i) continue;
-    const bool held = s.held != NO_TURN;
-    memcpy(before, s.tension, (size_t)s.n * sizeof *before);
-    memcpy(before + s.n, s.most, (size_t)s.n * sizeof *before);
-    apply(&s, &schedule->step[k]);
-    schedule->step[k].remark = remark_on(&s, &schedule->step[k], before, held);
+    const bool held = state.held != NO_TURN;
+
+    memcpy(before, state.tension, (size_t)state.n * sizeof *before);
+    memcpy(before + state.n, state.most, (size_t)state.n * sizeof *before);
+    apply(&state, &schedule->step[k]);
+    schedule->step[k].remark = remark_on(&state, &schedule->step[k], before, held);
   }
+
+  /* The last grip is let go at the end. */
   if (!st) {
-    let_go(&s);
-    st = take_state(&s, thr_schedule_hardest(schedule, i), out, err);
+    let_go(&state);
+    st = take_state(&state, thr_schedule_hardest(schedule, i), out, err);
   }
+
   thr_scratch_free(&own);
   return st;
 }
 
+/* Writes the record of a cord that is never pulled: no tension anywhere. */
 static void leave_slack(thr_eval_cord *out)
 {
   memset(out->tension, 0, (size_t)out->n_passes * sizeof *out->tension);
@@ -385,7 +474,8 @@ static void leave_slack(thr_eval_cord *out)
   out->slackest = 0;
 }
 
-/* A factor on tensions is no question where there are none. */
+/* Fails with THR_EINPUT if no cord has any tension. Method structure asks for the factor on the
+ * tensions at which the structure stands, and there is no such factor then. */
 static thr_status some_tension(const thr_evaluation *evaluation, thr_err *err)
 {
   double range[2];
@@ -401,13 +491,18 @@ thr_status thr_history_follow(const thr_frame *frame, const thr_cord *cord,
   const double stiffness = evaluation->physics.stiffness;
   thr_schedule *schedule = &evaluation->schedule;
   thr_status st = THR_OK;
+
+  /* A knot that slips turns a length into a loss of tension, which needs EA. */
   for (int k = 0; k < schedule->n; k++)
     if (schedule->step[k].slip > 0 && stiffness == 0)
       return thr_fail(err, THR_EINPUT,
                       "schedule: a knot that slips lets go of tension by the cord's stiffness; "
                       "give --stiffness, EA in N");
+
+  /* Each known cord follows its own steps, independently of the others. */
   for (int i = 0; i < evaluation->n_cords && !st; i++) {
     const int steps = thr_schedule_steps(schedule, i);
+
     if (!evaluation->cord[i].known) continue;
     if (steps == 0)
       st = thr_fail(err, THR_EINPUT,
@@ -418,43 +513,56 @@ thr_status thr_history_follow(const thr_frame *frame, const thr_cord *cord,
     else
       st = follow(frame, &cord[i], schedule, i, &evaluation->physics, &evaluation->cord[i], err);
   }
+
+  /* Totals over all cords. */
   if (!st) thr_evaluation_sum(evaluation);
   return st || evaluation->method != THR_STRUCTURE ? st : some_tension(evaluation, err);
 }
 
 /* ---- grips ---- */
 
-/* Divides the cord into parts that one pull each draws in, as few as there are with at most `most`
- * of exponents in a part: each is made as long as possible. The turn between two parts is in
- * neither, for nobody slides over it. last[p], if not NULL, is the last pass of part p, counted
- * from the end that is passed first. Returns how many parts; *largest part. */
+/* Divides the cord into parts that one pull each draws in: as few parts as possible, each with a
+ * sum of exponents of at most `most`. The greedy choice, each part as long as possible, is optimal.
+ * The turn between two parts is in neither, for nobody slides over this turn. last[p], if not NULL,
+ * is the last pass of part p, counted from the end that is passed first (backward: the cord's end).
+ * *largest: the largest sum of a part. Returns the number of parts. */
 static int parts_within(const thr_eval_cord *cord, bool backward, double most, double *largest,
                         int *last)
 {
   int parts = 0;
   double part = 0;
   *largest = 0;
+
   for (int k = 0; k + 1 < cord->n_passes; k++) {
     const double exponent = cord->exponent[backward ? cord->n_passes - 2 - k : k];
+
+    /* The turn would overload the hand: the part ends before this turn. */
     if (part + exponent > most) {
       if (last) last[parts] = k;
       parts++;
       part = 0;
       continue;
     }
+
+    /* The turn belongs to the part. */
     part += exponent;
     *largest = fmax(*largest, part);
   }
+
   if (last) last[parts] = cord->n_passes - 1;
   return parts + 1;
 }
 
-/* Returns the least largest part of any division into no more than so many parts, `most` allowing
- * that. Each try ends at a largest part that exists, or at too many parts. */
+/* Returns the least possible largest sum of exponents of a part, over all divisions into at most
+ * `parts` parts, which `most` must allow. Bisection: every step replaces `best` by the largest part
+ * of a division that exists, or raises the lower bound. */
 static double even_parts(const thr_eval_cord *cord, bool backward, double most, int parts)
 {
   double low = 0, best, found;
+
+  /* Invariant: `best` is possible, `low` is not. */
   (void)parts_within(cord, backward, most, &best, NULL);
+
   while (best - low > 1e-12 * best) {
     const double middle = (low + best) / 2;
     if (parts_within(cord, backward, middle, &found, NULL) <= parts)
@@ -462,9 +570,11 @@ static double even_parts(const thr_eval_cord *cord, bool backward, double most, 
     else
       low = middle;
   }
+
   return best;
 }
 
+/* Appends a step to the schedule. */
 static thr_status add(thr_schedule *schedule, int cord, thr_deed deed, thr_pull end, int pass,
                       double force, thr_err *err)
 {
@@ -474,7 +584,8 @@ static thr_status add(thr_schedule *schedule, int cord, thr_deed deed, thr_pull 
       err);
 }
 
-/* Returns the pull that draws in the passes from `from` to `to`, counted as parts_within does. */
+/* Returns the pull, N, that draws in the passes from `from` to `to` such that each has at least the
+ * seating tension. Passes are counted as in parts_within. */
 static double part_pull(const thr_eval_cord *cord, bool backward, int from, int to, double seating,
                         const thr_friction *friction)
 {
@@ -484,18 +595,25 @@ static double part_pull(const thr_eval_cord *cord, bool backward, int from, int 
   return thr_friction_more(friction, seating, part);
 }
 
-/* Hand over hand from the end that is pulled or tied first to the other one: a pull for the first
- * part if both ends are pulled, a grip at the end of each part between, a pull for the last one. */
+/* Appends the steps that draw the cord in hand over hand, from the end that is pulled or tied first
+ * to the other one: a pull for the first part if both ends are pulled, a grip at the end of each
+ * part between, a pull for the last part. last[parts]: as parts_within fills it. */
 static thr_status grip_on(const thr_eval_cord *cord, int i, double seating,
                           const thr_friction *friction, const int *last, int parts,
                           thr_schedule *schedule, thr_err *err)
 {
   const bool backward = cord->pull == THR_PULL_START, both = cord->pull == THR_PULL_BOTH;
+
+  /* The end where the work begins, and the end where it stops. */
   const thr_pull near = backward ? THR_PULL_END : THR_PULL_START,
                  far = backward ? THR_PULL_START : THR_PULL_END;
+
+  /* The first part: pulled at its end, or tied there. */
   const double first = part_pull(cord, backward, 0, last[0], seating, friction);
   thr_status st = both ? add(schedule, i, THR_DEED_PULL, near, 0, first, err)
                        : add(schedule, i, THR_DEED_KNOT, near, 0, 0, err);
+
+  /* Every other part has a grip at its last pass; the last part is pulled at the far end. */
   for (int p = both; p < parts && !st; p++) {
     const double force =
         part_pull(cord, backward, p > 0 ? last[p - 1] + 1 : 0, last[p], seating, friction);
@@ -508,33 +626,47 @@ static thr_status grip_on(const thr_eval_cord *cord, int i, double seating,
   return st;
 }
 
+/* Appends the steps for cord i: the fewest grips such that no pull exceeds `hand` N, with the
+ * largest pull as small as possible. THR_EINPUT: the seating tension is more than hand. */
 static thr_status grip_cord(const thr_eval_cord *cord, const char *id, int i,
                             const thr_physics *physics, double hand, thr_schedule *schedule,
                             thr_err *err)
 {
   const thr_friction friction = thr_friction_of(physics);
+
+  /* `hand` can draw in a part with exponents of ln(hand / seating), and no more. */
   const double seating = physics->seating,
                most = fmax(0, thr_friction_exponent(&friction, hand, seating)) * (1 + SAME);
   const bool backward = cord->pull == THR_PULL_START;
+
+  /* A cord without a pull has no steps; a hand weaker than the seating tension has no solution. */
   if (cord->pull == THR_PULL_NONE) return add(schedule, i, THR_DEED_NONE, THR_PULL_BOTH, 0, 0, err);
   if (hand < seating * (1 - SAME))
     return thr_fail(
         err, THR_EINPUT,
         "cord %s: a hand of %g N cannot bring %g N anywhere; more --hand, or less --seating", id,
         hand, seating);
+
   int *last = thr_calloc((size_t)cord->n_passes, sizeof *last);
   if (!last) return thr_nomem(err);
+
+  /* The number of parts first, then the least largest part for this number. */
   double largest;
   int parts = parts_within(cord, backward, most, &largest, NULL);
+
+  /* Both ends at once draw in two parts without any grip. */
   const bool at_once = cord->pull == THR_PULL_BOTH && parts <= 2;
   largest = even_parts(cord, backward, most, at_once ? 2 : parts) * (1 + SAME);
   parts = parts_within(cord, backward, largest, &largest, last);
+
+  /* Steps: one pull at both ends, or hand over hand. Both ends are knotted in the end. */
   thr_status st;
   if (at_once)
     st = add(schedule, i, THR_DEED_PULL, THR_PULL_BOTH, 0,
              thr_friction_more(&friction, seating, largest), err);
   else
     st = grip_on(cord, i, seating, &friction, last, parts, schedule, err);
+
   free(last);
   return st ? st : add(schedule, i, THR_DEED_KNOT, THR_PULL_BOTH, 0, 0, err);
 }
@@ -543,11 +675,13 @@ thr_status thr_history_grips(const thr_cord *cord, double hand, const thr_evalua
                              thr_schedule *schedule, thr_err *err)
 {
   thr_status st = THR_OK;
+
   *schedule = (thr_schedule){0};
   for (int i = 0; i < evaluation->n_cords && !st; i++)
     if (evaluation->cord[i].known)
       st =
           grip_cord(&evaluation->cord[i], cord[i].id, i, &evaluation->physics, hand, schedule, err);
+
   if (st) thr_schedule_destroy(schedule);
   return st;
 }

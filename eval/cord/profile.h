@@ -1,5 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One cord under tension: how it runs, its tension along the way, knots, the history of a pull. */
+/* The mechanics of one cord by itself: how a tight cord runs, what tension each pass has, and what
+ * is left of both after pulling, gripping and knotting. Cords do not touch each other here, and
+ * beads do not move (eval/structure is for that).
+ *
+ * Reading order: capstan.c (the factor of a turn in closed form), profile.c (tensions from
+ * factors), history.c (tensions after a schedule), taut.c (turns of a cord thinner than its bore),
+ * knots.c (strength), calibrate.h (mu from experiments). The exponent of a turn is ln of the ratio
+ * of the tensions on its two sides; forces are in N, lengths in units of the framework, angles in
+ * rad. */
 #ifndef THR_PROFILE_H
 #define THR_PROFILE_H
 
@@ -13,34 +21,34 @@
 /* ---- profile.c: Tension along a cord whose turns multiply it: every method that knows what each
  * turn costs ends here. */
 
-/* What the way from the middle of pass k to the middle of the next costs beside the turn between
- * them: mu x wobble x metres. The framework has units whose length is known, or there is no wobble.
- */
+/* Returns the exponent of the straight run from the middle of pass k to the middle of the next one,
+ * beside the turn between them: mu x wobble (rad/m) x metres. 0 if the framework's unit has no
+ * known length. */
 double thr_profile_wobble(const thr_frame *frame, const thr_physics *physics, const thr_cord *cord,
                           int k, double mu);
 
-/* The largest pressure that cords press a face between two pieces with, MPa: the tensions of all
- * passes through its edge on the ring between bore and bead; *edge: where. Cords that are not known
- * press nothing. O(passes). */
+/* Computes the largest pressure, MPa, that cords press a face between two pieces with: the sum of
+ * the tensions of all passes through an edge, over the area of the ring between bore and bead.
+ * *edge: the edge with this pressure. Cords that are not known press nothing. O(passes). */
 thr_status thr_profile_pressure(const thr_frame *frame, const thr_cord *cord,
                                 const thr_evaluation *evaluation, double *pressure, int *edge,
                                 thr_err *err) THR_MUST_CHECK;
 
-/* exponent[n_passes - 1] >= 0: ln of the ratio of the tensions on both sides of the turn after pass
- * k, or what takes its place with another friction. Allocates out->tension such that the slackest
- * pass holds seating, and fills n_passes, pull, force, other_force, loss, work, slackest; leaves
- * the other members. A cord that is not pulled has no tension. Pulled at one end the tension falls
- * at every turn towards the other; pulled at both, the slackest is the last pass that the start's
- * pull reaches, and the next one, from which the end's pull goes on, holds seating too. THR_EINPUT
- * if an exponent total is past 700 (what a double can hold): names the cord, advises more cords.
- * O(n).
+/* Computes the tensions of one cord from its exponents. exponent[n_passes - 1] >= 0: ln of the
+ * ratio of the tensions on both sides of the turn after pass k, or what takes its place with
+ * another law of friction. Allocates out->tension such that the slackest pass holds `seating` N,
+ * and fills n_passes, pull, force, other_force, loss, work, slackest; leaves the other members. A
+ * cord that is not pulled has no tension. Pulled at one end the tension falls at every turn towards
+ * the other; pulled at both, the slackest is the last pass that the start's pull reaches, and the
+ * next one, from which the end's pull goes on, holds seating too. THR_EINPUT if an exponent total
+ * is past 700 (what a double can hold): names the cord, advises more cords. O(n).
  */
 thr_status thr_profile_cord(thr_eval_cord *out, const thr_cord *cord, const double *exponent,
                             thr_pull pull, double seating, const thr_friction *friction,
                             thr_err *err) THR_MUST_CHECK;
 
-/* The same for out->pull. Where grips on the way follow, which begin without tension, a cord whose
- * pull at once is past what a double can hold is no error: its tensions are 0. */
+/* Does the same for out->pull. Where grips on the way follow, which begin without tension, a cord
+ * whose pull at once is past what a double can hold is no error: its tensions are 0. */
 thr_status thr_profile_before(thr_eval_cord *out, const thr_cord *cord, const double *exponent,
                               double seating, const thr_friction *friction, bool gripped,
                               thr_err *err) THR_MUST_CHECK;
@@ -71,6 +79,7 @@ thr_status thr_history_grips(const thr_cord *cord, double hand, const thr_evalua
 /* ---- knots.c: How much of a cord's strength a knot leaves, and a bend over the edge of a bore: a
  * cord breaks there first. */
 
+/* A kind of knot. */
 typedef struct {
   const char *name; /* as the option --knot takes it */
   double left;      /* part of the strength of the straight cord */
@@ -83,6 +92,7 @@ extern const int thr_n_knots;
  * sqrt(cord / pin) / 2. The edge of a bore is no rounder; no figure was found for thin cord. */
 extern const double thr_bend_left;
 
+/* Returns the name of knot i of thr_knots. */
 const char *thr_knot_name(int i);
 
 /* Returns the part of its strength that is left to a cord with this knot, which runs over edges of
@@ -92,7 +102,9 @@ double thr_strength_left(int knot);
 /* ---- taut.c: The path of a tight cord through channels that are wider than it is: the shortest
  * path through the convex openings between consecutive channels (ellipses in the mitre planes). */
 
-/* radius of the cord and clearance = bore radius - radius, both in units of the framework, >= 0; a
+/* Computes the shortest path of a tight cord.
+ *
+ * radius of the cord and clearance = bore radius - radius, both in units of the framework, >= 0; a
  * clearance below 1e-9 of the cord's shortest edge counts as 0. Where two straight pieces of the
  * taut cord would meet, the openings confine it: at an inner node to an ellipse in the mitre plane
  * with the half-axes clearance across the plane of the nominal turn and (bore radius - radius
@@ -117,9 +129,9 @@ thr_status thr_taut_path(const thr_frame *frame, const thr_cord *cord, double ra
                          double clearance, double *turn, double (*point)[3], double *length,
                          thr_err *err) THR_MUST_CHECK;
 
-/* The turns of every cord by resolved physics: taut[i] is allocated, of as many as cord i has
- * passes, also where this fails. Where a unit is of no known length, all sizes come from the
- * framework, and it counts as a mm. THR_ELIMIT when stopped. */
+/* Computes the turns of every tight cord by resolved physics: taut[i] is allocated, of as many as
+ * cord i has passes, also where this fails. Where a unit is of no known length, all sizes come from
+ * the framework, and it counts as a mm. THR_ELIMIT when stopped. */
 thr_status thr_taut_turns(const thr_frame *frame, const thr_cord *cord, int n_cords,
                           const thr_physics *physics, const thr_limits *limits, double **taut,
                           thr_err *err) THR_MUST_CHECK;

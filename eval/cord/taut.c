@@ -1,21 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The path of a tight cord through channels that are wider than it is: the shortest path through
- * the convex openings between consecutive channels (ellipses in the mitre planes). A cord thinner
- * than the bore cuts corners.
+/* Computes the path of a tight cord through channels that are wider than the cord: the shortest
+ * path through the convex openings between consecutive channels (ellipses in the mitre planes). A
+ * cord thinner than the bore cuts corners, and so turns by less than the channels do.
  *
- * Minimize the sum of |p(i + 1) - p(i)| with p(i) in opening i: a convex problem, solved by
- * Newton's method with a barrier (S. Boyd & L. Vandenberghe, Convex Optimization, 2004, chapter
- * 11).
+ *   minimize    sum of |p[i + 1] - p[i]|
+ *   subject to  p[i] = node[i] + z[i][0] axis[i][0] + z[i][1] axis[i][1],  |z[i]| <= 1
+ *
+ * This is a convex problem (a second-order cone programme), solved by a primal-dual interior point
+ * method: Newton's method with a logarithmic barrier (S. Boyd & L. Vandenberghe, Convex
+ * Optimization, 2004, chapter 11). Vertex i only meets vertices i - 1 and i + 1, so that the Newton
+ * system is block tridiagonal with 2 x 2 blocks. Gauss-Seidel over the openings settles a straight
+ * run of n of them in n^2 sweeps; Newton steps take the same few dozen for 20 nodes and for 7,000.
+ *
+ * Lengths in here are in clearances (bore radius - cord radius), so that every opening is about 1
+ * wide and gradients by z are turns in rad.
  *
  * Example: in a straight run the path is straight, whatever the bores; round one turn it leans on
- * the inner edge, and turns by as much in all.
- *
- * Shortest path through a row of ellipses: minimize the sum of |p[i + 1] - p[i]| over p[i] =
- * node[i] + z[0] axis[0] + z[1] axis[1], |z| <= 1. Lengths in here are in clearances, so that every
- * opening is about 1 wide and gradients are turns in rad.
- *
- * Gauss-Seidel over the openings settles a straight run of n of them in n^2 sweeps; Newton steps
- * with a barrier take the same few dozen for 20 nodes and for 7,000. */
+ * the inner edge, and turns by as much in all. */
 #include "eval/cord/profile.h"
 #include "graph/angle.h"
 #include "graph/framework/units.h"
@@ -35,6 +36,7 @@ static const double PROVED = 1e-9;    /* relative gap between the length and its
 static const double SETTLED = 1e-7;   /* rad: change of a turn from round to round */
 enum { MAX_STEPS = 200, MAX_HALVINGS = 40, MAX_ROUNDS = 100 };
 
+/* One straight piece of the path, between two vertices. */
 typedef struct {
   double unit[3], length; /* length in clearances */
 } piece;
@@ -50,63 +52,78 @@ typedef struct {
   double step[2];
 } block;
 
+/* What the shape of an opening follows from. */
 typedef struct {
   double cosine, sine; /* of half the nominal turn; cosine 0: the node itself */
   double short_edge;   /* the shorter of the two edges, in clearances */
-} opening;
+} mitre_opening;
 
+/* The problem, its current solution with multipliers, and the one that a step tries. */
 typedef struct {
   int n;                       /* pieces; vertices 0 .. n */
   double (*straight)[3];       /* [n] from node to node */
-  opening *opening;            /* [n + 1] */
+  mitre_opening *opening;      /* [n + 1] */
   double (*axis)[2][3];        /* [n + 1] half-axes of the openings; 0 = the node itself */
   double (*z)[2], (*moved)[2]; /* [n + 1] place in the opening, now and tried */
   double *push, *push_step;    /* [n + 1] multiplier of |z| <= 1, rad */
   piece *piece, *moved_piece;  /* [n] */
   block *block;                /* [n + 1] */
   thr_scratch own;             /* the arrays */
-} path;
+} taut_path;
 
+/* Returns the slack of the constraint |z|^2 / 2 <= 1 / 2: 0 on the wall, 1 / 2 at the middle. */
 static double slack(const double z[2])
 {
   return (1 - z[0] * z[0] - z[1] * z[1]) / 2;
 }
 
+/* Scales a vector to length 1 and returns the length that it had. A zero vector stays. Dividing by
+ * the largest entry first keeps squares from overflow and underflow. */
 static double scale_to_unit(double a[3])
 {
   double largest = fmax(fabs(a[0]), fmax(fabs(a[1]), fabs(a[2])));
   if (largest == 0) return 0;
+
   for (int k = 0; k < 3; k++)
     a[k] /= largest;
+
   double norm = sqrt(thr_dot(a, a));
   for (int k = 0; k < 3; k++)
     a[k] /= norm;
   return norm * largest;
 }
 
+/* Fills d with the vector along a half-edge, in units of the framework; returns its length. */
 static double edge_vector(const thr_frame *frame, int half, double d[3])
 {
   for (int k = 0; k < 3; k++)
     d[k] = frame->xyz[thr_head(frame, half)][k] - frame->xyz[thr_tail(frame, half)][k];
+
   double unit[3] = {d[0], d[1], d[2]};
   return scale_to_unit(unit);
 }
 
-/* The opening between two channels with unit directions u and w: half-axes of unit length, or 0 for
- * the node itself. */
-static opening make_opening(const double u[3], const double w[3], double short_edge,
-                            double axis[2][3])
+/* Returns the opening between two channels with unit directions u and w, and fills its axes with
+ * unit length: axis[0] in the plane of the turn, axis[1] across. At a U-turn the opening is the
+ * node itself, and the axes stay 0. */
+static mitre_opening make_opening(const double u[3], const double w[3], double short_edge,
+                                  double axis[2][3])
 {
+  /* |u + w| = 2 cos(turn / 2) and |w - u| = 2 sin(turn / 2); u + w is normal to the mitre plane. */
   double normal[3], in_turn[3];
   for (int k = 0; k < 3; k++) {
     normal[k] = u[k] + w[k];
     in_turn[k] = w[k] - u[k];
   }
-  opening o = {.cosine = scale_to_unit(normal) / 2,
-               .sine = scale_to_unit(in_turn) / 2,
-               .short_edge = short_edge};
-  if (o.cosine < U_TURN / 2) return (opening){.cosine = 0};
-  if (o.sine < 1e-9) { /* straight on: any direction across */
+
+  mitre_opening opening = {.cosine = scale_to_unit(normal) / 2,
+                           .sine = scale_to_unit(in_turn) / 2,
+                           .short_edge = short_edge};
+  if (opening.cosine < U_TURN / 2) return (mitre_opening){.cosine = 0};
+
+  /* Straight on there is no plane of the turn: take any direction across, from the coordinate axis
+   * that is furthest from the channel. */
+  if (opening.sine < 1e-9) {
     int k = fabs(u[0]) <= fabs(u[1]) && fabs(u[0]) <= fabs(u[2]) ? 0
             : fabs(u[1]) <= fabs(u[2])                           ? 1
                                                                  : 2;
@@ -114,327 +131,444 @@ static opening make_opening(const double u[3], const double w[3], double short_e
       in_turn[i] = (i == k) - normal[k] * normal[i];
     scale_to_unit(in_turn);
   }
+
   memcpy(axis[0], in_turn, sizeof in_turn);
   thr_cross(normal, in_turn, axis[1]);
-  return o;
+  return opening;
 }
 
-/* Scales the half-axis in the plane of the turn to what a cord of this radius has that turns by
- * this much. */
-static void open_to(const opening *o, double radius, double turn, double axis[2][3])
+/* Scales the half-axis in the plane of the turn to the half-axis that a cord has which turns by
+ * `turn` rad. radius: of the cord, in clearances. With the nominal turn n the half-axis is (bore
+ * radius - radius cos(n / 2) / cos(turn / 2)) / cos(n / 2), bore radius = 1 + radius. */
+static void open_to(const mitre_opening *opening, double radius, double turn, double axis[2][3])
 {
-  if (o->cosine == 0) return;
-  double half = (1 + radius - radius * fmin(1, o->cosine / cos(turn / 2))) / o->cosine;
-  if (half * o->sine > REACH * o->short_edge) half = REACH * o->short_edge / o->sine;
+  if (opening->cosine == 0) return;
+  double half = (1 + radius - radius * fmin(1, opening->cosine / cos(turn / 2))) / opening->cosine;
+
+  /* The bead ends at the middle of its edge. */
+  if (half * opening->sine > REACH * opening->short_edge)
+    half = REACH * opening->short_edge / opening->sine;
+
   double now = sqrt(thr_dot(axis[0], axis[0]));
   for (int k = 0; k < 3; k++)
     axis[0][k] *= half / now;
 }
 
-static void path_destroy(path *p)
+static void path_destroy(taut_path *path)
 {
-  thr_scratch_free(&p->own);
-  *p = (path){0};
+  thr_scratch_free(&path->own);
+  *path = (taut_path){0};
 }
 
-static thr_status path_make(path *p, const thr_frame *frame, const thr_cord *cord, double clearance,
-                            thr_err *err)
+/* Makes the problem of one cord, its openings with axes of unit length. clearance: in units of the
+ * framework. Release with path_destroy. */
+static thr_status path_make(taut_path *path, const thr_frame *frame, const thr_cord *cord,
+                            double clearance, thr_err *err)
 {
   size_t n = (size_t)cord->n_passes;
-  *p = (path){.n = cord->n_passes};
-  p->straight = thr_scratch_array(&p->own, n, sizeof *p->straight);
-  p->opening = thr_scratch_array(&p->own, n + 1, sizeof *p->opening);
-  p->axis = thr_scratch_array(&p->own, n + 1, sizeof *p->axis);
-  p->z = thr_scratch_array(&p->own, n + 1, sizeof *p->z);
-  p->moved = thr_scratch_array(&p->own, n + 1, sizeof *p->moved);
-  p->push = thr_scratch_array(&p->own, n + 1, sizeof *p->push);
-  p->push_step = thr_scratch_array(&p->own, n + 1, sizeof *p->push_step);
-  p->piece = thr_scratch_array(&p->own, n, sizeof *p->piece);
-  p->moved_piece = thr_scratch_array(&p->own, n, sizeof *p->moved_piece);
-  p->block = thr_scratch_array(&p->own, n + 1, sizeof *p->block);
-  if (thr_scratch_check(&p->own, err)) {
-    path_destroy(p);
+
+  *path = (taut_path){.n = cord->n_passes};
+  path->straight = thr_scratch_array(&path->own, n, sizeof *path->straight);
+  path->opening = thr_scratch_array(&path->own, n + 1, sizeof *path->opening);
+  path->axis = thr_scratch_array(&path->own, n + 1, sizeof *path->axis);
+  path->z = thr_scratch_array(&path->own, n + 1, sizeof *path->z);
+  path->moved = thr_scratch_array(&path->own, n + 1, sizeof *path->moved);
+  path->push = thr_scratch_array(&path->own, n + 1, sizeof *path->push);
+  path->push_step = thr_scratch_array(&path->own, n + 1, sizeof *path->push_step);
+  path->piece = thr_scratch_array(&path->own, n, sizeof *path->piece);
+  path->moved_piece = thr_scratch_array(&path->own, n, sizeof *path->moved_piece);
+  path->block = thr_scratch_array(&path->own, n + 1, sizeof *path->block);
+
+  if (thr_scratch_check(&path->own, err)) {
+    path_destroy(path);
     return THR_ENOMEM;
   }
-  for (int i = 0; i < p->n; i++) {
-    edge_vector(frame, cord->half[i], p->straight[i]);
+
+  /* Edges in clearances. */
+  for (int i = 0; i < path->n; i++) {
+    edge_vector(frame, cord->half[i], path->straight[i]);
     for (int k = 0; k < 3; k++)
-      p->straight[i][k] /= clearance;
+      path->straight[i][k] /= clearance;
   }
-  for (int i = 0; i + 1 < p->n; i++) {
+
+  /* Openings at the inner nodes; both ends of the cord stay at their nodes (axes 0). */
+  for (int i = 0; i + 1 < path->n; i++) {
     double u[3], w[3];
-    memcpy(u, p->straight[i], sizeof u);
-    memcpy(w, p->straight[i + 1], sizeof w);
+    memcpy(u, path->straight[i], sizeof u);
+    memcpy(w, path->straight[i + 1], sizeof w);
     double before = scale_to_unit(u), behind = scale_to_unit(w);
-    p->opening[i + 1] = make_opening(u, w, fmin(before, behind), p->axis[i + 1]);
+    path->opening[i + 1] = make_opening(u, w, fmin(before, behind), path->axis[i + 1]);
   }
   return THR_OK;
 }
 
-/* Offset of a vertex from its node. */
-static void offset(const path *p, const double (*z)[2], int i, double at[3])
+/* Computes the offset of a vertex from its node, in clearances. */
+static void offset(const taut_path *path, const double (*z)[2], int i, double at[3])
 {
   for (int k = 0; k < 3; k++)
-    at[k] = z[i][0] * p->axis[i][0][k] + z[i][1] * p->axis[i][1][k];
+    at[k] = z[i][0] * path->axis[i][0][k] + z[i][1] * path->axis[i][1][k];
 }
 
-static void measure_pieces(const path *p, const double (*z)[2], piece *out)
+/* Computes direction and length of every piece when the vertices are at z. */
+static void measure_pieces(const taut_path *path, const double (*z)[2], piece *out)
 {
   double here[3], next[3];
-  offset(p, z, 0, here);
-  for (int i = 0; i < p->n; i++) {
-    offset(p, z, i + 1, next);
+  offset(path, z, 0, here);
+
+  for (int i = 0; i < path->n; i++) {
+    offset(path, z, i + 1, next);
     for (int k = 0; k < 3; k++)
-      out[i].unit[k] = p->straight[i][k] + (next[k] - here[k]);
+      out[i].unit[k] = path->straight[i][k] + (next[k] - here[k]);
     out[i].length = scale_to_unit(out[i].unit);
     memcpy(here, next, sizeof here);
   }
 }
 
-/* Second derivative of a piece's length along x at its one end and y at the other. */
-static double bend(const piece *e, const double x[3], const double y[3])
+/* Returns the second derivative of a piece's length along x at its one end and along y at the same
+ * end: x (I - unit unit^T) y / length. With y at the other end the sign is the opposite one. */
+static double bend(const piece *line, const double x[3], const double y[3])
 {
-  return (thr_dot(x, y) - thr_dot(x, e->unit) * thr_dot(y, e->unit)) / e->length;
+  return (thr_dot(x, y) - thr_dot(x, line->unit) * thr_dot(y, line->unit)) / line->length;
 }
 
-static void turn_basis(path *p, int i)
+/* Computes the basis of vertex i, along z and across z, the half-axes in this basis, and the
+ * gradient of the length in it. */
+static void turn_basis(taut_path *path, int i)
 {
-  block *b = &p->block[i];
-  double r = hypot(p->z[i][0], p->z[i][1]);
-  b->radial[0] = r > 0 ? p->z[i][0] / r : 1;
-  b->radial[1] = r > 0 ? p->z[i][1] / r : 0;
+  block *here = &path->block[i];
+
+  /* At the middle of the opening any basis will do. */
+  double radius = hypot(path->z[i][0], path->z[i][1]);
+  here->radial[0] = radius > 0 ? path->z[i][0] / radius : 1;
+  here->radial[1] = radius > 0 ? path->z[i][1] / radius : 0;
+
   for (int k = 0; k < 3; k++) {
-    b->axis[0][k] = b->radial[0] * p->axis[i][0][k] + b->radial[1] * p->axis[i][1][k];
-    b->axis[1][k] = b->radial[0] * p->axis[i][1][k] - b->radial[1] * p->axis[i][0][k];
+    here->axis[0][k] =
+        here->radial[0] * path->axis[i][0][k] + here->radial[1] * path->axis[i][1][k];
+    here->axis[1][k] =
+        here->radial[0] * path->axis[i][1][k] - here->radial[1] * path->axis[i][0][k];
   }
+
+  /* A vertex pulls on its two pieces: the gradient is the difference of their unit vectors. */
   for (int k = 0; k < 2; k++) {
-    b->gradient[k] = 0;
-    if (i > 0) b->gradient[k] += thr_dot(b->axis[k], p->piece[i - 1].unit);
-    if (i < p->n) b->gradient[k] -= thr_dot(b->axis[k], p->piece[i].unit);
+    here->gradient[k] = 0;
+    if (i > 0) here->gradient[k] += thr_dot(here->axis[k], path->piece[i - 1].unit);
+    if (i < path->n) here->gradient[k] -= thr_dot(here->axis[k], path->piece[i].unit);
   }
 }
 
-/* Largest residual of stationarity, and of push x slack = barrier. */
-static void residuals(path *p, double barrier, double *balance, double *product)
+/* Computes the largest residual of stationarity, |gradient + push z| in rad, and of
+ * complementarity, |push x slack - barrier|. Fills bases and gradients of all blocks. */
+static void residuals(taut_path *path, double barrier, double *balance, double *product)
 {
   *balance = *product = 0;
-  for (int i = 0; i <= p->n; i++) {
-    turn_basis(p, i);
-    const block *b = &p->block[i];
-    double r = hypot(p->z[i][0], p->z[i][1]);
-    *balance = fmax(*balance, hypot(b->gradient[0] + p->push[i] * r, b->gradient[1]));
-    *product = fmax(*product, fabs(p->push[i] * slack(p->z[i]) - barrier));
+  for (int i = 0; i <= path->n; i++) {
+    turn_basis(path, i);
+    const block *b = &path->block[i];
+
+    double radius = hypot(path->z[i][0], path->z[i][1]);
+    *balance = fmax(*balance, hypot(b->gradient[0] + path->push[i] * radius, b->gradient[1]));
+    *product = fmax(*product, fabs(path->push[i] * slack(path->z[i]) - barrier));
   }
 }
 
-/* Block tridiagonal elimination; the bases and gradients are those of the last residuals(). */
-static void newton_step(path *p, double barrier)
+/* Computes the Newton step of all vertices and multipliers, by block tridiagonal elimination.
+ *
+ * With the multipliers' steps eliminated, vertex i has (H + push I + push / slack z z^T) step =
+ * -gradient - barrier / slack z, H: second derivatives of the length. The bases and gradients are
+ * those of the last residuals(). O(n). */
+static void newton_step(taut_path *path, double barrier)
 {
-  for (int i = 0; i <= p->n; i++) {
-    block *b = &p->block[i];
-    double s = slack(p->z[i]), r = hypot(p->z[i][0], p->z[i][1]);
-    double rr = p->push[i] * (1 + r * r / s), rt = 0, tt = p->push[i];
-    b->step[0] = -b->gradient[0] - barrier / s * r;
-    b->step[1] = -b->gradient[1];
+  for (int i = 0; i <= path->n; i++) {
+    /* The diagonal block from barrier and multiplier, and the right-hand side. */
+    block *here = &path->block[i];
+    double gap = slack(path->z[i]), radius = hypot(path->z[i][0], path->z[i][1]);
+    double rr = path->push[i] * (1 + radius * radius / gap), rt = 0, tt = path->push[i];
+    here->step[0] = -here->gradient[0] - barrier / gap * radius;
+    here->step[1] = -here->gradient[1];
+
+    /* .. and from the two pieces at the vertex. */
     for (int j = i - 1; j <= i; j++) {
-      if (j < 0 || j >= p->n) continue;
-      rr += bend(&p->piece[j], b->axis[0], b->axis[0]);
-      rt += bend(&p->piece[j], b->axis[0], b->axis[1]);
-      tt += bend(&p->piece[j], b->axis[1], b->axis[1]);
+      if (j < 0 || j >= path->n) continue;
+      rr += bend(&path->piece[j], here->axis[0], here->axis[0]);
+      rt += bend(&path->piece[j], here->axis[0], here->axis[1]);
+      tt += bend(&path->piece[j], here->axis[1], here->axis[1]);
     }
+
+    /* Eliminate the vertex before: subtract coupling^T inverse coupling from the block, and the
+     * same of its right-hand side. */
     if (i > 0) {
-      block *a = &p->block[i - 1];
+      block *before = &path->block[i - 1];
       double solved[2][2]; /* inverse of a's block x coupling */
+
+      /* Moving both vertices in the same direction keeps the piece: the coupling has the opposite
+       * sign. */
       for (int x = 0; x < 2; x++)
         for (int y = 0; y < 2; y++)
-          a->next[x][y] = -bend(&p->piece[i - 1], a->axis[x], b->axis[y]);
+          before->next[x][y] = -bend(&path->piece[i - 1], before->axis[x], here->axis[y]);
+
       for (int y = 0; y < 2; y++) {
-        solved[0][y] = a->inverse[0] * a->next[0][y] + a->inverse[1] * a->next[1][y];
-        solved[1][y] = a->inverse[1] * a->next[0][y] + a->inverse[2] * a->next[1][y];
+        solved[0][y] =
+            before->inverse[0] * before->next[0][y] + before->inverse[1] * before->next[1][y];
+        solved[1][y] =
+            before->inverse[1] * before->next[0][y] + before->inverse[2] * before->next[1][y];
       }
-      rr -= a->next[0][0] * solved[0][0] + a->next[1][0] * solved[1][0];
-      rt -= a->next[0][0] * solved[0][1] + a->next[1][0] * solved[1][1];
-      tt -= a->next[0][1] * solved[0][1] + a->next[1][1] * solved[1][1];
+
+      /* The Schur complement of the block before. */
+      rr -= before->next[0][0] * solved[0][0] + before->next[1][0] * solved[1][0];
+      rt -= before->next[0][0] * solved[0][1] + before->next[1][0] * solved[1][1];
+      tt -= before->next[0][1] * solved[0][1] + before->next[1][1] * solved[1][1];
+
       for (int y = 0; y < 2; y++)
-        b->step[y] -= solved[0][y] * a->step[0] + solved[1][y] * a->step[1];
+        here->step[y] -= solved[0][y] * before->step[0] + solved[1][y] * before->step[1];
     }
+
+    /* The inverse of the reduced block, which is symmetric. */
     double determinant = rr * tt - rt * rt;
-    b->inverse[0] = tt / determinant;
-    b->inverse[1] = -rt / determinant;
-    b->inverse[2] = rr / determinant;
+    here->inverse[0] = tt / determinant;
+    here->inverse[1] = -rt / determinant;
+    here->inverse[2] = rr / determinant;
   }
-  for (int i = p->n; i >= 0; i--) {
-    block *b = &p->block[i];
-    double y[2] = {b->step[0], b->step[1]};
-    for (int x = 0; x < 2 && i < p->n; x++)
-      y[x] -= b->next[x][0] * p->block[i + 1].step[0] + b->next[x][1] * p->block[i + 1].step[1];
-    b->step[0] = b->inverse[0] * y[0] + b->inverse[1] * y[1];
-    b->step[1] = b->inverse[1] * y[0] + b->inverse[2] * y[1];
-    double s = slack(p->z[i]), r = hypot(p->z[i][0], p->z[i][1]);
-    p->push_step[i] = barrier / s - p->push[i] + p->push[i] / s * r * b->step[0];
+
+  /* Back substitution, from the last vertex to the first. */
+  for (int i = path->n; i >= 0; i--) {
+    block *here = &path->block[i];
+    double y[2] = {here->step[0], here->step[1]};
+
+    for (int x = 0; x < 2 && i < path->n; x++)
+      y[x] -= here->next[x][0] * path->block[i + 1].step[0] +
+              here->next[x][1] * path->block[i + 1].step[1];
+    here->step[0] = here->inverse[0] * y[0] + here->inverse[1] * y[1];
+    here->step[1] = here->inverse[1] * y[0] + here->inverse[2] * y[1];
+
+    /* The multiplier's step from the linearized complementarity, push x slack = barrier. */
+    double gap = slack(path->z[i]), radius = hypot(path->z[i][0], path->z[i][1]);
+    path->push_step[i] =
+        barrier / gap - path->push[i] + path->push[i] / gap * radius * here->step[0];
   }
 }
 
-/* Largest parts of the step, at most 1, that leave every slack and every push a little of what it
- * is. */
-static void step_lengths(const path *p, double *place, double *push)
+/* Computes the largest parts of the step, at most 1, that leave every slack and every multiplier a
+ * hundredth of its value (the rule of the fraction to the boundary). *place: of the vertices,
+ * *push: of the multipliers. */
+static void step_lengths(const taut_path *path, double *place, double *push)
 {
   const double most = 0.99;
   *place = *push = 1;
-  for (int i = 0; i <= p->n; i++) {
-    const block *b = &p->block[i];
+  for (int i = 0; i <= path->n; i++) {
+    const block *b = &path->block[i];
+
+    /* The slack after part t of the step is slack - t half_b - t^2 a / 2: solve for the t at which
+     * 1 % of it is left, in the form without cancellation. */
     double a = b->step[0] * b->step[0] + b->step[1] * b->step[1];
-    double half_b = hypot(p->z[i][0], p->z[i][1]) * b->step[0], c = 2 * most * slack(p->z[i]);
+    double half_b = hypot(path->z[i][0], path->z[i][1]) * b->step[0],
+           c = 2 * most * slack(path->z[i]);
     double root = sqrt(half_b * half_b + a * c);
     double limit = half_b > 0 ? c / (half_b + root) : a > 0 ? (root - half_b) / a : 1;
+
     *place = fmin(*place, limit);
-    if (p->push_step[i] < 0) *push = fmin(*push, -most * p->push[i] / p->push_step[i]);
+    if (path->push_step[i] < 0) *push = fmin(*push, -most * path->push[i] / path->push_step[i]);
   }
 }
 
-/* Tries a part of the step: change of the length plus barrier; INFINITY outside an opening. */
-static double try_step(path *p, double part, double barrier)
+/* Tries a part of the step: fills `moved` and `moved_piece`, and returns the change of length plus
+ * barrier function, or INFINITY if a vertex would leave its opening. */
+static double try_step(taut_path *path, double part, double barrier)
 {
   double change = 0;
-  for (int i = 0; i <= p->n; i++) {
-    const block *b = &p->block[i];
-    p->moved[i][0] = p->z[i][0] + part * (b->radial[0] * b->step[0] - b->radial[1] * b->step[1]);
-    p->moved[i][1] = p->z[i][1] + part * (b->radial[1] * b->step[0] + b->radial[0] * b->step[1]);
-    double ratio = slack(p->moved[i]) / slack(p->z[i]);
+  for (int i = 0; i <= path->n; i++) {
+    /* Turn the step back from the vertex's basis. */
+    const block *b = &path->block[i];
+    path->moved[i][0] =
+        path->z[i][0] + part * (b->radial[0] * b->step[0] - b->radial[1] * b->step[1]);
+    path->moved[i][1] =
+        path->z[i][1] + part * (b->radial[1] * b->step[0] + b->radial[0] * b->step[1]);
+
+    /* The barrier function is -barrier x the sum of ln(slack). */
+    double ratio = slack(path->moved[i]) / slack(path->z[i]);
     if (!(ratio > 0)) return INFINITY;
     change -= barrier * log(ratio);
   }
-  measure_pieces(p, (const double(*)[2])p->moved, p->moved_piece);
-  for (int i = 0; i < p->n; i++)
-    change += p->moved_piece[i].length - p->piece[i].length;
+
+  /* The difference piece by piece loses fewer digits than the difference of the sums. */
+  measure_pieces(path, (const double(*)[2])path->moved, path->moved_piece);
+  for (int i = 0; i < path->n; i++)
+    change += path->moved_piece[i].length - path->piece[i].length;
   return change;
 }
 
-static bool take_step(path *p, double barrier)
+/* Takes a Newton step: halves it until the length plus barrier falls enough (Armijo's rule), then
+ * moves vertices and multipliers. Returns false if no part of the step is any better. */
+static bool take_step(taut_path *path, double barrier)
 {
   double part, push_part, length = 0, slope = 0;
-  step_lengths(p, &part, &push_part);
-  for (int i = 0; i <= p->n; i++) {
-    double s = slack(p->z[i]), r = hypot(p->z[i][0], p->z[i][1]);
-    slope += (p->block[i].gradient[0] + barrier / s * r) * p->block[i].step[0] +
-             p->block[i].gradient[1] * p->block[i].step[1];
-    if (i < p->n) length += p->piece[i].length;
+  step_lengths(path, &part, &push_part);
+
+  /* The slope of length plus barrier along the step. */
+  for (int i = 0; i <= path->n; i++) {
+    double gap = slack(path->z[i]), radius = hypot(path->z[i][0], path->z[i][1]);
+    slope += (path->block[i].gradient[0] + barrier / gap * radius) * path->block[i].step[0] +
+             path->block[i].gradient[1] * path->block[i].step[1];
+    if (i < path->n) length += path->piece[i].length;
   }
-  double noise =
-      1e-15 * length; /* of the sum of differences: near the end the true change is less */
+
+  /* Near the end the true change is less than the rounding of the sum of differences. */
+  double noise = 1e-15 * length;
+
   int halvings = 0;
-  while (!(try_step(p, part, barrier) <= 1e-4 * part * slope + noise)) {
+  while (!(try_step(path, part, barrier) <= 1e-4 * part * slope + noise)) {
     if (++halvings > MAX_HALVINGS) return false;
     part /= 2;
   }
-  double(*z)[2] = p->z;
-  piece *e = p->piece;
-  p->z = p->moved;
-  p->moved = z;
-  p->piece = p->moved_piece;
-  p->moved_piece = e;
-  for (int i = 0; i <= p->n; i++) {
-    double push = p->push[i] + push_part * p->push_step[i], central = barrier / slack(p->z[i]);
-    p->push[i] = fmin(fmax(push, 1e-8 * central), 1e8 * central);
+
+  /* The tried path becomes the current one. */
+  double(*z)[2] = path->z;
+  piece *pieces = path->piece;
+  path->z = path->moved;
+  path->moved = z;
+  path->piece = path->moved_piece;
+  path->moved_piece = pieces;
+
+  /* Keep the multipliers near the central path, so that neither vanishes nor explodes. */
+  for (int i = 0; i <= path->n; i++) {
+    double push = path->push[i] + push_part * path->push_step[i],
+           central = barrier / slack(path->z[i]);
+    path->push[i] = fmin(fmax(push, 1e-8 * central), 1e8 * central);
   }
   return true;
 }
 
-/* What the multipliers prove: by convexity no path is shorter than the length less this, in
- * clearances. */
-static double proof_gap(const path *p)
+/* Returns the gap that the multipliers prove, in clearances: no path is shorter than the length
+ * less this.
+ *
+ * The Lagrangian, length - sum of push x slack, is convex in z and bounds the length of every path
+ * from below; its tangent at z, over the disc |z'| <= 1 where |z' - z| <= 2, is no lower than the
+ * Lagrangian at z less 2 |gradient + push z|. */
+static double proof_gap(const taut_path *path)
 {
   double gap = 0;
-  for (int i = 0; i <= p->n; i++) {
-    const block *b = &p->block[i];
-    double r = hypot(p->z[i][0], p->z[i][1]);
-    gap += p->push[i] * slack(p->z[i]) + 2 * hypot(b->gradient[0] + p->push[i] * r, b->gradient[1]);
+  for (int i = 0; i <= path->n; i++) {
+    const block *b = &path->block[i];
+
+    /* |z' - z| is at most the diameter of the disc, 2. */
+    double radius = hypot(path->z[i][0], path->z[i][1]);
+    gap += path->push[i] * slack(path->z[i]) +
+           2 * hypot(b->gradient[0] + path->push[i] * radius, b->gradient[1]);
   }
   return gap;
 }
 
-static thr_status solve(path *p, const char *id, thr_err *err)
+/* Computes the shortest path through the openings as they are. THR_ESOLVER: residuals or gap stay
+ * too large. */
+static thr_status solve(taut_path *path, const char *id, thr_err *err)
 {
   double barrier = 0.1, balance, product, length = 0;
-  for (int i = 0; i <= p->n; i++)
-    p->push[i] = 2 * barrier;
-  memset(p->z, 0, (size_t)(p->n + 1) * sizeof *p->z);
-  measure_pieces(p, (const double(*)[2])p->z, p->piece);
-  residuals(p, barrier, &balance, &product);
+
+  /* Start at the nodes, on the central path: push x slack = barrier with slack 1 / 2. */
+  for (int i = 0; i <= path->n; i++)
+    path->push[i] = 2 * barrier;
+  memset(path->z, 0, (size_t)(path->n + 1) * sizeof *path->z);
+  measure_pieces(path, (const double(*)[2])path->z, path->piece);
+  residuals(path, barrier, &balance, &product);
+
+  /* Follow the central path: lower the barrier once the residuals are small against it, faster than
+   * linearly near the end. */
   int steps = 0;
   for (; steps < MAX_STEPS &&
          (barrier > LAST_BARRIER || balance > BALANCED || product > LAST_BARRIER);
        steps++) {
     if (barrier > LAST_BARRIER && fmax(balance, product) <= 10 * barrier) {
       barrier = fmax(LAST_BARRIER, fmin(0.2 * barrier, pow(barrier, 1.5)));
-      residuals(p, barrier, &balance, &product);
+      residuals(path, barrier, &balance, &product);
     }
-    newton_step(p, barrier);
-    if (!take_step(p, barrier)) break;
-    residuals(p, barrier, &balance, &product);
+
+    newton_step(path, barrier);
+    if (!take_step(path, barrier)) break;
+    residuals(path, barrier, &balance, &product);
   }
-  for (int i = 0; i < p->n; i++)
-    length += p->piece[i].length;
-  if (barrier <= LAST_BARRIER && balance <= 10 * BALANCED && proof_gap(p) <= PROVED * length)
+
+  /* Accept what is stationary enough and proved. */
+  for (int i = 0; i < path->n; i++)
+    length += path->piece[i].length;
+  if (barrier <= LAST_BARRIER && balance <= 10 * BALANCED && proof_gap(path) <= PROVED * length)
     return THR_OK;
+
   return thr_fail(err, THR_ESOLVER,
                   "cord %s: no taut path found: out of balance by %.2g rad after %d steps; use "
                   "--method capstan",
                   id, balance, steps);
 }
 
-/* Openings and path in turns, until the turns stay: turn holds the nominal ones at first. */
-static thr_status settle(path *p, double radius, const char *id, double *turn, thr_err *err)
+/* Computes openings and path by turns until no turn changes by more than SETTLED: the opening
+ * depends on the turn that the taut cord takes in it. turn[n - 1]: the nominal turns on entry, the
+ * taut ones on return. radius: of the cord, in clearances. */
+static thr_status settle(taut_path *path, double radius, const char *id, double *turn, thr_err *err)
 {
   double change = 0;
   for (int round = 0; round < MAX_ROUNDS; round++) {
-    for (int i = 0; i + 1 < p->n; i++)
-      open_to(&p->opening[i + 1], radius, turn[i], p->axis[i + 1]);
-    thr_status st = solve(p, id, err);
+    for (int i = 0; i + 1 < path->n; i++)
+      open_to(&path->opening[i + 1], radius, turn[i], path->axis[i + 1]);
+
+    thr_status st = solve(path, id, err);
     if (st) return st;
+
+    /* The turns between consecutive pieces, and their largest change. */
     change = 0;
-    for (int i = 0; i + 1 < p->n; i++) {
-      double now = thr_angle_between(p->piece[i].unit, p->piece[i + 1].unit);
+    for (int i = 0; i + 1 < path->n; i++) {
+      double now = thr_angle_between(path->piece[i].unit, path->piece[i + 1].unit);
       change = fmax(change, fabs(now - turn[i]));
       turn[i] = now;
     }
+
+    /* A cord of radius 0 has openings that do not depend on its turns. */
     if (change <= SETTLED || radius == 0) return THR_OK;
   }
+
   return thr_fail(
       err, THR_ESOLVER,
       "cord %s: the taut path still changes by %.2g rad after %d rounds; use --method capstan", id,
       change, MAX_ROUNDS);
 }
 
+/* Computes turns, points and length of the path along the edges, from node to node. */
 static void nominal_path(const thr_frame *frame, const thr_cord *cord, double *turn,
                          double (*point)[3], double *length)
 {
   double sum = 0;
+
+  /* Each inner node turns the path by the angle between its two edges. */
   for (int i = 0; i < cord->n_passes; i++) {
     double d[3];
     sum += edge_vector(frame, cord->half[i], d);
     if (i + 1 < cord->n_passes) turn[i] = thr_turn_angle(frame, cord->half[i], cord->half[i + 1]);
   }
+
   for (int i = 0; i <= cord->n_passes && point; i++)
     memcpy(point[i],
            frame->xyz[i ? thr_head(frame, cord->half[i - 1]) : thr_tail(frame, cord->half[0])],
            sizeof *point);
+
   if (length) *length = sum;
 }
 
-static void taut_points(const path *p, const thr_frame *frame, const thr_cord *cord,
+/* Computes points (if not NULL) and length (if not NULL) of the path in units of the framework. */
+static void taut_points(const taut_path *path, const thr_frame *frame, const thr_cord *cord,
                         double clearance, double (*point)[3], double *length)
 {
   double sum = 0;
-  for (int i = 0; i < p->n; i++)
-    sum += p->piece[i].length;
-  for (int i = 0; i <= p->n && point; i++) {
+  for (int i = 0; i < path->n; i++)
+    sum += path->piece[i].length;
+
+  for (int i = 0; i <= path->n && point; i++) {
     const double *node =
         frame->xyz[i ? thr_head(frame, cord->half[i - 1]) : thr_tail(frame, cord->half[0])];
-    offset(p, (const double(*)[2])p->z, i, point[i]);
+
+    /* From offsets in clearances to places in units. */
+    offset(path, (const double(*)[2])path->z, i, point[i]);
     for (int k = 0; k < 3; k++)
       point[i][k] = node[k] + clearance * point[i][k];
   }
+
   if (length) *length = clearance * sum;
 }
 
@@ -444,25 +578,32 @@ thr_status thr_taut_path(const thr_frame *frame, const thr_cord *cord, double ra
 {
   double shortest = INFINITY;
   if (length) *length = 0;
+
   if (!(radius >= 0) || !isfinite(radius) || !(clearance >= 0) || !isfinite(clearance))
     return thr_fail(
         err, THR_EINPUT,
         "cord radius %g, clearance %g: both must be 0 or more; is the bore wider than the cord?",
         radius, clearance);
+
+  /* Directions and lengths of edges are divided by. */
   for (int i = 0; i < cord->n_passes; i++) {
     double d[3];
     shortest = fmin(shortest, edge_vector(frame, cord->half[i], d));
   }
+
   if (!(shortest > 0))
     return thr_fail(err, THR_EINPUT,
                     "cord %s: an edge joins two nodes at one place; weld them (--weld)", cord->id);
+
+  /* Without a clearance the cord runs along the edges. */
   nominal_path(frame, cord, turn, point, length);
   if (clearance < NO_CLEARANCE * shortest) return THR_OK;
-  path p;
-  thr_status st = path_make(&p, frame, cord, clearance, err);
-  if (!st) st = settle(&p, radius / clearance, cord->id, turn, err);
-  if (!st) taut_points(&p, frame, cord, clearance, point, length);
-  path_destroy(&p);
+
+  taut_path path;
+  thr_status st = path_make(&path, frame, cord, clearance, err);
+  if (!st) st = settle(&path, radius / clearance, cord->id, turn, err);
+  if (!st) taut_points(&path, frame, cord, clearance, point, length);
+  path_destroy(&path);
   return st;
 }
 
@@ -471,9 +612,12 @@ thr_status thr_taut_turns(const thr_frame *frame, const thr_cord *cord, int n_co
                           thr_err *err)
 {
   double mm;
+
+  /* Sizes of cord and bore are in mm. */
   if (thr_units_in_mm(frame->units, &mm, NULL))
     mm = 1; /* as thr_physics_resolve took them: all sizes come from the framework */
   for (int i = 0; i < n_cords; i++) {
+    /* Diameters to radii, mm to units of the framework. */
     if (thr_limits_stop(limits))
       return thr_fail(err, THR_ELIMIT, "stopped before the taut path of cord %s", cord[i].id);
     if (!(taut[i] = thr_calloc((size_t)cord[i].n_passes, sizeof **taut))) return thr_nomem(err);

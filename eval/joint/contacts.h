@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One step of rigid bodies in contact, with the friction of limit analysis, as a convex problem.
+/* Solves one step of rigid bodies in contact, with the friction of limit analysis, as a convex
+ * problem.
  *
  * The impulse of each contact lies in its cone, and what slides opens by mu times its slide: so the
  * velocities after the step are, of all that no contact forbids, those nearest to what they would
@@ -25,6 +26,7 @@ extern "C" {
 
 typedef struct thr_contacts thr_contacts;
 
+/* A contact point of two bodies. */
 typedef struct {
   int body[2];              /* -1: what does not move */
   double jacobian[3][2][6]; /* velocities along the normal and two directions across it, of either
@@ -37,8 +39,9 @@ typedef struct {
 thr_status thr_contacts_create(thr_contacts **cones, thr_err *err) THR_MUST_CHECK;
 void thr_contacts_destroy(thr_contacts *cones);
 
-/* mass[n_bodies]: mass and moment of inertia. No velocity is wrong by more than still, but after
- * `most` linear systems it is what it is. Faster when the same bodies touch as the last time. */
+/* Computes the impulses of all contacts. mass[n_bodies]: mass and moment of inertia. No velocity is
+ * wrong by more than still, but after `most` linear systems it is what it is. Faster when the same
+ * bodies touch as the last time. */
 thr_status thr_contacts_solve(thr_contacts *cones, int n_bodies, const double (*mass)[2],
                               int n_contacts, thr_cone_contact *contact, double still, int most,
                               thr_err *err) THR_MUST_CHECK;

@@ -1,5 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Joints simulated in Bullet: one cord dragged through beads, and what is remembered of it. */
+/* Friction of joints by simulation: a cord is dragged through one bead joint in Bullet, and cords
+ * are composed of joints measured like this (method joint).
+ *
+ * Reading order: drag.c (one experiment: protocol, channels, chain, measuring), joint.c (a table of
+ * joints, and the exponents of whole cords from it), cache.c (joints measured before). Below them:
+ * world.h and bullet.cpp (rigid bodies in Bullet behind a C interface), contacts.h (contacts with
+ * friction cones as a convex problem; for structures, eval/structure). */
 #ifndef THR_JOINT_H
 #define THR_JOINT_H
 
@@ -10,10 +16,10 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-/* ---- drag.c: Friction of a cord dragged through bead joints, measured in Bullet: a chain of small
- * spheres linked by one-row distance constraints, in channels of convex walls. */
+/* ---- drag.c: measures the friction of a cord dragged through bead joints in Bullet: a chain of
+ * small spheres linked by one-row distance constraints, in channels of convex walls. */
 
-/* All lengths in cord radii, forces in hold-back tensions. */
+/* An experiment. All lengths in cord radii, forces in hold-back tensions. */
 typedef struct {
   int n_turns;         /* 1 for a joint; more for the validation of whole cords */
   const double *turn;  /* [n_turns] rad, 0 .. pi; borrowed */
@@ -33,6 +39,7 @@ typedef struct {
  * than 100,000 spheres. Nothing is measured then. */
 typedef enum { THR_DRAG_SETTLED, THR_DRAG_UNSETTLED, THR_DRAG_OUT_OF_RANGE } thr_drag_status;
 
+/* What an experiment gave. */
 typedef struct {
   int status;   /* thr_drag_status */
   double ratio; /* mean tension at the drag end / at the hold end, in steady sliding; 0 if out of
@@ -48,28 +55,29 @@ typedef struct {
  */
 extern const double thr_drag_largest_turn, thr_drag_least_bore, thr_drag_largest_bore;
 
-/* Largest turn, rad, that a cord takes in one line of contact in a bore of so many cord diameters:
- * 2 acos(1 / bore). The opening of a mitred round bore is an ellipse whose end is as round as the
- * cord there; in sharper turns the cord wedges between two points of the rim, and its friction
- * exceeds the capstan law (bore 2: 120 degrees, bore 1.1: 49). Wedged joints are measured like
- * others; no closed form confirms them. */
+/* Returns the largest turn, rad, that a cord takes in one line of contact in a bore of so many cord
+ * diameters: 2 acos(1 / bore). The opening of a mitred round bore is an ellipse whose end is as
+ * round as the cord there; in sharper turns the cord wedges between two points of the rim, and its
+ * friction exceeds the capstan law (bore 2: 120 degrees, bore 1.1: 49). Wedged joints are measured
+ * like others; no closed form confirms them. */
 double thr_drag_round_turn(double bore);
 
-/* Relative error of a measured ratio: drift, twice the scatter, and bounds of what they do not show
- * (the chain's polygon, its inertia and impacts, the flat sides of the bore where the cord wedges).
+/* Returns the relative error of a measured ratio: the sum of drift, twice the scatter, and bounds
+ * of what they do not show (the chain's polygon, its inertia and impacts, the flat sides of the
+ * bore where the cord wedges).
  */
 double thr_drag_error(const thr_drag *drag, const thr_drag_result *result);
 
-/* Changes whenever a number of the protocol does: part of the cache's key. */
+/* Returns the numbers of the protocol as text, which is a part of the cache's key. */
 const char *thr_drag_protocol(void);
 
-/* Measures. THR_EINPUT for absurd values, THR_ELIMIT when stopped. Deterministic on one machine.
- * 0.1 to 0.3 s a joint up to mu 0.5, up to 10 s beyond or where the cord wedges. Channels of more
- * turns must not cross one another. */
+/* Runs an experiment. THR_EINPUT for absurd values, THR_ELIMIT when stopped. Deterministic on one
+ * machine. 0.1 to 0.3 s a joint up to mu 0.5, up to 10 s beyond or where the cord wedges. Channels
+ * of more turns must not cross one another. */
 thr_status thr_drag_measure(const thr_drag *drag, const thr_limits *limits, thr_drag_result *out,
                             thr_err *err) THR_MUST_CHECK;
 
-/* ---- joint.c: Composing measured joints along taut cords, with the measuring function as a
+/* ---- joint.c: composes measured joints along taut cords, with the measuring function as a
  * parameter. */
 
 /* Where the friction of one joint comes from: thr_drag_measure, or in tests a law that is known
@@ -85,11 +93,12 @@ typedef struct {
 /* Step of the grid of angles that are measured, rad; what lies between is interpolated. */
 extern const double thr_joint_step;
 
-/* thr_joint_method with another source. A joint's friction per rad, ln(ratio) / turn, belongs to
- * its shape: it is that of its nominal turn, interpolated linearly between measured angles (below
- * the smallest one: that one's). It is paid for the rad by which the taut cord turns there. A turn
- * that needs a joint above largest_turn, or one that is out of range or did not settle, takes the
- * closed form mu x taut turn and counts as refused; taut turns below 1e-6 rad cost nothing.
+/* Evaluates a plan like thr_joint_method, with another source. A joint's friction per rad,
+ * ln(ratio) / turn, belongs to its shape: it is that of its nominal turn, interpolated linearly
+ * between measured angles (below the smallest one: that one's). It is paid for the rad by which the
+ * taut cord turns there. A turn that needs a joint above largest_turn, or one that is out of range
+ * or did not settle, takes the closed form mu x taut turn and counts as refused; taut turns below
+ * 1e-6 rad cost nothing.
  *
  * A cord's error is the sum over the turns between its slackest pass and an end (the larger of
  * both) of the errors of the exponents, as if all erred to one side. Each is made of the source's
@@ -106,26 +115,26 @@ thr_status thr_joint_compose(const thr_frame *frame, const thr_cord *cord,
                              const thr_joint_source *source, thr_eval *out,
                              thr_err *err) THR_MUST_CHECK;
 
-/* ---- cache.c: Joints that were measured before, one small text file each in a folder. */
+/* ---- cache.c: keeps measured joints, one small text file each in a folder. */
 
-/* Everything that a measurement depends on, in plain text: the protocol, Bullet's version, and all
- * of drag (n_turns must be 1).
+/* Appends the key: everything that a measurement depends on, in plain text: the protocol, Bullet's
+ * version, and all of drag (n_turns must be 1).
  */
 void thr_cache_key(const thr_drag *drag, thr_text *key);
 
-/* A file's contents: the key, the values with as many digits as reading them back exactly needs,
- * and a checksum. */
+/* Appends a file's contents: the key, the values with as many digits as reading them back exactly
+ * needs, and a checksum. */
 void thr_cache_write(const thr_text *key, const thr_drag_result *result, thr_text *out);
 
-/* Reads n bytes back. False, and *out unchanged, unless they are exactly what thr_cache_write makes
- * of this key and some finite result. */
+/* Reads n bytes back. Returns false, and *out unchanged, unless they are exactly what
+ * thr_cache_write makes of this key and some finite result. */
 bool thr_cache_parse(const char *text, size_t n, const thr_text *key, thr_drag_result *out);
 
-/* False if the folder holds no sound file for drag. */
+/* Reads the file of a joint. Returns false if the folder holds no sound file for drag. */
 bool thr_cache_load(const char *folder, const thr_drag *drag, thr_drag_result *out);
 
-/* Makes the folder if need be and writes the file whole or not at all. THR_EIO if it cannot;
- * THR_EINPUT for a result that is not finite. */
+/* Makes the folder if need be, and writes the file of a joint whole or not at all. THR_EIO if it
+ * cannot; THR_EINPUT for a result that is not finite. */
 thr_status thr_cache_store(const char *folder, const thr_drag *drag, const thr_drag_result *result,
                            thr_err *err) THR_MUST_CHECK;
 

@@ -13,6 +13,7 @@ extern "C" {
 
 typedef struct thr_world thr_world;
 
+/* How a world is simulated. */
 typedef struct {
   double time_step; /* s */
   int iterations;   /* of sequential impulse; with cones: linear systems in a step, at most */
@@ -26,12 +27,13 @@ typedef struct {
   double still; /* with cones: a step is solved when no velocity is wrong by so much, m/s */
 } thr_world_options;
 
-thr_status thr_world_create(thr_world **w, const thr_world_options *o, thr_err *err) THR_MUST_CHECK;
-void thr_world_destroy(thr_world *w);
+thr_status thr_world_create(thr_world **out, const thr_world_options *options,
+                            thr_err *err) THR_MUST_CHECK;
+void thr_world_destroy(thr_world *world);
 
-/* A body of one or more convex hulls. points: all hulls' corners one after the other in the body's
- * own frame (origin = mass centre), n_points[h] of each. mass 0 = static; moments of inertia from
- * the hulls' bounding boxes; no collision margin. pose: position and quaternion (x y z w).
+/* Adds a body of one or more convex hulls. points: all hulls' corners one after the other in the
+ * body's own frame (origin = mass centre), n_points[h] of each. mass 0 = static; moments of inertia
+ * from the hulls' bounding boxes; no collision margin. pose: position and quaternion (x y z w).
  * group/mask: collision filter bits. *body receives its index. */
 typedef struct {
   int n_hulls;
@@ -42,14 +44,14 @@ typedef struct {
   double friction; /* combined friction is the product of the two bodies' */
   int group, mask;
 } thr_world_hulls;
-thr_status thr_world_add_hulls(thr_world *w, const thr_world_hulls *h, int *body,
+thr_status thr_world_add_hulls(thr_world *world, const thr_world_hulls *hulls, int *body,
                                thr_err *err) THR_MUST_CHECK;
 
-/* A body of one or more boxes that meets only other such bodies, and there only boxes of the same
- * tag: what is to touch is known beforehand, and arms that cross inside a joint do not. Two boxes
- * meet end to end along their own third axes, and touch at the four corners of the narrower end,
- * which may be off by 1e-4 m. half: half sides; place: position and quaternion of each box in the
- * body's frame (origin = mass centre). The rest as above. */
+/* Adds a body of one or more boxes that meets only other such bodies, and there only boxes of the
+ * same tag: what is to touch is known beforehand, and arms that cross inside a joint do not. Two
+ * boxes meet end to end along their own third axes, and touch at the four corners of the narrower
+ * end, which may be off by 1e-4 m. half: half sides; place: position and quaternion of each box in
+ * the body's frame (origin = mass centre). The rest as above. */
 typedef struct {
   int n_boxes;
   const double (*half)[3];
@@ -60,34 +62,37 @@ typedef struct {
   double pose[7];
   double friction;
 } thr_world_boxes;
-thr_status thr_world_add_boxes(thr_world *w, const thr_world_boxes *b, int *body,
+thr_status thr_world_add_boxes(thr_world *world, const thr_world_boxes *boxes, int *body,
                                thr_err *err) THR_MUST_CHECK;
 
-/* A sphere that does not rotate (angular factor 0). */
-thr_status thr_world_add_sphere(thr_world *w, double radius, double mass, const double at[3],
+/* Adds a sphere that does not rotate (angular factor 0). */
+thr_status thr_world_add_sphere(thr_world *world, double radius, double mass, const double at[3],
                                 double friction, int group, int mask, int *body,
                                 thr_err *err) THR_MUST_CHECK;
 
-/* Keeps the distance of two bodies' origins: one row, along the line between them. *link receives
- * its index. */
-thr_status thr_world_add_link(thr_world *w, int a, int b, double length, int *link,
+/* Adds a link that keeps the distance of two bodies' origins: one row, along the line between them.
+ * *link receives its index. */
+thr_status thr_world_add_link(thr_world *world, int a, int b, double length, int *link,
                               thr_err *err) THR_MUST_CHECK;
-double thr_world_link_force(const thr_world *w, int link); /* N in the last step, > 0 = tension */
+double thr_world_link_force(const thr_world *world,
+                            int link); /* N in the last step, > 0 = tension */
 
-/* Applied in the next step only. */
-void thr_world_force(thr_world *w, int body, const double force[3]);
-void thr_world_force_at(thr_world *w, int body, const double force[3],
+/* Applies a force, N, at a body's centre or at a place, in the next step only. */
+void thr_world_force(thr_world *world, int body, const double force[3]);
+void thr_world_force_at(thr_world *world, int body, const double force[3],
                         const double at[3]); /* at: world coordinates */
-thr_status thr_world_step(thr_world *w, thr_err *err) THR_MUST_CHECK;
+/* Takes a step. THR_ESOLVER: the simulation diverged. */
+thr_status thr_world_step(thr_world *world, thr_err *err) THR_MUST_CHECK;
 
-void thr_world_position(const thr_world *w, int body, double at[3]);
-void thr_world_pose(const thr_world *w, int body, double pose[7]);
-void thr_world_velocity(const thr_world *w, int body, double linear[3], double angular[3]);
-void thr_world_set_velocity(thr_world *w, int body, const double linear[3],
+void thr_world_position(const thr_world *world, int body, double at[3]);
+void thr_world_pose(const thr_world *world, int body, double pose[7]);
+void thr_world_velocity(const thr_world *world, int body, double linear[3], double angular[3]);
+void thr_world_set_velocity(thr_world *world, int body, const double linear[3],
                             const double angular[3]);
-void thr_world_set_damping(thr_world *w, int body, double linear, double angular);
+void thr_world_set_damping(thr_world *world, int body, double linear, double angular);
 
-int thr_bullet_version(void); /* 324 */
+/* Returns Bullet's version, 324 for 3.24. */
+int thr_bullet_version(void);
 
 #ifdef __cplusplus
 }
