@@ -419,10 +419,11 @@ static bool gives_way(const thr_blocks *blocks, const double (*velocity)[6])
   bool still_all = true;
   for (int e = 0; e < blocks->b->n_faces; e++)
     still_all &= !(blocks->press[e] > 0) || thr_mechanism_parting(blocks, velocity, e) <= still;
+
+  /* The same for the faces of knotted cords, which tighten as they open. */
   for (int i = 0; i < blocks->b->n_rises; i++)
     still_all &= thr_mechanism_parting(blocks, velocity, blocks->b->rise[i].face) <= still;
 
-  /* The same for the faces of knotted cords, which tighten as they open. */
   return still_all;
 }
 
@@ -841,7 +842,7 @@ static thr_status carry_nothing(const thr_beads *beads, const thr_frame *frame,
   thr_status st = thr_blocks_make(&blocks, 1, err);
   if (st) return st;
 
-  /* Without the load. If nothing gives way then, a multiple of 0 is carried. */
+  /* Begin with a mechanism that gives way without the load. */
   st = yield_at(&blocks, 0, limits, &low, &why);
 
   /* The load may hardly act on what gives way, by rounding or by symmetry. Then add some of the
