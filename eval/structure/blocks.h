@@ -211,39 +211,39 @@ typedef struct {
 
 /* Allocates the arrays and chooses the units of a simulation that has b, f, physics, limits, cord,
  * n_cords, tension and most; the rest is 0. End it whatever comes back. */
-thr_status thr_simulated_begin(thr_simulated *m, thr_err *err) THR_MUST_CHECK;
-void thr_simulated_end(thr_simulated *m);
+thr_status thr_simulated_begin(thr_simulated *simulated, thr_err *err) THR_MUST_CHECK;
+void thr_simulated_end(thr_simulated *simulated);
 
 /* Builds a fresh world as drawn, which becomes home, in place of the old one. */
-thr_status thr_simulated_build(thr_simulated *m, const thr_simulated_options *options,
+thr_status thr_simulated_build(thr_simulated *simulated, const thr_simulated_options *options,
                                thr_err *err) THR_MUST_CHECK;
 
-/* Moves the world on by a time step, at m->pull and m->lift. THR_ELIMIT when stopped. */
-thr_status thr_simulated_step(thr_simulated *m, thr_err *err) THR_MUST_CHECK;
+/* Moves the world on by a time step, at simulated->pull and ->lift. THR_ELIMIT when stopped. */
+thr_status thr_simulated_step(thr_simulated *simulated, thr_err *err) THR_MUST_CHECK;
 
 /* Sets the part of the velocity that is lost in a unit of time. */
-void thr_simulated_damp(const thr_simulated *m, double damping);
+void thr_simulated_damp(const thr_simulated *simulated, double damping);
 
 /* Returns the number of steps in a time. */
-long thr_simulated_steps(const thr_simulated *m, double time);
+long thr_simulated_steps(const thr_simulated *simulated, double time);
 
 /* Makes home of where the beads are now. */
-void thr_simulated_set_home(thr_simulated *m);
+void thr_simulated_set_home(thr_simulated *simulated);
 
 /* Returns how far the bead that moved most is from home, in edges. */
-double thr_simulated_most_moved(const thr_simulated *m, int *bead);
+double thr_simulated_most_moved(const thr_simulated *simulated, int *bead);
 
 /* Returns how far the bead that moved most has moved within the last THR_LOOKS looks, of which this
  * is the next; 0 before so many. */
-double thr_simulated_moved_lately(thr_simulated *m, long look, int *bead);
+double thr_simulated_moved_lately(thr_simulated *simulated, long look, int *bead);
 
 /* Returns the widest opening of any face, at its corners, in edges. */
-double thr_simulated_widest_gap(const thr_simulated *m);
+double thr_simulated_widest_gap(const thr_simulated *simulated);
 
 /* Returns the number of faces that open nowhere by so many edges. */
-int thr_simulated_closed(const thr_simulated *m, double gap);
+int thr_simulated_closed(const thr_simulated *simulated, double gap);
 
 /* Fills pose[n_beads]: node in m, rotation from the drawn position as a quaternion (x y z w). */
-void thr_simulated_take_poses(const thr_simulated *m, double (*pose)[7]);
+void thr_simulated_take_poses(const thr_simulated *simulated, double (*pose)[7]);
 
 #endif
