@@ -64,14 +64,13 @@ static thr_status check_options(const thr_eval_options *options, thr_err *err)
                     "iterations: a factor of %g; expected 0.1 to 100 times the validated number",
                     options->iterations);
 
-  /* The pull of the simulation, and how the work is done. */
+  /* A pull of 0 stands for the usual one. */
   if (!(options->start >= 0) || !isfinite(options->start))
     return thr_fail(
         err, THR_EINPUT,
         "start: a pull of %g N; expected more than 0, or 0 for 1.3 times the holding pull",
         options->start);
 
-  /* One process at least. */
   if (options->processes < 1)
     return thr_fail(err, THR_EINPUT, "processes: %d; expected 1 or more", options->processes);
 
@@ -121,7 +120,7 @@ static thr_status prepare(const thr_frame *frame, const thr_cord *cord, int n_co
   if (!st) st = check_friction(method, evaluation->law, &evaluation->physics, err);
   if (st) return st;
 
-  /* .. before anything is allocated. */
+  /* An empty record of each cord. */
   if (!(evaluation->cord = thr_calloc((size_t)n_cords, sizeof *evaluation->cord)))
     return thr_nomem(err);
   evaluation->n_cords = n_cords;

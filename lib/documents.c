@@ -129,12 +129,12 @@ static thr_status poster(const thr_plan *plan, const thr_document_options *asked
                          const char *const *motion, const thr_limits *limits, thr_text *out,
                          thr_err *err)
 {
-  /* The poster is the overview, cut. */
+  /* The poster is the overview, cut into pages. */
   int n = 0;
   thr_text picture = {0};
   thr_status st = overview(plan, asked, motion, &picture, err);
 
-  /* As many pages as the paper asks for, which the caller hears. */
+  /* The caller hears how many pages the paper takes. */
   if (!st) st = thr_poster_pdf(&picture, (thr_page_size)asked->page, limits, &n, out, err);
   if (!st && asked->pages) asked->pages(documents[POSTER].file, n);
 
@@ -148,7 +148,7 @@ static thr_sheets_options sheets_options(const thr_plan *plan, const thr_documen
 {
   thr_sheets_options options = thr_sheets_options_default();
 
-  /* What the step sheets take of them. */
+  /* What the step sheets take of the options that all documents share. */
   options.page = (thr_page_size)asked->page;
   options.needles = needles_of(plan, asked);
   options.working_mm = asked->working_mm;
@@ -183,7 +183,7 @@ static thr_status sheets(const thr_plan *plan, const thr_document_options *asked
 {
   int n = 0;
 
-  /* One document, whose pages are counted while they are laid out. */
+  /* The pages are counted while they are written. */
   const thr_sheets_options options = sheets_options(plan, asked, motion);
   thr_status st = thr_sheets_write(plan, &options, limits, &n, out, err);
   if (!st && asked->pages) asked->pages(documents[SHEETS].file, n);
@@ -211,19 +211,19 @@ static thr_status mat(const thr_plan *plan, const thr_document_options *asked,
 static thr_status describe(const thr_plan *plan, document which, const thr_document_options *asked,
                            const thr_limits *limits, thr_text *out, thr_err *err)
 {
-  /* The motions in words. */
+  /* The motions in words, for all documents that name copies. */
   thr_motions copies;
   thr_status st = thr_motions_describe(plan, &copies, err);
   if (st) return st;
 
-  /* Documents that use them. */
+  /* Drawings and sheets. */
   switch (which) {
   case OVERVIEW: st = overview(plan, asked, copies.motion, out, err); break;
   case SHEETS: st = sheets(plan, asked, copies.motion, limits, out, err); break;
   case POSTER: st = poster(plan, asked, copies.motion, limits, out, err); break;
   case PAGES: st = sheets_html(plan, asked, copies.motion, limits, out, err); break;
 
-  /* Steps and viewer say it in text. */
+  /* Text of the steps, and the viewer. */
   case STEPS:
     st = thr_steps_text(plan, copies.motion, asked->kind_tolerance, needles_of(plan, asked),
                         asked->layout, out, err);
@@ -233,7 +233,7 @@ static thr_status describe(const thr_plan *plan, document which, const thr_docum
                          asked->layout, out, err);
     break;
 
-  /* The table of cords has a column for it. */
+  /* The table of cords names the motion of each copy. */
   default: st = thr_table_cords(plan, copies.motion, asked->layout, out, err);
   }
 
@@ -255,7 +255,7 @@ thr_status thr_document_make(const thr_plan *plan, int i, const thr_document_opt
   case CHANNELS_TABLE:
     return thr_table_channels(plan, options->kind_tolerance, options->layout, out, err);
 
-  /* Labels and mat, by themselves. */
+  /* What pieces are called and where they lie. */
   case LABELS: return thr_emboss_svg(plan, out, err);
   case MAT: return mat(plan, options, limits, out, err);
 

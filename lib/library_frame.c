@@ -33,7 +33,7 @@ static thr_status read_options(const thread_read_options *theirs, thr_read_optio
   thr_status st = thr_library_options(&own, sizeof own, theirs, "thread_read_options", err);
   if (st) return st;
 
-  /* Ranges. */
+  /* Numbers that no reader could use. */
   if (!(own.scale > 0 && own.scale <= 1e9))
     return thr_fail(err, THR_EINPUT, "scale %g: not above 0 and up to 1e9", own.scale);
   if (!(own.flat >= 0 && own.flat < 3.15))
@@ -42,7 +42,8 @@ static thr_status read_options(const thread_read_options *theirs, thr_read_optio
     return thr_fail(err, THR_EINPUT, "up: none of 'y', 'z' and 'a'");
   if (own.pick < 0) return thr_fail(err, THR_EINPUT, "pick %d: below 0", own.pick);
 
-  /* A part is named, or picked by its number. */
+  /* What to read of a file: edges of their own, layers, and a part by its name or else its number.
+   */
   out->edges_path = own.edges;
   out->split = own.split != 0;
   out->all_layers = own.all_layers != 0;
@@ -51,7 +52,7 @@ static thr_status read_options(const thread_read_options *theirs, thr_read_optio
   snprintf(number, 12, "%d", own.pick);
   out->pick = own.part ? own.part : own.pick ? number : NULL;
 
-  /* Numbers and characters, as checked. */
+  /* How to take what is read. */
   out->units = own.units;
   out->scale = own.scale;
   out->flat = own.flat;
@@ -104,7 +105,6 @@ thread_status thread_frame_read(const char *path, const thread_read_options *opt
   thr_status st = read_options(options, &reading, number, &why);
   if (!st) st = thr_frame_read(&frame, &report, path, &reading, NULL, 0, &why);
 
-  /* A second file, of edges, may stand in the options. */
   return hand_over(st, &frame, &report, out, &why, err);
 }
 
@@ -127,9 +127,10 @@ thread_status thread_frame_parse(const char *text, size_t n, const char *name,
   /* A second file needs a path. */
   if (!st && reading.edges_path)
     st = thr_fail(&why, THR_EINPUT, "edges: only with thread_frame_read");
+
+  /* The ending of the name says the format, if there is one. */
   if (!st) st = thr_frame_parse(&frame, &report, text, n, name ? name : "text", &reading, &why);
 
-  /* The name says the format, if it has an ending. */
   return hand_over(st, &frame, &report, out, &why, err);
 }
 
@@ -140,7 +141,7 @@ static thr_status build_whole(const thr_draft *draft, thr_frame *frame, thr_read
 {
   thr_status st = thr_draft_build(draft, 0, frame, report, err);
 
-  /* What would be lost first, in the order in which a draft is built. */
+  /* In the order in which a draft is built, so that the first loss is told. */
   const char *lost = st                          ? NULL
                      : report->welded_nodes      ? "two nodes are in one place"
                      : report->zero_length_edges ? "an edge has no length"
@@ -148,7 +149,6 @@ static thr_status build_whole(const thr_draft *draft, thr_frame *frame, thr_read
                      : report->isolated_nodes    ? "a node has no edge"
                                                  : NULL;
 
-  /* The first of them is told, and nothing is left. */
   if (!lost) return st;
 
   thr_frame_destroy(frame);
@@ -197,7 +197,7 @@ thread_status thread_frame_shape(const char *shape, int size, thread_frame **out
   *out = NULL;
   thr_library_lock();
 
-  /* The shape by its name, with the usual options but for its size. */
+  /* A shape by its name, with its usual options but for the size. */
   while (kind < THR_N_SHAPES && strcmp(shape, thr_shape_name(kind)) != 0)
     kind++;
   if (kind == THR_N_SHAPES)
@@ -288,7 +288,7 @@ static int *array_of(int **array, int n, int usual)
 {
   if (*array || !(*array = thr_calloc((size_t)n, sizeof **array))) return *array;
 
-  /* Made only when it is needed. */
+  /* All edges are usual until one is changed. */
   for (int e = 0; e < n; e++)
     (*array)[e] = usual;
 
@@ -303,7 +303,7 @@ thread_status thread_frame_set_passes(thread_frame *frame, int edge, int cover, 
   thr_frame *changed = &frame->frame;
   thr_status st = THR_OK;
 
-  /* A framework has these arrays only if some edge differs from the usual. */
+  /* Most frameworks have no such arrays: all of their edges are usual. */
   if (edge < 0 || edge >= changed->n_edges)
     st =
         thr_fail(&why, THR_EINPUT, "there is no edge %d, only 0 to %d", edge, changed->n_edges - 1);
@@ -314,7 +314,6 @@ thread_status thread_frame_set_passes(thread_frame *frame, int edge, int cover, 
            !array_of(&changed->capacity, changed->n_edges, 0))
     st = thr_nomem(&why);
 
-  /* Both arrays are there now. */
   if (!st) {
     changed->cover[edge] = cover;
     changed->capacity[edge] = capacity;
@@ -336,7 +335,7 @@ thread_status thread_frame_write(const thread_frame *frame, const char *format, 
   *bytes = NULL;
   if (n) *n = 0;
 
-  /* The bytes become the caller's. */
+  /* Text in a format, for the caller to free. */
   if (!written) st = thr_fail(&why, THR_EINPUT, "%s is no format that is written", format);
   if (!st) thr_frame_write(&frame->frame, written, &text);
   if (!st) st = thr_library_give(&text, bytes, n, &why);

@@ -46,13 +46,13 @@ void thread_plan_options_init(thread_plan_options *options, size_t size)
 static thr_status parse_request(const char *text, const thr_frame *frame, thr_request *out,
                                 thr_err *err)
 {
-  /* One member, as it stands in plan.json. */
+  /* The text as the "options" member of a document. */
   thr_text whole = {0};
   thr_json *doc = NULL;
   const thr_field_reader reader = {.name = "request", .code = THR_EINPUT, .err = err};
   thr_text_printf(&whole, "{\"options\":%s}", text);
 
-  /* The frame tells which names of nodes there are. */
+  /* The framework tells which names of nodes there are. */
   thr_status st = whole.failed ? thr_nomem(err)
                                : thr_json_parse(&doc, whole.data, whole.length, "request", err);
   if (!st) st = thr_plan_read_options(&reader, doc, frame, out);
@@ -204,7 +204,7 @@ static thr_status describe(thread_plan *plan, thr_err *err)
 static thread_status hand_over(thr_status st, thread_plan *made, thread_plan **out, thr_err *why,
                                thread_error *err)
 {
-  /* A plan without cords is no plan, even if the search only ran out of time. */
+  /* A plan without cords is no plan, even if only the time was too short. */
   bool whole = made && made->plan.n_cords > 0 && (st == THR_OK || st == THR_ELIMIT);
   thr_status described = whole ? describe(made, why) : THR_OK;
   if (described) st = described;
@@ -215,7 +215,6 @@ static thread_status hand_over(thr_status st, thread_plan *made, thread_plan **o
   else if (made)
     destroy(made);
 
-  /* The next call may go on. */
   thr_library_unlock();
 
   return thr_library_status(st, why, err);
@@ -282,7 +281,7 @@ thread_status thread_plan_make(const thread_frame *frame, const thread_plan_opti
                        : thr_nomem(&why);
   if (!st) st = make(&own, &frame->frame, &made->plan, &why);
 
-  /* Another call waits until the plan is described. */
+  /* Describing the plan is under the lock, too. */
   return hand_over(st, made, out, &why, err);
 }
 
@@ -320,7 +319,7 @@ thread_status thread_plan_write(const thread_plan *plan, char **json, size_t *n,
   *json = NULL;
   if (n) *n = 0;
 
-  /* The text is that of thread plan -o. */
+  /* As thread plan writes it to a file. */
   thr_plan_write(&plan->plan, &text);
 
   return thr_library_status(thr_library_give(&text, json, n, &why), &why, err);
@@ -414,7 +413,7 @@ thread_status thread_eval(thread_plan *plan, const char *method, double seconds,
   thr_eval_options options = thr_eval_options_default();
   options.physics = evaluated->options.physics;
 
-  /* Evaluating waits for its turn, too. */
+  /* Evaluating waits for its turn, as planning does. */
   thr_library_lock();
   if (which == THR_N_METHODS) st = thr_fail(&why, THR_EINPUT, "there is no method %s", method);
   if (!st)
@@ -446,7 +445,7 @@ thread_status thread_draw(const thread_plan *plan, const char *type, char **byte
   *bytes = NULL;
   if (n) *n = 0;
 
-  /* Drawing waits for its turn, too. */
+  /* Drawing waits for its turn, as planning does. */
   thr_library_lock();
   if (!st) st = thr_document_make(&plan->plan, i, &usual, &limits, &text, &why);
   thr_library_unlock();

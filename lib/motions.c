@@ -77,7 +77,7 @@ static void say_motion(const thr_frame *frame, const int *image, char words[104]
   thr_isometry isometry;
   char turn[72];
 
-  /* The kind of the nearest motion within the tolerance. */
+  /* The nearest motion, if any is within the tolerance. */
   thr_isometry_of(frame, image, thr_symmetry_near, &isometry);
 
   /* Turns need an axis and a sense, mirrors what they change. */
@@ -147,7 +147,7 @@ thr_status thr_motions_describe(const thr_plan *plan, thr_motions *out, thr_err 
     if (record->unique[i] != i && described.words[record->element[i]][0])
       described.motion[i] = described.words[record->element[i]];
 
-  /* What was made goes to the caller, or nowhere. */
+  /* After a failure the caller gets nothing. */
   free(hit);
   if (st) thr_motions_destroy(&described);
   *out = described;

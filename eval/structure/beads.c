@@ -31,7 +31,7 @@ static thr_status allocate(thr_beads *beads, thr_err *err)
 {
   size_t n = (size_t)beads->n_beads, n_faces = (size_t)beads->n_faces, feet = (size_t)beads->n_feet;
 
-  /* Per node. */
+  /* Of every bead; it weighs, bears and is held in no special way at first. */
   beads->centre = thr_scratch_array(&beads->own, n, sizeof *beads->centre);
   beads->mass_centre = thr_scratch_array(&beads->own, n, sizeof *beads->mass_centre);
   beads->mass = thr_scratch_array(&beads->own, n, sizeof *beads->mass);
@@ -40,12 +40,12 @@ static thr_status allocate(thr_beads *beads, thr_err *err)
   beads->down[2] = -1;
   beads->rays = THR_USUAL_RAYS;
 
-  /* Per edge. */
+  /* Of every face. */
   beads->middle = thr_scratch_array(&beads->own, n_faces, sizeof *beads->middle);
   beads->axis = thr_scratch_array(&beads->own, n_faces, sizeof *beads->axis);
   beads->corner = thr_scratch_array(&beads->own, n_faces, sizeof *beads->corner);
 
-  /* Per foot. */
+  /* Of every foot. */
   beads->foot = thr_scratch_array(&beads->own, feet, sizeof *beads->foot);
   beads->foot_point = thr_scratch_array(&beads->own, feet, sizeof *beads->foot_point);
 

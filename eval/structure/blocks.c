@@ -83,7 +83,7 @@ static thr_contact *add_contact(thr_blocks *blocks, int bead, int other, const d
   memcpy(contact->axis[1], along, sizeof contact->axis[1]);
   thr_cross(normal, along, contact->axis[2]);
 
-  /* The rays in space. */
+  /* Each ray of the pyramid, from coordinates of the contact to those of space. */
   for (int e = 0; e < blocks->b->rays; e++) {
     double ray[3];
     set_ray(blocks->b, e, mu, ray);
@@ -214,7 +214,7 @@ static void add_force(const thr_blocks *blocks, double (*wrench)[6], int bead,
   const int body = blocks->body[bead];
   double lever[3], moment[3];
 
-  /* The lever from the body's origin. */
+  /* Moment = lever x force, with the lever from the body's origin. */
   for (int k = 0; k < 3; k++)
     lever[k] = at[k] - blocks->origin[body][k];
   thr_cross(lever, force, moment);
@@ -233,7 +233,7 @@ static void set_wrenches(thr_blocks *blocks)
   double(*of_cords)[6] = blocks->carries || blocks->stretches ? blocks->given : blocks->wrench,
   (*of_load)[6] = blocks->carries ? blocks->wrench : blocks->given;
 
-  /* A capped press draws with its cap only. */
+  /* Both beads of a face, in opposite directions. A capped press draws with its cap only. */
   for (int e = 0; e < blocks->b->n_faces; e++)
     for (int side = 0; side < 2 && !thr_blocks_inside(blocks, e); side++)
       add_force(blocks, of_cords, blocks->f->edge[e][side], blocks->b->axis[e],
@@ -264,7 +264,7 @@ static void set_copies(thr_blocks *blocks, int *parent)
   for (int v = 0; v < blocks->n_bodies; v++)
     if (blocks->copy[v] < 0) blocks->copy[v] = blocks->n_copies++;
 
-  /* Tie the copies of neighbours, if that closes no circle. */
+  /* Tie the copies of neighbours along a spanning forest. */
   for (int c = 0; c < blocks->n_copies; c++)
     parent[c] = c;
   for (int e = 0; e < blocks->b->n_faces; e++) {
@@ -274,7 +274,7 @@ static void set_copies(thr_blocks *blocks, int *parent)
       blocks->tie[blocks->n_ties][0] = a, blocks->tie[blocks->n_ties++][1] = b;
   }
 
-  /* Tie what is left of other components. */
+  /* A further component is tied to copy 0: the pull is the same everywhere. */
   for (int c = 1; c < blocks->n_copies; c++)
     if (thr_disjoint_join(parent, 0, c))
       blocks->tie[blocks->n_ties][0] = 0, blocks->tie[blocks->n_ties++][1] = c;
@@ -288,7 +288,7 @@ static void set_plays(thr_blocks *blocks)
   for (int i = 0; i < blocks->n_rises; i++)
     blocks->play_of[blocks->b->rise[i].face] = 1;
 
-  /* Number those that matter. */
+  /* Number those that matter for the bound. */
   for (int e = 0; e < blocks->b->n_faces; e++) {
     const bool passed = blocks->press[e] > 0 || blocks->play_of[e] > 0;
     blocks->play_of[e] = -1;
@@ -311,7 +311,8 @@ thr_status thr_blocks_make(thr_blocks *blocks, double widen, thr_err *err)
   const thr_beads *beads = blocks->b;
   size_t n = (size_t)beads->n_beads;
 
-  /* The arrays. */
+  /* Everything that the blocks own, per face, bead or body; there are at most as many bodies as
+   * beads. */
   int *parent = thr_scratch_array(&blocks->own, n, sizeof *parent);
   blocks->contact = thr_scratch_array(
       &blocks->own, (size_t)beads->n_faces * THR_CORNERS + (size_t)beads->n_feet * THR_FOOT_POINTS,
@@ -327,13 +328,13 @@ thr_status thr_blocks_make(thr_blocks *blocks, double widen, thr_err *err)
       thr_scratch_array(&blocks->own, (size_t)beads->n_faces + 1, sizeof *blocks->play_of);
   blocks->play = thr_scratch_array(&blocks->own, (size_t)beads->n_faces + 1, sizeof *blocks->play);
 
-  /* Out of memory: nothing is left allocated. */
   if (thr_scratch_check(&blocks->own, err)) {
     thr_blocks_destroy(blocks);
     return THR_ENOMEM;
   }
 
-  /* The steps use what those before have computed. */
+  /* In this order: units need wrenches, which need bodies; contacts and play leave out faces within
+   * a body. */
   set_bodies(blocks, parent);
   set_wrenches(blocks);
   set_units(blocks);
@@ -454,7 +455,7 @@ static void play_columns(const thr_blocks *blocks, equilibrium_programme *progra
                                         : blocks->pull / blocks->weight;
   const int first = blocks->n_rows + blocks->n_ties;
 
-  /* One cone for each of these faces. */
+  /* One cone for each face with play. */
   for (int i = 0; i < blocks->n_plays; i++) {
     const int e = blocks->play[i];
     double side[2][3], moment[3];
@@ -483,7 +484,7 @@ static void play_columns(const thr_blocks *blocks, equilibrium_programme *progra
       entry(programme, first + i, k == 0 ? 1 : 0);
     }
 
-    /* The height that is given, where it is. */
+    /* Where the pull is no unknown, the height is a number. */
     if (blocks->carries) programme->rhs[first + i] = 1;
     if (tightens)
       programme->rhs[first + i] = fmin(blocks->press[e], blocks->most) / tension_unit(blocks);
@@ -615,7 +616,7 @@ static void rise_columns(const thr_blocks *blocks, equilibrium_programme *progra
       programme->rhs[row + 2] =
           fmax(1e-6 * blocks->b->strength, blocks->b->strength - rise[i].least) / unit;
 
-    /* A slack for each row. */
+    /* A slack for each row makes an equation of the inequality. */
     for (int k = 0; k < rows; k++, programme->n_columns++) {
       column(programme);
       programme->cost[programme->n_costs++] = 0;
@@ -649,7 +650,7 @@ static void add_weight(const thr_blocks *blocks, int bead, double *rhs)
     lever[k] = (blocks->b->mass_centre[bead][k] - blocks->origin[body][k]) / blocks->length;
   }
 
-  /* Force and moment, in units. */
+  /* In units of weight and length. */
   thr_cross(lever, up, moment);
 
   for (int k = 0; k < 3; k++) {
@@ -755,30 +756,30 @@ static double cone_violation(const thr_blocks *blocks, const double *x)
 static thr_status measure_solution(const thr_blocks *blocks, const equilibrium_programme *programme,
                                    thr_blocks_solution *solution, thr_err *err)
 {
-  const thr_columns a = columns_of(blocks, programme);
+  const thr_columns matrix = columns_of(blocks, programme);
   const thr_rays rays = {count_cones(blocks), blocks->b->rays,
-                         a.n_columns - 3 * count_cones(blocks), programme->kind,
+                         matrix.n_columns - 3 * count_cones(blocks), programme->kind,
                          (const double(*)[3])programme->ray};
 
   thr_scratch own = {0};
-  double *left = thr_scratch_array(&own, (size_t)a.n_rows, sizeof *left);
-  double *combined = thr_scratch_array(&own, (size_t)a.n_columns, sizeof *combined);
+  double *left = thr_scratch_array(&own, (size_t)matrix.n_rows, sizeof *left);
+  double *combined = thr_scratch_array(&own, (size_t)matrix.n_columns, sizeof *combined);
   thr_status st = thr_scratch_check(&own, err);
 
   /* Rays are combined to the three columns of their contacts. */
   if (!st) {
-    memcpy(left, programme->rhs, (size_t)a.n_rows * sizeof *left);
+    memcpy(left, programme->rhs, (size_t)matrix.n_rows * sizeof *left);
     if (blocks->round)
-      memcpy(combined, solution->x, (size_t)a.n_columns * sizeof *combined),
+      memcpy(combined, solution->x, (size_t)matrix.n_columns * sizeof *combined),
           solution->imbalance = cone_violation(blocks, solution->x);
     else
       thr_rays_gather(&rays, solution->x, combined);
 
     /* What the columns leave of the right side. */
-    for (int j = 0; j < a.n_columns; j++)
-      for (int k = a.start[j]; k < a.start[j + 1]; k++)
-        left[a.row[k]] -= a.value[k] * combined[j];
-    for (int i = 0; i < a.n_rows; i++)
+    for (int j = 0; j < matrix.n_columns; j++)
+      for (int k = matrix.start[j]; k < matrix.start[j + 1]; k++)
+        left[matrix.row[k]] -= matrix.value[k] * combined[j];
+    for (int i = 0; i < matrix.n_rows; i++)
       solution->imbalance = fmax(solution->imbalance, isfinite(left[i]) ? fabs(left[i]) : INFINITY);
 
     /* The objective. */
@@ -797,7 +798,7 @@ static void guess_forces(const thr_blocks *blocks, double *x)
 {
   const double pull = blocks->carries ? 1 : blocks->guess;
 
-  /* The share of the ground. */
+  /* The ground carries all weights, shared evenly. */
   int on_ground = 0;
   for (int i = 0; i < blocks->n_contacts; i++)
     on_ground += blocks->contact[i].other < 0;

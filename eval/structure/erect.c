@@ -159,7 +159,7 @@ thr_status thr_erect_run(const thr_beads *beads, const thr_frame *frame, const t
 {
   *out = (thr_erect){.lift = NAN};
 
-  /* A pull that draws nothing up. */
+  /* No counterweight makes up for cords that draw nothing. */
   if (!(options->pull > 0 && options->pull <= 1e12))
     return thr_fail(err, THR_EINPUT,
                     "structure: a pull of %g N draws nothing up: give more than 0 and at most 1e12",
@@ -168,7 +168,6 @@ thr_status thr_erect_run(const thr_beads *beads, const thr_frame *frame, const t
   /* Larger structures are not simulated. */
   if (beads->n_beads > thr_settle_largest(false)) return THR_OK;
 
-  /* The simulation, with the tensions of being drawn in. */
   thr_simulated simulated = {.b = beads,
                              .f = frame,
                              .physics = physics,
@@ -177,7 +176,7 @@ thr_status thr_erect_run(const thr_beads *beads, const thr_frame *frame, const t
                              .n_cords = n_cords,
                              .tension = tension};
 
-  /* What is the same for all parts. */
+  /* The same for all parts: sizes, weight, and the drawn height in mm. */
   out->present = true;
   out->n_beads = beads->n_beads;
   out->n_gaps = beads->n_faces;

@@ -362,7 +362,7 @@ static thr_status pull_of(limit_analysis *analysis, double most, bool merged, bo
   blocks.pull *= analysis->unit;
   blocks.warm = warm_at(analysis, most, merged);
 
-  /* The old mechanism goes. */
+  /* The mechanism of the programme before is replaced. */
   free(result->velocity);
   result->velocity = NULL;
   st = solve_pull(&blocks, analysis->limits, result, err);
@@ -437,8 +437,7 @@ static thr_status breaks(const thr_blocks *blocks, const double (*velocity)[6], 
   thr_status st = knotted_make(blocks, velocity, &knots, err);
   if (st) return st;
 
-  /* The most that they can resist with beyond their least tensions, at no price and of any stretch.
-   */
+  /* The most that the cords can resist with beyond their least tensions: no price, any stretch. */
   const double more =
       thr_mechanism_tightening(blocks->b, knots.apart, 0, INFINITY, knots.pass, knots.point);
   *proved = thr_mechanism_opening(blocks, velocity) >= -STILL &&
@@ -508,7 +507,7 @@ static thr_status check_feasible(limit_analysis *analysis, thr_err *err)
   double(*velocity)[6] = thr_calloc((size_t)analysis->beads->n_beads, sizeof *velocity);
   if (!velocity) return thr_nomem(err);
 
-  /* The mechanism, and whether it proves that. */
+  /* The mechanism that costs hands least, and whether it proves that no pull holds. */
   thr_status st = find_mechanism(analysis, &blocks, velocity, err);
   if (!st && gives_way(&blocks, (const double(*)[6])velocity)) {
     int v = thr_mechanism_fastest(analysis->beads, (const double(*)[6])velocity);
@@ -558,7 +557,7 @@ static thr_status lower_pull_in(limit_analysis *analysis, double *most, programm
     st = lower_at(analysis, *most, result, &best, &best_most, err);
     if (st || (result->velocity && closed(analysis, result, close_enough(analysis)))) goto done;
 
-    /* After the first cap: is there a pull at all? */
+    /* After the first cap: does any pull hold the structure? */
     if (i == 0 && !best.velocity && !analysis->carries && (st = check_feasible(analysis, err)))
       goto done;
     if (i == 0 && !best.velocity && analysis->stretches && analysis->beads->strength > 0 &&
@@ -578,7 +577,7 @@ static thr_status lower_pull_in(limit_analysis *analysis, double *most, programm
     return THR_OK;
   }
 
-  /* Say why none did. */
+  /* Nothing came near: say whether the span of the tensions or the programme is to blame. */
   const double span = analysis->least > 0 ? analysis->largest / analysis->least : 1;
   st = span > 1 / CLOSE ? thr_fail(err, THR_ESOLVER,
                                    "the holding pull is not decided: the solver's numbers do not "
@@ -609,7 +608,7 @@ static thr_status lower_pull(limit_analysis *analysis, double *most, programme_r
     st = lower_pull_in(analysis, most, result, &why);
   }
 
-  /* Only the last unit's reason is told. */
+  /* The reason is that of the last unit. */
   return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
 
@@ -777,13 +776,13 @@ static thr_status yield_at(const thr_blocks *blocks, double multiple, const thr_
 
   if (!load) return thr_nomem(err);
 
-  /* Multiply the load. */
+  /* A plain holding question, with the load multiplied. */
   for (size_t v = 0; v < n; v++)
     for (int k = 0; k < 3; k++)
       load[v][k] = multiple * blocks->load[v][k];
 
-  /* If no pull, or only more than the tensions that there are (a factor above 1), holds the
-   * structure, the mechanism is what is looked for. */
+  /* The mechanism excludes the multiple if no pull holds the structure, or only more than the
+   * tensions that there are (a factor above 1). */
   limit_analysis analysis =
       analysis_of(blocks->b, blocks->f, blocks->physics, blocks->press, limits);
   analysis.load = (const double(*)[3])load;
@@ -903,7 +902,7 @@ thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame,
   analysis.round &= beads->n_rises == 0;
   *out = (thr_carry){0};
 
-  /* Both bounds under the names of a load. */
+  /* The bounds of a factor on the load: lower is what is too much, upper what is carried. */
   thr_status st = hold(&analysis, want_carried, &found, NULL, err);
   if (!st)
     *out = (thr_carry){.beyond = found.lower,

@@ -50,7 +50,7 @@ static thr_status add_holding(thr_standing *standing, int n_beads, thr_asked ask
 {
   if (!holding->present || !isfinite(holding->lower)) return THR_OK;
 
-  /* An answer of its own kind tells what each newton metre of stretch resists. */
+  /* What a newton metre of stretch resists is known of a stretch only. */
   return add(standing, n_beads,
              &(thr_answer){.asked = asked,
                            .proved = holding->lower,
@@ -66,7 +66,7 @@ static thr_status add_tightest(thr_standing *standing, int n_beads, const thr_ho
 {
   if (!stretch->present || isfinite(stretch->lower) || !stretch->velocity) return THR_OK;
 
-  /* Only where a mechanism proves that. */
+  /* Proved: this strength is not enough. Found: nothing. */
   return add(standing, n_beads,
              &(thr_answer){.asked = THR_ASKED_TIGHTEST,
                            .proved = standing->strength,
@@ -99,7 +99,7 @@ static thr_status add_loads(thr_standing *standing, int n_nodes, const double (*
   if (!(standing->load = thr_calloc((size_t)n_nodes, sizeof *standing->load)))
     return thr_nomem(err);
   for (int v = 0; v < n_nodes; v++) {
-    /* Most nodes have none. */
+    /* Only the loaded nodes are listed. */
     if (load[v][0] == 0 && load[v][1] == 0 && load[v][2] == 0) continue;
     standing->load[standing->n_loads].node = v;
     memcpy(standing->load[standing->n_loads++].force, load[v], sizeof *load);
@@ -116,7 +116,7 @@ static thr_status add_stills(thr_standing *standing, int n_beads, const thr_erec
   if (!(standing->still = thr_calloc(THR_ERECT_STILLS, sizeof *standing->still)))
     return thr_nomem(err);
 
-  /* Counted one by one, so that a failure leaves what is owned. */
+  /* Count a still before it is filled: after a failure the caller frees what is counted. */
   while (standing->n_stills < THR_ERECT_STILLS) {
     const int i = standing->n_stills++;
     const thr_erect_still *from = &erect->still[i];

@@ -210,7 +210,7 @@ static thr_status count_motions(rigidity_counts *counts, thr_rigidity *out, thr_
     out->flat &= counts->piece[k].dimension == 2;
   }
 
-  /* Maxwell's counts. */
+  /* Maxwell's count: motions beyond those of rigid pieces, and states of self-stress. */
   thr_status st = freedoms(counts, &freedom, &out->unclear, err);
   out->rank = 3 * frame->n_nodes - freedom;
   out->motions = freedom - out->rigid_motions;
@@ -230,7 +230,6 @@ static thr_status count_motions(rigidity_counts *counts, thr_rigidity *out, thr_
            2 * sizeof *counts->axis);
   }
 
-  /* Each piece moves as a whole in 3 ways there. */
   st = freedoms(counts, &freedom, &out->unclear, err);
   out->plane_motions = freedom - 3 * counts->n_pieces;
 
@@ -257,7 +256,6 @@ thr_status thr_rigidity_find(const thr_frame *frame, thr_rigidity *out, thr_err 
     st = count_motions(&counts, out, err);
   }
 
-  /* All of it was scratch. */
   free(counts.component);
   free(counts.piece);
   free(counts.n_axes);

@@ -51,7 +51,8 @@ static thr_status settle(thr_simulated *simulated, thr_settle *out, thr_err *err
   int bead = -1;
   thr_simulated_damp(simulated, 1);
 
-  /* Until a bead has moved too far. */
+  /* Velocities are frozen at first, then damped, until the time is over or a bead has moved too
+   * far. */
   double most = 0;
   for (long i = 0; i < thr_simulated_steps(simulated, SETTLE_TIME) && most < SHIFTED; i++) {
     if (i == thr_simulated_steps(simulated, FROZEN_TIME))
@@ -61,7 +62,7 @@ static thr_status settle(thr_simulated *simulated, thr_settle *out, thr_err *err
     most = fmax(most, thr_simulated_most_moved(simulated, &bead));
   }
 
-  /* What came of it. */
+  /* In mm: how far a bead moved, and how wide a face opened. */
   thr_simulated_damp(simulated, 0);
   out->drift = 1e3 * simulated->unit * most;
   out->gap_before = 1e3 * simulated->unit * thr_simulated_widest_gap(simulated);
@@ -102,18 +103,18 @@ static thr_status let_off(thr_simulated *simulated, double start, double end, do
   int bead = -1;
 
   for (long i = 1; i <= ramp + thr_simulated_steps(simulated, rest); i++) {
-    /* Evenly in the logarithm. */
+    /* Evenly in the logarithm, and at last without any pull. */
     simulated->pull = i <= ramp ? start * pow(end, (double)i / (double)ramp) : 0;
     thr_status st = thr_simulated_step(simulated, err);
     if (st != THR_OK) return st;
     if (i % every != 0) continue;
 
-    /* Look from time to time. */
+    /* Look THR_LOOKS times within the time in which a fall is judged. */
     const double moved = thr_simulated_moved_lately(simulated, i / every - 1, &bead);
     if (moved < BEGUN * MOVED) stood = simulated->pull;
     if (moved < MOVED) continue;
 
-    /* The fall. */
+    /* The fall began between the last look without a movement and this one. */
     out->status = THR_SETTLE_FELL;
     out->fall = (stood + simulated->pull) / 2;
     out->error = stood - simulated->pull; /* it began before it could be seen to */
@@ -156,13 +157,13 @@ static thr_status attempt(thr_simulated *simulated, const thr_settle_options *op
       thr_simulated_steps(simulated, SETTLE_TIME + time_to_fall(end) + rest + AFTER_TIME);
   simulated->pull = start;
 
-  /* Settle, let the pull off, and fall. */
+  /* Each stage follows only if the one before leaves something to show. */
   st = settle(simulated, out, err);
   if (st == THR_OK && out->status == THR_SETTLE_HELD)
     st = let_off(simulated, start, end, rest, out, err);
   if (st == THR_OK && out->status != THR_SETTLE_HELD) st = fall(simulated, err);
 
-  /* The picture after it. */
+  /* The picture of where the beads ended. */
   out->gap_after = 1e3 * simulated->unit * thr_simulated_widest_gap(simulated);
   thr_simulated_take_poses(simulated, out->after);
 
@@ -245,14 +246,13 @@ thr_status thr_settle_run(const thr_beads *beads, const thr_frame *frame, const 
   const double start = start_of(options);
   *out = (thr_settle){0};
 
-  /* Absurd options, or a structure that is too large. */
+  /* Options out of range are an error; that a structure is too large is an answer. */
   thr_status st = check(options, start, err);
   if (st != THR_OK) return st;
   *out = (thr_settle){
       .present = true, .first_bead = -1, .n_beads = beads->n_beads, .status = THR_SETTLE_TOO_LARGE};
   if (beads->n_beads > thr_settle_largest(options->large)) return THR_OK;
 
-  /* The simulation. */
   thr_simulated simulated = {.b = beads,
                              .f = frame,
                              .physics = physics,
@@ -262,7 +262,7 @@ thr_status thr_settle_run(const thr_beads *beads, const thr_frame *frame, const 
                              .tension = tension,
                              .most = most};
 
-  /* Poses before and after, and the runs. */
+  /* The poses before and after, and the attempts. */
   out->before = thr_calloc((size_t)beads->n_beads, sizeof *out->before);
   out->after = thr_calloc((size_t)beads->n_beads, sizeof *out->after);
   st = out->before && out->after ? thr_simulated_begin(&simulated, err) : thr_nomem(err);

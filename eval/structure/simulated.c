@@ -195,7 +195,7 @@ static double inertia(const thr_simulated *simulated, int v, double mass)
     sum += arm * (arm * arm / 3 + width * width / 6);
   }
 
-  /* From the node to the mass centre (Steiner), and no less than that of a slender arm. */
+  /* From the node to the mass centre (Steiner), but no less than about the axis of an arm. */
   double off = distance(simulated->b->centre[v], simulated->b->mass_centre[v]) / simulated->unit;
 
   return 2.0 / 3 * mass * fmax(sum / length - off * off, width * width / 6);
@@ -264,7 +264,7 @@ thr_status thr_simulated_build(thr_simulated *simulated, const thr_simulated_opt
 {
   const thr_physics *physics = simulated->physics;
 
-  /* The old world goes. */
+  /* The old world goes, and with it the time, the counterweight and the way that cords lead. */
   thr_world_destroy(simulated->world);
   simulated->world = NULL;
   simulated->dt = TIME_STEP * options->time_step;
@@ -292,7 +292,7 @@ thr_status thr_simulated_build(thr_simulated *simulated, const thr_simulated_opt
                  .place = thr_calloc((size_t)most, sizeof *parts.place),
                  .tag = thr_calloc((size_t)most, sizeof *parts.tag)};
 
-  /* The world, then what is in it. */
+  /* The world is empty until feet and beads are added. */
   thr_status st = parts.half && parts.place && parts.tag
                       ? thr_world_create(&simulated->world, &world_options, err)
                       : thr_nomem(err);
@@ -304,7 +304,7 @@ thr_status thr_simulated_build(thr_simulated *simulated, const thr_simulated_opt
   for (int v = 0; st == THR_OK && v < simulated->b->n_beads; v++)
     st = add_bead(simulated, v, physics, simulated->mass, &random, &parts, err);
 
-  /* The beads know their boxes now. */
+  /* The world has copied the boxes. Home is the drawn position. */
   free(parts.half);
   free(parts.place);
   free(parts.tag);
@@ -319,7 +319,7 @@ thr_status thr_simulated_build(thr_simulated *simulated, const thr_simulated_opt
 /* Computes what the cords press the faces with at this pull, in weights of a bead. */
 static void set_press(thr_simulated *simulated)
 {
-  /* Sum over the passes through each face. */
+  /* A face may have several passes. */
   for (int e = 0; e < simulated->b->n_faces; e++)
     simulated->press[e] = 0;
 
@@ -339,23 +339,24 @@ static void set_press(thr_simulated *simulated)
 static void pull_cords(thr_simulated *simulated)
 {
   for (int e = 0; e < simulated->b->n_faces; e++) {
-    int a = simulated->f->edge[e][0], b = simulated->f->edge[e][1];
+    int one = simulated->f->edge[e][0], other = simulated->f->edge[e][1];
     double from[3], to[3], axis[2][3], line[3], at[3], back[3];
 
     /* Where the two holes and axes are now. */
-    carried(simulated, a, simulated->b->middle[e], from);
-    carried(simulated, b, simulated->b->middle[e], to);
-    turned(&simulated->now[a], simulated->b->axis[e], axis[0]);
-    turned(&simulated->now[b], simulated->b->axis[e], axis[1]);
+    carried(simulated, one, simulated->b->middle[e], from);
+    carried(simulated, other, simulated->b->middle[e], to);
+    turned(&simulated->now[one], simulated->b->axis[e], axis[0]);
+    turned(&simulated->now[other], simulated->b->axis[e], axis[1]);
 
-    /* The line of the force, and the middle between the holes. */
+    /* In a fall the line leads from hole to hole; the axis gives it a direction while the gap is
+     * closed. */
     for (int k = 0; k < 3; k++) {
       line[k] =
           (simulated->leans ? to[k] - from[k] : 0) + 0.5 * TILT_LENGTH * (axis[0][k] + axis[1][k]);
       at[k] = 0.5 * (from[k] + to[k]);
     }
 
-    /* The force, with the size of the press. */
+    /* A vector along the line, as long as the press. */
     double size = simulated->press[e] / fmax(sqrt(thr_dot(line, line)), 1e-9);
     for (int k = 0; k < 3; k++) {
       line[k] *= size;
@@ -363,8 +364,8 @@ static void pull_cords(thr_simulated *simulated)
     }
 
     /* Action and reaction at the same point. */
-    thr_world_force_at(simulated->world, simulated->body[a], line, at);
-    thr_world_force_at(simulated->world, simulated->body[b], back, at);
+    thr_world_force_at(simulated->world, simulated->body[one], line, at);
+    thr_world_force_at(simulated->world, simulated->body[other], back, at);
   }
 }
 
@@ -405,7 +406,7 @@ static void push_up(thr_simulated *simulated, int v, const double at[3], double 
   force[0] = -drag * moves[0];
   force[1] = -drag * moves[1];
 
-  /* The force acts at the corner. */
+  /* At the corner, so that the force turns the bead, too. */
   thr_world_force_at(simulated->world, simulated->body[v], force, at);
 }
 
@@ -439,7 +440,7 @@ thr_status thr_simulated_step(thr_simulated *simulated, thr_err *err)
                                  (double)simulated->steps / (double)simulated->all);
   }
 
-  /* The forces act during one step. */
+  /* Forces act during one step only, so that all are set before each. */
   simulated->steps++;
   set_press(simulated);
   pull_cords(simulated);
@@ -487,7 +488,7 @@ double thr_simulated_moved_lately(thr_simulated *simulated, long look, int *bead
   for (int v = 0; v < simulated->b->n_beads; v++) {
     double node[3];
 
-    /* Nothing is known before so many looks. */
+    /* The ring of looks is not full at first. */
     carried(simulated, v, simulated->b->centre[v], node);
     const double moved = look < THR_LOOKS ? 0 : distance(node, seen[v]);
     if (moved > most) *bead = v;
@@ -501,15 +502,15 @@ double thr_simulated_moved_lately(thr_simulated *simulated, long look, int *bead
 /* Returns the widest opening of a face, at its corners, along the axis of its first bead. */
 static double opening(const thr_simulated *simulated, int e)
 {
-  const int a = simulated->f->edge[e][0], b = simulated->f->edge[e][1];
+  const int one = simulated->f->edge[e][0], other = simulated->f->edge[e][1];
   double axis[3], widest = 0;
 
-  turned(&simulated->now[a], simulated->b->axis[e], axis);
+  turned(&simulated->now[one], simulated->b->axis[e], axis);
 
   for (int i = 0; i < 4; i++) {
     double from[3], to[3];
-    carried(simulated, a, simulated->b->corner[e][i], from);
-    carried(simulated, b, simulated->b->corner[e][i], to);
+    carried(simulated, one, simulated->b->corner[e][i], from);
+    carried(simulated, other, simulated->b->corner[e][i], to);
     widest = fmax(widest, thr_dot(to, axis) - thr_dot(from, axis));
   }
 
@@ -569,7 +570,7 @@ thr_status thr_simulated_begin(thr_simulated *simulated, thr_err *err)
   simulated->weight =
       simulated->mass * (simulated->physics->gravity > 0 ? simulated->physics->gravity : 9.81);
 
-  /* Arrays for every face and bead. */
+  /* The arrays live as long as the simulation, worlds do not. */
   simulated->press =
       thr_scratch_array(&simulated->own, (size_t)simulated->b->n_faces, sizeof *simulated->press);
   simulated->body = thr_scratch_array(&simulated->own, n, sizeof *simulated->body);

@@ -290,7 +290,7 @@ static thr_status press_of_state(const thr_cord *cord, const thr_evaluation *eva
 {
   double *tension = thr_calloc((size_t)pass_count(evaluation), sizeof *tension);
 
-  /* One cord after another, with one array for all. */
+  /* Add cord after cord, with one scratch array for all. */
   for (int i = 0; i < evaluation->n_cords && tension; i++) {
     set_state(&evaluation->cord[i], which, force, tension);
     thr_holding_press(&cord[i], 1, &(const double *){tension}, press);
@@ -378,7 +378,7 @@ static thr_evaluation with_band_end(const thr_evaluation *record, int end)
 static thr_status take_bound(thr_status st, thr_holding *found, const thr_err *why, double *bound,
                              thr_err *err)
 {
-  /* No pull holds the structure, or it is not decided: both are answers. */
+  /* Both "nothing holds it" and "not decided" are answers. */
   *bound = st == THR_OK ? found->lower : st == THR_EINFEASIBLE ? INFINITY : NAN;
   thr_holding_destroy(found);
   return st == THR_OK || st == THR_EINFEASIBLE || st == THR_ESOLVER
@@ -443,7 +443,8 @@ static thr_status carry_all(const loading *jobs, const thr_limits *limits, thr_e
   thr_status st = hold_state(jobs->frame, jobs->cord, &loaded, DRAWN_IN, 1, true, limits,
                              &jobs->out->record, &jobs->out->loaded, &why);
 
-  /* The bounds at both ends of the band, as far as the question makes sense. */
+  /* What is proved at both ends of the band. If no pull holds it at the stated frictions, one may
+   * at others. */
   for (int end = 0;
        end < 2 && has_bands(&jobs->out->record, &loaded) && (st == THR_OK || st == THR_EINFEASIBLE);
        end++) {
@@ -573,7 +574,7 @@ static thr_status let_down(const thr_frame *frame, const thr_cord *cord, const t
     return THR_OK;
   }
 
-  /* The bracket stays [does not hold, holds], or [proved to fall, not proved]. */
+  /* Invariant: low does not stand (proved: is proved to fall), high does (is not proved to). */
   while (!st && high > 1.005 * low) {
     const double middle = sqrt(low * high);
     st = stands_at(frame, cord, beads, middle, limits, evaluation, &stands, &falls, err);
@@ -636,7 +637,7 @@ static thr_status set_rises(const thr_frame *frame, const thr_cord *cord,
   for (int i = 0; i < evaluation->n_cords; i++)
     n += (size_t)cord[i].n_passes;
 
-  /* Room for every pass of every cord. */
+  /* The list, with one more than needed so that an empty one has memory. */
   beads->rise = thr_scratch_array(own, n, sizeof *beads->rise);
   beads->strength = strength;
   const thr_status st = thr_scratch_check(own, err);
@@ -671,7 +672,7 @@ static double raise_tensions(const thr_beads *beads, const double *more, double 
 
   *tightest = 0;
 
-  /* Begin with what the solver says. */
+  /* Begin with the tensions that the solver found. */
   for (int i = 0; i < n; i++)
     raised[i] = rise[i].least + more[i];
 
@@ -683,7 +684,7 @@ static double raise_tensions(const thr_beads *beads, const double *more, double 
   for (int i = n - 2; i >= 0; i--)
     if (rise[i].exponent >= 0) raised[i] = fmax(raised[i], raised[i + 1] * exp(-rise[i].exponent));
 
-  /* Measure what came out. */
+  /* The stretch that these tensions take, and the largest of them. */
   for (int i = 0; i < n; i++) {
     sum += (raised[i] - rise[i].least) * rise[i].length;
     *tightest = fmax(*tightest, raised[i]);
@@ -830,7 +831,7 @@ static thr_status hold(const thr_frame *frame, const thr_cord *cord, const thr_b
   double *press = thr_calloc((size_t)beads->n_faces, sizeof *press);
   if (!press) return thr_nomem(err);
 
-  /* The unknown factor is the pull, in N. */
+  /* The unknown factor of these tensions is the pull, in N. */
   thr_holding_press(cord, evaluation->n_cords, tension, press);
   thr_status st =
       thr_holding_pull(beads, frame, &evaluation->physics, press, want_upper, limits, out, err);
@@ -1089,8 +1090,8 @@ static void simulate_collapse(const question_set *questions, const thr_eval_opti
 }
 
 /* Runs the whole method. The holding pull comes first and the other answers in order of their
- * importance, so that whoever stops it early has lost least. Without a simulation, which uses the
- * processors itself, all questions are answered in parallel. */
+ * importance, so that whoever stops the run early has lost least. Where nothing is simulated, no
+ * answer has to wait for another one, and threads take all questions. */
 static thr_status analyse(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads,
                           const thr_eval_options *options, const thr_limits *limits,
                           const double **tension, thr_eval *out, thr_err *err)
@@ -1101,7 +1102,7 @@ static thr_status analyse(const thr_frame *frame, const thr_cord *cord, const th
   question_set questions = {
       .frame = frame, .cord = cord, .beads = beads, .tension = tension, .out = out};
 
-  /* Nothing is known of the bands until it is asked. */
+  /* NAN: not known, as long as the question was not answered. */
   out->band[0] = out->band[1] = out->band_any[0] = out->band_any[1] = NAN;
   for (int i = 0; i < THR_N_ASKED; i++)
     out->band_beads[i][0] = out->band_beads[i][1] = NAN;
@@ -1141,7 +1142,7 @@ static thr_status take_taut_turns(const thr_frame *frame, const thr_cord *cord,
                                         limits, turn, err)
                        : thr_nomem(err);
 
-  /* The record owns the turns, even if only some were found. */
+  /* The turns belong to the record from here on, even if only some were found. */
   for (int i = 0; i < evaluation->n_cords && turn; i++)
     evaluation->cord[i].turn = turn[i];
 
@@ -1157,7 +1158,6 @@ thr_status thr_structure_method(const thr_frame *frame, const thr_cord *cord,
   thr_beads beads = {0};
   const double **tension = thr_calloc((size_t)out->record.n_cords, sizeof *tension);
 
-  /* The beads, the turns, then the analysis. */
   thr_status st =
       tension ? make_beads(frame, &out->record.physics, options, &beads, err) : thr_nomem(err);
   if (!st && options->taut) st = take_taut_turns(frame, cord, limits, &out->record, err);
@@ -1190,8 +1190,9 @@ thr_status thr_eval_holds_from(const thr_frame *frame, const thr_cord *cord,
   /* What the cords press the faces with as they are; the unknown is the multiple of this. */
   for (int i = 0; i < evaluation->n_cords && !st; i++)
     if (evaluation->cord[i].pull != THR_PULL_NONE)
-      /* Nothing is a failure but a lack of memory or time. */
       thr_holding_press(&cord[i], 1, &(const double *){evaluation->cord[i].tension}, press);
+
+  /* Only a lack of memory or time is a failure; no pull at all is the multiple INFINITY. */
   if (!st)
     st =
         thr_holding_pull(&beads, frame, &evaluation->physics, press, false, limits, &holding, &why);

@@ -254,7 +254,7 @@ thr_status thr_child_run(const thr_child *job, const thr_limits *limits, thr_tex
   bool stuck = true;
   thr_status st = THR_ESOLVER;
 
-  /* An answer of a stuck child does not count. */
+  /* What a stuck child has sent does not count. */
   for (int i = 0; i < MOST_CHILDREN && stuck && st == THR_ESOLVER; i++) {
     thr_text_destroy(answer);
     st = run_once(job, limits, answer, &stuck, &why);

@@ -188,7 +188,7 @@ static thr_status start(thr_process *process, bool (*run)(void *user, int fd), v
     return THR_OK;
   }
 
-  /* No child. */
+  /* The system gives no process. */
   close(result[READ]);
   close(words[READ]);
   return thr_fail(err, THR_ESOLVER,
@@ -216,7 +216,7 @@ static void first_line(int words, char *line, size_t size)
   ssize_t n = read(words, said, sizeof said - 1);
   said[n > 0 ? n : 0] = '\0';
 
-  /* Without blanks before and the end of the line. */
+  /* Skip blanks, and end with the line. */
   const char *word = said;
   while (isspace((unsigned char)*word))
     word++;
@@ -230,7 +230,7 @@ static int reap(thr_process *process, char *line, size_t size)
   int status;
   pid_t got;
 
-  /* The result has been read; a child that still writes is told by SIGPIPE. */
+  /* A child that still writes is ended by SIGPIPE. */
   close(process->pipe);
   while ((got = waitpid(process->pid, &status, 0)) < 0 && errno == EINTR)
     continue;

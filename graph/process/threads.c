@@ -166,7 +166,7 @@ static void *wait_and_work(void *user)
   const member *self = user;
   thr_team *team = self->team;
 
-  /* The thread has started. */
+  /* Starting counts as work, which ends here. */
   pthread_mutex_lock(&team->lock);
   be_done(team);
 
@@ -213,7 +213,7 @@ thr_status thr_team_create(thr_team **out, int most, const thr_limits *limits, t
   team->own.advance = limits->advance ? advance : NULL;
   team->own.found = limits->found ? found : NULL;
 
-  /* The locks; then the threads, as many as the system has. */
+  /* The team is whole, but for its threads. */
   pthread_mutex_init(&team->lock, NULL);
   pthread_mutex_init(&team->speak, NULL);
   pthread_cond_init(&team->go, NULL);
@@ -332,7 +332,7 @@ thr_status thr_team_share(thr_team *team, int n_jobs, thr_threads_job *run, void
 thr_status thr_threads_run(int n_jobs, thr_threads_job *run, void *user, const thr_limits *limits,
                            thr_err *err)
 {
-  /* A team for this one run. */
+  /* The team lives as long as the run. */
   thr_team *team;
   thr_status st = thr_team_create(&team, n_jobs, limits, err);
   if (!st) st = thr_team_share(team, n_jobs, run, user, err);
@@ -373,7 +373,6 @@ thr_status thr_threads_beside(int n_jobs, thr_threads_job *run, void *user,
   for (int i = 0; i < n_jobs; i++)
     jobs.left[i] = least;
 
-  /* In one go, with a count for every job. */
   thr_status st = thr_threads_run(n_jobs, run_counted, &jobs, &uncounted, err);
 
   /* .. and as much is gone as the job took that took most. */
