@@ -15,7 +15,7 @@
 
 #include <string.h>
 
-/* The documents. Those before MAT are made by "all", but for one of SHEETS and PAGES. */
+/* Numbers the documents. Those before MAT are made by "all", but for one of SHEETS and PAGES. */
 typedef enum {
   OVERVIEW,
   SHEETS,
@@ -36,7 +36,7 @@ typedef enum {
   N_DOCUMENTS
 } document;
 
-/* How each is called by --type, and its usual file. */
+/* Says how each is called by --type, and what its usual file is. */
 static const struct {
   const char *type, *file;
 } documents[N_DOCUMENTS] = {

@@ -109,7 +109,8 @@ static void put_lengths(thr_text *out, const thr_frame *frame)
                     FAR);
 }
 
-/* Appends what a file leaves unsaid and is worth a look: directions, empty coordinates, units. */
+/* Appends what a file leaves unsaid and its user should look at: directions, empty coordinates,
+ * units. */
 static void put_unsaid(thr_text *out, const thr_frame *frame, const thr_read_report *report)
 {
   enum { SHORT = 2, LONG = 1000 }; /* mm: hardly anybody threads pieces outside of these */

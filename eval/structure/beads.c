@@ -59,7 +59,7 @@ static bool is_foot(const thr_frame *frame, int v, bool any, double lowest, doub
   return any ? frame->foot[v] : frame->xyz[v][2] <= lowest + tolerance;
 }
 
-/* Where the framework stands, in its units. */
+/* Says where the framework stands, in its units. */
 typedef struct {
   bool any_foot;
   double lowest, tolerance; /* z of the lowest node; nodes that much above count as lowest */

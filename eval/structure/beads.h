@@ -35,7 +35,8 @@ typedef struct {
 
 enum { THR_FOOT_POINTS = 16 }; /* corners of the polygon that stands for the disc of a foot */
 
-/* Units here are SI: m, kg, N. */
+/* Holds the shape and the masses of the beads, and what acts on them. Units here are SI: m, kg, N.
+ */
 typedef struct {
   int n_beads, n_faces; /* = nodes, edges of the framework */
   double (*centre)[3];  /* [n_beads] node positions, m; z = 0 is the underside of the lowest foot */
@@ -92,6 +93,7 @@ void thr_beads_tilt(thr_beads *beads, double angle, double azimuth);
 /* ---- settle.c: The closed structure in Bullet, as a witness for the limit analysis: rigid beads
  * that touch at the corners of their faces, cords as forces between them. */
 
+/* Says what limit analysis knows of the fall, and how it is simulated. */
 typedef struct {
   double least;       /* N: below it nothing holds the structure, as limit analysis has proved; 0 =
                          nothing is proved .. */
@@ -104,6 +106,7 @@ typedef struct {
   bool large; /* thr_settle_largest */
 } thr_settle_options;
 
+/* Says what a simulation of the fall shows. */
 typedef enum {
   THR_SETTLE_FELL,
   THR_SETTLE_HELD, /* without any pull */
@@ -115,6 +118,7 @@ typedef enum {
                      */
 } thr_settle_status;
 
+/* Holds what a simulation of the fall shows. */
 typedef struct {
   bool present;
   int status;         /* thr_settle_status */
@@ -163,6 +167,7 @@ void thr_settle_destroy(thr_settle *settle);
 
 enum { THR_ERECT_STILLS = 6 };
 
+/* Holds a moment of the erection. */
 typedef struct {
   double pull;   /* N, of the harder ends */
   double lift;   /* part of the weight that the counterweight carries */
@@ -171,6 +176,7 @@ typedef struct {
   int closed;    /* faces that open nowhere by a hundredth of an edge */
 } thr_erect_still;
 
+/* Holds what a simulation of the erection shows. */
 typedef struct {
   bool present;
   double lift; /* least part of the weight with which it comes up and then stands alone, of 0, 1/4,
@@ -184,6 +190,7 @@ typedef struct {
                         from the drawn position; owned */
 } thr_erect;
 
+/* Says how the erection is simulated. */
 typedef struct {
   double pull; /* N: with which it stands, once it is up */
   double time_step, iterations;
@@ -206,6 +213,7 @@ void thr_erect_destroy(thr_erect *erect);
  * equilibrium while the cords are being drawn in: their tension falls from the pulled ends inwards.
  */
 
+/* Holds the two bounds of a holding pull, and the mechanism that proves the lower one. */
 typedef struct {
   bool present;
   double lower; /* N: below it no equilibrium exists while the cords are drawn in (friction pyramids
@@ -236,7 +244,7 @@ thr_status thr_holding_pull(const thr_beads *beads, const thr_frame *frame,
                             const thr_limits *limits, thr_holding *out,
                             thr_err *err) THR_MUST_CHECK;
 
-/* What a load may be multiplied by. */
+/* Says what a load may be multiplied by. */
 typedef struct {
   double carried; /* at so many times the load an equilibrium exists (friction pyramids inside the
                      cones); 0 if it does not stand */

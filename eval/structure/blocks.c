@@ -27,11 +27,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The objectives: the least pull or the largest load; the least that hands, which push and turn the
- * beads at a cost, must do; contact forces that balance each other without weights and cords. */
+/* Says what is minimized: the least pull or the largest load; the least that hands, which push and
+ * turn the beads at a cost, must do; contact forces that balance each other without weights and
+ * cords. */
 typedef enum { EQUILIBRIUM, WITH_HANDS, SELF_STRESS } aim;
 
-/* The programme by columns. */
+/* Holds the programme by columns. */
 typedef struct {
   int n_columns, n_costs; /* so far; each contact's three columns stand for all of its rays */
   double *rhs, *cost, *value;

@@ -25,6 +25,7 @@ static const double THR_BLOCKS_ROUGH = 5e-4;
  * is proved by itself. */
 static const double THR_BLOCKS_MET = 5e-6, THR_BLOCKS_UNMET = 1e-3;
 
+/* Holds a contact: a corner of a face between two beads, or of a foot on the ground. */
 typedef struct {
   int bead, other; /* pushed along the rays of the friction pyramid; pushed back, -1 = the ground */
   double press;    /* N: its share of what the cords press its face with, as thr_blocks.press */
@@ -32,8 +33,9 @@ typedef struct {
   double ray[THR_MOST_RAYS][3];
 } thr_contact;
 
-/* Bodies are beads, or sets of beads that move as one. Forces are counted in weights of a mean
- * bead, lengths in `length`, the pull in `pull`: numbers near 1 for the solver. */
+/* Holds the blocks. Bodies are beads, or sets of beads that move as one. Forces are counted in
+ * weights of a mean bead, lengths in `length`, the pull in `pull`: numbers near 1 for the solver.
+ */
 typedef struct {
   const thr_beads *b;
   const thr_frame *f;
@@ -70,6 +72,7 @@ typedef struct {
   thr_scratch own;     /* the arrays */
 } thr_blocks;
 
+/* Holds a solution of the programme, and its multipliers. */
 typedef struct {
   thr_lp_outcome outcome;
   double objective;
@@ -116,7 +119,7 @@ void thr_blocks_solution_destroy(thr_blocks_solution *o);
 /* ---- mechanism.c: Collapse mechanisms of rigid blocks: velocities of all beads, with which no
  * contact closes, and the powers of what acts on them. */
 
-/* The powers in a mechanism. */
+/* Holds the powers in a mechanism. */
 typedef struct {
   double falling;    /* W, of the weights */
   double most;       /* W, of the weights if every bead went straight down, and of the loads without
@@ -181,6 +184,7 @@ typedef struct {
   double at[3], turn[3][3];
 } thr_placed; /* a bead's mass centre and rotation matrix */
 
+/* Holds a simulated structure: its world in Bullet, the forces, and where its beads were. */
 typedef struct {
   const thr_beads *b;
   const thr_frame *f;

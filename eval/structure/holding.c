@@ -57,7 +57,7 @@ static const double unit[UNITS] = {1, 0.1, 10, 0.01, 100};
  * contact of a mechanism may close, relative to the fastest bead. */
 static const double CLOSE = 1e-6, NEAR = 1e-3, STILL = 1e-13;
 
-/* The optimum of one programme, and what its mechanism proves. */
+/* Holds the optimum of one programme, and what its mechanism proves. */
 typedef struct {
   double pull;  /* N: the programme's optimum; INFINITY if its equilibrium is none */
   double lower; /* N: proved by velocity; INFINITY if the cords do not resist it */
@@ -82,7 +82,7 @@ static double unit_of(const thr_blocks *blocks)
   return blocks->pull * (blocks->stretches ? blocks->length : 1);
 }
 
-/* How the passes of knotted cords stretch in a mechanism. */
+/* Says how the passes of knotted cords stretch in a mechanism. */
 typedef struct {
   double *apart, most; /* thr_mechanism_stretching */
   thr_knotted_pass *pass;
@@ -251,7 +251,7 @@ static thr_status solve_pull(const thr_blocks *blocks, const thr_limits *limits,
   return st;
 }
 
-/* One question to a structure: what all its programmes have in common. */
+/* Holds what all programmes of one question to a structure have in common. */
 typedef struct {
   const thr_beads *beads;
   const thr_frame *frame;
@@ -748,9 +748,9 @@ thr_status thr_holding_pull(const thr_beads *beads, const thr_frame *frame,
   return hold(&analysis, want_upper, out, NULL, err);
 }
 
-/* A mechanism in which the structure gives way under some multiple of the load, with the tensions
- * of the cords as they are. Such a mechanism excludes every multiple with excess + multiple x load
- * > 0. */
+/* Holds a mechanism in which the structure gives way under some multiple of the load, with the
+ * tensions of the cords as they are. Such a mechanism excludes every multiple with excess +
+ * multiple x load > 0. */
 typedef struct {
   double (*velocity)[6]; /* owned */
   double excess;         /* W: power of the weights less what the cords resist with */
@@ -950,12 +950,14 @@ thr_status thr_holding_stretch(const thr_beads *beads, const thr_frame *frame,
   return st;
 }
 
+/* Frees the mechanism. */
 void thr_carry_destroy(thr_carry *carry)
 {
   free(carry->velocity);
   *carry = (thr_carry){.first_bead = -1};
 }
 
+/* Frees the mechanism. */
 void thr_holding_destroy(thr_holding *holding)
 {
   if (!holding) return;

@@ -20,7 +20,7 @@
  * column is dependent; if DOUBT decides otherwise, the count is unclear. */
 static const double ROUNDING = 1e-9, DOUBT = 1e-6;
 
-/* A matrix with a row for every edge and a few columns for every node, by columns. */
+/* Holds a matrix by columns, with a row for every edge and a few columns for every node. */
 typedef struct {
   int n_columns;
   int *start, *row;
@@ -44,8 +44,8 @@ static void unit_along(const thr_frame *frame, int h, double along_edge[3])
     along_edge[i] = (to[i] - from[i]) / size;
 }
 
-/* The space that motions come from: at node v the span of axis[3 * v + i], i < n_axes[v]. Held
- * nodes have no axis. */
+/* Spans the space that motions come from: at node v the span of axis[3 * v + i], i < n_axes[v].
+ * Held nodes have no axis. */
 typedef struct {
   const int *n_axes;
   const double (*axis)[3];
@@ -113,7 +113,7 @@ static thr_status rank_of(const thr_frame *frame, const velocities *space, int *
 
 /* ---- the shape of pieces ---- */
 
-/* What a piece spans, found from its edges: basis[0 .. dimension - 1] is orthonormal. */
+/* Says what a piece spans, found from its edges: basis[0 .. dimension - 1] is orthonormal. */
 typedef struct {
   int dimension;
   double basis[3][3];
@@ -152,7 +152,7 @@ static void find_spans(const thr_frame *frame, const int *component, span *piece
 
 /* ---- the counts ---- */
 
-/* The input and scratch of the counts. */
+/* Holds the input and scratch of the counts. */
 typedef struct {
   const thr_frame *frame;
   int n_pieces;

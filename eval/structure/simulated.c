@@ -20,8 +20,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Constants of a step. ERP is a tenth of Bullet's usual
- * one: what pushes faces apart that have sunk into each other shakes the others. */
+/* Constants of a step. ERP is a tenth of Bullet's usual one: what pushes faces apart that have sunk
+ * into each other shakes the others. */
 static const double TIME_STEP = 6e-3;
 static const double SYSTEMS = 200; /* linear systems in a step, at most; some five are enough while
                                       a structure stands */
@@ -133,7 +133,7 @@ static double mean_mass(const thr_beads *beads)
 
 /* ---- the world ---- */
 
-/* The boxes of one bead, for thr_world_add_boxes. */
+/* Holds the boxes of one bead, for thr_world_add_boxes. */
 typedef struct {
   int n, capacity;
   double (*half)[3];

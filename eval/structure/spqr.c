@@ -22,13 +22,13 @@
   F(cholmod_l_start)                                                                               \
   F(SuiteSparseQR_C)
 
-/* The functions that are used, of SuiteSparseQR and of CHOLMOD, which it needs itself. */
+/* Points to the functions that are used, of SuiteSparseQR and of CHOLMOD, which it needs itself. */
 static struct {
   FUNCTIONS(THR_LAZY_POINTER)
   bool loaded;
 } lib;
 
-/* The matrix by columns, borrowed; the input of the child. */
+/* Holds the matrix by columns, borrowed: the input of the child. */
 typedef struct {
   int n_rows, n_columns;
   const int *start, *row;

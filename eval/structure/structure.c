@@ -97,7 +97,7 @@ static thr_status profiles(const thr_frame *frame, const thr_cord *cord, double 
 
 /* ---- the simulation, in a child process: Bullet does not check whether memory was given ---- */
 
-/* The input of a simulation; all pointers are borrowed. */
+/* Holds the input of a simulation; all pointers are borrowed. */
 typedef struct {
   const thr_frame *frame;
   const thr_cord *cord;
@@ -177,7 +177,7 @@ static thr_status settle(simulation *job, const thr_limits *limits, thr_settle *
   return st;
 }
 
-/* The input of a simulation of the erection. */
+/* Holds the input of a simulation of the erection. */
 typedef struct {
   const simulation *of;
   thr_erect_options options;
@@ -253,10 +253,10 @@ static thr_settle_options options_between(const thr_eval_options *options, doubl
 
 /* ---- states that friction keeps ---- */
 
-/* States of a cord both of whose ends have the same force. DRAWN_IN: each turn lets in as little
- * tension as friction allows while both ends are pulled. KEPT: each turn keeps as much as friction
- * allows. LET_DOWN: as KEPT, but no pass has more than in the record, which the ends were let down
- * from. */
+/* Names the states of a cord both of whose ends have the same force. DRAWN_IN: each turn lets in as
+ * little tension as friction allows while both ends are pulled. KEPT: each turn keeps as much as
+ * friction allows. LET_DOWN: as KEPT, but no pass has more than in the record, which the ends were
+ * let down from. */
 typedef enum { DRAWN_IN, KEPT, LET_DOWN } friction_state;
 
 /* Computes the tensions of one cord, [n_passes], whose ends both have `force`, N: force x exp(-e)
@@ -419,7 +419,7 @@ static thr_status bound_carried(const thr_frame *frame, const thr_cord *cord,
   return st;
 }
 
-/* The input of the questions about a load, which are answered in parallel. */
+/* Holds the input of the questions about a load, which are answered in parallel. */
 typedef struct {
   const thr_frame *frame;
   const thr_cord *cord;
@@ -902,7 +902,7 @@ static thr_status hold_beads(const thr_frame *frame, const thr_cord *cord, const
   return take_bound(st, &found, &why, bound, err);
 }
 
-/* The questions about cords while they are drawn in. Each is a programme of its own, so that
+/* Names the questions about cords while they are drawn in. Each is a programme of its own, so that
  * threads answer them in parallel. From PULL_BEADS on, each has two: the lower end of the band and
  * the upper one. */
 typedef enum {
@@ -917,8 +917,8 @@ typedef enum {
   N_QUESTIONS = ANY_BEADS + 2
 } question;
 
-/* The questions of one evaluation and their input; n_answered are done. Answers go to places of
- * their own in `out`. */
+/* Holds the questions of one evaluation and their input; n_answered are done. Answers go to places
+ * of their own in `out`. */
 typedef struct {
   const thr_frame *frame;
   const thr_cord *cord;

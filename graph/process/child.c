@@ -24,7 +24,7 @@ static const double GRACE = 1.0 / 3; /* s that a child has to stop by itself */
  * and bound, the part done, or the work left; code: the status. */
 enum { ANSWER, PROGRESS, ADVANCE, END };
 
-/* The way of a child to its parent. */
+/* Leads from a child to its parent. */
 struct thr_sender {
   const thr_limits *limits; /* of the parent */
   int fd;
@@ -70,7 +70,7 @@ static void post_advance(void *user, const char *what, double done)
                    what);
 }
 
-/* What the child is told. */
+/* Says what the child is to do. */
 typedef struct {
   const thr_child *job;
   const thr_limits *limits;
@@ -113,7 +113,7 @@ static bool run_job(void *user, int fd)
 
 /* ---- the parent ---- */
 
-/* What the parent knows of its child. */
+/* Holds what the parent knows of its child. */
 typedef struct {
   const thr_child *job;
   const thr_limits *limits;
@@ -237,7 +237,7 @@ static thr_status run_once(const thr_child *job, const thr_limits *limits, thr_t
   return st;
 }
 
-/* How many children are tried if they get stuck. */
+/* Limits how many children are tried if they get stuck. */
 #if defined __SANITIZE_ADDRESS__
 enum { MOST_CHILDREN = 4 };
 #else

@@ -26,14 +26,14 @@
 #include <pthread.h>
 #include <stdlib.h>
 
-/* A thread of a team, other than the caller's. */
+/* Stands for a thread of a team, other than the caller's. */
 typedef struct {
   pthread_t thread;
   thr_team *team;
   int number; /* 1 .. n - 1; the caller is 0 */
 } member;
 
-/* A team and its present run. */
+/* Holds a team and its present run. */
 struct thr_team {
   const thr_limits *outer;
   thr_limits own; /* of the jobs: outer's functions, one caller at a time */
@@ -287,7 +287,7 @@ thr_status thr_team_run(thr_team *team, int n_jobs, thr_threads_job *run, void *
 
 /* ---- jobs for whichever thread is free ---- */
 
-/* The jobs of a shared run. */
+/* Holds the jobs of a shared run. */
 typedef struct {
   thr_team *team;
   thr_threads_job *run;
@@ -343,7 +343,7 @@ thr_status thr_threads_run(int n_jobs, thr_threads_job *run, void *user, const t
 
 /* ---- jobs beside each other, each with all the work that is left ---- */
 
-/* Jobs with a count of work for each. */
+/* Holds jobs with a count of work for each. */
 typedef struct {
   thr_threads_job *run;
   void *user;

@@ -22,13 +22,13 @@
 
 static const double WATCH = 0.1; /* s between two looks at the limits */
 
-/* What a child sends, followed by the result if status is THR_OK. */
+/* Heads what a child sends; the result follows if status is THR_OK. */
 typedef struct {
   _Alignas(max_align_t) int32_t status; /* so that a result of any type may follow */
   char text[sizeof((thr_err *)0)->text];
 } message;
 
-/* A place for a child. */
+/* Holds one child at a time, and what it has sent. */
 typedef struct {
   thr_process process; /* none = free */
   int job;
@@ -36,7 +36,7 @@ typedef struct {
   char *data; /* message and result */
 } slot;
 
-/* All jobs, and their children. */
+/* Holds all jobs, and their children. */
 typedef struct {
   const thr_work *work;
   const thr_limits *limits;
@@ -52,7 +52,7 @@ typedef struct {
   thr_err *failure;     /* of that job */
 } pool;
 
-/* What a child is told. */
+/* Says which job a child is to do. */
 typedef struct {
   const pool *jobs;
   const slot *slot;
