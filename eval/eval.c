@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How hard must one pull? Three methods behind one interface (docs/method.md, "Pull force").
- * Seating pull = force at the pulled ends such that the slackest point of every cord holds the
- * seating tension (capstan, joint). Holding pull = least pull at which the closed structure has any
- * equilibrium while the cords are being drawn in (structure). They are different things.
+/* Evaluates a plan: how hard must one pull? Three methods behind one interface (docs/method.md,
+ * "Pull force"). Seating pull = force at the pulled ends such that the slackest point of every cord
+ * holds the seating tension (methods capstan, joint). Holding pull = least pull at which the closed
+ * structure has any equilibrium while the cords are being drawn in (method structure). The two are
+ * different quantities: the first is proportional to the seating tension, the second to the weight.
  *
- * One interface to the three methods: checks what is asked, prepares the record, calls the method,
- * sums up. */
+ * Checks what is asked, prepares the record, calls the method, follows the schedule, sums up.
+ *
+ * Example: a cord that turns by 360 degrees, mu = 0.2, seating tension 1 N, pulled at one end: 1 N
+ * x exp(0.2 x 2 pi) = 3.5 N. */
 #include "eval/eval.h"
 #include "graph/framework/units.h"
 #include "graph/plan/plan_measures.h"
@@ -15,6 +18,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* Returns the usual options: both ends of every cord are pulled. */
 thr_eval_options thr_eval_options_default(void)
 {
   return (thr_eval_options){.physics = thr_physics_default(),
@@ -25,6 +29,7 @@ thr_eval_options thr_eval_options_default(void)
                             .dynamics = true};
 }
 
+/* Frees what an evaluation owns. */
 void thr_eval_destroy(thr_eval *eval)
 {
   thr_evaluation_destroy(&eval->record);
@@ -36,6 +41,7 @@ void thr_eval_destroy(thr_eval *eval)
   thr_settle_destroy(&eval->settle);
   thr_erect_destroy(&eval->erect);
   thr_holding_destroy(&eval->loaded);
+
   for (int i = 0; i < eval->n_carries; i++)
     thr_carry_destroy(&eval->carries[i].carry);
   thr_carry_destroy(&eval->after_carries);
@@ -43,9 +49,12 @@ void thr_eval_destroy(thr_eval *eval)
   *eval = (thr_eval){0};
 }
 
+/* Checks the options that do not depend on the framework. */
 static thr_status check_options(const thr_eval_options *options, thr_err *err)
 {
-  static const uint64_t largest_seed = UINT64_C(1) << 53; /* JSON's numbers are doubles */
+  static const uint64_t largest_seed = UINT64_C(1) << 53;
+
+  /* Factors on what was validated. */
   if (!(options->time_step >= 0.01 && options->time_step <= 10))
     return thr_fail(err, THR_EINPUT,
                     "time step: a factor of %g; expected 0.01 to 10 times the validated step",
@@ -54,36 +63,46 @@ static thr_status check_options(const thr_eval_options *options, thr_err *err)
     return thr_fail(err, THR_EINPUT,
                     "iterations: a factor of %g; expected 0.1 to 100 times the validated number",
                     options->iterations);
+
+  /* A pull of 0 stands for the usual one. */
   if (!(options->start >= 0) || !isfinite(options->start))
     return thr_fail(
         err, THR_EINPUT,
         "start: a pull of %g N; expected more than 0, or 0 for 1.3 times the holding pull",
         options->start);
+
   if (options->processes < 1)
     return thr_fail(err, THR_EINPUT, "processes: %d; expected 1 or more", options->processes);
+
+  /* JSON's numbers are doubles, which hold every whole number up to 2^53. */
   if (options->seed > largest_seed)
     return thr_fail(err, THR_EINPUT, "seed: %" PRIu64 "; expected 0 to %" PRIu64, options->seed,
                     largest_seed);
+
   return THR_OK;
 }
 
-/* Is it told what only a length in mm makes sense of? */
+/* Returns whether the physics say what only lengths in mm make sense of. */
 static bool physics_needs_units(const thr_physics *physics)
 {
   return physics->wobble > 0 || physics->stiffness > 0 || physics->bead_strength > 0;
 }
 
-/* Friction that changes with the load is known in closed form only. */
+/* Checks that friction which changes with the load is asked of the closed form only, as no other
+ * method knows it. */
 static thr_status check_friction(thr_method method, thr_law law, const thr_physics *physics,
                                  thr_err *err)
 {
   if (thr_friction_of(physics).power == 1 || (method == THR_CAPSTAN && law == THR_LAW_CAPSTAN))
     return THR_OK;
+
   return thr_fail(err, THR_EINPUT,
                   "mu_power: friction that changes with the load is of method capstan and its law; "
                   "--mu-power 0 leaves it out");
 }
 
+/* Checks the options, resolves the physics against the framework, and prepares the record of every
+ * cord. */
 static thr_status prepare(const thr_frame *frame, const thr_cord *cord, int n_cords,
                           thr_method method, const thr_eval_options *options,
                           thr_evaluation *evaluation, thr_err *err)
@@ -94,36 +113,51 @@ static thr_status prepare(const thr_frame *frame, const thr_cord *cord, int n_co
                                  .seed = options->seed,
                                  .time_step = options->time_step,
                                  .iterations = options->iterations};
+
+  /* What is asked for must make sense .. */
   thr_status st = check_options(options, err);
   if (!st) st = thr_physics_resolve(&options->physics, frame, &evaluation->physics, err);
   if (!st) st = check_friction(method, evaluation->law, &evaluation->physics, err);
   if (st) return st;
+
+  /* An empty record of each cord. */
   if (!(evaluation->cord = thr_calloc((size_t)n_cords, sizeof *evaluation->cord)))
     return thr_nomem(err);
   evaluation->n_cords = n_cords;
+
+  /* Wobble per metre, stiffness and strength need lengths in mm. */
   if (physics_needs_units(&evaluation->physics) &&
       (st = thr_units_in_mm(frame->units, &(double){0}, err)))
     return st;
+
+  /* Each cord with its own pull, or with that of all. */
   for (int i = 0; i < n_cords; i++) {
     evaluation->cord[i].n_passes = cord[i].n_passes;
     evaluation->cord[i].pull = options->cord_pull ? options->cord_pull[i] : options->pull;
   }
+
   return THR_OK;
 }
 
-/* What was asked for beyond one pull at the ends. */
+/* Adds what was asked for beyond one pull at the ends, grips by hand and the steps of a schedule,
+ * and follows it: the record holds the tensions at the end of the schedule then. */
 static thr_status follow_schedule(const thr_frame *frame, const thr_cord *cord,
                                   const thr_eval_options *options, thr_evaluation *evaluation,
                                   thr_err *err)
 {
   thr_status st = THR_OK;
+
   if (options->hand > 0)
     st = thr_history_grips(cord, options->hand, evaluation, &evaluation->schedule, err);
+
+  /* Its steps follow the grips. */
   for (int k = 0; options->schedule && k < options->schedule->n && !st; k++)
     st = thr_schedule_add(&evaluation->schedule, &options->schedule->step[k], err);
+
   return st || evaluation->schedule.n == 0 ? st : thr_history_follow(frame, cord, evaluation, err);
 }
 
+/* Adds up the cords' errors, refused turns, pulls and seated gaps. */
 static thr_status sum_up(const thr_frame *frame, const thr_cord *cord, thr_eval *eval, thr_err *err)
 {
   eval->complete = true;
@@ -133,8 +167,11 @@ static thr_status sum_up(const thr_frame *frame, const thr_cord *cord, thr_eval 
     eval->error = fmax(eval->error, record->error);
     eval->refused += record->refused;
   }
+
+  /* Forces grow exponentially with the turning, so that their sum may overflow. */
   thr_evaluation_sum(&eval->record);
   thr_status st = thr_seating_fraction(frame, cord, &eval->record, err);
+
   if (st) return st;
   if (isfinite(eval->record.total)) return THR_OK;
   return thr_fail(err, THR_EINPUT,
@@ -142,17 +179,19 @@ static thr_status sum_up(const thr_frame *frame, const thr_cord *cord, thr_eval 
                   "with more cords");
 }
 
-/* All that is left where no pull holds. */
+/* Keeps nothing but the picture of the erection, where no pull holds the structure. */
 static void keep_shape(thr_eval *eval)
 {
   const thr_erect shape = eval->erect;
   const thr_physics physics = eval->record.physics;
+
   eval->erect = (thr_erect){0};
   thr_eval_destroy(eval);
   eval->erect = shape;
   if (shape.present) eval->record.physics = physics;
 }
 
+/* Evaluates a plan by one method; see eval.h. */
 thr_status thr_eval_plan(const thr_frame *frame, const thr_cord *cord, int n_cords,
                          thr_method method, const thr_eval_options *options,
                          const thr_limits *limits, thr_eval *out, thr_err *err)
@@ -162,21 +201,32 @@ thr_status thr_eval_plan(const thr_frame *frame, const thr_cord *cord, int n_cor
       thr_err *) = {[THR_CAPSTAN] = thr_capstan_method,
                     [THR_JOINT] = thr_joint_method,
                     [THR_STRUCTURE] = thr_structure_method};
+
+  /* What no method sets is unknown. */
   thr_eval eval = {.interpolation = NAN, .let_down = NAN, .after_carries = {.first_bead = -1}};
   *out = (thr_eval){0};
+
+  /* The method, and what is done to the cords after it. */
   thr_status st = prepare(frame, cord, n_cords, method, options, &eval.record, err);
   if (!st) st = run[method](frame, cord, options, limits, &eval, err);
   if (!st) st = follow_schedule(frame, cord, options, &eval.record, err);
+
+  /* With a schedule, method structure answers what its tensions hold. */
   if (!st && method == THR_STRUCTURE && eval.record.schedule.n > 0)
     st = thr_structure_after(frame, cord, options, limits, &eval, err);
+
+  /* Proofs are recorded even if the time did not suffice for all of them. */
   if (eval.record.standing.present && (!st || st == THR_ELIMIT)) {
     const thr_status kept = thr_structure_record(frame->n_nodes, options, &eval, err);
     if (kept) st = kept;
   }
+
+  /* What is complete stays after a stop, whatever it adds up to; after a failure only the picture
+   * does. */
   if (!st)
     st = sum_up(frame, cord, &eval, err);
   else if (st == THR_ELIMIT)
-    (void)sum_up(frame, cord, &eval, NULL); /* what is complete stays, whatever it adds up to */
+    (void)sum_up(frame, cord, &eval, NULL);
   if (st && st != THR_ELIMIT) keep_shape(&eval);
   *out = eval;
   return st;

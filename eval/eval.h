@@ -1,5 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Evaluation: the pull that a plan needs, and what it holds. */
+/* Evaluation: how hard must the cords of a plan be pulled, and what do they hold? Friction between
+ * cord and bead makes tension fall from a pulled end inwards, exp(mu theta) over a turn of theta
+ * rad (thesis, chapter 4), so that the answer depends on how cords turn.
+ *
+ * Read eval.c first (one interface to three methods), then eval/cord/ (tensions along a cord in
+ * closed form: method capstan, taut paths, schedules, knots), eval/joint/ (method joint: friction
+ * of single turns measured in Bullet) and eval/structure/ (method structure: limit analysis of the
+ * rigid beads; beads.h says in which order to read its files). */
 #ifndef THR_EVAL_H
 #define THR_EVAL_H
 
@@ -15,6 +22,7 @@
 /* ---- eval.c: How hard must one pull? Three methods behind one interface (docs/method.md, "Pull
  * force"). */
 
+/* What is asked of an evaluation. */
 typedef struct {
   thr_physics physics;       /* as asked; the methods resolve it against the framework */
   thr_pull pull;             /* of every cord .. */
@@ -48,6 +56,7 @@ typedef struct {
   bool erect;    /* method structure, with dynamics: simulate how it comes up from slack */
 } thr_eval_options;
 
+/* Returns the usual options. */
 thr_eval_options thr_eval_options_default(void);
 
 /* What of the load is carried at a pull of all ends while the cords are drawn in; -1 as
@@ -65,7 +74,7 @@ typedef struct {
                      only: at least that */
   double band[2]; /* largest force of the known cords at mu_low and mu_high by the closed form over
                      taut_turning: never a simulation. Method structure: by limit analysis, INFINITY
-                     if nothing holds, NAN above 100 beads, if stopped or        not decided */
+                     if nothing holds, NAN above 100 beads, if stopped or not decided */
   double band_any[2]; /* the same of the force in any state, method structure only */
   double band_beads[THR_N_ASKED]
                    [2]; /* method structure: what is proved of each (of carried: below) with mu_bead
@@ -111,12 +120,12 @@ typedef struct {
                       with record.physics */
 } thr_eval;
 
-/* Contract of each method: THR_EINPUT for absurd physics or an overflow (one line that says what to
- * change); THR_ELIMIT when stopped, with out holding what is complete (total may be INFINITY then);
- * same plan, options and seed give the same bits whatever the number of processes. largest, total,
- * tension do not fall when mu grows; tension[slackest] is the least of a cord, and for capstan and
- * joint it is the seating tension. Release with thr_eval_destroy (also after THR_ELIMIT, and
- * THR_EINFEASIBLE, where erect may be left). */
+/* Evaluates a plan by one method. Contract of each: THR_EINPUT for absurd physics or an overflow
+ * (one line that says what to change); THR_ELIMIT when stopped, with out holding what is complete
+ * (total may be INFINITY then); same plan, options and seed give the same bits whatever the number
+ * of processes. largest, total, tension do not fall when mu grows; tension[slackest] is the least
+ * of a cord, and for capstan and joint it is the seating tension. Release with thr_eval_destroy
+ * (also after THR_ELIMIT, and THR_EINFEASIBLE, where erect may be left). */
 thr_status thr_eval_plan(const thr_frame *frame, const thr_cord *cord, int n_cords,
                          thr_method method, const thr_eval_options *options,
                          const thr_limits *limits, thr_eval *out, thr_err *err) THR_MUST_CHECK;
@@ -141,10 +150,12 @@ thr_status thr_eval_holds_from(const thr_frame *frame, const thr_cord *cord,
 thr_status thr_capstan_method(const thr_frame *frame, const thr_cord *cord,
                               const thr_eval_options *options, const thr_limits *limits,
                               thr_eval *out, thr_err *err) THR_MUST_CHECK;
+
 /* Joints measured in Bullet, composed along the taut path (joint.c). */
 thr_status thr_joint_method(const thr_frame *frame, const thr_cord *cord,
                             const thr_eval_options *options, const thr_limits *limits,
                             thr_eval *out, thr_err *err) THR_MUST_CHECK;
+
 /* Limit analysis, confirmed by Bullet (structure.c): every cord is pulled at its harder end with
  * the holding pull. If that is 0, so are forces, tensions and losses, and Bullet has nothing to
  * show unless a start is given. THR_EINFEASIBLE if no pull holds it, THR_ESOLVER if that is not
@@ -152,14 +163,17 @@ thr_status thr_joint_method(const thr_frame *frame, const thr_cord *cord,
 thr_status thr_structure_method(const thr_frame *frame, const thr_cord *cord,
                                 const thr_eval_options *options, const thr_limits *limits,
                                 thr_eval *out, thr_err *err) THR_MUST_CHECK;
-/* Does the structure stand with the tensions of the record, which a schedule left, how far can the
- * ends be let down, and what of the load is carried? */
+
+/* Answers whether the structure stands with the tensions of the record, which a schedule left, how
+ * far the ends can be let down, and what of the load is carried. */
 thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord,
                                const thr_eval_options *options, const thr_limits *limits,
                                thr_eval *out, thr_err *err) THR_MUST_CHECK;
-/* How the cords of the record are drawn in, before a schedule changes it. */
+
+/* Records how the cords are drawn in, before a schedule changes the record. */
 thr_status thr_structure_drawn(thr_evaluation *evaluation, const thr_eval_options *options,
                                thr_err *err) THR_MUST_CHECK;
+
 /* Lays what was found into the record, for the plan (record.c). */
 thr_status thr_structure_record(int n_beads, const thr_eval_options *options, thr_eval *out,
                                 thr_err *err) THR_MUST_CHECK;

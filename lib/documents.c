@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Makes the documents of a plan: one table says what each is called, and one function who makes it,
+ * so that `thread draw`, the pages and the library offer the same ones.
+ *
+ * Example: thr_document_find("steps.csv") is the document that is written to steps.csv, a table of
+ * the steps by which the plan is threaded. */
 #include "lib/documents.h"
 
 #include "diagram/export/paper.h"
@@ -10,6 +15,7 @@
 
 #include <string.h>
 
+/* Numbers the documents. Those before MAT are made by "all", but for one of SHEETS and PAGES. */
 typedef enum {
   OVERVIEW,
   SHEETS,
@@ -30,6 +36,7 @@ typedef enum {
   N_DOCUMENTS
 } document;
 
+/* Says how each is called by --type, and what its usual file is. */
 static const struct {
   const char *type, *file, *meaning;
 } documents[N_DOCUMENTS] = {
@@ -64,26 +71,31 @@ static const struct {
          "labels.svg: the pieces' names as outlines, true to size, to raise on printed pieces"},
 };
 
+/* Returns the number of documents. */
 int thr_documents_count(void)
 {
   return N_DOCUMENTS;
 }
 
+/* Returns the name of a document, as --type takes it. */
 const char *thr_document_type(int i)
 {
   return documents[i].type;
 }
 
+/* Returns the usual file of a document. */
 const char *thr_document_file(int i)
 {
   return documents[i].file;
 }
 
+/* Returns what a document is, for help. */
 const char *thr_document_meaning(int i)
 {
   return documents[i].meaning;
 }
 
+/* Returns the document of a name, or -1. */
 int thr_document_find(const char *type)
 {
   int i = N_DOCUMENTS - 1;
@@ -92,128 +104,168 @@ int thr_document_find(const char *type)
   return i;
 }
 
+/* Returns the document that takes longest. */
 int thr_document_sheets(void)
 {
   return SHEETS;
 }
 
+/* Returns whether "all" means a document. Where pages cannot be printed as PDF, they are HTML. */
 bool thr_document_usual(int i)
 {
   return i == PAGES ? !thr_pages_exist() : i < MAT && (i != SHEETS || thr_pages_exist());
 }
 
+/* Returns whether a document says how the plan is threaded, step by step. */
 bool thr_document_threads(int i)
 {
   return i == SHEETS || i == STEPS;
 }
 
-static int needles_of(const thr_plan *plan, const thr_document_options *a)
+/* Returns with how many needles the step sheets thread: as asked for, or as the plan says. */
+static int needles_of(const thr_plan *plan, const thr_document_options *asked)
 {
-  return a->needles ? a->needles : plan->options.needles;
+  return asked->needles ? asked->needles : plan->options.needles;
 }
 
-static thr_status overview(const thr_plan *plan, const thr_document_options *a,
+/* Draws the overview. */
+static thr_status overview(const thr_plan *plan, const thr_document_options *asked,
                            const char *const *motion, thr_text *out, thr_err *err)
 {
   thr_overview_options options = thr_overview_options_default();
-  options.pitch_mm = a->pitch_mm;
-  options.colour = a->colour;
+
+  /* What the overview takes of the options that all documents share. */
+  options.pitch_mm = asked->pitch_mm;
+  options.colour = asked->colour;
   options.motion = motion;
-  options.layout = a->layout;
+  options.layout = asked->layout;
+
   return thr_overview_svg(plan, &options, out, err);
 }
 
-static thr_status poster(const thr_plan *plan, const thr_document_options *a,
+/* Draws the overview over several pages, to be joined. */
+static thr_status poster(const thr_plan *plan, const thr_document_options *asked,
                          const char *const *motion, const thr_limits *limits, thr_text *out,
                          thr_err *err)
 {
+  /* The poster is the overview, cut into pages. */
   int n = 0;
   thr_text picture = {0};
-  thr_status st = overview(plan, a, motion, &picture, err);
-  if (!st) st = thr_poster_pdf(&picture, (thr_page_size)a->page, limits, &n, out, err);
-  if (!st && a->pages) a->pages(documents[POSTER].file, n);
+  thr_status st = overview(plan, asked, motion, &picture, err);
+
+  /* The caller hears how many pages the paper takes. */
+  if (!st) st = thr_poster_pdf(&picture, (thr_page_size)asked->page, limits, &n, out, err);
+  if (!st && asked->pages) asked->pages(documents[POSTER].file, n);
+
   thr_text_destroy(&picture);
   return st;
 }
 
-static thr_sheets_options sheets_options(const thr_plan *plan, const thr_document_options *a,
+/* Returns the options of the step sheets, on paper or as HTML. */
+static thr_sheets_options sheets_options(const thr_plan *plan, const thr_document_options *asked,
                                          const char *const *motion)
 {
   thr_sheets_options options = thr_sheets_options_default();
-  options.page = (thr_page_size)a->page;
-  options.needles = needles_of(plan, a);
-  options.working_mm = a->working_mm;
-  options.kind_tolerance = a->kind_tolerance;
+
+  /* What the step sheets take of the options that all documents share. */
+  options.page = (thr_page_size)asked->page;
+  options.needles = needles_of(plan, asked);
+  options.working_mm = asked->working_mm;
+  options.kind_tolerance = asked->kind_tolerance;
   options.motion = motion;
-  options.layout = a->layout;
+  options.layout = asked->layout;
+
   return options;
 }
 
-static thr_status sheets_html(const thr_plan *plan, const thr_document_options *a,
+/* Makes the step sheets as HTML. */
+static thr_status sheets_html(const thr_plan *plan, const thr_document_options *asked,
                               const char *const *motion, const thr_limits *limits, thr_text *out,
                               thr_err *err)
 {
   thr_sheets *pages = NULL;
-  const thr_sheets_options options = sheets_options(plan, a, motion);
+  const thr_sheets_options options = sheets_options(plan, asked, motion);
+
+  /* The caller hears how many pages there are. */
   thr_status st = thr_sheets_make(&pages, plan, &options, limits, err);
-  if (!st && a->pages) a->pages(documents[PAGES].file, thr_sheets_pages(pages));
+  if (!st && asked->pages) asked->pages(documents[PAGES].file, thr_sheets_pages(pages));
   if (!st) st = thr_sheets_html(pages, out, err);
+
   thr_sheets_destroy(pages);
   return st;
 }
 
-static thr_status sheets(const thr_plan *plan, const thr_document_options *a,
+/* Makes the step sheets as PDF. */
+static thr_status sheets(const thr_plan *plan, const thr_document_options *asked,
                          const char *const *motion, const thr_limits *limits, thr_text *out,
                          thr_err *err)
 {
   int n = 0;
-  const thr_sheets_options options = sheets_options(plan, a, motion);
+
+  /* The pages are counted while they are written. */
+  const thr_sheets_options options = sheets_options(plan, asked, motion);
   thr_status st = thr_sheets_write(plan, &options, limits, &n, out, err);
-  if (!st && a->pages) a->pages(documents[SHEETS].file, n);
+  if (!st && asked->pages) asked->pages(documents[SHEETS].file, n);
+
   return st;
 }
 
-static thr_status mat(const thr_plan *plan, const thr_document_options *a, const thr_limits *limits,
-                      thr_text *out, thr_err *err)
+/* Makes the mat: the framework flat and true to size, over as many pages as it takes. */
+static thr_status mat(const thr_plan *plan, const thr_document_options *asked,
+                      const thr_limits *limits, thr_text *out, thr_err *err)
 {
   thr_mat *pages = NULL;
-  thr_status st = thr_mat_make(&pages, plan, (thr_page_size)a->page, a->kind_tolerance, err);
-  if (!st && a->pages) a->pages(documents[MAT].file, thr_mat_pages(pages));
+
+  /* Laid out first, since the number of pages is told before they are drawn. */
+  thr_status st =
+      thr_mat_make(&pages, plan, (thr_page_size)asked->page, asked->kind_tolerance, err);
+  if (!st && asked->pages) asked->pages(documents[MAT].file, thr_mat_pages(pages));
   if (!st) st = thr_mat_pdf(pages, limits, out, err);
+
   thr_mat_destroy(pages);
   return st;
 }
 
-/* A document that says what moves a path to its copies. */
-static thr_status describe(const thr_plan *plan, document which, const thr_document_options *a,
+/* Makes a document that says which motion takes a path to its copies. */
+static thr_status describe(const thr_plan *plan, document which, const thr_document_options *asked,
                            const thr_limits *limits, thr_text *out, thr_err *err)
 {
+  /* The motions in words, for all documents that name copies. */
   thr_motions copies;
   thr_status st = thr_motions_describe(plan, &copies, err);
   if (st) return st;
+
+  /* Drawings and sheets. */
   switch (which) {
-  case OVERVIEW: st = overview(plan, a, copies.motion, out, err); break;
-  case SHEETS: st = sheets(plan, a, copies.motion, limits, out, err); break;
-  case POSTER: st = poster(plan, a, copies.motion, limits, out, err); break;
-  case PAGES: st = sheets_html(plan, a, copies.motion, limits, out, err); break;
+  case OVERVIEW: st = overview(plan, asked, copies.motion, out, err); break;
+  case SHEETS: st = sheets(plan, asked, copies.motion, limits, out, err); break;
+  case POSTER: st = poster(plan, asked, copies.motion, limits, out, err); break;
+  case PAGES: st = sheets_html(plan, asked, copies.motion, limits, out, err); break;
+
+  /* Text of the steps, and the viewer. */
   case STEPS:
-    st = thr_steps_text(plan, copies.motion, a->kind_tolerance, needles_of(plan, a), a->layout, out,
-                        err);
+    st = thr_steps_text(plan, copies.motion, asked->kind_tolerance, needles_of(plan, asked),
+                        asked->layout, out, err);
     break;
   case VIEWER:
-    st = thr_viewer_html(plan, copies.motion, a->kind_tolerance, needles_of(plan, a), a->layout,
-                         out, err);
+    st = thr_viewer_html(plan, copies.motion, asked->kind_tolerance, needles_of(plan, asked),
+                         asked->layout, out, err);
     break;
-  default: st = thr_table_cords(plan, copies.motion, a->layout, out, err);
+
+  /* The table of cords names the motion of each copy. */
+  default: st = thr_table_cords(plan, copies.motion, asked->layout, out, err);
   }
+
   thr_motions_destroy(&copies);
   return st;
 }
 
+/* Makes a document; see documents.h. Documents that do not speak of copies need no motions. */
 thr_status thr_document_make(const thr_plan *plan, int i, const thr_document_options *options,
                              const thr_limits *limits, thr_text *out, thr_err *err)
 {
   switch ((document)i) {
+  /* Tables. */
   case STEPS_TABLE:
     return thr_table_steps(plan, options->kind_tolerance, needles_of(plan, options),
                            options->layout, out, err);
@@ -221,12 +273,18 @@ thr_status thr_document_make(const thr_plan *plan, int i, const thr_document_opt
     return thr_table_beads(plan, options->kind_tolerance, options->layout, out, err);
   case CHANNELS_TABLE:
     return thr_table_channels(plan, options->kind_tolerance, options->layout, out, err);
+
+  /* What pieces are called and where they lie. */
   case LABELS: return thr_emboss_svg(plan, out, err);
   case MAT: return mat(plan, options, limits, out, err);
+
+  /* Lines for CAD. */
   case OBJ: return thr_polylines_obj(plan, &options->lines, out, err);
   case GLTF: return thr_polylines_gltf(plan, &options->lines, out, err);
   case DXF: return thr_polylines_dxf(plan, &options->lines, out, err);
   case COMPAS: return thr_polylines_compas(plan, &options->lines, out, err);
+
+  /* The rest says what moves a path to its copies. */
   default: return describe(plan, (document)i, options, limits, out, err);
   }
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The documents that are made from a plan: one table says what they are called and who makes them.
- */
+/* The documents that are made from a plan: overview, step sheets, tables, lines for CAD, mat and so
+ * on. One table says what they are called and who makes them (documents.c), for the commands, the
+ * pages and the library. handles.h says in which order to read the folder. */
 #ifndef THR_DOCUMENTS_H
 #define THR_DOCUMENTS_H
 

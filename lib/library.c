@@ -1,5 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* libthread: what is not of frames or plans. */
+/* Implements what libthread (include/thread.h) needs beside frameworks and plans: versions, the
+ * lock, and the translation of statuses, options and texts.
+ *
+ * Structs of options begin with their size, so that a program which was built with an older header,
+ * and knows fewer members, goes on working: members that it does not know have their usual values.
+ */
 #include "eval/joint/world.h"
 #include "lib/handles.h"
 #include "lp/solver/lp.h"
@@ -10,40 +15,50 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Held by calls that use what is not reentrant: nauty, GLPK. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
+/* Waits until no other call uses what is not reentrant. */
 void thr_library_lock(void)
 {
   pthread_mutex_lock(&lock);
 }
 
+/* Lets the next call go on. */
 void thr_library_unlock(void)
 {
   pthread_mutex_unlock(&lock);
 }
 
+/* Returns the version of the library, as a number. */
 int thread_version(void)
 {
   return THREAD_VERSION;
 }
 
+/* Returns the versions of the library and of those that it uses, as text. */
 const char *thread_libraries(void)
 {
   static char text[200];
   int bullet = thr_bullet_version();
+
+  /* The text is the same every time, but is written under the lock. */
   thr_library_lock();
   snprintf(text, sizeof text, "thread %s, GLPK %s, igraph %s, nauty %s, Bullet %d.%d", THR_VERSION,
            thr_glpk_version(), thr_igraph_version(), thr_nauty_version(), bullet / 100,
            bullet % 100);
   thr_library_unlock();
+
   return text;
 }
 
+/* Frees what a char ** received; NULL ok. */
 void thread_free(void *bytes)
 {
   free(bytes);
 }
 
+/* Translates status and text; see handles.h. */
 thread_status thr_library_status(thr_status st, const thr_err *from, thread_error *err)
 {
   static const thread_status same[] = {[THR_OK] = THREAD_OK,
@@ -54,32 +69,45 @@ thread_status thr_library_status(thr_status st, const thr_err *from, thread_erro
                                        [THR_ELIMIT] = THREAD_NOT_PROVED,
                                        [THR_ESOLVER] = THREAD_SOLVER,
                                        [THR_EVIOLATED] = THREAD_VIOLATED};
+
+  /* A text of one line, in UTF-8 even if a file was not. */
   if (err) {
     snprintf(err->text, sizeof err->text, "%s", st ? from->text : "");
     thr_text_clean(err->text);
   }
+
   return same[st];
 }
 
+/* Copies a program's options over the usual ones; see handles.h. */
 thr_status thr_library_options(void *own, size_t own_size, const void *theirs, const char *what,
                                thr_err *err)
 {
   size_t size;
   if (!theirs) return THR_OK;
+
+  /* The first member is the size that the program knows. */
   memcpy(&size, theirs, sizeof size);
+
+  /* No struct of options has such a size: it was not initialized. */
   if (size < 2 * sizeof size || size > 65536)
     return thr_fail(err, THR_EINPUT, "%s.size is %zu: call %s_init first", what, size, what);
   memcpy(own, theirs, size < own_size ? size : own_size);
+
   return THR_OK;
 }
 
+/* Makes a text the caller's; see handles.h. */
 thr_status thr_library_give(thr_text *text, char **bytes, size_t *n, thr_err *err)
 {
+  /* An empty text has a NUL, too. */
   thr_text_append_bytes(text, "", 0);
   if (text->failed || !text->data) {
     thr_text_destroy(text);
     return thr_nomem(err);
   }
+
+  /* The caller frees it with thread_free. */
   *bytes = text->data;
   if (n) *n = text->length;
   *text = (thr_text){0};

@@ -1,5 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* libthread: frames. */
+/* Implements the frameworks of libthread (include/thread.h): read from a file or text, made of
+ * arrays or as a shape; asked, changed and written.
+ *
+ * Reading may take any format and repair what a drawing leaves open, and says in notes what was
+ * repaired. Arrays are taken as they are: where something would be merged or dropped, indices of
+ * the caller would no longer fit, so that this is an error. */
 #include "graph/framework/make.h"
 #include "lib/handles.h"
 #include "lib/notes.h"
@@ -8,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Fills in the usual options, of which a program knows the first `size` bytes. */
 void thread_read_options_init(thread_read_options *options, size_t size)
 {
   const thread_read_options usual = {.size = size, .weld = -1, .scale = 1, .up = 'a'};
@@ -15,44 +21,59 @@ void thread_read_options_init(thread_read_options *options, size_t size)
   memcpy(options, &usual, size < sizeof usual ? size : sizeof usual);
 }
 
-/* number: receives pick as digits, to which *out refers. */
+/* Translates the options of reading. number: receives pick as digits, to which *out refers. */
 static thr_status read_options(const thread_read_options *theirs, thr_read_options *out,
                                char number[12], thr_err *err)
 {
-  thread_read_options o;
+  thread_read_options own;
   *out = thr_read_options_default();
-  thread_read_options_init(&o, sizeof o);
-  thr_status st = thr_library_options(&o, sizeof o, theirs, "thread_read_options", err);
+
+  /* Options that the program does not know keep their usual values. */
+  thread_read_options_init(&own, sizeof own);
+  thr_status st = thr_library_options(&own, sizeof own, theirs, "thread_read_options", err);
   if (st) return st;
-  if (!(o.scale > 0 && o.scale <= 1e9))
-    return thr_fail(err, THR_EINPUT, "scale %g: not above 0 and up to 1e9", o.scale);
-  if (!(o.flat >= 0 && o.flat < 3.15))
-    return thr_fail(err, THR_EINPUT, "flat %g: not from 0 to pi", o.flat);
-  if (o.up != 'y' && o.up != 'z' && o.up != 'a')
+
+  /* Numbers that no reader could use. */
+  if (!(own.scale > 0 && own.scale <= 1e9))
+    return thr_fail(err, THR_EINPUT, "scale %g: not above 0 and up to 1e9", own.scale);
+  if (!(own.flat >= 0 && own.flat < 3.15))
+    return thr_fail(err, THR_EINPUT, "flat %g: not from 0 to pi", own.flat);
+  if (own.up != 'y' && own.up != 'z' && own.up != 'a')
     return thr_fail(err, THR_EINPUT, "up: none of 'y', 'z' and 'a'");
-  if (o.pick < 0) return thr_fail(err, THR_EINPUT, "pick %d: below 0", o.pick);
-  out->edges_path = o.edges;
-  out->split = o.split != 0;
-  out->all_layers = o.all_layers != 0;
-  out->parallel = o.parallel != 0;
-  out->columns = o.columns;
-  snprintf(number, 12, "%d", o.pick);
-  out->pick = o.part ? o.part : o.pick ? number : NULL;
-  out->units = o.units;
-  out->scale = o.scale;
-  out->flat = o.flat;
-  out->up = o.up == 'y' ? THR_UP_Y : o.up == 'z' ? THR_UP_Z : THR_UP_AUTO;
-  if (o.weld >= 0) out->weld = o.weld;
+  if (own.pick < 0) return thr_fail(err, THR_EINPUT, "pick %d: below 0", own.pick);
+
+  /* What to read of a file: edges of their own, layers, and a part by its name or else its number.
+   */
+  out->edges_path = own.edges;
+  out->split = own.split != 0;
+  out->all_layers = own.all_layers != 0;
+  out->parallel = own.parallel != 0;
+  out->columns = own.columns;
+  snprintf(number, 12, "%d", own.pick);
+  out->pick = own.part ? own.part : own.pick ? number : NULL;
+
+  /* How to take what is read. */
+  out->units = own.units;
+  out->scale = own.scale;
+  out->flat = own.flat;
+  out->up = own.up == 'y' ? THR_UP_Y : own.up == 'z' ? THR_UP_Z : THR_UP_AUTO;
+  if (own.weld >= 0) out->weld = own.weld;
+
   return THR_OK;
 }
 
-/* Takes the framework over, or destroys it after a failure. */
+/* Ends a call that makes a framework: takes the framework over, with notes on how it was read, or
+ * frees it after a failure. Releases the lock, and returns the status of the library. */
 static thread_status hand_over(thr_status st, thr_frame *frame, const thr_read_report *report,
                                thread_frame **out, thr_err *why, thread_error *err)
 {
   thread_frame *made = st ? NULL : thr_calloc(1, sizeof *made);
+
+  /* Notes may fail for lack of memory; then there is no framework. */
   if (!st && !made) st = thr_nomem(why);
   if (!st) st = thr_read_notes(frame, report, &made->notes, why);
+
+  /* The handle owns the framework from here on. */
   if (!st) {
     made->frame = *frame;
     *out = made;
@@ -61,25 +82,33 @@ static thread_status hand_over(thr_status st, thr_frame *frame, const thr_read_r
     if (made) thr_text_destroy(&made->notes);
     free(made);
   }
+
+  /* The next call may go on. */
   thr_library_unlock();
+
   return thr_library_status(st, why, err);
 }
 
+/* Reads a framework from a file; see include/thread.h. */
 thread_status thread_frame_read(const char *path, const thread_read_options *options,
                                 thread_frame **out, thread_error *err)
 {
   thr_err why = {0};
   thr_frame frame = {0};
   thr_read_report report = {0};
-  thr_read_options how;
+  thr_read_options reading;
+
+  /* The lock is released by hand_over. */
   *out = NULL;
   thr_library_lock();
   char number[12];
-  thr_status st = read_options(options, &how, number, &why);
-  if (!st) st = thr_frame_read(&frame, &report, path, &how, NULL, 0, &why);
+  thr_status st = read_options(options, &reading, number, &why);
+  if (!st) st = thr_frame_read(&frame, &report, path, &reading, NULL, 0, &why);
+
   return hand_over(st, &frame, &report, out, &why, err);
 }
 
+/* Reads a framework from text; see include/thread.h. */
 thread_status thread_frame_parse(const char *text, size_t n, const char *name,
                                  const thread_read_options *options, thread_frame **out,
                                  thread_error *err)
@@ -87,32 +116,46 @@ thread_status thread_frame_parse(const char *text, size_t n, const char *name,
   thr_err why = {0};
   thr_frame frame = {0};
   thr_read_report report = {0};
-  thr_read_options how;
+  thr_read_options reading;
+
+  /* The lock is released by hand_over. */
   *out = NULL;
   thr_library_lock();
   char number[12];
-  thr_status st = read_options(options, &how, number, &why);
-  if (!st && how.edges_path) st = thr_fail(&why, THR_EINPUT, "edges: only with thread_frame_read");
-  if (!st) st = thr_frame_parse(&frame, &report, text, n, name ? name : "text", &how, &why);
+  thr_status st = read_options(options, &reading, number, &why);
+
+  /* A second file needs a path. */
+  if (!st && reading.edges_path)
+    st = thr_fail(&why, THR_EINPUT, "edges: only with thread_frame_read");
+
+  /* The ending of the name says the format, if there is one. */
+  if (!st) st = thr_frame_parse(&frame, &report, text, n, name ? name : "text", &reading, &why);
+
   return hand_over(st, &frame, &report, out, &why, err);
 }
 
-/* All that is given must be in the framework. */
+/* Builds a framework of a draft all of which must be there: what reading would merge or drop is an
+ * error. */
 static thr_status build_whole(const thr_draft *draft, thr_frame *frame, thr_read_report *report,
                               thr_err *err)
 {
   thr_status st = thr_draft_build(draft, 0, frame, report, err);
+
+  /* In the order in which a draft is built, so that the first loss is told. */
   const char *lost = st                          ? NULL
                      : report->welded_nodes      ? "two nodes are in one place"
                      : report->zero_length_edges ? "an edge has no length"
                      : report->duplicate_edges   ? "an edge is given twice"
                      : report->isolated_nodes    ? "a node has no edge"
                                                  : NULL;
+
   if (!lost) return st;
+
   thr_frame_destroy(frame);
   return thr_fail(err, THR_EINPUT, "%s", lost);
 }
 
+/* Makes a framework of arrays; see include/thread.h. */
 thread_status thread_frame_make(int n_nodes, const double *xyz, int n_edges, const int *ends,
                                 const char *units, thread_frame **out, thread_error *err)
 {
@@ -121,18 +164,26 @@ thread_status thread_frame_make(int n_nodes, const double *xyz, int n_edges, con
   thr_frame frame = {0};
   thr_read_report report = {0};
   thr_status st = THR_OK;
+
+  /* Whatever fails, hand_over releases the lock. */
   *out = NULL;
   thr_library_lock();
+
+  /* Names are numbers, and no node is a foot. */
   if (units) st = thr_draft_set_units(&draft, units, &why);
   for (int v = 0; v < n_nodes && !st; v++)
     st = thr_draft_add_node(&draft, xyz + 3 * (size_t)v, NULL, false, &why);
   for (int e = 0; e < n_edges && !st; e++)
     st = thr_draft_add_edge(&draft, ends[2 * (size_t)e], ends[2 * (size_t)e + 1], 0, &why);
+
+  /* Indices must stay those of the caller. */
   if (!st) st = build_whole(&draft, &frame, &report, &why);
+
   thr_draft_destroy(&draft);
   return hand_over(st, &frame, &report, out, &why, err);
 }
 
+/* Makes a framework of a shape, as thread make does; see include/thread.h. */
 thread_status thread_frame_shape(const char *shape, int size, thread_frame **out, thread_error *err)
 {
   thr_err why = {0};
@@ -141,8 +192,12 @@ thread_status thread_frame_shape(const char *shape, int size, thread_frame **out
   thr_read_report report = {0};
   thr_status st = THR_OK;
   int kind = 0;
+
+  /* Whatever fails, hand_over releases the lock. */
   *out = NULL;
   thr_library_lock();
+
+  /* A shape by its name, with its usual options but for the size. */
   while (kind < THR_N_SHAPES && strcmp(shape, thr_shape_name(kind)) != 0)
     kind++;
   if (kind == THR_N_SHAPES)
@@ -152,11 +207,15 @@ thread_status thread_frame_shape(const char *shape, int size, thread_frame **out
     if (size) options.size = size;
     st = thr_make(&draft, &options, &why);
   }
+
+  /* A shape is welded as what is read. */
   if (!st) st = thr_draft_build(&draft, -1, &frame, &report, &why);
+
   thr_draft_destroy(&draft);
   return hand_over(st, &frame, &report, out, &why, err);
 }
 
+/* Frees a framework; NULL ok. */
 void thread_frame_free(thread_frame *frame)
 {
   if (!frame) return;
@@ -167,28 +226,33 @@ void thread_frame_free(thread_frame *frame)
 
 /* ---- what is in it ---- */
 
+/* Returns the number of nodes and, in *xyz, their coordinates, borrowed. */
 int thread_frame_nodes(const thread_frame *frame, const double **xyz)
 {
   if (xyz) *xyz = &frame->frame.xyz[0][0];
   return frame->frame.n_nodes;
 }
 
+/* Returns the number of edges and, in *ends, the two nodes of each, borrowed. */
 int thread_frame_edges(const thread_frame *frame, const int **ends)
 {
   if (ends) *ends = &frame->frame.edge[0][0];
   return frame->frame.n_edges;
 }
 
+/* Returns the name of a node, borrowed, or NULL. */
 const char *thread_frame_name(const thread_frame *frame, int node)
 {
   return node >= 0 && node < frame->frame.n_nodes ? frame->frame.name[node] : NULL;
 }
 
+/* Returns the node of a name, or -1. */
 int thread_frame_find(const thread_frame *frame, const char *name)
 {
   return thr_frame_find(&frame->frame, name);
 }
 
+/* Returns the notes on how the framework was read, borrowed. */
 const char *thread_frame_notes(const thread_frame *frame)
 {
   return frame->notes.data ? frame->notes.data : "";
@@ -196,51 +260,69 @@ const char *thread_frame_notes(const thread_frame *frame)
 
 /* ---- changes ---- */
 
+/* Sets the feet, or makes the lowest nodes feet (n < 0). */
 thread_status thread_frame_set_feet(thread_frame *frame, int n, const int *node, thread_error *err)
 {
   thr_err why = {0};
-  thr_frame *f = &frame->frame;
+  thr_frame *changed = &frame->frame;
   thr_status st = THR_OK;
+
+  /* Nothing changes if any of the nodes does not exist. */
   for (int i = 0; i < n && !st; i++)
-    if (node[i] < 0 || node[i] >= f->n_nodes)
+    if (node[i] < 0 || node[i] >= changed->n_nodes)
       st = thr_fail(&why, THR_EINPUT, "foot %d: there is no node %d, only 0 to %d", i, node[i],
-                    f->n_nodes - 1);
-  if (!st && n < 0) thr_frame_feet_lowest(f);
-  if (!st && n >= 0) memset(f->foot, 0, (size_t)f->n_nodes * sizeof *f->foot);
+                    changed->n_nodes - 1);
+
+  /* The lowest nodes, or those that are given alone. */
+  if (!st && n < 0) thr_frame_feet_lowest(changed);
+  if (!st && n >= 0) memset(changed->foot, 0, (size_t)changed->n_nodes * sizeof *changed->foot);
   for (int i = 0; i < n && !st; i++)
-    f->foot[node[i]] = true;
+    changed->foot[node[i]] = true;
+
   return thr_library_status(st, &why, err);
 }
 
-/* An array of edges that is not there yet, all usual. */
+/* Returns an array of one number for each edge, which is made with the usual number if there is
+ * none yet; NULL if memory runs out. */
 static int *array_of(int **array, int n, int usual)
 {
   if (*array || !(*array = thr_calloc((size_t)n, sizeof **array))) return *array;
+
+  /* All edges are usual until one is changed. */
   for (int e = 0; e < n; e++)
     (*array)[e] = usual;
+
   return *array;
 }
 
+/* Sets the passes that an edge needs, and those that fit through it. */
 thread_status thread_frame_set_passes(thread_frame *frame, int edge, int cover, int capacity,
                                       thread_error *err)
 {
   thr_err why = {0};
-  thr_frame *f = &frame->frame;
+  thr_frame *changed = &frame->frame;
   thr_status st = THR_OK;
-  if (edge < 0 || edge >= f->n_edges)
-    st = thr_fail(&why, THR_EINPUT, "there is no edge %d, only 0 to %d", edge, f->n_edges - 1);
+
+  /* Most frameworks have no such arrays: all of their edges are usual. */
+  if (edge < 0 || edge >= changed->n_edges)
+    st =
+        thr_fail(&why, THR_EINPUT, "there is no edge %d, only 0 to %d", edge, changed->n_edges - 1);
   else if (cover < 1 || cover > 100 || (capacity != 0 && (capacity < cover || capacity > 100)))
     st = thr_fail(&why, THR_EINPUT,
                   "edge %d: needs 1 to 100 passes, and 0 or as many to 100 fit through it", edge);
-  else if (!array_of(&f->cover, f->n_edges, 1) || !array_of(&f->capacity, f->n_edges, 0))
+  else if (!array_of(&changed->cover, changed->n_edges, 1) ||
+           !array_of(&changed->capacity, changed->n_edges, 0))
     st = thr_nomem(&why);
+
   if (!st) {
-    f->cover[edge] = cover;
-    f->capacity[edge] = capacity;
+    changed->cover[edge] = cover;
+    changed->capacity[edge] = capacity;
   }
+
   return thr_library_status(st, &why, err);
 }
 
+/* Writes a framework in a format; see include/thread.h. */
 thread_status thread_frame_write(const thread_frame *frame, const char *format, char **bytes,
                                  size_t *n, thread_error *err)
 {
@@ -248,10 +330,15 @@ thread_status thread_frame_write(const thread_frame *frame, const char *format, 
   thr_text text = {0};
   const thr_format *written = thr_format_written(format);
   thr_status st = THR_OK;
+
+  /* Outputs are empty after a failure. */
   *bytes = NULL;
   if (n) *n = 0;
+
+  /* Text in a format, for the caller to free. */
   if (!written) st = thr_fail(&why, THR_EINPUT, "%s is no format that is written", format);
   if (!st) thr_frame_write(&frame->frame, written, &text);
   if (!st) st = thr_library_give(&text, bytes, n, &why);
+
   return thr_library_status(st, &why, err);
 }

@@ -1,5 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* libthread: plans. */
+/* Implements the plans of libthread (include/thread.h): options become a request, which the planner
+ * answers; a plan is parsed, described, checked, evaluated and drawn.
+ *
+ * Planning, evaluating and drawing may use libraries that are not reentrant, so that these calls
+ * wait for each other (thr_library_lock). Statuses and texts of the program become those of the
+ * library.
+ *
+ *   thread_plan_options_init(&options, sizeof options);
+ *   options.cords = 4;
+ *   status = thread_plan_make(frame, &options, &plan, &error); */
 #include "eval/eval.h"
 #include "graph/check/check.h"
 #include "graph/io/json.h"
@@ -18,6 +27,7 @@
 
 /* ---- what is asked for ---- */
 
+/* Fills in the usual options, of which a program knows the first `size` bytes. */
 void thread_plan_options_init(thread_plan_options *options, size_t size)
 {
   const thread_plan_options usual = {.size = size,
@@ -31,22 +41,28 @@ void thread_plan_options_init(thread_plan_options *options, size_t size)
   memcpy(options, &usual, size < sizeof usual ? size : sizeof usual);
 }
 
-/* As "options" of a plan; a document around them, since that is what is read. */
+/* Reads a request given as JSON, as the "options" of a plan. The reader knows whole plans, so that
+ * a document is made around the text. */
 static thr_status parse_request(const char *text, const thr_frame *frame, thr_request *out,
                                 thr_err *err)
 {
+  /* The text as the "options" member of a document. */
   thr_text whole = {0};
   thr_json *doc = NULL;
   const thr_field_reader reader = {.name = "request", .code = THR_EINPUT, .err = err};
   thr_text_printf(&whole, "{\"options\":%s}", text);
+
+  /* The framework tells which names of nodes there are. */
   thr_status st = whole.failed ? thr_nomem(err)
                                : thr_json_parse(&doc, whole.data, whole.length, "request", err);
   if (!st) st = thr_plan_read_options(&reader, doc, frame, out);
+
   thr_json_destroy(doc);
   thr_text_destroy(&whole);
   return st;
 }
 
+/* Reads the physics given as JSON. */
 static thr_status parse_physics(const char *text, thr_physics *out, thr_err *err)
 {
   thr_json *doc = NULL;
@@ -56,76 +72,103 @@ static thr_status parse_physics(const char *text, thr_physics *out, thr_err *err
   return st;
 }
 
-static thr_status check_ranges(const thread_plan_options *o, thr_err *err)
+/* Checks the ranges of options that are numbers. */
+static thr_status check_ranges(const thread_plan_options *options, thr_err *err)
 {
-  if (o->cords < 1 || o->cords > THR_MOST_CORDS || o->cords_least < 1 || o->cords_least > o->cords)
+  /* Cords, from .. to, and the passes of every edge. */
+  if (options->cords < 1 || options->cords > THR_MOST_CORDS || options->cords_least < 1 ||
+      options->cords_least > options->cords)
     return thr_fail(err, THR_EINPUT, "cords: not 1 to %d, or cords_least is no less number",
                     THR_MOST_CORDS);
-  if (o->cover < 1 || o->cover > 100 || o->capacity < 0 || (o->capacity && o->capacity < o->cover))
+  if (options->cover < 1 || options->cover > 100 || options->capacity < 0 ||
+      (options->capacity && options->capacity < options->cover))
     return thr_fail(err, THR_EINPUT, "cover: not 1 to 100, or capacity leaves no room for it");
-  if (o->distinct < 0 || o->distinct == 1 || o->distinct > o->cover || o->distinct > o->cords_least)
+
+  /* What limits a cord: edges passed by different ones, length, pull. */
+  if (options->distinct < 0 || options->distinct == 1 || options->distinct > options->cover ||
+      options->distinct > options->cords_least)
     return thr_fail(err, THR_EINPUT,
                     "distinct: not 0 or from 2 to the least of cover and cords_least");
-  if (!(o->max_length >= 0 && o->max_length < INFINITY))
+  if (!(options->max_length >= 0 && options->max_length < INFINITY))
     return thr_fail(err, THR_EINPUT, "max_length: not 0 or a length");
-  if (!(o->max_pull == 0 || (o->max_pull >= 1 && o->max_pull < INFINITY)))
+  if (!(options->max_pull == 0 || (options->max_pull >= 1 && options->max_pull < INFINITY)))
     return thr_fail(err, THR_EINPUT, "max_pull: neither 0 nor 1 or more");
-  if ((int)o->ends < THREAD_CLOSED || o->ends > THREAD_NODES)
+
+  /* Where cords end. */
+  if ((int)options->ends < THREAD_CLOSED || options->ends > THREAD_NODES)
     return thr_fail(err, THR_EINPUT, "ends: no thread_ends");
+
   return THR_OK;
 }
 
-static thr_status read_end_nodes(const thread_plan_options *o, const thr_frame *frame,
+/* Marks the nodes where cords may end. */
+static thr_status read_end_nodes(const thread_plan_options *options, const thr_frame *frame,
                                  thr_request *out, thr_err *err)
 {
   if (!(out->end_node = thr_calloc((size_t)frame->n_nodes, sizeof *out->end_node)))
     return thr_nomem(err);
-  for (int i = 0; i < o->n_end_nodes; i++) {
-    if (o->end_node[i] < 0 || o->end_node[i] >= frame->n_nodes)
+
+  /* Indices are the caller's, and may be anything. */
+  for (int i = 0; i < options->n_end_nodes; i++) {
+    if (options->end_node[i] < 0 || options->end_node[i] >= frame->n_nodes)
       return thr_fail(err, THR_EINPUT, "end_node[%d]: there is no node %d, only 0 to %d", i,
-                      o->end_node[i], frame->n_nodes - 1);
-    out->end_node[o->end_node[i]] = true;
+                      options->end_node[i], frame->n_nodes - 1);
+    out->end_node[options->end_node[i]] = true;
   }
+
   return THR_OK;
 }
 
-/* The caller frees out->end_node and out->end_count, also after a failure. */
-static thr_status read_wishes(const thread_plan_options *o, const thr_frame *frame,
-                              thr_request *out, thr_err *err)
+/* Translates the options into a request. The caller frees out->end_node and out->end_count, also
+ * after a failure. */
+static thr_status read_request(const thread_plan_options *options, const thr_frame *frame,
+                               thr_request *out, thr_err *err)
 {
   *out = thr_request_default();
-  if (o->request) return parse_request(o->request, frame, out, err);
-  thr_status st = check_ranges(o, err);
-  if (!st && o->aims) st = thr_aims_parse(o->aims, out, err);
-  if (!st && o->physics) st = parse_physics(o->physics, &out->physics, err);
+
+  /* A request as JSON has precedence over the other options. */
+  if (options->request) return parse_request(options->request, frame, out, err);
+
+  /* Aims and physics have texts of their own. */
+  thr_status st = check_ranges(options, err);
+  if (!st && options->aims) st = thr_aims_parse(options->aims, out, err);
+  if (!st && options->physics) st = parse_physics(options->physics, &out->physics, err);
   if (st) return st;
-  out->cords_least = o->cords_least;
-  out->cords = o->cords;
-  out->symmetry.counted = thr_wants_symmetry(out) && o->cords > 1;
-  out->cover = o->cover;
-  out->capacity = o->capacity;
-  out->distinct = o->distinct;
-  out->max_length = o->max_length;
-  out->max_pull = o->max_pull;
-  out->joint = o->tube ? THR_JOINT_TUBE : THR_JOINT_SOLID;
-  out->ends = (thr_ends)o->ends;
-  return o->ends == THREAD_NODES ? read_end_nodes(o, frame, out, err) : THR_OK;
+
+  /* The rest is copied. */
+  out->cords_least = options->cords_least;
+  out->cords = options->cords;
+
+  /* Of several cords that are to be symmetric, the number counts, too. */
+  out->symmetry.counted = thr_wants_symmetry(out) && options->cords > 1;
+  out->cover = options->cover;
+  out->capacity = options->capacity;
+  out->distinct = options->distinct;
+  out->max_length = options->max_length;
+  out->max_pull = options->max_pull;
+  out->joint = options->tube ? THR_JOINT_TUBE : THR_JOINT_SOLID;
+  out->ends = (thr_ends)options->ends;
+
+  return options->ends == THREAD_NODES ? read_end_nodes(options, frame, out, err) : THR_OK;
 }
 
 /* ---- making ---- */
 
-/* The listener's answer becomes what the search looks at. */
+/* Connects the caller's progress function with the search: its answer becomes the flag that the
+ * search looks at. */
 typedef struct {
   const thread_plan_options *options;
   volatile sig_atomic_t stop;
 } listener;
 
+/* Tells the caller, who may stop the search. */
 static void tell(void *user, const char *what, double best, double bound)
 {
-  listener *l = user;
-  if (l->options->progress(l->options->user, what, best, bound)) l->stop = 1;
+  listener *search = user;
+  if (search->options->progress(search->options->user, what, best, bound)) search->stop = 1;
 }
 
+/* Frees a plan and what it lends. */
 static void destroy(thread_plan *plan)
 {
   for (int i = 0; plan->node && i < plan->plan.n_cords; i++)
@@ -135,94 +178,131 @@ static void destroy(thread_plan *plan)
   free(plan);
 }
 
-/* Where each cord runs, and the framework that is lent. */
+/* Prepares what a plan lends: the nodes along each cord, and the framework. */
 static thr_status describe(thread_plan *plan, thr_err *err)
 {
-  const thr_plan *p = &plan->plan;
-  plan->lent.frame = p->frame;
-  if (!(plan->node = thr_calloc((size_t)p->n_cords, sizeof *plan->node))) return thr_nomem(err);
-  for (int i = 0; i < p->n_cords; i++) {
-    const thr_cord *c = &p->cord[i];
-    int *node = plan->node[i] = thr_calloc((size_t)c->n_passes + 1, sizeof *node);
+  const thr_plan *made = &plan->plan;
+  plan->lent.frame = made->frame;
+  if (!(plan->node = thr_calloc((size_t)made->n_cords, sizeof *plan->node))) return thr_nomem(err);
+
+  /* The node where a cord starts, then the head of every pass. */
+  for (int i = 0; i < made->n_cords; i++) {
+    const thr_cord *cord = &made->cord[i];
+    int *node = plan->node[i] = thr_calloc((size_t)cord->n_passes + 1, sizeof *node);
     if (!node) return thr_nomem(err);
-    node[0] = thr_cord_start(&p->frame, c);
-    for (int k = 0; k < c->n_passes; k++)
-      node[k + 1] = thr_head(&p->frame, c->half[k]);
+    node[0] = thr_cord_start(&made->frame, cord);
+
+    for (int k = 0; k < cord->n_passes; k++)
+      node[k + 1] = thr_head(&made->frame, cord->half[k]);
   }
+
   return THR_OK;
 }
 
-/* A plan with cords becomes the caller's, whatever is proved of it. */
+/* Ends a call that makes a plan: a plan with cords becomes the caller's, whatever is proved of it,
+ * else it is freed. Releases the lock, and returns the status of the library. */
 static thread_status hand_over(thr_status st, thread_plan *made, thread_plan **out, thr_err *why,
                                thread_error *err)
 {
+  /* A plan without cords is no plan, even if only the time was too short. */
   bool whole = made && made->plan.n_cords > 0 && (st == THR_OK || st == THR_ELIMIT);
   thr_status described = whole ? describe(made, why) : THR_OK;
   if (described) st = described;
+
+  /* The caller owns the plan, or gets none. */
   if (whole && !described)
     *out = made;
   else if (made)
     destroy(made);
+
   thr_library_unlock();
+
   return thr_library_status(st, why, err);
 }
 
-static thr_status make(const thread_plan_options *o, const thr_frame *frame, thr_plan *plan,
+/* Makes a plan with the limits that the options ask for. */
+static thr_status make(const thread_plan_options *options, const thr_frame *frame, thr_plan *plan,
                        thr_err *err)
 {
-  thr_request wishes;
-  listener l = {.options = o};
-  thr_limits limits = {.threads = o->threads,
-                       .interrupted = &l.stop,
-                       .user = &l,
-                       .progress = o->progress ? tell : NULL};
-  thr_status st = read_wishes(o, frame, &wishes, err);
-  if (!st && !(o->gap <= 100))
+  thr_request request;
+
+  /* The search hears from the caller. */
+  listener search = {.options = options};
+  thr_limits limits = {.threads = options->threads,
+                       .interrupted = &search.stop,
+                       .user = &search,
+                       .progress = options->progress ? tell : NULL};
+
+  /* The request; a gap counts beside a request in JSON, too, which may have one of its own. */
+  thr_status st = read_request(options, frame, &request, err);
+  if (!st && !(options->gap <= 100))
     st = thr_fail(err, THR_EINPUT, "gap: neither below 0 nor from 0 to 100 percent");
-  if (!st && o->gap >= 0)
-    wishes.gap = o->gap; /* also beside a request, which has one of its own perhaps */
-  if (!st && !o->request)
-    wishes.time_limit = o->seconds < 0 ? thr_dispatch_usual_seconds(&wishes) : o->seconds;
-  double seconds = st ? 0 : o->seconds < 0 ? wishes.time_limit : o->seconds;
-  double work = thr_dispatch_work(&wishes);
-  const bool unsaid = !st && o->seconds < 0 && seconds > 0;
+  if (!st && options->gap >= 0) request.gap = options->gap;
+
+  /* The time for the search, s: as the options say, or as thread plan takes. */
+  if (!st && !options->request)
+    request.time_limit =
+        options->seconds < 0 ? thr_dispatch_usual_seconds(&request) : options->seconds;
+  double seconds = st ? 0 : options->seconds < 0 ? request.time_limit : options->seconds;
+  double work = thr_dispatch_work(&request);
+
+  /* If nobody has said how long it may take, counted work ends the search rather than the clock. */
+  const bool unsaid = !st && options->seconds < 0 && seconds > 0;
   limits.usual = unsaid;
-  if (unsaid) seconds *= thr_dispatch_patience(&wishes);
+  if (unsaid) seconds *= thr_dispatch_patience(&request);
   if (unsaid && work > 0) limits = thr_limits_counted(&limits, &work);
+
+  /* The clock, counted from now on. */
   if (seconds > 0) limits.deadline = thr_clock() + seconds;
-  if (!st) st = thr_plan_make(frame, &wishes, &limits, plan, NULL, err);
-  free(wishes.end_node);
-  free(wishes.end_count);
+  if (!st) st = thr_plan_make(frame, &request, &limits, plan, NULL, err);
+
+  /* The request owns what was read for it. */
+  free(request.end_node);
+  free(request.end_count);
   return st;
 }
 
+/* Makes a plan; see include/thread.h. */
 thread_status thread_plan_make(const thread_frame *frame, const thread_plan_options *options,
                                thread_plan **out, thread_error *err)
 {
   thr_err why = {0};
-  thread_plan_options o;
+  thread_plan_options own;
+
   *out = NULL;
+
+  /* The lock is released by hand_over. */
   thr_library_lock();
   thread_plan *made = thr_calloc(1, sizeof *made);
-  thread_plan_options_init(&o, sizeof o);
-  thr_status st = made ? thr_library_options(&o, sizeof o, options, "thread_plan_options", &why)
+
+  /* Options that the program does not know keep their usual values. */
+  thread_plan_options_init(&own, sizeof own);
+  thr_status st = made ? thr_library_options(&own, sizeof own, options, "thread_plan_options", &why)
                        : thr_nomem(&why);
-  if (!st) st = make(&o, &frame->frame, &made->plan, &why);
+  if (!st) st = make(&own, &frame->frame, &made->plan, &why);
+
+  /* Describing the plan is under the lock, too. */
   return hand_over(st, made, out, &why, err);
 }
 
+/* Reads a plan from JSON; see include/thread.h. */
 thread_status thread_plan_parse(const char *json, size_t n, const char *name, thread_plan **out,
                                 thread_error *err)
 {
   thr_err why = {0};
   *out = NULL;
+
+  /* What is parsed is described like a plan that was made. */
   thr_library_lock();
   thread_plan *made = thr_calloc(1, sizeof *made);
+
   thr_status st =
       made ? thr_plan_parse(&made->plan, json, n, name ? name : "plan", &why) : thr_nomem(&why);
+
   return hand_over(st, made, out, &why, err);
 }
 
+/* Frees a plan; NULL ok. */
 void thread_plan_free(thread_plan *plan)
 {
   if (plan) destroy(plan);
@@ -230,26 +310,34 @@ void thread_plan_free(thread_plan *plan)
 
 /* ---- what is in it ---- */
 
+/* Writes a plan as JSON; see include/thread.h. */
 thread_status thread_plan_write(const thread_plan *plan, char **json, size_t *n, thread_error *err)
 {
   thr_err why = {0};
   thr_text text = {0};
+
   *json = NULL;
   if (n) *n = 0;
+
+  /* As thread plan writes it to a file. */
   thr_plan_write(&plan->plan, &text);
+
   return thr_library_status(thr_library_give(&text, json, n, &why), &why, err);
 }
 
+/* Returns the framework of a plan, borrowed. */
 const thread_frame *thread_plan_frame(const thread_plan *plan)
 {
   return &plan->lent;
 }
 
+/* Returns the number of cords. */
 int thread_plan_cords(const thread_plan *plan)
 {
   return plan->plan.n_cords;
 }
 
+/* Returns the number of passes of a cord and, in *node, the nodes along it, borrowed. */
 int thread_plan_cord(const thread_plan *plan, int i, const int **node)
 {
   bool known = i >= 0 && i < plan->plan.n_cords;
@@ -257,40 +345,52 @@ int thread_plan_cord(const thread_plan *plan, int i, const int **node)
   return known ? plan->plan.cord[i].n_passes : 0;
 }
 
+/* Summarizes a plan, of which a program knows the first `size` bytes. */
 thread_status thread_plan_summary(const thread_plan *plan, thread_summary *out, size_t size,
                                   thread_error *err)
 {
   thr_err why = {0};
   thr_physics physics;
-  const thr_plan *p = &plan->plan;
+  const thr_plan *stated = &plan->plan;
+
+  /* Even after a failure the struct says its size. */
   memset(out, 0, size);
   memcpy(out, &size, size < sizeof size ? 0 : sizeof size);
-  thr_status st = thr_physics_resolve(&p->options.physics, &p->frame, &physics, &why);
+
+  /* The pull by the closed form: seating x exp(mu x pulled turning of the cord that needs most). */
+  thr_status st = thr_physics_resolve(&stated->options.physics, &stated->frame, &physics, &why);
   if (st) return thr_library_status(st, &why, err);
-  double reach = thr_cords_pulled_turning(&p->frame, p->cord, p->n_cords);
+  double reach = thr_cords_pulled_turning(&stated->frame, stated->cord, stated->n_cords);
+
+  /* What the plan states, and what it proves. */
   const thread_summary all = {.size = size,
-                              .length = p->metrics.length,
-                              .bound = p->proof.present ? p->proof.lower_bound : 0,
-                              .overlap = p->metrics.overlap,
-                              .turning = p->metrics.turning,
-                              .largest_turning = p->metrics.max_turning,
+                              .length = stated->metrics.length,
+                              .bound = stated->proof.present ? stated->proof.lower_bound : 0,
+                              .overlap = stated->metrics.overlap,
+                              .turning = stated->metrics.turning,
+                              .largest_turning = stated->metrics.max_turning,
                               .pull = physics.seating * exp(physics.mu * reach),
-                              .passes = p->metrics.passes,
-                              .u_turns = p->metrics.u_turns,
-                              .shortest = p->proof.present && p->proof.optimal,
-                              .straightest = p->turning.present && p->turning.optimal};
+                              .passes = stated->metrics.passes,
+                              .u_turns = stated->metrics.u_turns,
+                              .shortest = stated->proof.present && stated->proof.optimal,
+                              .straightest = stated->turning.present && stated->turning.optimal};
+
+  /* A program with an older header gets the members that it knows. */
   memcpy(out, &all, size < sizeof all ? size : sizeof all);
+
   return thr_library_status(THR_OK, &why, err);
 }
 
 /* ---- what is done with it ---- */
 
+/* Verifies all claims of a plan. */
 thread_status thread_check(const thread_plan *plan, thread_error *err)
 {
   thr_err why = {0};
   return thr_library_status(thr_check_plan(&plan->plan, &why), &why, err);
 }
 
+/* Returns the number of a method, THR_N_METHODS if there is none of that name. */
 static int method_of(const char *name)
 {
   int m = 0;
@@ -299,42 +399,60 @@ static int method_of(const char *name)
   return m;
 }
 
+/* Evaluates a plan by a method and puts the result into the plan. */
 thread_status thread_eval(thread_plan *plan, const char *method, double seconds, thread_error *err)
 {
   thr_err why = {0};
   thr_eval found = {0};
-  thr_plan *p = &plan->plan;
+  thr_plan *evaluated = &plan->plan;
   thr_status st = THR_OK;
   int which = method_of(method);
+
+  /* As thread eval does by default, with the physics of the plan. */
   thr_limits limits = {.deadline = seconds > 0 ? thr_clock() + seconds : 0};
   thr_eval_options options = thr_eval_options_default();
-  options.physics = p->options.physics;
+  options.physics = evaluated->options.physics;
+
+  /* Evaluating waits for its turn, as planning does. */
   thr_library_lock();
   if (which == THR_N_METHODS) st = thr_fail(&why, THR_EINPUT, "there is no method %s", method);
   if (!st)
-    st = thr_eval_plan(&p->frame, p->cord, p->n_cords, (thr_method)which, &options, &limits, &found,
-                       &why);
-  if (!st) (void)thr_plan_take_evaluation(p, &found.record);
+    st = thr_eval_plan(&evaluated->frame, evaluated->cord, evaluated->n_cords, (thr_method)which,
+                       &options, &limits, &found, &why);
+
+  /* The plan takes the record over; what it leaves is freed. */
+  if (!st) (void)thr_plan_take_evaluation(evaluated, &found.record);
   thr_eval_destroy(&found);
   thr_library_unlock();
+
   return thr_library_status(st, &why, err);
 }
 
+/* Draws a document of a plan. */
 thread_status thread_draw(const thread_plan *plan, const char *type, char **bytes, size_t *n,
                           thread_error *err)
 {
   thr_err why = {0};
   thr_text text = {0};
+
+  /* As thread draw does by default. */
   const thr_limits limits = {0};
   const thr_document_options usual = {0};
   int i = thr_document_find(type);
   thr_status st = i < 0 ? thr_fail(&why, THR_EINPUT, "there is no document %s", type) : THR_OK;
+
+  /* Outputs are empty after a failure. */
   *bytes = NULL;
   if (n) *n = 0;
+
+  /* Drawing waits for its turn, as planning does. */
   thr_library_lock();
   if (!st) st = thr_document_make(&plan->plan, i, &usual, &limits, &text, &why);
   thr_library_unlock();
+
+  /* The bytes become the caller's. */
   if (!st) st = thr_library_give(&text, bytes, n, &why);
+
   thr_text_destroy(&text);
   return thr_library_status(st, &why, err);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What reading a framework merged, dropped or found odd, in words for its user. */
+/* Notes on how a framework was read, in words for its user: what was merged, dropped or found odd,
+ * and what was assumed. handles.h says in which order to read the folder. */
 #ifndef THR_NOTES_H
 #define THR_NOTES_H
 
@@ -8,7 +9,7 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-/* Appends a line for each; none where nothing is worth a word. THR_ENOMEM. As thr_frame_near. */
+/* Appends a line for each note, or nothing. THR_ENOMEM. Takes as long as thr_frame_near. */
 thr_status thr_read_notes(const thr_frame *frame, const thr_read_report *report, thr_text *out,
                           thr_err *err) THR_MUST_CHECK;
 
@@ -31,7 +32,7 @@ enum { THR_ASSUMPTIONS = 8 };
 int thr_read_assumptions(const thr_read_options *options, const thr_frame *frame,
                          const thr_read_report *report, thr_assumption row[THR_ASSUMPTIONS]);
 
-/* "assumed", "maker", "file" or "option". */
+/* Returns "assumed", "maker", "file" or "option". */
 const char *thr_whence_name(thr_whence from);
 
 #endif

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The framework as rigid beads: one bead per node, an arm of square section towards the middle of
- * every edge, ended by a face in the plane through the edge's middle and square to it. Adjacent
- * beads meet face to face; feet stand on the ground.
+/* Makes rigid beads of a framework: one bead per node, an arm of square section towards the middle
+ * of every edge, ended by a face in the plane through the edge's middle and square to the edge.
+ * Adjacent beads meet face to face; feet stand on the ground (thesis, chapter 2, has the kinds of
+ * beads).
  *
  * A force F at the point p acts on a bead with centre c as the wrench (F, (p - c) x F), six
  * numbers. A pass through a face draws the two beads together by its tension.
+ *
+ * Inside, lengths are in m, masses in kg; users give mm, g and g/cm3.
  *
  * Example: a pass of 10 N straight through a bead with two arms in line adds no wrench: what draws
  * at one face draws as much at the other. */
@@ -16,15 +19,19 @@
 #include <math.h>
 #include <string.h>
 
+/* Computes the cross product of two vectors. */
 static void cross(const double a[3], const double b[3], double out[3])
 {
   for (int k = 0; k < 3; k++)
     out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
+/* Allocates the arrays. Fields that are not zero at first get their usual values. */
 static thr_status allocate(thr_beads *beads, thr_err *err)
 {
-  size_t n = (size_t)beads->n_beads, m = (size_t)beads->n_faces, feet = (size_t)beads->n_feet;
+  size_t n = (size_t)beads->n_beads, n_faces = (size_t)beads->n_faces, feet = (size_t)beads->n_feet;
+
+  /* Of every bead; it weighs, bears and is held in no special way at first. */
   beads->centre = thr_scratch_array(&beads->own, n, sizeof *beads->centre);
   beads->mass_centre = thr_scratch_array(&beads->own, n, sizeof *beads->mass_centre);
   beads->mass = thr_scratch_array(&beads->own, n, sizeof *beads->mass);
@@ -32,46 +39,59 @@ static thr_status allocate(thr_beads *beads, thr_err *err)
   beads->load = thr_scratch_array(&beads->own, n, sizeof *beads->load);
   beads->down[2] = -1;
   beads->rays = THR_USUAL_RAYS;
-  beads->middle = thr_scratch_array(&beads->own, m, sizeof *beads->middle);
-  beads->axis = thr_scratch_array(&beads->own, m, sizeof *beads->axis);
-  beads->corner = thr_scratch_array(&beads->own, m, sizeof *beads->corner);
+
+  /* Of every face. */
+  beads->middle = thr_scratch_array(&beads->own, n_faces, sizeof *beads->middle);
+  beads->axis = thr_scratch_array(&beads->own, n_faces, sizeof *beads->axis);
+  beads->corner = thr_scratch_array(&beads->own, n_faces, sizeof *beads->corner);
+
+  /* Of every foot. */
   beads->foot = thr_scratch_array(&beads->own, feet, sizeof *beads->foot);
   beads->foot_point = thr_scratch_array(&beads->own, feet, sizeof *beads->foot_point);
+
   return thr_scratch_check(&beads->own, err);
 }
 
-/* The framework's feet, or its lowest nodes if it has none. */
+/* Returns whether a node stands on the ground: a foot of the framework, or one of its lowest nodes
+ * if the framework has no foot. */
 static bool is_foot(const thr_frame *frame, int v, bool any, double lowest, double tolerance)
 {
   return any ? frame->foot[v] : frame->xyz[v][2] <= lowest + tolerance;
 }
 
+/* Says where the framework stands, in its units. */
 typedef struct {
   bool any_foot;
-  double lowest, tolerance; /* in units: of the nodes if there is no foot */
-  double ground;            /* lowest foot's node, in units */
+  double lowest, tolerance; /* z of the lowest node; nodes that much above count as lowest */
+  double ground;            /* z of the lowest foot's node */
 } footing;
 
+/* Finds where the framework stands. */
 static footing find_footing(const thr_frame *frame)
 {
-  footing g = {
+  footing standing = {
       .lowest = INFINITY, .tolerance = 1e-6 * thr_frame_diagonal(frame), .ground = INFINITY};
   for (int v = 0; v < frame->n_nodes; v++) {
-    if (frame->foot[v]) g.ground = fmin(g.ground, frame->xyz[v][2]);
-    g.any_foot = g.any_foot || frame->foot[v];
-    g.lowest = fmin(g.lowest, frame->xyz[v][2]);
+    if (frame->foot[v]) standing.ground = fmin(standing.ground, frame->xyz[v][2]);
+    standing.any_foot = standing.any_foot || frame->foot[v];
+    standing.lowest = fmin(standing.lowest, frame->xyz[v][2]);
   }
-  if (!g.any_foot) g.ground = g.lowest;
-  return g;
+
+  /* Without feet, the lowest nodes stand. */
+  if (!standing.any_foot) standing.ground = standing.lowest;
+
+  return standing;
 }
 
-/* The corners of a regular polygon on the edge of each foot's disc, the first half a side from the
- * level direction. */
-static void place_feet(thr_beads *beads, const thr_frame *frame, const footing *g)
+/* Places the corners of a regular polygon on the edge of each foot's disc, the first half a side
+ * from the level direction. The disc is half a width below the node. */
+static void place_feet(thr_beads *beads, const thr_frame *frame, const footing *standing)
 {
   int n = 0;
   for (int v = 0; v < frame->n_nodes; v++) {
-    if (!is_foot(frame, v, g->any_foot, g->lowest, g->tolerance)) continue;
+    if (!is_foot(frame, v, standing->any_foot, standing->lowest, standing->tolerance)) continue;
+
+    /* Along and across the level direction, which turns with the drawing. */
     for (int i = 0; i < THR_FOOT_POINTS; i++) {
       const double angle = 2 * THR_PI * (i + 0.5) / THR_FOOT_POINTS,
                    along = 0.5 * beads->width * cos(angle),
@@ -82,6 +102,7 @@ static void place_feet(thr_beads *beads, const thr_frame *frame, const footing *
           beads->centre[v][1] + along * beads->level[1] + across * beads->level[0];
       beads->foot_point[n][i][2] = beads->centre[v][2] - 0.5 * beads->width;
     }
+
     beads->foot[n++] = v;
   }
 }
@@ -89,8 +110,8 @@ static void place_feet(thr_beads *beads, const thr_frame *frame, const footing *
 static const double VERTICAL =
     1e-9; /* horizontal part of a unit vector that is vertical, at most */
 
-/* Finds the direction of the horizontal part of the first edge that is not vertical; x if all are.
- */
+/* Finds the level direction: of the horizontal part of the first edge that is not vertical; x if
+ * all edges are vertical. */
 static void find_level(thr_beads *beads, const thr_frame *frame)
 {
   beads->level[0] = 1;
@@ -98,6 +119,8 @@ static void find_level(thr_beads *beads, const thr_frame *frame)
     const double *from = beads->centre[frame->edge[e][0]], *to = beads->centre[frame->edge[e][1]];
     const double way[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]},
                  along = hypot(way[0], way[1]);
+
+    /* The first edge with a horizontal part decides. */
     if (!(along > VERTICAL * sqrt(thr_dot(way, way)))) continue;
     beads->level[0] = way[0] / along;
     beads->level[1] = way[1] / along;
@@ -105,7 +128,8 @@ static void find_level(thr_beads *beads, const thr_frame *frame)
   }
 }
 
-/* Sides of the square section of an arm along axis. */
+/* Computes the sides of the square section of an arm along `axis`, unit vectors: the first one is
+ * horizontal, and along the level direction if the axis is vertical. */
 static void section(const thr_beads *beads, const double axis[3], double side[2][3])
 {
   double level = hypot(axis[0], axis[1]);
@@ -115,111 +139,150 @@ static void section(const thr_beads *beads, const double axis[3], double side[2]
   cross(axis, side[0], side[1]);
 }
 
+/* Computes axis, middle and corners of the face of edge e. */
 static thr_status place_face(thr_beads *beads, const thr_frame *frame, int e, thr_err *err)
 {
   static const double turn[4][2] = {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
   const double *from = beads->centre[frame->edge[e][0]], *to = beads->centre[frame->edge[e][1]];
   double side[2][3];
+
+  /* The axis, not yet of length 1, and the middle. */
   for (int k = 0; k < 3; k++) {
     beads->axis[e][k] = to[k] - from[k];
     beads->middle[e][k] = 0.5 * (from[k] + to[k]);
   }
+
   double length = sqrt(thr_dot(beads->axis[e], beads->axis[e]));
   if (!(length > 0))
     return thr_fail(
         err, THR_EINPUT,
         "edge between nodes %s and %s has no length in space: a bead needs an arm there",
         frame->name[frame->edge[e][0]], frame->name[frame->edge[e][1]]);
+
   for (int k = 0; k < 3; k++)
     beads->axis[e][k] /= length;
   section(beads, beads->axis[e], side);
+
+  /* The corners, in order round the axis. */
   for (int i = 0; i < 4; i++)
     for (int k = 0; k < 3; k++)
       beads->corner[e][i][k] =
           beads->middle[e][k] + beads->width * (turn[i][0] * side[0][k] + turn[i][1] * side[1][k]);
+
   return THR_OK;
 }
 
-/* An arm is a prism from the node to the face. Two opposite arms fill the cube of side width round
- * the node between them; k arms that meet square fill it k / 2 times, so with more than two each
- * counts 2 / k of its first half width. Exact, but for the bores, for square joints with two
- * opposite arms among them. */
-static void weigh(thr_beads *beads, const thr_frame *frame, const thr_physics *physics, int v)
+/* Computes mass and mass centre of a bead. An arm is a prism from the node to the face, with a
+ * bore.
+ *
+ * Two opposite arms fill the cube of side width round the node between them; k arms that meet
+ * square fill the cube k / 2 times. So with more than two arms each counts 2 / k of its first half
+ * width. Exact, but for the bores, for square joints with two opposite arms among them. */
+static void compute_mass(thr_beads *beads, const thr_frame *frame, const thr_physics *physics,
+                         int v)
 {
+  /* The section in m^2, and the share of the cube that counts for each arm. */
   double section_area = beads->width * beads->width - 0.25 * THR_PI * beads->bore * beads->bore;
   int degree = thr_degree(frame, v);
+
   double share = degree > 2 ? 2.0 / degree : 1, volume = 0, moment[3] = {0};
+
+  /* Volume and first moment, arm by arm. */
   for (int i = frame->first[v]; i < frame->first[v + 1]; i++) {
     double arm[3], length = 0;
     for (int k = 0; k < 3; k++)
       arm[k] = beads->middle[frame->half[i] >> 1][k] - beads->centre[v][k];
     length = sqrt(thr_dot(arm, arm));
+
+    /* The first half width counts by its share only. */
     double shared = fmin(0.5 * beads->width, length), part = length - (1 - share) * shared;
-    double lever = 0.5 * (length * length - (1 - share) * shared * shared) /
-                   length; /* m of the first moment per m of arm */
+
+    /* The integral of the distance from the node along the arm, divided by the arm's length. */
+    double lever = 0.5 * (length * length - (1 - share) * shared * shared) / length;
+
     volume += section_area * part;
     for (int k = 0; k < 3; k++)
       moment[k] += section_area * lever * arm[k];
   }
+
+  /* A given mass keeps the mass centre of the volume. */
   beads->mass[v] =
       physics->bead_mass > 0 ? 1e-3 * physics->bead_mass : 1e3 * physics->density * volume;
   for (int k = 0; k < 3; k++)
     beads->mass_centre[v][k] = beads->centre[v][k] + moment[k] / volume;
 }
 
+/* Computes everything but the sizes. unit: m per unit of the framework. */
 static thr_status fill(thr_beads *beads, const thr_frame *frame, const thr_physics *physics,
-                       double unit, const footing *g, thr_err *err)
+                       double unit, const footing *standing, thr_err *err)
 {
+  /* Nodes in m; z = 0 is the underside of the lowest foot. */
   for (int v = 0; v < frame->n_nodes; v++) {
     beads->centre[v][0] = unit * frame->xyz[v][0];
     beads->centre[v][1] = unit * frame->xyz[v][1];
-    beads->centre[v][2] = unit * (frame->xyz[v][2] - g->ground) + 0.5 * beads->width;
+    beads->centre[v][2] = unit * (frame->xyz[v][2] - standing->ground) + 0.5 * beads->width;
   }
+
+  /* Feet need the level direction, faces the nodes. */
   beads->size = unit * thr_frame_diagonal(frame);
   find_level(beads, frame);
-  place_feet(beads, frame, g);
+  place_feet(beads, frame, standing);
+
   for (int e = 0; e < frame->n_edges; e++) {
-    thr_status s = place_face(beads, frame, e, err);
-    if (s != THR_OK) return s;
+    thr_status st = place_face(beads, frame, e, err);
+    if (st != THR_OK) return st;
   }
+
+  /* Masses, which must be positive. */
   for (int v = 0; v < frame->n_nodes; v++) {
-    weigh(beads, frame, physics, v);
+    compute_mass(beads, frame, physics, v);
     if (!(beads->mass[v] > 0) || !isfinite(beads->mass[v]))
       return thr_fail(err, THR_EINPUT,
                       "bead at node %s weighs %g kg: set density (g/cm3) or bead_mass (g)",
                       frame->name[v], beads->mass[v]);
   }
+
   return THR_OK;
 }
 
+/* Makes the beads; see beads.h. */
 thr_status thr_beads_make(const thr_frame *frame, const thr_physics *physics, thr_beads *out,
                           thr_err *err)
 {
   double unit;
   *out = (thr_beads){0};
-  thr_status s = thr_units_in_mm(frame->units, &unit, err);
-  if (s != THR_OK) return s;
+
+  /* Sizes are in mm, so that the framework's unit must be known in mm. */
+  thr_status st = thr_units_in_mm(frame->units, &unit, err);
+  if (st != THR_OK) return st;
   if (!(physics->bead_diameter > 0 && physics->bore >= 0 && physics->bead_diameter > physics->bore))
     return thr_fail(err, THR_EINPUT, "bead_diameter %g mm: must be wider than the bore, %g mm",
                     physics->bead_diameter, physics->bore);
-  footing g = find_footing(frame);
+
+  /* Count feet first: the arrays depend on their number. */
+  footing standing = find_footing(frame);
   thr_beads beads = {.n_beads = frame->n_nodes,
                      .n_faces = frame->n_edges,
                      .width = 1e-3 * physics->bead_diameter,
                      .bore = 1e-3 * physics->bore};
   beads.play = fmax(0, 0.5e-3 * (physics->bore - physics->cord_diameter));
+
   for (int v = 0; v < frame->n_nodes; v++)
-    beads.n_feet += is_foot(frame, v, g.any_foot, g.lowest, g.tolerance);
-  s = allocate(&beads, err);
-  if (s == THR_OK) s = fill(&beads, frame, physics, 1e-3 * unit, &g, err);
-  if (s != THR_OK) {
+    beads.n_feet += is_foot(frame, v, standing.any_foot, standing.lowest, standing.tolerance);
+
+  /* Nothing is left allocated after a failure. */
+  st = allocate(&beads, err);
+  if (st == THR_OK) st = fill(&beads, frame, physics, 1e-3 * unit, &standing, err);
+  if (st != THR_OK) {
     thr_beads_destroy(&beads);
-    return s;
+    return st;
   }
+
   *out = beads;
   return THR_OK;
 }
 
+/* Frees the arrays. */
 void thr_beads_destroy(thr_beads *beads)
 {
   if (!beads) return;
@@ -227,6 +290,7 @@ void thr_beads_destroy(thr_beads *beads)
   *beads = (thr_beads){0};
 }
 
+/* Returns the weight of all beads that are not held, N. */
 double thr_beads_weight(const thr_beads *beads, const thr_physics *physics)
 {
   double weight = 0;
@@ -235,12 +299,14 @@ double thr_beads_weight(const thr_beads *beads, const thr_physics *physics)
   return weight;
 }
 
+/* Holds beads in place, without ground. */
 void thr_beads_clamp(thr_beads *beads, const bool *fixed)
 {
   memcpy(beads->fixed, fixed, (size_t)beads->n_beads * sizeof *fixed);
   beads->n_feet = 0;
 }
 
+/* Tilts the direction of weight. */
 void thr_beads_tilt(thr_beads *beads, double angle, double azimuth)
 {
   beads->down[0] = sin(angle) * cos(azimuth);

@@ -1,5 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The structure that stands: beads, what holds, settles, erects, and whether it is rigid. */
+/* The closed structure as a mechanical system: which pull of the cords holds the rigid beads,
+ * against their weights and a load, by limit analysis; what Bullet shows of the fall and of the
+ * erection; and whether the framework is rigid if its nodes were free hinges.
+ *
+ * Read beads.c first (the shape: nodes, faces, feet, masses), then blocks.c (rigid blocks and the
+ * linear programme of their equilibrium), mechanism.c (collapse mechanisms and the balance of
+ * powers that proves a bound), holding.c (the bounds) with welds.c, and structure.c (which
+ * questions are asked of a plan; record.c lays the answers into the plan). The witness: simulated.c
+ * (the world), settle.c (the fall), erect.c (the erection). By themselves: rigidity.c and spqr.c.
+ *
+ * Units are m, kg, N, rad inside; mm and g in the physics that users state. */
 #ifndef THR_BEADS_H
 #define THR_BEADS_H
 
@@ -25,7 +35,8 @@ typedef struct {
 
 enum { THR_FOOT_POINTS = 16 }; /* corners of the polygon that stands for the disc of a foot */
 
-/* Units here are SI: m, kg, N. */
+/* Holds the shape and the masses of the beads, and what acts on them. Units here are SI: m, kg, N.
+ */
 typedef struct {
   int n_beads, n_faces; /* = nodes, edges of the framework */
   double (*centre)[3];  /* [n_beads] node positions, m; z = 0 is the underside of the lowest foot */
@@ -58,30 +69,31 @@ typedef struct {
   thr_scratch own; /* the arrays */
 } thr_beads;
 
-/* physics must be resolved. One side of every arm's square section is horizontal; a vertical arm's
- * sides are along `level` and square to it. Faces are in the middle of the straight line between
- * the nodes, also where the framework gives its own lengths. Mass: bead_mass, or density x (volume
- * of the arms less their bores), the arms' overlap at the node taken off (the text in beads.c says
- * how). THR_EINPUT for sizes out of range. Release with thr_beads_destroy. O(n). */
+/* Makes the beads of a framework; physics must be resolved. One side of every arm's square section
+ * is horizontal; a vertical arm's sides are along `level` and square to it. Faces are in the middle
+ * of the straight line between the nodes, also where the framework gives its own lengths. Mass:
+ * bead_mass, or density x (volume of the arms less their bores), the arms' overlap at the node
+ * taken off (the text in beads.c says how). THR_EINPUT for sizes out of range. Release with
+ * thr_beads_destroy. O(n). */
 thr_status thr_beads_make(const thr_frame *frame, const thr_physics *physics, thr_beads *out,
                           thr_err *err) THR_MUST_CHECK;
 void thr_beads_destroy(thr_beads *beads);
 
-/* N, of all beads that are not fixed. */
+/* Returns the weight, N, of all beads that are not fixed. */
 double thr_beads_weight(const thr_beads *beads, const thr_physics *physics);
 
 /* Holds the beads with fixed[n_beads] true in place and takes the ground away (n_feet = 0): for
  * cantilevers and the like. */
 void thr_beads_clamp(thr_beads *beads, const bool *fixed);
 
-/* The ground is tilted about a horizontal axis by angle, rad, so that weight draws towards azimuth
- * (rad from x towards y), too.
- */
+/* Tilts the ground about a horizontal axis by angle, rad, so that weight draws towards azimuth (rad
+ * from x towards y), too. */
 void thr_beads_tilt(thr_beads *beads, double angle, double azimuth);
 
 /* ---- settle.c: The closed structure in Bullet, as a witness for the limit analysis: rigid beads
  * that touch at the corners of their faces, cords as forces between them. */
 
+/* Says what limit analysis knows of the fall, and how it is simulated. */
 typedef struct {
   double least;       /* N: below it nothing holds the structure, as limit analysis has proved; 0 =
                          nothing is proved .. */
@@ -94,6 +106,7 @@ typedef struct {
   bool large; /* thr_settle_largest */
 } thr_settle_options;
 
+/* Says what a simulation of the fall shows. */
 typedef enum {
   THR_SETTLE_FELL,
   THR_SETTLE_HELD, /* without any pull */
@@ -105,6 +118,7 @@ typedef enum {
                      */
 } thr_settle_status;
 
+/* Holds what a simulation of the fall shows. */
 typedef struct {
   bool present;
   int status;         /* thr_settle_status */
@@ -121,26 +135,27 @@ typedef struct {
                                        each bead, settled and after the fall; owned */
 } thr_settle;
 
-/* n_beads above it: status TOO_LARGE, nothing else; large: where it is asked for, and takes many
- * minutes. */
+/* Returns the largest number of beads that are simulated; above, the status is TOO_LARGE. large:
+ * where a run of many minutes is asked for. */
 int thr_settle_largest(bool large);
 
-/* A fall counts if it is known to a twentieth and not more than a twentieth above a pull at which
- * an equilibrium exists (CREPT otherwise) or below the one below which none does (LATE). Without a
- * proof (least 0) it need not be known so well. What does not count is told all the same. */
+/* Decides what a simulation shows: a fall counts if it is known to a twentieth and not more than a
+ * twentieth above a pull at which an equilibrium exists (CREPT otherwise) or below the one below
+ * which none does (LATE). Without a proof (least 0) it need not be known so well. What does not
+ * count is told all the same. */
 void thr_settle_judge(thr_settle *settle, double least, double equilibrium);
 
-/* A cord's pass has tension x pull, but not more than most: [n_cords][n_passes] N each; most NULL:
- * no such limit, cords are drawn in; else they were drawn in and are let down, tension = what
- * friction keeps of a force of 1 at the ends. Settles for 2, then lets off the pull by 4 % in units
- * of the time sqrt(mean edge / gravity), down to 0.7 of least; where nothing is proved, for 15 and
- * then all of it: structures and their scale models behave alike. It falls when a bead moves by
- * 0.005 of the mean edge within half a unit; it began to when that was a tenth as much.
- * NEVER_SETTLED: a bead moved by a twentieth of an edge at the start. What does not count is tried
- * once more with four times the linear systems and a 16th of the velocity that may be wrong. Same
- * input and seed, same bits on one machine. Some 1,500 steps of five linear systems: 49 beads 4 s,
- * 400 beads two minutes. THR_EINPUT for options out of range, THR_ELIMIT when stopped, both with
- * out empty. */
+/* Simulates how the structure falls as the pull is let off. A cord's pass has tension x pull, but
+ * not more than most: [n_cords][n_passes] N each; most NULL: no such limit, cords are drawn in;
+ * else they were drawn in and are let down, tension = what friction keeps of a force of 1 at the
+ * ends. Settles for 2, then lets off the pull by 4 % in units of the time sqrt(mean edge /
+ * gravity), down to 0.7 of least; where nothing is proved, for 15 and then all of it: structures
+ * and their scale models behave alike. It falls when a bead moves by 0.005 of the mean edge within
+ * half a unit; it began to when that was a tenth as much. NEVER_SETTLED: a bead moved by a
+ * twentieth of an edge at the start. What does not count is tried once more with four times the
+ * linear systems and a 16th of the velocity that may be wrong. Same input and seed, same bits on
+ * one machine. Some 1,500 steps of five linear systems: 49 beads 4 s, 400 beads two minutes.
+ * THR_EINPUT for options out of range, THR_ELIMIT when stopped, both with out empty. */
 thr_status thr_settle_run(const thr_beads *beads, const thr_frame *frame, const thr_cord *cord,
                           int n_cords, const double *const *tension, const double *const *most,
                           const thr_physics *physics, const thr_settle_options *options,
@@ -152,6 +167,7 @@ void thr_settle_destroy(thr_settle *settle);
 
 enum { THR_ERECT_STILLS = 6 };
 
+/* Holds a moment of the erection. */
 typedef struct {
   double pull;   /* N, of the harder ends */
   double lift;   /* part of the weight that the counterweight carries */
@@ -160,6 +176,7 @@ typedef struct {
   int closed;    /* faces that open nowhere by a hundredth of an edge */
 } thr_erect_still;
 
+/* Holds what a simulation of the erection shows. */
 typedef struct {
   bool present;
   double lift; /* least part of the weight with which it comes up and then stands alone, of 0, 1/4,
@@ -173,17 +190,18 @@ typedef struct {
                         from the drawn position; owned */
 } thr_erect;
 
+/* Says how the erection is simulated. */
 typedef struct {
   double pull; /* N: with which it stands, once it is up */
   double time_step, iterations;
   uint64_t seed;
 } thr_erect_options;
 
-/* tension: N, of a pull of 1 N. It comes up if no face opens by a fiftieth of an edge and nine
- * tenths of the drawn height are there, when the counterweight is gone. Stills are those of the
- * least counterweight that does it, or of the largest. Same input and seed, same bits on one
- * machine. At most five runs of some 4,000 steps: 49 beads half a minute. THR_EINPUT for a pull
- * that is not positive, THR_ELIMIT when stopped, both with out empty; above
+/* Simulates how the structure comes up. tension: N, of a pull of 1 N. It comes up if no face opens
+ * by a fiftieth of an edge and nine tenths of the drawn height are there, when the counterweight is
+ * gone. Stills are those of the least counterweight that does it, or of the largest. Same input and
+ * seed, same bits on one machine. At most five runs of some 4,000 steps: 49 beads half a minute.
+ * THR_EINPUT for a pull that is not positive, THR_ELIMIT when stopped, both with out empty; above
  * thr_settle_largest(false) beads not present. */
 thr_status thr_erect_run(const thr_beads *beads, const thr_frame *frame, const thr_cord *cord,
                          int n_cords, const double *const *tension, const thr_physics *physics,
@@ -195,14 +213,14 @@ void thr_erect_destroy(thr_erect *erect);
  * equilibrium while the cords are being drawn in: their tension falls from the pulled ends inwards.
  */
 
+/* Holds the two bounds of a holding pull, and the mechanism that proves the lower one. */
 typedef struct {
   bool present;
   double lower; /* N: below it no equilibrium exists while the cords are drawn in (friction pyramids
-                   round the cones, or cones),    proved by the   power balance of the mechanism
-                   `velocity`, and within a thousandth of the least such pull; 0 if    none is
-                   needed */
+                   round the cones, or cones), proved by the power balance of the mechanism
+                   `velocity`, and within a thousandth of the least such pull; 0: none is needed */
   double upper; /* N: at it an equilibrium exists (pyramids inside the cones, or cones), 0 if not
-                   computed, INFINITY if none was found. The   structure stands by itself if this is
+                   computed, INFINITY if none was found. The structure stands by itself if this is
                    0 too */
   int first_bead; /* that moves fastest in the collapse mechanism just below lower; -1 if lower is 0
                    */
@@ -218,14 +236,15 @@ typedef struct {
 void thr_holding_press(const thr_cord *cord, int n_cords, const double *const *tension,
                        double *press);
 
-/* press: thr_holding_press, from 0. THR_EINFEASIBLE if no pull holds it, by a mechanism verified
- * here (says which bead fails: e.g. feet slide); THR_ESOLVER if neither was decided, because
- * tensions span too many powers of ten; THR_ELIMIT when stopped. */
+/* Computes the holding pull. press: thr_holding_press, from 0. THR_EINFEASIBLE if no pull holds it,
+ * by a mechanism verified here (says which bead fails: e.g. feet slide); THR_ESOLVER if neither was
+ * decided, because tensions span too many powers of ten; THR_ELIMIT when stopped. */
 thr_status thr_holding_pull(const thr_beads *beads, const thr_frame *frame,
                             const thr_physics *physics, const double *press, bool want_upper,
                             const thr_limits *limits, thr_holding *out,
                             thr_err *err) THR_MUST_CHECK;
-/* What a load may be multiplied by. */
+
+/* Says what a load may be multiplied by. */
 typedef struct {
   double carried; /* at so many times the load an equilibrium exists (friction pyramids inside the
                      cones); 0 if it does not stand */
@@ -235,21 +254,23 @@ typedef struct {
   double (*velocity)[6]; /* [n_beads] the mechanism, as of a holding; owned */
 } thr_carry;
 
-/* press: thr_holding_press of tensions in N. load: N, [n_beads], acts at the nodes, beside the
- * weights; beads->load is left out. Where beads->rise tells of knotted cord, what is too much is so
- * whatever its tension grows to, and with beads->strength within that; carried (0 unless it is
- * wanted) is what the tensions do that cords have then, else the least ones. THR_ESOLVER if it is
- * not decided: among others where no multiple is too much (a foot pushed into the ground). */
+/* Computes what a load may be multiplied by. press: thr_holding_press of tensions in N. load: N,
+ * [n_beads], acts at the nodes, beside the weights; beads->load is left out. Where beads->rise
+ * tells of knotted cord, what is too much is so whatever its tension grows to, and with
+ * beads->strength within that; carried (0 unless it is wanted) is what the tensions do that cords
+ * have then, else the least ones. THR_ESOLVER if it is not decided: among others where no multiple
+ * is too much (a foot pushed into the ground). */
 thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame,
                              const thr_physics *physics, const double *press,
                              const double (*load)[3], bool want_carried, const thr_limits *limits,
                              thr_carry *out, thr_err *err) THR_MUST_CHECK;
-/* press: thr_holding_press of tensions in N, which are the least that the cords have. Where
- * beads->rise tells of knotted cord, tension grows as it stretches, as friction lets it: lower and
- * upper are N m, the sum of what its passes have grown by, times their lengths, that is needed;
- * beads->load is left out. more[n_rises] receives what they have grown by at upper, N.
- * THR_EINFEASIBLE if it falls however tight these cords get, within beads->strength if it is known:
- * out->velocity proves the latter then, or is NULL. */
+
+/* Computes how far knotted cords have to stretch. press: thr_holding_press of tensions in N, which
+ * are the least that the cords have. Where beads->rise tells of knotted cord, tension grows as it
+ * stretches, as friction lets it: lower and upper are N m, the sum of what its passes have grown
+ * by, times their lengths, that is needed; beads->load is left out. more[n_rises] receives what
+ * they have grown by at upper, N. THR_EINFEASIBLE if it falls however tight these cords get, within
+ * beads->strength if it is known: out->velocity proves the latter then, or is NULL. */
 thr_status thr_holding_stretch(const thr_beads *beads, const thr_frame *frame,
                                const thr_physics *physics, const double *press,
                                const thr_limits *limits, thr_holding *out, double *more,
@@ -263,10 +284,10 @@ void thr_carry_destroy(thr_carry *carry);
  *
  * Example: rows (1, 0), (0, 1), (1, 1) have rank 2. */
 
-/* Matrix by columns: entries start[j] .. start[j + 1] - 1 of row[] and value[], rows ascending.
- * Columns count as dependent when, with those before them taken out, no more than tolerance of
- * their length is left. THR_ESOLVER if the library fails. Time and memory of a sparse QR
- * factorization: some seconds at 50,000 columns of a shell. */
+/* Computes the rank of a matrix by columns: entries start[j] .. start[j + 1] - 1 of row[] and
+ * value[], rows ascending. Columns count as dependent when, with those before them taken out, no
+ * more than tolerance of their length is left. THR_ESOLVER if the library fails. Time and memory of
+ * a sparse QR factorization: some seconds at 50,000 columns of a shell. */
 thr_status thr_rank(int n_rows, int n_columns, const int *start, const int *row,
                     const double *value, double tolerance, int *rank, thr_err *err) THR_MUST_CHECK;
 
@@ -290,9 +311,9 @@ typedef struct {
                    finer tolerance */
 } thr_rigidity;
 
-/* Rows of the matrix are unit vectors along the edges; a part of 1e-9 that is left of a column
- * counts as rounding, and where 1e-6 would give another rank, that is said. Own lengths do not
- * matter. Time of a few sparse QR factorizations. */
+/* Counts the motions and self-stresses. Rows of the matrix are unit vectors along the edges; a part
+ * of 1e-9 that is left of a column counts as rounding, and where 1e-6 would give another rank, that
+ * is said. Own lengths do not matter. Time of a few sparse QR factorizations. */
 thr_status thr_rigidity_find(const thr_frame *frame, thr_rigidity *out,
                              thr_err *err) THR_MUST_CHECK;
 

@@ -1,12 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The framework as rigid blocks, and the linear programme of their equilibrium
- * (eval/structure/holding.c says what for). Private to the limit analysis.
+/* Makes rigid blocks of the beads, and solves the linear programme of their equilibrium, which the
+ * limit analysis asks for (holding.c says what for). The model is Livesley's (1978).
  *
- * Example: two beads merged into one body give six equations, not twelve.
+ * Unknowns (columns):
+ *   forces at the contacts, four corners of every face and the corners of every foot, each within a
+ *     friction cone or a pyramid of b->rays rays;
+ *   the pull, or the multiple of the load;
+ *   where cords go through a face beside its middle (play): the pull times the offset, a cone, too;
+ *   where knotted cords tighten: the tension gained by every pass, and slacks of its two turns.
+ * Equations (rows): force and moment of every body that is not held, six each; ties between copies
+ * of the pull; the height of every play cone; two or three of every knotted pass.
  *
- * Contacts, wrenches and the columns of the programme, which an interior point method solves: the
- * equilibrium of a bead involves its neighbours only, so that the factors stay sparse. The one long
- * column, the pull, is split into a copy for every two beads, tied along a spanning forest. */
+ * The programme is solved by an interior point method: the equilibrium of a bead involves only its
+ * neighbours, so that the factors stay sparse. The one long column, the pull, would fill them in.
+ * Every two neighbouring beads have a copy of the pull instead, and equations along a spanning
+ * forest tie the copies together.
+ *
+ * Example: two beads merged into one body give six equations, not twelve. */
 #include "eval/structure/blocks.h"
 
 #include "graph/angle.h"
@@ -17,23 +27,28 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What is asked for: the least pull or the largest load; the least that hands must do; forces that
- * balance each other. */
+/* Says what is minimized: the least pull or the largest load; the least that hands, which push and
+ * turn the beads at a cost, must do; contact forces that balance each other without weights and
+ * cords. */
 typedef enum { EQUILIBRIUM, WITH_HANDS, SELF_STRESS } aim;
 
+/* Holds the programme by columns. */
 typedef struct {
-  int n_columns, n_costs; /* so far; each contact's three columns stand for its rays */
+  int n_columns, n_costs; /* so far; each contact's three columns stand for all of its rays */
   double *rhs, *cost, *value;
   int *start, *row, *kind;
   double (*ray)[3]; /* of the kinds: between beads, on the ground, where a cord may be */
   thr_scratch own;  /* the arrays */
-} programme;
+} equilibrium_programme;
 
-bool thr_blocks_tightens(const thr_blocks *s)
+/* Returns whether the tensions of knotted cords are unknown. */
+bool thr_blocks_tightens(const thr_blocks *blocks)
 {
-  return s->b->n_rises > 0 && (s->stretches || (s->carries && s->b->strength > 0));
+  return blocks->b->n_rises > 0 &&
+         (blocks->stretches || (blocks->carries && blocks->b->strength > 0));
 }
 
+/* Returns the factor on friction that puts a pyramid round its cone. */
 double thr_blocks_widening(const thr_beads *beads)
 {
   return 1 / cos(THR_PI / beads->rays);
@@ -41,13 +56,15 @@ double thr_blocks_widening(const thr_beads *beads)
 
 /* ---- the structure ---- */
 
-bool thr_blocks_inside(const thr_blocks *s, int face)
+/* Returns whether a face lies within a body, or between two bodies that are held. */
+bool thr_blocks_inside(const thr_blocks *blocks, int face)
 {
-  const int one = s->body[s->f->edge[face][0]], other = s->body[s->f->edge[face][1]];
-  return one == other || (s->row[one] < 0 && s->row[other] < 0);
+  const int one = blocks->body[blocks->f->edge[face][0]],
+            other = blocks->body[blocks->f->edge[face][1]];
+  return one == other || (blocks->row[one] < 0 && blocks->row[other] < 0);
 }
 
-/* A ray of a friction pyramid: along the normal and the two tangents. */
+/* Computes a ray of a friction pyramid, in coordinates along the normal and the two tangents. */
 static void set_ray(const thr_beads *beads, int e, double mu, double ray[3])
 {
   const double angle = 2 * THR_PI * e / beads->rays;
@@ -56,26 +73,31 @@ static void set_ray(const thr_beads *beads, int e, double mu, double ray[3])
   ray[2] = mu * sin(angle);
 }
 
-/* along: unit, square to the normal. */
-static thr_contact *add_contact(thr_blocks *s, int bead, int other, const double at[3],
+/* Adds a contact with the rays of its pyramid. along: unit, square to the normal. */
+static thr_contact *add_contact(thr_blocks *blocks, int bead, int other, const double at[3],
                                 const double normal[3], const double along[3], double mu)
 {
-  thr_contact *c = &s->contact[s->n_contacts++];
-  *c = (thr_contact){.bead = bead, .other = other};
-  memcpy(c->at, at, sizeof c->at);
-  memcpy(c->axis[0], normal, sizeof c->axis[0]);
-  memcpy(c->axis[1], along, sizeof c->axis[1]);
-  thr_cross(normal, along, c->axis[2]);
-  for (int e = 0; e < s->b->rays; e++) {
+  thr_contact *contact = &blocks->contact[blocks->n_contacts++];
+  *contact = (thr_contact){.bead = bead, .other = other};
+  memcpy(contact->at, at, sizeof contact->at);
+  memcpy(contact->axis[0], normal, sizeof contact->axis[0]);
+  memcpy(contact->axis[1], along, sizeof contact->axis[1]);
+  thr_cross(normal, along, contact->axis[2]);
+
+  /* Each ray of the pyramid, from coordinates of the contact to those of space. */
+  for (int e = 0; e < blocks->b->rays; e++) {
     double ray[3];
-    set_ray(s->b, e, mu, ray);
+    set_ray(blocks->b, e, mu, ray);
+
     for (int i = 0; i < 3; i++)
-      c->ray[e][i] = ray[0] * c->axis[0][i] + ray[1] * c->axis[1][i] + ray[2] * c->axis[2][i];
+      contact->ray[e][i] = ray[0] * contact->axis[0][i] + ray[1] * contact->axis[1][i] +
+                           ray[2] * contact->axis[2][i];
   }
-  return c;
+
+  return contact;
 }
 
-/* Sides of the section of an arm at a face, unit. */
+/* Computes the sides of the section of an arm at a face, unit vectors. */
 static void set_side(const thr_beads *beads, int face, double side[2][3])
 {
   for (int k = 0; k < 3; k++)
@@ -83,607 +105,821 @@ static void set_side(const thr_beads *beads, int face, double side[2][3])
   thr_cross(beads->axis[face], side[0], side[1]);
 }
 
-/* A corner of the polygon of a foot, inside its disc or round it. */
-static void set_foot_point(const thr_blocks *s, int foot, int i, double at[3])
+/* Computes a corner of the polygon of a foot: inside the disc, or round it if blocks->outside. */
+static void set_foot_point(const thr_blocks *blocks, int foot, int i, double at[3])
 {
-  const double *centre = s->b->centre[s->b->foot[foot]], *on_edge = s->b->foot_point[foot][i];
-  const double times = s->outside ? 1 / cos(THR_PI / THR_FOOT_POINTS) : 1;
+  const double *centre = blocks->b->centre[blocks->b->foot[foot]],
+               *on_edge = blocks->b->foot_point[foot][i];
+  const double times = blocks->outside ? 1 / cos(THR_PI / THR_FOOT_POINTS) : 1;
   for (int k = 0; k < 3; k++)
     at[k] = k == 2 ? on_edge[k] : centre[k] + times * (on_edge[k] - centre[k]);
 }
 
-/* widen: factor on friction, to put the pyramids round the cones. */
-static void set_contacts(thr_blocks *s, double widen)
+/* Lists all contacts, faces before feet. widen: factor on friction, which puts the pyramids round
+ * the cones. */
+static void set_contacts(thr_blocks *blocks, double widen)
 {
-  const thr_beads *beads = s->b;
+  const thr_beads *beads = blocks->b;
   const double up[3] = {0, 0, 1};
   double side[2][3], at[3];
-  s->n_contacts = 0;
-  s->widen = widen;
+
+  blocks->n_contacts = 0;
+  blocks->widen = widen;
+
+  /* The corners of the faces share the press of their cords. */
   for (int e = 0; e < beads->n_faces; e++) {
-    if (thr_blocks_inside(s, e)) continue;
+    if (thr_blocks_inside(blocks, e)) continue;
     set_side(beads, e, side);
+
     for (int i = 0; i < THR_CORNERS; i++)
-      add_contact(s, s->f->edge[e][1], s->f->edge[e][0], beads->corner[e][i], beads->axis[e],
-                  side[0], widen * s->physics->mu_bead)
-          ->press = fmin(s->press[e], s->most) / THR_CORNERS;
+      add_contact(blocks, blocks->f->edge[e][1], blocks->f->edge[e][0], beads->corner[e][i],
+                  beads->axis[e], side[0], widen * blocks->physics->mu_bead)
+          ->press = fmin(blocks->press[e], blocks->most) / THR_CORNERS;
   }
+
+  /* The corners of the feet, with the ground. */
   for (int k = 0; k < beads->n_feet; k++)
     for (int i = 0; i < THR_FOOT_POINTS; i++) {
-      set_foot_point(s, k, i, at);
-      add_contact(s, beads->foot[k], -1, at, up, beads->level, widen * s->physics->mu_ground);
+      set_foot_point(blocks, k, i, at);
+      add_contact(blocks, beads->foot[k], -1, at, up, beads->level,
+                  widen * blocks->physics->mu_ground);
     }
 }
 
-static void set_units(thr_blocks *s)
+/* Chooses the units of force, length and pull so that the numbers of the programme are near 1: the
+ * weight of a mean bead, the width of an arm, and the pull at which a mean wrench of the cords is
+ * as large as this weight. */
+static void set_units(thr_blocks *blocks)
 {
-  const thr_beads *beads = s->b;
+  const thr_beads *beads = blocks->b;
   double mass = 0, square = 0;
   int n = 0, bodies = 0;
+
+  /* The weight of a mean bead that is not held; 1 N if nothing weighs. */
   for (int v = 0; v < beads->n_beads; v++)
     if (!beads->fixed[v]) mass += beads->mass[v], n++;
-  s->weight = n && mass * s->physics->gravity > 0 ? mass * s->physics->gravity / n : 1;
-  s->length = beads->width;
-  for (int v = 0; v < s->n_bodies; v++)
-    if (s->row[v] >= 0) {
-      square += thr_dot(s->wrench[v], s->wrench[v]) +
-                thr_dot(s->wrench[v] + 3, s->wrench[v] + 3) / (s->length * s->length);
+  blocks->weight =
+      n && mass * blocks->physics->gravity > 0 ? mass * blocks->physics->gravity / n : 1;
+  blocks->length = beads->width;
+
+  /* The root mean square of what the unknown does to a body. */
+  for (int v = 0; v < blocks->n_bodies; v++)
+    if (blocks->row[v] >= 0) {
+      square +=
+          thr_dot(blocks->wrench[v], blocks->wrench[v]) +
+          thr_dot(blocks->wrench[v] + 3, blocks->wrench[v] + 3) / (blocks->length * blocks->length);
       bodies++;
     }
-  s->pull = square > 0 ? s->weight / sqrt(square / bodies) : s->weight;
+
+  /* The pull at which that is as much as the weight of a bead. */
+  blocks->pull = square > 0 ? blocks->weight / sqrt(square / bodies) : blocks->weight;
 }
 
-/* Numbers the bodies by their lowest beads. parent[n_beads]: scratch. */
-static void set_bodies(thr_blocks *s, int *parent)
+/* Unites the beads into bodies, numbered by their lowest beads, and gives the bodies that are not
+ * held six rows each. parent[n_beads]: scratch. */
+static void set_bodies(thr_blocks *blocks, int *parent)
 {
-  const thr_beads *beads = s->b;
+  const thr_beads *beads = blocks->b;
+
+  /* Beads are one body if welded, or if merged across a face with a capped press or a knotted cord.
+   */
   for (int v = 0; v < beads->n_beads; v++)
-    parent[v] = s->weld ? s->weld[v] : v;
-  for (int e = 0; e < beads->n_faces && s->merged; e++)
-    if (s->press[e] > s->most) thr_disjoint_join(parent, s->f->edge[e][0], s->f->edge[e][1]);
-  for (int i = 0; i < beads->n_rises && s->merged && s->stretches; i++)
-    thr_disjoint_join(parent, s->f->edge[beads->rise[i].face][0],
-                      s->f->edge[beads->rise[i].face][1]);
+    parent[v] = blocks->weld ? blocks->weld[v] : v;
+  for (int e = 0; e < beads->n_faces && blocks->merged; e++)
+    if (blocks->press[e] > blocks->most)
+      thr_disjoint_join(parent, blocks->f->edge[e][0], blocks->f->edge[e][1]);
+  for (int i = 0; i < beads->n_rises && blocks->merged && blocks->stretches; i++)
+    thr_disjoint_join(parent, blocks->f->edge[beads->rise[i].face][0],
+                      blocks->f->edge[beads->rise[i].face][1]);
+
+  /* A body has the mass centre of its lowest bead as its origin, and is held if any of its beads
+   * is. */
   for (int v = 0; v < beads->n_beads; v++) {
     int root = thr_disjoint_find(parent, v);
-    if (root == v) memcpy(s->origin[s->n_bodies], beads->mass_centre[v], sizeof *s->origin);
-    s->body[v] = root == v ? s->n_bodies++ : s->body[root];
-    if (beads->fixed[v]) s->row[s->body[v]] = -1;
+    if (root == v)
+      memcpy(blocks->origin[blocks->n_bodies], beads->mass_centre[v], sizeof *blocks->origin);
+    blocks->body[v] = root == v ? blocks->n_bodies++ : blocks->body[root];
+    if (beads->fixed[v]) blocks->row[blocks->body[v]] = -1;
   }
-  for (int v = 0; v < s->n_bodies; v++)
-    if (s->row[v] == 0) s->row[v] = s->n_rows, s->n_rows += 6;
+
+  /* Six rows for each body that is free. */
+  for (int v = 0; v < blocks->n_bodies; v++)
+    if (blocks->row[v] == 0) blocks->row[v] = blocks->n_rows, blocks->n_rows += 6;
 }
 
-static void add_force(const thr_blocks *s, double (*wrench)[6], int bead, const double force[3],
-                      const double at[3], double times)
+/* Adds a force, times a factor, at a point of a bead to the wrench (force, moment about the origin)
+ * of its body. */
+static void add_force(const thr_blocks *blocks, double (*wrench)[6], int bead,
+                      const double force[3], const double at[3], double times)
 {
-  const int body = s->body[bead];
+  const int body = blocks->body[bead];
   double lever[3], moment[3];
+
+  /* Moment = lever x force, with the lever from the body's origin. */
   for (int k = 0; k < 3; k++)
-    lever[k] = at[k] - s->origin[body][k];
+    lever[k] = at[k] - blocks->origin[body][k];
   thr_cross(lever, force, moment);
+
   for (int k = 0; k < 3; k++) {
     wrench[body][k] += times * force[k];
     wrench[body][k + 3] += times * moment[k];
   }
 }
 
-/* The cords draw the two beads of a face together; the load acts on the nodes. */
-static void set_wrenches(thr_blocks *s)
+/* Computes the wrenches of what is unknown and of what is given. The cords draw the two beads of a
+ * face together; the load acts on the nodes. */
+static void set_wrenches(thr_blocks *blocks)
 {
-  double(*of_cords)[6] = s->carries || s->stretches ? s->given : s->wrench,
-  (*of_load)[6] = s->carries ? s->wrench : s->given;
-  for (int e = 0; e < s->b->n_faces; e++)
-    for (int side = 0; side < 2 && !thr_blocks_inside(s, e); side++)
-      add_force(s, of_cords, s->f->edge[e][side], s->b->axis[e], s->b->middle[e],
-                (side ? -1 : 1) * fmin(s->press[e], s->most));
-  for (int v = 0; v < s->b->n_beads && s->load; v++)
-    add_force(s, of_load, v, s->load[v], s->b->centre[v], 1);
+  /* Where the load or the stretch is unknown, the tensions are given. */
+  double(*of_cords)[6] = blocks->carries || blocks->stretches ? blocks->given : blocks->wrench,
+  (*of_load)[6] = blocks->carries ? blocks->wrench : blocks->given;
+
+  /* Both beads of a face, in opposite directions. A capped press draws with its cap only. */
+  for (int e = 0; e < blocks->b->n_faces; e++)
+    for (int side = 0; side < 2 && !thr_blocks_inside(blocks, e); side++)
+      add_force(blocks, of_cords, blocks->f->edge[e][side], blocks->b->axis[e],
+                blocks->b->middle[e], (side ? -1 : 1) * fmin(blocks->press[e], blocks->most));
+
+  /* The load acts at the nodes. */
+  for (int v = 0; v < blocks->b->n_beads && blocks->load; v++)
+    add_force(blocks, of_load, v, blocks->load[v], blocks->b->centre[v], 1);
 }
 
-/* Two neighbours share a copy of the pull where they can: they have each other's rows anyway.
- * Copies are tied along a spanning forest. */
-static void set_copies(thr_blocks *s, int *parent)
+/* Distributes copies of the pull over the bodies, and ties them along a spanning forest. Two
+ * neighbours share a copy where both are free: their rows are coupled by contacts anyway. */
+static void set_copies(thr_blocks *blocks, int *parent)
 {
-  s->n_rises = thr_blocks_tightens(s) && !s->merged ? s->b->n_rises : 0;
-  if (s->stretches) return;
-  for (int v = 0; v < s->n_bodies; v++)
-    s->copy[v] = -1;
-  for (int e = 0; e < s->b->n_faces; e++) {
-    const int a = s->body[s->f->edge[e][0]], b = s->body[s->f->edge[e][1]];
-    if (a != b && s->copy[a] < 0 && s->copy[b] < 0) s->copy[a] = s->copy[b] = s->n_copies++;
+  blocks->n_rises = thr_blocks_tightens(blocks) && !blocks->merged ? blocks->b->n_rises : 0;
+  if (blocks->stretches) return;
+
+  /* A matching of the bodies: greedy, edge by edge. */
+  for (int v = 0; v < blocks->n_bodies; v++)
+    blocks->copy[v] = -1;
+  for (int e = 0; e < blocks->b->n_faces; e++) {
+    const int a = blocks->body[blocks->f->edge[e][0]], b = blocks->body[blocks->f->edge[e][1]];
+    if (a != b && blocks->copy[a] < 0 && blocks->copy[b] < 0)
+      blocks->copy[a] = blocks->copy[b] = blocks->n_copies++;
   }
-  for (int v = 0; v < s->n_bodies; v++)
-    if (s->copy[v] < 0) s->copy[v] = s->n_copies++;
-  for (int c = 0; c < s->n_copies; c++)
+
+  /* A copy of its own for every body that found no partner. */
+  for (int v = 0; v < blocks->n_bodies; v++)
+    if (blocks->copy[v] < 0) blocks->copy[v] = blocks->n_copies++;
+
+  /* Tie the copies of neighbours along a spanning forest. */
+  for (int c = 0; c < blocks->n_copies; c++)
     parent[c] = c;
-  for (int e = 0; e < s->b->n_faces; e++) {
-    const int a = s->copy[s->body[s->f->edge[e][0]]], b = s->copy[s->body[s->f->edge[e][1]]];
-    if (thr_disjoint_join(parent, a, b)) s->tie[s->n_ties][0] = a, s->tie[s->n_ties++][1] = b;
+  for (int e = 0; e < blocks->b->n_faces; e++) {
+    const int a = blocks->copy[blocks->body[blocks->f->edge[e][0]]],
+              b = blocks->copy[blocks->body[blocks->f->edge[e][1]]];
+    if (thr_disjoint_join(parent, a, b))
+      blocks->tie[blocks->n_ties][0] = a, blocks->tie[blocks->n_ties++][1] = b;
   }
-  for (int c = 1; c < s->n_copies; c++)
-    if (thr_disjoint_join(parent, 0, c)) s->tie[s->n_ties][0] = 0, s->tie[s->n_ties++][1] = c;
+
+  /* A further component is tied to copy 0: the pull is the same everywhere. */
+  for (int c = 1; c < blocks->n_copies; c++)
+    if (thr_disjoint_join(parent, 0, c))
+      blocks->tie[blocks->n_ties][0] = 0, blocks->tie[blocks->n_ties++][1] = c;
 }
 
-/* Faces where it matters that a cord may go through the bore beside its middle. */
-static void set_plays(thr_blocks *s)
+/* Lists the faces where the cord may go through the bore beside its middle, and where that matters:
+ * a cord goes through, and the programme is for the proved bound. */
+static void set_plays(thr_blocks *blocks)
 {
-  for (int i = 0; i < s->n_rises; i++)
-    s->play_of[s->b->rise[i].face] = 1;
-  for (int e = 0; e < s->b->n_faces; e++) {
-    const bool passed = s->press[e] > 0 || s->play_of[e] > 0;
-    s->play_of[e] = -1;
-    if (!s->outside || !(s->b->play > 0) || !passed || thr_blocks_inside(s, e)) continue;
-    s->play_of[e] = s->n_plays;
-    s->play[s->n_plays++] = e;
+  /* Mark the faces of knotted cords, whose press may be 0. */
+  for (int i = 0; i < blocks->n_rises; i++)
+    blocks->play_of[blocks->b->rise[i].face] = 1;
+
+  /* Number those that matter for the bound. */
+  for (int e = 0; e < blocks->b->n_faces; e++) {
+    const bool passed = blocks->press[e] > 0 || blocks->play_of[e] > 0;
+    blocks->play_of[e] = -1;
+    if (!blocks->outside || !(blocks->b->play > 0) || !passed || thr_blocks_inside(blocks, e))
+      continue;
+    blocks->play_of[e] = blocks->n_plays;
+    blocks->play[blocks->n_plays++] = e;
   }
 }
 
-void thr_blocks_destroy(thr_blocks *s)
+/* Frees the arrays. */
+void thr_blocks_destroy(thr_blocks *blocks)
 {
-  thr_scratch_free(&s->own);
+  thr_scratch_free(&blocks->own);
 }
 
-thr_status thr_blocks_make(thr_blocks *s, double widen, thr_err *err)
+/* Makes the blocks; see blocks.h. Bodies come first, as all else is per body. */
+thr_status thr_blocks_make(thr_blocks *blocks, double widen, thr_err *err)
 {
-  const thr_beads *beads = s->b;
+  const thr_beads *beads = blocks->b;
   size_t n = (size_t)beads->n_beads;
-  int *parent = thr_scratch_array(&s->own, n, sizeof *parent);
-  s->contact = thr_scratch_array(
-      &s->own, (size_t)beads->n_faces * THR_CORNERS + (size_t)beads->n_feet * THR_FOOT_POINTS,
-      sizeof *s->contact);
-  s->body = thr_scratch_array(&s->own, n, sizeof *s->body);
-  s->origin = thr_scratch_array(&s->own, n, sizeof *s->origin);
-  s->wrench = thr_scratch_array(&s->own, n, sizeof *s->wrench);
-  s->given = thr_scratch_array(&s->own, n, sizeof *s->given);
-  s->copy = thr_scratch_array(&s->own, n, sizeof *s->copy);
-  s->row = thr_scratch_array(&s->own, n, sizeof *s->row);
-  s->tie = thr_scratch_array(&s->own, n, sizeof *s->tie);
-  s->play_of = thr_scratch_array(&s->own, (size_t)beads->n_faces + 1, sizeof *s->play_of);
-  s->play = thr_scratch_array(&s->own, (size_t)beads->n_faces + 1, sizeof *s->play);
-  if (thr_scratch_check(&s->own, err)) {
-    thr_blocks_destroy(s);
+
+  /* Everything that the blocks own, per face, bead or body; there are at most as many bodies as
+   * beads. */
+  int *parent = thr_scratch_array(&blocks->own, n, sizeof *parent);
+  blocks->contact = thr_scratch_array(
+      &blocks->own, (size_t)beads->n_faces * THR_CORNERS + (size_t)beads->n_feet * THR_FOOT_POINTS,
+      sizeof *blocks->contact);
+  blocks->body = thr_scratch_array(&blocks->own, n, sizeof *blocks->body);
+  blocks->origin = thr_scratch_array(&blocks->own, n, sizeof *blocks->origin);
+  blocks->wrench = thr_scratch_array(&blocks->own, n, sizeof *blocks->wrench);
+  blocks->given = thr_scratch_array(&blocks->own, n, sizeof *blocks->given);
+  blocks->copy = thr_scratch_array(&blocks->own, n, sizeof *blocks->copy);
+  blocks->row = thr_scratch_array(&blocks->own, n, sizeof *blocks->row);
+  blocks->tie = thr_scratch_array(&blocks->own, n, sizeof *blocks->tie);
+  blocks->play_of =
+      thr_scratch_array(&blocks->own, (size_t)beads->n_faces + 1, sizeof *blocks->play_of);
+  blocks->play = thr_scratch_array(&blocks->own, (size_t)beads->n_faces + 1, sizeof *blocks->play);
+
+  if (thr_scratch_check(&blocks->own, err)) {
+    thr_blocks_destroy(blocks);
     return THR_ENOMEM;
   }
-  set_bodies(s, parent);
-  set_wrenches(s);
-  set_units(s);
-  set_copies(s, parent);
-  set_contacts(s, widen);
-  set_plays(s);
+
+  /* In this order: units need wrenches, which need bodies; contacts and play leave out faces within
+   * a body. */
+  set_bodies(blocks, parent);
+  set_wrenches(blocks);
+  set_units(blocks);
+  set_copies(blocks, parent);
+  set_contacts(blocks, widen);
+  set_plays(blocks);
+
   return THR_OK;
 }
 
-double thr_blocks_friction(const thr_blocks *s, const thr_contact *contact)
+/* Returns the friction of a contact, widened. */
+double thr_blocks_friction(const thr_blocks *blocks, const thr_contact *contact)
 {
-  return s->widen * (contact->other < 0 ? s->physics->mu_ground : s->physics->mu_bead);
+  return blocks->widen *
+         (contact->other < 0 ? blocks->physics->mu_ground : blocks->physics->mu_bead);
 }
 
 /* ---- the programme ---- */
 
-static void programme_destroy(programme *p)
+/* Frees the arrays. */
+static void programme_destroy(equilibrium_programme *programme)
 {
-  thr_scratch_free(&p->own);
+  thr_scratch_free(&programme->own);
 }
 
-static void entry(programme *p, int row, double value)
+/* Adds an entry to the last column. */
+static void entry(equilibrium_programme *programme, int row, double value)
 {
-  int *end = &p->start[p->n_columns + 1];
-  p->row[*end] = row;
-  p->value[(*end)++] = value;
+  int *end = &programme->start[programme->n_columns + 1];
+  programme->row[*end] = row;
+  programme->value[(*end)++] = value;
 }
 
-/* Begins the next column at the end of the last. */
-static void column(programme *p)
+/* Begins the next column at the end of the last one. */
+static void column(equilibrium_programme *programme)
 {
-  p->start[p->n_columns + 1] = p->start[p->n_columns];
+  programme->start[programme->n_columns + 1] = programme->start[programme->n_columns];
 }
 
-/* A force of one weight along ray at the contact. All its entries are kept: those of a face have
- * the same rows. */
-static void contact_entries(const thr_blocks *s, programme *p, const thr_contact *c, int bead,
-                            const double ray[3], double sign)
+/* Adds the wrench of a force of one weight along `ray` at a contact, times `sign`, to a body's
+ * rows. Zeros are entries, too: all contacts of a face then have the same rows, which the solver's
+ * dense kernels use. */
+static void contact_entries(const thr_blocks *blocks, equilibrium_programme *programme,
+                            const thr_contact *contact, int bead, const double ray[3], double sign)
 {
-  int body = bead < 0 ? -1 : s->body[bead];
-  if (body < 0 || s->row[body] < 0) return;
+  int body = bead < 0 ? -1 : blocks->body[bead];
+  if (body < 0 || blocks->row[body] < 0) return;
+
+  /* The moment about the body's origin. */
   double lever[3], moment[3];
+
   for (int k = 0; k < 3; k++)
-    lever[k] = (c->at[k] - s->origin[body][k]) / s->length;
+    lever[k] = (contact->at[k] - blocks->origin[body][k]) / blocks->length;
   thr_cross(lever, ray, moment);
+
+  /* Zeros stay, so that all contacts of a face have the same rows. */
   for (int k = 0; k < 3; k++)
-    entry(p, s->row[body] + k, sign * ray[k]);
+    entry(programme, blocks->row[body] + k, sign * ray[k]);
   for (int k = 0; k < 3; k++)
-    entry(p, s->row[body] + 3 + k, sign * moment[k]);
+    entry(programme, blocks->row[body] + 3 + k, sign * moment[k]);
 }
 
-/* counted: the sum of all normal forces is an equation behind those of the bodies. */
-static void contact_columns(const thr_blocks *s, bool counted, programme *p)
+/* Adds three columns for every contact, one for each of normal and tangents, and lists the rays,
+ * which are combinations of the three. With cones, tangents are scaled so that the cone is the unit
+ * cone. counted: the sum of all normal forces is an equation behind those of the bodies. */
+static void contact_columns(const thr_blocks *blocks, bool counted,
+                            equilibrium_programme *programme)
 {
-  for (int i = 0; i < s->n_contacts; i++) {
-    const thr_contact *c = &s->contact[i];
-    p->kind[i] = c->other < 0;
-    for (int k = 0; k < 3; k++, p->n_columns++) {
-      const double unit = s->round && k > 0 ? thr_blocks_friction(s, c) : 1;
-      column(p);
-      contact_entries(s, p, c, c->bead, c->axis[k], unit);
-      contact_entries(s, p, c, c->other, c->axis[k], -unit);
-      if (counted) entry(p, s->n_rows, k == 0 ? 1 : 0);
+  for (int i = 0; i < blocks->n_contacts; i++) {
+    const thr_contact *contact = &blocks->contact[i];
+    programme->kind[i] = contact->other < 0;
+
+    /* With cones, a tangent stands for friction times the unit. */
+    for (int k = 0; k < 3; k++, programme->n_columns++) {
+      const double unit = blocks->round && k > 0 ? thr_blocks_friction(blocks, contact) : 1;
+
+      /* The same force acts on both beads, in opposite directions. */
+      column(programme);
+      contact_entries(blocks, programme, contact, contact->bead, contact->axis[k], unit);
+      contact_entries(blocks, programme, contact, contact->other, contact->axis[k], -unit);
+      if (counted) entry(programme, blocks->n_rows, k == 0 ? 1 : 0);
     }
   }
-  for (int e = 0; e < s->b->rays; e++) {
-    set_ray(s->b, e, s->widen * s->physics->mu_bead, p->ray[e]);
-    set_ray(s->b, e, s->widen * s->physics->mu_ground, p->ray[s->b->rays + e]);
-    set_ray(s->b, e, thr_blocks_widening(s->b), p->ray[2 * s->b->rays + e]);
+
+  /* Three kinds of rays: between beads, on the ground, and a polygon round the disc of the play. */
+  for (int e = 0; e < blocks->b->rays; e++) {
+    set_ray(blocks->b, e, blocks->widen * blocks->physics->mu_bead, programme->ray[e]);
+    set_ray(blocks->b, e, blocks->widen * blocks->physics->mu_ground,
+            programme->ray[blocks->b->rays + e]);
+    set_ray(blocks->b, e, thr_blocks_widening(blocks->b), programme->ray[2 * blocks->b->rays + e]);
   }
 }
 
-static int count_cones(const thr_blocks *s)
+/* Returns the number of cones, of contacts and of play. */
+static int count_cones(const thr_blocks *blocks)
 {
-  return s->n_contacts + s->n_plays;
+  return blocks->n_contacts + blocks->n_plays;
 }
 
-/* N: what the tensions are counted in by which cords tighten. */
-static double tension_unit(const thr_blocks *s)
+/* Returns the unit, N, of the unknown tensions of knotted cords. */
+static double tension_unit(const thr_blocks *blocks)
 {
-  return s->carries ? s->weight : s->pull;
+  return blocks->carries ? blocks->weight : blocks->pull;
 }
 
-/* A cone for every face that cords go through: its height is the pull, by an equation, and across
- * it is the pull times where the cord is, in parts of the play. Where cords tighten its height is
- * their tension. */
-static void play_columns(const thr_blocks *s, programme *p)
+/* Adds a cone of three columns for every face where cords have play. The height of the cone equals
+ * the pull (an equation), and its two other coordinates are the pull times the cord's offset from
+ * the middle, in parts of the play: so the offset is within the disc of the play. The offset cord
+ * has a moment about the middle. Where cords tighten, the height is their tension; where the load
+ * is unknown, it is 1. */
+static void play_columns(const thr_blocks *blocks, equilibrium_programme *programme)
 {
-  const bool tightens = thr_blocks_tightens(s);
-  const double unit = tightens     ? tension_unit(s) / s->weight
-                      : s->carries ? 1 / s->weight
-                                   : s->pull / s->weight;
-  const int first = s->n_rows + s->n_ties;
-  for (int i = 0; i < s->n_plays; i++) {
-    const int e = s->play[i];
+  const bool tightens = thr_blocks_tightens(blocks);
+
+  /* What a height of 1 stands for, in weights. */
+  const double unit = tightens          ? tension_unit(blocks) / blocks->weight
+                      : blocks->carries ? 1 / blocks->weight
+                                        : blocks->pull / blocks->weight;
+  const int first = blocks->n_rows + blocks->n_ties;
+
+  /* One cone for each face with play. */
+  for (int i = 0; i < blocks->n_plays; i++) {
+    const int e = blocks->play[i];
     double side[2][3], moment[3];
-    set_side(s->b, e, side);
-    p->kind[s->n_contacts + i] = 2;
-    for (int k = 0; k < 3; k++, p->n_columns++) {
-      column(p);
+    set_side(blocks->b, e, side);
+    programme->kind[blocks->n_contacts + i] = 2;
+
+    for (int k = 0; k < 3; k++, programme->n_columns++) {
+      /* The height has no moment; each coordinate has the moment of a force along the axis at that
+       * offset. */
+      column(programme);
       if (k > 0)
-        thr_cross(side[k - 1], s->b->axis[e], moment);
+        thr_cross(side[k - 1], blocks->b->axis[e], moment);
       else
         memset(moment, 0, sizeof moment);
+
+      /* Both beads feel the moment, in opposite directions. */
       for (int which = 0; which < 2; which++) {
-        const int row = s->row[s->body[s->f->edge[e][which]]];
-        const double arm = (which ? -1 : 1) * unit * s->b->play *
-                           (tightens ? 1 : fmin(s->press[e], s->most)) / s->length;
+        const int row = blocks->row[blocks->body[blocks->f->edge[e][which]]];
+        const double arm = (which ? -1 : 1) * unit * blocks->b->play *
+                           (tightens ? 1 : fmin(blocks->press[e], blocks->most)) / blocks->length;
         for (int j = 0; j < 3 && row >= 0; j++)
-          entry(p, row + 3 + j, arm * moment[j]);
+          entry(programme, row + 3 + j, arm * moment[j]);
       }
-      entry(p, first + i, k == 0 ? 1 : 0);
+
+      /* Height minus pull (pull_columns, rise_entries) is 0, or the given height. */
+      entry(programme, first + i, k == 0 ? 1 : 0);
     }
-    if (s->carries) p->rhs[first + i] = 1;
-    if (tightens) p->rhs[first + i] = fmin(s->press[e], s->most) / tension_unit(s);
+
+    /* Where the pull is no unknown, the height is a number. */
+    if (blocks->carries) programme->rhs[first + i] = 1;
+    if (tightens)
+      programme->rhs[first + i] = fmin(blocks->press[e], blocks->most) / tension_unit(blocks);
   }
 }
 
-/* Copies of the unknown; the first one costs. */
-static void pull_columns(const thr_blocks *s, programme *p, double cost)
+/* Adds the copies of the unknown pull or multiple, of which the first has the cost. */
+static void pull_columns(const thr_blocks *blocks, equilibrium_programme *programme, double cost)
 {
-  double unit = s->pull / s->weight;
-  for (int c = 0; c < s->n_copies; c++, p->n_columns++) {
-    column(p);
-    p->cost[p->n_costs++] = c == 0 ? cost : 0;
-    for (int v = 0; v < s->n_bodies; v++)
-      for (int k = 0; k < 6 && s->copy[v] == c && s->row[v] >= 0; k++)
-        entry(p, s->row[v] + k, unit * s->wrench[v][k] / (k < 3 ? 1 : s->length));
-    for (int t = 0; t < s->n_ties; t++)
-      if (s->tie[t][0] == c || s->tie[t][1] == c)
-        entry(p, s->n_rows + t, s->tie[t][0] == c ? 1 : -1);
-    for (int i = 0; i < s->n_plays && !s->carries; i++)
-      if (s->copy[s->body[s->f->edge[s->play[i]][0]]] == c) entry(p, s->n_rows + s->n_ties + i, -1);
+  double unit = blocks->pull / blocks->weight;
+  for (int copy = 0; copy < blocks->n_copies; copy++, programme->n_columns++) {
+    column(programme);
+    programme->cost[programme->n_costs++] = copy == 0 ? cost : 0;
+
+    /* The wrenches on the bodies that have this copy. */
+    for (int v = 0; v < blocks->n_bodies; v++)
+      for (int k = 0; k < 6 && blocks->copy[v] == copy && blocks->row[v] >= 0; k++)
+        entry(programme, blocks->row[v] + k,
+              unit * blocks->wrench[v][k] / (k < 3 ? 1 : blocks->length));
+
+    /* Ties: the difference of two copies is 0. */
+    for (int tie = 0; tie < blocks->n_ties; tie++)
+      if (blocks->tie[tie][0] == copy || blocks->tie[tie][1] == copy)
+        entry(programme, blocks->n_rows + tie, blocks->tie[tie][0] == copy ? 1 : -1);
+
+    /* Heights of the play cones. */
+    for (int i = 0; i < blocks->n_plays && !blocks->carries; i++)
+      if (blocks->copy[blocks->body[blocks->f->edge[blocks->play[i]][0]]] == copy)
+        entry(programme, blocks->n_rows + blocks->n_ties + i, -1);
   }
 }
 
-/* Two rows for every pass whose tension is unknown, of the turn behind it: neither of the tensions
- * on its two sides is more than `holds` times the other. A third one says what the cord bears, if
- * that is known. */
-static int rows_of_a_rise(const thr_blocks *s)
+/* Returns the number of rows for every pass of a knotted cord. Two say of the turn behind the pass
+ * that neither of the tensions on its sides is more than exp(exponent) times the other one. A third
+ * says what the cord bears, if that is known. */
+static int rows_of_a_rise(const thr_blocks *blocks)
 {
-  return s->b->strength > 0 ? 3 : 2;
+  return blocks->b->strength > 0 ? 3 : 2;
 }
 
-int thr_blocks_columns_of_a_rise(const thr_blocks *s)
+/* Returns the number of columns for every pass of a knotted cord: the tension gained, and a slack
+ * for each of its rows. */
+int thr_blocks_columns_of_a_rise(const thr_blocks *blocks)
 {
-  return 1 + rows_of_a_rise(s);
+  return 1 + rows_of_a_rise(blocks);
 }
 
-static int first_row_of_a_rise(const thr_blocks *s, int i)
+/* Returns the first row of a pass of a knotted cord. */
+static int first_row_of_a_rise(const thr_blocks *blocks, int i)
 {
-  return s->n_rows + s->n_ties + s->n_plays + i * rows_of_a_rise(s);
+  return blocks->n_rows + blocks->n_ties + blocks->n_plays + i * rows_of_a_rise(blocks);
 }
 
-/* One more newton in a pass draws the two beads of its face together. */
-static void rise_entries(const thr_blocks *s, programme *p, int e)
+/* Adds what one more newton in a pass does: it draws the two beads of its face together. */
+static void rise_entries(const thr_blocks *blocks, equilibrium_programme *programme, int e)
 {
-  const double unit = tension_unit(s) / s->weight;
-  for (int which = 0; which < 2 && !thr_blocks_inside(s, e); which++) {
-    const int body = s->body[s->f->edge[e][which]];
+  const double unit = tension_unit(blocks) / blocks->weight;
+
+  /* Both beads, in opposite directions. */
+  for (int which = 0; which < 2 && !thr_blocks_inside(blocks, e); which++) {
+    const int body = blocks->body[blocks->f->edge[e][which]];
     double lever[3], moment[3];
-    if (s->row[body] < 0) continue;
+    if (blocks->row[body] < 0) continue;
     for (int k = 0; k < 3; k++)
-      lever[k] = (s->b->middle[e][k] - s->origin[body][k]) / s->length;
-    thr_cross(lever, s->b->axis[e], moment);
+      lever[k] = (blocks->b->middle[e][k] - blocks->origin[body][k]) / blocks->length;
+
+    /* The force acts along the axis in the middle of the face. */
+    thr_cross(lever, blocks->b->axis[e], moment);
+
     for (int k = 0; k < 6; k++)
-      entry(p, s->row[body] + k,
-            (which ? -unit : unit) * (k < 3 ? s->b->axis[e][k] : moment[k - 3]));
+      entry(programme, blocks->row[body] + k,
+            (which ? -unit : unit) * (k < 3 ? blocks->b->axis[e][k] : moment[k - 3]));
   }
-  if (s->play_of[e] >= 0) entry(p, s->n_rows + s->n_ties + s->play_of[e], -1);
+
+  /* The height of the play cone is the tension. */
+  if (blocks->play_of[e] >= 0)
+    entry(programme, blocks->n_rows + blocks->n_ties + blocks->play_of[e], -1);
 }
 
-/* Does the cord go straight on behind a pass? The tensions on both sides are equal then, which is
- * one equation. */
+/* Returns whether a cord goes straight on behind a pass. The tensions on both sides are equal then,
+ * which is one equation. */
 static bool goes_straight(const thr_rise *rise)
 {
   return rise->exponent >= 0 && rise->exponent < 1e-9;
 }
 
-/* By how much more than the least the tension of each pass may be, at the cost of the cord's length
- * there, and what is left at each turn and below the strength. Where no turn is both count for what
- * is left, so that there is an interior. */
-static void rise_columns(const thr_blocks *s, programme *p, double cost)
+/* Adds the columns of knotted cords. For pass i with least tension T_i, the unknown x_i >= 0 is the
+ * tension gained, at the cost of the length of the pass. With h = exp(exponent) of the turn behind,
+ *
+ *   (T_i + x_i) / h <= T_(i+1) + x_(i+1)   and   (T_(i+1) + x_(i+1)) / h <= T_i + x_i,
+ *
+ * made equations by a slack each; and T_i + x_i <= strength. Where there is no turn, h = 1 and both
+ * inequalities are one equation: both slacks go into the second row then, which asks for nothing,
+ * so that the programme has an interior. */
+static void rise_columns(const thr_blocks *blocks, equilibrium_programme *programme, double cost)
 {
-  const thr_rise *rise = s->b->rise;
-  const double unit = tension_unit(s);
-  for (int i = 0; i < s->n_rises; i++) {
-    const int row = first_row_of_a_rise(s, i), rows = rows_of_a_rise(s);
+  const thr_rise *rise = blocks->b->rise;
+  const double unit = tension_unit(blocks);
+
+  for (int i = 0; i < blocks->n_rises; i++) {
+    const int row = first_row_of_a_rise(blocks, i), rows = rows_of_a_rise(blocks);
     const bool goes_on = rise[i].exponent >= 0, went_on = i > 0 && rise[i - 1].exponent >= 0;
     const bool turns = goes_on && !goes_straight(&rise[i]),
                turned = went_on && !goes_straight(&rise[i - 1]);
     const double holds = turns ? exp(rise[i].exponent) : 1,
                  held = turned ? exp(rise[i - 1].exponent) : 1;
 
-    column(p);
-    p->cost[p->n_costs++] = cost * rise[i].length / s->length;
-    rise_entries(s, p, rise[i].face);
-    if (went_on) entry(p, row - rows, -1);
-    if (turned) entry(p, row - rows + 1, 1 / held);
-    if (goes_on) entry(p, row, 1 / holds);
-    if (turns) entry(p, row + 1, -1);
-    if (rows > 2) entry(p, row + 2, 1);
-    p->n_columns++;
+    /* The tension gained: equilibrium, and the rows of the turns before and behind. */
+    column(programme);
+    programme->cost[programme->n_costs++] = cost * rise[i].length / blocks->length;
+    rise_entries(blocks, programme, rise[i].face);
+    if (went_on) entry(programme, row - rows, -1);
+    if (turned) entry(programme, row - rows + 1, 1 / held);
+    if (goes_on) entry(programme, row, 1 / holds);
+    if (turns) entry(programme, row + 1, -1);
+    if (rows > 2) entry(programme, row + 2, 1);
+    programme->n_columns++;
 
-    p->rhs[row] = goes_on ? (rise[i + 1].least - rise[i].least / holds) / unit : 1;
-    p->rhs[row + 1] = turns ? (rise[i].least - rise[i + 1].least / holds) / unit : goes_on ? 2 : 1;
-    if (turns) p->rhs[row] = fmax(0, p->rhs[row]), p->rhs[row + 1] = fmax(0, p->rhs[row + 1]);
+    /* What the least tensions leave of each inequality, in units. Rounding must not make them
+     * infeasible. */
+    programme->rhs[row] = goes_on ? (rise[i + 1].least - rise[i].least / holds) / unit : 1;
+    programme->rhs[row + 1] = turns     ? (rise[i].least - rise[i + 1].least / holds) / unit
+                              : goes_on ? 2
+                                        : 1;
+    if (turns)
+      programme->rhs[row] = fmax(0, programme->rhs[row]),
+      programme->rhs[row + 1] = fmax(0, programme->rhs[row + 1]);
     if (rows > 2)
-      p->rhs[row + 2] = fmax(1e-6 * s->b->strength, s->b->strength - rise[i].least) / unit;
-    for (int k = 0; k < rows; k++, p->n_columns++) {
-      column(p);
-      p->cost[p->n_costs++] = 0;
-      entry(p, k == 0 && goes_on && !turns ? row + 1 : row + k, 1);
+      programme->rhs[row + 2] =
+          fmax(1e-6 * blocks->b->strength, blocks->b->strength - rise[i].least) / unit;
+
+    /* A slack for each row makes an equation of the inequality. */
+    for (int k = 0; k < rows; k++, programme->n_columns++) {
+      column(programme);
+      programme->cost[programme->n_costs++] = 0;
+      entry(programme, k == 0 && goes_on && !turns ? row + 1 : row + k, 1);
     }
   }
 }
 
-/* Hands that push and turn each bead at a cost: with them any structure stands. */
-static void hand_columns(const thr_blocks *s, programme *p)
+/* Adds hands: forces and moments of either sign on every body, at a cost of 1. With hands any
+ * structure stands, and the least cost is 0 if it stands by itself. */
+static void hand_columns(const thr_blocks *blocks, equilibrium_programme *programme)
 {
-  for (int i = 0; i < 2 * s->n_rows; i++, p->n_columns++) {
-    column(p);
-    p->cost[p->n_costs++] = 1;
-    entry(p, i / 2, i % 2 ? -1 : 1);
+  for (int i = 0; i < 2 * blocks->n_rows; i++, programme->n_columns++) {
+    column(programme);
+    programme->cost[programme->n_costs++] = 1;
+    entry(programme, i / 2, i % 2 ? -1 : 1);
   }
 }
 
-/* What carries a bead's weight. */
-static void weigh(const thr_blocks *s, int bead, double *rhs)
+/* Adds what carries the weight of a bead to the right side. */
+static void add_weight(const thr_blocks *blocks, int bead, double *rhs)
 {
-  int body = s->body[bead], row = s->row[body];
+  int body = blocks->body[bead], row = blocks->row[body];
   if (row < 0) return;
+
+  /* What carries the bead acts against gravity, at its mass centre. */
   double lever[3], moment[3], up[3];
+
   for (int k = 0; k < 3; k++) {
-    up[k] = -s->b->down[k] * s->b->mass[bead] * s->physics->gravity / s->weight;
-    lever[k] = (s->b->mass_centre[bead][k] - s->origin[body][k]) / s->length;
+    up[k] = -blocks->b->down[k] * blocks->b->mass[bead] * blocks->physics->gravity / blocks->weight;
+    lever[k] = (blocks->b->mass_centre[bead][k] - blocks->origin[body][k]) / blocks->length;
   }
+
+  /* In units of weight and length. */
   thr_cross(lever, up, moment);
+
   for (int k = 0; k < 3; k++) {
     rhs[row + k] += up[k];
     rhs[row + 3 + k] += moment[k];
   }
 }
 
-/* What carries the forces on a body that are given. */
-static void carry_given(const thr_blocks *s, int body, double *rhs)
+/* Adds what carries the given forces on a body to the right side. */
+static void carry_given(const thr_blocks *blocks, int body, double *rhs)
 {
-  for (int k = 0; k < 6 && s->row[body] >= 0; k++)
-    rhs[s->row[body] + k] -= s->given[body][k] / (k < 3 ? s->weight : s->weight * s->length);
+  for (int k = 0; k < 6 && blocks->row[body] >= 0; k++)
+    rhs[blocks->row[body] + k] -=
+        blocks->given[body][k] / (k < 3 ? blocks->weight : blocks->weight * blocks->length);
 }
 
-static int count_rows(const thr_blocks *s)
+/* Returns the number of rows. */
+static int count_rows(const thr_blocks *blocks)
 {
-  return s->n_rows + s->n_ties + s->n_plays + s->n_rises * rows_of_a_rise(s);
+  return blocks->n_rows + blocks->n_ties + blocks->n_plays +
+         blocks->n_rises * rows_of_a_rise(blocks);
 }
 
-static thr_status programme_make(const thr_blocks *s, aim what, programme *p, thr_err *err)
+/* Makes the programme for an objective. */
+static thr_status programme_make(const thr_blocks *blocks, aim what,
+                                 equilibrium_programme *programme, thr_err *err)
 {
   const bool hands = what != EQUILIBRIUM;
-  size_t n = (size_t)s->n_bodies, cones = (size_t)count_cones(s), rays = (size_t)s->b->rays;
-  size_t others = n + 4 * (size_t)s->n_rises + (hands ? 2 * (size_t)s->n_rows : 0),
+
+  /* The sizes: three columns for each cone, then the copies, the knotted passes and the hands. */
+  size_t n = (size_t)blocks->n_bodies, cones = (size_t)count_cones(blocks),
+         rays = (size_t)blocks->b->rays;
+  size_t others = n + 4 * (size_t)blocks->n_rises + (hands ? 2 * (size_t)blocks->n_rows : 0),
          columns = 3 * cones + others;
-  size_t entries = 39 * cones + 6 * n + 2 * (size_t)s->n_ties + 2 * (size_t)s->n_rows +
-                   (size_t)s->n_plays + 21 * (size_t)s->n_rises;
-  *p = (programme){0};
-  p->rhs = thr_scratch_array(&p->own, (size_t)count_rows(s), sizeof *p->rhs);
-  p->cost = thr_scratch_array(&p->own, rays * cones + others, sizeof *p->cost);
-  p->kind = thr_scratch_array(&p->own, cones, sizeof *p->kind);
-  p->ray = thr_scratch_array(&p->own, 3 * rays, sizeof *p->ray);
-  p->start = thr_scratch_array(&p->own, columns + 1, sizeof *p->start);
-  p->row = thr_scratch_array(&p->own, entries, sizeof *p->row);
-  p->value = thr_scratch_array(&p->own, entries, sizeof *p->value);
-  if (thr_scratch_check(&p->own, err)) {
-    programme_destroy(p);
+  size_t entries = 39 * cones + 6 * n + 2 * (size_t)blocks->n_ties + 2 * (size_t)blocks->n_rows +
+                   (size_t)blocks->n_plays + 21 * (size_t)blocks->n_rises;
+
+  *programme = (equilibrium_programme){0};
+  programme->rhs =
+      thr_scratch_array(&programme->own, (size_t)count_rows(blocks), sizeof *programme->rhs);
+  programme->cost =
+      thr_scratch_array(&programme->own, rays * cones + others, sizeof *programme->cost);
+  programme->kind = thr_scratch_array(&programme->own, cones, sizeof *programme->kind);
+  programme->ray = thr_scratch_array(&programme->own, 3 * rays, sizeof *programme->ray);
+  programme->start = thr_scratch_array(&programme->own, columns + 1, sizeof *programme->start);
+  programme->row = thr_scratch_array(&programme->own, entries, sizeof *programme->row);
+  programme->value = thr_scratch_array(&programme->own, entries, sizeof *programme->value);
+  if (thr_scratch_check(&programme->own, err)) {
+    programme_destroy(programme);
     return THR_ENOMEM;
   }
-  for (int v = 0; v < s->b->n_beads && what != SELF_STRESS; v++)
-    weigh(s, v, p->rhs);
-  for (int v = 0; v < s->n_bodies && what != SELF_STRESS; v++)
-    carry_given(s, v, p->rhs);
-  if (what == SELF_STRESS) p->rhs[s->n_rows] = s->n_contacts;
-  contact_columns(s, what == SELF_STRESS, p);
-  play_columns(s, p);
-  p->n_costs = count_cones(s) * (s->round ? 3 : s->b->rays);
-  pull_columns(s, p, hands ? 0 : s->carries ? -1 : 1); /* the least pull, the largest load */
-  rise_columns(s, p, hands || s->carries ? 0 : 1);
-  if (hands) hand_columns(s, p);
+
+  /* What the unknown forces must balance. */
+  for (int v = 0; v < blocks->b->n_beads && what != SELF_STRESS; v++)
+    add_weight(blocks, v, programme->rhs);
+  for (int v = 0; v < blocks->n_bodies && what != SELF_STRESS; v++)
+    carry_given(blocks, v, programme->rhs);
+  if (what == SELF_STRESS) programme->rhs[blocks->n_rows] = blocks->n_contacts;
+
+  /* The columns in this order: contacts, play, pull, knotted passes, hands. */
+  contact_columns(blocks, what == SELF_STRESS, programme);
+  play_columns(blocks, programme);
+  programme->n_costs = count_cones(blocks) * (blocks->round ? 3 : blocks->b->rays);
+  pull_columns(blocks, programme,
+               hands             ? 0
+               : blocks->carries ? -1
+                                 : 1); /* the least pull, the largest load */
+  rise_columns(blocks, programme, hands || blocks->carries ? 0 : 1);
+  if (hands) hand_columns(blocks, programme);
+
   return THR_OK;
 }
 
-void thr_blocks_solution_destroy(thr_blocks_solution *o)
+/* Frees a solution. */
+void thr_blocks_solution_destroy(thr_blocks_solution *solution)
 {
-  free(o->x);
-  free(o->dual);
-  *o = (thr_blocks_solution){0};
+  free(solution->x);
+  free(solution->dual);
+  *solution = (thr_blocks_solution){0};
 }
 
-static thr_columns columns_of(const thr_blocks *s, const programme *p)
+/* Returns the matrix of the programme, borrowed. */
+static thr_columns columns_of(const thr_blocks *blocks, const equilibrium_programme *programme)
 {
-  return (thr_columns){count_rows(s), p->n_columns, p->start, p->row, p->value};
+  return (thr_columns){count_rows(blocks), programme->n_columns, programme->start, programme->row,
+                       programme->value};
 }
 
-/* How far forces are outside their cones, at most, in weights. */
-static double outside(const thr_blocks *s, const double *x)
+/* Returns by how much forces are outside of their cones at most, in weights. */
+static double cone_violation(const thr_blocks *blocks, const double *x)
 {
   double most = 0;
-  for (int i = 0; i < count_cones(s); i++, x += 3)
+  for (int i = 0; i < count_cones(blocks); i++, x += 3)
     most = fmax(most, hypot(x[1], x[2]) - x[0]);
-  for (int c = 0; c < s->n_copies; c++)
+  for (int c = 0; c < blocks->n_copies; c++)
     most = fmax(most, -x[c]);
+
   return most;
 }
 
-/* Objective, and the largest difference between A x and rhs. */
-static thr_status finish(const thr_blocks *s, const programme *p, thr_blocks_solution *o,
-                         thr_err *err)
+/* Computes the objective, and the largest violation of an equation, in weights, from the solution.
+ */
+static thr_status measure_solution(const thr_blocks *blocks, const equilibrium_programme *programme,
+                                   thr_blocks_solution *solution, thr_err *err)
 {
-  const thr_columns a = columns_of(s, p);
-  const thr_rays rays = {count_cones(s), s->b->rays, a.n_columns - 3 * count_cones(s), p->kind,
-                         (const double(*)[3])p->ray};
+  const thr_columns matrix = columns_of(blocks, programme);
+  const thr_rays rays = {count_cones(blocks), blocks->b->rays,
+                         matrix.n_columns - 3 * count_cones(blocks), programme->kind,
+                         (const double(*)[3])programme->ray};
+
   thr_scratch own = {0};
-  double *left = thr_scratch_array(&own, (size_t)a.n_rows, sizeof *left);
-  double *u = thr_scratch_array(&own, (size_t)a.n_columns, sizeof *u);
+  double *left = thr_scratch_array(&own, (size_t)matrix.n_rows, sizeof *left);
+  double *combined = thr_scratch_array(&own, (size_t)matrix.n_columns, sizeof *combined);
   thr_status st = thr_scratch_check(&own, err);
+
+  /* Rays are combined to the three columns of their contacts. */
   if (!st) {
-    memcpy(left, p->rhs, (size_t)a.n_rows * sizeof *left);
-    if (s->round)
-      memcpy(u, o->x, (size_t)a.n_columns * sizeof *u), o->imbalance = outside(s, o->x);
+    memcpy(left, programme->rhs, (size_t)matrix.n_rows * sizeof *left);
+    if (blocks->round)
+      memcpy(combined, solution->x, (size_t)matrix.n_columns * sizeof *combined),
+          solution->imbalance = cone_violation(blocks, solution->x);
     else
-      thr_rays_gather(&rays, o->x, u);
-    for (int j = 0; j < a.n_columns; j++)
-      for (int k = a.start[j]; k < a.start[j + 1]; k++)
-        left[a.row[k]] -= a.value[k] * u[j];
-    for (int i = 0; i < a.n_rows; i++)
-      o->imbalance = fmax(o->imbalance, isfinite(left[i]) ? fabs(left[i]) : INFINITY);
-    for (int j = 0; j < p->n_costs; j++)
-      o->objective += p->cost[j] * o->x[j];
+      thr_rays_gather(&rays, solution->x, combined);
+
+    /* What the columns leave of the right side. */
+    for (int j = 0; j < matrix.n_columns; j++)
+      for (int k = matrix.start[j]; k < matrix.start[j + 1]; k++)
+        left[matrix.row[k]] -= matrix.value[k] * combined[j];
+    for (int i = 0; i < matrix.n_rows; i++)
+      solution->imbalance = fmax(solution->imbalance, isfinite(left[i]) ? fabs(left[i]) : INFINITY);
+
+    /* The objective. */
+    for (int j = 0; j < programme->n_costs; j++)
+      solution->objective += programme->cost[j] * solution->x[j];
   }
+
   thr_scratch_free(&own);
   return st;
 }
 
-/* What the cords press the contacts with at the pull that is guessed, and no less than a weight;
- * the ground carries all weights: balanced but for those. */
-static void guess_forces(const thr_blocks *s, double *x)
+/* Guesses forces for the start of the programme with cones: each contact presses with its share of
+ * the press at the guessed pull, but at least one weight, and the ground carries all weights. Such
+ * forces balance but for the weights. */
+static void guess_forces(const thr_blocks *blocks, double *x)
 {
-  const double pull = s->carries ? 1 : s->guess;
+  const double pull = blocks->carries ? 1 : blocks->guess;
+
+  /* The ground carries all weights, shared evenly. */
   int on_ground = 0;
-  for (int i = 0; i < s->n_contacts; i++)
-    on_ground += s->contact[i].other < 0;
-  for (int i = 0; i < s->n_contacts; i++)
-    x[3 * i] = s->contact[i].other < 0 ? (double)s->b->n_beads / on_ground
-                                       : fmax(1, pull * s->contact[i].press / s->weight);
-  for (int c = 0; c < s->n_copies; c++)
-    x[3 * count_cones(s) + c] = s->carries ? 1 : pull / s->pull;
-  for (int i = s->n_contacts; i < count_cones(s); i++)
-    x[3 * i] = s->carries ? 1 : pull / s->pull;
+  for (int i = 0; i < blocks->n_contacts; i++)
+    on_ground += blocks->contact[i].other < 0;
+
+  /* Normal forces only; a start needs no friction. */
+  for (int i = 0; i < blocks->n_contacts; i++)
+    x[3 * i] = blocks->contact[i].other < 0
+                   ? (double)blocks->b->n_beads / on_ground
+                   : fmax(1, pull * blocks->contact[i].press / blocks->weight);
+
+  /* The copies of the pull, and the heights of the play cones. */
+  for (int c = 0; c < blocks->n_copies; c++)
+    x[3 * count_cones(blocks) + c] = blocks->carries ? 1 : pull / blocks->pull;
+  for (int i = blocks->n_contacts; i < count_cones(blocks); i++)
+    x[3 * i] = blocks->carries ? 1 : pull / blocks->pull;
 }
 
-/* So many weights in terms of what a solver takes for 1: the largest of the right sides. */
-static double relative(const thr_blocks *s, const programme *p, double weights)
+/* Returns an accuracy in weights relative to what the solver takes for 1: the largest right side.
+ */
+static double relative_accuracy(const thr_blocks *blocks, const equilibrium_programme *programme,
+                                double weights)
 {
   double largest = 1;
-  for (int i = 0; i < s->n_rows; i++)
-    largest = fmax(largest, fabs(p->rhs[i]));
+  for (int i = 0; i < blocks->n_rows; i++)
+    largest = fmax(largest, fabs(programme->rhs[i]));
   return weights / largest;
 }
 
-static thr_status solve_round(const thr_blocks *s, const programme *p, const thr_limits *limits,
-                              thr_interior *found, thr_err *err)
+/* Solves the programme over second-order cones, from guessed forces. */
+static thr_status solve_round(const thr_blocks *blocks, const equilibrium_programme *programme,
+                              const thr_limits *limits, thr_interior *found, thr_err *err)
 {
-  guess_forces(s, found->x);
+  guess_forces(blocks, found->x);
   const thr_cone_equations equations = {
-      .a = columns_of(s, p),
-      .rhs = p->rhs,
-      .cost = p->cost,
-      .goal = s->merged ? 1e-9 : THR_BLOCKS_ROUGH, /* of merged ones no rounding is made up for */
-      .met = relative(s, p, s->merged ? THR_BLOCKS_UNMET : THR_BLOCKS_MET),
+      .a = columns_of(blocks, programme),
+      .rhs = programme->rhs,
+      .cost = programme->cost,
+      .goal =
+          blocks->merged ? 1e-9 : THR_BLOCKS_ROUGH, /* of merged ones no rounding is made up for */
+      .met =
+          relative_accuracy(blocks, programme, blocks->merged ? THR_BLOCKS_UNMET : THR_BLOCKS_MET),
       .start = found->x,
-      .n_cones = count_cones(s)};
+      .n_cones = count_cones(blocks)};
+
   return thr_cones_solve(&equations, limits, found, err);
 }
 
-static thr_status solve_pyramids(const thr_blocks *s, const programme *p, const thr_limits *limits,
-                                 thr_interior *found, thr_err *err)
+/* Solves the programme with pyramids. A large one ends as soon as its bounds are near, and starts
+ * from a similar one. */
+static thr_status solve_pyramids(const thr_blocks *blocks, const equilibrium_programme *programme,
+                                 const thr_limits *limits, thr_interior *found, thr_err *err)
 {
-  const bool large = s->n_bodies > THR_BLOCKS_LARGE;
+  const bool large = blocks->n_bodies > THR_BLOCKS_LARGE;
   const thr_equations equations = {
-      .a = columns_of(s, p),
-      .rhs = p->rhs,
-      .cost = p->cost,
-      .goal = !large     ? 0
-              : s->bound ? THR_BLOCKS_ROUGH
-                         : 2 * THR_BLOCKS_ROUGH,
-      .met = large ? relative(s, p, s->bound ? THR_BLOCKS_UNMET : THR_BLOCKS_MET) : 0,
-      .warm = large ? s->warm : NULL,
-      .n_cones = count_cones(s),
-      .n_rays = s->b->rays,
-      .kind = p->kind,
-      .ray = (const double(*)[3])p->ray};
+      .a = columns_of(blocks, programme),
+      .rhs = programme->rhs,
+      .cost = programme->cost,
+      .goal = !large          ? 0
+              : blocks->bound ? THR_BLOCKS_ROUGH
+                              : 2 * THR_BLOCKS_ROUGH,
+      .met = large ? relative_accuracy(blocks, programme,
+                                       blocks->bound ? THR_BLOCKS_UNMET : THR_BLOCKS_MET)
+                   : 0,
+      .warm = large ? blocks->warm : NULL,
+      .n_cones = count_cones(blocks),
+      .n_rays = blocks->b->rays,
+      .kind = programme->kind,
+      .ray = (const double(*)[3])programme->ray};
+
   return thr_interior_solve(&equations, limits, found, err);
 }
 
-static thr_status solve(const thr_blocks *s, aim what, const thr_limits *limits,
+/* Makes and solves the programme for an objective, and measures the solution. Frees *out on
+ * failure. */
+static thr_status solve(const thr_blocks *blocks, aim what, const thr_limits *limits,
                         thr_blocks_solution *out, thr_err *err)
 {
-  programme p;
+  equilibrium_programme programme;
   *out = (thr_blocks_solution){0};
-  thr_status st = programme_make(s, what, &p, err);
+  thr_status st = programme_make(blocks, what, &programme, err);
   if (st) return st;
-  out->x = thr_calloc((size_t)p.n_costs, sizeof *out->x);
-  out->dual = thr_calloc((size_t)count_rows(s), sizeof *out->dual);
+
+  /* With cones, x has three numbers for each cone; with pyramids, one for each ray. */
+  out->x = thr_calloc((size_t)programme.n_costs, sizeof *out->x);
+  out->dual = thr_calloc((size_t)count_rows(blocks), sizeof *out->dual);
   thr_interior found = {.x = out->x, .dual = out->dual};
   if (!out->x || !out->dual) st = thr_nomem(err);
-  if (!st) st = (s->round ? solve_round : solve_pyramids)(s, &p, limits, &found, err);
+  if (!st)
+    st = (blocks->round ? solve_round : solve_pyramids)(blocks, &programme, limits, &found, err);
+
+  /* A limit that was reached is a failure with a text of its own. */
   out->outcome = found.outcome;
   if (!st && out->outcome == THR_LP_STOPPED)
     st = thr_fail(err, THR_ELIMIT, "stopped before the holding pull was found");
-  if (!st) st = finish(s, &p, out, err);
-  programme_destroy(&p);
+
+  /* Objective and violation, from the numbers themselves. */
+  if (!st) st = measure_solution(blocks, &programme, out, err);
+  programme_destroy(&programme);
+
   if (st) thr_blocks_solution_destroy(out);
   return st;
 }
 
-thr_status thr_blocks_solve(const thr_blocks *s, bool hands, const thr_limits *limits,
+/* Solves for the least pull or the largest load, or the least that hands must do; see blocks.h. */
+thr_status thr_blocks_solve(const thr_blocks *blocks, bool hands, const thr_limits *limits,
                             thr_blocks_solution *out, thr_err *err)
 {
-  return solve(s, hands ? WITH_HANDS : EQUILIBRIUM, limits, out, err);
+  return solve(blocks, hands ? WITH_HANDS : EQUILIBRIUM, limits, out, err);
 }
 
-/* The equation of the sum takes the place of those that tie the copies of the pull, which is not
- * there. */
-thr_status thr_blocks_self_stress(const thr_blocks *s, const thr_limits *limits,
+/* Solves for a self-stress; see blocks.h. The equation of the sum of normal forces takes the row of
+ * a tie between copies of the pull, which this programme does not have. */
+thr_status thr_blocks_self_stress(const thr_blocks *blocks, const thr_limits *limits,
                                   thr_blocks_solution *out, thr_err *err)
 {
-  thr_blocks alone = *s;
+  thr_blocks alone = *blocks;
   alone.round = false;
   alone.n_copies = 0;
   alone.n_ties = 1;
   alone.n_plays = alone.n_rises = 0;
+
   return solve(&alone, SELF_STRESS, limits, out, err);
 }

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the files of eval/structure/ share: blocks, mechanisms, welds, the simulation. */
+/* What the files of eval/structure/ share with each other and with nobody else: rigid blocks and
+ * their programme (blocks.c), collapse mechanisms (mechanism.c), welds (welds.c), and the
+ * simulation in Bullet (simulated.c). beads.h says in which order to read the files. */
 #ifndef THR_BLOCKS_H
 #define THR_BLOCKS_H
 
@@ -23,6 +25,7 @@ static const double THR_BLOCKS_ROUGH = 5e-4;
  * is proved by itself. */
 static const double THR_BLOCKS_MET = 5e-6, THR_BLOCKS_UNMET = 1e-3;
 
+/* Holds a contact: a corner of a face between two beads, or of a foot on the ground. */
 typedef struct {
   int bead, other; /* pushed along the rays of the friction pyramid; pushed back, -1 = the ground */
   double press;    /* N: its share of what the cords press its face with, as thr_blocks.press */
@@ -30,8 +33,9 @@ typedef struct {
   double ray[THR_MOST_RAYS][3];
 } thr_contact;
 
-/* Bodies are beads, or sets of beads that move as one. Forces are counted in weights of a mean
- * bead, lengths in `length`, the pull in `pull`: numbers near 1 for the solver. */
+/* Holds the blocks. Bodies are beads, or sets of beads that move as one. Forces are counted in
+ * weights of a mean bead, lengths in `length`, the pull in `pull`: numbers near 1 for the solver.
+ */
 typedef struct {
   const thr_beads *b;
   const thr_frame *f;
@@ -42,8 +46,8 @@ typedef struct {
   bool bound;     /* only the multipliers count */
   bool round;     /* contact forces are within cones, not pyramids .. */
   double guess;   /* .. and N: a pull that is enough, not a thousand times too much */
-  bool outside;   /* all that may be: cords anywhere within their bores, polygons round the discs of
-                     feet; else cords   in the middle, and polygons inside */
+  bool outside;   /* for a proved bound: cords anywhere within their bores, polygons round the discs
+                     of feet; else cords in the middle, and polygons inside */
   bool stretches; /* the unknown is how much more tension than the least there is in the passes that
                      b->rise tells, each newton at the cost of their lengths; the rest is given */
   bool carries;   /* the unknown is not the pull but what the load is multiplied by */
@@ -68,6 +72,7 @@ typedef struct {
   thr_scratch own;     /* the arrays */
 } thr_blocks;
 
+/* Holds a solution of the programme, and its multipliers. */
 typedef struct {
   thr_lp_outcome outcome;
   double objective;
@@ -76,49 +81,53 @@ typedef struct {
   double *dual;     /* rows */
 } thr_blocks_solution;
 
-/* The factor on friction that puts the pyramids round the cones. */
+/* Returns the factor on friction that puts the pyramids round the cones. */
 double thr_blocks_widening(const thr_beads *beads);
 
-/* Friction of a contact, widened. */
-double thr_blocks_friction(const thr_blocks *s, const thr_contact *contact);
+/* Returns the friction of a contact, widened. */
+double thr_blocks_friction(const thr_blocks *blocks, const thr_contact *contact);
 
-/* Do knotted cords tighten, within what they bear? */
-bool thr_blocks_tightens(const thr_blocks *s);
+/* Returns whether knotted cords tighten, within what they bear. */
+bool thr_blocks_tightens(const thr_blocks *blocks);
 
-/* Columns that the programme has for each of these passes, the first one what its tension has grown
- * by. */
-int thr_blocks_columns_of_a_rise(const thr_blocks *s);
+/* Returns the number of columns that the programme has for each of the passes of knotted cords; the
+ * first one is what its tension has grown by. */
+int thr_blocks_columns_of_a_rise(const thr_blocks *blocks);
 
-/* Is the face within a body, or between two that are held? */
-bool thr_blocks_inside(const thr_blocks *s, int face);
+/* Returns whether a face is within a body, or between two that are held. */
+bool thr_blocks_inside(const thr_blocks *blocks, int face);
 
-/* From s->b, f, physics, press, load, outside, stretches, carries, most, merged and weld; the rest
- * is 0. widen: factor on friction. s is freed on failure. */
-thr_status thr_blocks_make(thr_blocks *s, double widen, thr_err *err) THR_MUST_CHECK;
-void thr_blocks_destroy(thr_blocks *s);
+/* Makes the blocks from blocks->b, f, physics, press, load, outside, stretches, carries, most,
+ * merged and weld; the rest is 0. widen: factor on friction. *blocks is freed on failure. */
+thr_status thr_blocks_make(thr_blocks *blocks, double widen, thr_err *err) THR_MUST_CHECK;
+void thr_blocks_destroy(thr_blocks *blocks);
 
-/* The least pull, or the largest load, at which they are in equilibrium; with hands, that push and
- * turn each bead at a cost, the least of that cost. THR_ELIMIT when stopped. Release out whatever
- * comes back. */
-thr_status thr_blocks_solve(const thr_blocks *s, bool hands, const thr_limits *limits,
+/* Computes the least pull, or the largest load, at which the blocks are in equilibrium; with hands,
+ * which push and turn each bead at a cost, the least cost. THR_ELIMIT when stopped. Release out
+ * whatever comes back. */
+thr_status thr_blocks_solve(const thr_blocks *blocks, bool hands, const thr_limits *limits,
                             thr_blocks_solution *out, thr_err *err) THR_MUST_CHECK;
 
-/* Contact forces that balance each other without any weight or cord, of one on the mean: hands that
- * push and turn do what is missing, at a cost. With the cost 0 they are a self-stress, x of each
- * contact's rays; else the multipliers are velocities that open every contact. Release out whatever
- * comes back. */
-thr_status thr_blocks_self_stress(const thr_blocks *s, const thr_limits *limits,
+/* Computes contact forces, of 1 on the mean, that balance each other without any weight or cord:
+ * hands that push and turn do what is missing, at a cost. If the cost is 0, the forces are a
+ * self-stress, x of each contact's rays; else the multipliers are velocities that open every
+ * contact. Release out whatever comes back. */
+thr_status thr_blocks_self_stress(const thr_blocks *blocks, const thr_limits *limits,
                                   thr_blocks_solution *out, thr_err *err) THR_MUST_CHECK;
 void thr_blocks_solution_destroy(thr_blocks_solution *o);
 
 /* ---- mechanism.c: Collapse mechanisms of rigid blocks: velocities of all beads, with which no
  * contact closes, and the powers of what acts on them. */
 
-/* Powers: weights, W; the same if all went straight down; cords' resistance per newton of pull,
- * W/N, by their true tensions; the load. all, all_loads: of all weights, and loads, if each went
- * its own way with the speed 1. */
+/* Holds the powers in a mechanism. */
 typedef struct {
-  double falling, most, resistance, load, all, all_loads;
+  double falling;    /* W, of the weights */
+  double most;       /* W, of the weights if every bead went straight down, and of the loads without
+                        their signs */
+  double resistance; /* W/N, of the cords per newton of pull, by their true tensions */
+  double load;       /* W, of the load */
+  double all;        /* W, of the weights if every bead fell with the speed 1 */
+  double all_loads;  /* W, of the loads if every node went along its load with the speed 1 */
 } thr_powers;
 
 /* What drives a mechanism has to be more than this part of all that could: twice what the checker
@@ -126,21 +135,25 @@ typedef struct {
  */
 static const double THR_MECHANISM_DRIVE = 2e-7;
 
-/* Dual values of thr_blocks_solve as velocities [n_beads], scaled to a largest translation of 1.
- * Contacts that would close are opened by a little flight. */
-thr_status thr_mechanism_make(const thr_blocks *s, const double *dual, const thr_limits *limits,
-                              double (*velocity)[6], thr_err *err) THR_MUST_CHECK;
+/* Computes velocities [n_beads] from the dual values of thr_blocks_solve, scaled to a largest
+ * translation of 1. Contacts that would close by rounding are opened by a little of a mechanism
+ * that opens all. */
+thr_status thr_mechanism_make(const thr_blocks *blocks, const double *dual,
+                              const thr_limits *limits, double (*velocity)[6],
+                              thr_err *err) THR_MUST_CHECK;
 
-/* Least power of any contact force: a mechanism has none below 0. */
-double thr_mechanism_opening(const thr_blocks *s, const double (*velocity)[6]);
+/* Returns the least power of any contact force: a mechanism has none below 0. */
+double thr_mechanism_opening(const thr_blocks *blocks, const double (*velocity)[6]);
 
-/* How fast the beads of a face part where the cord is that resists most: anywhere within its bore.
- */
-double thr_mechanism_parting(const thr_blocks *s, const double (*velocity)[6], int face);
+/* Returns how fast the beads of a face part along its axis, where within its bore the cord resists
+ * most. */
+double thr_mechanism_parting(const thr_blocks *blocks, const double (*velocity)[6], int face);
 
-/* Computes how fast the faces of s->b->rise part, as above, into apart[n_rises]. Returns the most
- * for each metre of the cord there, or 0: the most that a newton metre of stretch resists, 1/m. */
-double thr_mechanism_stretching(const thr_blocks *s, const double (*velocity)[6], double *apart);
+/* Computes how fast the faces of blocks->b->rise part, as above, into apart[n_rises]. Returns the
+ * most for each metre of the cord there, or 0: the most that a newton metre of stretch resists,
+ * 1/m. */
+double thr_mechanism_stretching(const thr_blocks *blocks, const double (*velocity)[6],
+                                double *apart);
 
 /* Computes what knotted cords can resist beyond their least tensions (graph/plan/knotted.c), W,
  * within their strength and while they have stretched by no more than `stretch`, N m (INFINITY:
@@ -149,17 +162,18 @@ double thr_mechanism_stretching(const thr_blocks *s, const double (*velocity)[6]
 double thr_mechanism_tightening(const thr_beads *beads, const double *apart, double resists,
                                 double stretch, thr_knotted_pass *pass, double (*point)[2]);
 
-thr_powers thr_mechanism_balance(const thr_blocks *s, const double (*velocity)[6]);
+/* Computes the powers of weights, cords and load. */
+thr_powers thr_mechanism_balance(const thr_blocks *blocks, const double (*velocity)[6]);
 
-/* The lowest bead among the fastest; -1 if none moves. */
+/* Returns the lowest bead among the fastest, or -1 if none moves. */
 int thr_mechanism_fastest(const thr_beads *beads, const double (*velocity)[6]);
 
 /* ---- welds.c: Welds: what held feet wedge. */
 
-/* weld[n_beads]: the lowest bead of the body that each bead is of, with s->weld = weld; s is as for
+/* Computes weld[n_beads]: the lowest bead of the body that each bead belongs to. *blocks is as for
  * thr_blocks_make. */
-thr_status thr_welds_find(const thr_blocks *s, double widen, const thr_limits *limits, int *weld,
-                          thr_err *err) THR_MUST_CHECK;
+thr_status thr_welds_find(const thr_blocks *blocks, double widen, const thr_limits *limits,
+                          int *weld, thr_err *err) THR_MUST_CHECK;
 
 /* ---- simulated.c: The closed structure as a world of Bullet: rigid beads that touch at the
  * corners of their faces, feet on patches of ground, cords as forces between beads. */
@@ -170,6 +184,7 @@ typedef struct {
   double at[3], turn[3][3];
 } thr_placed; /* a bead's mass centre and rotation matrix */
 
+/* Holds a simulated structure: its world in Bullet, the forces, and where its beads were. */
 typedef struct {
   const thr_beads *b;
   const thr_frame *f;
@@ -198,32 +213,41 @@ typedef struct {
   uint64_t seed;                /* of small initial displacements */
 } thr_simulated_options;
 
-/* m has b, f, physics, limits, cord, n_cords, tension and most; the rest is 0. End it whatever
- * comes back. */
-thr_status thr_simulated_begin(thr_simulated *m, thr_err *err) THR_MUST_CHECK;
-void thr_simulated_end(thr_simulated *m);
+/* Allocates the arrays and chooses the units of a simulation that has b, f, physics, limits, cord,
+ * n_cords, tension and most; the rest is 0. End it whatever comes back. */
+thr_status thr_simulated_begin(thr_simulated *simulated, thr_err *err) THR_MUST_CHECK;
+void thr_simulated_end(thr_simulated *simulated);
 
-/* A fresh world as drawn, which is home; the old one goes. */
-thr_status thr_simulated_build(thr_simulated *m, const thr_simulated_options *options,
+/* Builds a fresh world as drawn, which becomes home, in place of the old one. */
+thr_status thr_simulated_build(thr_simulated *simulated, const thr_simulated_options *options,
                                thr_err *err) THR_MUST_CHECK;
-/* At m->pull and m->lift. THR_ELIMIT when stopped. */
-thr_status thr_simulated_step(thr_simulated *m, thr_err *err) THR_MUST_CHECK;
-/* Part of the velocity that is lost in a unit of time. */
-void thr_simulated_damp(const thr_simulated *m, double damping);
-long thr_simulated_steps(const thr_simulated *m, double time);
 
-/* Home is where the beads are now. */
-void thr_simulated_set_home(thr_simulated *m);
-/* How far the bead that moved most is from home, in edges. */
-double thr_simulated_most_moved(const thr_simulated *m, int *bead);
-/* How far the bead that moved most has moved within the last THR_LOOKS looks, of which this is the
- * next; 0 before so many. */
-double thr_simulated_moved_lately(thr_simulated *m, long look, int *bead);
-/* Widest opening of any face, at its corners, in edges. */
-double thr_simulated_widest_gap(const thr_simulated *m);
-/* Faces that open nowhere by so many edges. */
-int thr_simulated_closed(const thr_simulated *m, double gap);
-/* pose[n_beads]: node in m, rotation from the drawn position as a quaternion (x y z w). */
-void thr_simulated_take_poses(const thr_simulated *m, double (*pose)[7]);
+/* Moves the world on by a time step, at simulated->pull and ->lift. THR_ELIMIT when stopped. */
+thr_status thr_simulated_step(thr_simulated *simulated, thr_err *err) THR_MUST_CHECK;
+
+/* Sets the part of the velocity that is lost in a unit of time. */
+void thr_simulated_damp(const thr_simulated *simulated, double damping);
+
+/* Returns the number of steps in a time. */
+long thr_simulated_steps(const thr_simulated *simulated, double time);
+
+/* Makes home of where the beads are now. */
+void thr_simulated_set_home(thr_simulated *simulated);
+
+/* Returns how far the bead that moved most is from home, in edges. */
+double thr_simulated_most_moved(const thr_simulated *simulated, int *bead);
+
+/* Returns how far the bead that moved most has moved within the last THR_LOOKS looks, of which this
+ * is the next; 0 before so many. */
+double thr_simulated_moved_lately(thr_simulated *simulated, long look, int *bead);
+
+/* Returns the widest opening of any face, at its corners, in edges. */
+double thr_simulated_widest_gap(const thr_simulated *simulated);
+
+/* Returns the number of faces that open nowhere by so many edges. */
+int thr_simulated_closed(const thr_simulated *simulated, double gap);
+
+/* Fills pose[n_beads]: node in m, rotation from the drawn position as a quaternion (x y z w). */
+void thr_simulated_take_poses(const thr_simulated *simulated, double (*pose)[7]);
 
 #endif

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One job in a child process, with an answer of any size: for libraries that may crash, end the
- * program or take no heed of time.
+/* Runs one job in a child process, with an answer of any size: for libraries that may crash, end
+ * the program or take no heed of time.
  *
- * One child process and the messages that it sends: answers, progress, and the end with its status.
- */
+ * The child sends messages: answers, of which the last one counts, progress, and its end with
+ * status and text. At a limit the parent asks the child to stop by SIGUSR1, which the child's
+ * limits see as an interrupt, and kills it a third of a second later. Whatever was sent last is the
+ * best so far. */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/process/process.h"
 
@@ -22,6 +24,7 @@ static const double GRACE = 1.0 / 3; /* s that a child has to stop by itself */
  * and bound, the part done, or the work left; code: the status. */
 enum { ANSWER, PROGRESS, ADVANCE, END };
 
+/* Leads from a child to its parent. */
 struct thr_sender {
   const thr_limits *limits; /* of the parent */
   int fd;
@@ -31,21 +34,26 @@ struct thr_sender {
 
 static volatile sig_atomic_t told_to_stop;
 
+/* Handles SIGUSR1. */
 static void stop(int signal_number)
 {
   (void)signal_number;
   told_to_stop = 1;
 }
 
+/* Sends an answer in place of the one before; see process.h. */
 thr_status thr_child_send(thr_sender *to, const thr_text *answer, thr_err *err)
 {
   if (answer->failed) return thr_nomem(err);
+
   if (thr_message_send(to->fd, (thr_message){.kind = ANSWER, .length = answer->length},
                        answer->data))
     return THR_OK;
+
   return thr_fail(err, THR_ESOLVER, "a worker cannot send its answer: %s", strerror(errno));
 }
 
+/* Sends progress to the parent. */
 static void post_progress(void *user, const char *what, double best, double bound)
 {
   const thr_sender *to = user;
@@ -54,6 +62,7 @@ static void post_progress(void *user, const char *what, double best, double boun
                    what);
 }
 
+/* Sends the part done to the parent. */
 static void post_advance(void *user, const char *what, double done)
 {
   const thr_sender *to = user;
@@ -61,32 +70,41 @@ static void post_advance(void *user, const char *what, double done)
                    what);
 }
 
+/* Says what the child is to do. */
 typedef struct {
-  const thr_child *child;
+  const thr_child *job;
   const thr_limits *limits;
 } task;
 
+/* Runs in the child: runs the job with limits like the parent's, and sends how it ended. */
 static bool run_job(void *user, int fd)
 {
-  const task *t = user;
-  thr_sender to = {.limits = t->limits, .fd = fd};
-  double work = t->limits->work ? *t->limits->work : 0;
-  const thr_limits limits = {.deadline = t->limits->deadline,
+  const task *own = user;
+
+  /* The parent's functions become messages; its interrupt, a flag of the child's own. */
+  thr_sender to = {.limits = own->limits, .fd = fd};
+  double work = own->limits->work ? *own->limits->work : 0;
+  const thr_limits limits = {.deadline = own->limits->deadline,
                              .interrupted = &told_to_stop,
-                             .work = t->limits->work ? &work : NULL,
-                             .work_kept = t->limits->work_kept,
-                             .brief = t->limits->brief,
-                             .usual = t->limits->usual,
-                             .gap = t->limits->gap,
-                             .progress = t->limits->progress ? post_progress : NULL,
-                             .advance = t->limits->advance ? post_advance : NULL,
+                             .work = own->limits->work ? &work : NULL,
+                             .work_kept = own->limits->work_kept,
+                             .brief = own->limits->brief,
+                             .usual = own->limits->usual,
+                             .gap = own->limits->gap,
+                             .progress = own->limits->progress ? post_progress : NULL,
+                             .advance = own->limits->advance ? post_advance : NULL,
                              .user = &to};
+
+  /* Listen to the parent, who may have been interrupted already. */
   struct sigaction ask = {.sa_handler = stop};
   thr_err err = {0};
-  told_to_stop = t->limits->interrupted && *t->limits->interrupted;
+  told_to_stop = own->limits->interrupted && *own->limits->interrupted;
   sigemptyset(&ask.sa_mask);
   sigaction(SIGUSR1, &ask, NULL);
-  thr_status st = t->child->run(t->child->user, &limits, &to, &err);
+
+  thr_status st = own->job->run(own->job->user, &limits, &to, &err);
+
+  /* The end: status, text, and the work that is left. */
   return thr_message_send(
       fd,
       (thr_message){.kind = END, .length = strlen(err.text), .value = {work}, .code = (int32_t)st},
@@ -95,8 +113,9 @@ static bool run_job(void *user, int fd)
 
 /* ---- the parent ---- */
 
+/* Holds what the parent knows of its child. */
 typedef struct {
-  const thr_child *child;
+  const thr_child *job;
   const thr_limits *limits;
   thr_process process;
   thr_text *answer, arrived; /* bytes not yet taken for a message */
@@ -105,104 +124,141 @@ typedef struct {
   bool ended;                /* the message of its end has come, with this status and text */
   thr_err end;
   thr_status status;
-} parent;
+} watched_child;
 
-static void take(void *user, const thr_message *h, const char *bytes)
+/* Takes a message of the child. */
+static void take(void *user, const thr_message *message, const char *bytes)
 {
-  parent *p = user;
-  const thr_limits *l = p->limits;
+  watched_child *child = user;
+  const thr_limits *limits = child->limits;
+
+  /* The bytes are no C string. */
   char what[200];
   snprintf(what, sizeof what, "%.*s",
-           h->length < sizeof what ? (int)h->length : (int)sizeof what - 1, bytes);
-  if (h->kind == PROGRESS) l->progress(l->user, what, h->value[0], h->value[1]);
-  if (h->kind == ADVANCE) l->advance(l->user, what, h->value[0]);
-  if (h->kind == ANSWER) {
-    p->answer->length = 0;
-    thr_text_append_bytes(p->answer, bytes, h->length);
+           message->length < sizeof what ? (int)message->length : (int)sizeof what - 1, bytes);
+
+  /* The caller's functions run in this process. */
+  if (message->kind == PROGRESS)
+    limits->progress(limits->user, what, message->value[0], message->value[1]);
+  if (message->kind == ADVANCE) limits->advance(limits->user, what, message->value[0]);
+
+  /* An answer replaces the one before. */
+  if (message->kind == ANSWER) {
+    child->answer->length = 0;
+    thr_text_append_bytes(child->answer, bytes, message->length);
   }
-  if (h->kind == END) {
-    p->ended = true;
-    p->status = (thr_status)h->code;
-    if (p->status) thr_fail(&p->end, p->status, "%.*s", (int)h->length, bytes);
-    if (l->work) *l->work = h->value[0];
+
+  /* The end. Work that the child did counts here. */
+  if (message->kind == END) {
+    child->ended = true;
+    child->status = (thr_status)message->code;
+    if (child->status) thr_fail(&child->end, child->status, "%.*s", (int)message->length, bytes);
+    if (limits->work) *limits->work = message->value[0];
   }
 }
 
-/* false when the child has closed its pipe. */
-static bool receive(parent *p)
+/* Waits for a message, at most until it is time to look at the limits. Returns false when the child
+ * has closed its pipe. */
+static bool receive(watched_child *child)
 {
-  struct pollfd news = {.fd = p->process.pipe, .events = POLLIN};
-  double wait = p->grace.from > 0 ? WATCH : thr_limits_left(p->limits, WATCH);
+  struct pollfd news = {.fd = child->process.pipe, .events = POLLIN};
+  double wait = child->grace.from > 0 ? WATCH : thr_limits_left(child->limits, WATCH);
+
+  /* No news: does the child do anything at all? */
   if (poll(&news, 1, (int)ceil(1000 * fmin(wait, WATCH))) <= 0) {
-    p->stuck = thr_process_stuck(&p->process);
+    child->stuck = thr_process_stuck(&child->process);
     return true;
   }
-  ssize_t n = thr_messages_receive(p->process.pipe, &p->arrived, take, p);
+
+  ssize_t n = thr_messages_receive(child->process.pipe, &child->arrived, take, child);
+
   return n > 0 || (n < 0 && (errno == EINTR || errno == EAGAIN));
 }
 
-/* false if the child has not stopped in time and was killed. */
-static bool watch(parent *p)
+/* Takes messages until the child has closed its pipe. Returns false if it has not stopped in time.
+ */
+static bool watch(watched_child *child)
 {
-  while (!p->arrived.failed && !p->answer->failed && !p->stuck && receive(p)) {
-    if (!p->grace.from && thr_limits_left(p->limits, 1) <= 0) { /* what waiting takes is no work */
-      p->grace.from = thr_clock();
-      kill(p->process.pid, SIGUSR1);
+  while (!child->arrived.failed && !child->answer->failed && !child->stuck && receive(child)) {
+    /* The limits are reached: ask the child to stop. What waiting takes is no work. */
+    if (!child->grace.from && thr_limits_left(child->limits, 1) <= 0) {
+      child->grace.from = thr_clock();
+      kill(child->process.pid, SIGUSR1);
     }
-    if (thr_grace_over(&p->grace, p->process.pid, GRACE)) return false;
+
+    if (thr_grace_over(&child->grace, child->process.pid, GRACE)) return false;
   }
+
   return true;
 }
 
-static thr_status judge(parent *p, bool stopped, thr_err *err)
+/* Returns what came of the child, with a text for the user. */
+static thr_status judge(watched_child *child, bool stopped, thr_err *err)
 {
   char who[200];
-  if (p->arrived.failed || p->answer->failed) return thr_nomem(err);
-  if (!stopped) return thr_fail(err, THR_ELIMIT, "%s: stopped before it was done", p->child->what);
-  if (p->stuck)
+
+  /* What ended the watch early. */
+  if (child->arrived.failed || child->answer->failed) return thr_nomem(err);
+  if (!stopped)
+    return thr_fail(err, THR_ELIMIT, "%s: stopped before it was done", child->job->what);
+  if (child->stuck)
     return thr_fail(err, THR_ESOLVER,
                     "%s: its process waited for itself (memory ran out in a library)",
-                    p->child->what);
-  if (p->ended) return p->status ? thr_fail(err, p->status, "%s", p->end.text) : THR_OK;
-  snprintf(who, sizeof who, "%s: its process", p->child->what);
-  thr_status st = thr_process_end(&p->process, who, p->child->advice, err);
-  return st ? st : thr_fail(err, THR_ESOLVER, "%s: its process sent too little", p->child->what);
+                    child->job->what);
+
+  /* The child has told its end; else it died. */
+  if (child->ended)
+    return child->status ? thr_fail(err, child->status, "%s", child->end.text) : THR_OK;
+  snprintf(who, sizeof who, "%s: its process", child->job->what);
+  thr_status st = thr_process_end(&child->process, who, child->job->advice, err);
+
+  return st ? st : thr_fail(err, THR_ESOLVER, "%s: its process sent too little", child->job->what);
 }
 
-static thr_status run_once(const thr_child *c, const thr_limits *limits, thr_text *answer,
+/* Runs the job in one child. */
+static thr_status run_once(const thr_child *job, const thr_limits *limits, thr_text *answer,
                            bool *stuck, thr_err *err)
 {
-  parent p = {.child = c, .limits = limits, .answer = answer};
-  task t = {c, limits};
+  watched_child child = {.job = job, .limits = limits, .answer = answer};
+  task own = {job, limits};
   thr_err reason = {0};
-  thr_status st = thr_process_start(&p.process, run_job, &t, &reason);
-  if (st) return thr_fail(err, st, "%s: %s", c->what, reason.text);
-  bool stopped = watch(&p);
-  st = judge(&p, stopped, err);
-  *stuck = p.stuck;
-  thr_process_kill(&p.process);
-  thr_text_destroy(&p.arrived);
+  thr_status st = thr_process_start(&child.process, run_job, &own, &reason);
+  if (st) return thr_fail(err, st, "%s: %s", job->what, reason.text);
+
+  /* Whatever happened, no child is left. */
+  bool stopped = watch(&child);
+  st = judge(&child, stopped, err);
+  *stuck = child.stuck;
+  thr_process_kill(&child.process);
+  thr_text_destroy(&child.arrived);
+
   if (answer->failed) thr_text_destroy(answer);
+
   return st;
 }
 
+/* Limits how many children are tried if they get stuck. */
 #if defined __SANITIZE_ADDRESS__
-enum { MOST_BIRTHS = 4 };
+enum { MOST_CHILDREN = 4 };
 #else
-enum { MOST_BIRTHS = 2 };
+enum { MOST_CHILDREN = 2 };
 #endif
 
-/* A child of a process with several threads may be born with a lock that another thread held (under
- * sanitizers, say), and wait for it for ever: then another one is born. */
-thr_status thr_child_run(const thr_child *c, const thr_limits *limits, thr_text *answer,
+/* Runs a job in a child; see process.h. A child of a process with several threads may be born with
+ * a lock that another thread held (under sanitizers, say), and wait for the lock for ever: then
+ * another child is tried. */
+thr_status thr_child_run(const thr_child *job, const thr_limits *limits, thr_text *answer,
                          thr_err *err)
 {
   thr_err why = {0};
   bool stuck = true;
   thr_status st = THR_ESOLVER;
-  for (int i = 0; i < MOST_BIRTHS && stuck && st == THR_ESOLVER; i++) {
+
+  /* What a stuck child has sent does not count. */
+  for (int i = 0; i < MOST_CHILDREN && stuck && st == THR_ESOLVER; i++) {
     thr_text_destroy(answer);
-    st = run_once(c, limits, answer, &stuck, &why);
+    st = run_once(job, limits, answer, &stuck, &why);
   }
+
   return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }

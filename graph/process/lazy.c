@@ -1,12 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Libraries that few commands need are loaded when one of their functions is first called: what
- * starts `thread check` is small. The headers are used as ever; only calls go through pointers. */
+/* Loads libraries that few commands need when one of their functions is first called, so that what
+ * starts `thread check` is small. The headers of a library are used as ever; only calls go through
+ * pointers, which are listed once (THR_LAZY_POINTER, THR_LAZY_SYMBOL in process.h).
+ *
+ * Example: eval/structure/spqr.c lists five functions of CHOLMOD and SuiteSparseQR, and calls
+ * lib.SuiteSparseQR_C(..). */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/process/process.h"
 
 #include <dlfcn.h>
 #include <string.h>
 
+/* Records why a library is not loaded. */
 static thr_status failed(const char *library, thr_err *err)
 {
   const char *reason = dlerror();
@@ -16,18 +21,25 @@ static thr_status failed(const char *library, thr_err *err)
                   library, reason ? reason : "no reason given");
 }
 
+/* Loads a library and fills the pointers; see process.h. */
 thr_status thr_lazy_load(bool *loaded, const char *library, const thr_lazy_symbol *symbol, size_t n,
                          thr_err *err)
 {
   if (*loaded) return THR_OK;
+
+  /* Functions of the libraries that it needs itself are found, too. */
   void *handle = dlopen(library, RTLD_NOW | RTLD_LOCAL);
   if (!handle) return failed(library, err);
+
+  /* A function that is missing means another version of the library. */
   for (size_t i = 0; i < n; i++) {
     void *function = dlsym(handle, symbol[i].name);
     if (!function) return failed(library, err);
-    memcpy(symbol[i].pointer, &function,
-           sizeof function); /* ISO C has no conversion from one to the other, POSIX demands it */
+
+    /* ISO C has no conversion from a pointer to data to one to a function; POSIX demands it. */
+    memcpy(symbol[i].pointer, &function, sizeof function);
   }
+
   *loaded = true;
   return THR_OK;
 }

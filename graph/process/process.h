@@ -1,5 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Processes: children with limits, and libraries that are loaded when they are needed. */
+/* Work beside the main thread: children that cannot harm this process, threads, and libraries that
+ * are loaded when they are needed. Whatever runs beside each other, results do not depend on how
+ * much does.
+ *
+ * Read process.c first (one child), then child.c (one job in a child, which tells its progress and
+ * can be stopped) and workers.c (many jobs in children); threads.c (many jobs in threads) and
+ * lazy.c stand by themselves. threads.h declares threads.c and workers.c. */
 #ifndef THR_PROCESS_H
 #define THR_PROCESS_H
 
@@ -12,7 +18,7 @@
 /* ---- process.c: A child process that cannot harm its parent: what it prints is kept from the
  * terminal, Ctrl-C is left to the parent, and it dies when the parent dies. */
 
-/* {0} is valid: no child. */
+/* A child process. {0} is valid: no child. */
 typedef struct {
   pid_t pid; /* 0 = none */
   int pipe;  /* what the child writes to the descriptor that it is given arrives here */
@@ -21,13 +27,13 @@ typedef struct {
   double cpu;
 } thr_process;
 
-/* Forks. The child calls run(user, fd) and ends; nothing else of the program runs in it, neither
- * buffered output nor exit handlers of the parent. run returns whether its writing succeeded.
- * THR_ESOLVER if the system gives no pipe or process. */
+/* Starts a child process. The child calls run(user, fd) and ends; nothing else of the program runs
+ * in it, neither buffered output nor exit handlers of the parent. run returns whether its writing
+ * succeeded. THR_ESOLVER if the system gives no pipe or process. */
 thr_status thr_process_start(thr_process *process, bool (*run)(void *user, int fd), void *user,
                              thr_err *err) THR_MUST_CHECK;
 
-/* Writes n bytes, in spite of signals. */
+/* Writes n bytes, in spite of signals; returns whether all were written. */
 bool thr_process_send(int fd, const char *data, size_t n);
 
 /* A message, followed by `length` bytes. What the others mean is up to sender and receiver. */
@@ -37,7 +43,8 @@ typedef struct {
   int32_t kind, code;
 } thr_message;
 
-bool thr_message_send(int fd, thr_message m, const char *bytes);
+/* Writes a message and its bytes; returns whether all was written. */
+bool thr_message_send(int fd, thr_message message, const char *bytes);
 
 /* Reads what lies in the pipe, 64 KB at most, and hands over the messages that have arrived whole;
  * `arrived` keeps what has not. As read() returns; 0: the other end is closed. */
@@ -50,36 +57,38 @@ ssize_t thr_messages_receive(int fd, thr_text *arrived,
  * ends with `advice` (NULL: none). */
 thr_status thr_process_end(thr_process *process, const char *who, const char *advice, thr_err *err);
 
-/* In a child: it is killed when its parent dies, whose process it was told; at once if that is dead
- * already. */
+/* Lets this process, a child, be killed when its parent dies, whose id it was told; at once if the
+ * parent is dead already. */
 void thr_process_die_with(pid_t parent);
 
-/* What a process has to end by itself after it should have begun to: so many seconds and as much of
- * its own processor time, so that a busy machine does not kill it before its word is out. {0} is
- * valid: it shall go on. */
+/* The time that a process has to end by itself after it was asked to: so many seconds, and as much
+ * of its own processor time, so that a busy machine does not kill it before it has sent its result.
+ * {0} is valid: it was not asked. */
 typedef struct {
   double from;        /* thr_clock() at which it is to begin; 0 = never */
   double begun, used; /* its processor time then, and at the last look, s; 0 before */
   double idle_from;   /* thr_clock() at which that last grew */
 } thr_grace;
 
-/* Is it over? At the latest after five times `seconds`; at once when it has done nothing but sleep
- * for so long. To be called every 0.1 s or so. */
+/* Returns whether this time is over: at the latest after five times `seconds`, and when the process
+ * has done nothing but sleep for `seconds`. To be called every 0.1 s or so. */
 bool thr_grace_over(thr_grace *grace, pid_t pid, double seconds);
 
-/* Has it slept without any work for some 20 s (3 s under sanitizers) of such calls, one every 0.1
- * s? A library that waits for itself where memory is out while it holds a lock never ends. */
+/* Returns whether a child has slept without any work for some 20 s (3 s under sanitizers) of such
+ * calls, one every 0.1 s. A library that waits for itself where memory is out while it holds a lock
+ * never ends. */
 bool thr_process_stuck(thr_process *process);
 
-/* Ends it at once, whatever it does, and closes the pipes; nothing if there is no child. */
+/* Ends a child at once, whatever it does, and closes the pipes; nothing if there is no child. */
 void thr_process_kill(thr_process *process);
 
 /* ---- child.c: One job in a child process, with an answer of any size: for libraries that may
  * crash, end the program or take no heed of time. */
 
-/* The child's way to its parent. */
+/* What a job needs to send its answer to the parent. */
 typedef struct thr_sender thr_sender;
 
+/* A job for a child. */
 typedef struct {
   const char *what;   /* messages begin with it, e.g. "sheets.pdf" */
   const char *advice; /* what to do if the child dies, ends its message; NULL: nothing known */
@@ -90,8 +99,8 @@ typedef struct {
   void *user;
 } thr_child;
 
-/* In the child: all bytes of `answer` in place of what was sent before. Sent now and then, it is
- * the best so far that the parent has when it must end the child. Fails if the text failed
+/* Sends, in the child, all bytes of `answer` in place of what was sent before. Sent now and then,
+ * it is the best so far that the parent has when it must end the child. Fails if the text failed
  * (THR_ENOMEM) or the parent no longer listens (THR_ESOLVER). */
 thr_status thr_child_send(thr_sender *to, const thr_text *answer, thr_err *err) THR_MUST_CHECK;
 
@@ -106,6 +115,7 @@ thr_status thr_child_run(const thr_child *child, const thr_limits *limits, thr_t
 /* ---- lazy.c: Libraries that few commands need are loaded when one of their functions is first
  * called: what starts `thread check` is small. */
 
+/* A function of a library. */
 typedef struct {
   const char *name;
   void *pointer;        /* address of a pointer to a function, which receives that of this name */
@@ -123,7 +133,7 @@ typedef struct {
 #define THR_LAZY_SYMBOL(f) {#f, &lib.f, NULL},
 #endif
 
-/* Unless *loaded, loads a library by the name that the run-time linker knows it by (libz.so.1) and
+/* Loads a library, unless *loaded, by the name that the run-time linker knows it by (libz.so.1) and
  * fills the pointers, from it and from the libraries that it needs itself. What is loaded stays.
  * THR_ESOLVER with the linker's reason and what to do. A few ms. */
 thr_status thr_lazy_load(bool *loaded, const char *library, const thr_lazy_symbol *symbol, size_t n,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Threads, and teams of them. */
+/* Independent jobs beside each other: in threads and teams of threads, or in forked processes.
+ * process.h says in which order to read the folder. */
 #ifndef THR_THREADS_H
 #define THR_THREADS_H
 
@@ -20,8 +21,8 @@ typedef thr_status thr_threads_job(void *user, int job, const thr_limits *limits
 thr_status thr_threads_run(int n_jobs, thr_threads_job *run, void *user, const thr_limits *limits,
                            thr_err *err) THR_MUST_CHECK;
 
-/* The same of at most THR_BESIDE jobs, as if each had a processor of its own: where work is
- * counted, each has all that is left, and as much is gone as took the one that took most. */
+/* Runs at most THR_BESIDE jobs in the same way, as if each had a processor of its own: where work
+ * is counted, each has all that is left, and as much is gone as took the one that took most. */
 enum { THR_BESIDE = 4 };
 thr_status thr_threads_beside(int n_jobs, thr_threads_job *run, void *user,
                               const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
@@ -29,8 +30,8 @@ thr_status thr_threads_beside(int n_jobs, thr_threads_job *run, void *user,
 /* Threads that stay from run to run. */
 typedef struct thr_team thr_team;
 
-/* At most `most` threads, this one among them, and at most limits->threads; as above. limits must
- * outlive the team. Release with thr_team_destroy (NULL ok). */
+/* Makes a team of at most `most` threads, this one among them, and at most limits->threads; as
+ * above. limits must outlive the team. Release with thr_team_destroy (NULL ok). */
 thr_status thr_team_create(thr_team **team, int most, const thr_limits *limits,
                            thr_err *err) THR_MUST_CHECK;
 void thr_team_destroy(thr_team *team);
@@ -40,14 +41,15 @@ void thr_team_destroy(thr_team *team);
 thr_status thr_team_run(thr_team *team, int n_jobs, thr_threads_job *run, void *user,
                         thr_err *err) THR_MUST_CHECK;
 
-/* As thr_threads_run: whichever thread is free takes the next job; job 0 is done in the one that
- * made the team and calls this. */
+/* Runs jobs as thr_threads_run does: whichever thread is free takes the next job; job 0 is done in
+ * the one that made the team and calls this. */
 thr_status thr_team_share(thr_team *team, int n_jobs, thr_threads_job *run, void *user,
                           thr_err *err) THR_MUST_CHECK;
 
 /* ---- workers.c: Independent jobs in forked processes; results in fixed order, whatever the number
  * of processes. */
 
+/* Jobs for forked processes. */
 typedef struct {
   int n_jobs;
   size_t result_size; /* bytes of one result: plain data without pointers */
@@ -61,13 +63,13 @@ typedef struct {
   const char *advice; /* what to do if a child dies, ends its message; NULL: nothing known */
 } thr_work;
 
-/* Fills results[n_jobs * result_size] and finished[n_jobs]. Stops on the limits (THR_ELIMIT;
- * finished says which results count) and on the first failing job in job order: its status and
- * text, and no later job counts as finished. A child that dies is THR_ESOLVER. processes <= 1 still
- * forks one child at a time, so that a crash in a library cannot take the parent with it.
- * limits->advance is called in the parent with the part of the jobs that is done. No child is left,
- * running or as a zombie. */
-thr_status thr_workers_run(const thr_work *w, int processes, const thr_limits *limits,
+/* Runs the jobs, and fills results[n_jobs * result_size] and finished[n_jobs]. Stops on the limits
+ * (THR_ELIMIT; finished says which results count) and on the first failing job in job order: its
+ * status and text, and no later job counts as finished. A child that dies is THR_ESOLVER. processes
+ * <= 1 still forks one child at a time, so that a crash in a library cannot take the parent with
+ * it. limits->advance is called in the parent with the part of the jobs that is done. No child is
+ * left, running or as a zombie. */
+thr_status thr_workers_run(const thr_work *work, int processes, const thr_limits *limits,
                            void *results, bool *finished, thr_err *err) THR_MUST_CHECK;
 
 #endif
