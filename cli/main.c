@@ -6,8 +6,8 @@
 #include "cli/args/args.h"
 #include "cli/cli.h"
 #include "eval/joint/world.h"
-#include "graph/suggestion.h"
-#include "lp/solver/lp.h"
+#include "graph/text.h"
+#include "lp/solver/solver.h"
 #include "symmetry/group/group.h"
 
 #include <stdio.h>

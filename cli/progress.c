@@ -14,7 +14,7 @@
  * search began. */
 #include "cli/cli.h"
 
-#include "graph/io/writer.h"
+#include "graph/io/json.h"
 
 #include <math.h>
 #include <stdio.h>

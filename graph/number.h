@@ -4,6 +4,7 @@
 #ifndef THR_NUMBER_H
 #define THR_NUMBER_H
 
+#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -30,5 +31,51 @@ bool thr_number_parse(const char *s, size_t n, double *value);
 #ifdef __cplusplus
 }
 #endif
+
+/* ---- Arithmetic on points and directions in space. */
+
+static inline double thr_dot(const double *a, const double *b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* out: neither a nor b. */
+static inline void thr_cross(const double *a, const double *b, double *out)
+{
+  out[0] = a[1] * b[2] - a[2] * b[1];
+  out[1] = a[2] * b[0] - a[0] * b[2];
+  out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/* ---- Angles, in radians: the number pi, degrees for people, and the angle between two directions.
+ */
+
+#define THR_PI 3.14159265358979323846
+
+static inline double thr_degrees(double radians)
+{
+  return radians * (180 / THR_PI);
+}
+
+/* Between two directions of any length: 0 .. pi. The arc tangent keeps full precision near 0 and
+ * pi, where the arc cosine loses half of it. */
+static inline double thr_angle_between(const double a[3], const double b[3])
+{
+  double normal[3];
+  thr_cross(a, b, normal);
+  return atan2(sqrt(thr_dot(normal, normal)), thr_dot(a, b));
+}
+
+/* ---- THR_WIDE before a function: compiled for wider registers, too, and chosen when the program
+ * starts. Nothing is contracted and no sum reordered (-ffp-contract=off): the digits are those of
+ * the narrow one. */
+
+#if defined __x86_64__ && defined __gnu_linux__ && defined __GNUC__ && !defined __clang__ &&       \
+    !defined __SANITIZE_ADDRESS__ && !defined __SANITIZE_THREAD__
+#define THR_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define THR_WIDE
+#endif
+#define THR_INLINE static inline __attribute__((always_inline))
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Arrays in a list, the last one first. */
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 
 #include <stddef.h>
 #include <stdint.h>

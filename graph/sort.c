@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Numbers in ascending order. */
-#include "graph/sort.h"
+#include "graph/arrays.h"
 
 #include <stdlib.h>
 

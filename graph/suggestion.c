@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "graph/suggestion.h"
+#include "graph/text.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -4,14 +4,13 @@
  *
  * Example: thr_document_find("steps.csv") is the document that is written to steps.csv, a table of
  * the steps by which the plan is threaded. */
-#include "lib/documents.h"
+#include "lib/lib.h"
 
 #include "diagram/export/paper.h"
 #include "diagram/mat/emboss.h"
 #include "diagram/mat/mat.h"
 #include "diagram/sheets/sheets.h"
 #include "diagram/tables/tables.h"
-#include "lib/handles.h"
 
 #include <string.h>
 

@@ -6,8 +6,8 @@
  * and knows fewer members, goes on working: members that it does not know have their usual values.
  */
 #include "eval/joint/world.h"
-#include "lib/handles.h"
-#include "lp/solver/lp.h"
+#include "lib/lib.h"
+#include "lp/solver/solver.h"
 #include "symmetry/group/group.h"
 
 #include <pthread.h>

@@ -6,8 +6,7 @@
  * repaired. Arrays are taken as they are: where something would be merged or dropped, indices of
  * the caller would no longer fit, so that this is an error. */
 #include "graph/framework/make.h"
-#include "lib/handles.h"
-#include "lib/notes.h"
+#include "lib/lib.h"
 
 #include <stdio.h>
 #include <stdlib.h>

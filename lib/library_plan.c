@@ -16,8 +16,7 @@
 #include "graph/plan/physics.h"
 #include "graph/plan/plan_fields.h"
 #include "graph/plan/request.h"
-#include "lib/documents.h"
-#include "lib/handles.h"
+#include "lib/lib.h"
 #include "planner/planner.h"
 
 #include <math.h>

@@ -8,9 +8,9 @@
  *
  * Example: the map of a square dome that turns it by a quarter: "turned by 90 degrees
  * counter-clockwise from above". */
-#include "lib/handles.h"
+#include "lib/lib.h"
 
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "symmetry/group/group.h"
 #include "symmetry/symmetry.h"
 

@@ -6,7 +6,7 @@
  * Example:
  *   3 nodes merged into another within the weld tolerance
  *   the framework is in 2 separate components; each gets its own cord */
-#include "lib/notes.h"
+#include "lib/lib.h"
 
 #include <math.h>
 #include <stdio.h>

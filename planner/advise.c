@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Advises how many cords to take, and where they should end: makes a plan for every number of
  * cords and kind of ends that may pay, as rows of a table, and chooses one of the rows
- * (graph/plan/advice.h).
+ * (graph/plan/plan_measures.h).
  *
  * Each row starts from the plan with one cord in every component, cut evenly, or from symmetric
  * cords, and is then searched for as far as the time allows. Numbers grow as 1, 2, 3, 4, 6, 8, 12,

@@ -13,7 +13,7 @@
  * three. */
 #include "planner/planner_parts.h"
 
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -7,7 +7,7 @@
  * Example: a triangle, three closed cords, two different ones over every edge: two cords round the
  * triangle, and one to and fro over one edge. */
 #include "planner/planner_parts.h"
-#include "graph/check/edge_sets.h"
+#include "graph/check/check_parts.h"
 #include "graph/threading/threading.h"
 
 #include <math.h>

@@ -6,7 +6,7 @@
  * annealing (anneal), and column generation over walks (improve; tortuosity/cords/walk_model.h).
  * Whatever changes the cords, the checker states anew what is proved of them (judge). */
 #include "graph/check/check.h"
-#include "graph/check/edge_sets.h"
+#include "graph/check/check_parts.h"
 #include "graph/plan/walk_proof.h"
 #include "planner/planner_parts.h"
 #include "graph/threading/anneal.h"

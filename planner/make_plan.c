@@ -10,7 +10,7 @@
  * After the planner come the steps that serve every plan: passes that no edge needs are trimmed,
  * crossing channels are led otherwise, the order of work is chosen, and the plan is signed with
  * the versions of the libraries that made it. */
-#include "lp/solver/lp.h"
+#include "lp/solver/solver.h"
 #include "planner/planner_parts.h"
 #include "symmetry/group/group.h"
 

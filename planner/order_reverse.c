@@ -10,7 +10,7 @@
  * Example: a cord visits node v after pass 3 and again after pass 9. Passes 4 .. 9 run backwards
  * begin and end at v as before, and thread their pieces in the opposite order. */
 #include "graph/plan/physics.h"
-#include "graph/random.h"
+#include "graph/arrays.h"
 #include "planner/planner_parts.h"
 
 #include <limits.h>

@@ -16,7 +16,7 @@
 
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
-#include "graph/plan/advice.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"

@@ -9,7 +9,7 @@
  *
  * Example: three edges that meet at right angles take one open cord that turns back; the cord is
  * pulled through 90 degrees. */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/check/check.h"
 #include "graph/plan/walk_proof.h"
 #include "planner/planner_parts.h"

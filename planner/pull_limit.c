@@ -12,7 +12,7 @@
  * Example: a request for 1 to 8 cords. One and two are proved to be too few by the turning that
  * all cords need, three are tried and turn too much, four fit: the claim says that four fit and
  * that fewer than three cannot. */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/check/check.h"
 #include "graph/framework/components.h"
 #include "planner/planner_parts.h"

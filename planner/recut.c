@@ -9,7 +9,7 @@
  * and c-b the channels give two closed cords, of passes 4 .. 8 and of the rest. */
 #include "planner/planner_parts.h"
 
-#include "graph/vector.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdlib.h>

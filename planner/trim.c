@@ -8,7 +8,7 @@
  * choice; no choice leaves off more than what all edges can do without.
  *
  * Example: two cords round one ring, 1 2 3 4 and 3 4 5 6: either leaves off 3 4. */
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 #include "planner/planner_parts.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tests/frameworks.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/io/read.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
  * equations and inequalities hold for every plan; here each is written down as a row over the
  * columns, and what multipliers prove is added up row by row, exactly. */
 #include "tests/turning_rows.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/plan/plan.h"
 #include "tests/support.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* `--ends NAME:N,..`: how many cord ends there are at each node. */
-#include "cli/args/request_args.h"
+#include "cli/args/args.h"
 #include "cli/cli.h"
 #include "graph/status.h"
 

@@ -3,8 +3,8 @@
  */
 #include "cli/args/args.h"
 #include "cli/cli.h"
-#include "graph/angle.h"
-#include "graph/framework/units.h"
+#include "graph/number.h"
+#include "graph/framework/frame.h"
 #include "graph/io/read.h"
 #include "graph/status.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Loads, tilt, clamped feet. */
-#include "cli/args/load_args.h"
-#include "graph/angle.h"
+#include "cli/args/args.h"
+#include "graph/number.h"
 #include "graph/status.h"
 
 #include <math.h>

@@ -7,7 +7,6 @@
 #include "cli/args/args.h"
 #include "cli/cli.h"
 #include "graph/os.h"
-#include "graph/suggestion.h"
 #include "graph/text.h"
 
 #include <assert.h>

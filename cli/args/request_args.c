@@ -4,7 +4,7 @@
  *
  * Options of `thread plan` that say what the plan is to be: parsed, held against each other, laid
  * over a request. */
-#include "cli/args/request_args.h"
+#include "cli/args/args.h"
 #include "cli/cli.h"
 #include "eval/cord/profile.h"
 #include "graph/plan/physics.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Options of symmetric threading. */
-#include "cli/args/symmetry_args.h"
+#include "cli/args/args.h"
 #include "cli/cli.h"
 
 #include <stdio.h>

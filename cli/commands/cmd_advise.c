@@ -4,8 +4,8 @@
  *
  * The pull at the hardest end, N, grows with exp(mu x turning), so that a cord with half of the
  * turning needs only the square root of that factor. A hand manages 10 N time after time, 50 N at
- * most (graph/plan/advice.h); recommended is what stays within the hand even at the upper end of
- * the band of mu.
+ * most (graph/plan/plan_measures.h); recommended is what stays within the hand even at the upper
+ * end of the band of mu.
  *
  * The searches are thr_advise's (planner/advise.c), the table is cli/print/advice_table.c. This
  * file parses the options, shows rows on a terminal as they are found, keeps the cords of every row
@@ -14,16 +14,15 @@
  *
  * Example: of the 7 x 7 dome `thread advise dome.json` recommends 4 cords to the feet, pulled with
  * 3.27 N at most. */
-#include "cli/advice.h"
+#include "cli/commands/commands.h"
 #include "cli/args/args.h"
-#include "cli/args/request_args.h"
 #include "cli/cli.h"
 #include "cli/print/print.h"
 #include "diagram/overview/charts.h"
 #include "graph/framework/frame.h"
-#include "graph/io/writer.h"
+#include "graph/io/json.h"
 #include "graph/limits.h"
-#include "graph/plan/advice.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"

@@ -11,9 +11,9 @@
  * (cli/print/terms.c). */
 #include "cli/cli.h"
 #include "cli/print/print.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/check/check.h"
-#include "graph/io/writer.h"
+#include "graph/io/json.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/plan_measures.h"
 #include "graph/plan/request.h"

@@ -13,19 +13,18 @@
  *
  * Order of work: read all plans, refuse loads and schedules that do not fit one of them, evaluate
  * every method for every plan, simulate the structures twice, print. */
-#include "cli/args/load_args.h"
+#include "cli/args/args.h"
 #include "cli/print/print.h"
 #include "diagram/overview/charts.h"
 #include "eval/eval.h"
 #include "eval/structure/beads.h"
 #include "graph/framework/frame.h"
-#include "graph/io/writer.h"
+#include "graph/io/json.h"
 #include "graph/limits.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
-#include "graph/plan/schedule.h"
 #include "graph/process/threads.h"
 #include "graph/status.h"
 #include "graph/text.h"

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* thread draw: makes pictures, steps, tables and lines of a plan.
  *
- * All documents stand in one table (lib/documents.h): name, usual file, and what makes it. --type
+ * All documents stand in one table (lib/lib.h): name, usual file, and what makes it. --type
  * names one of them, or all; -o names a file, or a folder in which the document has its usual name.
- * Options say how documents are drawn (cli/drawings.h), and are ignored by those that have no use
- * for them.
+ * Options say how documents are drawn (cli/commands/commands.h), and are ignored by those that have
+ * no use for them.
  *
  * No document may take the place of a file that the command reads: outputs are claimed
  * (cli/files.c) before anything is drawn. The drawing is done in a child process, whose limits on
@@ -13,12 +13,12 @@
  * Example: `thread draw plan.json -T all -o diagrams/` writes overview.svg, steps.txt, sheets.pdf
  * and more into diagrams/. */
 #include "cli/cli.h"
-#include "cli/drawings.h"
+#include "cli/commands/commands.h"
 #include "diagram/overview/overview.h"
 #include "graph/io/read.h"
 #include "graph/plan/plan.h"
 #include "graph/text.h"
-#include "lib/documents.h"
+#include "lib/lib.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -17,26 +17,23 @@
  * This file parses the options, evaluates one plan in a guarded child process, puts the evaluation
  * into the plan, and writes the plan, pictures and a summary (cli/print/eval_text.c, eval_json.c).
  * With --calibrate there is no plan: weights at the bench become a file of frictions
- * (cli/calibrate.c).
+ * (cli/commands/calibrate.c).
  *
  * Example: `thread eval plan.json --mu 0.3 -o plan.json --plot tension.svg` stores the tension of
  * every pass in the plan and draws it along each cord. */
-#include "cli/args/load_args.h"
-#include "cli/calibrate.h"
+#include "cli/args/args.h"
+#include "cli/commands/commands.h"
 #include "cli/print/print.h"
-#include "cli/pull.h"
 #include "diagram/overview/charts.h"
 #include "diagram/overview/overview.h"
 #include "eval/cord/profile.h"
 #include "eval/eval.h"
 #include "eval/structure/beads.h"
 #include "graph/framework/frame.h"
-#include "graph/framework/units.h"
 #include "graph/limits.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
-#include "graph/plan/schedule.h"
 #include "graph/status.h"
 #include "graph/text.h"
 

@@ -16,12 +16,12 @@
 #include "cli/cli.h"
 #include "eval/structure/beads.h"
 #include "graph/framework/frame.h"
-#include "graph/io/writer.h"
+#include "graph/io/json.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/plan_measures.h"
 #include "graph/status.h"
 #include "graph/text.h"
-#include "lib/notes.h"
+#include "lib/lib.h"
 
 #include <inttypes.h>
 #include <limits.h>

@@ -9,7 +9,6 @@
 #include "graph/framework/make.h"
 #include "graph/io/read.h"
 #include "graph/status.h"
-#include "graph/suggestion.h"
 #include "graph/text.h"
 
 #include <string.h>

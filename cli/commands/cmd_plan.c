@@ -13,19 +13,18 @@
  *
  * Example: `thread plan dome.obj` writes dome/plan.json, dome/overview.svg, dome/sheets.pdf and
  * more; `-o plan.json` writes the plan alone; `--draw DIR` writes everything into DIR. */
-#include "cli/advice.h"
-#include "cli/args/request_args.h"
+#include "cli/commands/commands.h"
+#include "cli/args/args.h"
 #include "cli/cli.h"
-#include "cli/drawings.h"
 #include "cli/print/print.h"
 #include "diagram/overview/charts.h"
 #include "eval/eval.h"
 #include "graph/check/check.h"
 #include "graph/framework/frame.h"
-#include "graph/io/writer.h"
+#include "graph/io/json.h"
 #include "graph/limits.h"
 #include "graph/os.h"
-#include "graph/plan/advice.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"

@@ -13,12 +13,11 @@
  *
  * Example: under C4v the 7 x 7 dome has a threading of 5 cords in 2 unique paths, 13 steps to
  * learn, with 23.7 % overlap instead of 14.3 % of the shortest plan. */
-#include "cli/args/request_args.h"
-#include "cli/args/symmetry_args.h"
+#include "cli/args/args.h"
 #include "cli/cli.h"
 #include "cli/print/print.h"
 #include "graph/framework/frame.h"
-#include "graph/io/writer.h"
+#include "graph/io/json.h"
 #include "graph/limits.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"

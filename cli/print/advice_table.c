@@ -4,15 +4,15 @@
  *
  * A row is a number of cords and a kind of ends, with the cord that turns most turning as little as
  * was found. The pull at the harder end of a cord is seating tension x exp(mu x reach), N
- * (graph/plan/advice.h); a row shows it at mu and at both ends of the band of mu. ">" marks the row
- * with the fewest cords whose pull stays within the hand even at the upper end, "*" rows on the
- * frontier.
+ * (graph/plan/plan_measures.h); a row shows it at mu and at both ends of the band of mu. ">" marks
+ * the row with the fewest cords whose pull stays within the hand even at the upper end, "*" rows on
+ * the frontier.
  *
  * Example, of the 7 x 7 dome (cords, ends, cord, overlap, longest cord, turning, pulls):
  *
  *   >  4  at the feet  1995.249 mm  14.3 %  498.8 mm  683 deg  3.21 and 3.27 N  1.81 .. 5.93 N */
 #include "cli/print/print.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdio.h>

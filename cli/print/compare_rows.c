@@ -15,7 +15,7 @@
  * Example: two closed cords through the 7 x 7 dome, both of 1995.249 mm: the one that turns by
  * 2990.4 deg is on the frontier, the one that turns by 3163.9 deg is not. */
 #include "cli/print/print.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -16,8 +16,8 @@
 
 #include "eval/cord/profile.h"
 #include "eval/joint/joint.h"
-#include "graph/angle.h"
-#include "graph/plan/schedule.h"
+#include "graph/number.h"
+#include "graph/plan/plan.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -145,7 +145,7 @@ void plain_put_hand(thr_text *text, double newton)
   char force[64];
 
   /* 50 N is the most for a hand, 10 N what thumb and finger manage time after time
-   * (graph/plan/advice.h). */
+   * (graph/plan/plan_measures.h). */
   if (newton > thr_hand_most)
     thr_text_printf(text, "too hard for a hand, which manages about %s",
                     plain_force(thr_hand_most, force));

@@ -10,7 +10,7 @@
  * number of cords with theirs; what hangs on one cord alone; pull; for plans of least turning the
  * comparison with other plans (turning_summary.c). */
 #include "cli/print/print.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <inttypes.h>
 #include <math.h>

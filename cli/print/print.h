@@ -15,12 +15,12 @@
 #define THR_PRINT_H
 
 #include "cli/cli.h"
-#include "cli/pull.h"
+#include "cli/commands/commands.h"
 #include "eval/eval.h"
 #include "eval/structure/beads.h"
 #include "graph/framework/frame.h"
-#include "graph/io/writer.h"
-#include "graph/plan/advice.h"
+#include "graph/io/json.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"

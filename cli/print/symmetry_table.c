@@ -11,7 +11,7 @@
  *
  * What the solver proves of a row no checker verifies; JSON says "by the solver's word". */
 #include "cli/print/print.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/plan/plan_measures.h"
 #include "symmetry/group/group.h"
 #include "symmetry/lift/lift.h"

@@ -12,8 +12,8 @@
  *    terms: closed cords; 1 pass of every edge or more; 1 cord; solid joints
  *    cord at most 5 % above the least length: verified */
 #include "cli/print/print.h"
-#include "graph/angle.h"
-#include "graph/plan/schedule.h"
+#include "graph/number.h"
+#include "graph/plan/plan.h"
 
 #include <ctype.h>
 #include <string.h>

@@ -16,7 +16,7 @@
  * least, and is pulled with 154 N; the shortest one that --objective length finds turns by 3163.9
  * deg and is pulled with 197 N. */
 #include "cli/print/print.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/limits.h"
 #include "graph/plan/turning_proof.h"
 

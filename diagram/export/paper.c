@@ -13,7 +13,7 @@
 #include "diagram/export/paper.h"
 
 #include "diagram/scene/scene.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -12,7 +12,7 @@
  * 192 triangles. */
 #include "diagram/export/paper.h"
 #include "diagram/overview/overview.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -15,7 +15,7 @@
 #include "diagram/overview/overview_parts.h"
 #include "diagram/scene/scene.h"
 #include "graph/framework/frame.h"
-#include "graph/io/writer.h"
+#include "graph/io/json.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan_measures.h"

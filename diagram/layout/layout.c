@@ -12,7 +12,7 @@
 
 #include "diagram/layout/layout_parts.h"
 #include "graph/framework/make.h"
-#include "graph/sort.h"
+#include "graph/arrays.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -11,7 +11,7 @@
  * Example: a square with both diagonals has one crossing, no squeezed edge, a median of 1 (four
  * sides, two diagonals of 1.41) and a ratio of 1. */
 #include "diagram/layout/layout.h"
-#include "graph/sort.h"
+#include "graph/arrays.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #define THR_LAYOUT_PARTS_H
 
 #include "diagram/layout/layout.h"
-#include "graph/vector.h"
+#include "graph/number.h"
 
 /* Fill xy[n_nodes], which is allocated, and measure; THR_EINPUT if the frame is flat (not about
  * z). */

@@ -12,7 +12,7 @@
  * Example: a cube opened below is a small square in a large one, with four edges between their
  * corners. */
 #include "diagram/layout/layout_parts.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdlib.h>

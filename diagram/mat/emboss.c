@@ -11,7 +11,6 @@
 #include "diagram/overview/overview_parts.h"
 #include "diagram/scene/scene.h"
 #include "graph/framework/frame.h"
-#include "graph/framework/units.h"
 #include "graph/plan/physics.h"
 
 #include <math.h>

@@ -14,9 +14,8 @@
 #include "diagram/overview/overview.h"
 #include "diagram/overview/overview_parts.h"
 #include "diagram/scene/scene.h"
-#include "diagram/tables/supplies.h"
+#include "diagram/tables/tables.h"
 #include "graph/framework/frame.h"
-#include "graph/framework/units.h"
 #include "graph/plan/physics.h"
 
 #include <math.h>

@@ -9,7 +9,7 @@
 #ifndef THR_CHARTS_H
 #define THR_CHARTS_H
 
-#include "graph/plan/advice.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"

@@ -13,7 +13,7 @@
 #include "diagram/overview/overview_parts.h"
 
 #include "diagram/overview/overview.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdio.h>

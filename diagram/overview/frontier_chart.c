@@ -11,7 +11,7 @@
  * where 1.66 % is what the cord is longer than the shortest plan. */
 #include "diagram/overview/charts.h"
 #include "diagram/overview/overview.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdio.h>

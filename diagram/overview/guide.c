@@ -13,9 +13,8 @@
  * Example: "turn left 90 degrees" at foot A1 (node 17). */
 #include "diagram/overview/overview_parts.h"
 
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/plan/plan_measures.h"
-#include "graph/vector.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -261,7 +261,7 @@ thr_status thr_miniature_put(const thr_plan *plan, const thr_layout *layout, dou
 void thr_miniature_draw(const thr_scene *scene, thr_text *text);
 
 /* ---- tighten.c: How cords are tightened, in words: the steps of a plan's schedule
- * (graph/plan/schedule.h), for steps.txt and the booklet. */
+ * (graph/plan/plan.h), for steps.txt and the booklet. */
 
 /* Appends a step as a sentence: "Cord A, pass 25: grip it between E5 and D5 and draw it from the
  * side of its start, with 15 N; hold it until the next has taken its slack." Places are the

@@ -12,7 +12,7 @@
  * with 49 nodes and 84 edges draw at most 2 x 840 faces. */
 #include "diagram/overview/overview.h"
 
-#include "graph/vector.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -15,7 +15,7 @@
 #include "diagram/overview/overview.h"
 
 #include "diagram/scene/scene.h"
-#include "graph/plan/advice.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/physics.h"
 
 #include <math.h>

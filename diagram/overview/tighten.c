@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Says in words how cords are tightened: the steps of a plan's schedule (graph/plan/schedule.h),
+/* Says in words how cords are tightened: the steps of a plan's schedule (graph/plan/plan.h),
  * for steps.txt and the booklet.
  *
  * A schedule is a list of deeds: pull an end with a force (N), grip a pass and draw the cord from

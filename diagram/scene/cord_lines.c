@@ -7,8 +7,8 @@
  * lanes the cord runs straight. */
 #include "diagram/scene/scene.h"
 
-#include "graph/sort.h"
-#include "graph/vector.h"
+#include "graph/arrays.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
  * Places are tried in every sector between two neighbouring beads, nearest to the cord's own bead
  * first, and on the node itself; the cheapest one is taken. A cost of 1 is a pitch of distance. */
 #include "diagram/scene/scene.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdio.h>

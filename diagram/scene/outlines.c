@@ -9,7 +9,7 @@
 #include "diagram/scene/scene.h"
 
 #include "diagram/overview/overview.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <math.h>
 

@@ -8,7 +8,7 @@
  *
  * Turns: a ramp in the Oklab space whose lightness alone tells the order. */
 #include "diagram/scene/scene.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stddef.h>

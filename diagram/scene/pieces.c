@@ -9,8 +9,8 @@
  * of the second kind is "tube 2 (A1-A2)". */
 #include "diagram/scene/scene.h"
 
-#include "diagram/tables/kinds.h"
-#include "graph/angle.h"
+#include "diagram/tables/tables.h"
+#include "graph/number.h"
 #include "graph/plan/plan_measures.h"
 
 #include <stdio.h>

@@ -6,7 +6,7 @@
  * almost all edges stay in a row or in a column. Then a node is called by its column and its row,
  * as on a chessboard: "C4". Otherwise places are called by the nodes' names or numbers. */
 #include "diagram/scene/scene.h"
-#include "graph/sort.h"
+#include "graph/arrays.h"
 
 #include <ctype.h>
 #include <math.h>

@@ -9,9 +9,9 @@
  * Example, OBJ: "o cord-A", "l 1 2", "l 2 5" for a cord from node 0 by 1 to 4. */
 #include "diagram/scene/scene.h"
 
-#include "graph/framework/units.h"
+#include "graph/framework/frame.h"
 #include "graph/io/read.h"
-#include "graph/io/writer.h"
+#include "graph/io/json.h"
 
 #include <float.h>
 #include <math.h>

@@ -10,7 +10,7 @@
  * Example: a pitch of 24 mm makes the median edge 24 mm, lanes 2.8 mm apart and cords 1.1 mm
  * wide. */
 #include "diagram/scene/scene.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -15,7 +15,7 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 #include "graph/status.h"
 #include "graph/text.h"
 
@@ -401,7 +401,7 @@ static const double THR_PIECES_IN_LINE = 2.6179938779914943654; /* rad, 150 degr
 int thr_pieces_count(const thr_plan *plan);
 const char *thr_pieces_word(const thr_plan *plan, int n); /* "piece", "pieces" */
 
-/* Finds kinds (diagram/tables/kinds.h) with a tolerance in units; 0 = the usual one. Release with
+/* Finds kinds (diagram/tables/tables.h) with a tolerance in units; 0 = the usual one. Release with
  * thr_pieces_destroy, after a failure too. As thr_kinds_find. */
 thr_status thr_pieces_make(thr_pieces *pieces, const thr_plan *plan, double tolerance,
                            thr_err *err) THR_MUST_CHECK;

@@ -7,7 +7,7 @@
  * where the cord comes out on the other panel, with the pass before ("from 16"). Labels and names
  * look for the cheapest free place around their point. */
 #include "diagram/scene/scene.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -11,7 +11,7 @@
  * over all i from which a step may reach e. reach(i), the largest such e, never falls as i grows,
  * so that two pointers find all of them with O(n) pictures. */
 #include "diagram/sheets/sheets_parts.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdlib.h>

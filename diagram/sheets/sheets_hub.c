@@ -6,7 +6,7 @@
  * which can be counted on the piece in the hand: "out 4 on from in, clockwise". */
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -8,8 +8,8 @@
  * order by turning is the order by force among cords that are pulled at one end. */
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
-#include "graph/angle.h"
-#include "graph/plan/advice.h"
+#include "graph/number.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/evaluation.h"
 
 #include <math.h>

@@ -10,9 +10,9 @@
  * overhand knot takes THR_SUPPLIES_KNOT = 16.4 diameters of a cord, here one of 1 mm. */
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/plan/evaluation.h"
-#include "graph/plan/schedule.h"
+#include "graph/plan/plan.h"
 
 #include <math.h>
 #include <stdio.h>

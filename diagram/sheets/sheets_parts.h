@@ -9,7 +9,7 @@
 #include "diagram/sheets/sheets.h"
 #include "diagram/space/camera.h"
 #include "diagram/space/space.h"
-#include "diagram/tables/supplies.h"
+#include "diagram/tables/tables.h"
 #include "graph/framework/frame.h"
 
 /* Measures of a page, mm. Nothing is set smaller than THR_SHEET_SMALL: 7 pt are 2.47 mm. */

@@ -9,8 +9,7 @@
  * Example: 17 visits make two rows of MANY = 12 places, the second with five icons. */
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
-#include "graph/angle.h"
-#include "graph/vector.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdio.h>

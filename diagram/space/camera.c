@@ -9,9 +9,8 @@
  *
  * Example: a step round the foot of a dome is seen from its own side, from somewhat above. */
 #include "diagram/space/camera.h"
-#include "graph/angle.h"
-#include "graph/sort.h"
-#include "graph/vector.h"
+#include "graph/number.h"
+#include "graph/arrays.h"
 
 #include <math.h>
 #include <stdlib.h>

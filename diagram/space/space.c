@@ -3,8 +3,8 @@
  * camera is asked to show. */
 #include "diagram/space/space.h"
 
-#include "graph/sort.h"
-#include "graph/vector.h"
+#include "graph/arrays.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -7,8 +7,8 @@
  * thr_space_whole draws all pieces in the same way, without cords. */
 #include "diagram/overview/overview.h"
 #include "diagram/space/space.h"
-#include "graph/sort.h"
-#include "graph/vector.h"
+#include "graph/arrays.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -7,7 +7,7 @@
  * places that the step comes to, then those of their neighbours where there is room. */
 #include "diagram/overview/overview.h"
 #include "diagram/space/space.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdio.h>

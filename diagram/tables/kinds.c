@@ -11,9 +11,9 @@
  * beads, so that only neighbours in this order are compared.
  *
  * Example: with a tolerance of 0.1, edges of 10, 10.05, 10.2 and 10.25 make two kinds: 1 1 2 2. */
-#include "diagram/tables/kinds.h"
+#include "diagram/tables/tables.h"
 
-#include "graph/vector.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -7,11 +7,10 @@
  *
  * Example: a cord of 1 mm in bores of 2 mm that turns by 90 degrees 80 times takes 0.5 * 1.571 * 80
  * = 63 mm more. */
-#include "diagram/tables/supplies.h"
+#include "diagram/tables/tables.h"
 
 #include "diagram/scene/scene.h"
 #include "graph/framework/frame.h"
-#include "graph/framework/units.h"
 #include "graph/plan/physics.h"
 
 #include <math.h>

@@ -13,8 +13,7 @@
 
 #include "diagram/overview/overview_parts.h"
 #include "diagram/scene/scene.h"
-#include "diagram/tables/supplies.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/plan_measures.h"
 

@@ -13,7 +13,7 @@
  * 1 / (1 - 0.141) = 1.16. */
 #include "eval/cord/profile.h"
 #include "eval/eval.h"
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -11,8 +11,8 @@
  * = 60 N. Pulled at both ends, nobody slides over one of the turns: 20 and 5 N if it is the last
  * one, 10 and 15 N if it is the middle one, which has the least largest pull. */
 #include "eval/cord/profile.h"
-#include "graph/angle.h"
-#include "graph/framework/units.h"
+#include "graph/number.h"
+#include "graph/framework/frame.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -18,10 +18,9 @@
  * Example: in a straight run the path is straight, whatever the bores; round one turn it leans on
  * the inner edge, and turns by as much in all. */
 #include "eval/cord/profile.h"
-#include "graph/angle.h"
-#include "graph/framework/units.h"
-#include "graph/scratch.h"
-#include "graph/vector.h"
+#include "graph/number.h"
+#include "graph/framework/frame.h"
+#include "graph/arrays.h"
 
 #include <math.h>
 #include <string.h>

@@ -5,8 +5,8 @@
  * own: Link (a distance constraint of one row that reports its force), Cones (contacts by
  * contacts.h instead of Bullet's rows) and Ends (contacts of boxes that meet end to end). */
 
-#include "eval/joint/world.h"
 #include "eval/joint/contacts.h"
+#include "eval/joint/world.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btCompoundCompoundCollisionAlgorithm.h>

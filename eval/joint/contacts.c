@@ -13,7 +13,7 @@
  * minimum of E the multipliers become P(y); the contacts have then moved by (P(y) - p) / s against
  * the constraints, and once this is no more than `still` the problem is solved. */
 #include "eval/joint/contacts.h"
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 #include "lp/solver/solver.h"
 
 #include <math.h>

@@ -18,9 +18,8 @@
  * (docs/validation.md). */
 #include "eval/joint/joint.h"
 #include "eval/joint/world.h"
-#include "graph/angle.h"
-#include "graph/random.h"
-#include "graph/vector.h"
+#include "graph/number.h"
+#include "graph/arrays.h"
 
 #include <float.h>
 #include <math.h>

@@ -15,8 +15,8 @@
  * the one and a third of the rate of the other. */
 #include "eval/cord/profile.h"
 #include "eval/joint/joint.h"
-#include "graph/angle.h"
-#include "graph/framework/units.h"
+#include "graph/number.h"
+#include "graph/framework/frame.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/process/threads.h"

@@ -12,9 +12,8 @@
  * Example: a pass of 10 N straight through a bead with two arms in line adds no wrench: what draws
  * at one face draws as much at the other. */
 #include "eval/structure/beads.h"
-#include "graph/angle.h"
-#include "graph/framework/units.h"
-#include "graph/vector.h"
+#include "graph/number.h"
+#include "graph/framework/frame.h"
 
 #include <math.h>
 #include <string.h>

@@ -17,7 +17,7 @@
 #include "graph/limits.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 #include "graph/status.h"
 
 /* ---- beads.c: The framework as rigid beads: one bead per node, an arm of square section towards

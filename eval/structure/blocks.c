@@ -19,9 +19,8 @@
  * Example: two beads merged into one body give six equations, not twelve. */
 #include "eval/structure/blocks.h"
 
-#include "graph/angle.h"
-#include "graph/disjoint.h"
-#include "graph/vector.h"
+#include "graph/number.h"
+#include "graph/arrays.h"
 
 #include <math.h>
 #include <stdlib.h>

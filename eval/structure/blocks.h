@@ -8,7 +8,6 @@
 #include "eval/joint/world.h"
 #include "eval/structure/beads.h"
 #include "graph/plan/plan_measures.h"
-#include "lp/solver/lp.h"
 #include "lp/solver/solver.h"
 
 #include <stdbool.h>

@@ -36,8 +36,8 @@
 
 #include "eval/structure/blocks.h"
 
-#include "graph/disjoint.h"
-#include "graph/vector.h"
+#include "graph/arrays.h"
+#include "graph/number.h"
 
 #include <assert.h>
 #include <math.h>

@@ -14,7 +14,7 @@
  * the pyramid that resists has power 0. */
 #include "eval/structure/blocks.h"
 
-#include "graph/vector.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -10,7 +10,7 @@
  * Example: a square of four bars in space has rank 4 of 12: 8 motions, 2 beyond those of a rigid
  * body, one of them within its plane. */
 #include "eval/structure/beads.h"
-#include "graph/vector.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -13,8 +13,8 @@
  *
  * Example: the 7 x 7 dome, 49 beads, takes some five linear systems a step. */
 #include "eval/structure/blocks.h"
-#include "graph/random.h"
-#include "graph/vector.h"
+#include "graph/arrays.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdlib.h>

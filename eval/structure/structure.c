@@ -20,7 +20,7 @@
 #include "eval/eval.h"
 #include "eval/structure/beads.h"
 #include "graph/plan/evaluation.h"
-#include "graph/plan/schedule.h"
+#include "graph/plan/plan.h"
 #include "graph/process/process.h"
 #include "graph/process/threads.h"
 #include "graph/text.h"

@@ -13,7 +13,7 @@
  * Example: seven pieces in a row, both ends held: one body with the ground. */
 #include "eval/structure/blocks.h"
 
-#include "graph/disjoint.h"
+#include "graph/arrays.h"
 
 #include <math.h>
 

@@ -6,7 +6,7 @@
  * (thr_certificate_weight). Angles are computed by Kahan's formula, 2 atan2(|a - b|, |a + b|) of
  * unit vectors, which no planner uses. */
 #include "graph/check/check_parts.h"
-#include "graph/vector.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -7,9 +7,8 @@
  * (ways_in.c); in components of few edges all sets of edges (few_edges.c, short_cords.c); prices of
  * walks (walk_proof.c). K cords are too few if their least length exceeds K times max_length. */
 #include "graph/check/check_parts.h"
-#include "graph/check/edge_sets.h"
 #include "graph/plan/walk_proof.h"
-#include "graph/sort.h"
+#include "graph/arrays.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,6 @@
  * tables over all sets of few edges and prices of walks within a pull may raise the least length of
  * a component; the sum over the components is the bound. */
 #include "graph/check/check_parts.h"
-#include "graph/check/edge_sets.h"
 
 #include <math.h>
 #include <stdlib.h>

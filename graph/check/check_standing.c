@@ -9,11 +9,10 @@
  *
  * Order of the file: geometry, what cords press faces with, mechanisms, the other claims, stills.
  */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/check/check_parts.h"
-#include "graph/framework/units.h"
-#include "graph/plan/schedule.h"
-#include "graph/vector.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/plan.h"
 
 #include <math.h>
 

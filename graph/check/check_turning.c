@@ -7,9 +7,8 @@
  * proof is about: no U-turns but at nodes with one edge, no more passes over an edge and no more
  * length than stated. Where all turns are multiples of one angle the bound is rounded up to the
  * next one. */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/check/check_parts.h"
-#include "graph/check/edge_sets.h"
 #include "graph/plan/walk_proof.h"
 
 #include <math.h>

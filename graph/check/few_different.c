@@ -12,7 +12,7 @@
  *
  * Example: a ring of four unit edges, two closed cords, each = 2: both pass all of the ring, 8
  * together. */
-#include "graph/check/edge_sets.h"
+#include "graph/check/check_parts.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -20,9 +20,8 @@
  *
  * Example: a ring of four unit edges, two open cords, ends anywhere: 4 together, the longer one 2.
  */
-#include "graph/check/edge_sets.h"
 #include "graph/check/check_parts.h"
-#include "graph/sort.h"
+#include "graph/arrays.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -4,7 +4,7 @@
  * A turn connects two edges at a node; a node is tied if its turns connect all of its edges
  * (disjoint sets of half-edges). The least length with tube joints is a task of least turning in
  * which turns cost nothing and length everything. */
-#include "graph/disjoint.h"
+#include "graph/arrays.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/plan_measures.h"

@@ -22,8 +22,8 @@
  * Example: four closed cords through robarch_tree_S (45 edges, three at each node) have 37,260 sets
  * of at most 780 mm, and no four of them cover all edges. A quarter of the least total length is
  * only 741.5 mm. */
-#include "graph/check/edge_sets.h"
-#include "graph/sort.h"
+#include "graph/check/check_parts.h"
+#include "graph/arrays.h"
 
 #include <math.h>
 #include <stdint.h>

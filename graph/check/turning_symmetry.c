@@ -6,10 +6,9 @@
  * together, and keeps what edges and nodes need and allow. thr_turning_lower joins the columns that
  * symmetries map to each other to orbits (disjoint sets) and gives all of them the least price and
  * length. */
-#include "graph/disjoint.h"
+#include "graph/arrays.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/turning_proof.h"
-#include "graph/scratch.h"
 #include "graph/status.h"
 
 #include <stdlib.h>

@@ -11,7 +11,7 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 #include "graph/status.h"
 
 #include <stdlib.h>

@@ -11,14 +11,13 @@
  *
  * Order of the file: steps by turning, steps by length, prices, the dynamic programme, the check,
  * and the bound that a single edge gives without prices (Bellman, Ford and Moore). */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 #include "graph/status.h"
-#include "graph/wide.h"
 
 #include <limits.h>
 #include <math.h>

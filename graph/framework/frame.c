@@ -2,10 +2,8 @@
 /* The framework: a simple graph whose nodes have coordinates. Nodes are beads, edges are interfaces
  * (docs/formats.md). */
 #include "graph/framework/frame.h"
-#include "graph/disjoint.h"
-#include "graph/framework/units.h"
+#include "graph/arrays.h"
 #include "graph/number.h"
-#include "graph/sort.h"
 
 #include <limits.h>
 #include <math.h>

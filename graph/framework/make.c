@@ -5,7 +5,7 @@
  * map. Coordinates come from integers wherever possible, so that mirror images agree to the last
  * digit. */
 #include "graph/framework/make.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -8,8 +8,8 @@
  * their cell, edges with those that they share a cell with. */
 #include "graph/framework/frame.h"
 
-#include "graph/sort.h"
-#include "graph/vector.h"
+#include "graph/arrays.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdint.h>

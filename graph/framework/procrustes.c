@@ -5,7 +5,7 @@
  * Procrustes analysis by a singular value decomposition of the 3 x 3 correlation (one-sided Jacobi;
  * Hestenes 1958). */
 #include "graph/framework/frame.h"
-#include "graph/vector.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <string.h>

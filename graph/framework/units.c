@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Units of length. */
-#include "graph/framework/units.h"
+#include "graph/framework/frame.h"
 
 #include <ctype.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 /* Internal to the readers of meshes: faces, which may be named before their nodes are there, and
  * their sides as edges. */
 #include "graph/io/read_parts.h"
-#include "graph/vector.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdlib.h>

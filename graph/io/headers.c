@@ -11,7 +11,7 @@
  *
  * Example: Anfang X [mm] is "anfangx": the first end of the pair anfang, ende, axis x, unit mm. */
 #include "graph/io/read_parts.h"
-#include "graph/framework/units.h"
+#include "graph/framework/frame.h"
 
 #include <stdio.h>
 #include <string.h>

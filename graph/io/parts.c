@@ -3,7 +3,7 @@
  * asked for (--pick). First all are named, then thr_parts_choose, then what belongs to a part that
  * is not chosen is left out. */
 #include "graph/io/read_parts.h"
-#include "graph/suggestion.h"
+#include "graph/text.h"
 
 #include <stdlib.h>
 #include <string.h>

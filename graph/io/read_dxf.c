@@ -6,9 +6,8 @@
  * A drawing is pairs of lines, a group code and a value. Each entity is read as a whole into its
  * paths and faces, in the coordinates of its block; at the end the model's entities are placed,
  * with the blocks that they insert. */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/io/read_parts.h"
-#include "graph/vector.h"
 
 #include <limits.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Internal to the readers: lines, words and numbers of text formats, node names. */
 #include "graph/io/read_parts.h"
-#include "graph/framework/units.h"
+#include "graph/framework/frame.h"
 #include "graph/number.h"
 
 #include <limits.h>

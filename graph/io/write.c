@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Frameworks as JSON, OBJ and CSV text. */
 #include "graph/io/read_parts.h"
-#include "graph/io/writer.h"
+#include "graph/io/json.h"
 
 static void write_point(const double xyz[3], const char *separator, thr_text *out)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* JSON, written member by member. */
-#include "graph/io/writer.h"
+#include "graph/io/json.h"
 
 #include <inttypes.h>
 #include <stdarg.h>

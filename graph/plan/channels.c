@@ -3,8 +3,8 @@
  * pieces that a maker holds. */
 #include "graph/plan/plan_measures.h"
 
-#include "graph/sort.h"
-#include "graph/vector.h"
+#include "graph/arrays.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 /* What `thread eval` found out about a plan, in the form that is kept in plan.json: the eval
  * methods fill it, drawings show it, the checker verifies that it is consistent with the plan. */
 
-#include "graph/plan/schedule.h"
+#include "graph/plan/plan.h"
 
 #include <inttypes.h>
 #include <math.h>

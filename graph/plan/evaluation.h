@@ -102,7 +102,7 @@ typedef enum {
   THR_N_LAWS
 } thr_law;
 
-/* One thing that is done to a cord (graph/plan/schedule.h). */
+/* One thing that is done to a cord (graph/plan/plan.h). */
 typedef enum {
   THR_DEED_PULL,
   THR_DEED_GRIP,

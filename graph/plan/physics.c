@@ -5,7 +5,7 @@
  *
  * Physical quantities: one table of fields, presets, JSON, and what follows from the framework. */
 #include "graph/plan/physics.h"
-#include "graph/sort.h"
+#include "graph/arrays.h"
 #include "graph/text.h"
 
 #include <math.h>

@@ -4,9 +4,7 @@
 #define THR_PHYSICS_H
 
 #include "graph/framework/frame.h"
-#include "graph/framework/units.h"
 #include "graph/io/json.h"
-#include "graph/io/writer.h"
 #include "graph/status.h"
 
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Plans: names, ends, turning angles, metrics. */
 #include "graph/plan/plan.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <limits.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* plan.json, read: proofs. */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/framework/components.h"
 #include "graph/plan/plan_fields.h"
 

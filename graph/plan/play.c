@@ -9,7 +9,7 @@
  */
 #include "graph/plan/physics.h"
 
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 
 #include <math.h>
 

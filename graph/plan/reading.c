@@ -5,7 +5,7 @@
  * Example: a line of seven beads between ends that may be anywhere is three instructions: an end,
  * "straight on to H1", an end. */
 #include "graph/plan/plan_measures.h"
-#include "graph/vector.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -8,7 +8,7 @@
  *
  * What is asked of a plan: lists of aims, names, and what options and framework say together. */
 #include "graph/plan/request.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <limits.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The steps of a schedule, and their member of plan.json. */
-#include "graph/plan/schedule.h"
+#include "graph/plan/plan.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Schedules as text: what somebody types, and what is printed. */
 #include "graph/io/read_parts.h"
-#include "graph/plan/schedule.h"
+#include "graph/plan/plan.h"
 
 #include <string.h>
 

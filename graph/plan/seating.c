@@ -10,7 +10,7 @@
  * Example: seating tension 1 N, a cord of two passes with a turn that halves the tension, pulled at
  * its start: the first gap is seated at 1 N, the second at 2 N. */
 #include "graph/plan/plan_measures.h"
-#include "graph/sort.h"
+#include "graph/arrays.h"
 
 #include <math.h>
 #include <stdlib.h>

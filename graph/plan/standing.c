@@ -7,7 +7,7 @@
  * velocities of all beads by which it then falls. */
 #include "graph/plan/evaluation.h"
 
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <inttypes.h>
 #include <math.h>

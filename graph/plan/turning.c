@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Prices of turns, and the columns of the turning model. */
 #include "graph/plan/plan.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <limits.h>
 #include <math.h>

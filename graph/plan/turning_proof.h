@@ -6,8 +6,7 @@
 
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"
-#include "graph/io/writer.h"
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 #include "graph/status.h"
 
 #include <stdint.h>

@@ -12,7 +12,7 @@
  * two turns of 90 degrees; it goes straight on instead. */
 #include "graph/threading/anneal.h"
 #include "graph/process/threads.h"
-#include "graph/random.h"
+#include "graph/arrays.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -10,7 +10,7 @@
 
 #include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 #include "graph/threading/threading.h"
 
 #include <stdint.h>

@@ -11,7 +11,7 @@
  *   on two cords, at ends    the cords exchange what comes after the places (tails)
  *   on two cords, visits     tails, or the sections up to a second node where they meet (middles)
  */
-#include "graph/random.h"
+#include "graph/arrays.h"
 #include "graph/threading/anneal.h"
 
 /* Return the passes before and after visit i; -1 where an open cord ends. */

@@ -14,7 +14,7 @@
  *
  * Example: a path of two edges, each passed once, has two items, and 18 are left for what comes in.
  */
-#include "graph/disjoint.h"
+#include "graph/arrays.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/threading/threading.h"
 

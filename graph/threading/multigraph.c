@@ -5,7 +5,7 @@
  *
  * Example: an edge of two passes and one cord end at each of its nodes gives three copies, 0 and 1
  * along the edge and 2 virtual, with the darts 0 .. 5. */
-#include "graph/threading/euler.h"
+#include "graph/threading/threading.h"
 
 #include <limits.h>
 #include <stdlib.h>

@@ -6,7 +6,7 @@
  * two pairs while any saves.
  *
  * Example: four passes straight across each other are paired with their opposites, at price 0. */
-#include "graph/threading/euler.h"
+#include "graph/threading/threading.h"
 
 #include <math.h>
 #include <stdlib.h>

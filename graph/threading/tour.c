@@ -6,7 +6,7 @@
  * from its last pass into its first.
  *
  * Example: a square ABCD with a tail DE, passed twice, closed: the turn at E is the sharpest. */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/threading/threading.h"
 
 #include <stdlib.h>

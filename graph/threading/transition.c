@@ -11,8 +11,8 @@
  * a'. If these are two circuits, the exchange (a b)(a' b') makes one of them, for two turns more.
  */
 #include "graph/threading/threading.h"
-#include "graph/angle.h"
-#include "graph/disjoint.h"
+#include "graph/number.h"
+#include "graph/arrays.h"
 
 #include <math.h>
 #include <stdlib.h>

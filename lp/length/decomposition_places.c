@@ -10,7 +10,7 @@
  * Example: a node with three ports that needs one pass has two cores: one port is left for its
  * pass, or all three, when the cores are matched with each other. */
 #include "graph/check/check.h"
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 #include "lp/length/postman.h"
 
 #include <limits.h>

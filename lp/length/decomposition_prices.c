@@ -10,11 +10,10 @@
  *
  * Example: docs/method.md, "Several cords". */
 #include "graph/check/check.h"
-#include "graph/disjoint.h"
+#include "graph/arrays.h"
 #include "graph/plan/plan_measures.h"
-#include "graph/scratch.h"
 #include "lp/length/postman_parts.h"
-#include "lp/solver/lp.h"
+#include "lp/solver/solver.h"
 
 #include <limits.h>
 #include <math.h>

@@ -5,7 +5,7 @@
  * round at random, which keeps the passes and gives other splits. After this, each further cord
  * costs passes: two more over one edge, there and back, which part a walk (a chord), or a cord of
  * its own round a short circuit. */
-#include "graph/random.h"
+#include "graph/arrays.h"
 #include "lp/length/postman_parts.h"
 
 #include <math.h>

@@ -11,8 +11,7 @@
  * twice; with two ends there: 4 + d. */
 #include "lp/length/postman.h"
 #include "graph/check/check.h"
-#include "graph/disjoint.h"
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 
 #include <assert.h>
 #include <math.h>

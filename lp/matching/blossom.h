@@ -12,7 +12,7 @@
 #define THR_BLOSSOM_H
 
 #include "graph/limits.h"
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 #include "graph/status.h"
 #include "lp/tjoin/tjoin.h"
 

@@ -12,7 +12,7 @@
 
 #include "graph/limits.h"
 #include "graph/status.h"
-#include "lp/solver/lp.h"
+#include "lp/solver/solver.h"
 
 #include <stdint.h>
 

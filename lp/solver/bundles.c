@@ -7,7 +7,7 @@
  * Example: columns with rows {0, 2}, {0, 2}, {1}: two bundles. */
 #include "lp/solver/solver.h"
 
-#include "graph/wide.h"
+#include "graph/number.h"
 
 #include <string.h>
 

@@ -6,7 +6,7 @@
  * Example: columns (1 2) and (3 4) with factors 5 and 6 bring (23 34). */
 #include "lp/solver/solver_parts.h"
 
-#include "graph/wide.h"
+#include "graph/number.h"
 
 #include <string.h>
 

@@ -13,7 +13,7 @@
  * is added. */
 #include "lp/solver/solver_parts.h"
 
-#include "graph/sort.h"
+#include "graph/arrays.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Implements lp/solver/lp.h with GLPK: the only file that knows this library.
+/* Implements lp/solver/solver.h with GLPK: the only file that knows this library.
  *
  * GLPK aborts on misuse and when memory runs out, so every call runs under guarded(), whose error
  * hook leaves it by longjmp. After that GLPK's environment must be freed, which destroys every
@@ -11,7 +11,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "graph/process/process.h"
 #include "graph/text.h"
-#include "lp/solver/lp.h"
+#include "lp/solver/solver.h"
 
 #include <glpk.h>
 #include <limits.h>

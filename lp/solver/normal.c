@@ -12,7 +12,7 @@
  * out. They are those of A W A^T with a little more on the diagonal.
  *
  * Example: A = (1 1), W = diag(2, 3), r = 10: 5 y = 10, y = 2. */
-#include "graph/wide.h"
+#include "graph/number.h"
 #include "lp/solver/solver_parts.h"
 
 #include <math.h>

@@ -6,7 +6,7 @@
  * Example: the rays (1, 1, 0) and (1, -1, 0), used 2 and 3 times, give the force (5, -1, 0). */
 #include "lp/solver/solver.h"
 
-#include "graph/wide.h"
+#include "graph/number.h"
 
 #include <assert.h>
 #include <string.h>

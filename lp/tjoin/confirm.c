@@ -11,7 +11,7 @@
  * skipped if GLPK fails or runs out of time. */
 #include "graph/process/process.h"
 #include "graph/text.h"
-#include "lp/solver/lp.h"
+#include "lp/solver/solver.h"
 #include "lp/tjoin/tjoin.h"
 
 #include <stdlib.h>

@@ -10,7 +10,7 @@
  * Example: one odd set S with two edges of weight 2 and 3 leaving it, the first one in the join:
  * the equation x1 + x2 - s = 1, in which x1 is basic. */
 #include "lp/tjoin/tjoin.h"
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 
 #include <stdlib.h>
 

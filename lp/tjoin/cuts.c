@@ -9,8 +9,7 @@
  * Example: the set {0, 1, 2} round the set {0} is kept as a cut with the list 0 and its parent with
  * the list 1, 2. */
 #include "lp/tjoin/tjoin.h"
-#include "graph/scratch.h"
-#include "graph/sort.h"
+#include "graph/arrays.h"
 
 #include <stdlib.h>
 

@@ -16,8 +16,7 @@
  * Example: a star with four leaves, all odd, ends allowed at the leaves. Four ends need no further
  * pass; with two ends the two shortest edges are passed twice. */
 #include "lp/tjoin/tjoin.h"
-#include "graph/disjoint.h"
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 
 #include <assert.h>
 #include <math.h>

@@ -16,11 +16,8 @@
  *
  * Example: a triangle of odd nodes with x = 1/4 on the edges that leave it, one at each node, is
  * violated, because 3/4 < 1. */
-#include "graph/disjoint.h"
+#include "graph/arrays.h"
 #include "graph/framework/frame.h"
-#include "graph/random.h"
-#include "graph/scratch.h"
-#include "graph/sort.h"
 #include "lp/tjoin/tjoin.h"
 
 #include <math.h>

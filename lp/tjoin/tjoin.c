@@ -11,9 +11,9 @@
  * Example: a cycle of four edges of weight 1 with two opposite odd nodes: both halves are T-joins
  * of weight 2, and moats of width 1 round each odd node prove it. */
 #include "lp/tjoin/tjoin.h"
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 #include "lp/matching/blossom.h"
-#include "lp/solver/lp.h"
+#include "lp/solver/solver.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -9,7 +9,7 @@
  *
  * Example: nine edge orbits need nine steps at least. */
 #include "symmetry/cover/cover_parts.h"
-#include "graph/disjoint.h"
+#include "graph/arrays.h"
 
 #include <limits.h>
 #include <math.h>

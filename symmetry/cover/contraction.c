@@ -11,7 +11,7 @@
  * Example: a node whose six dart types all turn into each other has 15 turns; contracted it is one
  * type with one. */
 #include "symmetry/cover/cover.h"
-#include "graph/disjoint.h"
+#include "graph/arrays.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -8,7 +8,7 @@
  *
  * Example: the least overlap is 0; then, with overlap 0 as a row, the fewest steps. */
 #include "symmetry/cover/cover_parts.h"
-#include "lp/solver/lp.h"
+#include "lp/solver/solver.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -9,7 +9,7 @@
  *
  * Example: of the turns a-b and c-d, between four dart types of one node, there can be made a-c and
  * b-d. */
-#include "graph/disjoint.h"
+#include "graph/arrays.h"
 #include "symmetry/cover/cover.h"
 
 #include <stdlib.h>

@@ -10,7 +10,7 @@
  *
  * Example: two folds in a set that only one cord end belongs to and nothing leaves: one of them
  * lacks an end. */
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 #include "symmetry/cover/cover.h"
 
 static const double least_flow = 1e-6; /* less is rounding */

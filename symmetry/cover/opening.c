@@ -12,7 +12,7 @@
  * Example: one trail from fold to fold and one from end to end that share a dart type exchange what
  * follows there, and become two trails from a fold to an end. */
 #include "graph/framework/frame.h"
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 #include "graph/status.h"
 #include "symmetry/lift/lift.h"
 

@@ -10,7 +10,7 @@
  * Example: an orbit of three copies of an edge of length 2 that is covered already adds 6 to the
  * overlap. */
 #include "symmetry/cover/cover.h"
-#include "graph/disjoint.h"
+#include "graph/arrays.h"
 
 #include <limits.h>
 #include <math.h>

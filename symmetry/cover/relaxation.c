@@ -17,8 +17,8 @@
  * Example: three dart types that turn into each other, with one copy each, are an odd set: one of
  * them has an end or a fold, or is passed once more. */
 #include "symmetry/cover/cover_parts.h"
-#include "graph/scratch.h"
-#include "lp/solver/lp.h"
+#include "graph/arrays.h"
+#include "lp/solver/solver.h"
 
 #include <limits.h>
 #include <math.h>

@@ -11,7 +11,7 @@
  *
  * Example: an edge in a mirror that ends at a node with no other edge in the mirror. What passes it
  * once stays in the mirror, and is stuck at that node unless it may end or turn back there. */
-#include "graph/disjoint.h"
+#include "graph/arrays.h"
 #include "symmetry/cover/cover.h"
 
 #include <stdlib.h>

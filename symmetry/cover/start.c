@@ -10,7 +10,7 @@
  *
  * Example: an edge between two nodes with three arms each, cords closed: both its ends are odd, and
  * the T-join is the edge itself, which is passed twice. */
-#include "graph/disjoint.h"
+#include "graph/arrays.h"
 #include "lp/tjoin/tjoin.h"
 #include "symmetry/cover/cover.h"
 

@@ -9,7 +9,7 @@
  *
  * Example: a star of three tubes under C3 about its node: one orbit of turns links all three pairs
  * of tubes. */
-#include "graph/disjoint.h"
+#include "graph/arrays.h"
 #include "symmetry/cover/cover.h"
 
 #include <stdlib.h>

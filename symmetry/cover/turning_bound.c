@@ -16,8 +16,8 @@
  * Multipliers are 0 then, and so is the bound; without the straight turns they are pi / 4 each, and
  * two passes through the node pay pi. */
 #include "symmetry/cover/cover_parts.h"
-#include "graph/scratch.h"
-#include "lp/solver/lp.h"
+#include "graph/arrays.h"
+#include "lp/solver/solver.h"
 
 #include <math.h>
 #include <stdlib.h>

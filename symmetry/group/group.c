@@ -8,7 +8,7 @@
  * Example: two generators of the square's group, a turn and a reflection, make its eight elements.
  */
 #include "symmetry/group/group.h"
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 #include "symmetry/group/groups.h"
 
 #include <stdlib.h>

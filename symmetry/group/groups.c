@@ -10,7 +10,7 @@
  * Example: of the square's group C4v: C1, C2, C4, two classes of mirrors, two of C2v, and C4v
  * itself. */
 #include "symmetry/group/groups.h"
-#include "graph/disjoint.h"
+#include "graph/arrays.h"
 #include "symmetry/group/group.h"
 
 #include <math.h>

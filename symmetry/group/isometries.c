@@ -8,9 +8,8 @@
  *
  * Example: on a cube a corner may go to 8 places and a neighbour of it then to 3, each with and
  * without a mirror: the 48 isometries. */
-#include "graph/scratch.h"
-#include "graph/sort.h"
-#include "graph/vector.h"
+#include "graph/arrays.h"
+#include "graph/number.h"
 #include "symmetry/group/group.h"
 #include "symmetry/group/groups.h"
 

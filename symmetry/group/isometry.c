@@ -8,8 +8,7 @@
  * of the group, its principal axis, its mirrors.
  *
  * Example: R with determinant 1 and trace -1 turns by 180 degrees: C2. */
-#include "graph/angle.h"
-#include "graph/vector.h"
+#include "graph/number.h"
 #include "symmetry/group/group.h"
 
 #include <math.h>

@@ -8,7 +8,7 @@
  *
  * Example: a square of four edges has order 8. If one edge has another colour, every edge gets a
  * node of its colour in its middle, and the order is 2. */
-#include "graph/disjoint.h"
+#include "graph/arrays.h"
 #include "symmetry/group/group.h"
 
 #include <traces.h>

@@ -26,7 +26,7 @@
  * Example: an edge in a mirror has two copy types: one copy that the mirror fixes, and two that it
  * exchanges. */
 #include "symmetry/group/group.h"
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 
 #include <assert.h>
 #include <stdlib.h>

@@ -10,7 +10,7 @@
  *
  * Example: three types with 2, 1 and 1 darts: the first is paired with both others, which could not
  * be if these were paired with each other first. */
-#include "graph/disjoint.h"
+#include "graph/arrays.h"
 #include "graph/status.h"
 #include "symmetry/cover/cover.h"
 #include "symmetry/group/group.h"

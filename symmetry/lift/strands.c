@@ -12,7 +12,7 @@
  * Example: under C4 with trivial stabilizers an orbit has four darts 1, g, g^2, g^3; linked by g
  * they make one closed cord, linked by 1 four. */
 #include "symmetry/lift/lift.h"
-#include "graph/disjoint.h"
+#include "graph/arrays.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -9,7 +9,7 @@
  *
  * Example: four cords that C4 maps to each other: the first is a unique path, and the others are
  * its images under three elements of the group. */
-#include "graph/threading/euler.h"
+#include "graph/threading/threading.h"
 #include "symmetry/lift/lift.h"
 
 #include <stdlib.h>

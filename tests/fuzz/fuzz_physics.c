@@ -4,7 +4,6 @@
  * to sizes that fit, or is refused. */
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"
-#include "graph/io/writer.h"
 #include "graph/plan/physics.h"
 #include "graph/status.h"
 #include "graph/text.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Several closed cords in every component against enumeration over all pairings of all passes. */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/framework/make.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"

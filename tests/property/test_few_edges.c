@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Several cords through few edges, by the checker's tables, against all numbers of passes of all
  * cords (tests/truth.h). */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/check/check_parts.h"
-#include "graph/check/edge_sets.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The least turning of frameworks whose optima are known from other programs (docs/method.md), in
  * degrees. */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/framework/make.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"

@@ -3,7 +3,7 @@
  * bound against enumeration's optimum in a linear programme with all rows. */
 #include "graph/limits.h"
 #include "graph/plan/turning_proof.h"
-#include "lp/solver/lp.h"
+#include "lp/solver/solver.h"
 #include "tests/frameworks.h"
 #include "tests/ties.h"
 #include "tortuosity/proof/relax_parts.h"

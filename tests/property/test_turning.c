@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The least turning of random small frameworks against enumeration, its proof under alteration, and
  * what must not change. */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/framework/make.h"
 #include "graph/io/json.h"
-#include "graph/io/writer.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/turning_proof.h"
-#include "graph/threading/euler.h"
+#include "graph/threading/threading.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "tests/symmetric.h"

@@ -3,9 +3,9 @@
  * and the picture. */
 #include "diagram/overview/charts.h"
 #include "eval/eval.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/limits.h"
-#include "graph/plan/advice.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"

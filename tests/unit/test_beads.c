@@ -2,7 +2,7 @@
 /* Beads: faces, masses against counted volumes, feet, and cords that pull nothing away as a whole.
  */
 #include "eval/structure/beads.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/plan/physics.h"
 #include "tests/frameworks.h"
 #include "tests/support.h"

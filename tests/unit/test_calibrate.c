@@ -3,7 +3,7 @@
  * out; the mesh is closed. */
 #include "diagram/export/paper.h"
 #include "eval/cord/calibrate.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "tests/support.h"
 
 #include <math.h>

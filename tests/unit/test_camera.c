@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Views of steps in space: what is claimed of a view is measured anew from its projection. */
 #include "diagram/space/camera.h"
-#include "graph/vector.h"
+#include "graph/number.h"
 #include "tests/support.h"
 
 #include <math.h>

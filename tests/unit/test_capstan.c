@@ -3,7 +3,7 @@
  * refusals. */
 #include "eval/cord/profile.h"
 #include "eval/eval.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "tests/frameworks.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What rounding takes off a bound in the checker, worked out another way. */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/check/check.h"
 #include "graph/check/check_parts.h"
 #include "tests/frameworks.h"

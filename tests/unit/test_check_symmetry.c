@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The checker's part for symmetry against groups made of matrices, and against readings of cords
  * that are counted one by one. */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/check/check_parts.h"
 #include "graph/framework/frame.h"
 #include "tests/frameworks.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the checker finds out about turning and says of claims about it: trees whose bound is known,
  * every number of a claim changed. */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/check/check.h"
 #include "graph/check/check_parts.h"
 #include "graph/plan/turning_proof.h"

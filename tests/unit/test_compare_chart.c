@@ -3,7 +3,7 @@
  * on the sheet; what the frontier is. */
 #include "diagram/overview/charts.h"
 #include "graph/limits.h"
-#include "graph/plan/advice.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "planner/planner.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One step of bodies in contact, eval/joint/contacts.h: what statics and the law of sliding say of
+/* One step of bodies in contact, eval/joint/world.h: what statics and the law of sliding say of
  * boxes; and of bodies thrown together at random that the answer meets the conditions that only the
  * best one meets (the problem is convex). */
 #include "eval/joint/contacts.h"

@@ -3,7 +3,7 @@
  * same bits, range and refusals.
  */
 #include "eval/joint/joint.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/limits.h"
 #include "tests/support.h"
 

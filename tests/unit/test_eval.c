@@ -4,7 +4,7 @@
  * that the simulations see has one turn. */
 #define _POSIX_C_SOURCE 200809L
 #include "eval/eval.h"
-#include "graph/io/writer.h"
+#include "graph/io/json.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "tests/frameworks.h"

@@ -2,12 +2,9 @@
 /* The floor: status and error text, checked allocation, growing text, JSON reading. */
 #define _POSIX_C_SOURCE 200809L
 #include "tests/support.h"
-#include "graph/angle.h"
 #include "graph/io/json.h"
 #include "graph/number.h"
-#include "graph/io/writer.h"
-#include "graph/scratch.h"
-#include "graph/sort.h"
+#include "graph/arrays.h"
 
 #include <limits.h>
 #include <math.h>

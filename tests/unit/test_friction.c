@@ -2,13 +2,12 @@
 /* Friction that grows with a power of the load: against the differential equation, step by step,
  * and what follows for pulls, schedules and grips. */
 #include "eval/eval.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/limits.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/plan_measures.h"
-#include "graph/plan/schedule.h"
 #include "tests/frameworks.h"
 #include "tests/support.h"
 

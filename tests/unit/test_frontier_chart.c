@@ -2,7 +2,7 @@
 /* The picture of the frontier: circles and bands where the numbers say, texts apart and on the
  * sheet. */
 #include "diagram/overview/charts.h"
-#include "graph/plan/advice.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/physics.h"
 #include "tests/support.h"
 #include "tests/svg_tree.h"

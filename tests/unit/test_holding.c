@@ -2,10 +2,9 @@
 /* Holding pull: closed forms of cantilever and friction, a plain programme solved by simplex, the
  * mechanism checked as a mechanism. */
 #include "eval/structure/beads.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/plan/physics.h"
-#include "graph/vector.h"
-#include "lp/solver/lp.h"
+#include "lp/solver/solver.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "tests/support.h"

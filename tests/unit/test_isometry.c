@@ -2,10 +2,9 @@
 /* What automorphisms are in space, against the known classes of point groups; isometries from
  * coordinates against nauty's group.
  */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
-#include "graph/vector.h"
 #include "symmetry/group/group.h"
 #include "tests/frameworks.h"
 #include "tests/symmetric.h"

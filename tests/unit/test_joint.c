@@ -5,7 +5,7 @@
 #include "eval/cord/profile.h"
 #include "eval/eval.h"
 #include "eval/joint/joint.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "tests/frameworks.h"

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Kinds of beads against turned, mirrored and renamed ones; bores against closed forms and areas.
  */
-#include "diagram/tables/kinds.h"
-#include "graph/angle.h"
+#include "diagram/tables/tables.h"
+#include "graph/number.h"
 #include "graph/framework/frame.h"
 #include "tests/frameworks.h"
 #include "tests/symmetric.h"

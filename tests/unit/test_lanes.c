@@ -3,7 +3,7 @@
  * they enter and leave it. */
 #include "diagram/layout/layout.h"
 #include "diagram/scene/scene.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/plan/plan.h"
 #include "tests/frameworks.h"
 #include "tests/support.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The least pull at both ends: both ways to compute it, against every turn that could be left out.
  */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"

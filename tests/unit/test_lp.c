@@ -2,7 +2,6 @@
 /* Contract of the linear programming interface, and of the cut tree. */
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
-#include "lp/solver/lp.h"
 #include "lp/solver/solver.h"
 #include "lp/solver/solver_parts.h"
 #include "tests/frameworks.h"

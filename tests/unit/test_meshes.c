@@ -2,9 +2,8 @@
 /* Meshes: PLY in its three encodings, OFF and STL with known counts, diagonals of flat faces, which
  * way is up, and texts that are cut or wrong. The cube: 8 corners, 12 edges, 6 faces of two
  * triangles, so 6 diagonals; Euler: 8 - 18 + 12 = 2. */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/framework/frame.h"
-#include "graph/framework/units.h"
 #include "graph/io/read.h"
 #include "graph/text.h"
 #include "tests/support.h"

@@ -5,7 +5,7 @@
  */
 #include "graph/limits.h"
 #include "lp/model/tree.h"
-#include "lp/solver/lp.h"
+#include "lp/solver/solver.h"
 #include "tests/support.h"
 
 #include <math.h>

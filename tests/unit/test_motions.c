@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the words for copies say, against matrices whose geometry is known: x to the right, y to the
  * back, z up. */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/plan/plan.h"
-#include "lib/handles.h"
+#include "lib/lib.h"
 #include "lib/motions.c"
 #include "tests/frameworks.h"
 #include "tests/symmetric.h"

@@ -2,7 +2,7 @@
 /* Pairing at one node: subsets against enumeration and the matching engine, on random stars under
  * every price. */
 #include "graph/plan/turning_proof.h"
-#include "graph/threading/euler.h"
+#include "graph/threading/threading.h"
 #include "tests/matchings.h"
 #include "tests/support.h"
 

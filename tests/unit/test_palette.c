@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The palette in numbers, for eyes of every kind and for grey print. */
 #include "diagram/scene/scene.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "tests/support.h"
 
 #include <math.h>

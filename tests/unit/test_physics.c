@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Physical quantities: ranges, presets, JSON there and back, sizes from the framework, refusals. */
 #define _POSIX_C_SOURCE 200809L
-#include "graph/framework/units.h"
+#include "graph/framework/frame.h"
 #include "graph/io/json.h"
-#include "graph/io/writer.h"
 #include "graph/plan/physics.h"
 #include "tests/frameworks.h"
 #include "tests/support.h"

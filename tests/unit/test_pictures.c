@@ -4,7 +4,7 @@
  * framework. */
 #include "diagram/overview/overview.h"
 #include "diagram/scene/scene.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "tests/frameworks.h"

@@ -3,7 +3,7 @@
 #include "tests/support.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/check/check.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 /* Prices of places in certificates: loops, what the checker refuses, plans that need more places
  * than a shortest join has. */
 #include "graph/check/check.h"
-#include "graph/check/edge_sets.h"
+#include "graph/check/check_parts.h"
 #include "graph/plan/plan_measures.h"
 #include "lp/length/postman.h"
 #include "tests/frameworks.h"

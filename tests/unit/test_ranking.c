@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rankings: ties are what the intervals allow, and no more. */
 #include "cli/print/ranking.c"
-#include "graph/io/writer.h"
+#include "graph/io/json.h"
 #include "tests/support.h"
 
 enum { MOST = 7 };

@@ -5,7 +5,7 @@
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan_measures.h"
-#include "graph/plan/schedule.h"
+#include "graph/plan/plan.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "tests/support.h"

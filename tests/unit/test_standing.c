@@ -6,7 +6,7 @@
 #include "graph/check/check.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
-#include "graph/plan/schedule.h"
+#include "graph/plan/plan.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "tests/support.h"

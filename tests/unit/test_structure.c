@@ -3,7 +3,7 @@
  * rougher cords, other ways of writing the same plan. */
 #include "eval/eval.h"
 #include "eval/structure/beads.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/framework/make.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tables of a plan, read back and worked out again from its JSON and coordinates. */
 #include "diagram/tables/tables.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/io/json.h"
 #include "graph/plan/physics.h"
 #include "tests/frameworks.h"

@@ -3,7 +3,7 @@
  * the channels' axes, symmetry.
  */
 #include "eval/cord/profile.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/plan/plan.h"
 #include "tests/frameworks.h"
 #include "tests/support.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The objective "tortuosity" as a whole: what the length slack is measured from, the trade-off, and
  * what is said of a plan that is not proved. */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/check/check.h"
 #include "planner/planner.h"
 #include "tests/frameworks.h"

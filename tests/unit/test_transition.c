@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Multigraph, pairing, joining, tracing, and the cords made of them. */
-#include "graph/angle.h"
-#include "graph/threading/euler.h"
+#include "graph/number.h"
 #include "graph/threading/threading.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Prices of turns in all directions, and the limits on passes and length that the columns of a
  * turning bound have. */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/plan/turning_proof.h"
 #include "tests/frameworks.h"
 #include "tests/support.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The programme over walks: one price for all images. */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"

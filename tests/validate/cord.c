@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Whole cords of 20 turns in Bullet against joints composed along the taut path. */
 #include "eval/cord/profile.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
 #include "tests/validate/drags.h"

@@ -2,7 +2,7 @@
 /* One joint in Bullet against the capstan law, and how the result moves with every number of the
  * protocol. */
 #include "tests/validate/drags.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdio.h>

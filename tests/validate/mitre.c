@@ -2,7 +2,7 @@
 /* The thesis's Fig. 13: a mitred bead takes mu F sin(theta / 2) off the tension F. A different
  * formula from the capstan law. */
 #include "eval/eval.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/evaluation.h"

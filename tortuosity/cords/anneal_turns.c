@@ -16,9 +16,9 @@
  * Example: three rings of a sphere cross at 60 degrees. Exchanges connect two of them by two turns
  * of 60 degrees; an extra pass that leaves the line of one ring for that of another connects them
  * by one. */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/framework/frame.h"
-#include "graph/random.h"
+#include "graph/arrays.h"
 #include "tortuosity/cords/anneal_turns.h"
 
 #include <float.h>

@@ -5,7 +5,7 @@
 #ifndef THR_ANNEAL_TURNS_H
 #define THR_ANNEAL_TURNS_H
 
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 #include "tortuosity/cords/join.h"
 
 #include <stdint.h>

@@ -7,9 +7,7 @@
  * keeps the graph connected, where nodes that are paired already are split. Example: at a node of 4
  * passes one of the three pairings may cut the graph apart; the node takes the better of the two
  * others. */
-#include "graph/disjoint.h"
-#include "graph/scratch.h"
-#include "graph/sort.h"
+#include "graph/arrays.h"
 #include "tortuosity/cords/join.h"
 
 #include <math.h>

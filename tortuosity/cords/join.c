@@ -11,7 +11,7 @@
  * Example: one cord twice round a ring, as columns, becomes two circuits or one; the exchange of
  * the two passes of any edge makes one of them. */
 #include "tortuosity/cords/join.h"
-#include "graph/disjoint.h"
+#include "graph/arrays.h"
 #include "graph/framework/frame.h"
 #include "tortuosity/tie/tie.h"
 

@@ -16,7 +16,6 @@
 #include "graph/plan/plan.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
-#include "graph/threading/euler.h"
 #include "graph/threading/threading.h"
 
 /* ---- join.c: The multigraph of passes and ends, and pairings at its nodes from columns, from tied

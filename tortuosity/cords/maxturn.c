@@ -9,10 +9,10 @@
  * others with new ends and passes.
  *
  * Example: cords of 5 and 9 rad with a total of 14 cannot be better than 7 and 7. */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "graph/plan/physics.h"
 #include "graph/process/threads.h"
-#include "graph/random.h"
+#include "graph/arrays.h"
 #include "tortuosity/cords/several.h"
 #include "tortuosity/cords/walk_model.h"
 #include "tortuosity/tie/tie.h"

@@ -8,7 +8,7 @@
  * Example: through two sides of a triangle of a mesh that meet there is one cycle of three edges.
  */
 #include "graph/framework/frame.h"
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 #include "tortuosity/cords/join.h"
 
 #include <stdlib.h>

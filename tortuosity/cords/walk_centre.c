@@ -9,7 +9,6 @@
  * creased shell (222 variables) they took 121 looks for what the middle gives in 78. Factors are
  * dense: with many variables they take longer than vertices do. */
 #include "tortuosity/cords/walk_model.h"
-#include "lp/solver/lp.h"
 #include "lp/solver/solver.h"
 
 #include <math.h>

@@ -20,7 +20,7 @@
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 #include "graph/status.h"
 #include "graph/threading/anneal.h"
 #include "lp/model/tree.h"

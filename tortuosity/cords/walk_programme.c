@@ -17,7 +17,7 @@
  * searches early. Optima are vertices from the simplex method, or near the middle
  * (tortuosity/cords/walk_centre.c). */
 #include "graph/framework/frame.h"
-#include "lp/solver/lp.h"
+#include "lp/solver/solver.h"
 #include "tortuosity/cords/walk_model.h"
 
 #include <limits.h>

@@ -13,8 +13,8 @@
  * Example: a node with three edges whose turns cost 1, 2 and 4 has the tree of 1 and 2: the bound
  * 3, proved by the junction of single edges with value 1 and the one of {1, 1, 2} with value 1. */
 #include "tortuosity/proof/relax_parts.h"
-#include "graph/angle.h"
-#include "graph/disjoint.h"
+#include "graph/number.h"
+#include "graph/arrays.h"
 
 #include <math.h>
 #include <stdlib.h>

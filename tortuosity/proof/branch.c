@@ -11,7 +11,7 @@
  * Example: the children of the root have the bounds 10 and 12, and the best plan found has the
  * price 11. The second child is closed; the first one stays open until its leaves reach 11 or a
  * plan of price 10 is found. */
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "tortuosity/cords/anneal_turns.h"
 #include "tortuosity/proof/relax_parts.h"
 #include "tortuosity/tie/tie.h"

@@ -105,7 +105,7 @@ thr_status thr_relax_init(thr_relax *relax, const thr_turning_columns *turning_c
                           thr_err *err) THR_MUST_CHECK;
 void thr_relax_destroy(thr_relax *relax);
 
-/* Makes a copy with its rows and basis that belongs to this thread (lp/solver/lp.h), without
+/* Makes a copy with its rows and basis that belongs to this thread (lp/solver/solver.h), without
  * separators and a point. */
 thr_status thr_relax_copy(thr_relax *relax, const thr_relax *from, thr_err *err) THR_MUST_CHECK;
 

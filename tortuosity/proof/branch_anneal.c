@@ -8,7 +8,7 @@
  * numbers depend on round and run alone.
  *
  * Example: a better plan in rounds 1 and 3 of the search ends it after round 5. */
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 #include "tortuosity/cords/anneal_turns.h"
 #include "tortuosity/proof/branch.h"
 

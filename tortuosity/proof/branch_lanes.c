@@ -3,8 +3,8 @@
  *
  * Lane 0 is the search itself. Every other lane is a search of its own with a copy of the
  * relaxation, in the thread that made the copy, because a programme belongs to its thread
- * (lp/solver/lp.h). Bounds and plans are taken over in the order of the lanes after all have ended,
- * so that they are the same whatever the number of threads.
+ * (lp/solver/solver.h). Bounds and plans are taken over in the order of the lanes after all have
+ * ended, so that they are the same whatever the number of threads.
  *
  * Example: a batch of nodes 5, 8 and 9 is solved in lanes 0, 1 and 2; if lanes 1 and 2 find
  * plans of the same price, the one of lane 1 is kept. */

@@ -9,7 +9,6 @@
  *
  * Example: a point with x = 0.5 for the extra passes of three edges and 0 for all others gives
  * these edges half of their weight in the T-join, which then uses those that it needs. */
-#include "graph/threading/euler.h"
 #include "graph/threading/threading.h"
 #include "tortuosity/proof/branch.h"
 #include "tortuosity/tie/tie.h"

@@ -8,9 +8,7 @@
  *
  * Example: two circuits that meet at a node without a turn from one to the other are two violated
  * groups. */
-#include "graph/disjoint.h"
-#include "graph/scratch.h"
-#include "graph/sort.h"
+#include "graph/arrays.h"
 #include "tortuosity/proof/branch.h"
 
 #include <math.h>

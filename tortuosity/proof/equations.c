@@ -12,8 +12,8 @@
  *
  * Example: a node with two edges has the rows of half-edges a and b and the one turn (a, b), which
  * is basic, with the slack of one of the rows. */
-#include "graph/scratch.h"
-#include "lp/solver/lp.h"
+#include "graph/arrays.h"
+#include "lp/solver/solver.h"
 #include "tortuosity/proof/branch.h"
 
 #include <math.h>

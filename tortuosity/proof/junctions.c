@@ -8,8 +8,7 @@
  *
  * Example: four edges, each turned into one other in pairs, x = 1 for two turns: the division into
  * these two pairs has no turn between its blocks, and needs one. */
-#include "graph/disjoint.h"
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 #include "tortuosity/proof/branch.h"
 
 #include <math.h>

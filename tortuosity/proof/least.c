@@ -10,7 +10,7 @@
  * Example: two edges in line turn by 0 with ends anywhere; closed, the cord turns back at both
  * ends: 2 pi. */
 #include "tortuosity/proof/branch.h"
-#include "graph/angle.h"
+#include "graph/number.h"
 #include "tortuosity/cords/several.h"
 #include "tortuosity/tie/tie.h"
 

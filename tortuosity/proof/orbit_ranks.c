@@ -14,9 +14,8 @@
  *
  * Example: the sphere of 750 edges has 15 orbits of half-edges and falls into 25 circuits of 3
  * kinds: 13,499.7 degrees. */
-#include "graph/disjoint.h"
-#include "graph/scratch.h"
-#include "lp/solver/lp.h"
+#include "graph/arrays.h"
+#include "lp/solver/solver.h"
 #include "tortuosity/proof/relax_parts.h"
 
 #include <math.h>

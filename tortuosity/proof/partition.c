@@ -11,10 +11,8 @@
  * (A. Bouchet, Greedy algorithm and symmetric matroids, Math. Programming 38, 1987).
  *
  * Example: three circuits need two connections to become one cord. */
-#include "graph/disjoint.h"
-#include "graph/scratch.h"
-#include "graph/sort.h"
-#include "graph/threading/euler.h"
+#include "graph/arrays.h"
+#include "graph/threading/threading.h"
 #include "tortuosity/proof/branch.h"
 
 #include <math.h>

@@ -9,8 +9,7 @@
  * as the passes of a half-edge are.
  *
  * Example: a half-edge passed twice whose passes have the duals 3 and 5 has the potential 4. */
-#include "graph/scratch.h"
-#include "graph/sort.h"
+#include "graph/arrays.h"
 #include "tortuosity/proof/relax_parts.h"
 
 #include <stdlib.h>

@@ -14,7 +14,7 @@
  *
  * Example: a square, closed: each half-edge (h, 0) is matched with the other one at its node; the
  * copies (h, 1) stay end to end. */
-#include "graph/scratch.h"
+#include "graph/arrays.h"
 #include "tortuosity/proof/relax_parts.h"
 
 #include <math.h>

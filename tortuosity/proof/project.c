@@ -11,7 +11,7 @@
  * Example: three edges meet at a node and are passed once each: 3 < 2 (3 - 1), so one of them gets
  * an extra pass. */
 #include "tortuosity/proof/relax_parts.h"
-#include "lp/solver/lp.h"
+#include "lp/solver/solver.h"
 
 #include <math.h>
 #include <stdlib.h>

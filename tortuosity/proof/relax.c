@@ -11,7 +11,7 @@
  *
  * Example: a node with four edges, each passed once, has two turns, and each edge is in one of
  * them; if the two pairs of opposite edges are straight, both turns cost 0. */
-#include "lp/solver/lp.h"
+#include "lp/solver/solver.h"
 #include "tortuosity/proof/relax_parts.h"
 
 #include <math.h>

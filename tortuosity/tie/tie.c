@@ -13,7 +13,7 @@
  * Example: three edges with one pass each, no ends: M = 3 is odd and below 4, so one more pass is
  * needed. */
 #include "tortuosity/tie/tie.h"
-#include "graph/disjoint.h"
+#include "graph/arrays.h"
 
 #include <stdlib.h>
 #include <string.h>

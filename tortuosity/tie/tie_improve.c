@@ -6,8 +6,8 @@
  * rounds that start from the best passes so far (S. Kirkpatrick, C. D. Gelatt & M. P. Vecchi 1983).
  *
  * Example: an extra pass over a long edge moves to two short ones beside it. */
-#include "graph/angle.h"
-#include "graph/random.h"
+#include "graph/number.h"
+#include "graph/arrays.h"
 #include "tortuosity/tie/tie.h"
 
 #include <math.h>

@@ -6,7 +6,7 @@
  * nodes, are made while they save and the node stays tied.
  *
  * Example: a node with three edges of two passes each is tied by the three turns between them. */
-#include "graph/disjoint.h"
+#include "graph/arrays.h"
 #include "tortuosity/tie/tie.h"
 
 #include <math.h>

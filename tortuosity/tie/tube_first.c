@@ -10,7 +10,6 @@
  *
  * Example: a ring of n edges gives one circuit of 2 n passes. */
 #include "tortuosity/tie/tie.h"
-#include "graph/threading/euler.h"
 #include "graph/threading/threading.h"
 
 #include <math.h>

@@ -11,8 +11,8 @@
  * second at the common node. */
 #include "tortuosity/tour/baseline.h"
 #include "graph/plan/turning_proof.h"
-#include "graph/scratch.h"
-#include "graph/threading/euler.h"
+#include "graph/arrays.h"
+#include "graph/threading/threading.h"
 #include "tortuosity/cords/join.h"
 
 #include <math.h>

@@ -8,10 +8,11 @@
  * Example, of the 7 x 7 dome with one cord, pulled with 181 N: "4 cords to the feet need about 3.21
  * and 3.27 N with as much cord: thread plan dome.json --cords 4 --ends feet --objective tortuosity
  * --minimize pull". */
-#include "cli/advice.h"
+
+#include "cli/commands/commands.h"
 #include "cli/print/print.h"
-#include "graph/angle.h"
-#include "graph/plan/advice.h"
+#include "graph/number.h"
+#include "graph/plan/plan_measures.h"
 #include "planner/planner.h"
 
 static const double usual_work = 2; /* counted, in seconds */

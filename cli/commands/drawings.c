@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Writes the documents that are made from a plan: one of them, or all into a folder
- * (lib/documents.h has the table of documents).
+ * (lib/lib.h has the table of documents).
  *
  * All documents of a plan share one layout of its framework, because finding it takes long. The
  * step sheets come last, since they take longest: who stops them has all others. When the time of
@@ -8,13 +8,13 @@
  *
  * Files that the command reads are safe: drawings_claim refuses a folder in which a document would
  * replace one, before any search. */
-#include "cli/drawings.h"
 
+#include "cli/commands/commands.h"
 #include "diagram/export/paper.h"
 #include "diagram/layout/layout.h"
 #include "graph/os.h"
 #include "graph/plan/plan_measures.h"
-#include "lib/documents.h"
+#include "lib/lib.h"
 
 #include <stdio.h>
 #include <string.h>

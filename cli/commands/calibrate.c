@@ -9,12 +9,14 @@
  *
  * Example: `--calibrate "1,1.4,0.7; bead=17,18,16"` gives mu = 0.221 (band 0.189 to 0.253) and
  * mu_bead = 0.306. */
-#include "cli/calibrate.h"
+
+#include "cli/commands/commands.h"
+#include "graph/io/read.h"
 #include "cli/cli.h"
 #include "diagram/export/paper.h"
 #include "eval/cord/calibrate.h"
-#include "graph/angle.h"
-#include "graph/io/writer.h"
+#include "graph/number.h"
+#include "graph/io/json.h"
 
 #include <stdio.h>
 #include <string.h>

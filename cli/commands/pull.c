@@ -13,11 +13,12 @@
  * Measured joints are cached in a folder, so that the next evaluation with the same cord and beads
  * takes no time; results do not depend on that. */
 #define _POSIX_C_SOURCE 200809L
-#include "cli/pull.h"
-#include "graph/framework/units.h"
+
+#include "cli/commands/commands.h"
+#include "graph/framework/frame.h"
 #include "graph/os.h"
 #include "graph/plan/physics.h"
-#include "graph/plan/schedule.h"
+#include "graph/plan/plan.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What several commands do: measuring the pull, drawing a plan, advice beside a plan, and
+ * calibration. */
+#ifndef THR_COMMANDS_H
+#define THR_COMMANDS_H
+
+#include "cli/args/args.h"
+#include "cli/cli.h"
+#include "diagram/scene/scene.h"
+#include "diagram/overview/overview.h"
+#include "eval/eval.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
+#include "graph/text.h"
+#include "graph/plan/evaluation.h"
+
+#include <stdbool.h>
+
+/* ---- Prints advice on the number of cords beside a plan: shared by `thread advise` and by the
+ * last lines of `thread plan`. */
+
+/* The options that were given of how FRAME is read and of what cord and beads are, each with a
+ * blank before it, for a shell. */
+void advice_command_options(const cli_physics *physics, thr_text *text);
+
+/* Returns limits for so many seconds by the clock, 0 = none, silent but for --verbose; and for so
+ * much counted work, 0 = any. Seconds below 0: as much work as advice is usually given, which *work
+ * becomes. *work stays while the limits are used. */
+thr_limits advice_limits(double seconds, double *work);
+
+/* The lines that say that the plan's pull is beyond a hand, and what is not, as `thread advise`
+ * recommends it, which takes up to its usual seconds: nothing where it is not beyond a hand. path:
+ * of the framework, as typed. */
+void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_physics *physics,
+                           thr_text *text);
+
+/* Appends, where a plan that was asked for with options is beyond a hand, which option takes the
+ * fewest cords that are not. Nothing where a limit on the pull was given. */
+void advice_put_hint(const thr_plan *plan, thr_text *text);
+
+/* ---- thread eval --calibrate: computes frictions from weights and tilted boards at the bench, and
+ * draws the piece that the weights hang from. */
+
+/* value: of --calibrate; bore: mm, of the piece. Returns the exit code. */
+int calibrate_run(const char *value, double bore, const char *output, bool json);
+
+/* ---- Writes the documents that are made from a plan: one of them, or all into a folder, where
+ * they have their usual names (lib/lib.h has the table). Shared by `thread draw` and `thread plan`.
+ */
+
+/* How documents are drawn. */
+typedef struct {
+  double pitch_mm;            /* of the overview; 0 = automatic */
+  thr_overview_colour colour; /* of the overview */
+  double
+      kind_tolerance; /* pieces that differ by no more are of a kind, in units; 0 = the usual one */
+  double working_mm;  /* cord that is worked with at a time; 0 = the usual one */
+  int page;           /* of the step sheets: thr_page_size */
+  int needles; /* that cords are threaded with in the step sheets: 1, 2 = from their middle; 0 = not
+                  said */
+  thr_line_options lines; /* of cords for CAD */
+  bool quick;             /* all documents means all but the step sheets of too many pieces */
+} drawings_args;
+
+/* With more pieces step sheets are hundreds of pages, which nobody prints unasked. */
+enum { DRAWINGS_SHEETS_PIECES = 1000, DRAWINGS_NAMES = 128 };
+
+/* --kind-tolerance; --page, --from, --working-length: of the step sheets. */
+extern const cli_option drawings_options[];
+
+/* Writes document i of the plan to path ("-" = stdout). Returns EXIT_OK or prints and returns the
+ * code. */
+int drawings_write(const thr_plan *plan, int i, const char *path, const drawings_args *a);
+
+/* Writes all of them into folder, which is made if needed, under their usual names; stops at the
+ * first that fails, and with EXIT_LIMIT, printed, where the time of the command is over. */
+int drawings_write_all(const thr_plan *plan, const char *folder, const drawings_args *a);
+
+/* Compares the names of document i, or of all that drawings_write_all may write (i = -1), in folder
+ * with the files that this command reads and writes (cli/files.c). Returns EXIT_OK, or prints which
+ * one would be lost and returns EXIT_USAGE. */
+int drawings_claim(const char *command, const char *folder, int i);
+
+/* Returns whether one of all documents, or the plan, would take the place of such a file. */
+bool drawings_would_lose(const char *folder);
+
+/* Appends how many pieces hang loose in a chain at most while the plan is threaded: "longest loose
+ * chain: 8 pieces". */
+thr_status drawings_chains(const thr_plan *plan, const drawings_args *a, thr_text *text,
+                           thr_err *err) THR_MUST_CHECK;
+
+/* Returns whether drawings_write_all leaves out the step sheets. */
+bool drawings_no_sheets(const thr_plan *plan, const drawings_args *a);
+
+/* Fills names with what drawings_write_all writes: "overview.svg steps.txt". */
+void drawings_names(const thr_plan *plan, const drawings_args *a, char names[DRAWINGS_NAMES]);
+
+/* ---- Takes the options of the methods that measure the pull of a plan, and runs these methods:
+ * shared by eval, compare and plan.
+ *
+ * A command calls pull_args_init, pull_option for each option, pull_check when all are known, and
+ * pull_eval for each plan. */
+
+enum { PULL_ALL_METHODS = THR_N_METHODS };
+
+/* What was asked for. */
+typedef struct {
+  cli_physics physics;
+  thr_eval_options options; /* physics and pulls are set for each plan */
+  int method;               /* thr_method, or PULL_ALL_METHODS */
+  const char *pull;         /* as given */
+  bool json, no_cache;
+  char cache[1024]; /* where options.cache points unless given */
+} pull_args;
+
+/* Fills in the defaults. The result points into itself, so that it must stay where it is. */
+void pull_args_init(pull_args *a, thr_method method);
+/* How a pull is measured, --json, and what is for developers; where measured joints are kept. */
+extern const cli_option pull_options[], pull_tuned[], pull_run_options[];
+
+/* The name of a method, or "all", for the rows of --method that commands have. */
+const char *pull_method_name(int method);
+
+/* Checks that what was asked makes sense together. Returns EXIT_OK, or prints and returns the code.
+ */
+int pull_check(const pull_args *a, const char *command);
+
+/* Evaluates a plan by one method with a progress bar and Ctrl-C; path is for messages. Returns
+ * EXIT_OK; EXIT_LIMIT after a stop, with out holding what is known; or prints and returns the code.
+ */
+int pull_eval(const pull_args *a, const char *path, const thr_plan *plan, thr_method method,
+              thr_eval *out);
+
+/* Reads a schedule: a value with a colon is one, another value is the name of a file of one; NULL
+ * is none. Returns EXIT_OK, or prints and returns the code. Release with thr_schedule_destroy. */
+int pull_read_schedule(const char *value, const thr_plan *plan, thr_schedule *schedule);
+
+/* Returns the relative error, in per cent, that an error of the exponent makes: 100 (exp(error) -
+ * 1). */
+double pull_percent(double error);
+
+/* Appends the cords that are not known: "A, C, D and 4 more". */
+void pull_unknown_cords(const thr_plan *plan, const thr_evaluation *evaluation, thr_text *text);
+
+#endif

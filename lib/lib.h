@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What stands behind include/thread.h: handles and their errors, notes about a framework, and the
+ * documents that are made from a plan. */
+#ifndef THR_LIB_H
+#define THR_LIB_H
+
+#include "diagram/layout/layout.h"
+#include "diagram/overview/overview.h"
+#include "diagram/scene/scene.h"
+#include "graph/framework/frame.h"
+#include "graph/io/read.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
+#include "graph/text.h"
+#include "include/thread.h"
+
+/* ---- libthread, the library that other programs link (include/thread.h), and what its users and
+ * the commands both need: the table of documents, the notes on reading, the names of motions.
+ *
+ * Read include/thread.h first, then library.c (versions, lock, statuses), library_frame.c and
+ * library_plan.c (a call is checked, translated, and handed to graph/, planner/, eval/ or
+ * diagram/). documents.c, notes.c and motions.c stand by themselves; cli/ uses the first two, too.
+ *
+ * This header says what the files of libthread share. */
+
+/* ---- What is behind the opaque types of include/thread.h, and how statuses and texts get there.
+ */
+
+/* A framework of a program. */
+struct thread_frame {
+  thr_frame frame;
+  thr_text notes; /* what reading did and found odd */
+};
+
+/* A plan of a program. */
+struct thread_plan {
+  thr_plan plan;
+  thread_frame lent; /* the plan's framework, for thread_plan_frame: a shallow copy */
+  int **node;        /* [n_cords] where each cord runs; owned */
+};
+
+/* Lets calls that use what is not reentrant come one after another. */
+void thr_library_lock(void);
+void thr_library_unlock(void);
+
+/* Returns a status of the program as that of the library, with its text in *err (NULL ok). */
+thread_status thr_library_status(thr_status st, const thr_err *from, thread_error *err);
+
+/* Copies a program's options over the usual ones in *own. The first member of both is their size,
+ * and a program knows only so many bytes; theirs may be NULL. THR_EINPUT if the size is absurd.
+ * what: the name of the struct. */
+thr_status thr_library_options(void *own, size_t own_size, const void *theirs, const char *what,
+                               thr_err *err) THR_MUST_CHECK;
+
+/* Makes a text the caller's, and leaves it empty. THR_ENOMEM if an append failed. */
+thr_status thr_library_give(thr_text *text, char **bytes, size_t *n, thr_err *err) THR_MUST_CHECK;
+
+/* ---- motions.c: What takes a unique path of a symmetric plan to its copies, in words for who
+ * threads. */
+
+/* The motions of a plan in words. */
+typedef struct {
+  const char **motion; /* [n_cords] "turned by 90 degrees .."; NULL for no copy, and for one that no
+                          motion makes; owned */
+  char (*words)[104];  /* [n_images] owned */
+} thr_motions;
+
+/* Describes for each image the motion in space that is nearest to it, if it is within
+ * thr_symmetry_near. Plans that are not symmetric have no words. Release with thr_motions_destroy.
+ * O(images * n). */
+thr_status thr_motions_describe(const thr_plan *plan, thr_motions *out,
+                                thr_err *err) THR_MUST_CHECK;
+void thr_motions_destroy(thr_motions *motions);
+
+/* ---- Notes on how a framework was read, in words for its user: what was merged, dropped or found
+ * odd, and what was assumed. handles.h says in which order to read the folder. */
+
+/* Appends a line for each note, or nothing. THR_ENOMEM. Takes as long as thr_frame_near. */
+thr_status thr_read_notes(const thr_frame *frame, const thr_read_report *report, thr_text *out,
+                          thr_err *err) THR_MUST_CHECK;
+
+/* What was taken of something that a file may leave open, and why: "unit", "mm", THR_FROM_NOBODY,
+ * "the file names none; --units".
+ */
+typedef struct {
+  const char *what; /* static, as the other two */
+  char value[48];
+  double number; /* the same as a number, NAN where it is a word */
+  thr_whence from;
+  char why[120]; /* in words for the user, "" = from says it all */
+} thr_assumption;
+
+enum { THR_ASSUMPTIONS = 8 };
+
+/* Fills row with what applies to this file and returns how many: its format, unit, which way is up,
+ * scale and weld tolerance always; hidden layers, parts and parallel edges where it has such. The
+ * scale's `from` is never THR_FROM_FILE. */
+int thr_read_assumptions(const thr_read_options *options, const thr_frame *frame,
+                         const thr_read_report *report, thr_assumption row[THR_ASSUMPTIONS]);
+
+/* Returns "assumed", "maker", "file" or "option". */
+const char *thr_whence_name(thr_whence from);
+
+/* ---- The documents that are made from a plan: overview, step sheets, tables, lines for CAD, mat
+ * and so on. One table says what they are called and who makes them (documents.c), for the
+ * commands, the pages and the library. handles.h says in which order to read the folder. */
+
+int thr_documents_count(void);
+const char *thr_document_type(int i);    /* as `thread draw --type` names it: "svg", "steps.csv" */
+const char *thr_document_file(int i);    /* usual file name: "overview.svg" */
+const char *thr_document_meaning(int i); /* what it is, for help */
+int thr_document_find(const char *type); /* -1: there is none of that name */
+int thr_document_sheets(void);           /* the one that takes longest: sheets.pdf */
+bool thr_document_usual(int i);   /* is it one of those that "all" means? Not the mat, which needs a
+                                     unit, nor others that few need */
+bool thr_document_threads(int i); /* does it say, step by step, how the plan is threaded? */
+
+/* How they are drawn; {0} is the usual way. */
+typedef struct {
+  double pitch_mm;            /* of the overview; 0 = automatic */
+  thr_overview_colour colour; /* of the overview */
+  double
+      kind_tolerance; /* pieces that differ by no more are of a kind, in units; 0 = the usual one */
+  double working_mm; /* cord that is worked with at a time, in the step sheets; 0 = the usual 2 m */
+  int page;          /* of step sheets and mat: thr_page_size */
+  int needles; /* that cords are threaded with in the step sheets: 1, 2 = from their middle; 0 = as
+                  the plan says */
+  thr_line_options lines;   /* of cords for CAD */
+  const thr_layout *layout; /* of the plan's framework, by thr_layout_choose: what several documents
+                               share; NULL: each lays out anew */
+  void (*pages)(const char *file, int n); /* hears how many a file of pages has; NULL = nobody */
+} thr_document_options;
+
+/* Appends document i of the plan to out. THR_EINPUT: the plan has not what it shows, or an option
+ * does not fit. out is for the caller to destroy in any case. */
+thr_status thr_document_make(const thr_plan *plan, int i, const thr_document_options *options,
+                             const thr_limits *limits, thr_text *out, thr_err *err) THR_MUST_CHECK;
+
+#endif
