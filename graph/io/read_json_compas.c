@@ -41,8 +41,8 @@ bool thr_json_parse_key(const char *key, int64_t *number)
 
 /* Sets *foot if a value says yes. A list says yes if one of its values does: the list's values are
  * the directions in which a support holds the node. */
-static thr_status take_truth(thr_json_reader *r, const thr_json_where *at, const thr_json *value,
-                             bool *foot)
+static thr_status take_truth(thr_json_reader *reader, const thr_json_where *at,
+                             const thr_json *value, bool *foot)
 {
   thr_status st = THR_OK;
 
@@ -50,13 +50,13 @@ static thr_status take_truth(thr_json_reader *r, const thr_json_where *at, const
   bool yes = thr_json_true(value);
   for (int i = 0; thr_json_is_array(value) && i < thr_json_size(value) && !st && !yes; i++) {
     thr_json_where here = {at, NULL, i};
-    st = take_truth(r, &here, thr_json_at(value, i), &yes);
+    st = take_truth(reader, &here, thr_json_at(value, i), &yes);
   }
 
   /* Words in a few languages. */
   if (thr_json_string(value) &&
       !thr_span_truth(thr_span_trim(thr_span_of(thr_json_string(value))), &yes))
-    st = thr_json_bad(r, at, "does not say whether this is a foot; use true or false");
+    st = thr_json_bad(reader, at, "does not say whether this is a foot; use true or false");
   *foot |= yes;
 
   return st;
@@ -64,17 +64,17 @@ static thr_status take_truth(thr_json_reader *r, const thr_json_where *at, const
 
 /* Finds whether a support holds its node in any direction. A support that lists no directions
  * does. */
-static thr_status take_directions(thr_json_reader *r, const thr_json_where *at,
+static thr_status take_directions(thr_json_reader *reader, const thr_json_where *at,
                                   const thr_json *support, bool *held)
 {
   const char *key;
   const thr_json *directions = THR_JSON_MEMBER(support, &key, "condition", "fixities");
   thr_json_where here = {at, key, 0};
   *held = !thr_json_is_array(directions);
-  return take_truth(r, &here, directions, held);
+  return take_truth(reader, &here, directions, held);
 }
 
-thr_status thr_json_support(thr_json_reader *r, const thr_json_where *at, const thr_json *node,
+thr_status thr_json_support(thr_json_reader *reader, const thr_json_where *at, const thr_json *node,
                             const thr_json *defaults, bool *foot)
 {
   /* The words that COMPAS, its extensions and conmech use. */
@@ -87,22 +87,22 @@ thr_status thr_json_support(thr_json_reader *r, const thr_json_where *at, const 
   for (size_t i = 0; i < sizeof said / sizeof *said && !st; i++) {
     thr_json_where here = {at, said[i], 0};
     const thr_json *own = thr_json_get(node, said[i]);
-    st = take_truth(r, &here, own ? own : thr_json_get(defaults, said[i]), foot);
+    st = take_truth(reader, &here, own ? own : thr_json_get(defaults, said[i]), foot);
   }
 
   /* A support that lists only free directions is none. */
-  if (!st && *foot) st = take_directions(r, at, node, &held);
+  if (!st && *foot) st = take_directions(reader, at, node, &held);
   *foot = *foot && held;
   return st;
 }
 
 /* Lists an object's members in *list, which the caller frees, also on failure. Keys that are all
  * integers come in numeric order, so that node i is key i. */
-static thr_status list_members(thr_json_reader *r, const thr_json *object, keyed_member **list)
+static thr_status list_members(thr_json_reader *reader, const thr_json *object, keyed_member **list)
 {
   keyed_member *member = *list = thr_calloc((size_t)thr_json_size(object), sizeof *member);
 
-  if (!member) return thr_nomem(r->err);
+  if (!member) return thr_nomem(reader->err);
   bool numbers = true;
   int n = 0;
   void *iter = NULL;
@@ -120,11 +120,11 @@ static thr_status list_members(thr_json_reader *r, const thr_json *object, keyed
 }
 
 /* Appends the nodes of an object {key: attributes} to the draft. */
-static thr_status read_compas_nodes(thr_json_reader *r, const thr_json_where *list,
+static thr_status read_compas_nodes(thr_json_reader *reader, const thr_json_where *list,
                                     const thr_json *nodes, const thr_json *defaults)
 {
   keyed_member *member;
-  thr_status st = list_members(r, nodes, &member);
+  thr_status st = list_members(reader, nodes, &member);
 
   for (int i = 0; i < thr_json_size(nodes) && !st; i++) {
     thr_json_where here = {list, member[i].key, 0};
@@ -133,10 +133,10 @@ static thr_status read_compas_nodes(thr_json_reader *r, const thr_json_where *li
 
     /* Where the node is, whether it is a support, and what it is called. */
     const char *name;
-    st = thr_json_point(r, &here, member[i].value, defaults, xyz);
-    if (!st) st = thr_json_support(r, &here, member[i].value, defaults, &foot);
-    if (!st) st = thr_json_key_name(r, &here, member[i].key, &name);
-    if (!st) st = thr_draft_add_node(r->d, xyz, name, foot, r->err);
+    st = thr_json_point(reader, &here, member[i].value, defaults, xyz);
+    if (!st) st = thr_json_support(reader, &here, member[i].value, defaults, &foot);
+    if (!st) st = thr_json_key_name(reader, &here, member[i].key, &name);
+    if (!st) st = thr_draft_add_node(reader->d, xyz, name, foot, reader->err);
   }
 
   free(member);
@@ -145,7 +145,7 @@ static thr_status read_compas_nodes(thr_json_reader *r, const thr_json_where *li
 
 /* Appends the edges of an object {u: {v: ..}}. both_ways: an adjacency list, which says each edge
  * from both ends; only one of the two counts. */
-static thr_status read_compas_edges(thr_json_reader *r, const thr_json_where *list,
+static thr_status read_compas_edges(thr_json_reader *reader, const thr_json_where *list,
                                     const thr_json *edges, bool both_ways)
 {
   void *outer = NULL;
@@ -157,21 +157,22 @@ static thr_status read_compas_edges(thr_json_reader *r, const thr_json_where *li
     void *inner = NULL;
     int a, b;
 
-    if (!thr_json_is_object(targets)) return thr_json_bad(r, &here, "not an object of neighbours");
+    if (!thr_json_is_object(targets))
+      return thr_json_bad(reader, &here, "not an object of neighbours");
 
     /* One end. */
-    thr_status st = thr_json_key_name(r, &here, from, &name);
-    if (!st) st = thr_json_find_node(r, &here, name, &a);
+    thr_status st = thr_json_key_name(reader, &here, from, &name);
+    if (!st) st = thr_json_find_node(reader, &here, name, &a);
 
     /* Its neighbours are the other ends. */
     while (!st && thr_json_next(targets, &inner, &to, &unused)) {
       thr_json_where there = {&here, to, 0};
-      st = thr_json_key_name(r, &there, to, &name);
-      if (!st) st = thr_json_find_node(r, &there, name, &b);
+      st = thr_json_key_name(reader, &there, to, &name);
+      if (!st) st = thr_json_find_node(reader, &there, name, &b);
 
       /* The edge comes from the lower end as well. */
       if (!st && both_ways && a > b && thr_json_get(thr_json_get(edges, to), from)) continue;
-      if (!st) st = thr_draft_add_edge(r->d, a, b, 0, r->err);
+      if (!st) st = thr_draft_add_edge(reader->d, a, b, 0, reader->err);
     }
     if (st) return st;
   }
@@ -179,35 +180,35 @@ static thr_status read_compas_edges(thr_json_reader *r, const thr_json_where *li
   return THR_OK;
 }
 
-/* Appends a face, which is a list of vertices, to r->faces. */
-static thr_status read_compas_face(thr_json_reader *r, const thr_json_where *at,
+/* Appends a face, which is a list of vertices, to reader->faces. */
+static thr_status read_compas_face(thr_json_reader *reader, const thr_json_where *at,
                                    const thr_json *face)
 {
   int n = thr_json_size(face), *corner = thr_calloc((size_t)n, sizeof *corner);
 
-  if (!corner) return thr_nomem(r->err);
+  if (!corner) return thr_nomem(reader->err);
   thr_status st =
-      thr_json_is_array(face) ? THR_OK : thr_json_bad(r, at, "not a face; list its vertices");
+      thr_json_is_array(face) ? THR_OK : thr_json_bad(reader, at, "not a face; list its vertices");
 
   for (int i = 0; i < n && !st; i++) {
     thr_json_where here = {at, NULL, i};
-    st = thr_json_reference(r, &here, thr_json_at(face, i), &corner[i]);
+    st = thr_json_reference(reader, &here, thr_json_at(face, i), &corner[i]);
   }
 
-  if (!st) st = thr_faces_add(&r->faces, corner, n, r->err);
+  if (!st) st = thr_faces_add(&reader->faces, corner, n, reader->err);
   free(corner);
   return st;
 }
 
 /* Appends the faces of a list (COMPAS 2) or an object (COMPAS 1). */
-static thr_status read_compas_faces(thr_json_reader *r, const thr_json_where *list,
+static thr_status read_compas_faces(thr_json_reader *reader, const thr_json_where *list,
                                     const thr_json *faces)
 {
   thr_status st = THR_OK;
 
   for (int i = 0; thr_json_is_array(faces) && i < thr_json_size(faces) && !st; i++) {
     thr_json_where here = {list, NULL, i};
-    st = read_compas_face(r, &here, thr_json_at(faces, i));
+    st = read_compas_face(reader, &here, thr_json_at(faces, i));
   }
 
   /* In an object each face has a key. */
@@ -217,13 +218,13 @@ static thr_status read_compas_faces(thr_json_reader *r, const thr_json_where *li
 
   while (!st && thr_json_next(faces, &iter, &key, &face)) {
     thr_json_where here = {list, key, 0};
-    st = read_compas_face(r, &here, face);
+    st = read_compas_face(reader, &here, face);
   }
 
   return st;
 }
 
-thr_status thr_json_read_compas(thr_json_reader *r, const thr_json_where *at,
+thr_status thr_json_read_compas(thr_json_reader *reader, const thr_json_where *at,
                                 const thr_json *object)
 {
   /* Networks have nodes and edges, meshes vertices and faces. */
@@ -235,8 +236,8 @@ thr_status thr_json_read_compas(thr_json_reader *r, const thr_json_where *at,
                  *faces = thr_json_get(object, "face");
 
   thr_json_where node_list = {at, node_key, 0}, face_list = {at, "face", 0};
-  thr_status st = read_compas_nodes(r, &node_list, nodes, defaults);
-  if (!st) st = thr_names_build(&r->names, r->d, r->file, r->err);
+  thr_status st = read_compas_nodes(reader, &node_list, nodes, defaults);
+  if (!st) st = thr_names_build(&reader->names, reader->d, reader->file, reader->err);
 
   /* Only without edges and faces half-edges are read, because they repeat the sides of faces. */
   if (!st && thr_json_size(edges) == 0 && thr_json_size(faces) == 0)
@@ -246,8 +247,8 @@ thr_status thr_json_read_compas(thr_json_reader *r, const thr_json_where *at,
 
   /* "edge" has each edge once. */
   bool both_ways = strcmp(edge_key, "edge") != 0;
-  if (!st) st = read_compas_edges(r, &edge_list, edges, both_ways);
-  return st ? st : read_compas_faces(r, &face_list, faces);
+  if (!st) st = read_compas_edges(reader, &edge_list, edges, both_ways);
+  return st ? st : read_compas_faces(reader, &face_list, faces);
 }
 
 /* ---- lines: [[[x, y, z], [x, y, z]], ..] or COMPAS Line and Polyline objects, in a list or an
@@ -283,36 +284,40 @@ const thr_json *thr_json_points_of_line(const thr_json *value, const char *const
 
 /* Appends a line or polyline: each of its points becomes a node, to be welded later, and each two
  * consecutive points an edge. */
-static thr_status read_line(thr_json_reader *r, const thr_json_where *at, const thr_json *value)
+static thr_status read_line(thr_json_reader *reader, const thr_json_where *at,
+                            const thr_json *value)
 {
   const char *const *end;
   const thr_json *points = thr_json_points_of_line(value, &end);
   bool two = thr_json_is_object(points);
   int n = two ? 2 : thr_json_size(points);
 
-  if (n < 2) return thr_json_bad(r, at, "not a line; give at least two points");
+  if (n < 2) return thr_json_bad(reader, at, "not a line; give at least two points");
   thr_status st = THR_OK;
 
   /* Points and edges in turn. */
   for (int i = 0; i < n && !st; i++) {
     thr_json_where here = {at, two ? end[i] : NULL, i};
     double xyz[3];
-    st = thr_json_point(r, &here, two ? thr_json_get(points, end[i]) : thr_json_at(points, i), NULL,
-                        xyz);
-    if (!st) st = thr_draft_add_node(r->d, xyz, NULL, false, r->err);
-    if (!st && i) st = thr_draft_add_edge(r->d, r->d->n_nodes - 2, r->d->n_nodes - 1, 0, r->err);
+    st = thr_json_point(reader, &here, two ? thr_json_get(points, end[i]) : thr_json_at(points, i),
+                        NULL, xyz);
+    if (!st) st = thr_draft_add_node(reader->d, xyz, NULL, false, reader->err);
+    if (!st && i)
+      st = thr_draft_add_edge(reader->d, reader->d->n_nodes - 2, reader->d->n_nodes - 1, 0,
+                              reader->err);
   }
 
   return st;
 }
 
-thr_status thr_json_read_lines(thr_json_reader *r, const thr_json_where *at, const thr_json *list)
+thr_status thr_json_read_lines(thr_json_reader *reader, const thr_json_where *at,
+                               const thr_json *list)
 {
   thr_status st = THR_OK;
 
   for (int i = 0; thr_json_is_array(list) && i < thr_json_size(list) && !st; i++) {
     thr_json_where here = {at, NULL, i};
-    st = read_line(r, &here, thr_json_at(list, i));
+    st = read_line(reader, &here, thr_json_at(list, i));
   }
 
   /* Lines in an object. */
@@ -322,7 +327,7 @@ thr_status thr_json_read_lines(thr_json_reader *r, const thr_json_where *at, con
 
   while (!st && thr_json_next(list, &iter, &key, &line)) {
     thr_json_where here = {at, key, 0};
-    st = read_line(r, &here, line);
+    st = read_line(reader, &here, line);
   }
 
   return st;
@@ -356,34 +361,39 @@ bool thr_json_is_geometry(const thr_json *value)
 }
 
 /* Appends the lines that are `depth` lists deep. */
-static thr_status read_nested_lines(thr_json_reader *r, const thr_json_where *at,
+static thr_status read_nested_lines(thr_json_reader *reader, const thr_json_where *at,
                                     const thr_json *value, int depth)
 {
-  if (depth == 1) return read_line(r, at, value);
-  thr_status st = thr_json_is_array(value) ? THR_OK : thr_json_bad(r, at, "not a list of lines");
+  if (depth == 1) return read_line(reader, at, value);
+  thr_status st =
+      thr_json_is_array(value) ? THR_OK : thr_json_bad(reader, at, "not a list of lines");
+
   for (int i = 0; i < thr_json_size(value) && !st; i++) {
     thr_json_where here = {at, NULL, i};
-    st = read_nested_lines(r, &here, thr_json_at(value, i), depth - 1);
+    st = read_nested_lines(reader, &here, thr_json_at(value, i), depth - 1);
   }
+
   return st;
 }
 
-thr_status thr_json_read_geometry(thr_json_reader *r, const thr_json_where *at,
+thr_status thr_json_read_geometry(thr_json_reader *reader, const thr_json_where *at,
                                   const thr_json *object)
 {
   thr_json_where here = {at, "coordinates", 0};
   const int depth = depth_of_geometry(object);
 
   /* Points are counted as not used. */
-  if (depth > 0) return read_nested_lines(r, &here, thr_json_get(object, "coordinates"), depth);
-  thr_report_skip(r->report, thr_span_of(thr_json_string(thr_json_get(object, "type"))));
+  if (depth > 0)
+    return read_nested_lines(reader, &here, thr_json_get(object, "coordinates"), depth);
+
+  thr_report_skip(reader->report, thr_span_of(thr_json_string(thr_json_get(object, "type"))));
   return THR_OK;
 }
 
 /* ---- assembly_instances (node_list) and conmech (nodes) ---- */
 
 /* Appends the nodes of a list; a node without an id is called by its number. */
-static thr_status read_assembly_nodes(thr_json_reader *r, const thr_json_where *list,
+static thr_status read_assembly_nodes(thr_json_reader *reader, const thr_json_where *list,
                                       const thr_json *nodes)
 {
   for (int i = 0; i < thr_json_size(nodes); i++) {
@@ -394,8 +404,8 @@ static thr_status read_assembly_nodes(thr_json_reader *r, const thr_json_where *
     bool foot;
 
     /* Place and support. */
-    thr_status st = thr_json_point(r, &point, thr_json_get(node, "point"), NULL, xyz);
-    if (!st) st = thr_json_support(r, &here, node, NULL, &foot);
+    thr_status st = thr_json_point(reader, &point, thr_json_get(node, "point"), NULL, xyz);
+    if (!st) st = thr_json_support(reader, &here, node, NULL, &foot);
     if (st) return st;
 
     /* Its name. */
@@ -404,16 +414,16 @@ static thr_status read_assembly_nodes(thr_json_reader *r, const thr_json_where *
     char number[16];
     snprintf(number, sizeof number, "%d", i);
     name = number;
-    if (id) st = thr_json_name_of(r, &id_here, id, &name);
-    if (!st) st = thr_draft_add_node(r->d, xyz, name, foot, r->err);
+    if (id) st = thr_json_name_of(reader, &id_here, id, &name);
+    if (!st) st = thr_draft_add_node(reader->d, xyz, name, foot, reader->err);
     if (st) return st;
   }
 
-  return thr_names_build(&r->names, r->d, r->file, r->err);
+  return thr_names_build(&reader->names, reader->d, reader->file, reader->err);
 }
 
 /* Appends the edges of a list, each with the ids of two nodes. */
-static thr_status read_assembly_elements(thr_json_reader *r, const thr_json_where *list,
+static thr_status read_assembly_elements(thr_json_reader *reader, const thr_json_where *list,
                                          const thr_json *elements)
 {
   thr_status st = THR_OK;
@@ -426,19 +436,19 @@ static thr_status read_assembly_elements(thr_json_reader *r, const thr_json_wher
 
     /* Exactly two ends. */
     if (!thr_json_is_array(ends) || thr_json_size(ends) != 2)
-      return thr_json_bad(r, &there, "not two node numbers");
+      return thr_json_bad(reader, &there, "not two node numbers");
     int end[2] = {0, 0};
     for (int i = 0; i < 2 && !st; i++) {
       thr_json_where side = {&there, NULL, i};
-      st = thr_json_reference(r, &side, thr_json_at(ends, i), &end[i]);
+      st = thr_json_reference(reader, &side, thr_json_at(ends, i), &end[i]);
     }
-    if (!st) st = thr_draft_add_edge(r->d, end[0], end[1], 0, r->err);
+    if (!st) st = thr_draft_add_edge(reader->d, end[0], end[1], 0, reader->err);
   }
 
   return st;
 }
 
-thr_status thr_json_read_assembly(thr_json_reader *r, const thr_json_where *at,
+thr_status thr_json_read_assembly(thr_json_reader *reader, const thr_json_where *at,
                                   const thr_json *object)
 {
   const char *node_key, *element_key, *unit_key;
@@ -450,18 +460,18 @@ thr_status thr_json_read_assembly(thr_json_reader *r, const thr_json_where *at,
                  support_list = {at, "supports", 0};
 
   /* Nodes first, so that the elements can name them. */
-  thr_status st = thr_json_units(r, at, unit_key, units);
-  if (!st) st = read_assembly_nodes(r, &node_list, nodes);
-  if (!st) st = read_assembly_elements(r, &element_list, elements);
+  thr_status st = thr_json_units(reader, at, unit_key, units);
+  if (!st) st = read_assembly_nodes(reader, &node_list, nodes);
+  if (!st) st = read_assembly_elements(reader, &element_list, elements);
 
   /* conmech lists the supports by themselves. */
   for (int i = 0; i < thr_json_size(supports) && !st; i++) {
     thr_json_where here = {&support_list, NULL, i}, id = {&here, "node_ind", 0};
     int v = 0;
     bool held;
-    st = thr_json_reference(r, &id, thr_json_get(thr_json_at(supports, i), "node_ind"), &v);
-    if (!st) st = take_directions(r, &here, thr_json_at(supports, i), &held);
-    if (!st) r->d->node[v].foot |= held;
+    st = thr_json_reference(reader, &id, thr_json_get(thr_json_at(supports, i), "node_ind"), &v);
+    if (!st) st = take_directions(reader, &here, thr_json_at(supports, i), &held);
+    if (!st) reader->d->node[v].foot |= held;
   }
 
   return st;
