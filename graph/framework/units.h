@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Units of length: which words a file may use for them, and how long they are. */
+/* Units of length: which words a file may use for a unit, and how long a unit is in mm. */
 #ifndef THR_UNITS_H
 #define THR_UNITS_H
 

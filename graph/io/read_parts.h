@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the readers share: scanners of text and tables, parts, faces, curves, links between records,
- * the table of formats. */
+/* Declares what the readers share and nobody else sees: scanners of text and tables, parts, faces,
+ * curves, links between records, the table of formats. The room's head is graph/io/read.h. */
 #ifndef THR_READ_PARTS_H
 #define THR_READ_PARTS_H
 

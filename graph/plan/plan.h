@@ -1,6 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The threading plan: the small vocabulary through which all stages meet. An objective makes one,
- * the checker, eval, compare and draw read it. docs/plan-format.md is the schema of its JSON. */
+/* The threading plan: the vocabulary through which all stages meet. The planner makes a plan; the
+ * checker, eval, compare and draw read it. docs/plan-format.md is the schema of its JSON.
+ *
+ * The room graph/plan holds what is asked of a plan, the plan itself with all that is claimed and
+ * proved of it, and what follows from its cords without any search. Lengths are in the framework's
+ * units, sizes of cord and bead in mm, angles in rad, forces in N.
+ *
+ * Read in this order:
+ *   request.h, request.c         what is asked of a plan
+ *   plan.h, plan.c               cords, claims, metrics
+ *   turning_proof.h, turning.c   proofs of least turning: the model and its columns
+ *   walk_proof.h                 proofs about the longest or hardest cord
+ *   physics.h                    cord and bead: physics.c, friction.c, least_pull.c, ..
+ *   evaluation.h, schedule.h     results of eval: evaluation.c, standing.c, schedule.c
+ *   plan_measures.h, advice.h    what follows from the cords: chains.c, channels.c, seating.c, ..
+ *   plan_fields.h                plan.json: request_fields.c, plan_read.c, plan_write.c, .. */
 #ifndef THR_PLAN_H
 #define THR_PLAN_H
 

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is done to the cords after threading, in order: pulled, gripped on the way, let down,
- * knotted. The tension that it leaves in every pass follows from it (eval/cord/history.c), and the
- * checker works it out again.
+ * knotted. The tensions that a schedule leaves in every pass follow from it (eval/cord/history.c),
+ * and the checker computes them again.
  *
- *   A: grip 37 18.5 from start   is drawn out at its pass 37, from the side of its start, with 18.5
- * N A: pull end 20               its end is pulled with 20 N, and held A: release end 2 its end is
- * let down to 2 N A: knot end 0.5              its end is tied; the knot gives way by 0.5 mm B:
- * none                      stays slack: its only step */
+ *   A: grip 37 18.5 from start   is drawn out at its pass 37, from the side of its start, by 18.5 N
+ *   A: pull end 20               its end is pulled with 20 N, and held
+ *   A: release end 2             its end is let down to 2 N
+ *   A: knot end 0.5              its end is tied; the knot gives way by 0.5 mm
+ *   B: none                      stays slack: its only step */
 #ifndef THR_SCHEDULE_H
 #define THR_SCHEDULE_H
 
