@@ -494,7 +494,6 @@ static thr_status part_edge(thr_draft *draft, int e, double share, int number, t
   draft->edge[draft->n_edges - 1].cover = edge.cover;
   draft->edge[draft->n_edges - 1].capacity = edge.capacity;
   draft->edge[e].b = draft->n_nodes - 1;
-
   draft->edge[e].length = share * length;
   return THR_OK;
 }
@@ -548,7 +547,6 @@ static thr_status allocate(thr_frame *frame, int n_nodes, int n_edges, thr_err *
   frame->xyz = thr_calloc((size_t)n_nodes, sizeof *frame->xyz);
   frame->foot = thr_calloc((size_t)n_nodes, sizeof *frame->foot);
   frame->name = thr_calloc((size_t)n_nodes, sizeof *frame->name);
-
   frame->edge = thr_calloc((size_t)n_edges, sizeof *frame->edge);
   frame->length = thr_calloc((size_t)n_edges, sizeof *frame->length);
   frame->first = thr_calloc((size_t)n_nodes + 1, sizeof *frame->first);
@@ -918,7 +916,6 @@ void thr_frame_destroy(thr_frame *frame)
   free(frame->xyz);
   free(frame->cover);
   free(frame->capacity);
-
   free(frame->foot);
   free(frame->edge);
   free(frame->length);

@@ -226,7 +226,6 @@ static thr_status fill_grids(near_search *search)
   thr_status st =
       last && search->nodes.start && search->edges.start ? THR_OK : thr_nomem(search->err);
   if (!st) put_nodes(search);
-
   if (!st) st = reserve(search, &search->nodes);
   if (!st) put_nodes(search);
   if (!st) put_edges(search, last);

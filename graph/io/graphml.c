@@ -65,7 +65,6 @@ static void add_key(graphml_reader *reader)
   thr_text_append_bytes(&reader->keys, reader->from.data, reader->from.length);
   thr_text_append_bytes(&reader->keys, "", 1);
   thr_text_append_bytes(&reader->keys, reader->to.data, reader->to.length);
-
   thr_text_append_bytes(&reader->keys, "", 1);
 }
 
@@ -223,7 +222,6 @@ static thr_status parse(thr_draft *draft, thr_read_report *report, const char *t
   report->no_z = !reader.has_z;
   thr_links_destroy(&reader.links);
   thr_text_destroy(&reader.keys);
-
   thr_text_destroy(&reader.key);
   thr_text_destroy(&reader.name);
   thr_text_destroy(&reader.from);

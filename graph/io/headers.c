@@ -184,6 +184,7 @@ int thr_header_axis(const thr_header *header)
     if (word[i] >= 'x' && word[i] <= 'z' && made_of(word, i, beside_axis) &&
         made_of(word + i + 1, strlen(word + i + 1), beside_axis))
       return word[i] - 'x';
+
   return -1;
 }
 

@@ -88,6 +88,8 @@ static uint64_t pointing(unsigned tag, int64_t distance, unsigned size)
 thr_json_type thr_json_typeof(const thr_json *value)
 {
   if (!value) return THR_JSON_NULL;
+
+  /* Words are three types; any other tag is one. */
   switch (tag_of(value)) {
   case TAG_WORD:
     return payload_of(value) == WORD_NULL  ? THR_JSON_NULL
@@ -138,6 +140,7 @@ static const thr_json *find(const thr_json *object, size_t n, const char *key)
   const thr_json *order = key_at(object, n);
   size_t low = 0, high = n;
 
+  /* The members' numbers are sorted by key. */
   while (low < high) {
     size_t middle = (low + high) / 2;
     const thr_json *found = key_at(object, (size_t)order[middle].bits);
@@ -250,6 +253,7 @@ const char *thr_json_unknown(const thr_json *object, const char *const *known)
   const char *key;
   const thr_json *value;
 
+  /* Each key must be among those known. */
   while (thr_json_next(object, &iter, &key, &value)) {
     int i = 0;
     while (known[i] && strcmp(known[i], key) != 0)
@@ -328,7 +332,7 @@ static thr_status expected(const json_parsing *parsing, const char *what)
   size_t n = 0, left = (size_t)(parsing->end - parsing->at);
   char near[120];
 
-  /* Show one word, and no part of a letter. */
+  /* Show one word or sign, and no part of a letter. */
   while (n < left && n < SHOWN && parsing->at[n] &&
          (n == 0 || !strchr(" \t\r\n,:[]{}\"", parsing->at[n])))
     n++;
@@ -428,12 +432,14 @@ static thr_status take_escape(json_parsing *parsing, char **out)
                                                   ? strchr(letter, *parsing->at)
                                                   : NULL;
 
+  /* A short escape. */
   if (found) {
     *(*out)++ = meant[found - letter];
     parsing->at++;
     return THR_OK;
   }
 
+  /* Or \u with four digits. */
   if (parsing->at == parsing->end || *parsing->at != 'u')
     return fail_at(parsing, place, "invalid escape");
 
@@ -543,12 +549,14 @@ static bool read_whole(const char *c, const char *end, int64_t *whole)
   bool negative = *c == '-';
   *whole = 0;
 
+  /* *whole - digit must not pass INT64_MIN. */
   for (c += negative; c < end; c++) {
     int digit = *c - '0';
     if (*whole < (INT64_MIN + digit) / 10) return false;
     *whole = 10 * *whole - digit;
   }
 
+  /* The negative end has one number more. */
   if (!negative && *whole == INT64_MIN) return false;
   if (!negative) *whole = -*whole;
   return true;
@@ -633,6 +641,7 @@ static thr_status take_number(json_parsing *parsing, uint64_t *bits)
     return read_whole(begin, end, &whole) ? put_whole(parsing, whole, bits)
                                           : fail_at(parsing, begin, "too big integer");
 
+  /* Reals are read exactly (graph/number.h), and may be beyond a double. */
   if (!thr_number_parse(begin, (size_t)(end - begin), &value))
     return fail_at(parsing, begin, "real number overflow");
 
@@ -770,6 +779,7 @@ static thr_status take_object(json_parsing *parsing, uint64_t *bits)
   size_t first = parsing->open.n;
   thr_status st = THR_OK;
 
+  /* Members, which stay among the open values until the object is complete. */
   if (!take(parsing, '}')) {
     do
       st = take_member(parsing);
@@ -838,6 +848,7 @@ static thr_status parse_document(json_parsing *parsing)
 {
   uint64_t root = 0;
 
+  /* Only blanks may come before and after. */
   skip_blanks(parsing);
   if (parsing->at == parsing->end)
     return thr_fail(parsing->err, THR_EINPUT, "%s:1: the file is empty", parsing->name);

@@ -17,7 +17,6 @@ thr_status thr_links_add(thr_links *links, const char *from, const char *to, int
   thr_text_append_bytes(&links->names, "", 1);
   link.to = links->names.length;
   thr_text_append_clean(&links->names, to);
-
   thr_text_append_bytes(&links->names, "", 1);
   if (links->names.failed) return thr_nomem(err);
   links->link[links->n++] = link;

@@ -20,6 +20,7 @@ thr_status thr_parts_add(thr_parts *parts, thr_span name, int *part, thr_err *er
   *part = parts->n++;
   thr_text_append_bytes(&parts->names, name.s, name.n);
   thr_text_byte(&parts->names, '\0');
+
   return parts->names.failed ? thr_nomem(err) : THR_OK;
 }
 

@@ -382,7 +382,7 @@ static bool find_text_column(const csv_reader *table, const thr_header *header, 
 static thr_status take_units(csv_reader *table, const thr_header *header)
 {
   for (int i = 0; i < table->n_fields; i++) {
-    /* Only columns that are read count. */
+    /* Only columns that are read count; of edges by names that is the length alone. */
     bool used = i == table->columns.length;
     for (int k = 0; k < 6 && !used; k++)
       used = table->columns.kind != EDGE_ROWS && i == table->columns.xyz[k];
@@ -623,6 +623,7 @@ static void watch_dot(csv_reader *table, thr_span number)
 /* Reads three coordinates from the columns at[3]. An empty z is 0 and is counted. */
 static thr_status read_coordinates(csv_reader *table, const int *at, double xyz[3])
 {
+  /* Each coordinate must be a number, but for z. */
   for (int i = 0; i < 3; i++) {
     thr_span field = field_at(table, at[i]);
     xyz[i] = 0;
@@ -711,6 +712,7 @@ static thr_status add_node(csv_reader *table)
   if (!st) st = read_foot(table, &foot);
   if (st) return st;
 
+  /* A column of names must have one for each node. */
   thr_span id = field_at(table, table->columns.id);
   if (table->columns.id >= 0 && id.n == 0)
     return thr_scan_fail(&table->scan, table->err, "the node has no name in column %d",
@@ -734,6 +736,7 @@ static thr_status add_edge(csv_reader *table)
 {
   int end[2];
 
+  /* The nodes must be known by now. */
   for (int i = 0; i < 2; i++) {
     thr_span id = field_at(table, table->columns.ends[i]);
     thr_status st = node_in(table, id, &end[i]);
@@ -766,12 +769,14 @@ static thr_status end_point(csv_reader *table, const double *number, int n, bool
 {
   const double xyz[3] = {number[0], number[1], n > 2 && !measured ? number[2] : 0};
 
+  /* A second number after z is a measure, too. */
   table->has_z |= n > 2 && !measured;
   thr_status st = n < 2 ? thr_scan_fail(&table->scan, table->err,
                                         "a point of one number; give x and y or x, y and z")
                         : THR_OK;
   if (!st) st = thr_draft_add_node(table->draft, xyz, NULL, false, table->err);
 
+  /* The first point of a line has none before it. */
   if (!st && *before >= 0)
     st = thr_draft_add_edge(table->draft, *before, table->draft->n_nodes - 1, 0, table->err);
   *before = table->draft->n_nodes - 1;
@@ -942,6 +947,8 @@ static void note_unused(csv_reader *table)
   for (int i = 0; i < table->n_fields; i++) {
     bool used = i == c->id || i == c->foot || i == c->length || i == c->cover || i == c->capacity ||
                 i == c->text;
+
+    /* In rows of edges the coordinates mean nothing, in other rows the ends. */
     for (int k = 0; k < 6; k++)
       used |= c->kind != EDGE_ROWS && i == c->xyz[k];
     for (int k = 0; k < 2; k++)
@@ -965,6 +972,7 @@ static void note_unused(csv_reader *table)
  * learnt from. */
 static thr_status add_row(csv_reader *table)
 {
+  /* Without a header the number of fields tells what a row is. */
   if (!table->columns.header && table->n_fields != table->columns.width &&
       !(table->expected == EDGE_TABLE && table->n_fields >= 2))
     return thr_scan_fail(&table->scan, table->err, "%d fields where the rows before have %d; %s",
@@ -1005,6 +1013,7 @@ static thr_status check_normals(const csv_reader *table)
   const int n = table->draft->n_nodes / 2;
   bool one_place = true, all_unit = true, joined = false;
 
+  /* Every second point must have length 1, and some first point must differ. */
   for (int i = 0; i < n; i++) {
     const double *first = table->draft->node[2 * i].xyz;
     if (!has_length_one(table->draft->node[2 * i + 1].xyz)) return THR_OK;
@@ -1043,6 +1052,7 @@ static thr_status read_table(csv_reader *table, const char *text, size_t n, cons
   *content = THR_CSV_WHOLE;
   thr_status st = thr_scan_start(&table->scan, text, n, name, table->err);
 
+  /* Row by row; each may change what the next ones are. */
   while (!st && !(st = next_row(table, &more)) && more) {
     const row_kind before = table->columns.kind;
     if ((st = learn(table, &used))) break;
@@ -1057,6 +1067,7 @@ static thr_status read_table(csv_reader *table, const char *text, size_t n, cons
     if (!used) st = add_row(table);
   }
 
+  /* What is only known after the last row. */
   if (!st && table->columns.kind == NO_ROWS)
     st = thr_scan_fail(&table->scan, table->err, "the table has no rows");
 
@@ -1093,6 +1104,7 @@ static thr_status parse(thr_draft *draft, thr_read_report *report, const char *t
   thr_status st = finish(&table, read_table(&table, text, n, name, &content));
   if (st || content == THR_CSV_WHOLE) return st;
 
+  /* The draft has half of a framework at most. */
   thr_draft_destroy(draft);
   list_columns(&table, seen, sizeof seen);
 
@@ -1130,12 +1142,12 @@ thr_status thr_csv_parse_pair(thr_draft *draft, thr_read_report *report, const t
   if (!st && draft->n_nodes == 0)
     st = thr_fail(err, THR_EINPUT, "%s: no row with a node's coordinates", nodes_name);
 
+  /* The edges see the nodes by their names. */
   if (!st) st = thr_names_build(&edge_table.names, draft, nodes_name, err);
   if (!st) st = read_table(&edge_table, edges->data, edges->length, edges_name, &content);
   thr_names_destroy(&node_table.names);
   thr_names_destroy(&edge_table.names);
   thr_text_destroy(&node_table.scratch);
-
   thr_text_destroy(&edge_table.scratch);
   if (st) thr_draft_destroy(draft);
   return st;

@@ -182,6 +182,7 @@ static thr_status take_entity(dxf_reader *reader)
   reader->n_pairs = 0;
   thr_status st = read_next_pair(reader);
 
+  /* All pairs up to the next entity; their number is not known before. */
   while (!st && reader->next.code != 0) {
     st = thr_grow(&reader->pair, reader->n_pairs, &reader->pairs_capacity, sizeof *reader->pair,
                   reader->err);
@@ -657,6 +658,7 @@ static thr_status read_arc(dxf_reader *reader)
   double radius, from, to;
   thr_status st = own_coordinates(reader, &own);
 
+  /* Centre, radius, and angles in degrees. */
   if (!st) st = read_point(reader, 10, e.center);
   if (!st) st = read_number(reader, 40, 0, &radius);
   if (!st) st = read_number(reader, 50, 0, &from);
@@ -667,6 +669,7 @@ static thr_status read_arc(dxf_reader *reader)
   if (fabs(from) > 1e6 || fabs(to) > 1e6)
     return fail(reader, "has angles of more than a million degrees");
 
+  /* A circle is an ellipse with equal axes. */
   e.major[0] = e.minor[1] = radius;
   return add_ellipse(reader, &own, &e, from * THR_PI / 180, to * THR_PI / 180);
 }
@@ -679,6 +682,7 @@ static thr_status read_ellipse(dxf_reader *reader)
   double ratio, from, to, normal[3];
   thr_status st = read_point(reader, 10, e.center);
 
+  /* Half of the major axis, the normal, the ratio of the axes, and the parameters in rad. */
   if (!st) st = read_point(reader, 11, e.major);
   if (!st) st = read_point(reader, 210, normal);
   if (!st) st = read_number(reader, 40, 1, &ratio);
@@ -686,6 +690,7 @@ static thr_status read_ellipse(dxf_reader *reader)
   if (!st) st = read_number(reader, 42, 2 * THR_PI, &to);
   if (st) return st;
 
+  /* As of an ARC's angles. */
   if (fabs(from) > 1e6 || fabs(to) > 1e6)
     return fail(reader, "has parameters of more than a million");
 
@@ -848,6 +853,8 @@ static thr_status add_mesh(dxf_reader *reader, int m, int n, bool closed_m, bool
 
   if (m < 1 || n < 1 || (int64_t)m * n > reader->n_vertices)
     return fail(reader, "has fewer vertices than its mesh needs");
+
+  /* From each vertex an edge to the next row and one to the next column. */
   for (int i = 0; i < m && !st; i++)
     for (int j = 0; j < n && !st; j++) {
       const double *here = reader->vertex[i * n + j];
@@ -1007,6 +1014,8 @@ static thr_status read_layer(dxf_reader *reader)
   thr_status st = read_int(reader, 70, &flags);
 
   if (!st) st = read_int(reader, 62, &colour);
+
+  /* A layer that is shown, or would be read anyway, needs no entry. */
   if (st || !name || !((flags & 1) || colour < 0) || reader->draft->all_layers ||
       reader->parts.asked)
     return st;
@@ -1183,6 +1192,7 @@ static thr_status find_block(const dxf_reader *reader, thr_span name, const bloc
     if (twice) break;
   }
 
+  /* Nobody can know which of two blocks is meant. */
   if (!twice) return THR_OK;
   return thr_fail(reader->err, THR_EINPUT,
                   "%s: two blocks are called '%.*s', and it is inserted; rename one of them",
@@ -1229,6 +1239,7 @@ static thr_status place_run(dxf_reader *reader, const shape *piece, const placin
   double at[3];
   thr_status st = THR_OK;
 
+  /* Blocks may be inserted in each other, so that a small file makes many points, or huge ones. */
   for (int i = piece->first; i < piece->last && !st; i++) {
     if (reader->sites.n >= MOST_PLACED)
       return thr_fail(reader->err, THR_EINPUT, "%s: more than %d points with all inserted blocks",
@@ -1248,6 +1259,7 @@ static thr_status place_run(dxf_reader *reader, const shape *piece, const placin
   if (st) return st;
   reader->length[reader->faces.n] = 0;
 
+  /* A curve may be stretched. */
   if (piece->curve_length > 0)
     st = placed_length(reader, piece, place, &reader->length[reader->faces.n]);
   if (st) return st;
@@ -1350,6 +1362,7 @@ static thr_status place_model(dxf_reader *reader)
  * face. */
 static thr_status fill_draft(dxf_reader *reader)
 {
+  /* Nothing was placed: say why. */
   if (reader->faces.n == 0 && reader->report->hidden_edges)
     return thr_fail(reader->err, THR_EINPUT,
                     "%s: all its edges are on hidden layers; --layers all reads them",
@@ -1372,6 +1385,7 @@ static thr_status fill_draft(dxf_reader *reader)
   thr_status st = node ? thr_sites_finish(&reader->sites, node, reader->draft, reader->err)
                        : thr_nomem(reader->err);
 
+  /* Runs of two are edges of their own length, longer ones faces. */
   for (int i = 0; i < reader->faces.n && !st; i++) {
     int first = i ? reader->faces.end[i - 1] : 0, n = reader->faces.end[i] - first;
     int *corner = reader->faces.corner + first;
@@ -1427,7 +1441,6 @@ static void destroy(dxf_reader *reader)
   free(reader->unused);
   free(reader->hidden);
   free(reader->vertex);
-
   free(reader->bulge);
   free(reader->length);
   thr_sites_destroy(&reader->sites);
@@ -1450,6 +1463,7 @@ static thr_status parse(thr_draft *draft, thr_read_report *report, const char *t
   if (n >= sizeof binary - 1 && memcmp(text, binary, sizeof binary - 1) == 0)
     st = thr_fail(err, THR_EINPUT, "%s: binary DXF is not read; export it as text", name);
 
+  /* Read everything, then place: layers and blocks may be used before they are known. */
   if (!st) st = thr_scan_start(&reader.scan, text, n, name, err);
   if (!st) st = read_sections(&reader);
   if (!st) st = choose_layers(&reader);

@@ -277,6 +277,8 @@ static double component(const elements *list, int i, size_t k)
   /* From the last byte, the highest one, to the first. */
   for (size_t j = size_of(list->type); j-- > 0;)
     bits = bits << 8 | bytes[j];
+
+  /* By type; normalized numbers are scaled. */
   switch (list->type) {
   case FLOAT: memcpy(&real, &bits, sizeof real); return (double)real;
   case BYTE: return list->normalized ? fmax((double)(int8_t)bits / 127, -1) : (double)(int8_t)bits;
@@ -382,6 +384,8 @@ static thr_status add_sites(gltf_reader *reader, const elements *position, const
     /* Transform in double precision, whatever the file's type. */
     for (size_t k = 0; k < 3; k++)
       at[k] = component(position, i, k);
+
+    /* The place is an affine map. */
     for (int k = 0; k < 3; k++) {
       out[k] =
           place->m[k][0] * at[0] + place->m[k][1] * at[1] + place->m[k][2] * at[2] + place->m[k][3];
@@ -559,6 +563,8 @@ static thr_status find_instances(gltf_reader *reader, int i, const thr_json *ext
                       "%s: nodes[%d]: EXT_mesh_gpu_instancing has %d instances by %.40s and %d by "
                       "%.40s; export it again",
                       reader->file, i, *n, first, count, key);
+
+    /* Translation, rotation and scale are used, with 3, 4 and 3 components. */
     *n = count;
     for (int k = 0; k < 3 && !st; k++)
       if (strcmp(key, names[k]) == 0) st = find_elements(reader, a, k == 1 ? 4 : 3, &found[k]);
@@ -623,6 +629,8 @@ static thr_status read_node(gltf_reader *reader, int i, const placing *outer, in
   thr_status st = place_node(reader, i, node, &own);
   if (st) return st;
   here = compose(outer, &own);
+
+  /* Its mesh, then its children, all placed by the node. */
   if (thr_json_get(node, "mesh")) st = read_mesh(reader, i, node, &here);
 
   for (int k = 0; k < thr_json_size(children) && !st; k++)
@@ -639,6 +647,8 @@ static thr_status name_parts(gltf_reader *reader, const thr_json *nodes)
   thr_status st = THR_OK;
 
   if (!(reader->part = thr_calloc((size_t)n, sizeof *reader->part))) return thr_nomem(reader->err);
+
+  /* Nodes without a mesh are no parts. */
   for (int i = 0; i < n && !st; i++) {
     const thr_json *node = thr_json_at(nodes, i);
     const char *name = thr_json_string(thr_json_get(node, "name"));
@@ -753,6 +763,7 @@ static thr_status check_document(const gltf_reader *reader)
   thr_text names = {0};
   int n = 0, n_named = 0;
 
+  /* Version 1 is another format. */
   if (!version || version[0] != '2')
     return thr_fail(reader->err, THR_EINPUT,
                     "%s: this is no glTF of version 2; export it as glTF 2.0 or GLB", reader->file);
@@ -770,6 +781,7 @@ static thr_status check_document(const gltf_reader *reader)
     n++;
   }
 
+  /* One message names them all. */
   if (n > n_named) thr_text_printf(&names, " and %d more", n - n_named);
   thr_status st = names.failed ? thr_nomem(reader->err) : THR_OK;
   if (n && !st)
@@ -788,6 +800,8 @@ static thr_status place(gltf_reader *reader)
   int *node = thr_calloc((size_t)reader->sites.n, sizeof *node);
 
   if (!node) return thr_nomem(reader->err);
+
+  /* A site's node is known only when all sites are. */
   thr_status st = thr_sites_finish(&reader->sites, node, reader->draft, reader->err);
   for (int i = 0; i < reader->faces.n_corners && !st; i++)
     reader->faces.corner[i] = node[reader->faces.corner[i]];
@@ -814,6 +828,7 @@ static thr_status parse(thr_draft *draft, thr_read_report *report, const char *t
   thr_span json;
   thr_status st = open_binary(&reader, text, n, &json);
 
+  /* The document first: everything else refers to it. */
   if (!st) st = thr_json_parse(&reader.doc, json.s, json.n, name, err);
   if (!st) st = check_document(&reader);
   if (!st) st = read_buffers(&reader);
@@ -831,7 +846,6 @@ static thr_status parse(thr_draft *draft, thr_read_report *report, const char *t
   free(reader.entered);
   free(reader.part);
   thr_parts_finish(&reader.parts, report);
-
   thr_sites_destroy(&reader.sites);
   thr_faces_destroy(&reader.faces);
   thr_json_destroy(reader.doc);

@@ -147,6 +147,7 @@ static uint64_t place_of(const thr_json_where *at)
   /* A number in the path counts as "*". */
   for (const char *c = numbered || !at->key ? "*" : at->key; *c; c++)
     hash = (hash ^ (unsigned char)*c) * UINT64_C(0x100000001b3);
+
   return (hash ^ '/') * UINT64_C(0x100000001b3);
 }
 
@@ -252,6 +253,7 @@ static thr_status walk(thr_json_reader *reader, const thr_json_where *at, const 
   const char *key;
   const thr_json *member;
 
+  /* An object: so may its members. */
   while (!st && thr_json_next(value, &iter, &key, &member)) {
     thr_json_where here = {at, key, 0};
     st = walk(reader, &here, member, visit);
@@ -266,6 +268,8 @@ static thr_status read_document(thr_json_reader *reader, const thr_json *doc)
   thr_json_where top = {0};
 
   reader->document = doc;
+
+  /* First walk: where are the frameworks? */
   thr_status st = walk(reader, &top, doc, note_place);
   if (!st && !reader->n_found)
     st = thr_fail(reader->err, THR_EINPUT,
@@ -279,6 +283,7 @@ static thr_status read_document(thr_json_reader *reader, const thr_json *doc)
   for (int i = 0; i < reader->n_found && !st; i++)
     reader->n_chosen += is_chosen(reader, i);
 
+  /* Second walk: read those that are chosen. */
   if (!st) st = walk(reader, &top, doc, read_chosen);
   return st ? st : thr_faces_finish(&reader->faces, reader->d, reader->file, reader->err);
 }
@@ -296,6 +301,8 @@ static thr_status parse(thr_draft *draft, thr_read_report *read_report, const ch
 
   st = read_document(&reading, doc);
   thr_parts_finish(&reading.parts, read_report);
+
+  /* What was found and read goes into the report. */
   read_report->frameworks = reading.n_found;
   read_report->frameworks_read = reading.n_chosen;
   read_report->no_z = !reading.has_z;

@@ -135,6 +135,8 @@ static thr_status read_compas_nodes(thr_json_reader *reader, const thr_json_wher
     const char *name;
     st = thr_json_point(reader, &here, member[i].value, defaults, xyz);
     if (!st) st = thr_json_support(reader, &here, member[i].value, defaults, &foot);
+
+    /* A node is called by its key. */
     if (!st) st = thr_json_key_name(reader, &here, member[i].key, &name);
     if (!st) st = thr_draft_add_node(reader->d, xyz, name, foot, reader->err);
   }
@@ -190,6 +192,7 @@ static thr_status read_compas_face(thr_json_reader *reader, const thr_json_where
   thr_status st =
       thr_json_is_array(face) ? THR_OK : thr_json_bad(reader, at, "not a face; list its vertices");
 
+  /* Corners are named by the keys of the vertices. */
   for (int i = 0; i < n && !st; i++) {
     thr_json_where here = {at, NULL, i};
     st = thr_json_reference(reader, &here, thr_json_at(face, i), &corner[i]);
@@ -206,6 +209,7 @@ static thr_status read_compas_faces(thr_json_reader *reader, const thr_json_wher
 {
   thr_status st = THR_OK;
 
+  /* In a list faces have no keys. */
   for (int i = 0; thr_json_is_array(faces) && i < thr_json_size(faces) && !st; i++) {
     thr_json_where here = {list, NULL, i};
     st = read_compas_face(reader, &here, thr_json_at(faces, i));
@@ -315,6 +319,7 @@ thr_status thr_json_read_lines(thr_json_reader *reader, const thr_json_where *at
 {
   thr_status st = THR_OK;
 
+  /* Lines in a list. */
   for (int i = 0; thr_json_is_array(list) && i < thr_json_size(list) && !st; i++) {
     thr_json_where here = {at, NULL, i};
     st = read_line(reader, &here, thr_json_at(list, i));
@@ -347,6 +352,7 @@ static int depth_of_geometry(const thr_json *value)
 
   const char *type = thr_json_string(thr_json_get(value, "type"));
 
+  /* Only geometries with coordinates count. */
   for (size_t i = 0; type && thr_json_is_array(thr_json_get(value, "coordinates")) &&
                      i < sizeof known / sizeof *known;
        i++)
@@ -437,6 +443,8 @@ static thr_status read_assembly_elements(thr_json_reader *reader, const thr_json
     /* Exactly two ends. */
     if (!thr_json_is_array(ends) || thr_json_size(ends) != 2)
       return thr_json_bad(reader, &there, "not two node numbers");
+
+    /* Nodes are named by their ids. */
     int end[2] = {0, 0};
     for (int i = 0; i < 2 && !st; i++) {
       thr_json_where side = {&there, NULL, i};

@@ -129,6 +129,8 @@ thr_status thr_json_read_node_link(thr_json_reader *reader, const thr_json_where
   /* Nodes first, because links may come before them in the file but name them. */
   thr_status st = read_graph_nodes(reader, &node_list, nodes);
   if (!st) st = choose_reading(reader, &link_list, object, links);
+
+  /* Links in the order of the file. */
   for (int i = 0; i < thr_json_size(links) && !st; i++) {
     thr_json_where here = {&link_list, NULL, i};
     st = read_link(reader, &here, thr_json_at(links, i));
@@ -145,6 +147,7 @@ static thr_status lists_node(thr_json_reader *reader, const thr_json_where *at,
   *lists = false;
   thr_status st = THR_OK;
 
+  /* The first match is enough. */
   for (int i = 0; i < thr_json_size(neighbours) && !st && !*lists; i++) {
     thr_json_where here = {at, NULL, i};
     int to = -1;
@@ -167,6 +170,8 @@ thr_status thr_json_read_adjacency(thr_json_reader *reader, const thr_json_where
     return thr_json_bad(reader, &list, "not one list of neighbours for each node");
 
   thr_status st = read_graph_nodes(reader, &node_list, nodes);
+
+  /* Each list belongs to the node at the same place. */
   for (int v = 0; v < thr_json_size(adjacency) && !st; v++) {
     const thr_json *neighbours = thr_json_at(adjacency, v);
     thr_json_where here = {&list, NULL, v};
@@ -183,6 +188,8 @@ thr_status thr_json_read_adjacency(thr_json_reader *reader, const thr_json_where
       back.index = to;
       if (!st && to < v) st = lists_node(reader, &back, thr_json_at(adjacency, to), v, &twice);
       if (!st) st = thr_json_length(reader, &length_here, thr_json_get(item, "length"), &length);
+
+      /* A new edge, with what this list says of it. */
       if (st || twice) continue;
       st = thr_draft_add_edge(reader->d, v, to, length, reader->err);
       if (!st)

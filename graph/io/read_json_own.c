@@ -21,6 +21,7 @@ static thr_status read_polygon(thr_json_reader *reader, const thr_json_where *at
                       ? THR_OK
                       : thr_json_bad(reader, at, "not a face; list its node numbers");
 
+  /* Corners are numbers of nodes. */
   for (int i = 0; i < n && !st; i++) {
     thr_json_where here = {at, NULL, i};
     st = thr_json_index(reader, &here, thr_json_at(value, i), reader->d->n_nodes, &corner[i]);
@@ -39,6 +40,8 @@ static thr_status read_own_nodes(thr_json_reader *reader, const thr_json_where *
 
   if (names && (!thr_json_is_array(names) || thr_json_size(names) != thr_json_size(nodes)))
     return thr_json_bad(reader, &name_list, "not one name for each node");
+
+  /* Nodes in the order of the list. */
   for (int i = 0; i < thr_json_size(nodes); i++) {
     /* A name is text, or anything that names a node elsewhere. */
     thr_json_where here = {&list, NULL, i}, name_here = {&name_list, NULL, i};
@@ -131,6 +134,8 @@ static thr_status read_feet(thr_json_reader *reader, const thr_json_where *up, c
 
   if (feet && !thr_json_is_array(feet))
     return thr_json_bad(reader, &list, "not a list of node numbers");
+
+  /* Nodes are named by their numbers. */
   for (int i = 0; i < thr_json_size(feet); i++) {
     thr_json_where here = {&list, NULL, i};
     int v = 0;

@@ -140,11 +140,13 @@ static thr_status count_of(const thr_json *value, const char *what, bool text, i
   int64_t wide = 0;
   *count = 0;
 
+  /* A number as text is read where foreign programs may write one. */
   if (text && thr_json_string(value) &&
       thr_span_int(thr_span_trim(thr_span_of(thr_json_string(value))), count) && *count >= 0 &&
       *count <= 100)
     return THR_OK;
 
+  /* Null is the same as nothing. */
   if (thr_json_typeof(value) != THR_JSON_NULL &&
       (!thr_json_int(value, &wide) || wide < 0 || wide > 100))
     return thr_fail(err, THR_EINPUT, "a %s that is not a whole number up to 100", what);

@@ -124,8 +124,8 @@ static thr_status read_reference(obj_reader *reader, thr_span word, int *node)
                        thr_span_width(word), word.s, n);
 }
 
-/* Reads references up to the end of the record into reader->corner. Nothing can be made of fewer than
- * two: then *n is 0 and the record is counted as not used. */
+/* Reads references up to the end of the record into reader->corner. Nothing can be made of fewer
+ * than two: then *n is 0 and the record is counted as not used. */
 static thr_status read_corners(obj_reader *reader, thr_span keyword, thr_span rest, int *n)
 {
   thr_span word;
@@ -139,6 +139,7 @@ static thr_status read_corners(obj_reader *reader, thr_span keyword, thr_span re
     ++*n;
   }
 
+  /* A point, or a line of one vertex. */
   if (!st && *n < 2) {
     thr_report_skip(reader->report, keyword);
     *n = 0;
@@ -281,6 +282,8 @@ static thr_status read_knots(obj_reader *reader, thr_span rest)
   double knot;
 
   if (!reader->open.n || !next_word(&rest, &word) || !thr_span_is(word, "u")) return THR_OK;
+
+  /* As many knots as the curve has pieces and control points; more lines may follow. */
   while (!st && next_word(&rest, &word) && thr_span_number(word, false, &knot)) {
     st = thr_grow(&reader->knot, reader->n_knots, &reader->knots_capacity, sizeof *reader->knot,
                   reader->err);
@@ -408,6 +411,7 @@ static thr_status read_record(obj_reader *reader, thr_span line)
  * such vertex. */
 static thr_status mark_feet(obj_reader *reader)
 {
+  /* The message names the line of the comment. */
   for (int i = 0; i < reader->n_feet; i++) {
     int v = reader->foot[i].vertex;
     reader->scan.line = reader->foot[i].line;
@@ -477,7 +481,6 @@ static thr_status parse(thr_draft *draft, thr_read_report *read_report, const ch
   free(reader.corner);
   free(reader.curve);
   free(reader.knot);
-
   free(reader.foot);
   return st;
 }

@@ -243,6 +243,7 @@ static thr_status read_format(ply_reader *reader, thr_span rest)
   static const char *const names[] = {"ascii", "binary_little_endian", "binary_big_endian"};
   thr_span word = thr_span_word(&rest);
 
+  /* The names are in the order of the encodings. */
   for (int i = ASCII; i <= BIG; i++)
     if (thr_span_is(word, names[i])) {
       reader->encoding = (encoding)i;
@@ -276,12 +277,16 @@ static thr_status check_header(ply_reader *reader)
 
     /* Edges may have their ends as a list of two. */
     if (table->kind == VERTEX && !has_roles(reader, table, X, Z))
+
+      /* What the element needs depends on its kind. */
       missing = "vertices need the properties x, y and z";
     if (table->kind == EDGE && !has_roles(reader, table, VERTEX_1, VERTEX_2) &&
         !has_roles(reader, table, CORNERS, CORNERS))
       missing = "edges need the properties vertex1 and vertex2";
     if (table->kind > EDGE && !has_roles(reader, table, CORNERS, CORNERS))
       missing = "faces and lines need the property list vertex_indices";
+
+    /* An element without items needs nothing. */
     if (table->n > 0 && missing)
       return thr_fail(reader->err, THR_EINPUT, "%s: %s; export it again with them",
                       reader->scan.name, missing);
@@ -362,7 +367,6 @@ static double number_of(const unsigned char *bytes, number_type type)
     int8_t i8;
     int16_t i16;
     int32_t i32;
-
     uint16_t u16;
     uint32_t u32;
     int64_t i64;
@@ -370,6 +374,7 @@ static double number_of(const unsigned char *bytes, number_type type)
     double d;
   } number = {0};
 
+  /* memcpy makes no assumption about alignment. */
   memcpy(number.bytes, bytes, 8);
   switch (type) {
   case INT8: return number.i8;
@@ -461,6 +466,7 @@ static thr_status read_list(ply_reader *reader, const property *field)
   int run[2], n_run = 0;
   thr_status st = next_number(reader, field->count, true, &length);
 
+  /* NaN has been refused, so the loop ends. */
   if (!st && (length < 0 || length != floor(length)))
     return fail(reader, "the length of a list must be a whole number from 0");
   for (double i = 0; !st && i < length; i++) {
@@ -602,6 +608,7 @@ static thr_status parse(thr_draft *draft, thr_read_report *report, const char *t
   thr_status st =
       n ? read_header(&reader) : thr_fail(err, THR_EINPUT, "%s: the file is empty", name);
 
+  /* Nodes may be named before they come, so edges are made last. */
   if (!st) st = read_items(&reader);
   if (!st) st = thr_faces_finish(&reader.faces, draft, name, err);
   if (!st && draft->n_edges == 0)

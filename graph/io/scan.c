@@ -218,12 +218,14 @@ bool thr_span_truth(thr_span text, bool *yes)
 bool thr_span_real(thr_span text, double *number)
 {
   char copy[64];
+
   if (thr_span_number(text, false, number)) return true;
   if (text.n >= sizeof copy) return false;
 
   /* Fortran's double precision: 1.5D+00. */
   for (size_t i = 0; i < text.n; i++)
     copy[i] = text.s[i] == 'D' || text.s[i] == 'd' ? 'e' : text.s[i];
+
   return thr_span_number((thr_span){copy, text.n}, false, number);
 }
 
@@ -377,6 +379,7 @@ thr_status thr_words_fail(const thr_words *words, const char *what)
 thr_status thr_words_count(thr_words *words, int *n)
 {
   thr_span word = thr_words_next(words);
+
   if (!word.n) return thr_words_fail(words, "the file ends here; it is not whole");
 
   /* INT_MAX may be a number that was too large. */

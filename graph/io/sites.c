@@ -15,6 +15,7 @@ thr_status thr_sites_add(thr_sites *sites, const double xyz[3], thr_err *err)
   /* 0 instead of -0: equal places are equal bytes. */
   for (int i = 0; i < 3; i++)
     sites->xyz[sites->n][i] = xyz[i] == 0 ? 0 : xyz[i];
+
   sites->n++;
   return THR_OK;
 }

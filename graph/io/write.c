@@ -114,7 +114,6 @@ void thr_json_frame_write(const thr_frame *frame, thr_text *out)
   thr_write_string(&writer, "format", "thread-frame");
   thr_write_line(&writer, 0);
   thr_write_int(&writer, "version", 1);
-
   thr_write_line(&writer, 0);
   thr_write_string(&writer, "units", frame->units);
 

@@ -171,6 +171,7 @@ bool thr_channels_cross(const int *rank, const thr_channel *a, const thr_channel
   if (a_in == a_out || b_in == b_out || a_in == b_in || a_in == b_out || a_out == b_in ||
       a_out == b_out)
     return false;
+
   return between(b_in, a_in, a_out) != between(b_out, a_in, a_out);
 }
 

@@ -152,7 +152,6 @@ static void put_cord(thr_writer *writer, const thr_eval_cord *cord, int i, const
   thr_write_object(writer, NULL);
   thr_write_string(writer, "id", id);
   thr_write_bool(writer, "known", cord->known);
-
   thr_write_string(writer, "pull", thr_pull_name(cord->pull));
 
   /* Of a cord that is not known nothing else is written. */
@@ -162,7 +161,6 @@ static void put_cord(thr_writer *writer, const thr_eval_cord *cord, int i, const
     thr_write_line(writer, 5);
     thr_write_number(writer, "force", cord->force);
     thr_write_number(writer, "other_force", cord->other_force);
-
     thr_write_number(writer, "loss", cord->loss);
     thr_write_number(writer, "work", cord->work);
     thr_write_number(writer, "error", cord->error);

@@ -93,13 +93,11 @@ void thr_plan_destroy(thr_plan *plan)
   thr_walk_proof_destroy(&plan->proof.walks);
   thr_walk_proof_destroy(&plan->proof.pulled);
   thr_turning_proof_destroy(&plan->turning.tree);
-
   thr_pull_claim_destroy(&plan->pull_claim);
   thr_symmetry_record_destroy(&plan->symmetry);
   thr_evaluation_destroy(&plan->evaluation);
   free(plan->options.end_node);
   free(plan->options.end_count);
-
   free(plan->generator);
   thr_frame_destroy(&plan->frame);
   *plan = (thr_plan){0};
@@ -342,12 +340,14 @@ double thr_cord_price(const thr_frame *frame, const thr_request *options, const 
 double thr_cord_pulled_turning(const thr_frame *frame, const thr_cord *cord)
 {
   thr_least_pull_walk walk = thr_least_pull_begin(thr_cord_turning(frame, cord, false));
+
   if (cord->n_passes == 0) return 0;
   thr_turns turns = thr_turns_begin(frame, cord->half[0]);
 
   /* Parted at each turn in succession, until the first part is the larger one. */
   for (int k = 1; k < cord->n_passes; k++)
     if (!thr_least_pull_next(&walk, thr_turns_next(&turns, cord->half[k]))) break;
+
   return walk.larger;
 }
 

@@ -121,7 +121,6 @@ static void put_still(thr_writer *writer, const thr_posed *still)
   thr_write_number(writer, "pull", still->pull);
   thr_write_number(writer, "counterweight", still->counterweight);
   thr_write_int(writer, "seated", still->seated);
-
   thr_write_row(writer, "poses");
   for (int v = 0; v < still->n_beads; v++)
     for (int k = 0; k < 7; k++)
@@ -149,7 +148,6 @@ void thr_standing_write(const thr_standing *standing, thr_writer *writer, const 
   thr_write_bool(writer, "clamped", standing->clamped);
   thr_write_bool(writer, "taut", standing->taut);
   thr_write_number(writer, "tilt", standing->tilt);
-
   thr_write_number(writer, "azimuth", standing->azimuth);
 
   /* What only some structures have. */
