@@ -90,6 +90,7 @@ thr_status thr_components_init(thr_components *components, const thr_frame *fram
                       ? thr_frame_components(frame, components->component, &components->n, err)
                       : thr_nomem(err);
 
+  /* The rest depends on the number of components. */
   if (!st) st = sort_all(components, err);
   if (st) thr_components_destroy(components);
   return st;
@@ -112,6 +113,7 @@ static thr_status allocate(const thr_components *components, thr_frame *frame, t
               (frame->length = thr_calloc(m, sizeof *frame->length)) &&
               (frame->half = thr_calloc(2 * m, sizeof *frame->half));
 
+  /* What only some frameworks or requests have. */
   if (components->f->cover) good = good && (frame->cover = thr_calloc(m, sizeof *frame->cover));
   if (components->f->capacity)
     good = good && (frame->capacity = thr_calloc(m, sizeof *frame->capacity));
@@ -130,6 +132,7 @@ static thr_status copy_nodes(const thr_components *components, int k, thr_frame 
 {
   thr_text names = {0};
 
+  /* Nodes keep their order, so their names follow one another, too. */
   for (int i = 0; i < frame->n_nodes; i++) {
     int v = components->node[components->first_node[k] + i];
     memcpy(frame->xyz[i], components->f->xyz[v], sizeof frame->xyz[i]);
@@ -227,6 +230,7 @@ static thr_status make_cords(const thr_components *components, int k, const int 
   int *part = thr_calloc((size_t)made->frame.n_edges, sizeof *part);
   if (!part) return thr_nomem(err);
 
+  /* Passes of the component's edges. */
   for (int e = 0; passes && e < made->frame.n_edges; e++)
     part[e] = passes[components->edge[components->first_edge[k] + e]];
 

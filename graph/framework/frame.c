@@ -357,6 +357,7 @@ static thr_status list_by_ends(const thr_draft *draft, const int *parent, joinin
     (*list)[(*n)++] = (joining){a < b ? a : b, a < b ? b : a, e, length};
   }
 
+  /* So that edges between the same nodes are neighbours. */
   qsort(*list, (size_t)*n, sizeof **list, by_ends);
   return THR_OK;
 }
@@ -495,6 +496,7 @@ static thr_status part_edge(thr_draft *draft, int e, double share, int number, t
   draft->edge[draft->n_edges - 1].capacity = edge.capacity;
   draft->edge[e].b = draft->n_nodes - 1;
   draft->edge[e].length = share * length;
+
   return THR_OK;
 }
 
@@ -552,6 +554,7 @@ static thr_status allocate(thr_frame *frame, int n_nodes, int n_edges, thr_err *
   frame->first = thr_calloc((size_t)n_nodes + 1, sizeof *frame->first);
   frame->half = thr_calloc(2 * (size_t)n_edges, sizeof *frame->half);
 
+  /* All that was allocated must be there. */
   return frame->xyz && frame->foot && frame->name && frame->edge && frame->length && frame->first &&
                  frame->half
              ? THR_OK
@@ -752,6 +755,7 @@ static thr_status fill_passes(thr_frame *frame, const thr_draft *draft, const bo
 {
   bool covers = false, capacities = false;
 
+  /* Most frameworks have neither, and get no arrays. */
   for (int e = 0; e < draft->n_edges; e++) {
     covers |= keep[e] && draft->edge[e].cover > 0;
     capacities |= keep[e] && draft->edge[e].capacity > 0;
@@ -776,6 +780,8 @@ static thr_status fail_without_edges(const thr_draft *draft, double tolerance, t
 
   for (int e = 0; e < draft->n_edges; e++)
     loops = loops && draft->edge[e].a == draft->edge[e].b;
+
+  /* Two different mistakes: in the file, or of the tolerance. */
   if (loops)
     return thr_fail(err, THR_EINPUT,
                     "every edge joins a node to itself; check what is given as its two ends");

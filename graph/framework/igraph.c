@@ -112,6 +112,8 @@ static igraph_error_t cut_tree(const igraph_vector_int_t *ends, int n,
   if ((code = lib.igraph_gomory_hu_tree(&graph, &cuts, &flows, capacity))) goto no_tree;
 
   /* The tree's edges are in the order of the flows. */
+
+  /* Both arrays of igraph have n - 1 entries. */
   for (int i = 0; i < n - 1; i++) {
     tree[i][0] = (int)IGRAPH_FROM(&cuts, i);
     tree[i][1] = (int)IGRAPH_TO(&cuts, i);
@@ -146,8 +148,8 @@ thr_status thr_cut_tree(int n, int m, const int (*edge)[2], const double *capaci
 no_weights:
   lib.igraph_vector_int_destroy(&ends);
 no_ends:
-
   leave(old);
+
   return code ? failed(code, err) : THR_OK;
 }
 
@@ -187,6 +189,7 @@ thr_status thr_maximum_flow(int n, int m, const int (*edge)[2], const double *ca
   for (int e = 0; e < m && !code; e++)
     flow[e] = edge[e][0] < edge[e][1] ? VECTOR(flows)[e] : -VECTOR(flows)[e];
 
+  /* Marks of the source's side. */
   for (int v = 0; v < n && !code; v++)
     source_side[v] = false;
   for (const igraph_integer_t *v = side.stor_begin; v < side.end && !code; v++)
@@ -198,7 +201,6 @@ no_side:
 no_flows:
   lib.igraph_vector_destroy(&weights);
 no_weights:
-
   lib.igraph_vector_int_destroy(&ends);
 no_ends:
   leave(old);
@@ -212,10 +214,12 @@ static igraph_error_t count_coloured(const igraph_t *graph, const int *colour,
 {
   igraph_vector_int_t colours;
 
+  /* Without colours all nodes are alike. */
   if (!colour) return lib.igraph_automorphisms(graph, NULL, IGRAPH_BLISS_FL, info);
   igraph_error_t code = lib.igraph_vector_int_init(&colours, lib.igraph_vcount(graph));
   if (code) return code;
 
+  /* Colours are any numbers; only which nodes share one matters. */
   for (igraph_integer_t v = 0; v < lib.igraph_vcount(graph); v++)
     VECTOR(colours)[v] = colour[v];
 
@@ -238,6 +242,7 @@ thr_status thr_automorphism_count(int n, int m, const int (*edge)[2], const int 
   igraph_error_t code = list_ends(&ends, m, edge);
   if (code) goto no_ends;
 
+  /* Count, and keep the text, which igraph has allocated. */
   if ((code = lib.igraph_create(&graph, &ends, n, IGRAPH_UNDIRECTED))) goto no_graph;
   code = count_coloured(&graph, colour, &info);
   lib.igraph_destroy(&graph);
@@ -269,6 +274,7 @@ static igraph_error_t kamada_kawai(const igraph_t *graph, const igraph_vector_t 
     for (int k = 0; k < 2; k++)
       MATRIX(at, v, k) = xy[v][k];
 
+  /* The default strength of the springs is n. */
   code = lib.igraph_layout_kamada_kawai(graph, &at, !circle, 50 * n, 0, (double)n, length, NULL,
                                         NULL, NULL, NULL);
   for (igraph_integer_t v = 0; v < n && !code; v++)
@@ -297,17 +303,17 @@ static igraph_error_t place(const spring_layout *layout)
   igraph_error_t code = list_ends(&ends, layout->m, layout->edge);
 
   if (code) goto no_ends;
+
+  /* The graph and the lengths of its edges, then the search. */
   if ((code = lib.igraph_create(&graph, &ends, layout->n, IGRAPH_UNDIRECTED))) goto no_graph;
   if ((code = list_weights(&lengths, layout->m, layout->length))) goto no_lengths;
   code = kamada_kawai(&graph, &lengths, layout->circle, layout->xy);
   lib.igraph_vector_destroy(&lengths);
 no_lengths:
-
   lib.igraph_destroy(&graph);
 no_graph:
   lib.igraph_vector_int_destroy(&ends);
 no_ends:
-
   return code;
 }
 

@@ -174,6 +174,7 @@ static icosahedron make_icosahedron(void)
   icosahedron solid = {.north = {0, 0, 1}, .south = {0, 0, -1}};
   double z = 1 / sqrt(5), radius = 2 / sqrt(5);
 
+  /* Upper and lower corners are turned against each other by a tenth of a turn. */
   for (int i = 0; i < 5; i++) {
     double x, y;
     circle_point(2 * i, 10, &x, &y);
@@ -263,12 +264,14 @@ static void scale_to_pitch(thr_draft *draft, double pitch)
 {
   double sum = 0;
 
+  /* The sum of the lengths of all edges. */
   for (int e = 0; e < draft->n_edges; e++) {
     const double *a = draft->node[draft->edge[e].a].xyz, *b = draft->node[draft->edge[e].b].xyz;
     sum += sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
                 (a[2] - b[2]) * (a[2] - b[2]));
   }
 
+  /* The unit sphere's edges are sum / n_edges long on average. */
   double radius = pitch / (sum / draft->n_edges);
   for (int v = 0; v < draft->n_nodes; v++)
     for (int i = 0; i < 3; i++)

@@ -225,6 +225,8 @@ static thr_status fill_grids(near_search *search)
   search->edges.start = thr_calloc(buckets + 2, sizeof *search->edges.start);
   thr_status st =
       last && search->nodes.start && search->edges.start ? THR_OK : thr_nomem(search->err);
+
+  /* In the first pass member is NULL: members are counted; in the second they are added. */
   if (!st) put_nodes(search);
   if (!st) st = reserve(search, &search->nodes);
   if (!st) put_nodes(search);
@@ -421,6 +423,8 @@ static thr_status begin_search(near_search *search, const thr_frame *frame, thr_
 {
   *near = (thr_near){0};
   *search = (near_search){.frame = frame, .near = near, .err = err};
+
+  /* Tolerances are shares of these lengths. */
   search->apart = thr_calloc((size_t)frame->n_edges, sizeof *search->apart);
   search->shortest = thr_calloc((size_t)frame->n_nodes, sizeof *search->shortest);
   if (!search->apart || !search->shortest) return thr_nomem(err);
@@ -435,6 +439,7 @@ static thr_status begin_search(near_search *search, const thr_frame *frame, thr_
           fmin(search->shortest[frame->edge[e][side]], search->apart[e]);
   }
 
+  /* The grids need all lengths. */
   thr_status st = choose_cells(search);
   return st ? st : fill_grids(search);
 }
@@ -493,6 +498,7 @@ static thr_status try_weld(const thr_frame *frame, thr_near *near, thr_err *err)
   for (int e = 0; e < frame->n_edges && !st; e++)
     st = add_part(frame, e, frame->edge[e][0], frame->edge[e][1], 1, &draft, err);
 
+  /* Build, and count what has been welded. */
   if (!st) st = thr_draft_build(&draft, near->weld, &welded, &report, err);
   if (!st) st = count_components(&welded, &near->components_welded, err);
   near->n_welded = report.welded_nodes;
@@ -559,7 +565,7 @@ static thr_status cut(const near_search *search, thr_draft *draft, int *n_cut)
     int from = frame->edge[e][0];
     double at = 0;
 
-    /* Part after part, from node to node on the edge. */
+    /* Part after part, from node to node on the edge; the last part ends at the edge's own end. */
     *n_cut += i < search->n_touches && search->touch[i].edge == e;
     for (; i < search->n_touches && search->touch[i].edge == e && !st; i++) {
       st = add_part(frame, e, from, search->touch[i].node, search->touch[i].at - at, draft,

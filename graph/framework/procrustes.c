@@ -50,6 +50,7 @@ static bool turn_rows(double a[3][3], double b[3][3], int i, int j)
          tangent = copysign(1, ratio) / (fabs(ratio) + hypot(1, ratio));
   double cosine = 1 / hypot(1, tangent), sine = tangent * cosine;
 
+  /* Both matrices get the same rotation, so that their product stays. */
   for (int k = 0; k < 3; k++) {
     double ai = a[i][k], bi = b[i][k];
     a[i][k] = cosine * ai - sine * a[j][k];
@@ -171,6 +172,7 @@ static void measure(const thr_frame *frame, const int *image, const double centr
     if (square > most) most = square;
   }
 
+  /* A framework without extent has nothing to compare with. */
   motion->residual = size > 0 ? sqrt(sum) / size : 0;
   motion->farthest = size > 0 ? sqrt(most) / size : 0;
 }

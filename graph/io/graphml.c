@@ -138,11 +138,13 @@ static thr_status begin_owner(graphml_reader *reader, owner_kind owner)
     return thr_scan_fail(&reader->xml.scan, reader->err,
                          "a node or an edge inside another; graphs in nodes are not read");
 
+  /* What the keys' defaults say is the beginning. */
   reader->open = true;
   reader->owner = owner;
   reader->line = reader->xml.scan.line;
   reader->said = reader->given[owner];
 
+  /* A node needs a name, an edge its two ends. */
   if (owner == NODE && !thr_xml_attribute(&reader->xml, "id", &reader->name))
     return thr_scan_fail(&reader->xml.scan, reader->err, "a node without an id");
   if (owner == EDGE && (!thr_xml_attribute(&reader->xml, "source", &reader->from) ||
@@ -160,6 +162,7 @@ static thr_status end_owner(graphml_reader *reader)
   const owner_kind owner = reader->owner;
   reader->owner = GRAPH;
 
+  /* A node is complete; an edge waits until all nodes are known. */
   if (owner == NODE)
     return thr_said_node(&reader->said, reader->draft, reader->name.data, &reader->has_z,
                          &reader->xml.scan, reader->err);
@@ -253,6 +256,7 @@ static void write_nodes(const thr_frame *frame, thr_text *out)
 {
   static const char *const axis[] = {"x", "y", "z"};
 
+  /* Each node is a line. */
   for (int v = 0; v < frame->n_nodes; v++) {
     thr_text_append(out, "  <node id=\"");
     thr_text_xml(out, frame->name[v]);
@@ -288,16 +292,18 @@ static void write(const thr_frame *frame, thr_text *out)
 {
   thr_text_append(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graphml "
                        "xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n");
+
+  /* Each attribute needs a key. */
   put_key(out, "units", "graph", "string");
   put_key(out, "x", "node", "double");
   put_key(out, "y", "node", "double");
-
   put_key(out, "z", "node", "double");
   put_key(out, "foot", "node", "boolean");
   if (frame->own_lengths) put_key(out, "length", "edge", "double");
   if (frame->cover) put_key(out, "cover", "edge", "int");
   if (frame->capacity) put_key(out, "capacity", "edge", "int");
 
+  /* The graph, with its unit. */
   thr_text_append(out, " <graph edgedefault=\"undirected\">\n  <data key=\"units\">");
   thr_text_xml(out, frame->units);
   thr_text_append(out, "</data>\n");

@@ -19,6 +19,7 @@ thr_status thr_links_add(thr_links *links, const char *from, const char *to, int
   thr_text_append_clean(&links->names, to);
   thr_text_append_bytes(&links->names, "", 1);
   if (links->names.failed) return thr_nomem(err);
+
   links->link[links->n++] = link;
 
   return THR_OK;
@@ -41,6 +42,8 @@ thr_status thr_links_finish(const thr_links *links, thr_draft *draft, const char
   thr_names names = {0};
   thr_scan scan = {.name = name};
   thr_err why = {0};
+
+  /* All nodes are there by now. */
   thr_status st = thr_names_build(&names, draft, name, err);
 
   /* Both ends, then the edge with its length and passes. */

@@ -64,6 +64,7 @@ static thr_status refuse(const thr_parts *parts, const char *file, const char *w
 {
   thr_text names = {0};
 
+  /* Either the file has no parts at all, or others. */
   if (!parts->n)
     return thr_fail(err, THR_EINPUT, "%s: there is no %s '%.40s'; the file has no %s", file, what,
                     parts->asked, many);

@@ -103,6 +103,7 @@ static thr_status parse_with(thr_draft *draft, thr_read_report *report, const th
   thr_text other = {0};
   thr_status st = thr_text_read(&other, other_path, err);
 
+  /* Nodes come first, whichever file was named. */
   if (!st && nodes_first)
     st = thr_csv_parse_pair(draft, report, text, path, &other, other_path, err);
   if (!st && !nodes_first)

@@ -120,6 +120,7 @@ static thr_status read_all(off_reader *reader)
   int n_vertices = 0, n_faces = 0;
   thr_status st = read_counts(reader, &n_vertices, &n_faces);
 
+  /* As many as were announced. */
   for (int v = 0; v < n_vertices && !st; v++)
     st = read_vertex(reader);
   for (int f = 0; f < n_faces && !st; f++)
@@ -139,6 +140,7 @@ static thr_status parse(thr_draft *draft, thr_read_report *report, const char *t
   off_reader reader = {.words = {.draft = draft, .err = err}, .report = report};
   thr_status st = thr_scan_start(&reader.words.scan, text, n, name, err);
 
+  /* Sides of faces become edges when all vertices are there. */
   if (!st) st = read_all(&reader);
   if (!st) st = thr_faces_finish(&reader.faces, draft, name, err);
   if (!st && draft->n_edges == 0)

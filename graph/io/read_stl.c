@@ -188,6 +188,7 @@ static thr_status parse(thr_draft *draft, thr_read_report *report, const char *t
   else
     st = read_text(&corners, draft, &solids, text, n, name, err);
 
+  /* Both kinds are lists of corners now. */
   if (!st) st = fill_draft(&corners, draft, name, err);
   thr_parts_finish(&solids, report);
   thr_sites_destroy(&corners);

@@ -67,6 +67,7 @@ static bool read_fraction(thr_span text, double *value)
  * are more terms than the field has. */
 static bool read_term(const number_field *field, thr_span text, double *value)
 {
+  /* A number without brackets is rational. */
   if (text.n < 2 || text.s[0] != '(' || text.s[text.n - 1] != ')')
     return read_fraction(text, value);
 
@@ -238,10 +239,12 @@ static thr_status read_runs(vef_reader *reader, int corners)
   while (!thr_span_trim(reader->words.line).n && thr_words_line(&reader->words)) {
   }
 
+  /* A part that is missing has no number either. */
   int n = 0;
   thr_status st = reader->words.status;
   if (!st && thr_span_trim(reader->words.line).n) st = thr_words_count(&reader->words, &n);
 
+  /* Each run is a strut or a panel. */
   for (int i = 0; i < n && !st; i++) {
     int size = corners, corner;
     if (!corners) st = thr_words_count(&reader->words, &size);

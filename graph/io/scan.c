@@ -268,6 +268,7 @@ thr_status thr_names_build(thr_names *names, const thr_draft *draft, const char 
   for (int v = 0; v < draft->n_nodes; v++)
     entry[v] = (struct thr_named){thr_draft_name(draft, v), v};
 
+  /* The message counts nodes from 1. */
   qsort(entry, (size_t)draft->n_nodes, sizeof *entry, by_name);
   for (int i = 1; i < draft->n_nodes; i++)
     if (strcmp(entry[i - 1].name, entry[i].name) == 0) {

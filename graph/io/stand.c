@@ -49,6 +49,7 @@ static double size_of(const thr_draft *draft)
 {
   double size = 0;
 
+  /* In each direction, from the least to the largest coordinate. */
   for (int k = 0; k < 3; k++) {
     double low = DBL_MAX, high = -DBL_MAX;
     for (int i = 0; i < draft->n_nodes; i++) {
@@ -66,12 +67,14 @@ static thr_status scale(thr_draft *draft, double factor, thr_err *err)
 {
   double most = 0, least = DBL_MAX;
 
+  /* Coordinates. */
   for (int i = 0; i < draft->n_nodes; i++)
     for (int k = 0; k < 3; k++) {
       draft->node[i].xyz[k] *= factor;
       most = fmax(most, fabs(draft->node[i].xyz[k]));
     }
 
+  /* Lengths that were given; others follow from the coordinates. */
   for (int e = 0; e < draft->n_edges; e++) {
     if (draft->edge[e].length == 0) continue;
     draft->edge[e].length *= factor;

@@ -27,6 +27,8 @@ static void put_rows_of_nodes(const thr_frame *frame, thr_writer *writer)
 {
   thr_write_line(writer, 0);
   thr_write_array(writer, "nodes");
+
+  /* A line for each node keeps differences of two files readable. */
   for (int v = 0; v < frame->n_nodes; v++) {
     thr_write_line(writer, 0);
     thr_write_array(writer, NULL);
@@ -44,6 +46,8 @@ static void put_rows_of_edges(const thr_frame *frame, thr_writer *writer)
 {
   thr_write_line(writer, 0);
   thr_write_array(writer, "edges");
+
+  /* As with nodes, a line for each edge. */
   for (int e = 0; e < frame->n_edges; e++) {
     thr_write_line(writer, 0);
     thr_write_array(writer, NULL);

@@ -53,6 +53,8 @@ static thr_status pass_tag(thr_xml *xml, thr_err *err)
   for (char quote = '\0'; xml->scan.at < xml->scan.end; xml->scan.at++) {
     const char c = *xml->scan.at;
     xml->scan.next += c == '\n';
+
+    /* Inside of quotes only the same quote counts. */
     if (quote) {
       if (c == quote) quote = '\0';
     } else if (c == '"' || c == '\'') {

@@ -135,6 +135,8 @@ static void drop_rows(thr_advice *advice)
   for (int i = 0; i < advice->n; i++) {
     const thr_advice_row row = advice->row[i];
     bool useful = true;
+
+    /* Compared with rows that stay, so that of two equal rows one stays. */
     for (int j = 0; j < kept && i != advice->chosen; j++)
       useful &= !buys_nothing(&row, &advice->row[j]);
     if (!useful) continue;
@@ -142,6 +144,7 @@ static void drop_rows(thr_advice *advice)
     advice->row[kept++] = row;
   }
 
+  /* The chosen row has another place now. */
   advice->left_out += advice->n - kept;
   advice->n = kept;
   advice->chosen = chosen;
@@ -163,6 +166,9 @@ static void drop_longer(thr_advice *advice)
                fits = thr_advice_within(advice, &row);
     if (first) longest = INFINITY;
     if (first) within = false;
+
+    /* A row is of use if its longest cord is no longer, or if none before it was within the
+     * hand. */
     const bool useful = row.longest <= longest * (1 + 1e-9) || (fits && !within);
     within |= fits;
     if (!useful) continue;

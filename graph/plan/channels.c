@@ -224,9 +224,9 @@ thr_status thr_channels_make(thr_channels *channels, const thr_plan *plan, thr_e
   for (int v = 0; v < n; v++)
     find_crossings(channels, v, channels->rank);
 done:
-
   free(around);
   if (st) thr_channels_destroy(channels);
+
   return st;
 }
 

@@ -30,9 +30,9 @@ static void span(const thr_frame *frame, int *order, int *via, bool *reached)
     if (reached[root]) continue;
     reached[root] = true;
     via[root] = -1;
-    for (order[n++] = root; done < n; done++)
 
-      /* Neighbours that have not been reached. */
+    /* Nodes that have been reached wait in `order` for their neighbours. */
+    for (order[n++] = root; done < n; done++)
       for (int v = order[done], i = frame->first[v]; i < frame->first[v + 1]; i++) {
         int w = thr_head(frame, frame->half[i]);
         if (reached[w]) continue;
@@ -99,6 +99,7 @@ thr_status thr_distinct_needs(const thr_frame *frame, const thr_request *options
   bool more = false;
   *needs = NULL;
 
+  /* The proof of length of symmetric plans is about any cords. */
   if (thr_wants_symmetry(options)) return THR_OK;
   int *found = thr_calloc((size_t)frame->n_edges, sizeof *found);
   if (!found) return thr_nomem(err);

@@ -50,6 +50,7 @@ void thr_evaluation_sum(thr_evaluation *evaluation)
 
 void thr_evaluation_destroy(thr_evaluation *evaluation)
 {
+  /* Arrays of every cord. */
   for (int i = 0; i < evaluation->n_cords; i++) {
     free(evaluation->cord[i].tension);
     free(evaluation->cord[i].turn);
@@ -132,6 +133,7 @@ static void put_tension(thr_writer *writer, const thr_eval_cord *cord, const dou
   thr_write_line(writer, 5);
   thr_write_row(writer, "colours");
 
+  /* A colour for each tension. */
   for (int k = 0; k < cord->n_passes; k++) {
     char hex[8];
     thr_tension_colour(range, cord->tension[k], hex);
@@ -147,6 +149,7 @@ static void put_cord(thr_writer *writer, const thr_eval_cord *cord, int i, const
 {
   char id[12];
 
+  /* What is known of every cord. */
   thr_cord_id(i, id);
   thr_write_line(writer, 4);
   thr_write_object(writer, NULL);
@@ -304,6 +307,7 @@ static thr_status read_tension(const place_reader *reader, const thr_json *objec
                  *colours = thr_json_get(object, "colours");
   int n = thr_json_size(list);
 
+  /* One tension for each pass, and one colour for each tension. */
   if (thr_json_typeof(list) != THR_JSON_ARRAY || n < 1)
     return bad(reader, "tension", "missing or empty");
   if (thr_json_typeof(colours) != THR_JSON_ARRAY || thr_json_size(colours) != n)
@@ -312,6 +316,7 @@ static thr_status read_tension(const place_reader *reader, const thr_json *objec
   if (!(cord->tension = thr_calloc((size_t)n, sizeof *cord->tension)))
     return thr_nomem(reader->err);
 
+  /* Tensions cannot be negative. */
   cord->n_passes = n;
   for (int k = 0; k < n; k++)
     if (!thr_json_number(thr_json_at(list, k), &cord->tension[k]) || !(cord->tension[k] >= 0))
@@ -404,6 +409,7 @@ static thr_status read_cords(const place_reader *reader, const thr_json *object,
   const thr_json *list = thr_json_get(object, "cords");
   int n = thr_json_size(list);
 
+  /* There is at least one cord. */
   if (thr_json_typeof(list) != THR_JSON_ARRAY || n < 1)
     return bad(reader, "cords", "missing or empty");
   if (!(evaluation->cord = thr_calloc((size_t)n, sizeof *evaluation->cord)))
@@ -438,6 +444,7 @@ static thr_status check_colours(const place_reader *reader, const thr_json *obje
   if (st) return st;
   thr_evaluation_range(evaluation, range);
 
+  /* The scale is that of the tensions. */
   if (stated[0] != range[0] || stated[1] != range[1])
     return bad(reader, "scale", "not the least and largest tension");
 
@@ -493,6 +500,7 @@ static thr_status read_schedule(const place_reader *reader, const thr_json *obje
                "exponents come with a schedule, or with turns of the tight cord, of all cords that "
                "are known");
 
+  /* The most that may be in a pass is left open only by a schedule. */
   for (int i = 0; i < evaluation->n_cords && !st && !list; i++)
     if (evaluation->cord[i].most) st = bad(reader, "cords", "tension_most comes with a schedule");
 

@@ -319,6 +319,7 @@ static thr_status only_fields(const thr_json *object, thr_err *err)
  * the preset's band before the band is set. */
 static thr_status set_from_json(thr_physics *physics, const thr_json *object, thr_err *err)
 {
+  /* Nothing but an object can have fields. */
   if (thr_json_typeof(object) != THR_JSON_OBJECT)
     return thr_fail(err, THR_EINPUT, "not an object; expected {\"mu\": 0.2, ..}");
 
@@ -326,6 +327,7 @@ static thr_status set_from_json(thr_physics *physics, const thr_json *object, th
   const char *preset = thr_json_string(thr_json_get(object, "preset"));
   if (!st && preset) st = thr_physics_set_preset(physics, preset, err);
 
+  /* Fields that are missing keep their value. */
   for (int i = 0; i < thr_physics_n_fields && !st; i++) {
     const thr_physics_field *field = &thr_physics_fields[i];
     const thr_json *member = thr_json_get(object, field->key);
@@ -398,6 +400,8 @@ static thr_status measure_edges(const thr_frame *frame, double mm, edge_sizes *o
 
   if (!length) return thr_nomem(err);
   *out = (edge_sizes){.shortest = INFINITY};
+
+  /* Distances of the nodes, whatever lengths the framework gives. */
   for (int e = 0; e < frame->n_edges; e++) {
     const double *a = frame->xyz[frame->edge[e][0]], *b = frame->xyz[frame->edge[e][1]];
     length[e] = mm * hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
@@ -408,6 +412,8 @@ static thr_status measure_edges(const thr_frame *frame, double mm, edge_sizes *o
   thr_sort_doubles(length, (size_t)frame->n_edges);
   out->median = length[frame->n_edges / 2];
   free(length);
+
+  /* Shorter or longer edges are a mistake in the units. */
   if (out->shortest >= 1e-6 && out->median <= 1e8) return THR_OK;
 
   return thr_fail(
@@ -448,12 +454,14 @@ static thr_status check_sizes(const thr_physics *physics, const thr_frame *frame
         "bore: a cord of %g mm does not fit into %g mm; raise --bore or lower --cord-diameter",
         physics->cord_diameter, physics->bore);
 
+  /* Around the bore there must be a wall. */
   if (!(physics->bead_diameter > physics->bore))
     return thr_fail(
         err, THR_EINPUT,
         "bead_diameter: %g mm leaves no wall round a bore of %g mm; raise it or lower --bore",
         physics->bead_diameter, physics->bore);
 
+  /* Beads of a shorter edge would have no length. */
   if (!(sizes->shortest > physics->bore)) {
     const int *end = frame->edge[sizes->shortest_edge];
     return thr_fail(err, THR_EINPUT,

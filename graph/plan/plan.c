@@ -446,6 +446,7 @@ static void measure_cord(const thr_frame *frame, const thr_request *options, con
 {
   double turning = 0;
 
+  /* Length, passes, and the largest number of passes over one edge. */
   metrics->length += thr_cord_length(frame, cord);
   metrics->passes += cord->n_passes;
   for (int i = 0; i < cord->n_passes; i++)

@@ -280,6 +280,7 @@ static thr_status settle(aim_list *list, thr_request *options, thr_err *err)
   bool turning = !symmetric && (list->named[THR_AIM_TURNING] || list->named[THR_AIM_MAX_TURNING] ||
                                 list->named[THR_AIM_PULL]);
 
+  /* What does not go together. */
   if (list->named[THR_AIM_LENGTH] && list->named[THR_AIM_OVERLAP])
     return thr_fail(err, THR_EINPUT, "length and overlap are the same aim");
   if (list->limited && !turning)
@@ -287,6 +288,7 @@ static thr_status settle(aim_list *list, thr_request *options, thr_err *err)
                     "length+%g%%: cord beyond the least length is for turning, max-turning or pull",
                     100 * list->slack);
 
+  /* Each kind of plan has its own last aims. */
   if (symmetric) return settle_symmetric(list, options, err);
   rename_aim(list, THR_AIM_OVERLAP, THR_AIM_LENGTH);
   return turning ? settle_turning(list, err) : settle_length(list, err);

@@ -85,6 +85,8 @@ static void put_loads(thr_writer *writer, const thr_standing *standing)
 {
   thr_write_line(writer, 4);
   thr_write_array(writer, "loads");
+
+  /* Node and force of each load. */
   for (int i = 0; i < standing->n_loads; i++) {
     thr_write_object(writer, NULL);
     thr_write_int(writer, "node", standing->load[i].node);
@@ -122,6 +124,8 @@ static void put_still(thr_writer *writer, const thr_posed *still)
   thr_write_number(writer, "counterweight", still->counterweight);
   thr_write_int(writer, "seated", still->seated);
   thr_write_row(writer, "poses");
+
+  /* A bead's pose is its place in m and a quaternion. */
   for (int v = 0; v < still->n_beads; v++)
     for (int k = 0; k < 7; k++)
       thr_write_number(writer, NULL, still->pose[v][k]);
@@ -252,6 +256,7 @@ static const char *read_still(const thr_json *object, thr_posed *still)
   if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known))
     return "not an object with known members";
 
+  /* The pulls, and how many gaps are seated. */
   if (!amount(object, "pull", true, &still->pull)) return "pull: not a number from 0 on";
   if (!amount(object, "counterweight", true, &still->counterweight))
     return "counterweight: not a number from 0 on";
@@ -278,6 +283,8 @@ static const char *read_load(const thr_json *object, thr_load *load)
 
   if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known))
     return "not an object with known members";
+
+  /* A load's node is compared with the framework by the checker. */
   if (!thr_json_int(thr_json_get(object, "node"), &node) || node < 0 || node > INT32_MAX)
     return "node: not a number of a node";
 
@@ -296,6 +303,8 @@ static const char *read_drawn(const thr_json *object, thr_drawn *drawn)
 
   if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known))
     return "not an object with known members";
+
+  /* The end is a word, the pass a number. */
   if ((drawn->pull = thr_pull_named(thr_json_string(thr_json_get(object, "pull")))) < 0)
     return "pull: an unknown word";
 
@@ -328,6 +337,7 @@ static thr_status read_stills(const place_reader *reader, const thr_json *list,
 {
   const int n = thr_json_size(list);
 
+  /* An older version wrote no stills. */
   if (!list) return THR_OK;
   if (thr_json_typeof(list) != THR_JSON_ARRAY || n < 1)
     return bad(reader, "stills", -1, "not a list of stills");

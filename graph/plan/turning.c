@@ -331,6 +331,7 @@ static thr_status count_columns(thr_turning_columns *turning_columns, thr_err *e
 /* Checks that the numbers of a task make sense. */
 static thr_status check_task(const thr_turning_task *task, thr_err *err)
 {
+  /* Passes and cords. */
   if (task->cover < 1 || task->most_passes < task->cover || task->most_passes > 1000000 ||
       task->cords < 1 || task->cords > 1000000)
     return thr_fail(err, THR_EINPUT,
@@ -338,10 +339,12 @@ static thr_status check_task(const thr_turning_task *task, thr_err *err)
                     "1 <= cords <= 1000000",
                     task->cover, task->most_passes, task->cords);
 
+  /* Numbers that are 0 if nothing is said. */
   if (task->cords_least < 0 || task->cords_least > task->cords || task->capacity < 0)
     return thr_fail(err, THR_EINPUT, "at least %d cords of at most %d, %d passes at most",
                     task->cords_least, task->cords, task->capacity);
 
+  /* NaN fails these tests, too. */
   if (!(task->price_per_length >= 0) || !isfinite(task->price_per_length) ||
       !(task->extra_limit < INFINITY))
     return thr_fail(err, THR_EINPUT, "the price per length must be 0 or more, and finite");
