@@ -70,6 +70,7 @@ static void put_layers(thr_text *out, const thr_dxf_layer *layer, int n)
     thr_dxf_pair(out, 6, "CONTINUOUS");
   }
 
+  /* Both the table and its section end. */
   thr_dxf_pair(out, 0, "ENDTAB");
   thr_dxf_pair(out, 0, "ENDSEC");
 }

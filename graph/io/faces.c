@@ -85,6 +85,7 @@ static int list_sides(const thr_faces *faces, side *out)
 {
   int n = 0;
 
+  /* From each corner to the next; a closed run also has the side from its last corner. */
   for (int run = 0; run < faces->n; run++) {
     int from = beginning(faces, run), corners = faces->end[run] - from;
     for (int i = 0; i < n_sides(corners); i++) {
@@ -114,6 +115,7 @@ static bool is_diagonal(const thr_faces *faces, const thr_draft *draft, const si
 {
   double na[3], nb[3], across[3];
 
+  /* Only triangles can be halves of a flat face. */
   if (faces->end[a->run] - beginning(faces, a->run) != 3 ||
       faces->end[b->run] - beginning(faces, b->run) != 3)
     return false;

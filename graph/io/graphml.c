@@ -158,6 +158,7 @@ static thr_status begin_owner(graphml_reader *reader, owner_kind owner)
 /* Ends a node or an edge, which is added with what was said. */
 static thr_status end_owner(graphml_reader *reader)
 {
+  /* What comes next belongs to the graph again. */
   reader->open = false;
   const owner_kind owner = reader->owner;
   reader->owner = GRAPH;

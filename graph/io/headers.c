@@ -81,9 +81,12 @@ static const char *plain_letter(const char *c)
   static const char *const accented[] = {"äÄàÀáÁâÂ", "éÉèÈêÊëË", "íÍìÌîÎ", "öÖóÓòÒôÔ",
                                          "üÜúÚùÙûÛ", "ñÑ",       "çÇ"};
   static const char *const letter[] = {"a", "e", "i", "o", "u", "n", "c"};
+
+  /* Upper and lower case alternate in the lists, two bytes each. */
   for (size_t i = 0; i < sizeof letter / sizeof *letter; i++)
     for (const char *known = accented[i]; *known; known += 2)
       if (memcmp(c, known, 2) == 0) return letter[i];
+
   return memcmp(c, "œ", 2) == 0 ? "oe" : memcmp(c, "ß", 2) == 0 ? "ss" : "";
 }
 

@@ -222,10 +222,13 @@ bool thr_json_indices(const thr_json *array, int n, int limit, int *out)
 {
   const thr_json *value = n > 0 && thr_json_size(array) >= n ? thr_json_at(array, 0) : NULL;
   int64_t whole;
+
+  /* The values of a list follow one another. */
   for (int i = 0; i < n; i++) {
     if (!value || !thr_json_int(value + i, &whole) || whole < 0 || whole >= limit) return false;
     out[i] = (int)whole;
   }
+
   return true;
 }
 
@@ -339,6 +342,8 @@ static thr_status expected(const json_parsing *parsing, const char *what)
 
   while (n > 0 && n < left && thr_text_is_inside(parsing->at[n]))
     n--;
+
+  /* Nothing may be left. */
   if (left == 0)
     snprintf(near, sizeof near, "%s expected near end of file", what);
   else
@@ -381,6 +386,8 @@ static int take_unit(json_parsing *parsing)
   int code = 0;
 
   if (parsing->end - parsing->at < 4) return -1;
+
+  /* All four must be digits. */
   for (int i = 0; i < 4; i++) {
     int digit = hex_digit(parsing->at[i]);
     if (digit < 0) return -1;
@@ -415,6 +422,7 @@ static thr_status take_coded(json_parsing *parsing, const char *place, char **ou
     code = low >= 0xdc00 && low < 0xe000 ? 0x10000 + ((code - 0xd800) << 10) + (low - 0xdc00) : -1;
   }
 
+  /* Half of a pair is no letter, and NUL would end the text. */
   if (code < 0 || (code >= 0xd800 && code < 0xe000))
     return fail_at(parsing, place, "invalid \\u escape");
 
@@ -762,6 +770,7 @@ static thr_status take_member(json_parsing *parsing)
 {
   uint64_t bits = 0;
 
+  /* Only a text can be a key. */
   skip_blanks(parsing);
   if (parsing->at == parsing->end || *parsing->at != '"') return expected(parsing, "string or '}'");
   parsing->at++;
@@ -839,6 +848,7 @@ static thr_status parse_value(json_parsing *parsing, uint64_t *bits)
                            : fail_at(parsing, begin, "Python wrote NaN or Infinity; write null");
   }
 
+  /* What is left is a number. */
   return *parsing->at == '-' || is_digit(parsing, parsing->at) ? take_number(parsing, bits)
                                                                : expected(parsing, "a value");
 }

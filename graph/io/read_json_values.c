@@ -186,6 +186,7 @@ thr_status thr_json_index(thr_json_reader *reader, const thr_json_where *at, con
 {
   int64_t whole;
 
+  /* Negative numbers count from nowhere. */
   if (!thr_json_int(value, &whole))
     return thr_json_bad(reader, at, "not a node number; count nodes from 0");
   if (whole >= 0 && whole < n) {
@@ -208,6 +209,8 @@ thr_status thr_json_units(thr_json_reader *reader, const thr_json_where *up, con
   thr_err why = {0};
 
   if (thr_json_typeof(value) == THR_JSON_NULL) return THR_OK;
+
+  /* A word that is no unit fails with the units that there are. */
   if (!thr_json_string(value))
     return thr_json_bad(reader, &here, "not text; name a unit of length");
 
@@ -232,6 +235,7 @@ static void append_name(thr_text *text, const thr_json *value)
   int64_t whole;
   double number;
 
+  /* As it would be written. */
   if (thr_json_string(value))
     thr_text_append(text, thr_json_string(value));
   else if (thr_json_int(value, &whole))

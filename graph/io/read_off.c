@@ -125,6 +125,8 @@ static thr_status read_all(off_reader *reader)
     st = read_vertex(reader);
   for (int f = 0; f < n_faces && !st; f++)
     st = read_face(reader);
+
+  /* After the last face only comments may come. */
   if (st || !thr_words_next(&reader->words).n) return st ? st : reader->words.status;
 
   return thr_scan_fail(

@@ -66,6 +66,7 @@ static thr_status read_binary(thr_sites *corners, thr_draft *draft, const char *
  * fit into it. */
 static thr_status fail_length(const char *text, size_t n, const char *name, thr_err *err)
 {
+  /* Without a whole head there is no number of triangles. */
   if (n < HEAD)
     return thr_fail(err, THR_EINPUT,
                     "%s: a binary STL of %zu bytes is not whole; its head alone has 84", name, n);
@@ -84,6 +85,7 @@ static thr_status read_vertex(const thr_scan *scan, thr_sites *corners, thr_span
 {
   double xyz[3];
 
+  /* Fortran's notation is read, too. */
   for (int i = 0; i < 3; i++) {
     thr_span word = thr_span_word(&rest);
     if (!thr_span_real(word, &xyz[i]))
@@ -103,6 +105,7 @@ static thr_status name_parts(thr_parts *parts, const char *text, size_t n, const
   int part;
   thr_status st = thr_scan_start(&scan, text, n, name, err);
 
+  /* Names are kept only if one of them is asked for. */
   while (!st && parts->asked && thr_scan_line(&scan, &line))
     if (thr_span_is(thr_span_word(&line), "solid"))
       st = thr_parts_add(parts, thr_span_trim(line), &part, err);

@@ -65,6 +65,8 @@ static void put_lengths(const thr_frame *frame, thr_writer *writer)
 {
   thr_write_line(writer, 0);
   thr_write_array(writer, "lengths");
+
+  /* In the order of the edges. */
   for (int e = 0; e < frame->n_edges; e++) {
     thr_write_line(writer, 0);
     thr_write_number(writer, NULL, frame->length[e]);
@@ -99,6 +101,8 @@ static void put_names(const thr_frame *frame, thr_writer *writer)
 {
   thr_write_line(writer, 0);
   thr_write_array(writer, "names");
+
+  /* In the order of the nodes. */
   for (int v = 0; v < frame->n_nodes; v++) {
     thr_write_line(writer, 0);
     thr_write_string(writer, NULL, frame->name[v]);

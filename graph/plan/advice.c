@@ -77,11 +77,14 @@ static bool is_better(const thr_advice_row *row, const thr_advice_row *other)
 static int fewest(const thr_advice *advice, bool feet)
 {
   int chosen = -1;
+
+  /* Rows that do not stay within the hand cannot be chosen. */
   for (int i = 0; i < advice->n; i++) {
     const thr_advice_row *row = &advice->row[i];
     if ((feet && row->ends != THR_ENDS_FEET) || !thr_advice_within(advice, row)) continue;
     if (chosen < 0 || is_better(row, &advice->row[chosen])) chosen = i;
   }
+
   return chosen;
 }
 

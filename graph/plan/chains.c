@@ -114,17 +114,17 @@ static int thread_row(thr_threaded *threaded, const int *piece, int from, int en
 {
   int loose = 0, step = from < end ? 1 : -1;
 
+  /* A piece that is on a cord already ends the chain before it. */
   for (int k = from; k != end; k += step) {
     if (!thread_piece(threaded, piece[k])) {
       loose++;
-
-      /* A piece that is on a cord ends the chain. */
     } else if (loose) {
       chain[chains++] = loose;
       loose = 0;
     }
   }
 
+  /* The last chain ends with the cord. */
   if (loose) chain[chains++] = loose;
   return chains;
 }
@@ -164,6 +164,7 @@ thr_status thr_plan_chains(const thr_plan *plan, int needles, thr_chains *chains
   for (int c = 0; c < plan->n_cords; c++)
     most = plan->cord[c].n_passes > most ? plan->cord[c].n_passes : most;
 
+  /* Space for the pieces of one cord. */
   int *order = thr_calloc((size_t)plan->n_cords + 1, sizeof *order),
       *piece = thr_calloc((size_t)most + 1, sizeof *piece),
       *chain = thr_calloc((size_t)most + 1, sizeof *chain);

@@ -84,6 +84,7 @@ static void sort_arms(const thr_frame *frame, int v, const double normal[3], thr
       along[k] = flat[k];
   }
 
+  /* The directions from which angles are measured. */
   thr_cross(normal, along, across);
 
   /* Angles are rounded, so that the order does not depend on the last digit. */
@@ -180,6 +181,7 @@ static void find_crossings(thr_channels *channels, int v, const int *rank)
 {
   int64_t before = channels->crossings;
 
+  /* All pairs at the node. */
   for (int i = channels->first[v]; i < channels->first[v + 1]; i++)
     for (int j = channels->first[v]; j < i; j++) {
       if (!thr_channels_cross(rank, &channels->channel[i], &channels->channel[j])) continue;

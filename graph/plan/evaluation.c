@@ -58,6 +58,7 @@ void thr_evaluation_destroy(thr_evaluation *evaluation)
     free(evaluation->cord[i].exponent);
   }
 
+  /* What belongs to the whole. */
   thr_schedule_destroy(&evaluation->schedule);
   thr_standing_destroy(&evaluation->standing);
   free(evaluation->cord);
@@ -338,6 +339,8 @@ static thr_status read_numbers(const place_reader *reader, const thr_json *objec
 
   /* One more, so that n = 0 is no failure. */
   if (!(*number = thr_calloc((size_t)n + 1, sizeof **number))) return thr_nomem(reader->err);
+
+  /* Neither exponents nor tensions can be negative. */
   for (int k = 0; k < n; k++)
     if (!thr_json_number(thr_json_at(list, k), &(*number)[k]) || !((*number)[k] >= 0))
       return thr_fail(reader->err, THR_EVIOLATED, "%s.%s[%d]: not a number from 0 on",
@@ -358,6 +361,7 @@ static thr_status read_cord(const place_reader *reader, const thr_json *object, 
 
   char name[12];
 
+  /* Which cord it is, whether it is known, and how it was pulled. */
   thr_cord_id(i, name);
   const char *id = thr_json_string(thr_json_get(object, "id"));
   const thr_json *known = thr_json_get(object, "known");
@@ -391,6 +395,7 @@ static thr_status read_cord(const place_reader *reader, const thr_json *object, 
   for (size_t k = 0; k < sizeof number / sizeof *number && !st; k++)
     st = get_double(reader, object, number[k].key, number[k].to);
 
+  /* The tensions tell how many passes and turns the other lists must have. */
   if (!st) st = read_tension(reader, object, cord);
   if (!st) st = read_numbers(reader, object, "exponents", cord->n_passes - 1, &cord->exponent);
   if (!st) st = read_numbers(reader, object, "tension_most", cord->n_passes, &cord->most);
@@ -439,6 +444,7 @@ static thr_status check_colours(const place_reader *reader, const thr_json *obje
   const thr_json *scale = thr_json_get(object, "scale"), *cords = thr_json_get(object, "cords");
   thr_status st = only_members(reader, scale, known);
 
+  /* Stated, and as it follows from the tensions. */
   if (!st) st = get_double(reader, scale, "low", &stated[0]);
   if (!st) st = get_double(reader, scale, "high", &stated[1]);
   if (st) return st;
@@ -471,6 +477,7 @@ static thr_status read_standing(const place_reader *reader, const thr_json *obje
   const thr_json *value = thr_json_get(object, "structure");
   char place[256];
 
+  /* An older version wrote none. */
   if (!value) return THR_OK;
   if (evaluation->method != THR_STRUCTURE)
     return bad(reader, "structure", "only the method structure finds it");
@@ -570,6 +577,7 @@ thr_status thr_evaluation_from_json(thr_evaluation *evaluation, const thr_json *
                       ? read_members(&reader, object, &read)
                       : thr_fail(err, THR_EVIOLATED, "%s: not an object", place);
 
+  /* Half of an evaluation is none. */
   if (st) thr_evaluation_destroy(&read);
   *evaluation = read;
   return st;

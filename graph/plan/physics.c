@@ -271,6 +271,7 @@ thr_status thr_physics_set_preset(thr_physics *physics, const char *name, thr_er
 {
   const thr_physics_preset *preset = find_preset(name);
 
+  /* A preset replaces all fields. */
   if (preset) {
     *physics = preset->physics;
     return THR_OK;
@@ -304,6 +305,7 @@ static thr_status only_fields(const thr_json *object, thr_err *err)
       return thr_fail(err, THR_EINPUT, "%.60s: no such quantity; did you mean %s?", key,
                       field->key);
 
+    /* Anything else may be a misspelt field, which must not be passed over. */
     if (!text && !field)
       return thr_fail(
           err, THR_EINPUT,
@@ -362,6 +364,7 @@ thr_status thr_physics_read(thr_physics *physics, const char *path, thr_err *err
   const char *name = strcmp(path, "-") == 0 ? "stdin" : path;
   thr_status st = thr_text_read(&text, path, err);
 
+  /* Reading and parsing name the file in their messages. */
   if (!st) st = thr_json_parse(&doc, text.data, text.length, name, err);
   if (!st) st = thr_physics_from_json(physics, doc, name, err);
   thr_json_destroy(doc);
@@ -432,10 +435,12 @@ static double rounded(double mu)
 /* Fills in what is 0 = "work it out". */
 static void fill_in(thr_physics *physics, const edge_sizes *sizes)
 {
+  /* The band of mu, and the tension at which mu holds. */
   if (physics->mu_low == 0) physics->mu_low = fmin(physics->mu, rounded(physics->mu / 2));
   if (physics->mu_high == 0) physics->mu_high = fmax(physics->mu, rounded(1.5 * physics->mu));
   if (physics->mu_power > 0 && physics->mu_tension == 0) physics->mu_tension = physics->seating;
 
+  /* From the inside outwards: cord, bore, bead. */
   if (physics->cord_diameter == 0)
     physics->cord_diameter = fmin(sizes->median / 20, sizes->shortest / 4);
 
@@ -480,12 +485,14 @@ static thr_status check_values(const thr_physics *physics, thr_err *err)
 {
   thr_physics copy = *physics;
 
+  /* thr_physics_set knows the ranges. */
   for (int i = 0; i < thr_physics_n_fields; i++) {
     thr_status st = thr_physics_set(&copy, &thr_physics_fields[i],
                                     thr_physics_get(physics, &thr_physics_fields[i]), err);
     if (st) return st;
   }
 
+  /* Without mass nothing would fall. */
   if (physics->density == 0 && physics->bead_mass == 0)
     return thr_fail(err, THR_EINPUT, "density: beads without mass; set --density or --bead-mass");
 

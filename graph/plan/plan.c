@@ -54,6 +54,7 @@ thr_status thr_cords_copy(const thr_cord *cord, int n, thr_cord **copy, thr_err 
       memcpy(copied[i].half, cord[i].half, (size_t)cord[i].n_passes * sizeof *copied[i].half);
   }
 
+  /* Half of the cords are none. */
   if (complete) return THR_OK;
   thr_cords_destroy(copied, n);
   *copy = NULL;
@@ -88,6 +89,7 @@ void thr_plan_destroy(thr_plan *plan)
   for (int i = 0; i < plan->proof.n_certificates; i++)
     thr_certificate_destroy(&plan->proof.certificate[i]);
 
+  /* Arrays and records, in the order of the struct. */
   free(plan->proof.certificate);
   thr_turning_proof_destroy(&plan->proof.tied);
   thr_walk_proof_destroy(&plan->proof.walks);
@@ -115,6 +117,7 @@ thr_status thr_plan_request(thr_plan *plan, const thr_frame *frame, const thr_re
   plan->options.end_node = NULL;
   plan->options.end_count = NULL;
 
+  /* Where ends may be, or how many there are. */
   if (options->end_node) {
     if (!(plan->options.end_node = thr_calloc(n, sizeof *plan->options.end_node)))
       return thr_nomem(err);
@@ -313,6 +316,7 @@ int thr_plan_turns_over(const thr_plan *plan, double angle)
 {
   int n = 0;
 
+  /* As many turns as count with these ends. */
   for (int i = 0; i < plan->n_cords; i++) {
     const thr_cord *cord = &plan->cord[i];
     for (int k = 0; k < thr_cord_turns(&plan->options, cord); k++)
@@ -392,6 +396,7 @@ double thr_cords_pulled_turnings(const thr_frame *frame, const thr_cord *cord, i
     most = fmax(most, here);
   }
 
+  /* Of cords that are equally hard the first one counts. */
   if (n > 0) *other = smaller_part(frame, &cord[hardest], most);
   return fmax(0, most);
 }
@@ -480,6 +485,7 @@ thr_status thr_plan_measure(const thr_frame *frame, const thr_request *options,
     return thr_nomem(err);
   }
 
+  /* Cords are numbered from 1, because 0 means none in met. */
   for (int i = 0; i < n_cords; i++) {
     measure_cord(frame, options, &cord[i], passes, metrics);
     measure_distinct(options, &cord[i], i + 1, met, metrics);
@@ -489,9 +495,7 @@ thr_status thr_plan_measure(const thr_frame *frame, const thr_request *options,
   for (int e = 0; e < frame->n_edges; e++) {
     int cover = thr_plan_cover(frame, options, e);
     metrics->base_length += cover * frame->length[e];
-    metrics->overlap +=
-        (passes[e] - cover) *
-        frame->length[e]; /* not a difference of two sums: exactly 0 without overlap */
+    metrics->overlap += (passes[e] - cover) * frame->length[e];
   }
 
   free(passes);
@@ -518,6 +522,7 @@ double thr_plan_gap(const thr_plan *plan)
   if (thr_wants_balance(&plan->options))
     return gap_of(cords->present, cords->longest_optimal, cords->longest, cords->longest_bound);
 
+  /* Then the least of length, of the hardest cord, or of all turns. */
   if (thr_wants_length(&plan->options))
     return gap_of(length->present, length->optimal, plan->metrics.length, length->lower_bound);
   if (thr_wants_largest(&plan->options))

@@ -18,6 +18,7 @@
 
 thr_request thr_request_default(void)
 {
+  /* One closed cord of the least length, once over every edge. */
   return (thr_request){.aims = thr_aims_shortest,
                        .cover = 1,
                        .cords = 1,
@@ -249,15 +250,18 @@ static thr_status settle_symmetric(aim_list *list, thr_request *options, thr_err
  * length; the longest cord may only come first. */
 static thr_status settle_turning(aim_list *list, thr_err *err)
 {
+  /* One of them is minimized. */
   if (list->named[THR_AIM_TURNING] + list->named[THR_AIM_MAX_TURNING] + list->named[THR_AIM_PULL] >
       1)
     return thr_fail(err, THR_EINPUT, "one of turning, max-turning and pull, not both");
 
+  /* What is limited, or made short first, comes first. */
   thr_aim last = list->aims.aim[list->aims.n - 1];
   if (last == THR_AIM_LENGTH || last == THR_AIM_LONGEST)
     return thr_fail(err, THR_EINPUT, "%s comes before turning, max-turning and pull",
                     thr_aim_name(last));
 
+  /* Length alone allows no extra cord. */
   if (take_out(&list->aims, THR_AIM_LENGTH) && list->slack < 0) list->slack = 0;
   return THR_OK;
 }
@@ -303,6 +307,8 @@ thr_status thr_aims_parse(const char *text, thr_request *options, thr_err *err)
 
   if (!st) st = settle(&list, &trial, err);
   if (st) return st;
+
+  /* Lists that are wrong have changed nothing so far. */
   options->aims = list.aims;
   options->turning.cost = list.cost;
   options->turning.length_slack = list.slack;
@@ -492,6 +498,7 @@ thr_turning_task thr_turning_task_of(const thr_frame *frame, const thr_request *
     for (int v = 0; v < frame->n_nodes; v++)
       end_allowed[v] = thr_plan_end_allowed(frame, request, v);
 
+  /* Any length is allowed here; searches narrow the task. */
   return (thr_turning_task){.cover = request->cover,
                             .capacity = request->capacity,
                             .tube = request->joint == THR_JOINT_TUBE,

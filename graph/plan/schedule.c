@@ -177,6 +177,7 @@ static const char *read_step(const thr_json *object, int n_cords, thr_schedule_s
   if (deed == THR_DEED_NONE ? thr_json_get(object, "end") != NULL : end < 0)
     return "end: expected start, end or both";
 
+  /* A cord that stays slack does so at both ends. */
   step->deed = (thr_deed)deed;
   step->end = deed == THR_DEED_NONE ? THR_PULL_BOTH : (thr_pull)end;
 

@@ -87,12 +87,14 @@ static thr_status read_pass(step_reader *reader, const thr_cord *cord, int *pass
 {
   thr_span word = thr_span_word(&reader->rest);
 
+  /* A word that is no number begins an edge's name. */
   if (!thr_span_int(word, pass))
     return pass_between(reader, cord, word, thr_span_word(&reader->rest), pass);
   if (*pass < 1 || *pass > cord->n_passes)
     return thr_scan_fail(reader->scan, reader->err, "pass %.*s: cord %s has passes 1 to %d",
                          thr_span_width(word), word.s, cord->id, cord->n_passes);
 
+  /* Passes are counted from 1 by people, from 0 here. */
   --*pass;
   return THR_OK;
 }
@@ -105,6 +107,7 @@ static thr_status read_grip(step_reader *reader, const thr_cord *cord, thr_sched
   if (!st)
     st = read_amount(reader, thr_span_word(&reader->rest), "a force in newton", &step->force);
 
+  /* From both sides unless one is said. */
   step->end = THR_PULL_BOTH;
   thr_span from = thr_span_word(&reader->rest);
   if (st || from.n == 0) return st;
@@ -116,12 +119,14 @@ static thr_status read_grip(step_reader *reader, const thr_cord *cord, thr_sched
 /* Reads what follows the verb, for one cord. */
 static thr_status read_deed(step_reader *reader, const thr_cord *cord, thr_schedule_step *step)
 {
+  /* A grip is at a pass, not at an end. */
   if (step->deed == THR_DEED_GRIP) return read_grip(reader, cord, step);
   step->end = THR_PULL_BOTH;
   if (step->deed == THR_DEED_NONE) return THR_OK;
   thr_status st = read_end(reader, thr_span_word(&reader->rest), &step->end);
   if (st) return st;
 
+  /* Pulling and releasing have a force, a knot may have a slip. */
   if (step->deed != THR_DEED_KNOT)
     return read_amount(reader, thr_span_word(&reader->rest), "a force in newton", &step->force);
 
@@ -181,6 +186,8 @@ static thr_status read_line(step_reader *reader, thr_span line, thr_schedule *sc
   /* A comment ends the line. */
   const char *comment = memchr(line.s, '#', line.n);
   if (comment) line.n = (size_t)(comment - line.s);
+
+  /* Step by step, between semicolons; empty ones do not matter. */
   while (line.n && !st) {
     const char *end = memchr(line.s, ';', line.n);
     const size_t n = end ? (size_t)(end - line.s) : line.n;

@@ -41,6 +41,7 @@ bool thr_asked_after(thr_asked asked)
 
 void thr_standing_destroy(thr_standing *standing)
 {
+  /* Arrays of the answers and stills. */
   for (int i = 0; i < standing->n_answers; i++)
     free(standing->answer[i].velocity);
   for (int i = 0; i < standing->n_stills; i++)
@@ -58,6 +59,7 @@ void thr_standing_destroy(thr_standing *standing)
 /* Writes an answer: what was asked, what was found, and the mechanism that proves it. */
 static void put_answer(thr_writer *writer, const thr_answer *answer)
 {
+  /* What was asked, and at which value the solver found an equilibrium. */
   thr_write_line(writer, 5);
   thr_write_object(writer, NULL);
   thr_write_string(writer, "asked", thr_asked_name(answer->asked));
@@ -105,6 +107,8 @@ static void put_drawn(thr_writer *writer, const thr_standing *standing)
 {
   thr_write_line(writer, 4);
   thr_write_array(writer, "drawn");
+
+  /* One for each cord. */
   for (int i = 0; i < standing->n_cords; i++) {
     thr_write_object(writer, NULL);
     thr_write_string(writer, "pull", thr_pull_name((thr_pull)standing->drawn[i].pull));
@@ -373,6 +377,7 @@ static thr_status read_lists(const place_reader *reader, const thr_json *object,
   if (thr_json_typeof(answers) != THR_JSON_ARRAY || n_answers < 1)
     return bad(reader, "answers", -1, "missing or empty");
 
+  /* One more load, so that none is no failure. */
   standing->load = thr_calloc((size_t)n_loads + 1, sizeof *standing->load);
   standing->drawn = thr_calloc((size_t)standing->n_cords, sizeof *standing->drawn);
   standing->answer = thr_calloc((size_t)n_answers, sizeof *standing->answer);
@@ -384,6 +389,7 @@ static thr_status read_lists(const place_reader *reader, const thr_json *object,
              read_load(thr_json_at(loads, standing->n_loads), &standing->load[standing->n_loads])))
       return bad(reader, "loads", standing->n_loads, what);
 
+  /* As many as there are cords. */
   for (int i = 0; i < standing->n_cords; i++)
     if ((what = read_drawn(thr_json_at(drawn, i), &standing->drawn[i])))
       return bad(reader, "drawn", i, what);
@@ -447,9 +453,12 @@ thr_status thr_standing_from_json(thr_standing *standing, const thr_json *object
 {
   const place_reader reader = {place, err};
   *standing = (thr_standing){.present = true, .let_down = NAN, .n_cords = n_cords};
+
+  /* Until something is stated, nothing is known. */
   thr_status st = thr_json_typeof(object) == THR_JSON_OBJECT
                       ? read_members(&reader, object, standing)
                       : thr_fail(err, THR_EVIOLATED, "%s: not an object", place);
   if (st) thr_standing_destroy(standing);
+
   return st;
 }

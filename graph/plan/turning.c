@@ -41,6 +41,7 @@ static bool is_step(const thr_frame *frame, int in, int out)
 {
   double arriving[3], leaving[3];
 
+  /* Scalar product, and the product of the squared lengths. */
   thr_direction(frame, in, arriving);
   thr_direction(frame, out, leaving);
   double dot = arriving[0] * leaving[0] + arriving[1] * leaving[1] + arriving[2] * leaving[2];
@@ -400,9 +401,10 @@ thr_status thr_turning_columns_init(thr_turning_columns *turning_columns, const 
   *turning_columns = (thr_turning_columns){.f = frame, .task = task};
   thr_status st = check_task(task, err);
   if (st) return st;
+
+  /* By node, by half-edge, by edge. */
   turning_columns->component =
       thr_scratch_array(&turning_columns->own, n, sizeof *turning_columns->component);
-
   turning_columns->pair_first =
       thr_scratch_array(&turning_columns->own, n, sizeof *turning_columns->pair_first);
   turning_columns->position =
@@ -416,11 +418,12 @@ thr_status thr_turning_columns_init(thr_turning_columns *turning_columns, const 
       thr_scratch_array(&turning_columns->own, m, sizeof *turning_columns->cover);
   turning_columns->most =
       thr_scratch_array(&turning_columns->own, m, sizeof *turning_columns->most);
-
   turning_columns->length =
       thr_scratch_array(&turning_columns->own, m, sizeof *turning_columns->length);
+
   st = thr_scratch_check(&turning_columns->own, err);
 
+  /* The components tell which ends belong together. */
   if (!st)
     st = thr_frame_components(frame, turning_columns->component, &turning_columns->n_components,
                               err);
@@ -442,6 +445,7 @@ thr_status thr_turning_columns_init(thr_turning_columns *turning_columns, const 
     if (!(frame->length[e] * task->price_per_length < 1e4))
       st = thr_fail(err, THR_EINPUT, "the price per length makes edge %zu cost more than 10000", e);
 
+  /* Prices and lengths as integers. */
   if (!st) st = fill_columns(turning_columns, err);
   if (!st) fill_lengths(turning_columns);
   if (!st) thr_turning_limit(turning_columns);
