@@ -103,7 +103,7 @@ thr_status thr_components_init(thr_components *components, const thr_frame *fram
 static thr_status allocate(const thr_components *components, thr_frame *frame, thr_request *options,
                            thr_err *err)
 {
-  /* Covers and the like exist only where the whole has them. */
+  /* What every framework has. */
   size_t n = (size_t)frame->n_nodes, m = (size_t)frame->n_edges;
   bool good = (frame->xyz = thr_calloc(n, sizeof *frame->xyz)) &&
               (frame->foot = thr_calloc(n, sizeof *frame->foot)) &&
@@ -113,7 +113,7 @@ static thr_status allocate(const thr_components *components, thr_frame *frame, t
               (frame->length = thr_calloc(m, sizeof *frame->length)) &&
               (frame->half = thr_calloc(2 * m, sizeof *frame->half));
 
-  /* What only some frameworks or requests have. */
+  /* Covers and the like, where the whole has them. */
   if (components->f->cover) good = good && (frame->cover = thr_calloc(m, sizeof *frame->cover));
   if (components->f->capacity)
     good = good && (frame->capacity = thr_calloc(m, sizeof *frame->capacity));

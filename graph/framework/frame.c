@@ -586,7 +586,7 @@ void thr_frame_index(thr_frame *frame)
     frame->half[frame->first[thr_tail(frame, h)]++] = h;
 
   /* Move all starts back by one node. */
-  for (int v = frame->n_nodes; v > 0; v--) /* the loop above moved each start to its end */
+  for (int v = frame->n_nodes; v > 0; v--)
     frame->first[v] = frame->first[v - 1];
 
   frame->first[0] = 0;
@@ -691,8 +691,8 @@ static thr_status names_differ(const thr_frame *frame, bool *differ, thr_err *er
 static thr_status check_names(const thr_frame *frame, const thr_draft *draft, const int *parent,
                               const int *index, thr_err *err)
 {
-  /* Indices differ. */
-  bool indices = true; /* no two are the same */
+  /* Nodes without names are called by their indices, of which no two are the same. */
+  bool indices = true;
   for (int v = 0; v < draft->n_nodes && indices; v++)
     indices = !thr_draft_name(draft, v);
 
@@ -734,7 +734,7 @@ static thr_status fill_edges(thr_frame *frame, const thr_draft *draft, const int
     double length = given != 0 ? given : euclidean;
 
     /* Nodes at one place give the edge no direction, and so no angles of turning. */
-    if (!(euclidean > SHORTEST)) length = euclidean; /* without a direction there are no angles */
+    if (!(euclidean > SHORTEST)) length = euclidean;
     if (!(length > SHORTEST && length < LONGEST))
       return thr_fail(err, THR_EINPUT,
                       "edge %d (%s to %s) has length %g; lengths must lie between %g and %g", e,

@@ -111,9 +111,7 @@ static igraph_error_t cut_tree(const igraph_vector_int_t *ends, int n,
   if ((code = lib.igraph_vector_init(&flows, 0))) goto no_flows;
   if ((code = lib.igraph_gomory_hu_tree(&graph, &cuts, &flows, capacity))) goto no_tree;
 
-  /* The tree's edges are in the order of the flows. */
-
-  /* Both arrays of igraph have n - 1 entries. */
+  /* The tree has n - 1 edges, in the order of the flows. */
   for (int i = 0; i < n - 1; i++) {
     tree[i][0] = (int)IGRAPH_FROM(&cuts, i);
     tree[i][1] = (int)IGRAPH_TO(&cuts, i);
@@ -274,7 +272,7 @@ static igraph_error_t kamada_kawai(const igraph_t *graph, const igraph_vector_t 
     for (int k = 0; k < 2; k++)
       MATRIX(at, v, k) = xy[v][k];
 
-  /* The default strength of the springs is n. */
+  /* n is the usual constant of the springs. */
   code = lib.igraph_layout_kamada_kawai(graph, &at, !circle, 50 * n, 0, (double)n, length, NULL,
                                         NULL, NULL, NULL);
   for (igraph_integer_t v = 0; v < n && !code; v++)

@@ -421,7 +421,7 @@ thr_status thr_make(thr_draft *draft, const thr_make_options *options, thr_err *
   thr_status st = check_options(options, err);
   if (st) return st;
 
-  /* Geodesic domes end halfway between the upper and the lower corners. */
+  /* A geodesic dome ends halfway between the upper and the lower corners. */
   snprintf(draft->units, sizeof draft->units, "mm");
   switch (options->shape) {
   case THR_MAKE_DOME: st = make_dome(draft, options, err); break;

@@ -164,8 +164,9 @@ static const char *unit_beside(const comment_word *word, int i, int n)
 
   if (unit_at(word, k, n)) return unit_at(word, k, n);
 
-  /* Before it: "centimeters as units", "cm units". */
   if (inch) return inch;
+
+  /* Before it: "centimeters as units", "cm units". */
   if (i >= 2 && strcasecmp(word[i - 1].text, "as") == 0) return unit_at(word, i - 2, n);
   return i >= 1 && strcasecmp(word[i - 1].text, "in") != 0 ? unit_at(word, i - 1, n) : NULL;
 }

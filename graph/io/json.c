@@ -343,7 +343,7 @@ static thr_status expected(const json_parsing *parsing, const char *what)
   while (n > 0 && n < left && thr_text_is_inside(parsing->at[n]))
     n--;
 
-  /* Nothing may be left. */
+  /* The document may end here. */
   if (left == 0)
     snprintf(near, sizeof near, "%s expected near end of file", what);
   else
@@ -642,7 +642,7 @@ static thr_status take_number(json_parsing *parsing, uint64_t *bits)
   int64_t whole;
   const char *begin = parsing->at, *end = end_of_number(parsing, &real);
 
-  /* Reals are read exactly (graph/number.h). */
+  /* Whole numbers are kept as such. */
   if (!end) return expected(parsing, "a number");
   parsing->at = end;
   if (!real)
@@ -882,8 +882,7 @@ static thr_status parse(thr_json **doc, const char *text, size_t n, const char *
                         thr_err *err)
 {
   /* Windows editors leave a byte-order mark. */
-  bool marked = n >= 3 && memcmp(text, "\xef\xbb\xbf", 3) ==
-                              0; /* byte-order mark, as Windows editors leave it */
+  bool marked = n >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0;
   const char *begin = n == 0 ? "" : marked ? text + 3 : text;
   json_parsing parsing = {.text = begin,
                           .at = begin,

@@ -183,7 +183,7 @@ static thr_status take_field(csv_reader *table, thr_span *rest, thr_span *field)
 
   /* What stands between a closing quote and the separator is dropped. */
   while (i < rest->n && !is_separator(table, rest->s[i]))
-    i++; /* after a closing quote */
+    i++;
   *field = thr_span_trim((thr_span){rest->s + start, end - start});
 
   if (i < rest->n) i++;
@@ -237,22 +237,22 @@ static thr_status next_row(csv_reader *table, bool *more)
 
 /* Returns the name that a field means. Tables that went through floating point call node 7 "7.0".
  * An apostrophe keeps a spreadsheet from taking a name for a formula: '=A is =A. */
-static thr_span plain_name(thr_span table)
+static thr_span plain_name(thr_span text)
 {
-  if (table.n > 1 && table.s[0] == '\'' && strchr("=+-@", table.s[1]))
-    table = (thr_span){table.s + 1, table.n - 1};
+  if (text.n > 1 && text.s[0] == '\'' && strchr("=+-@", text.s[1]))
+    text = (thr_span){text.s + 1, text.n - 1};
 
   /* Strip zeros after the point of a whole number. */
-  size_t n = table.n;
-  while (n && table.s[n - 1] == '0')
+  size_t n = text.n;
+  while (n && text.s[n - 1] == '0')
     n--;
 
   int whole;
-  if (n > 1 && n < table.n && table.s[n - 1] == '.' &&
-      thr_span_int((thr_span){table.s, n - 1}, &whole))
-    table.n = n - 1;
+  if (n > 1 && n < text.n && text.s[n - 1] == '.' &&
+      thr_span_int((thr_span){text.s, n - 1}, &whole))
+    text.n = n - 1;
 
-  return table;
+  return text;
 }
 
 /* Returns the name in a field as the draft keeps names, valid until the next call. */
@@ -1150,6 +1150,7 @@ thr_status thr_csv_parse_pair(thr_draft *draft, thr_read_report *report, const t
   thr_text_destroy(&node_table.scratch);
   thr_text_destroy(&edge_table.scratch);
   if (st) thr_draft_destroy(draft);
+
   return st;
 }
 

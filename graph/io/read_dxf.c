@@ -149,7 +149,7 @@ typedef struct {
 static thr_status read_next_pair(dxf_reader *reader)
 {
   thr_span code, value;
-  int read_number;
+  int number;
 
   /* A file may end without EOF, and with one blank line. */
   if (!thr_scan_line(&reader->scan, &code) ||
@@ -160,7 +160,7 @@ static thr_status read_next_pair(dxf_reader *reader)
   }
 
   /* A code that is no number means that the two lines of a pair are out of step. */
-  if (!thr_span_int(thr_span_trim(code), &read_number))
+  if (!thr_span_int(thr_span_trim(code), &number))
     return thr_scan_fail(
         &reader->scan, reader->err,
         "'%.*s' is no group code; a DXF file is pairs of lines, a number and a value",
@@ -169,7 +169,7 @@ static thr_status read_next_pair(dxf_reader *reader)
   if (!thr_scan_line(&reader->scan, &value))
     return thr_scan_fail(&reader->scan, reader->err, "the file ends in the middle of a pair");
 
-  reader->next = (pair){read_number, thr_span_trim(value)};
+  reader->next = (pair){number, thr_span_trim(value)};
   return THR_OK;
 }
 
@@ -638,7 +638,7 @@ static thr_status add_ellipse(dxf_reader *reader, const placing *place, const el
 {
   double a[3], b[3];
 
-  /* `to` is brought to less than one turn after `from`: (0, 2 pi]. */
+  /* `to` is brought to at most one turn after `from`: (0, 2 pi]. */
   const double turns = (to - from) / (2 * THR_PI);
   if (!(turns > 0 && turns <= 1)) to = from + 2 * THR_PI * (turns - ceil(turns) + 1);
   const double length = ellipse_length(e, from, to);
@@ -1087,7 +1087,7 @@ static thr_status read_block(dxf_reader *reader)
   if (!st) st = read_point(reader, 10, read.base);
 
   /* Bits 4 and 8 mark an external reference and an overlay of one. */
-  read.external = flags & (4 | 8); /* an external reference, or an overlay */
+  read.external = flags & (4 | 8);
   if (!st) st = read_entities(reader, "ENDBLK");
   if (read.name.n == 0) reader->n_shapes = read.first; /* nothing can insert it */
   read.last = reader->n_shapes;
@@ -1307,7 +1307,7 @@ static thr_status place_shapes(dxf_reader *reader, int first, int last, const pl
       continue;
     }
 
-    /* An INSERT of a block that is elsewhere or nowhere. */
+    /* The block may be in another file, or in none. */
     const insertion *inserted = &reader->inserted[piece->first];
     const block *inserted_block;
     st = find_block(reader, inserted->block, &inserted_block);

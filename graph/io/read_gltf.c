@@ -303,9 +303,10 @@ static thr_status fill_sparse(gltf_reader *reader, int i, const thr_json *sparse
 
   value.count = index.count;
 
-  /* Without a view, nothing else bounds the number of elements. */
   if (index.count < 0 || !size_of(index.type))
     return bad(reader, "accessors", i, "is sparse without a count or a type of indices");
+
+  /* Without a view, nothing else bounds the number of elements. */
   if (!all->first && all->count > MOST_ZEROS)
     return bad(reader, "accessors", i, "has more than 1000000 elements without a bufferView");
 

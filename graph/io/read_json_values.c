@@ -79,7 +79,7 @@ static thr_status read_number(thr_json_reader *reader, const thr_json_where *at,
     return thr_json_bad(reader, at, "not a number; give a decimal number");
 
   /* Writers do not tell -0 from 0. */
-  if (*number == 0) *number = 0; /* -0 and 0 are written alike */
+  if (*number == 0) *number = 0;
   return THR_OK;
 }
 

@@ -377,9 +377,10 @@ static thr_status read_record(obj_reader *reader, thr_span line)
   thr_span keyword, word;
   int degree;
 
-  /* Counted again here, for references from the end. */
   if (line.n && line.s[0] == '#') return read_comment(reader, line);
   if (!next_word(&line, &keyword)) return THR_OK;
+
+  /* Vertices are counted again here, for references from the end. */
   if (thr_span_is(keyword, "v")) reader->n_before++;
   if (reader->part_keyword && thr_span_is(keyword, reader->part_keyword)) reader->part++;
   if (!thr_parts_has(&reader->parts, reader->part)) return THR_OK;
@@ -482,6 +483,7 @@ static thr_status parse(thr_draft *draft, thr_read_report *read_report, const ch
   free(reader.curve);
   free(reader.knot);
   free(reader.foot);
+
   return st;
 }
 

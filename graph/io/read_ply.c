@@ -275,10 +275,8 @@ static thr_status check_header(ply_reader *reader)
     const element *table = &reader->element[i];
     const char *missing = NULL;
 
-    /* Edges may have their ends as a list of two. */
+    /* What is needed depends on the kind; edges may have their ends as a list of two. */
     if (table->kind == VERTEX && !has_roles(reader, table, X, Z))
-
-      /* What the element needs depends on its kind. */
       missing = "vertices need the properties x, y and z";
     if (table->kind == EDGE && !has_roles(reader, table, VERTEX_1, VERTEX_2) &&
         !has_roles(reader, table, CORNERS, CORNERS))

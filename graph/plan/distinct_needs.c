@@ -64,9 +64,10 @@ static thr_status raise_bridges(const thr_frame *frame, const thr_request *optio
   long *below = thr_scratch_array(&own, n, sizeof *below),
        *all = thr_scratch_array(&own, n, sizeof *all);
 
-  /* A bridge is an edge of every spanning tree, so its subtree is one of the two sides. */
   thr_status st = thr_scratch_check(&own, err);
   *more = false;
+
+  /* A bridge is an edge of every spanning tree, so its subtree is one of the two sides. */
   if (!st) st = thr_frame_bridges(frame, bridge, err);
   if (!st) span(frame, order, via, reached);
 

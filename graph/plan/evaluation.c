@@ -194,10 +194,10 @@ void thr_evaluation_write(const thr_evaluation *evaluation, thr_writer *writer, 
   thr_physics_write(&evaluation->physics, writer, "physics");
   thr_write_line(writer, 2);
   thr_write_printf(writer, "seed", "%" PRIu64, evaluation->seed);
-
-  /* What all cords come to. */
   thr_write_number(writer, "time_step", evaluation->time_step);
   thr_write_number(writer, "iterations", evaluation->iterations);
+
+  /* What all cords come to. */
   thr_write_number(writer, "largest", evaluation->largest);
   thr_write_number(writer, "total", evaluation->total);
   if (evaluation->seated_known) thr_write_number(writer, "seated", evaluation->seated);
@@ -548,7 +548,7 @@ static thr_status read_members(const place_reader *reader, const thr_json *objec
   if (thr_physics_from_json(&evaluation->physics, thr_json_get(object, "physics"), place, &found))
     return thr_fail(reader->err, THR_EVIOLATED, "%s", found.text);
 
-  /* Numbers of the whole. */
+  /* Numbers of the whole evaluation. */
   if ((st = get_int(reader, object, "seed", INT64_C(1) << 53, &seed))) return st;
   evaluation->seed = (uint64_t)seed;
   if ((st = get_double(reader, object, "time_step", &evaluation->time_step))) return st;

@@ -79,8 +79,7 @@ double thr_least_pull_other(const double *sum, int first, int last)
 /* Says which of the turns i < k comes first whichever end of the cord is called its start. */
 static bool comes_first(const int *half, int n_passes, int i, int k)
 {
-  /* The one nearer to an end, counted from either; of two equally near ones the edges around them
-   * decide. */
+  /* The one nearer to the middle; of two that are equally near the edges around them decide. */
   const int last = n_passes - 2;
   if (i + k != last) return i + k > last;
   for (int before = i + 1, after = k; before >= 0; before--, after++)
@@ -114,7 +113,6 @@ thr_least_pull_walk thr_least_pull_begin(double whole)
 
 bool thr_least_pull_next(thr_least_pull_walk *walk, double turn)
 {
-  /* A turn is a candidate as long as the start has less to overcome than the end. */
   const double after = walk->whole - walk->before - turn;
   walk->larger = fmin(walk->larger, fmax(walk->before, after));
   walk->before += turn;

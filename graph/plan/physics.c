@@ -298,9 +298,10 @@ static thr_status only_fields(const thr_json *object, thr_err *err)
   const thr_json *value;
 
   while (thr_json_next(object, &iter, &key, &value)) {
-    /* The command line's spelling is close enough for a hint. */
     bool text = strcmp(key, "preset") == 0 || strcmp(key, "note") == 0;
     const thr_physics_field *field = thr_physics_find(key);
+
+    /* The command line's spelling is close enough for a hint. */
     if (!text && field && strcmp(field->key, key) != 0)
       return thr_fail(err, THR_EINPUT, "%.60s: no such quantity; did you mean %s?", key,
                       field->key);

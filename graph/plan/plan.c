@@ -54,7 +54,7 @@ thr_status thr_cords_copy(const thr_cord *cord, int n, thr_cord **copy, thr_err 
       memcpy(copied[i].half, cord[i].half, (size_t)cord[i].n_passes * sizeof *copied[i].half);
   }
 
-  /* Half of the cords are none. */
+  /* Without all cords there is no copy. */
   if (complete) return THR_OK;
   thr_cords_destroy(copied, n);
   *copy = NULL;
@@ -89,7 +89,7 @@ void thr_plan_destroy(thr_plan *plan)
   for (int i = 0; i < plan->proof.n_certificates; i++)
     thr_certificate_destroy(&plan->proof.certificate[i]);
 
-  /* Arrays and records, in the order of the struct. */
+  /* All other arrays and records. */
   free(plan->proof.certificate);
   thr_turning_proof_destroy(&plan->proof.tied);
   thr_walk_proof_destroy(&plan->proof.walks);
@@ -405,7 +405,7 @@ bool thr_cords_within_pull(const thr_frame *frame, const thr_request *options, c
                            int n)
 {
   /* The planner keeps to a tenth of the checker's tolerance. */
-  const double rounding = 1e-10; /* a tenth of the checker's */
+  const double rounding = 1e-10;
   const double most = thr_request_most_pulled(options);
   return isinf(most) || thr_cords_pulled_turning(frame, cord, n) <=
                             most + rounding * (most + 1 / options->physics.mu);
