@@ -226,21 +226,23 @@ static void row_point(const icosahedron *solid, int frequency, int row, int i, d
               xyz);
 }
 
-/* Joins a row of 5m nodes (m = 0: the pole) to the row of 5(m + 1) nodes beside it, which is
- * farther from the pole. near, far: the first node of either row. */
-static thr_status join_growing(thr_draft *draft, int near, int m, int far, thr_err *err)
+/* Joins a row of 5 per_sector nodes (0: the pole) to the row of 5 (per_sector + 1) nodes beside it,
+ * which is farther from the pole. near, far: the first node of either row. */
+static thr_status join_growing(thr_draft *draft, int near, int per_sector, int far, thr_err *err)
 {
-  int n = 5 * (m + 1);
+  int n = 5 * (per_sector + 1);
   thr_status st = THR_OK;
 
   /* The pole is joined to all. */
-  for (int i = 0; m == 0 && i < n && !st; i++)
+  for (int i = 0; per_sector == 0 && i < n && !st; i++)
     st = thr_draft_add_edge(draft, near, far + i, 0, err);
 
   /* Others to two nodes, corners of the icosahedron to three. */
-  for (int i = 0; i < 5 * m && !st; i++) {
-    int here = i / m * (m + 1) + i % m; /* same place in the same sector */
-    if (i % m == 0) st = thr_draft_add_edge(draft, near + i, far + (here + n - 1) % n, 0, err);
+  for (int i = 0; i < 5 * per_sector && !st; i++) {
+    int here =
+        i / per_sector * (per_sector + 1) + i % per_sector; /* same place in the same sector */
+    if (i % per_sector == 0)
+      st = thr_draft_add_edge(draft, near + i, far + (here + n - 1) % n, 0, err);
     if (!st) st = thr_draft_add_edge(draft, near + i, far + here, 0, err);
     if (!st) st = thr_draft_add_edge(draft, near + i, far + here + 1, 0, err);
   }
@@ -288,7 +290,7 @@ static thr_status make_rows(thr_draft *draft, const thr_make_options *options, i
   thr_status st = THR_OK;
 
   for (int row = 0; row <= last && !st; before = start, start += row_size(frequency, row), row++) {
-    int n = row_size(frequency, row), m = n / 5;
+    int n = row_size(frequency, row), per_sector = n / 5;
 
     /* Nodes, and edges around the row. */
     for (int i = 0; i < n && !st; i++) {
@@ -302,11 +304,11 @@ static thr_status make_rows(thr_draft *draft, const thr_make_options *options, i
     /* Edges to the row before: the far one is the longer one. */
     if (st || row == 0) continue;
     if (row <= frequency)
-      st = join_growing(draft, before, m - 1, start, err);
+      st = join_growing(draft, before, per_sector - 1, start, err);
     else if (row <= 2 * frequency)
       st = join_equal(draft, before, start, n, err);
     else
-      st = join_growing(draft, start, m, before, err);
+      st = join_growing(draft, start, per_sector, before, err);
   }
 
   if (!st) scale_to_pitch(draft, options->pitch);
@@ -323,14 +325,14 @@ static int zigzag_size(int rings, int k)
   return 2 * rings + 1 + 2 * (k < rings ? k : 2 * rings - 1 - k);
 }
 
-/* Computes the integer place of node t of row k: x in sqrt(3)/2 pitches, y in half pitches. The
- * lower half mirrors the upper one. */
-static void zigzag_place(int rings, int k, int t, int *x, int *y)
+/* Computes where the node at a place of row k is, in integers: x in sqrt(3)/2 pitches, y in half
+ * pitches. The lower half mirrors the upper one. */
+static void zigzag_place(int rings, int k, int place, int *x, int *y)
 {
   bool upper = k < rings;
   int mirrored = upper ? k : 2 * rings - 1 - k, low = 3 * (rings - 1 - mirrored) + 1;
-  *x = t - (zigzag_size(rings, k) - 1) / 2;
-  *y = low + t % 2;
+  *x = place - (zigzag_size(rings, k) - 1) / 2;
+  *y = low + place % 2;
   if (!upper) *y = -*y;
 }
 
@@ -354,22 +356,23 @@ static thr_status make_honeycomb(thr_draft *draft, const thr_make_options *optio
 
   /* Nodes, row by row. */
   for (int k = 0; k < 2 * rings; k++)
-    for (int t = 0; t < zigzag_size(rings, k) && !st; t++) {
-      zigzag_place(rings, k, t, &x, &y);
+    for (int place = 0; place < zigzag_size(rings, k) && !st; place++) {
+      zigzag_place(rings, k, place, &x, &y);
       int64_t square = zigzag_square(x, y);
       double height = 1 - (double)square / (double)rim;
       st = add_node(draft, 0.5 * sqrt(3) * x * options->pitch, 0.5 * y * options->pitch,
-                    crown * height, k, t, square == rim, err);
+                    crown * height, k, place, square == rim, err);
     }
 
   /* Edges along the zigzag, and from its low nodes to the next row. */
   for (int k = 0; k < 2 * rings; start += zigzag_size(rings, k), k++) {
     int n = zigzag_size(rings, k), next = k + 1 < 2 * rings ? zigzag_size(rings, k + 1) : 0;
-    for (int t = 0; t < n && !st; t++) {
-      if (t + 1 < n) st = thr_draft_add_edge(draft, start + t, start + t + 1, 0, err);
-      bool low = (t % 2 == 0) == (k < rings);
-      int below = t + (next - n) / 2; /* same x in the next row */
-      if (!st && low && next) st = thr_draft_add_edge(draft, start + t, start + n + below, 0, err);
+    for (int place = 0; place < n && !st; place++) {
+      if (place + 1 < n) st = thr_draft_add_edge(draft, start + place, start + place + 1, 0, err);
+      bool low = (place % 2 == 0) == (k < rings);
+      int below = place + (next - n) / 2; /* same x in the next row */
+      if (!st && low && next)
+        st = thr_draft_add_edge(draft, start + place, start + n + below, 0, err);
     }
   }
 

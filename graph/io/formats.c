@@ -169,6 +169,8 @@ thr_status thr_format_by_name(const char *name, const thr_format **format, thr_e
 {
   const thr_span ending = thr_span_of(thr_path_ending(name));
   *format = with_ending(ending);
+
+  /* Only names that say no format are compared. */
   for (size_t i = 0; !*format && i < sizeof foreign_files / sizeof *foreign_files; i++)
     if (thr_span_is(ending, foreign_files[i].start)) return refuse(&foreign_files[i], name, err);
   return THR_OK;
@@ -177,15 +179,16 @@ thr_status thr_format_by_name(const char *name, const thr_format **format, thr_e
 /* Returns what a text is that begins like a foreign file; NULL if it is like none. */
 static const foreign *foreign_of(const char *text, size_t n)
 {
-  thr_span t = {text, n};
+  thr_span rest = {text, n};
 
   /* A byte-order mark and blanks may come first. */
-  if (thr_span_starts(t, "\xef\xbb\xbf")) t = (thr_span){t.s + 3, t.n - 3};
-  while (t.n && (t.s[0] == ' ' || t.s[0] == '\t' || t.s[0] == '\r' || t.s[0] == '\n'))
-    t = (thr_span){t.s + 1, t.n - 1};
+  if (thr_span_starts(rest, "\xef\xbb\xbf")) rest = (thr_span){rest.s + 3, rest.n - 3};
+  while (rest.n &&
+         (rest.s[0] == ' ' || rest.s[0] == '\t' || rest.s[0] == '\r' || rest.s[0] == '\n'))
+    rest = (thr_span){rest.s + 1, rest.n - 1};
 
   for (size_t i = 0; i < sizeof foreign_texts / sizeof *foreign_texts; i++)
-    if (thr_span_starts(t, foreign_texts[i].start)) return &foreign_texts[i];
+    if (thr_span_starts(rest, foreign_texts[i].start)) return &foreign_texts[i];
 
   return NULL;
 }

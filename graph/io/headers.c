@@ -95,6 +95,8 @@ static const char *plain_letter(const char *c)
 static const char *unit_in(thr_span text)
 {
   char word[24];
+
+  /* No unit has a longer name. */
   text = thr_span_trim(text);
   if (text.n == 0 || text.n >= sizeof word) return NULL;
   snprintf(word, sizeof word, "%.*s", (int)text.n, text.s);

@@ -159,9 +159,12 @@ const thr_json *thr_json_get(const thr_json *object, const char *key)
 {
   if (!is(object, TAG_OBJECT)) return NULL;
   size_t n = count_of(object);
+
+  /* Few members are looked through faster than searched. */
   if (n > FEW_MEMBERS) return find(object, n, key);
   for (size_t i = 0; i < n; i++)
     if (strcmp(key_text(key_at(object, i)), key) == 0) return key_at(object, i) + 1;
+
   return NULL;
 }
 
@@ -203,10 +206,14 @@ bool thr_json_number(const thr_json *value, double *out)
 bool thr_json_int(const thr_json *value, int64_t *out)
 {
   double real;
+
   if (whole_of(value, out)) return true;
   if (!thr_json_number(value, &real) || real != floor(real) || fabs(real) > 9007199254740992.0)
+
+    /* Beyond 2^53 not every integer is a double, so that the number may have been rounded. */
     return false;
   *out = (int64_t)real;
+
   return true;
 }
 
@@ -242,6 +249,8 @@ bool thr_json_true(const thr_json *value)
 bool thr_json_next(const thr_json *object, void **iter, const char **key, const thr_json **value)
 {
   if (!is(object, TAG_OBJECT)) return false;
+
+  /* A key takes one slot, and its value the next one. */
   const thr_json *at = *iter ? (const thr_json *)*iter + 2 : key_at(object, 0);
   if (at == key_at(object, count_of(object))) return false;
   *iter = (void *)(size_t)at;
@@ -527,27 +536,27 @@ static const char *after_digits(const json_parsing *parsing, const char *c)
 static const char *end_of_number(const json_parsing *parsing, bool *real)
 {
   /* Digits before the point: 0, or digits that do not begin with 0. */
-  const char *c = parsing->at + (*parsing->at == '-');
+  const char *at = parsing->at + (*parsing->at == '-');
   *real = false;
-  if (!is_digit(parsing, c)) return NULL;
-  c = *c == '0' ? c + 1 : after_digits(parsing, c);
+  if (!is_digit(parsing, at)) return NULL;
+  at = *at == '0' ? at + 1 : after_digits(parsing, at);
 
   /* A point needs digits after it. */
-  if (c < parsing->end && *c == '.') {
+  if (at < parsing->end && *at == '.') {
     *real = true;
-    if (!is_digit(parsing, ++c)) return NULL;
-    c = after_digits(parsing, c);
+    if (!is_digit(parsing, ++at)) return NULL;
+    at = after_digits(parsing, at);
   }
 
   /* So does an exponent, after its sign. */
-  if (c < parsing->end && (*c == 'e' || *c == 'E')) {
+  if (at < parsing->end && (*at == 'e' || *at == 'E')) {
     *real = true;
-    if (++c < parsing->end && (*c == '+' || *c == '-')) c++;
-    if (!is_digit(parsing, c)) return NULL;
-    c = after_digits(parsing, c);
+    if (++at < parsing->end && (*at == '+' || *at == '-')) at++;
+    if (!is_digit(parsing, at)) return NULL;
+    at = after_digits(parsing, at);
   }
 
-  return is_digit(parsing, c) ? NULL : c; /* no zeros in front */
+  return is_digit(parsing, at) ? NULL : at; /* no zeros in front */
 }
 
 /* Reads the digits before end, with their sign; returns false if the number is no int64_t. The

@@ -27,11 +27,14 @@ thr_status thr_parts_add(thr_parts *parts, thr_span name, int *part, thr_err *er
 thr_status thr_parts_find(thr_parts *parts, thr_span name, int *part, thr_err *err)
 {
   const char *known = parts->names.data;
+
+  /* Names follow one another, each with its NUL. */
   for (int i = 0; i < parts->n; i++, known += strlen(known) + 1)
     if (name.n == strlen(known) && memcmp(name.s, known, name.n) == 0) {
       *part = i;
       return THR_OK;
     }
+
   return thr_parts_add(parts, name, part, err);
 }
 

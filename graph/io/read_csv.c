@@ -298,11 +298,11 @@ static columns no_columns(const csv_reader *table, row_kind kind, bool header)
 }
 
 /* Finds the columns that say more of an edge than its ends. */
-static void find_edge_columns(const csv_reader *table, columns *c)
+static void find_edge_columns(const csv_reader *table, columns *meaning)
 {
-  c->length = COLUMN(table, "length");
-  c->cover = COLUMN(table, "cover");
-  c->capacity = COLUMN(table, "capacity");
+  meaning->length = COLUMN(table, "length");
+  meaning->cover = COLUMN(table, "cover");
+  meaning->capacity = COLUMN(table, "capacity");
 }
 
 /* Writes what the columns are called, for messages, as far as size bytes hold. */
@@ -323,29 +323,34 @@ static bool read_headers(const csv_reader *table, thr_header *header)
 {
   double x;
   int numbers = 0;
+
+  /* Two numbers make it a row of values; one may be a name that looks like a number. */
   for (int i = 0; i < table->n_fields && numbers < 2; i++)
     numbers += number_at(table, i, &x);
   for (int i = 0; i < table->n_fields && numbers < 2; i++)
     header[i] = thr_header_of(table->field[i]);
+
   return numbers < 2;
 }
 
 /* Finds the columns of both ends of a line: x1, y1, z1, x2, y2, z2 or the same with another pair of
  * words. Returns false if one of the ends has no x or y. */
-static bool find_line_columns(const csv_reader *table, const thr_header *header, columns *c)
+static bool find_line_columns(const csv_reader *table, const thr_header *header, columns *meaning)
 {
   const char *word[2];
 
   for (int pair = 0; thr_header_pair(pair, word); pair++) {
-    *c = no_columns(table, LINE_ROWS, true);
+    *meaning = no_columns(table, LINE_ROWS, true);
 
     /* Going backwards makes the first of several columns of one meaning count. */
     for (int i = table->n_fields - 1; i >= 0; i--)
       for (int end = 0; end < 2; end++) {
         const int axis = thr_header_end_axis(&header[i], word[end]);
-        if (axis >= 0) c->xyz[3 * end + axis] = i;
+        if (axis >= 0) meaning->xyz[3 * end + axis] = i;
       }
-    if (c->xyz[0] >= 0 && c->xyz[1] >= 0 && c->xyz[3] >= 0 && c->xyz[4] >= 0) return true;
+    if (meaning->xyz[0] >= 0 && meaning->xyz[1] >= 0 && meaning->xyz[3] >= 0 &&
+        meaning->xyz[4] >= 0)
+      return true;
   }
 
   return false;
@@ -353,28 +358,30 @@ static bool find_line_columns(const csv_reader *table, const thr_header *header,
 
 /* Finds the columns of nodes: x, y, z, the feet and the name, which is the first column that means
  * a name or else the first of the table. Returns false if there is no x or no y. */
-static bool find_node_columns(const csv_reader *table, const thr_header *header, columns *c)
+static bool find_node_columns(const csv_reader *table, const thr_header *header, columns *meaning)
 {
-  *c = no_columns(table, NODE_ROWS, true);
+  *meaning = no_columns(table, NODE_ROWS, true);
   for (int i = table->n_fields - 1; i >= 0; i--) {
     const int axis = thr_header_axis(&header[i]);
-    if (axis >= 0) c->xyz[axis] = i;
-    if (thr_header_feet(&header[i])) c->foot = i;
-    if (thr_header_names_nodes(&header[i])) c->id = i;
+    if (axis >= 0) meaning->xyz[axis] = i;
+    if (thr_header_feet(&header[i])) meaning->foot = i;
+    if (thr_header_names_nodes(&header[i])) meaning->id = i;
   }
 
   /* The first column is the name unless it means something else. */
-  if (c->id < 0 && c->xyz[0] && c->xyz[1] && c->xyz[2] && c->foot) c->id = 0;
-  return c->xyz[0] >= 0 && c->xyz[1] >= 0;
+  if (meaning->id < 0 && meaning->xyz[0] && meaning->xyz[1] && meaning->xyz[2] && meaning->foot)
+    meaning->id = 0;
+
+  return meaning->xyz[0] >= 0 && meaning->xyz[1] >= 0;
 }
 
 /* Finds the column of lines as well-known text. */
-static bool find_text_column(const csv_reader *table, const thr_header *header, columns *c)
+static bool find_text_column(const csv_reader *table, const thr_header *header, columns *meaning)
 {
-  *c = no_columns(table, TEXT_ROWS, true);
+  *meaning = no_columns(table, TEXT_ROWS, true);
   for (int i = table->n_fields - 1; i >= 0; i--)
-    if (thr_header_lines(&header[i])) c->text = i;
-  return c->text >= 0;
+    if (thr_header_lines(&header[i])) meaning->text = i;
+  return meaning->text >= 0;
 }
 
 /* Takes the unit that the headers of coordinates and lengths name. THR_EINPUT if there are two
@@ -415,20 +422,20 @@ static bool is_node(const csv_reader *table, thr_span name)
 static thr_status coordinate_header(csv_reader *table, bool *is)
 {
   thr_header header[MAX_FIELDS];
-  columns c;
+  columns meaning;
 
   /* Headers are tried from the most specific to the least. */
   *is = read_headers(table, header) &&
-        (find_line_columns(table, header, &c) || find_node_columns(table, header, &c) ||
-         (table->columns.kind == NO_ROWS && find_text_column(table, header, &c)));
+        (find_line_columns(table, header, &meaning) || find_node_columns(table, header, &meaning) ||
+         (table->columns.kind == NO_ROWS && find_text_column(table, header, &meaning)));
 
   /* A row of two fields that both name nodes is the first edge after the nodes, even if it reads
    * like a header. */
   if (*is && table->columns.kind == NODE_ROWS && table->n_fields == 2)
     *is = !is_node(table, table->field[0]) || !is_node(table, table->field[1]);
   if (!*is) return THR_OK;
-  if (c.kind == LINE_ROWS) find_edge_columns(table, &c);
-  table->columns = c;
+  if (meaning.kind == LINE_ROWS) find_edge_columns(table, &meaning);
+  table->columns = meaning;
 
   return take_units(table, header);
 }
@@ -942,23 +949,23 @@ static thr_status learn(csv_reader *table, bool *used)
  * learnt from. */
 static void note_unused(csv_reader *table)
 {
-  const columns *c = &table->columns;
+  const columns *meaning = &table->columns;
 
   for (int i = 0; i < table->n_fields; i++) {
-    bool used = i == c->id || i == c->foot || i == c->length || i == c->cover || i == c->capacity ||
-                i == c->text;
+    bool used = i == meaning->id || i == meaning->foot || i == meaning->length ||
+                i == meaning->cover || i == meaning->capacity || i == meaning->text;
 
     /* In rows of edges the coordinates mean nothing, in other rows the ends. */
     for (int k = 0; k < 6; k++)
-      used |= c->kind != EDGE_ROWS && i == c->xyz[k];
+      used |= meaning->kind != EDGE_ROWS && i == meaning->xyz[k];
     for (int k = 0; k < 2; k++)
-      used |= c->kind == EDGE_ROWS && i == c->ends[k];
+      used |= meaning->kind == EDGE_ROWS && i == meaning->ends[k];
 
     /* As many as fit. */
     const size_t n = strlen(table->report->unused), size = sizeof table->report->unused;
     if (used || n + 1 >= size) continue;
     const char *comma = n ? ", " : "";
-    if (c->header && table->field[i].n)
+    if (meaning->header && table->field[i].n)
       snprintf(table->report->unused + n, size - n, "%s%.*s", comma,
                thr_span_width(table->field[i]), table->field[i].s);
     else

@@ -260,6 +260,7 @@ static bool same_name(thr_span a, thr_span b)
 {
   bool same = a.n == b.n;
   for (size_t i = 0; i < a.n && same; i++) {
+    /* The byte before tells whether this one is the second one of a letter. */
     const unsigned char before = i ? (unsigned char)a.s[i - 1] : 0;
     same = small(before, (unsigned char)a.s[i]) == small(before, (unsigned char)b.s[i]);
   }
@@ -445,32 +446,34 @@ static double ellipse_length(const ellipse *e, double from, double to)
 }
 
 /* Releases the arrays of a spline. */
-static void free_curve(curve *c)
+static void free_curve(curve *spline)
 {
-  free(c->control);
-  free(c->weight);
-  free(c->knot);
+  free(spline->control);
+  free(spline->weight);
+  free(spline->knot);
 }
 
 /* Returns the spline of a curve, which borrows its arrays. */
-static thr_spline spline_of(const curve *c)
+static thr_spline spline_of(const curve *spline)
 {
-  return (thr_spline){c->degree, c->n, (const double(*)[3])c->control, c->weight, c->knot};
+  return (thr_spline){spline->degree, spline->n, (const double(*)[3])spline->control,
+                      spline->weight, spline->knot};
 }
 
 /* Takes the curve over, also on failure, and appends the edge from a to b along the curve. */
 static thr_status add_curve(dxf_reader *reader, const placing *place, const double a[3],
-                            const double b[3], curve *c, double length)
+                            const double b[3], curve *taken, double length)
 {
   thr_status st = thr_grow(&reader->curve, reader->n_curves, &reader->curves_capacity,
                            sizeof *reader->curve, reader->err);
 
+  /* The caller need not know whether the curve was taken. */
   if (st) {
-    free_curve(c);
+    free_curve(taken);
     return st;
   }
 
-  reader->curve[reader->n_curves++] = *c;
+  reader->curve[reader->n_curves++] = *taken;
   return add_segment(reader, place, a, b, length);
 }
 
@@ -479,16 +482,16 @@ static thr_status add_arc(dxf_reader *reader, const placing *place, const ellips
                           double to, double length)
 {
   double a[3], b[3];
-  curve c = {.from = from, .to = to};
+  curve part = {.from = from, .to = to};
 
   /* The edge's ends are points; of the axes only directions and lengths are kept, which is all that
    * the length depends on. */
   ellipse_point(e, from, a);
   ellipse_point(e, to, b);
-  turn(place, e->major, c.arc.major);
-  turn(place, e->minor, c.arc.minor);
+  turn(place, e->major, part.arc.major);
+  turn(place, e->minor, part.arc.minor);
 
-  return add_curve(reader, place, a, b, &c, length);
+  return add_curve(reader, place, a, b, &part, length);
 }
 
 /* Appends a segment of a polyline. Its bulge is tan(angle / 4) of the arc's angle, 0 = straight,
@@ -710,27 +713,30 @@ static thr_status read_values(dxf_reader *reader, int code, double **out, int *n
 {
   thr_status st = THR_OK;
   *n = 0;
+
+  /* No more values than pairs. */
   if (!(*out = thr_calloc((size_t)reader->n_pairs, sizeof **out))) return thr_nomem(reader->err);
   for (int i = 0; i < reader->n_pairs && !st; i++)
     if (reader->pair[i].code == code) st = number_of(reader, &reader->pair[i], &(*out)[(*n)++]);
+
   return st;
 }
 
 /* Appends a spline. Degree 1: a polyline through its control points. Higher: one edge from
  * beginning to end, as long as the curve, which is taken over and left without its arrays. */
-static thr_status use_spline(dxf_reader *reader, curve *c, int n_knots, int n_weights)
+static thr_status use_spline(dxf_reader *reader, curve *read, int n_knots, int n_weights)
 {
-  const thr_spline spline = spline_of(c);
+  const thr_spline spline = spline_of(read);
 
-  if (c->degree == 1) {
+  if (read->degree == 1) {
     thr_status st = THR_OK;
-    for (int i = 0; i + 1 < c->n && !st; i++)
-      st = add_segment(reader, &unmoved, c->control[i], c->control[i + 1], 0);
+    for (int i = 0; i + 1 < read->n && !st; i++)
+      st = add_segment(reader, &unmoved, read->control[i], read->control[i + 1], 0);
     return st;
   }
 
   /* A spline whose arrays do not fit together is counted as a record that is not used. */
-  if (n_knots != c->n + c->degree + 1 || (n_weights && n_weights != c->n) ||
+  if (n_knots != read->n + read->degree + 1 || (n_weights && n_weights != read->n) ||
       !thr_spline_is_sound(&spline))
     return leave_out(reader, NULL);
 
@@ -741,8 +747,8 @@ static thr_status use_spline(dxf_reader *reader, curve *c, int n_knots, int n_we
   const double length = thr_spline_length(&spline);
   if (is_closed(a, b, length)) return leave_out(reader, "a closed curve");
 
-  curve taken = *c;
-  *c = (curve){0};
+  curve taken = *read;
+  *read = (curve){0};
   return add_curve(reader, &unmoved, a, b, &taken, length);
 }
 
@@ -751,39 +757,39 @@ static thr_status read_spline(dxf_reader *reader)
 {
   double *value[3] = {0}; /* x, y, z */
   static const int code[3] = {10, 20, 30};
-  curve c = {0};
+  curve read = {0};
   int n[3] = {0}, n_knots = 0, n_weights = 0;
-  thr_status st = read_int(reader, 71, &c.degree);
+  thr_status st = read_int(reader, 71, &read.degree);
 
   /* Each coordinate, the knots and the weights are a list of their own. */
   for (int i = 0; i < 3 && !st; i++)
     st = read_values(reader, code[i], &value[i], &n[i]);
 
-  if (!st) st = read_values(reader, 40, &c.knot, &n_knots);
-  if (!st) st = read_values(reader, 41, &c.weight, &n_weights);
-  if (!find_pair(reader, 71)) c.degree = n_knots - n[0] - 1; /* trimesh does not say it */
+  if (!st) st = read_values(reader, 40, &read.knot, &n_knots);
+  if (!st) st = read_values(reader, 41, &read.weight, &n_weights);
+  if (!find_pair(reader, 71)) read.degree = n_knots - n[0] - 1; /* trimesh does not say it */
 
   /* A spline may say only the points that it goes through (codes 11, 21, 31); these are not enough
    * here. */
   const bool controlled = n[0] >= 2 && n[1] == n[0] && (!n[2] || n[2] == n[0]);
   if (!st && !controlled) st = leave_out(reader, NULL);
-  if (!st && controlled && !(c.control = thr_calloc((size_t)n[0], sizeof *c.control)))
+  if (!st && controlled && !(read.control = thr_calloc((size_t)n[0], sizeof *read.control)))
     st = thr_nomem(reader->err);
 
   /* Pair up the coordinates; a spline without z lies at 0, one without weights is not rational. */
   if (!st && controlled) {
     for (int i = 0; i < n[0]; i++)
       for (int k = 0; k < 3; k++)
-        c.control[i][k] = n[k] ? value[k][i] : 0;
+        read.control[i][k] = n[k] ? value[k][i] : 0;
     if (!n_weights) {
-      free(c.weight);
-      c.weight = NULL;
+      free(read.weight);
+      read.weight = NULL;
     }
-    c.n = n[0];
-    st = use_spline(reader, &c, n_knots, n_weights);
+    read.n = n[0];
+    st = use_spline(reader, &read, n_knots, n_weights);
   }
 
-  free_curve(&c);
+  free_curve(&read);
   for (int i = 0; i < 3; i++)
     free(value[i]);
 
@@ -792,15 +798,9 @@ static thr_status read_spline(dxf_reader *reader)
 
 /* ---- POLYLINE: its vertices are entities of their own ---- */
 
-enum {
-  CLOSED = 1,
-  SPLINE_FIT = 4,
-  SPACE = 8,
-  MESH = 16,
-  CLOSED_N = 32,
-  POLYFACE = 64
-};                                                             /* code 70 of a POLYLINE */
-enum { FRAME_POINT = 16, FACE_RECORD = 128, FACE_PLACE = 64 }; /* of a VERTEX */
+/* Bits of code 70 of a POLYLINE, and of a VERTEX. */
+enum { CLOSED = 1, SPLINE_FIT = 4, SPACE = 8, MESH = 16, CLOSED_N = 32, POLYFACE = 64 };
+enum { FRAME_POINT = 16, FACE_RECORD = 128, FACE_PLACE = 64 };
 
 /* Reads a face record of a polyface mesh: numbers of vertices from 1, negative where the side after
  * the vertex is hidden. */
@@ -835,11 +835,14 @@ static thr_status read_vertex(dxf_reader *reader, int polyline_flags)
   double xyz[3], bulge;
   int flags;
   thr_status st = read_int(reader, 70, &flags);
+
+  /* Points of the frame of a smoothed curve are not on the curve. */
   if (st || flags & FRAME_POINT) return st;
 
   if (polyline_flags & POLYFACE && flags & FACE_RECORD && !(flags & FACE_PLACE))
     return read_face_record(reader);
 
+  /* Only vertices in the plane have a bulge. */
   st = read_point(reader, 10, xyz);
   if (!st) st = read_number(reader, 42, 0, &bulge);
   return st ? st : add_vertex(reader, xyz, polyline_flags & (SPACE | MESH | POLYFACE) ? 0 : bulge);
@@ -1115,10 +1118,14 @@ static thr_status read_blocks(dxf_reader *reader)
 static thr_status read_header(dxf_reader *reader)
 {
   int unit = 0;
+
   for (int i = 0; i + 1 < reader->n_pairs; i++)
+
+    /* The code 9 names a variable; its value is the next pair. */
     if (reader->pair[i].code == 9 && thr_span_is(reader->pair[i].value, "$INSUNITS") &&
         reader->pair[i + 1].code == 70 && !thr_span_int(reader->pair[i + 1].value, &unit))
       return fail(reader, "has a $INSUNITS that is not a whole number");
+
   return thr_dxf_unit(unit) ? thr_draft_set_units(reader->draft, thr_dxf_unit(unit), reader->err)
                             : THR_OK;
 }
@@ -1166,6 +1173,8 @@ static thr_status read_sections(dxf_reader *reader)
 static void miss_block(dxf_reader *reader, thr_span name)
 {
   thr_read_report *report = reader->report;
+
+  /* One name is enough for a note. */
   if (report->missing_blocks++) return;
   snprintf(report->missing_block, sizeof report->missing_block, "%.*s",
            name.n < 31 ? (int)name.n : 31, name.s);
@@ -1205,26 +1214,26 @@ static thr_status placed_length(dxf_reader *reader, const shape *piece, const pl
                                 double *length)
 {
   const double scale = even_scale(place);
-  const curve *c = &reader->curve[piece->curve];
+  const curve *original = &reader->curve[piece->curve];
   *length = piece->curve_length * scale;
 
   /* Similarities scale all lengths alike. */
   if (scale > 0) return THR_OK;
-  if (c->n == 0) {
+  if (original->n == 0) {
     ellipse e = {0};
-    turn(place, c->arc.major, e.major);
-    turn(place, c->arc.minor, e.minor);
-    *length = ellipse_length(&e, c->from, c->to);
+    turn(place, original->arc.major, e.major);
+    turn(place, original->arc.minor, e.minor);
+    *length = ellipse_length(&e, original->from, original->to);
     return THR_OK;
   }
 
   /* Integrate again along the moved control points. */
-  curve moved = *c;
-  if (!(moved.control = thr_calloc((size_t)c->n, sizeof *moved.control)))
+  curve moved = *original;
+  if (!(moved.control = thr_calloc((size_t)original->n, sizeof *moved.control)))
     return thr_nomem(reader->err);
 
-  for (int i = 0; i < c->n; i++)
-    turn(place, c->control[i], moved.control[i]);
+  for (int i = 0; i < original->n; i++)
+    turn(place, original->control[i], moved.control[i]);
 
   const thr_spline spline = spline_of(&moved);
   *length = thr_spline_length(&spline);

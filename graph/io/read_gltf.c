@@ -484,10 +484,11 @@ static bool numbers(const thr_json *object, const char *key, int n, double *out)
 static thr_status place_by(const gltf_reader *reader, int i, const moves *by, placing *out)
 {
   const double x = by->q[0], y = by->q[1], z = by->q[2], w = by->q[3],
-               square = x * x + y * y + z * z + w * w, c = 2 / square;
-  const double r[3][3] = {{1 - c * (y * y + z * z), c * (x * y - z * w), c * (x * z + y * w)},
-                          {c * (x * y + z * w), 1 - c * (x * x + z * z), c * (y * z - x * w)},
-                          {c * (x * z - y * w), c * (y * z + x * w), 1 - c * (x * x + y * y)}};
+               square = x * x + y * y + z * z + w * w, factor = 2 / square;
+  const double rotation[3][3] = {
+      {1 - factor * (y * y + z * z), factor * (x * y - z * w), factor * (x * z + y * w)},
+      {factor * (x * y + z * w), 1 - factor * (x * x + z * z), factor * (y * z - x * w)},
+      {factor * (x * z - y * w), factor * (y * z + x * w), 1 - factor * (x * x + y * y)}};
 
   /* NaN fails this test, too. */
   if (!(square > 1e-12 && square < 1e12))
@@ -496,7 +497,7 @@ static thr_status place_by(const gltf_reader *reader, int i, const moves *by, pl
   /* Columns are scaled before they are rotated. */
   for (int k = 0; k < 3; k++) {
     for (int j = 0; j < 3; j++)
-      out->m[k][j] = r[k][j] * by->s[j];
+      out->m[k][j] = rotation[k][j] * by->s[j];
     out->m[k][3] = by->t[k];
   }
 
@@ -507,9 +508,9 @@ static thr_status place_by(const gltf_reader *reader, int i, const moves *by, pl
  * or from what it says of scale, rotation and translation. */
 static thr_status place_node(const gltf_reader *reader, int i, const thr_json *node, placing *out)
 {
-  double m[16];
+  double matrix[16];
 
-  if (!numbers(node, "matrix", 16, m)) {
+  if (!numbers(node, "matrix", 16, matrix)) {
     moves by = still;
     numbers(node, "scale", 3, by.s);
     numbers(node, "rotation", 4, by.q);
@@ -520,22 +521,22 @@ static thr_status place_node(const gltf_reader *reader, int i, const thr_json *n
   /* The fourth row of the matrix is 0 0 0 1. */
   for (int k = 0; k < 3; k++)
     for (int j = 0; j < 4; j++)
-      out->m[k][j] = m[4 * j + k];
+      out->m[k][j] = matrix[4 * j + k];
 
   return THR_OK;
 }
 
-/* Returns the composition of two maps: first b, then a. */
-static placing compose(const placing *a, const placing *b)
+/* Returns the composition of two maps: first the inner one, then the outer one. */
+static placing compose(const placing *outer, const placing *inner)
 {
   placing both;
 
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 4; j++) {
-      /* The translation of b is mapped by a, too. */
-      both.m[i][j] = j == 3 ? a->m[i][3] : 0;
+      /* The inner translation is mapped by the outer map, too. */
+      both.m[i][j] = j == 3 ? outer->m[i][3] : 0;
       for (int k = 0; k < 3; k++)
-        both.m[i][j] += a->m[i][k] * b->m[k][j];
+        both.m[i][j] += outer->m[i][k] * inner->m[k][j];
     }
 
   return both;
@@ -557,8 +558,9 @@ static thr_status find_instances(gltf_reader *reader, int i, const thr_json *ext
   for (void *iter = NULL;
        !st && thr_json_next(thr_json_get(extension, "attributes"), &iter, &key, &value);
        first = first ? first : key) {
-    const int a = int_of(value, -1), count = member(element(reader, "accessors", a), "count", -1);
-    if (count < 0) return bad(reader, "accessors", a, "is not there, or has no count");
+    const int accessor = int_of(value, -1),
+              count = member(element(reader, "accessors", accessor), "count", -1);
+    if (count < 0) return bad(reader, "accessors", accessor, "is not there, or has no count");
     if (first && count != *n)
       return thr_fail(reader->err, THR_EINPUT,
                       "%s: nodes[%d]: EXT_mesh_gpu_instancing has %d instances by %.40s and %d by "
@@ -568,7 +570,8 @@ static thr_status find_instances(gltf_reader *reader, int i, const thr_json *ext
     /* Translation, rotation and scale are used, with 3, 4 and 3 components. */
     *n = count;
     for (int k = 0; k < 3 && !st; k++)
-      if (strcmp(key, names[k]) == 0) st = find_elements(reader, a, k == 1 ? 4 : 3, &found[k]);
+      if (strcmp(key, names[k]) == 0)
+        st = find_elements(reader, accessor, k == 1 ? 4 : 3, &found[k]);
   }
 
   return st || first ? st
@@ -874,10 +877,13 @@ static bool holds(const char *text, size_t n, const char *word)
 static bool is(const char *text, size_t n)
 {
   if (n >= 4 && memcmp(text, "glTF", 4) == 0) return true;
+
+  /* No first line tells glTF from other JSON. */
   size_t start = 0;
   while (start < n &&
          (text[start] == ' ' || text[start] == '\n' || text[start] == '\r' || text[start] == '\t'))
     start++;
+
   return start < n && text[start] == '{' && holds(text, n, "\"asset\"") &&
          holds(text, n, "\"bufferViews\"");
 }

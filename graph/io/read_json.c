@@ -164,11 +164,14 @@ static const thr_json *value_at(const thr_json_reader *reader, const thr_json_wh
 static thr_span called(const thr_json_reader *reader, const thr_json_where *at)
 {
   const char *name = thr_json_string(thr_json_get(value_at(reader, at), "name"));
+
+  /* COMPAS writes {"name": .., "data": {..}}. */
   for (; !name && at->up; at = at->up)
     if (at->key && strcmp(at->key, "data") == 0)
       name = thr_json_string(thr_json_get(value_at(reader, at->up), "name"));
     else
       name = at->key;
+
   return thr_span_of(name ? name : "");
 }
 

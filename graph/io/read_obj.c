@@ -491,6 +491,7 @@ static thr_status parse(thr_draft *draft, thr_read_report *read_report, const ch
  * line. */
 static bool begins(thr_span line)
 {
+  /* Words that may stand alone in other files need something after them. */
   static const char *const keywords[] = {"v", "vn",     "vt",     "l",      "f",   "g",    "o", "s",
                                          "p", "mtllib", "usemtl", "cstype", "deg", "curv", NULL};
   size_t word = 0;

@@ -99,6 +99,7 @@ static thr_status fail_at_long_row(ply_reader *reader)
 /* Records THR_EINPUT about the current item, with its line if the file is ASCII. */
 static thr_status fail(ply_reader *reader, const char *what)
 {
+  /* The long row is the cause of what was found later. */
   if (reader->short_of) return fail_at_long_row(reader);
   if (reader->encoding == ASCII)
     return thr_scan_fail(&reader->scan, reader->err, "%s %.0f: %s", reader->now->name, reader->item,

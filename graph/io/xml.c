@@ -126,27 +126,27 @@ thr_status thr_xml_next(thr_xml *xml, thr_err *err)
 }
 
 /* Appends a character as UTF-8. U+FFFD stands for what is no character. */
-static void append_character(thr_text *out, unsigned long c)
+static void append_character(thr_text *out, unsigned long code)
 {
   /* Surrogates are halves of characters. */
-  if (c == 0 || c > 0x10ffff || (c >= 0xd800 && c < 0xe000)) c = 0xfffd;
-  if (c < 0x80) {
-    thr_text_byte(out, (char)c);
+  if (code == 0 || code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) code = 0xfffd;
+  if (code < 0x80) {
+    thr_text_byte(out, (char)code);
     return;
   }
 
   /* The first byte has as many leading ones as there are bytes; each further byte has six bits. */
-  const int more = c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;
+  const int more = code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
   static const unsigned char lead[] = {0, 0xc0, 0xe0, 0xf0};
-  thr_text_byte(out, (char)(lead[more] | c >> 6 * more));
+  thr_text_byte(out, (char)(lead[more] | code >> 6 * more));
 
   for (int i = more - 1; i >= 0; i--)
-    thr_text_byte(out, (char)(0x80 | (c >> 6 * i & 0x3f)));
+    thr_text_byte(out, (char)(0x80 | (code >> 6 * i & 0x3f)));
 }
 
 /* Appends what an entity means, from its & on, and returns how many bytes the entity has; 0 if it
  * is none. */
-static size_t append_entity(thr_span t, thr_text *out)
+static size_t append_entity(thr_span rest, thr_text *out)
 {
   static const struct {
     const char *name;
@@ -155,23 +155,23 @@ static size_t append_entity(thr_span t, thr_text *out)
 
   /* The five that have names. */
   for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-    if (thr_span_starts(t, known[i].name)) {
+    if (thr_span_starts(rest, known[i].name)) {
       thr_text_byte(out, known[i].c);
       return strlen(known[i].name);
     }
 
   /* Numbers: &#65; or &#x41;. */
   char digits[12] = "";
-  if (t.n < 4 || t.s[1] != '#') return 0;
-  const bool hexadecimal = t.s[2] == 'x';
+  if (rest.n < 4 || rest.s[1] != '#') return 0;
+  const bool hexadecimal = rest.s[2] == 'x';
   const size_t first = hexadecimal ? 3 : 2;
   size_t n = 0;
 
-  while (n < 10 && first + n < t.n && strchr("0123456789abcdefABCDEF", t.s[first + n]))
+  while (n < 10 && first + n < rest.n && strchr("0123456789abcdefABCDEF", rest.s[first + n]))
     n++;
 
-  if (n == 0 || n > 8 || first + n >= t.n || t.s[first + n] != ';') return 0;
-  memcpy(digits, t.s + first, n);
+  if (n == 0 || n > 8 || first + n >= rest.n || rest.s[first + n] != ';') return 0;
+  memcpy(digits, rest.s + first, n);
   append_character(out, strtoul(digits, NULL, hexadecimal ? 16 : 10));
 
   return first + n + 1;
@@ -179,20 +179,21 @@ static size_t append_entity(thr_span t, thr_text *out)
 
 /* Appends what a section that is no tag means: CDATA as they are written, comments and instructions
  * not at all. Returns how many bytes the section has; 0 if it is none. */
-static size_t append_section(thr_span t, thr_text *out)
+static size_t append_section(thr_span rest, thr_text *out)
 {
   for (size_t i = 0; i < sizeof passed / sizeof *passed; i++) {
     /* The < before it has been seen. */
     const size_t begin = 1 + strlen(passed[i].begin), end = strlen(passed[i].end);
-    if (t.n < begin + end || !thr_span_starts((thr_span){t.s + 1, t.n - 1}, passed[i].begin))
+    if (rest.n < begin + end ||
+        !thr_span_starts((thr_span){rest.s + 1, rest.n - 1}, passed[i].begin))
       continue;
 
     /* Look for its end. */
     size_t n = begin;
-    while (n + end <= t.n && memcmp(t.s + n, passed[i].end, end) != 0)
+    while (n + end <= rest.n && memcmp(rest.s + n, passed[i].end, end) != 0)
       n++;
-    if (n + end > t.n) return 0;
-    if (passed[i].text) thr_text_append_bytes(out, t.s + begin, n - begin);
+    if (n + end > rest.n) return 0;
+    if (passed[i].text) thr_text_append_bytes(out, rest.s + begin, n - begin);
     return n + end;
   }
 

@@ -121,10 +121,13 @@ static bool dominates(const thr_advice_row *other, const thr_advice_row *row)
  * easier to reach. Infinite pulls are equal: they do not tell rows apart. */
 static bool buys_nothing(const thr_advice_row *row, const thr_advice_row *other)
 {
+  /* Ends at the feet may replace ends anywhere, and nothing else. */
   if (other->ends != row->ends && (other->ends != THR_ENDS_FEET || row->ends == THR_ENDS_CLOSED))
     return false;
   if (other->cords > row->cords || (other->cords == row->cords && other->ends == row->ends))
     return false;
+
+  /* Little more pull, and as much cord to the eye. */
   return other->pull[THR_ADVICE_MU] <= row->pull[THR_ADVICE_MU] * worth &&
          other->length <= row->length * same_cord;
 }

@@ -124,20 +124,20 @@ static void each_channel(const thr_plan *plan, void (*put)(thr_channels *, int n
 {
   const thr_frame *frame = &plan->frame;
 
-  for (int c = 0; c < plan->n_cords; c++) {
-    const thr_cord *cord = &plan->cord[c];
+  for (int number = 0; number < plan->n_cords; number++) {
+    const thr_cord *cord = &plan->cord[number];
     int n = cord->n_passes, turns = thr_cord_turns(&plan->options, cord);
 
     /* An open cord begins in a channel with one arm. */
     if (turns < n)
       put(to, thr_tail(frame, cord->half[0]),
-          (thr_channel){.cord = c, .pass = -1, .in = -1, .out = cord->half[0]});
+          (thr_channel){.cord = number, .pass = -1, .in = -1, .out = cord->half[0]});
 
     /* Each pass arrives in a channel; the last one of an open cord ends there. */
     for (int k = 0; k < n; k++) {
       int arm_in = cord->half[k] ^ 1, arm_out = k < turns ? cord->half[(k + 1) % n] : -1;
       put(to, thr_tail(frame, arm_in),
-          (thr_channel){.cord = c, .pass = k, .in = arm_in, .out = arm_out});
+          (thr_channel){.cord = number, .pass = k, .in = arm_in, .out = arm_out});
     }
   }
 }

@@ -23,6 +23,7 @@ double thr_parting_larger(const thr_parting *parting)
  * i; first == last is a cord without turns. */
 static thr_parting part_at(const double *sum, int first, int last, int turn)
 {
+  /* The turn itself belongs to neither sum; the last pass has no turn after it. */
   return (thr_parting){
       .turn = turn,
       .start = sum[turn] - sum[first],

@@ -177,6 +177,7 @@ int thr_length_proof_cuts(const thr_length_proof *proof)
  * `rounding`, or as close to the divisor, count as 0. */
 static double common_step(double larger, double smaller, double rounding)
 {
+  /* A remainder just below the divisor is a multiple that rounding has made smaller. */
   while (smaller > rounding) {
     double rest = fmod(larger, smaller);
     larger = smaller;

@@ -203,8 +203,11 @@ static thr_status read_list(const char *text, aim_list *list, thr_err *err)
 static bool take_out(thr_aims *aims, thr_aim aim)
 {
   int at = 0;
+
   while (at < aims->n && aims->aim[at] != aim)
     at++;
+
+  /* The aims after it move up. */
   if (at == aims->n) return false;
   memmove(&aims->aim[at], &aims->aim[at + 1], (size_t)(--aims->n - at) * sizeof *aims->aim);
   return true;
@@ -269,6 +272,7 @@ static thr_status settle_turning(aim_list *list, thr_err *err)
 /* Completes the aims of a short plan: length is the last one. */
 static thr_status settle_length(aim_list *list, thr_err *err)
 {
+  /* Length is the last aim, unless another place is named. */
   if (!list->named[THR_AIM_LENGTH]) list->aims.aim[list->aims.n++] = THR_AIM_LENGTH;
   if (list->named[THR_AIM_LONGEST] && list->aims.aim[0] != THR_AIM_LONGEST)
     return thr_fail(
@@ -480,6 +484,7 @@ bool thr_request_alike(const thr_frame *frame, const thr_request *options, thr_r
 
 bool thr_plan_end_allowed(const thr_frame *frame, const thr_request *options, int v)
 {
+  /* Feet are the framework's, other nodes the user's. */
   switch (options->ends) {
   case THR_ENDS_FEET: return frame->foot[v];
   case THR_ENDS_NODES: return options->end_node[v];

@@ -51,6 +51,8 @@ static thr_status read_amount(const step_reader *reader, thr_span word, const ch
 static int node_of(const thr_frame *frame, thr_span word)
 {
   char name[256];
+
+  /* Longer names are not looked for. */
   if (word.n >= sizeof name) return -1;
   memcpy(name, word.s, word.n);
   name[word.n] = '\0';

@@ -38,6 +38,8 @@ static thr_status make_arrays(int n_edges, bool **passed, double **press, thr_er
 {
   *passed = thr_calloc((size_t)n_edges + 1, sizeof **passed);
   *press = thr_calloc((size_t)n_edges + 1, sizeof **press);
+
+  /* Both or none. */
   if (*passed && *press) return THR_OK;
   free(*passed);
   free(*press);
@@ -110,6 +112,8 @@ static void press_all(const thr_cord *cord, const thr_evaluation *evaluation, in
                       const double *pull, double *press)
 {
   const thr_friction friction = thr_friction_of(&evaluation->physics);
+
+  /* Cords that are not pulled press nothing. */
   for (int e = 0; e < n_edges; e++)
     press[e] = 0;
   for (int i = 0; i < evaluation->n_cords; i++)

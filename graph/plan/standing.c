@@ -203,6 +203,8 @@ static bool amount(const thr_json *object, const char *key, bool needed, double 
 static const char *read_mechanism(const thr_json *list, thr_answer *answer)
 {
   const int n = thr_json_size(list);
+
+  /* The numbers of all nodes follow one another. */
   if (n < 6 || n % 6) return "mechanism: not six numbers for every node";
   if (!(answer->velocity = thr_calloc((size_t)n / 6, sizeof *answer->velocity))) return "";
   answer->n_beads = n / 6;

@@ -146,8 +146,10 @@ static int64_t weight_of(double price)
 /* Computes the number of a turn from the places of its half-edges among those of the node. */
 int thr_turning_column(const thr_turning_columns *turning_columns, int a, int b)
 {
-  int v = thr_tail(turning_columns->f, a), d = thr_degree(turning_columns->f, v),
+  int v = thr_tail(turning_columns->f, a), degree = thr_degree(turning_columns->f, v),
       i = turning_columns->position[a], j = turning_columns->position[b];
+
+  /* Pairs are numbered with the lower place first. */
 
   if (i > j) {
     int larger = i;
@@ -155,7 +157,7 @@ int thr_turning_column(const thr_turning_columns *turning_columns, int a, int b)
     j = larger;
   }
 
-  return turning_columns->pair_first[v] + i * (2 * d - i - 1) / 2 + (j - i - 1);
+  return turning_columns->pair_first[v] + i * (2 * degree - i - 1) / 2 + (j - i - 1);
 }
 
 bool thr_turning_open(const thr_turning_columns *turning_columns, int component)
@@ -214,16 +216,16 @@ static void fill_turns(thr_turning_columns *turning_columns, int v, double (*out
 {
   const thr_turning_task *task = turning_columns->task;
   const int *half = turning_columns->f->half + turning_columns->f->first[v];
-  int d = thr_degree(turning_columns->f, v), column = turning_columns->pair_first[v];
+  int degree = thr_degree(turning_columns->f, v), column = turning_columns->pair_first[v];
 
   /* Each direction is computed once. */
-  for (int i = 0; i < d; i++)
+  for (int i = 0; i < degree; i++)
     thr_direction(turning_columns->f, half[i], out[i]);
 
   /* The turn from edge i to edge j: in along i, against its direction outwards. */
-  for (int i = 0; i < d; i++) {
+  for (int i = 0; i < degree; i++) {
     const double in[3] = {-out[i][0], -out[i][1], -out[i][2]};
-    for (int j = i + 1; j < d; j++, column++) {
+    for (int j = i + 1; j < degree; j++, column++) {
       double price = 0;
       if (thr_turn_counted(task->cost) && !task->free_turns)
         price = thr_turn_price(turning_columns->f, task->cost, half[i] ^ 1, half[j]);
@@ -307,16 +309,17 @@ static thr_status count_columns(thr_turning_columns *turning_columns, thr_err *e
 
   /* Count turns, ends and U-turns; number the half-edges at each node. */
   for (int v = 0; v < frame->n_nodes; v++) {
-    int d = thr_degree(frame, v);
+    int degree = thr_degree(frame, v);
     turning_columns->pair_first[v] = (int)turns;
-    turns += (int64_t)d * (d - 1) / 2;
+    turns += (int64_t)degree * (degree - 1) / 2;
     if (turns > INT_MAX / 8)
       return thr_fail(err, THR_EINPUT,
                       "more than %d possible turns at the nodes; node %s alone has %d edges",
-                      INT_MAX / 8, frame->name[v], d);
-    ends += turning_columns->task->end_allowed && turning_columns->task->end_allowed[v] ? d : 0;
-    backs += turns_back(turning_columns->task, d) ? d : 0;
-    for (int i = 0; i < d; i++)
+                      INT_MAX / 8, frame->name[v], degree);
+    ends +=
+        turning_columns->task->end_allowed && turning_columns->task->end_allowed[v] ? degree : 0;
+    backs += turns_back(turning_columns->task, degree) ? degree : 0;
+    for (int i = 0; i < degree; i++)
       turning_columns->position[frame->half[frame->first[v] + i]] = i;
   }
 
