@@ -178,6 +178,7 @@ static int by_projection(const void *pa, const void *pb)
   if (a->along != b->along) return a->along < b->along ? -1 : 1;
   for (int i = 0; i < 3; i++)
     if (a->xyz[i] != b->xyz[i]) return a->xyz[i] < b->xyz[i] ? -1 : 1;
+
   return (a->node > b->node) - (a->node < b->node);
 }
 
@@ -896,6 +897,7 @@ static bool says_edge(const thr_draft *draft, const thr_frame *frame, int e)
   const struct thr_draft_edge *edge = &draft->edge[e];
   const double length =
       frame->own_lengths ? edge->length : distance(frame->xyz[edge->a], frame->xyz[edge->b]);
+
   return edge->a == frame->edge[e][0] && edge->b == frame->edge[e][1] &&
          length == frame->length[e] && frame->own_lengths == (edge->length != 0) &&
          edge->cover == (frame->cover ? frame->cover[e] : 0) &&
@@ -906,10 +908,12 @@ bool thr_draft_says(const thr_draft *draft, const thr_frame *frame)
 {
   bool same = draft->n_nodes == frame->n_nodes && draft->n_edges == frame->n_edges &&
               strcmp(draft->units, frame->units) == 0;
+
   for (int v = 0; v < frame->n_nodes && same; v++)
     same = says_node(draft, frame, v);
   for (int e = 0; e < frame->n_edges && same; e++)
     same = says_edge(draft, frame, e);
+
   return same;
 }
 

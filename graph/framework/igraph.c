@@ -67,6 +67,7 @@ static thr_status enter(igraph_error_handler_t **old, thr_err *err)
     pthread_mutex_unlock(&one_thread);
   else
     *old = lib.igraph_set_error_handler(lib.igraph_error_handler_ignore);
+
   return st;
 }
 
@@ -82,11 +83,13 @@ static void leave(igraph_error_handler_t *old)
 static igraph_error_t list_ends(igraph_vector_int_t *ends, int m, const int (*edge)[2])
 {
   igraph_error_t code = lib.igraph_vector_int_init(ends, 2 * (igraph_integer_t)m);
+
   if (code) return code;
   for (int e = 0; e < m; e++) {
     VECTOR(*ends)[2 * e] = edge[e][0];
     VECTOR(*ends)[2 * e + 1] = edge[e][1];
   }
+
   return code;
 }
 
@@ -160,9 +163,11 @@ static igraph_error_t maximum_flow(const igraph_vector_int_t *ends, int n, int s
   igraph_t graph;
   igraph_real_t value;
   igraph_error_t code = lib.igraph_create(&graph, ends, n, IGRAPH_UNDIRECTED);
+
   if (code) return code;
   code = lib.igraph_maxflow(&graph, &value, flow, NULL, side, NULL, source, sink, weights, NULL);
   lib.igraph_destroy(&graph);
+
   return code;
 }
 

@@ -196,10 +196,12 @@ static void on_sphere(const double a[3], int wa, const double b[3], int wb, cons
                       int wc, double xyz[3])
 {
   double norm = 0;
+
   for (int i = 0; i < 3; i++) {
     xyz[i] = wa * a[i] + (wb * b[i] + wc * c[i]);
     norm += xyz[i] * xyz[i];
   }
+
   for (int i = 0; i < 3; i++)
     xyz[i] /= sqrt(norm);
 }

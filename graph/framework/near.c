@@ -518,6 +518,7 @@ static thr_status choose_weld(const near_search *search, thr_near *near)
   double least = INFINITY, digit = pow(10, floor(log10(search->widest)) - 1);
   for (int e = 0; e < search->frame->n_edges; e++)
     least = fmin(least, search->apart[e]);
+
   near->weld = pow(10, ceil(log10(2 * search->widest) - 1e-9));
   if (near->weld >= least) near->weld = (floor(search->widest / digit) + 1) * digit;
   return try_weld(search->frame, near, search->err);

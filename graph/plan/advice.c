@@ -105,6 +105,7 @@ bool thr_price_beats(const thr_price *other, const thr_price *one)
   if (other->cords > one->cords || other->length > one->length * same ||
       other->pull > one->pull * same)
     return false;
+
   return other->cords < one->cords || other->length * same < one->length ||
          other->pull * same < one->pull;
 }

@@ -73,6 +73,7 @@ int thr_cord_pieces(const thr_frame *frame, thr_joint joint, const thr_cord *cor
   /* Before each pass a node, and one after the last; or the edges themselves. */
   for (int k = 0; k < n; k++)
     piece[k] = joint == THR_JOINT_TUBE ? cord->half[k] >> 1 : thr_tail(frame, cord->half[k]);
+
   if (joint == THR_JOINT_SOLID) piece[n++] = thr_cord_end(frame, cord);
   return n;
 }

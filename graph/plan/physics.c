@@ -355,6 +355,7 @@ thr_status thr_physics_from_json(thr_physics *physics, const thr_json *object, c
   thr_status st = set_from_json(&read, object, &found);
   if (st) return thr_fail(err, st, "%s: %s", place, found.text);
   *physics = read;
+
   return THR_OK;
 }
 

@@ -183,6 +183,7 @@ static double common_step(double larger, double smaller, double rounding)
     larger = smaller;
     smaller = rest > smaller - rounding ? 0 : rest;
   }
+
   return larger;
 }
 

@@ -278,6 +278,7 @@ static thr_status settle_length(aim_list *list, thr_err *err)
     return thr_fail(
         err, THR_EINPUT,
         "longest comes before length: the shortest longest cord, and then the least length");
+
   return THR_OK;
 }
 

@@ -56,6 +56,7 @@ static int node_of(const thr_frame *frame, thr_span word)
   if (word.n >= sizeof name) return -1;
   memcpy(name, word.s, word.n);
   name[word.n] = '\0';
+
   return thr_frame_find(frame, name);
 }
 

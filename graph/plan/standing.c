@@ -208,6 +208,7 @@ static const char *read_mechanism(const thr_json *list, thr_answer *answer)
   if (n < 6 || n % 6) return "mechanism: not six numbers for every node";
   if (!(answer->velocity = thr_calloc((size_t)n / 6, sizeof *answer->velocity))) return "";
   answer->n_beads = n / 6;
+
   return thr_json_numbers(list, n, &answer->velocity[0][0]) ? NULL : "mechanism: not numbers";
 }
 

@@ -150,7 +150,6 @@ int thr_turning_column(const thr_turning_columns *turning_columns, int a, int b)
       i = turning_columns->position[a], j = turning_columns->position[b];
 
   /* Pairs are numbered with the lower place first. */
-
   if (i > j) {
     int larger = i;
     i = j;
