@@ -159,6 +159,8 @@ static void copy_edges(const thr_components *components, int k, thr_frame *frame
   }
 }
 
+/* Copies a component: sizes first, then nodes with their names, then edges, then the index of
+ * half-edges. */
 thr_status thr_component_take(const thr_components *components, int k, thr_plan *out, thr_err *err)
 {
   /* The request is the whole one, but for what it says of nodes. */
@@ -206,6 +208,7 @@ static void give_cords(const thr_components *components, int k, thr_plan *compon
   }
 }
 
+/* Counts the cords, then moves them one component after the other. */
 thr_status thr_components_join(const thr_components *components, thr_plan *component,
                                thr_plan *whole, thr_err *err)
 {
@@ -239,6 +242,7 @@ static thr_status make_cords(const thr_components *components, int k, const int 
   return st;
 }
 
+/* Makes cords component by component, until one of them has none, and joins them. */
 thr_status thr_components_cords(const thr_frame *frame, const thr_request *options,
                                 const int *passes, thr_component_cords *make, thr_cord **cord,
                                 int *n_cords, thr_err *err)
@@ -277,6 +281,7 @@ thr_status thr_components_cords(const thr_frame *frame, const thr_request *optio
   return st;
 }
 
+/* Moves the one certificate of a component's plan, and renames the nodes of its cuts. */
 void thr_component_give_certificate(const thr_components *components, int k, thr_plan *component,
                                     thr_certificate *certificate)
 {

@@ -116,6 +116,7 @@ thr_status thr_draft_set_units(thr_draft *draft, const char *units, thr_err *err
   return st;
 }
 
+/* Copies nodes and edges behind those that there are. */
 thr_status thr_draft_append(thr_draft *draft, const thr_draft *other, const char *prefix,
                             thr_err *err)
 {
@@ -501,6 +502,7 @@ static thr_status part_edge(thr_draft *draft, int e, double share, int number, t
   return THR_OK;
 }
 
+/* Parts parallel edges of different lengths, found by welding as thr_draft_build does. */
 thr_status thr_draft_keep_parallel(thr_draft *draft, double tolerance, thr_err *err)
 {
   joining *list = NULL;
@@ -793,6 +795,8 @@ static thr_status fail_without_edges(const thr_draft *draft, double tolerance, t
                   tolerance);
 }
 
+/* Builds a framework: chooses a tolerance, welds, chooses edges, numbers the nodes that are left,
+ * and fills the arrays. */
 thr_status thr_draft_build(const thr_draft *draft, double tolerance, thr_frame *frame,
                            thr_read_report *report, thr_err *err)
 {
@@ -934,6 +938,7 @@ void thr_frame_destroy(thr_frame *frame)
   *frame = (thr_frame){0};
 }
 
+/* Copies arrays and names; what is NULL stays NULL. */
 thr_status thr_frame_copy(thr_frame *to, const thr_frame *from, thr_err *err)
 {
   thr_frame frame = {0};
@@ -1023,6 +1028,8 @@ int thr_frame_largest_degree(const thr_frame *frame)
   return most;
 }
 
+/* Hashes the arrays as bytes; covers and capacities only if there are any, so that they change no
+ * hash of a framework without them. */
 uint64_t thr_frame_hash(const thr_frame *frame)
 {
   if (frame->hash) return frame->hash;
@@ -1052,6 +1059,7 @@ void thr_frame_keep_hash(thr_frame *frame)
   frame->hash = thr_frame_hash(frame);
 }
 
+/* Numbers components by searches from the lowest node that has none. */
 thr_status thr_frame_components(const thr_frame *frame, int *component, int *count, thr_err *err)
 {
   int *stack = thr_calloc((size_t)frame->n_nodes, sizeof *stack);
@@ -1122,6 +1130,7 @@ static void bridges_from(const thr_frame *frame, int root, int *order, int *low,
   }
 }
 
+/* Finds bridges by one depth-first search for each component. */
 thr_status thr_frame_bridges(const thr_frame *frame, bool *is_bridge, thr_err *err)
 {
   size_t n = (size_t)frame->n_nodes;

@@ -130,6 +130,7 @@ no_flows:
   return code;
 }
 
+/* Computes a Gomory-Hu tree by igraph. */
 thr_status thr_cut_tree(int n, int m, const int (*edge)[2], const double *capacity, int (*tree)[2],
                         double *flow, thr_err *err)
 {
@@ -171,6 +172,7 @@ static igraph_error_t maximum_flow(const igraph_vector_int_t *ends, int n, int s
   return code;
 }
 
+/* Computes a maximum flow by igraph, and the source's side of a minimum cut. */
 thr_status thr_maximum_flow(int n, int m, const int (*edge)[2], const double *capacity, int source,
                             int sink, double *flow, bool *source_side, thr_err *err)
 {
@@ -231,6 +233,7 @@ static igraph_error_t count_coloured(const igraph_t *graph, const int *colour,
   return code;
 }
 
+/* Counts automorphisms by igraph, which has the graph as a list of ends. */
 thr_status thr_automorphism_count(int n, int m, const int (*edge)[2], const int *colour,
                                   char **digits, thr_err *err)
 {
@@ -341,6 +344,7 @@ static thr_status place_and_send(void *user, const thr_limits *limits, thr_sende
   return st;
 }
 
+/* Draws a graph in a child process, and waits for the places. */
 thr_status thr_kamada_kawai(int n, int m, const int (*edge)[2], const double *length, bool circle,
                             double (*xy)[2], thr_err *err)
 {

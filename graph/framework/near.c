@@ -524,6 +524,8 @@ static thr_status choose_weld(const near_search *search, thr_near *near)
   return try_weld(search->frame, near, search->err);
 }
 
+/* Searches for nodes near nodes, nodes on edges and edges across edges, and tries a weld if nodes
+ * are close. */
 thr_status thr_frame_near(const thr_frame *frame, thr_near *near, thr_err *err)
 {
   near_search search;
@@ -580,6 +582,7 @@ static thr_status cut(const near_search *search, thr_draft *draft, int *n_cut)
   return st;
 }
 
+/* Searches for nodes on edges, and builds the framework again with the parts of edges. */
 thr_status thr_frame_split(thr_frame *frame, int *n_cut, thr_read_report *report, thr_err *err)
 {
   near_search search;

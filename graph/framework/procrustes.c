@@ -177,6 +177,8 @@ static void measure(const thr_frame *frame, const int *image, const double centr
   motion->farthest = size > 0 ? sqrt(most) / size : 0;
 }
 
+/* Computes the correlation of nodes and images, its polar factor q, and how far the moved nodes are
+ * from their images. */
 void thr_procrustes(const thr_frame *frame, const int *image, thr_motion *out)
 {
   double centroid[3], size, h[3][3] = {{0}}, across[3];

@@ -171,6 +171,7 @@ static const char *unit_beside(const comment_word *word, int i, int n)
   return i >= 1 && strcasecmp(word[i - 1].text, "in") != 0 ? unit_at(word, i - 1, n) : NULL;
 }
 
+/* Looks beside every word "units" of the comment. */
 void thr_units_in_comment(const char *text, size_t n, const char **name, const char **wrong)
 {
   comment_word word[MOST_WORDS];

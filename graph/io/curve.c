@@ -35,6 +35,7 @@ double thr_curve_length(thr_curve_point point, const void *curve, double a, doub
   return fine + (fine - coarse) / 3;
 }
 
+/* Checks what the evaluation divides by or indexes with. */
 bool thr_spline_is_sound(const thr_spline *spline)
 {
   /* Enough control points for the degree. */
@@ -70,6 +71,7 @@ static int interval_of(const thr_spline *spline, double t)
   return low;
 }
 
+/* Evaluates a B-spline by de Boor's algorithm. */
 void thr_spline_point(const void *spline, double t, double xyz[3])
 {
   const thr_spline *curve = spline;

@@ -157,6 +157,7 @@ static thr_status check_corners(const thr_faces *faces, const thr_draft *draft, 
   return THR_OK;
 }
 
+/* Checks the corners, chooses among equal sides by sorting, and adds the chosen sides. */
 thr_status thr_faces_finish(const thr_faces *faces, thr_draft *draft, const char *name,
                             thr_err *err)
 {

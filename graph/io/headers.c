@@ -103,6 +103,7 @@ static const char *unit_in(thr_span text)
   return thr_units_name(word);
 }
 
+/* Splits a header into its unit and a word of small letters and digits. */
 thr_header thr_header_of(thr_span field)
 {
   /* The unit first, then the word. */
@@ -213,6 +214,7 @@ bool thr_header_lines(const thr_header *header)
   return is_one_of(header, lines);
 }
 
+/* Tries each occurrence of the first word. */
 bool thr_header_ends(const thr_header *a, const thr_header *b, const char *const word[2])
 {
   const size_t n = strlen(word[0]), m = strlen(word[1]), length = strlen(a->word);

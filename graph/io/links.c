@@ -36,6 +36,7 @@ static thr_status find(const thr_links *links, const thr_names *names, size_t at
              : thr_scan_fail(scan, err, "there is no node '%.*s'", thr_span_width(name), name.s);
 }
 
+/* Looks up both nodes of every edge by name, and adds the edges in the order of the file. */
 thr_status thr_links_finish(const thr_links *links, thr_draft *draft, const char *name,
                             thr_err *err)
 {
@@ -85,6 +86,7 @@ static void take_count(thr_span value, bool nothing, int *count, const char **wh
     *what = "not a whole number from 1 to 100";
 }
 
+/* Takes an attribute by its name; names that mean nothing here are left alone. */
 void thr_said_take(thr_said *said, thr_span key, thr_span value, const char **what)
 {
   static const char *const axis[] = {"x", "y", "z"}, *const foot[] = {"is_support", "is_grounded",

@@ -81,6 +81,7 @@ static thr_status refuse(const thr_parts *parts, const char *file, const char *w
   return st;
 }
 
+/* Compares names first, then tries a number. */
 thr_status thr_parts_choose(thr_parts *parts, const char *file, const char *what, const char *many,
                             thr_err *err)
 {

@@ -218,6 +218,7 @@ thr_status thr_frame_parse(thr_frame *frame, thr_read_report *report, const char
 
 /* ---- files ---- */
 
+/* Reads a file: refuses by the name, reads the text, finds the format, fills a draft and builds. */
 thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char *path,
                           const thr_read_options *options, char *pair_path, size_t pair_size,
                           thr_err *err)

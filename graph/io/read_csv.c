@@ -1133,6 +1133,7 @@ static thr_status parse(thr_draft *draft, thr_read_report *report, const char *t
                         name);
 }
 
+/* Reads the table of nodes, then the table of edges, whose ends are looked up by name. */
 thr_status thr_csv_parse_pair(thr_draft *draft, thr_read_report *report, const thr_text *nodes,
                               const char *nodes_name, const thr_text *edges, const char *edges_name,
                               thr_err *err)

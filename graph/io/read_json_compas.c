@@ -74,6 +74,8 @@ static thr_status take_directions(thr_json_reader *reader, const thr_json_where 
   return take_truth(reader, &here, directions, held);
 }
 
+/* Finds whether a node is a support: one of several words says so, and it is held in some
+ * direction. */
 thr_status thr_json_support(thr_json_reader *reader, const thr_json_where *at, const thr_json *node,
                             const thr_json *defaults, bool *foot)
 {
@@ -228,6 +230,7 @@ static thr_status read_compas_faces(thr_json_reader *reader, const thr_json_wher
   return st;
 }
 
+/* Reads a COMPAS network or mesh. */
 thr_status thr_json_read_compas(thr_json_reader *reader, const thr_json_where *at,
                                 const thr_json *object)
 {
@@ -456,6 +459,7 @@ static thr_status read_assembly_elements(thr_json_reader *reader, const thr_json
   return st;
 }
 
+/* Reads nodes, elements and supports, each of them a list. */
 thr_status thr_json_read_assembly(thr_json_reader *reader, const thr_json_where *at,
                                   const thr_json *object)
 {

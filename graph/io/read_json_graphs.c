@@ -118,6 +118,7 @@ static thr_status read_graph_nodes(thr_json_reader *reader, const thr_json_where
   return st ? st : thr_names_build(&reader->names, reader->d, reader->file, reader->err);
 }
 
+/* Reads nodes, decides how links name them, and reads the links. */
 thr_status thr_json_read_node_link(thr_json_reader *reader, const thr_json_where *at,
                                    const thr_json *object)
 {
@@ -158,6 +159,7 @@ static thr_status lists_node(thr_json_reader *reader, const thr_json_where *at,
   return st;
 }
 
+/* Reads nodes, and the lists of their neighbours as edges. */
 thr_status thr_json_read_adjacency(thr_json_reader *reader, const thr_json_where *at,
                                    const thr_json *object)
 {

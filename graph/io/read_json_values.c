@@ -83,6 +83,7 @@ static thr_status read_number(thr_json_reader *reader, const thr_json_where *at,
   return THR_OK;
 }
 
+/* Reads three coordinates in any of the forms that programs write. */
 thr_status thr_json_point(thr_json_reader *reader, const thr_json_where *at, const thr_json *value,
                           const thr_json *defaults, double xyz[3])
 {
@@ -244,6 +245,7 @@ static void append_name(thr_text *text, const thr_json *value)
     thr_text_double(text, number);
 }
 
+/* Writes a name as Python writes it, tuples in brackets. */
 thr_status thr_json_name_of(thr_json_reader *reader, const thr_json_where *at,
                             const thr_json *value, const char **name)
 {

@@ -18,6 +18,7 @@
 
 /* ---- lines ---- */
 
+/* Starts before the first line, after a byte-order mark. */
 thr_status thr_scan_start(thr_scan *scan, const char *text, size_t n, const char *name,
                           thr_err *err)
 {
@@ -159,6 +160,7 @@ static bool is_digit(char c)
   return c >= '0' && c <= '9';
 }
 
+/* Copies the number with a point and without a plus, and lets graph/number.h read it exactly. */
 bool thr_span_number(thr_span text, bool decimal_comma, double *number)
 {
   char copy[128]; /* with a point; no sane number is longer */
@@ -189,6 +191,7 @@ bool thr_span_number(thr_span text, bool decimal_comma, double *number)
   return true;
 }
 
+/* Reads a number, or looks for the word in lists. */
 bool thr_span_truth(thr_span text, bool *yes)
 {
   static const char *const affirmative[] = {"true",      "yes",       "x",    "t",         "y",
@@ -258,6 +261,7 @@ static int by_name(const void *pa, const void *pb)
   return order ? order : (a->node > b->node) - (a->node < b->node);
 }
 
+/* Sorts the nodes by name, so that names can be found by halving. */
 thr_status thr_names_build(thr_names *names, const thr_draft *draft, const char *file, thr_err *err)
 {
   struct thr_named *entry = thr_calloc((size_t)draft->n_nodes, sizeof *entry);
@@ -322,6 +326,7 @@ void thr_report_skip(thr_read_report *report, thr_span keyword)
   thr_text_clean(report->skipped_kind);
 }
 
+/* Takes the unit that a comment names, and keeps an earlier one that differs. */
 thr_status thr_scan_units(const thr_scan *scan, thr_span comment, thr_draft *draft, thr_err *err)
 {
   const char *name, *wrong;

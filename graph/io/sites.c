@@ -62,6 +62,7 @@ static thr_status find_first(const thr_sites *sites, int *first, thr_err *err)
   return THR_OK;
 }
 
+/* Makes a node of the first site at each place; later sites at the place share it. */
 thr_status thr_sites_finish(const thr_sites *sites, int *node, thr_draft *draft, thr_err *err)
 {
   thr_status st = find_first(sites, node, err);

@@ -88,6 +88,7 @@ static thr_status scale(thr_draft *draft, double factor, thr_err *err)
                   "scaled by %g, its coordinates or lengths are no numbers to work with", factor);
 }
 
+/* Decides which axis is up, turns the draft if it is y, and scales it. */
 thr_status thr_draft_stand(thr_draft *draft, thr_up up, double factor, thr_read_report *report,
                            thr_err *err)
 {

@@ -112,6 +112,7 @@ static void put_names(const thr_frame *frame, thr_writer *writer)
   thr_write_close(writer);
 }
 
+/* Writes our own JSON, which read_json_own.c reads. */
 void thr_json_frame_write(const thr_frame *frame, thr_text *out)
 {
   thr_writer writer = {.out = out};
@@ -141,6 +142,7 @@ void thr_json_frame_write(const thr_frame *frame, thr_text *out)
   thr_text_append(out, "\n");
 }
 
+/* Writes units and feet as comments, and the nodes as v records. */
 void thr_obj_write_nodes(const thr_frame *frame, bool up_y, thr_text *out)
 {
   /* What OBJ has no records for is in comments, which read_obj.c reads back. */
@@ -172,6 +174,7 @@ void thr_obj_write(const thr_frame *frame, thr_text *out)
     thr_text_printf(out, "l %d %d\n", frame->edge[e][0] + 1, frame->edge[e][1] + 1);
 }
 
+/* Writes one edge per line, as six coordinates and what only some frameworks have. */
 void thr_csv_write(const thr_frame *frame, thr_text *out)
 {
   thr_text_printf(out, "x1,y1,z1,x2,y2,z2%s%s%s\n", frame->own_lengths ? ",length" : "",

@@ -99,6 +99,7 @@ static thr_status read_tag(thr_xml *xml, thr_err *err)
   return THR_OK;
 }
 
+/* Moves to the next tag; everything else between two tags is its text. */
 thr_status thr_xml_next(thr_xml *xml, thr_err *err)
 {
   const char *from = xml->scan.at;
@@ -200,6 +201,7 @@ static size_t append_section(thr_span rest, thr_text *out)
   return 0;
 }
 
+/* Copies a text byte by byte, but for entities and sections. */
 void thr_xml_plain(thr_span text, thr_text *out)
 {
   /* Even without a letter the text is not NULL. */
@@ -216,6 +218,7 @@ void thr_xml_plain(thr_span text, thr_text *out)
   }
 }
 
+/* Goes through the attributes of the tag in turn. */
 bool thr_xml_attribute(const thr_xml *xml, const char *name, thr_text *out)
 {
   const thr_span all = xml->attributes;

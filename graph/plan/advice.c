@@ -187,6 +187,8 @@ static void drop_longer(thr_advice *advice)
   advice->n = kept;
 }
 
+/* Sorts by ends and cords, drops rows with longer cords, marks the frontier, chooses, and drops
+ * what buys nothing. */
 void thr_advice_settle(thr_advice *advice)
 {
   if (advice->n > 0) qsort(advice->row, (size_t)advice->n, sizeof *advice->row, by_ends_and_cords);

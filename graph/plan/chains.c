@@ -141,6 +141,7 @@ int thr_threaded_try(thr_threaded *threaded, const int *piece, int n, int fold, 
 
 /* ---- plans ---- */
 
+/* Lists each path, followed by its copies. */
 void thr_plan_work(const thr_plan *plan, int *order)
 {
   int n = 0;
@@ -155,6 +156,8 @@ void thr_plan_work(const thr_plan *plan, int *order)
   }
 }
 
+/* Threads the plan's cords in their order of work, and adds up the loose chains: the longest one,
+ * and the sum of squares of their lengths, which prefers many short ones. */
 thr_status thr_plan_chains(const thr_plan *plan, int needles, thr_chains *chains, thr_err *err)
 {
   thr_threaded threaded = {0};

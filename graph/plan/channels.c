@@ -99,6 +99,7 @@ static void sort_arms(const thr_frame *frame, int v, const double normal[3], thr
   thr_sort_ranked(arms, (size_t)degree);
 }
 
+/* Sorts the arms of every node around its normal. */
 thr_status thr_channels_around(const thr_frame *frame, int *around, thr_err *err)
 {
   /* The arms of one node at a time. */
@@ -193,6 +194,7 @@ static void find_crossings(thr_channels *channels, int v, const int *rank)
   channels->crossed += channels->crossings > before;
 }
 
+/* Lists the channels by node (counting sort) and compares all pairs at each node. */
 thr_status thr_channels_make(thr_channels *channels, const thr_plan *plan, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;

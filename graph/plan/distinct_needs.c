@@ -94,6 +94,7 @@ static thr_status raise_bridges(const thr_frame *frame, const thr_request *optio
   return st;
 }
 
+/* Starts from the covers, and raises the bridges. */
 thr_status thr_distinct_needs(const thr_frame *frame, const thr_request *options, int **needs,
                               thr_err *err)
 {

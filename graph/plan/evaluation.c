@@ -70,6 +70,7 @@ bool thr_evaluation_exponents(const thr_evaluation *evaluation)
   return evaluation->schedule.n > 0 || evaluation->standing.taut;
 }
 
+/* Finds the least and largest tension; the least above 0 after a schedule. */
 bool thr_evaluation_range(const thr_evaluation *evaluation, double range[2])
 {
   bool known = false;
@@ -91,6 +92,7 @@ bool thr_evaluation_range(const thr_evaluation *evaluation, double range[2])
   return known;
 }
 
+/* Finds the colour at log(tension / low) / log(high / low) of the way from pale to dark. */
 void thr_tension_colour(const double range[2], double tension, char hex[8])
 {
   /* Equal steps in the Oklab space (B. Ottosson, 2020), lightness 0.87 to 0.28, yellow over red to
@@ -178,6 +180,8 @@ static void put_cord(thr_writer *writer, const thr_eval_cord *cord, int i, const
   thr_write_close(writer);
 }
 
+/* Writes the evaluation: how it was computed, sums, scale, schedule, structure, and cord by
+ * cord. */
 void thr_evaluation_write(const thr_evaluation *evaluation, thr_writer *writer, const char *key)
 {
   double range[2];
@@ -568,6 +572,7 @@ static thr_status read_members(const place_reader *reader, const thr_json *objec
   return check_colours(reader, object, evaluation);
 }
 
+/* Reads all members into an evaluation of its own, so that a failure leaves none. */
 thr_status thr_evaluation_from_json(thr_evaluation *evaluation, const thr_json *object,
                                     const char *place, thr_err *err)
 {

@@ -83,6 +83,8 @@ static int clip(double (*point)[2], int n, double low, double high)
   return kept + 2;
 }
 
+/* Runs the dynamic programme: f_1(T) = gain_1 (T - least_1), and f_k(T) = gain_k (T - least_k) +
+ * the largest f_(k-1)(S) with T / factor <= S <= T factor. */
 double thr_knotted_most(const thr_knotted_pass *pass, int n, double (*point)[2])
 {
   int points = 2;

@@ -31,6 +31,8 @@ static thr_parting part_at(const double *sum, int first, int last, int turn)
   };
 }
 
+/* Searches by halving: the larger of an ascending and a descending sum is least where they
+ * cross. */
 thr_parting thr_least_pull(const double *sum, int first, int last)
 {
   if (first == last) return part_at(sum, first, last, first);
@@ -62,6 +64,7 @@ static double rounding_of(const double *sum, int first, int last)
   return 1e-12 * (1 + sum[last] - sum[first]);
 }
 
+/* Looks at all turns whose larger sum is as small as the best one's. */
 double thr_least_pull_other(const double *sum, int first, int last)
 {
   /* The smaller of both sums, among all turns at which the larger one is least. */
@@ -88,6 +91,7 @@ static bool comes_first(const int *half, int n_passes, int i, int k)
   return true; /* the cord is the same from either end */
 }
 
+/* Chooses among all best partings by a rule that does not depend on which end is the start. */
 thr_parting thr_least_pull_of(const double *sum, const int *half, int n_passes)
 {
   const int last = n_passes - 1;

@@ -252,6 +252,7 @@ static void describe_range(const thr_physics_field *field, char *text, size_t n)
     snprintf(text, n, "expected %g to %g%s%s", field->low, field->high, space, field->unit);
 }
 
+/* Checks the range of a field, and sets the field. */
 thr_status thr_physics_set(thr_physics *physics, const thr_physics_field *field, double value,
                            thr_err *err)
 {
@@ -267,6 +268,7 @@ thr_status thr_physics_set(thr_physics *physics, const thr_physics_field *field,
   return THR_OK;
 }
 
+/* Replaces all values by those of a preset. */
 thr_status thr_physics_set_preset(thr_physics *physics, const char *name, thr_err *err)
 {
   const thr_physics_preset *preset = find_preset(name);
@@ -375,6 +377,7 @@ thr_status thr_physics_read(thr_physics *physics, const char *path, thr_err *err
   return st;
 }
 
+/* Writes all fields in the order of the table. */
 void thr_physics_write(const thr_physics *physics, thr_writer *writer, const char *key)
 {
   thr_write_object(writer, key);
@@ -501,6 +504,8 @@ static thr_status check_values(const thr_physics *physics, thr_err *err)
   return THR_OK;
 }
 
+/* Checks the ranges, measures the edges in mm, fills in what is to be worked out, and checks that
+ * the sizes fit. */
 thr_status thr_physics_resolve(const thr_physics *physics, const thr_frame *frame, thr_physics *out,
                                thr_err *err)
 {

@@ -187,6 +187,8 @@ static double common_step(double larger, double smaller, double rounding)
   return larger;
 }
 
+/* Computes the greatest common divisor of the lengths, scales it so that the longest edge fits
+ * best, and checks that all edges are multiples within 1e-10. */
 double thr_plan_unit(const thr_frame *frame)
 {
   enum { STEPS_MOST = 1000 };
@@ -277,6 +279,7 @@ double thr_turns_next(thr_turns *turns, int half)
   return thr_angle_between(in, turns->way[turns->last]);
 }
 
+/* Sums the angles between consecutive passes, in rad. */
 double thr_cord_turning(const thr_frame *frame, const thr_cord *cord, bool with_closure)
 {
   double sum = 0;
@@ -343,6 +346,7 @@ double thr_cord_price(const thr_frame *frame, const thr_request *options, const 
                          thr_cord_turns(options, cord));
 }
 
+/* Goes along the cord, from turn to turn, to where parting it is best. */
 double thr_cord_pulled_turning(const thr_frame *frame, const thr_cord *cord)
 {
   thr_least_pull_walk walk = thr_least_pull_begin(thr_cord_turning(frame, cord, false));
@@ -385,6 +389,7 @@ static double smaller_part(const thr_frame *frame, const thr_cord *cord, double 
   return fmax(0, least);
 }
 
+/* Finds the largest pulled turning, and what is left for the other end of that cord. */
 double thr_cords_pulled_turnings(const thr_frame *frame, const thr_cord *cord, int n, double *other)
 {
   double most = -1;
@@ -429,6 +434,7 @@ static void measure_distinct(const thr_request *options, const thr_cord *cord, i
   }
 }
 
+/* Goes through all passes; a second cord over an edge makes it SEVERAL. */
 void thr_cords_only(const thr_frame *frame, const thr_cord *cord, int n, int *only)
 {
   enum { NONE = -2, SEVERAL = -1 };
@@ -474,6 +480,8 @@ static void measure_cord(const thr_frame *frame, const thr_request *options, con
   if (turning > metrics->max_turning) metrics->max_turning = turning;
 }
 
+/* Adds up the metrics cord by cord, and the overlap edge by edge: the sum of (passes - cover) x
+ * length. */
 thr_status thr_plan_measure(const thr_frame *frame, const thr_request *options,
                             const thr_cord *cord, int n_cords, thr_metrics *metrics, thr_err *err)
 {
@@ -513,6 +521,7 @@ static double gap_of(bool present, bool optimal, double value, double bound)
   return optimal || value <= bound ? 0 : bound > 0 ? value / bound - 1 : INFINITY;
 }
 
+/* Returns the gap of what the request minimizes first. */
 double thr_plan_gap(const thr_plan *plan)
 {
   const thr_cords_claim *cords = &plan->cords_claim;

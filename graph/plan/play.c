@@ -38,6 +38,8 @@ static int start_at_feet(const thr_frame *frame, int *queue, int *distance)
   return n;
 }
 
+/* Measures, for every piece, the fewest gaps to a foot by breadth-first search; the shift is at
+ * most gaps x (bore - cord diameter), in mm. */
 thr_status thr_play_find(const thr_frame *frame, const thr_physics *physics, thr_play *out,
                          thr_err *err)
 {

@@ -98,6 +98,7 @@ int thr_request_most_passes(const thr_frame *frame, const thr_request *options)
   return few && room > usual ? room : usual;
 }
 
+/* Completes the order of a symmetric plan's aims. */
 void thr_aims_order(const thr_request *options, thr_aim order[THR_N_AIMS])
 {
   bool taken[THR_N_AIMS] = {false};
@@ -321,6 +322,7 @@ thr_status thr_aims_parse(const char *text, thr_request *options, thr_err *err)
   return THR_OK;
 }
 
+/* Writes the list that thr_aims_parse reads as the same request. */
 void thr_aims_write(const thr_request *options, thr_text *out)
 {
   bool turning = thr_wants_turning(options),
@@ -466,6 +468,7 @@ double thr_request_most_turning(const thr_request *options)
   return 2 * thr_request_most_pulled(options) + (options->old_pull ? 0 : THR_PI);
 }
 
+/* Reduces a request for several cords that are all alike to a request for one of them. */
 bool thr_request_alike(const thr_frame *frame, const thr_request *options, thr_request *one)
 {
   *one = *options;
@@ -494,6 +497,7 @@ bool thr_plan_end_allowed(const thr_frame *frame, const thr_request *options, in
   }
 }
 
+/* Translates a request into the task of the programme for least turning. */
 thr_turning_task thr_turning_task_of(const thr_frame *frame, const thr_request *request,
                                      bool *end_allowed)
 {

@@ -71,6 +71,7 @@ int thr_schedule_grips(const thr_schedule *schedule, int i)
   return n;
 }
 
+/* Follows both ends of a cord through the schedule. */
 bool thr_schedule_knotted(const thr_schedule *schedule, int i)
 {
   bool start = false, end = false;
@@ -194,6 +195,7 @@ static const char *read_step(const thr_json *object, int n_cords, thr_schedule_s
   return NULL;
 }
 
+/* Reads the list step by step, and checks that slack cords are only slack. */
 thr_status thr_schedule_from_json(thr_schedule *schedule, const thr_json *array, int n_cords,
                                   const char *place, thr_err *err)
 {

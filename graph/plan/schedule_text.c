@@ -203,6 +203,7 @@ static thr_status read_line(step_reader *reader, thr_span line, thr_schedule *sc
   return st;
 }
 
+/* Reads a text line by line. */
 thr_status thr_schedule_parse(thr_schedule *schedule, const thr_plan *plan, const char *text,
                               size_t n, const char *name, thr_err *err)
 {
@@ -231,6 +232,7 @@ thr_status thr_schedule_parse(thr_schedule *schedule, const thr_plan *plan, cons
 
 /* ---- in words ---- */
 
+/* Writes a step so that thr_schedule_parse reads it, but for the nodes in brackets. */
 void thr_schedule_put_step(const thr_plan *plan, const thr_schedule_step *step, thr_text *text)
 {
   const thr_cord *cord = &plan->cord[step->cord];

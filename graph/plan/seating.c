@@ -49,6 +49,8 @@ static thr_status make_arrays(int n_edges, bool **passed, double **press, thr_er
   return thr_nomem(err);
 }
 
+/* Adds the tensions of all passes through each gap, and counts the gaps with the seating tension or
+ * more. */
 thr_status thr_seating_fraction(const thr_frame *frame, const thr_cord *cord,
                                 thr_evaluation *evaluation, thr_err *err)
 {
@@ -147,6 +149,8 @@ static void halve(const thr_cord *cord, const thr_evaluation *evaluation, int on
     pull[e] = high[e];
 }
 
+/* Computes the pull that seats each gap: seating / press at 1 N where tensions are multiples of the
+ * pull, else by bisection. */
 thr_status thr_seating_pulls(const thr_frame *frame, const thr_cord *cord,
                              const thr_evaluation *evaluation, int only, double *pull, int *n_gaps,
                              thr_err *err)

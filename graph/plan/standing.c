@@ -148,6 +148,7 @@ static void put_stills(thr_writer *writer, const thr_standing *standing)
   thr_write_close(writer);
 }
 
+/* Writes what acts, how cords are drawn in, stills, and the answers with their mechanisms. */
 void thr_standing_write(const thr_standing *standing, thr_writer *writer, const char *key)
 {
   /* What the structure stands on. */

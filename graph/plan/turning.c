@@ -169,6 +169,8 @@ bool thr_turning_open(const thr_turning_columns *turning_columns, int component)
   return false;
 }
 
+/* Returns the bound that the passes of the edges, or the ends of a node or component, put on a
+ * column. */
 int thr_turning_most(const thr_turning_columns *turning_columns, int column)
 {
   int a = turning_columns->half[column][0] >> 1,
@@ -395,6 +397,7 @@ static thr_status fill_limits(thr_turning_columns *turning_columns, thr_err *err
   return THR_OK;
 }
 
+/* Makes the columns: checks the task, finds limits, numbers the columns, and prices them. */
 thr_status thr_turning_columns_init(thr_turning_columns *turning_columns, const thr_frame *frame,
                                     const thr_turning_task *task, thr_err *err)
 {
