@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* "Did you mean": which word of those that there are is nearest to what was typed, by letters left
+ * out, added, changed or swapped (Damerau & Levenshtein). */
 #include "graph/text.h"
 
 #include <stdio.h>

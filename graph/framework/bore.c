@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Round bores: how many cords are drawn with ease through one, and how wide one has to be for so
- * many. */
+/* Computes how many cords are drawn with ease through a round bore, and how wide a bore has to be
+ * for so many: the cords' sections may fill a share of the bore's section, as conduits for cables
+ * (NFPA 70, chapter 9, table 1). */
 #include "graph/framework/frame.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The connected components of a framework, each as a framework and options of its own. */
+/* Takes the connected components of a framework apart, each as a framework with a request of its
+ * own, and puts cords of the components together again. */
 #ifndef THR_COMPONENTS_H
 #define THR_COMPONENTS_H
 

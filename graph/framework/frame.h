@@ -1,5 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A framework: nodes with coordinates, edges, and what is said of them. */
+/* A framework: nodes with coordinates, edges, and what is said of them.
+ *
+ * The room graph/framework holds the framework, the graph whose edges cords are threaded through,
+ * and all that follows from the framework alone, without a plan. Lengths are in the framework's
+ * units, angles in rad.
+ *
+ * Read first this file and frame.c (from draft to framework: welding, indices, names, hash), which
+ * everything else builds on. Then, in any order: near.c (what a drawing nearly says), components.c
+ * (components as frameworks of their own), units.c (units of length), make.c (example frameworks),
+ * procrustes.c (isometries near to a permutation), igraph.c (cuts, flows, automorphisms, drawings),
+ * bore.c (cords in a bore). */
 #ifndef THR_FRAME_H
 #define THR_FRAME_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Frameworks that are made: shapes by name, and drawings of them. */
+/* Makes example frameworks, shapes by name; and draws graphs in the plane. */
 #ifndef THR_MAKE_H
 #define THR_MAKE_H
 

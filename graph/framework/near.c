@@ -1,11 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a drawing nearly says: nodes that are almost one, nodes that lie on an edge which passes
- * them, edges that cross without a node. Joints that are meant to be there and are not make other
- * cords, so a reader of frameworks remarks them.
+/* Finds what a drawing nearly says: nodes that are almost one, nodes that lie on an edge which
+ * passes them, edges that cross without a node. Joints that are meant to be there but are missing
+ * change the cords, so that readers of frameworks are warned of them; and edges can be cut at the
+ * nodes that lie on them (thr_frame_split).
  *
- * Two grids of cells about as large as an edge is long, one with the nodes in each cell and one
- * with the edges that pass through: nodes are compared with the nodes around them and the edges of
- * their cell, edges with those that they share a cell with. */
+ * Two grids have cells about as large as an edge is long. One holds the nodes in each cell, the
+ * other one the edges that pass through a cell. Nodes are compared with the nodes around them and
+ * with the edges of their cell, edges with those that they share a cell with. So the time is linear
+ * where edges of about one length fill space evenly. Cells are found by a hash of their place: a
+ * bucket may hold several cells.
+ *
+ * Example: of the edges (0, 0, 0)-(20, 0, 0) and (10, -5, 0)-(10, 5, 0) each passes through the
+ * cell of (10, 0, 0), where they are found to cross. */
 #include "graph/framework/frame.h"
 
 #include "graph/arrays.h"
@@ -16,20 +22,23 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* CLOSE: two nodes may be meant to be one; TOUCHING: two edges, or an edge and a node, meet. */
 static const double CLOSE = 0.1, TOUCHING = 1e-3; /* of the length of an edge */
 enum { MOST_COMPARISONS = 100000000 };
 
-/* What lies in the cells, which share buckets by a hash of their place. */
+/* What is in the cells: members of bucket b are member[start[b]] .. member[start[b + 1] - 1]. */
 typedef struct {
   int *start;  /* [buckets + 1] */
   int *member; /* by bucket, ascending */
 } grid;
 
+/* A node on an edge that does not end there. */
 typedef struct {
   int node, edge;
   double at; /* from 0, the edge's first end, to 1 */
 } touch;
 
+/* The state of one search. */
 typedef struct {
   const thr_frame *frame;
   thr_near *near;
@@ -43,226 +52,289 @@ typedef struct {
   double widest; /* gap of the close pairs */
   touch *touch;  /* every node on an edge */
   int n_touches, touches_capacity;
-} search;
+} near_search;
 
+/* A cell of the grids, by its place in each direction. */
 typedef struct {
   int64_t x, y, z;
 } place;
 
 /* ---- geometry ---- */
 
+/* Returns the distance between two points. */
 static double distance(const double a[3], const double b[3])
 {
   const double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
   return sqrt(thr_dot(d, d));
 }
 
-static const double *end_of(const search *s, int e, int side)
+/* Returns the coordinates of an end of an edge. */
+static const double *end_of(const near_search *search, int e, int side)
 {
-  return s->frame->xyz[s->frame->edge[e][side]];
+  return search->frame->xyz[search->frame->edge[e][side]];
 }
 
-static void point_on(const search *s, int e, double at, double out[3])
+/* Computes the point at a share of an edge. */
+static void point_on(const near_search *search, int e, double at, double out[3])
 {
-  const double *a = end_of(s, e, 0), *b = end_of(s, e, 1);
+  const double *a = end_of(search, e, 0), *b = end_of(search, e, 1);
   for (int i = 0; i < 3; i++)
     out[i] = a[i] + at * (b[i] - a[i]);
 }
 
-static bool is_straight(const search *s, int e)
+/* Returns whether an edge is as long as its nodes are apart, within 1 %. Longer edges are curves,
+ * whose course is not known. */
+static bool is_straight(const near_search *search, int e)
 {
-  return s->frame->length[e] <= 1.01 * s->apart[e];
+  return search->frame->length[e] <= 1.01 * search->apart[e];
 }
 
 /* ---- the grids ---- */
 
-static place place_of(const search *s, const double p[3], double shift)
+/* Returns the cell of a point that is moved by `shift` in each direction. */
+static place place_of(const near_search *search, const double point[3], double shift)
 {
-  return (place){(int64_t)floor((p[0] - s->low[0] + shift) / s->cell),
-                 (int64_t)floor((p[1] - s->low[1] + shift) / s->cell),
-                 (int64_t)floor((p[2] - s->low[2] + shift) / s->cell)};
+  return (place){(int64_t)floor((point[0] - search->low[0] + shift) / search->cell),
+                 (int64_t)floor((point[1] - search->low[1] + shift) / search->cell),
+                 (int64_t)floor((point[2] - search->low[2] + shift) / search->cell)};
 }
 
-/* Cells side by side have buckets side by side. */
-static uint32_t bucket_of(const search *s, place p)
+/* Returns the bucket of a cell. Cells that are neighbours in x have neighbouring buckets, which are
+ * in one line of the processor's cache. */
+static uint32_t bucket_of(const near_search *search, place cell)
 {
-  const uint64_t hash = ((uint64_t)p.y * UINT64_C(0xc2b2ae3d27d4eb4f)) ^
-                        ((uint64_t)p.z * UINT64_C(0x165667b19e3779f9));
-  return (uint32_t)((hash ^ hash >> 32) + (uint64_t)p.x) & s->mask;
+  const uint64_t hash = ((uint64_t)cell.y * UINT64_C(0xc2b2ae3d27d4eb4f)) ^
+                        ((uint64_t)cell.z * UINT64_C(0x165667b19e3779f9));
+  return (uint32_t)((hash ^ hash >> 32) + (uint64_t)cell.x) & search->mask;
 }
 
-/* The cell size: that of the median of some edges, but so that all together pass through few cells,
- * and none beyond counting. */
-static thr_status choose_cells(search *s)
+/* Chooses the size of cells: the median length of some edges. If a few edges are much longer, cells
+ * are larger, so that the edges pass through at most some four cells each on average; and cells are
+ * never so small that their places could not be counted. */
+static thr_status choose_cells(near_search *search)
 {
   enum { SAMPLE = 10000 };
-  const thr_frame *f = s->frame;
-  const int every = f->n_edges / SAMPLE + 1;
-  double total = 0, *sorted = thr_calloc((size_t)(f->n_edges / every + 1), sizeof *sorted);
+  const thr_frame *frame = search->frame;
+
+  /* A sample is enough for a median. */
+  const int every = frame->n_edges / SAMPLE + 1;
+  double total = 0, *sorted = thr_calloc((size_t)(frame->n_edges / every + 1), sizeof *sorted);
   size_t n = 0;
-  if (!sorted) return thr_nomem(s->err);
-  for (int e = 0; e < f->n_edges; e++) {
-    if (e % every == 0) sorted[n++] = s->apart[e];
-    total += s->apart[e];
+  if (!sorted) return thr_nomem(search->err);
+
+  /* The mean bounds the number of cells that edges pass through. */
+  for (int e = 0; e < frame->n_edges; e++) {
+    if (e % every == 0) sorted[n++] = search->apart[e];
+    total += search->apart[e];
   }
+
   thr_sort_doubles(sorted, n);
-  s->cell = fmax(fmax(sorted[n / 2], total / (4.0 * f->n_edges)), 1e-7 * thr_frame_diagonal(f));
+  search->cell =
+      fmax(fmax(sorted[n / 2], total / (4.0 * frame->n_edges)), 1e-7 * thr_frame_diagonal(frame));
   free(sorted);
-  memcpy(s->low, f->xyz[0], sizeof s->low);
-  for (int v = 0; v < f->n_nodes; v++)
+
+  /* The grid begins at the lowest coordinates. */
+  memcpy(search->low, frame->xyz[0], sizeof search->low);
+  for (int v = 0; v < frame->n_nodes; v++)
     for (int k = 0; k < 3; k++)
-      s->low[k] = fmin(s->low[k], f->xyz[v][k]);
-  for (s->mask = 1; s->mask < (uint32_t)f->n_edges; s->mask = 2 * s->mask + 1) {
+      search->low[k] = fmin(search->low[k], frame->xyz[v][k]);
+
+  /* At least one bucket for each edge, a power of two. */
+  for (search->mask = 1; search->mask < (uint32_t)frame->n_edges;
+       search->mask = 2 * search->mask + 1) {
   }
+
   return THR_OK;
 }
 
-/* Adds the edge to the buckets of the cells that one of its parts comes close to; while members are
- * counted, member is NULL. last[bucket]: the edge that came last. */
-static void put_part(search *s, int e, double from, double to, int *last)
+/* Adds an edge to the buckets of the cells that one of its parts comes close to. In the first pass,
+ * when member is NULL, only counts. last[bucket]: the edge that was added last, so that no edge is
+ * twice in one bucket. */
+static void put_part(near_search *search, int e, double from, double to, int *last)
 {
   double a[3], b[3], low[3], high[3];
-  const double reach = TOUCHING * fmin(s->apart[e], 10 * s->cell);
-  point_on(s, e, from, a);
-  point_on(s, e, to, b);
+
+  /* Cells that are within reach of what may touch the part. */
+  const double reach = TOUCHING * fmin(search->apart[e], 10 * search->cell);
+  point_on(search, e, from, a);
+  point_on(search, e, to, b);
+
   for (int k = 0; k < 3; k++) {
     low[k] = fmin(a[k], b[k]);
     high[k] = fmax(a[k], b[k]);
   }
-  const place first = place_of(s, low, -reach), end = place_of(s, high, reach);
-  place p;
-  for (p.x = first.x; p.x <= end.x; p.x++)
-    for (p.y = first.y; p.y <= end.y; p.y++)
-      for (p.z = first.z; p.z <= end.z; p.z++) {
-        const uint32_t bucket = bucket_of(s, p);
+
+  const place first = place_of(search, low, -reach), highest = place_of(search, high, reach);
+  place cell;
+
+  /* All cells of the part's bounding box; parts are short, so few of them are empty. */
+  for (cell.x = first.x; cell.x <= highest.x; cell.x++)
+    for (cell.y = first.y; cell.y <= highest.y; cell.y++)
+      for (cell.z = first.z; cell.z <= highest.z; cell.z++) {
+        const uint32_t bucket = bucket_of(search, cell);
         if (last[bucket] == e) continue;
         last[bucket] = e;
-        if (s->edges.member)
-          s->edges.member[s->edges.start[bucket + 1]++] = e;
+        if (search->edges.member)
+          search->edges.member[search->edges.start[bucket + 1]++] = e;
         else
-          s->edges.start[bucket + 2]++;
+          search->edges.start[bucket + 2]++;
       }
 }
 
-static void put_edges(search *s, int *last)
+/* Adds all straight edges, in parts no longer than a cell. */
+static void put_edges(near_search *search, int *last)
 {
-  for (uint32_t i = 0; i <= s->mask; i++)
+  for (uint32_t i = 0; i <= search->mask; i++)
     last[i] = -1;
-  for (int e = 0; e < s->frame->n_edges; e++) {
-    const int parts = (int)ceil(s->apart[e] / s->cell) + (s->apart[e] == 0);
-    for (int i = 0; is_straight(s, e) && i < parts; i++)
-      put_part(s, e, (double)i / parts, (double)(i + 1) / parts, last);
+  for (int e = 0; e < search->frame->n_edges; e++) {
+    const int parts = (int)ceil(search->apart[e] / search->cell) + (search->apart[e] == 0);
+    for (int i = 0; is_straight(search, e) && i < parts; i++)
+      put_part(search, e, (double)i / parts, (double)(i + 1) / parts, last);
   }
 }
 
-static void put_nodes(search *s)
+/* Adds all nodes, or counts them. */
+static void put_nodes(near_search *search)
 {
-  for (int v = 0; v < s->frame->n_nodes; v++) {
-    const uint32_t bucket = bucket_of(s, place_of(s, s->frame->xyz[v], 0));
-    if (s->nodes.member)
-      s->nodes.member[s->nodes.start[bucket + 1]++] = v;
+  for (int v = 0; v < search->frame->n_nodes; v++) {
+    const uint32_t bucket = bucket_of(search, place_of(search, search->frame->xyz[v], 0));
+    if (search->nodes.member)
+      search->nodes.member[search->nodes.start[bucket + 1]++] = v;
     else
-      s->nodes.start[bucket + 2]++;
+      search->nodes.start[bucket + 2]++;
   }
 }
 
-/* From counts, shifted by two places, to where each bucket begins, shifted by one. */
-static thr_status reserve(search *s, grid *g)
+/* Turns the counts, which are shifted by two places, into where each bucket begins, shifted by one
+ * place. Adding the members then moves each beginning to its right place. */
+static thr_status reserve(near_search *search, grid *filled)
 {
-  for (uint32_t i = 2; i <= s->mask + 2; i++)
-    g->start[i] += g->start[i - 1];
-  g->member = thr_calloc((size_t)g->start[s->mask + 2], sizeof *g->member);
-  return g->member ? THR_OK : thr_nomem(s->err);
+  for (uint32_t i = 2; i <= search->mask + 2; i++)
+    filled->start[i] += filled->start[i - 1];
+  filled->member = thr_calloc((size_t)filled->start[search->mask + 2], sizeof *filled->member);
+  return filled->member ? THR_OK : thr_nomem(search->err);
 }
 
-static thr_status fill_grids(search *s)
+/* Fills both grids, each in two passes: counting and adding. */
+static thr_status fill_grids(near_search *search)
 {
-  const size_t buckets = (size_t)s->mask + 1;
+  const size_t buckets = (size_t)search->mask + 1;
   int *last = thr_calloc(buckets, sizeof *last);
-  s->nodes.start = thr_calloc(buckets + 2, sizeof *s->nodes.start);
-  s->edges.start = thr_calloc(buckets + 2, sizeof *s->edges.start);
-  thr_status st = last && s->nodes.start && s->edges.start ? THR_OK : thr_nomem(s->err);
-  if (!st) put_nodes(s);
-  if (!st) st = reserve(s, &s->nodes);
-  if (!st) put_nodes(s);
-  if (!st) put_edges(s, last);
-  if (!st) st = reserve(s, &s->edges);
-  if (!st) put_edges(s, last);
+
+  search->nodes.start = thr_calloc(buckets + 2, sizeof *search->nodes.start);
+  search->edges.start = thr_calloc(buckets + 2, sizeof *search->edges.start);
+  thr_status st =
+      last && search->nodes.start && search->edges.start ? THR_OK : thr_nomem(search->err);
+
+  /* In the first pass member is NULL: members are counted; in the second they are added. */
+  if (!st) put_nodes(search);
+  if (!st) st = reserve(search, &search->nodes);
+  if (!st) put_nodes(search);
+  if (!st) put_edges(search, last);
+  if (!st) st = reserve(search, &search->edges);
+  if (!st) put_edges(search, last);
+
   free(last);
   return st;
 }
 
-/* May another pair be compared? */
-static bool goes_on(search *s)
+/* Returns whether another pair may be compared. If there have been too many, the search is given up
+ * as tangled. */
+static bool goes_on(near_search *search)
 {
-  if (++s->comparisons > MOST_COMPARISONS) s->near->tangled = true;
-  return !s->near->tangled;
+  if (++search->comparisons > MOST_COMPARISONS) search->near->tangled = true;
+  return !search->near->tangled;
 }
 
 /* ---- nodes close to nodes ---- */
 
-static void compare_nodes(search *s, int v, int w)
+/* Counts a pair of nodes that is close but has no edge, and keeps the closest one. */
+static void compare_nodes(near_search *search, int v, int w)
 {
-  const double gap = distance(s->frame->xyz[v], s->frame->xyz[w]);
-  if (gap > CLOSE * fmin(fmin(s->shortest[v], s->shortest[w]), s->cell) ||
-      thr_frame_edge_between(s->frame, v, w) >= 0)
+  const double gap = distance(search->frame->xyz[v], search->frame->xyz[w]);
+
+  /* Close means a tenth of the shortest edge at either node. */
+  if (gap > CLOSE * fmin(fmin(search->shortest[v], search->shortest[w]), search->cell) ||
+      thr_frame_edge_between(search->frame, v, w) >= 0)
     return;
-  if (s->near->n_close++ == 0 || gap < s->near->gap) {
-    s->near->gap = gap;
-    s->near->closest[0] = v;
-    s->near->closest[1] = w;
+
+  if (search->near->n_close++ == 0 || gap < search->near->gap) {
+    search->near->gap = gap;
+    search->near->closest[0] = v;
+    search->near->closest[1] = w;
   }
-  s->widest = fmax(s->widest, gap);
+
+  search->widest = fmax(search->widest, gap);
 }
 
-static void find_close_nodes(search *s, int v)
+/* Compares a node with all nodes of higher number within reach. */
+static void find_close_nodes(near_search *search, int v)
 {
-  const double reach = CLOSE * fmin(s->shortest[v], s->cell);
-  const place first = place_of(s, s->frame->xyz[v], -reach),
-              end = place_of(s, s->frame->xyz[v], reach);
-  place p;
-  for (p.x = first.x; p.x <= end.x; p.x++)
-    for (p.y = first.y; p.y <= end.y; p.y++)
-      for (p.z = first.z; p.z <= end.z; p.z++) {
-        const uint32_t bucket = bucket_of(s, p);
-        for (int i = s->nodes.start[bucket]; i < s->nodes.start[bucket + 1] && goes_on(s); i++) {
-          const int w = s->nodes.member[i];
-          if (w <= v || distance(s->frame->xyz[v], s->frame->xyz[w]) > reach) continue;
-          const place q = place_of(s, s->frame->xyz[w], 0);
-          if (q.x == p.x && q.y == p.y && q.z == p.z) compare_nodes(s, v, w);
+  /* The cells within reach. */
+  const double reach = CLOSE * fmin(search->shortest[v], search->cell);
+  const place first = place_of(search, search->frame->xyz[v], -reach),
+              highest = place_of(search, search->frame->xyz[v], reach);
+  place cell;
+
+  for (cell.x = first.x; cell.x <= highest.x; cell.x++)
+    for (cell.y = first.y; cell.y <= highest.y; cell.y++)
+      for (cell.z = first.z; cell.z <= highest.z; cell.z++) {
+        const uint32_t bucket = bucket_of(search, cell);
+        for (int i = search->nodes.start[bucket];
+             i < search->nodes.start[bucket + 1] && goes_on(search); i++) {
+          const int w = search->nodes.member[i];
+          if (w <= v || distance(search->frame->xyz[v], search->frame->xyz[w]) > reach) continue;
+
+          /* The bucket may hold nodes of other cells, which get their turn there. */
+          const place own = place_of(search, search->frame->xyz[w], 0);
+          if (own.x == cell.x && own.y == cell.y && own.z == cell.z) compare_nodes(search, v, w);
         }
       }
 }
 
 /* ---- nodes on edges, edges across edges ---- */
 
+/* Returns whether a share of an edge is between its ends, not at one of them. */
 static bool is_within(double at)
 {
   return at > TOUCHING && at < 1 - TOUCHING;
 }
 
-static thr_status compare_node(search *s, int v, int e)
+/* Keeps a node that lies on an edge. */
+static thr_status compare_node(near_search *search, int v, int e)
 {
-  if (s->frame->edge[e][0] == v || s->frame->edge[e][1] == v) return THR_OK;
-  const double *a = end_of(s, e, 0), *b = end_of(s, e, 1), *p = s->frame->xyz[v];
+  if (search->frame->edge[e][0] == v || search->frame->edge[e][1] == v) return THR_OK;
+  const double *a = end_of(search, e, 0), *b = end_of(search, e, 1), *point = search->frame->xyz[v];
+
+  /* The foot of the perpendicular, as a share of the edge. */
   const double along[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]},
-               to[3] = {p[0] - a[0], p[1] - a[1], p[2] - a[2]};
+               to[3] = {point[0] - a[0], point[1] - a[1], point[2] - a[2]};
   const double at = thr_dot(along, to) / thr_dot(along, along);
   double foot[3];
   if (!is_within(at)) return THR_OK;
-  point_on(s, e, at, foot);
-  if (distance(p, foot) > TOUCHING * fmin(s->apart[e], fmin(s->shortest[v], 10 * s->cell)))
+
+  /* Is the node close enough? */
+  point_on(search, e, at, foot);
+  if (distance(point, foot) >
+      TOUCHING * fmin(search->apart[e], fmin(search->shortest[v], 10 * search->cell)))
     return THR_OK;
+
+  /* A node close to one of the ends is a matter of welding. */
   for (int side = 0; side < 2; side++)
-    if (distance(p, end_of(s, e, side)) <=
-        CLOSE * fmin(s->shortest[v], s->shortest[s->frame->edge[e][side]]))
+    if (distance(point, end_of(search, e, side)) <=
+        CLOSE * fmin(search->shortest[v], search->shortest[search->frame->edge[e][side]]))
       return THR_OK;
-  thr_status st = thr_grow(&s->touch, s->n_touches, &s->touches_capacity, sizeof *s->touch, s->err);
-  if (!st) s->touch[s->n_touches++] = (touch){v, e, at};
+
+  thr_status st = thr_grow(&search->touch, search->n_touches, &search->touches_capacity,
+                           sizeof *search->touch, search->err);
+  if (!st) search->touch[search->n_touches++] = (touch){v, e, at};
+
   return st;
 }
 
-/* Where two lines that are not parallel come closest, as parts of the edges. */
+/* Finds where two lines p + t d1 and q + t d2 come closest, as shares of d1 and d2: both scalar
+ * products of the connecting vector with the directions are 0, two linear equations. Returns false
+ * if the lines are parallel. */
 static bool closest_points(const double p[3], const double d1[3], const double q[3],
                            const double d2[3], double *at1, double *at2)
 {
@@ -270,159 +342,212 @@ static bool closest_points(const double p[3], const double d1[3], const double q
   const double a = thr_dot(d1, d1), b = thr_dot(d1, d2), c = thr_dot(d2, d2), d = thr_dot(d1, r),
                e = thr_dot(d2, r);
   const double determinant = a * c - b * b;
+
   if (!(determinant > 1e-9 * a * c)) return false;
   *at1 = (b * e - c * d) / determinant;
   *at2 = (a * e - b * d) / determinant;
   return true;
 }
 
-static void compare_edges(search *s, int e, int f, uint32_t bucket)
+/* Counts two edges without a common node that come close to each other between their ends. */
+static void compare_edges(near_search *search, int e, int f, uint32_t bucket)
 {
-  const int *m = s->frame->edge[e], *n = s->frame->edge[f];
-  if (m[0] == n[0] || m[0] == n[1] || m[1] == n[0] || m[1] == n[1]) return;
-  const double *p = s->frame->xyz[m[0]], *q = s->frame->xyz[n[0]], *pp = s->frame->xyz[m[1]],
-               *qq = s->frame->xyz[n[1]];
-  const double d1[3] = {pp[0] - p[0], pp[1] - p[1], pp[2] - p[2]},
-               d2[3] = {qq[0] - q[0], qq[1] - q[1], qq[2] - q[2]};
+  const int *ends = search->frame->edge[e], *other_ends = search->frame->edge[f];
+
+  if (ends[0] == other_ends[0] || ends[0] == other_ends[1] || ends[1] == other_ends[0] ||
+      ends[1] == other_ends[1])
+    return;
+
+  const double *start = search->frame->xyz[ends[0]],
+               *other_start = search->frame->xyz[other_ends[0]],
+               *finish = search->frame->xyz[ends[1]],
+               *other_finish = search->frame->xyz[other_ends[1]];
+
+  /* Where they come closest, which must be between the ends of both. */
+  const double d1[3] = {finish[0] - start[0], finish[1] - start[1], finish[2] - start[2]},
+               d2[3] = {other_finish[0] - other_start[0], other_finish[1] - other_start[1],
+                        other_finish[2] - other_start[2]};
   double at1, at2, here[3], there[3];
-  if (!closest_points(p, d1, q, d2, &at1, &at2) || !is_within(at1) || !is_within(at2)) return;
-  point_on(s, e, at1, here);
-  point_on(s, f, at2, there);
-  if (distance(here, there) > TOUCHING * fmin(fmin(s->apart[e], s->apart[f]), 10 * s->cell)) return;
-  if (bucket_of(s, place_of(s, here, 0)) != bucket) return; /* they share other cells as well */
-  if (s->near->n_crossings++ == 0) {
-    s->near->crossing[0] = e < f ? e : f;
-    s->near->crossing[1] = e < f ? f : e;
+
+  if (!closest_points(start, d1, other_start, d2, &at1, &at2) || !is_within(at1) || !is_within(at2))
+    return;
+
+  /* Close enough? */
+  point_on(search, e, at1, here);
+  point_on(search, f, at2, there);
+  if (distance(here, there) >
+      TOUCHING * fmin(fmin(search->apart[e], search->apart[f]), 10 * search->cell))
+    return;
+
+  if (bucket_of(search, place_of(search, here, 0)) != bucket)
+    return; /* they share other cells as well */
+
+  /* The first pair is an example for the report. */
+  if (search->near->n_crossings++ == 0) {
+    search->near->crossing[0] = e < f ? e : f;
+    search->near->crossing[1] = e < f ? f : e;
   }
 }
 
-static thr_status look_around(search *s)
+/* Compares every node with nodes and edges near by. */
+static thr_status look_around(near_search *search)
 {
   thr_status st = THR_OK;
-  for (int v = 0; v < s->frame->n_nodes && !st && !s->near->tangled; v++) {
-    find_close_nodes(s, v);
-    const uint32_t bucket = bucket_of(s, place_of(s, s->frame->xyz[v], 0));
-    for (int i = s->edges.start[bucket]; i < s->edges.start[bucket + 1] && !st && goes_on(s); i++)
-      st = compare_node(s, v, s->edges.member[i]);
+
+  /* A node on an edge is in a cell of the edge: the edge was added with its reach. */
+  for (int v = 0; v < search->frame->n_nodes && !st && !search->near->tangled; v++) {
+    find_close_nodes(search, v);
+    const uint32_t bucket = bucket_of(search, place_of(search, search->frame->xyz[v], 0));
+    for (int i = search->edges.start[bucket];
+         i < search->edges.start[bucket + 1] && !st && goes_on(search); i++)
+      st = compare_node(search, v, search->edges.member[i]);
   }
+
   return st;
 }
 
-static void look_across(search *s)
+/* Compares all edges that share a bucket. */
+static void look_across(near_search *search)
 {
-  for (uint32_t bucket = 0; bucket <= s->mask && !s->near->tangled; bucket++)
-    for (int i = s->edges.start[bucket]; i < s->edges.start[bucket + 1]; i++)
-      for (int j = s->edges.start[bucket]; j < i && goes_on(s); j++)
-        compare_edges(s, s->edges.member[j], s->edges.member[i], bucket);
+  for (uint32_t bucket = 0; bucket <= search->mask && !search->near->tangled; bucket++)
+    for (int i = search->edges.start[bucket]; i < search->edges.start[bucket + 1]; i++)
+      for (int j = search->edges.start[bucket]; j < i && goes_on(search); j++)
+        compare_edges(search, search->edges.member[j], search->edges.member[i], bucket);
 }
 
 /* ---- all of it ---- */
 
-static thr_status begin(search *s, const thr_frame *frame, thr_near *near, thr_err *err)
+/* Prepares a search: the lengths on which tolerances depend, and the grids. */
+static thr_status begin_search(near_search *search, const thr_frame *frame, thr_near *near,
+                               thr_err *err)
 {
   *near = (thr_near){0};
-  *s = (search){.frame = frame, .near = near, .err = err};
-  s->apart = thr_calloc((size_t)frame->n_edges, sizeof *s->apart);
-  s->shortest = thr_calloc((size_t)frame->n_nodes, sizeof *s->shortest);
-  if (!s->apart || !s->shortest) return thr_nomem(err);
+  *search = (near_search){.frame = frame, .near = near, .err = err};
+
+  /* Tolerances are shares of these lengths. */
+  search->apart = thr_calloc((size_t)frame->n_edges, sizeof *search->apart);
+  search->shortest = thr_calloc((size_t)frame->n_nodes, sizeof *search->shortest);
+  if (!search->apart || !search->shortest) return thr_nomem(err);
+
+  /* The shortest edge at each node. */
   for (int v = 0; v < frame->n_nodes; v++)
-    s->shortest[v] = INFINITY;
+    search->shortest[v] = INFINITY;
   for (int e = 0; e < frame->n_edges; e++) {
-    s->apart[e] = distance(end_of(s, e, 0), end_of(s, e, 1));
+    search->apart[e] = distance(end_of(search, e, 0), end_of(search, e, 1));
     for (int side = 0; side < 2; side++)
-      s->shortest[frame->edge[e][side]] = fmin(s->shortest[frame->edge[e][side]], s->apart[e]);
+      search->shortest[frame->edge[e][side]] =
+          fmin(search->shortest[frame->edge[e][side]], search->apart[e]);
   }
-  thr_status st = choose_cells(s);
-  return st ? st : fill_grids(s);
+
+  /* The grids need all lengths. */
+  thr_status st = choose_cells(search);
+  return st ? st : fill_grids(search);
 }
 
-static void end(search *s)
+/* Releases the arrays. */
+static void end_search(near_search *search)
 {
-  free(s->apart);
-  free(s->shortest);
-  free(s->nodes.start);
-  free(s->nodes.member);
-  free(s->edges.start);
-  free(s->edges.member);
-  free(s->touch);
+  free(search->apart);
+  free(search->shortest);
+  free(search->nodes.start);
+  free(search->nodes.member);
+  free(search->edges.start);
+  free(search->edges.member);
+  free(search->touch);
 }
 
-/* The framework's nodes as a reader would have collected them. */
-static thr_status add_nodes(const thr_frame *f, thr_draft *draft, thr_err *err)
+/* Appends the framework's nodes to a draft, as a reader would have collected them. */
+static thr_status add_nodes(const thr_frame *frame, thr_draft *draft, thr_err *err)
 {
   thr_status st = THR_OK;
-  for (int v = 0; v < f->n_nodes && !st; v++)
-    st = thr_draft_add_node(draft, f->xyz[v], f->name[v], f->foot[v], err);
-  memcpy(draft->units, f->units, sizeof draft->units);
+  for (int v = 0; v < frame->n_nodes && !st; v++)
+    st = thr_draft_add_node(draft, frame->xyz[v], frame->name[v], frame->foot[v], err);
+  memcpy(draft->units, frame->units, sizeof draft->units);
   return st;
 }
 
-/* Adds a part of an edge, all of it is 1. */
-static thr_status add_part(const thr_frame *f, int e, int a, int b, double part, thr_draft *draft,
-                           thr_err *err)
+/* Appends a share `part` of edge e between nodes a and b; its passes are those of the edge. */
+static thr_status add_part(const thr_frame *frame, int e, int a, int b, double part,
+                           thr_draft *draft, thr_err *err)
 {
-  thr_status st = thr_draft_add_edge(draft, a, b, f->own_lengths ? f->length[e] * part : 0, err);
+  thr_status st =
+      thr_draft_add_edge(draft, a, b, frame->own_lengths ? frame->length[e] * part : 0, err);
   return st ? st
-            : thr_draft_edge_passes(draft, f->cover ? f->cover[e] : 0,
-                                    f->capacity ? f->capacity[e] : 0, err);
+            : thr_draft_edge_passes(draft, frame->cover ? frame->cover[e] : 0,
+                                    frame->capacity ? frame->capacity[e] : 0, err);
 }
 
-static thr_status count_components(const thr_frame *f, int *count, thr_err *err)
+/* Counts the components of a framework. */
+static thr_status count_components(const thr_frame *frame, int *count, thr_err *err)
 {
-  int *component = thr_calloc((size_t)f->n_nodes, sizeof *component);
-  thr_status st = component ? thr_frame_components(f, component, count, err) : thr_nomem(err);
+  int *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
+  thr_status st = component ? thr_frame_components(frame, component, count, err) : thr_nomem(err);
   free(component);
   return st;
 }
 
-/* What welding with near->weld would come to. */
-static thr_status try_weld(const thr_frame *f, thr_near *near, thr_err *err)
+/* Computes what welding with the tolerance near->weld would change. */
+static thr_status try_weld(const thr_frame *frame, thr_near *near, thr_err *err)
 {
   thr_draft draft = {0};
   thr_frame welded = {0};
   thr_read_report report = {0};
-  thr_status st = add_nodes(f, &draft, err);
-  for (int e = 0; e < f->n_edges && !st; e++)
-    st = add_part(f, e, f->edge[e][0], f->edge[e][1], 1, &draft, err);
+
+  /* The draft that would have made this framework, built with the tolerance. */
+  thr_status st = add_nodes(frame, &draft, err);
+  for (int e = 0; e < frame->n_edges && !st; e++)
+    st = add_part(frame, e, frame->edge[e][0], frame->edge[e][1], 1, &draft, err);
+
+  /* Build, and count what has been welded. */
   if (!st) st = thr_draft_build(&draft, near->weld, &welded, &report, err);
   if (!st) st = count_components(&welded, &near->components_welded, err);
   near->n_welded = report.welded_nodes;
   near->n_lost = report.zero_length_edges;
   near->n_merged = report.duplicate_edges;
+
   thr_draft_destroy(&draft);
   thr_frame_destroy(&welded);
   return st;
 }
 
-/* A power of ten of at least twice the widest gap or, if that would swallow edges, the gap with two
- * digits, rounded up. */
-static thr_status choose_weld(const search *s, thr_near *near)
+/* Chooses a tolerance that welds all close pairs: a power of ten of at least twice the widest gap
+ * or, if that would make edges vanish, the gap with two digits, rounded up. */
+static thr_status choose_weld(const near_search *search, thr_near *near)
 {
-  double least = INFINITY, digit = pow(10, floor(log10(s->widest)) - 1);
-  for (int e = 0; e < s->frame->n_edges; e++)
-    least = fmin(least, s->apart[e]);
-  near->weld = pow(10, ceil(log10(2 * s->widest) - 1e-9));
-  if (near->weld >= least) near->weld = (floor(s->widest / digit) + 1) * digit;
-  return try_weld(s->frame, near, s->err);
+  /* digit: the second digit of the gap. */
+  double least = INFINITY, digit = pow(10, floor(log10(search->widest)) - 1);
+  for (int e = 0; e < search->frame->n_edges; e++)
+    least = fmin(least, search->apart[e]);
+
+  near->weld = pow(10, ceil(log10(2 * search->widest) - 1e-9));
+  if (near->weld >= least) near->weld = (floor(search->widest / digit) + 1) * digit;
+  return try_weld(search->frame, near, search->err);
 }
 
+/* Searches for nodes near nodes, nodes on edges and edges across edges, and tries a weld if nodes
+ * are close. */
 thr_status thr_frame_near(const thr_frame *frame, thr_near *near, thr_err *err)
 {
-  search s;
-  thr_status st = begin(&s, frame, near, err);
-  if (!st) st = look_around(&s);
-  if (!st) look_across(&s);
-  near->n_on_edge = s.n_touches;
-  if (s.n_touches) near->on_edge[0] = s.touch[0].node;
-  if (s.n_touches) near->on_edge[1] = s.touch[0].edge;
+  near_search search;
+  thr_status st = begin_search(&search, frame, near, err);
+
+  /* Nodes, then edges, then what they found. */
+  if (!st) st = look_around(&search);
+  if (!st) look_across(&search);
+  near->n_on_edge = search.n_touches;
+  if (search.n_touches) near->on_edge[0] = search.touch[0].node;
+  if (search.n_touches) near->on_edge[1] = search.touch[0].edge;
+
   if (!st) st = count_components(frame, &near->components, err);
-  if (!st && near->n_close) st = choose_weld(&s, near);
-  end(&s);
+  if (!st && near->n_close) st = choose_weld(&search, near);
+  end_search(&search);
+
   return st;
 }
 
 /* ---- edges cut where nodes lie on them ---- */
 
+/* Compares two nodes on edges: by edge, then along the edge. */
 static int along_edges(const void *pa, const void *pb)
 {
   const touch *a = pa, *b = pb;
@@ -431,50 +556,65 @@ static int along_edges(const void *pa, const void *pb)
   return (a->node > b->node) - (a->node < b->node);
 }
 
-/* The edges in their order, each that is cut as its parts. */
-static thr_status cut(const search *s, thr_draft *draft, int *n_cut)
+/* Appends the edges in their order to a draft, each edge that is cut as its parts. search->touch
+ * must be sorted along the edges. */
+static thr_status cut(const near_search *search, thr_draft *draft, int *n_cut)
 {
-  const thr_frame *f = s->frame;
+  const thr_frame *frame = search->frame;
   thr_status st = THR_OK;
   *n_cut = 0;
-  for (int e = 0, i = 0; e < f->n_edges && !st; e++) {
-    int from = f->edge[e][0];
+
+  for (int e = 0, i = 0; e < frame->n_edges && !st; e++) {
+    int from = frame->edge[e][0];
     double at = 0;
-    *n_cut += i < s->n_touches && s->touch[i].edge == e;
-    for (; i < s->n_touches && s->touch[i].edge == e && !st; i++) {
-      st = add_part(f, e, from, s->touch[i].node, s->touch[i].at - at, draft, s->err);
-      from = s->touch[i].node;
-      at = s->touch[i].at;
+
+    /* Part after part, from node to node on the edge; the last part ends at the edge's own end. */
+    *n_cut += i < search->n_touches && search->touch[i].edge == e;
+    for (; i < search->n_touches && search->touch[i].edge == e && !st; i++) {
+      st = add_part(frame, e, from, search->touch[i].node, search->touch[i].at - at, draft,
+                    search->err);
+      from = search->touch[i].node;
+      at = search->touch[i].at;
     }
-    if (!st) st = add_part(f, e, from, f->edge[e][1], 1 - at, draft, s->err);
+    if (!st) st = add_part(frame, e, from, frame->edge[e][1], 1 - at, draft, search->err);
   }
+
   return st;
 }
 
+/* Searches for nodes on edges, and builds the framework again with the parts of edges. */
 thr_status thr_frame_split(thr_frame *frame, int *n_cut, thr_read_report *report, thr_err *err)
 {
-  search s;
+  near_search search;
   thr_near near;
   thr_draft draft = {0};
   thr_frame split = {0};
   thr_read_report done = {0};
   *n_cut = 0;
-  thr_status st = begin(&s, frame, &near, err);
-  if (!st) st = look_around(&s);
+
+  thr_status st = begin_search(&search, frame, &near, err);
+
+  if (!st) st = look_around(&search);
   if (!st && near.tangled)
     st = thr_fail(err, THR_ELIMIT,
                   "too many edges pass close to each other to find all nodes that lie on them");
-  if (st || !s.n_touches) goto done;
-  qsort(s.touch, (size_t)s.n_touches, sizeof *s.touch, along_edges);
+
+  /* Nothing to cut: the framework stays as it is. */
+  if (st || !search.n_touches) goto done;
+  qsort(search.touch, (size_t)search.n_touches, sizeof *search.touch, along_edges);
   st = add_nodes(frame, &draft, err);
-  if (!st) st = cut(&s, &draft, n_cut);
+  if (!st) st = cut(&search, &draft, n_cut);
   if (!st) st = thr_draft_build(&draft, 0, &split, &done, err);
+
   if (st) goto done;
+
+  /* Parts that are edges already have been dropped. */
   report->duplicate_edges += done.duplicate_edges;
   thr_frame_destroy(frame);
   *frame = split;
 done:
   thr_draft_destroy(&draft);
-  end(&s);
+
+  end_search(&search);
   return st;
 }

@@ -8,9 +8,7 @@
 
 #define KNOWN "um, mm, cm, dm, m, km, in, ft or yd"
 
-/* The short name comes first. A foot and a yard are the international ones of 1959; those of the US
- * survey are 1200/3937 m and its multiples. The last ones are for drawings, whose header may name
- * them: au of 2012, light years of Julian years. */
+/* The units; the short name comes first. */
 static const struct {
   const char *name[8];
   double mm; /* 0: not known */
@@ -46,7 +44,7 @@ enum {
   MOST_NAMES = sizeof units[0].name / sizeof *units[0].name
 };
 
-/* Place in the table, -1 if there is none. */
+/* Returns the unit's place in the table, -1 if there is none. */
 static int find(const char *word)
 {
   for (int i = 0; i < N_UNITS; i++)
@@ -82,8 +80,7 @@ thr_status thr_units_in_mm(const char *word, double *mm, thr_err *err)
 
 /* ---- comments ---- */
 
-/* A word of a comment, copied, and whether what stands before it sets it off: a colon, an equals
- * sign or a bracket. */
+/* A word of a comment, copied, and what comes before the word. */
 typedef struct {
   char text[24];
   const char *at;
@@ -92,29 +89,38 @@ typedef struct {
 
 enum { MOST_WORDS = 24 };
 
-/* Takes the next word of the text off; false if there is none. A word that is longer than any
+/* Takes the next word off the text; returns false if there is none. A word that is longer than any
  * unit's name is cut. */
 static bool next_word(const char **at, const char *end, comment_word *word)
 {
   *word = (comment_word){0};
   const char *c = *at;
+
+  /* What sets words off from each other, of which some letters mean more. */
   for (; c < end && !isalnum((unsigned char)*c) && (unsigned char)*c < 0x80; c++) {
     word->set_off |= *c && strchr(":=[(", *c);
     word->rate |= *c == '/' || *c == '^';
   }
+
   word->at = c;
   size_t n = 0;
+
+  /* The word: letters, digits, other languages' letters, and what may be inside. */
   for (; c < end &&
          (isalnum((unsigned char)*c) || (unsigned char)*c >= 0x80 || (*c && strchr("._-", *c)));
        c++)
     if (n + 1 < sizeof word->text) word->text[n++] = *c;
+
+  /* A full stop is no part of the word. */
   while (n > 1 && word->text[n - 1] == '.')
     n--;
+
   word->text[n] = '\0';
   *at = c;
   return n > 0;
 }
 
+/* Returns whether a word is in a list that NULL ends. */
 static bool is_among(const char *word, const char *const *list)
 {
   for (; *list; list++)
@@ -122,12 +128,13 @@ static bool is_among(const char *word, const char *const *list)
   return false;
 }
 
+/* Returns whether a word is "unit" or "units". */
 static bool is_unit_word(const comment_word *word)
 {
   return is_among(word->text, (const char *const[]){"unit", "units", NULL});
 }
 
-/* Returns the unit at word i of n, NULL if that is none or only part of a rate (mm/s, mm per
+/* Returns the unit at word i of n, NULL if the word is no unit or only part of a rate (mm/s, mm per
  * pixel). */
 static const char *unit_at(const comment_word *word, int i, int n)
 {
@@ -137,30 +144,41 @@ static const char *unit_at(const comment_word *word, int i, int n)
 }
 
 /* Returns the unit that the words after "units", which is word i, or those before it name; NULL if
- * there is none. "in" is an inch only where it is set off and no unit follows it. */
+ * there is none. "in" is an inch only where it is set off and no unit follows: "units: in". */
 static const char *unit_beside(const comment_word *word, int i, int n)
 {
   static const char *const between[] = {"is",          "are",  "in", "of",  "length",
                                         "measurement", "used", "1",  "1.0", NULL};
   const char *inch = NULL;
+
+  /* After it, with small words between: "units of length are mm". */
   int k = i + 1;
   for (; k < n && is_among(word[k].text, between); k++)
     if (word[k].set_off && strcasecmp(word[k].text, "in") == 0) inch = unit_at(word, k, n);
+
   if (unit_at(word, k, n)) return unit_at(word, k, n);
+
   if (inch) return inch;
+
+  /* Before it: "centimeters as units", "cm units". */
   if (i >= 2 && strcasecmp(word[i - 1].text, "as") == 0) return unit_at(word, i - 2, n);
   return i >= 1 && strcasecmp(word[i - 1].text, "in") != 0 ? unit_at(word, i - 1, n) : NULL;
 }
 
+/* Looks beside every word "units" of the comment. */
 void thr_units_in_comment(const char *text, size_t n, const char **name, const char **wrong)
 {
   comment_word word[MOST_WORDS];
   const char *at = text;
   int n_words = 0;
   *name = *wrong = NULL;
+
+  /* Split the comment into words. */
   while (n_words < MOST_WORDS && next_word(&at, text + n, &word[n_words]))
     n_words++;
 
+  /* The first "units" that has a unit beside it counts. What follows "units:" and is no unit is
+   * wrong, if nothing is right. */
   for (int i = 0; i < n_words; i++) {
     if (!is_unit_word(&word[i])) continue;
     if ((*name = unit_beside(word, i, n_words))) return;

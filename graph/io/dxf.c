@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writing DXF: drawings in the sense of release 12 (AC1009), the oldest that everything reads, with
- * a unit. Autodesk, "DXF Reference". */
+/* Writes DXF: drawings in the sense of release 12 (AC1009), the oldest release that everything
+ * reads, with a unit. Source: Autodesk, "DXF Reference".
+ *
+ * A drawing is pairs of lines, a code and a value. The header says version and unit, the tables
+ * list the layers, then come the entities. */
 
 #include "graph/io/read_parts.h"
 
@@ -35,6 +38,7 @@ void thr_dxf_point(thr_text *out, int first, const double xyz[3])
   }
 }
 
+/* Returns the code of $INSUNITS for a unit, by its short name; 0 if there is none. */
 static int code_of(const char *units)
 {
   for (int code = 1; code < THR_DXF_UNITS; code++)
@@ -42,18 +46,22 @@ static int code_of(const char *units)
   return 0;
 }
 
+/* Writes how a section begins. */
 static void begin_section(thr_text *out, const char *name)
 {
   thr_dxf_pair(out, 0, "SECTION");
   thr_dxf_pair(out, 2, name);
 }
 
+/* Writes the table of layers, which readers need before the entities on them. */
 static void put_layers(thr_text *out, const thr_dxf_layer *layer, int n)
 {
   begin_section(out, "TABLES");
   thr_dxf_pair(out, 0, "TABLE");
   thr_dxf_pair(out, 2, "LAYER");
   thr_dxf_int(out, 70, n);
+
+  /* Name, no flags, colour, line type. */
   for (int i = 0; i < n; i++) {
     thr_dxf_pair(out, 0, "LAYER");
     thr_dxf_pair(out, 2, layer[i].name);
@@ -61,17 +69,21 @@ static void put_layers(thr_text *out, const thr_dxf_layer *layer, int n)
     thr_dxf_int(out, 62, layer[i].colour);
     thr_dxf_pair(out, 6, "CONTINUOUS");
   }
+
+  /* Both the table and its section end. */
   thr_dxf_pair(out, 0, "ENDTAB");
   thr_dxf_pair(out, 0, "ENDSEC");
 }
 
 void thr_dxf_begin(thr_text *out, const char *units, const thr_dxf_layer *layer, int n_layers)
 {
+  /* The header. */
   begin_section(out, "HEADER");
   thr_dxf_pair(out, 9, "$ACADVER");
   thr_dxf_pair(out, 1, "AC1009");
   thr_dxf_pair(out, 9, "$INSUNITS");
   thr_dxf_int(out, 70, code_of(units));
+
   thr_dxf_pair(out, 0, "ENDSEC");
   put_layers(out, layer, n_layers);
   begin_section(out, "ENTITIES");
@@ -86,12 +98,16 @@ void thr_dxf_end(thr_text *out)
 void thr_dxf_write(const thr_frame *frame, thr_text *out)
 {
   static const thr_dxf_layer layer = {"framework", 7};
+
   thr_dxf_begin(out, frame->units, &layer, 1);
+
+  /* Each edge is a LINE, whatever its own length. */
   for (int e = 0; e < frame->n_edges; e++) {
     thr_dxf_pair(out, 0, "LINE");
     thr_dxf_pair(out, 8, layer.name);
     thr_dxf_point(out, 0, frame->xyz[frame->edge[e][0]]);
     thr_dxf_point(out, 1, frame->xyz[frame->edge[e][1]]);
   }
+
   thr_dxf_end(out);
 }

@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Formats of framework files: what a file of graph/io/ says of the format that it reads.
+/* Lists the formats of framework files, and finds which one a file is in: by its name's ending or,
+ * failing that, by its text.
  *
- * The table of formats, and which of them a file is in: by its name's ending or, failing that, by
- * its first line. */
+ * Files in formats that are not read are recognised as well, by their endings or by how they begin,
+ * so that the message can say what to do: a Rhino model has to be exported, a spreadsheet saved as
+ * CSV.
+ *
+ * A format is added by one file with its reader, perhaps a writer, and a thr_format, and by one
+ * line in the table below. */
 #include "graph/io/read_parts.h"
 #include "graph/os.h"
 
@@ -12,6 +17,7 @@ extern const thr_format thr_json_format, thr_obj_format, thr_csv_format, thr_ply
     thr_off_format, thr_vef_format, thr_stl_format, thr_dxf_format, thr_graphml_format,
     thr_gltf_format;
 
+/* In the order in which texts are tried. */
 static const thr_format *const formats[] = {&thr_json_format,
                                             &thr_obj_format,
                                             &thr_csv_format,
@@ -43,7 +49,7 @@ const char *thr_path_ending(const char *path)
   return dot ? dot + 1 : "";
 }
 
-/* NULL if there is none. */
+/* Returns the format whose files' names have this ending; NULL if there is none. */
 static const thr_format *with_ending(thr_span ending)
 {
   for (int i = 0; formats[i]; i++)
@@ -52,7 +58,7 @@ static const thr_format *with_ending(thr_span ending)
   return NULL;
 }
 
-/* What is not read, and what helps. */
+/* Kinds of files that are not read, by what helps their users. */
 typedef enum { MODEL, GRAPH, TABLE, PACKED, PICTURE, TEXT } foreign_kind;
 
 static const char *const advice[] = {
@@ -64,7 +70,7 @@ static const char *const advice[] = {
     [TEXT] = "which is no framework; export the model as OBJ, DXF or JSON, or its nodes and edges "
              "as CSV"};
 
-/* start: how a file's name ends, or how its text begins. */
+/* A kind of file that is not read. start: how its name ends, or how its text begins. */
 typedef struct {
   const char *start, *name;
   foreign_kind kind;
@@ -153,6 +159,7 @@ static const foreign foreign_texts[] = {{"<svg", "an SVG picture", PICTURE},
                                         {"\xff\xd8\xff", "a JPEG picture", PICTURE},
                                         {"GIF8", "a GIF picture", PICTURE}};
 
+/* Records THR_EINPUT with the kind of file and what helps. */
 static thr_status refuse(const foreign *found, const char *name, thr_err *err)
 {
   return thr_fail(err, THR_EINPUT, "%s: this is %s, %s", name, found->name, advice[found->kind]);
@@ -162,39 +169,53 @@ thr_status thr_format_by_name(const char *name, const thr_format **format, thr_e
 {
   const thr_span ending = thr_span_of(thr_path_ending(name));
   *format = with_ending(ending);
+
+  /* Only names that say no format are compared. */
   for (size_t i = 0; !*format && i < sizeof foreign_files / sizeof *foreign_files; i++)
     if (thr_span_is(ending, foreign_files[i].start)) return refuse(&foreign_files[i], name, err);
   return THR_OK;
 }
 
-/* NULL: it is like none of these. */
+/* Returns what a text is that begins like a foreign file; NULL if it is like none. */
 static const foreign *foreign_of(const char *text, size_t n)
 {
-  thr_span t = {text, n};
-  if (thr_span_starts(t, "\xef\xbb\xbf")) t = (thr_span){t.s + 3, t.n - 3};
-  while (t.n && (t.s[0] == ' ' || t.s[0] == '\t' || t.s[0] == '\r' || t.s[0] == '\n'))
-    t = (thr_span){t.s + 1, t.n - 1};
+  thr_span rest = {text, n};
+
+  /* A byte-order mark and blanks may come first. */
+  if (thr_span_starts(rest, "\xef\xbb\xbf")) rest = (thr_span){rest.s + 3, rest.n - 3};
+  while (rest.n &&
+         (rest.s[0] == ' ' || rest.s[0] == '\t' || rest.s[0] == '\r' || rest.s[0] == '\n'))
+    rest = (thr_span){rest.s + 1, rest.n - 1};
+
   for (size_t i = 0; i < sizeof foreign_texts / sizeof *foreign_texts; i++)
-    if (thr_span_starts(t, foreign_texts[i].start)) return &foreign_texts[i];
+    if (thr_span_starts(rest, foreign_texts[i].start)) return &foreign_texts[i];
+
   return NULL;
 }
 
-/* The format that the text says itself to be of, NULL if it says none. */
+/* Returns the format that a text plainly is of, NULL if it is of none. */
 static const thr_format *format_said(const char *text, size_t n)
 {
+  /* By the whole text. */
   for (int i = 0; formats[i]; i++)
     if (formats[i]->is && formats[i]->is(text, n)) return formats[i];
+
+  /* By the first line that is neither blank nor a comment. */
   const char *nul = n ? memchr(text, '\0', n) : NULL; /* only the head of a binary file is text */
   thr_scan scan;
   thr_span line = {0};
   if (thr_scan_start(&scan, text, nul ? (size_t)(nul - text) : n, "", NULL)) return NULL;
+
   while (thr_scan_line(&scan, &line)) {
     line = thr_span_trim(line);
     if (line.n == 0 || line.s[0] == '#') continue;
+
+    /* Only this line counts. */
     for (int i = 0; formats[i]; i++)
       if (formats[i]->begins && formats[i]->begins(line)) return formats[i];
     return NULL;
   }
+
   return NULL;
 }
 
@@ -202,6 +223,9 @@ thr_status thr_format_by_text(const char *text, size_t n, const char *name, cons
                               const thr_format **format, thr_err *err)
 {
   const thr_format *said = format_said(text, n);
+
+  /* A text that plainly is of another format than its name says is read as what it is, but for
+   * names of formats that no first line tells. Text that is like nothing is CSV. */
   *format = said && (!named || named->begins) ? said : named ? named : &thr_csv_format;
   const foreign *found = said ? NULL : foreign_of(text, n);
   if (found) return refuse(found, name, err);

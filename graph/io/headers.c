@@ -1,21 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Internal to the reader of tables: what the columns of a table mean, by the words in their
- * headers.
- *
- * What the columns of a table mean, by the words in their headers.
+/* Finds what the columns of a table mean, by the words in their headers.
  *
  * A header is a few words in a row, of which one or two carry the meaning: "Knoten A", "node_a" and
  * "NodeA" are all the word "a" beside a word for nodes. So the tables below list words, and a
- * header matches if nothing else stands in it. Words are English, German, French, Spanish and
- * Italian.
+ * header matches if nothing else is in it. Words are English, German, French, Spanish and Italian.
  *
- * Example: Anfang X [mm] is "anfangx": the first end of the pair anfang, ende, axis x, unit mm. */
+ * Example: "Anfang X [mm]" becomes "anfangx" with the unit mm: the first end of the pair anfang,
+ * ende, and the axis x. */
 #include "graph/io/read_parts.h"
 #include "graph/framework/frame.h"
 
 #include <stdio.h>
 #include <string.h>
 
+/* Words that mean nodes, bars, or feet; words that may stand beside an axis or an end; and names of
+ * columns with lines as text. */
 static const char *const nodes[] = {"node",        "nodes", "joint", "point",  "punkt",  "knoten",
                                     "knotenpunkt", "noeud", "nodo",  "nudo",   "punto",  "vertex",
                                     "id",          "nr",    "no",    "num",    "number", "nummer",
@@ -40,6 +39,7 @@ static const char *const feet[] = {"issupport", "isgrounded", "isanchor", "isfix
                                    "auflager",  "appui",      "apoyo",    "appoggio", NULL};
 static const char *const lines[] = {"wkt", "geometry", "geom", "thegeom", "wktgeom", NULL};
 
+/* Words for the two ends of an edge; the first pair that fits counts. */
 static const char *const pairs[][2] = {{"a", "b"},
                                        {"u", "v"},
                                        {"i", "j"},
@@ -74,50 +74,63 @@ bool thr_header_pair(int pair, const char *word[2])
   return true;
 }
 
-/* The letter without its accent of a character of two bytes, UTF-8; "" if it is none of those that
- * the words above need. */
+/* Returns the letter without its accent of a character of two bytes in UTF-8; "" if it is none of
+ * those that the words above need. */
 static const char *plain_letter(const char *c)
 {
   static const char *const accented[] = {"äÄàÀáÁâÂ", "éÉèÈêÊëË", "íÍìÌîÎ", "öÖóÓòÒôÔ",
                                          "üÜúÚùÙûÛ", "ñÑ",       "çÇ"};
   static const char *const letter[] = {"a", "e", "i", "o", "u", "n", "c"};
+
+  /* Upper and lower case alternate in the lists, two bytes each. */
   for (size_t i = 0; i < sizeof letter / sizeof *letter; i++)
     for (const char *known = accented[i]; *known; known += 2)
       if (memcmp(c, known, 2) == 0) return letter[i];
+
   return memcmp(c, "œ", 2) == 0 ? "oe" : memcmp(c, "ß", 2) == 0 ? "ss" : "";
 }
 
-/* The unit that a text names; NULL if it names none. A foot may be one of a structure, too. */
+/* Returns the unit that a text names; NULL if it names none. A "foot" may be a support, too: the
+ * caller knows. */
 static const char *unit_in(thr_span text)
 {
   char word[24];
+
+  /* No unit has a longer name. */
   text = thr_span_trim(text);
   if (text.n == 0 || text.n >= sizeof word) return NULL;
   snprintf(word, sizeof word, "%.*s", (int)text.n, text.s);
   return thr_units_name(word);
 }
 
+/* Splits a header into its unit and a word of small letters and digits. */
 thr_header thr_header_of(thr_span field)
 {
+  /* The unit first, then the word. */
   thr_header header = {"", ""};
   size_t n = 0;
   field = thr_span_trim(field);
 
-  /* What stands in brackets is a unit or a remark, and a last word of its own may be a unit. */
+  /* What is in brackets is a unit or a remark, and a last word of its own may be a unit. */
   size_t open = 0;
   while (open < field.n && field.s[open] != '[' && field.s[open] != '(')
     open++;
+
   if (open < field.n && open > 0) {
     size_t close = open + 1;
+
     while (close < field.n && field.s[close] != ']' && field.s[close] != ')')
       close++;
+
     const char *unit = unit_in((thr_span){field.s + open + 1, close - open - 1});
     if (unit) header.unit = unit;
     field.n = open;
   } else {
     size_t last = field.n;
+
     while (last > 0 && field.s[last - 1] != ' ' && field.s[last - 1] != '_')
       last--;
+
     const char *unit = last > 1 ? unit_in((thr_span){field.s + last, field.n - last}) : NULL;
     if (unit && strcmp(unit, "unit") != 0 &&
         !thr_span_is((thr_span){field.s + last, field.n - last}, "foot") &&
@@ -127,6 +140,7 @@ thr_header thr_header_of(thr_span field)
     }
   }
 
+  /* Keep letters and digits, in lower case and without accents. */
   for (size_t i = 0; i < field.n && n + 3 < sizeof header.word; i++) {
     const char c = field.s[i];
     const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'),
@@ -137,22 +151,29 @@ thr_header thr_header_of(thr_span field)
       n += (size_t)snprintf(header.word + n, sizeof header.word - n, "%s",
                             plain_letter(field.s + i++));
   }
+
   header.word[n] = '\0';
   return header;
 }
 
-/* Is a text some of these words, one after the other, or empty? */
+/* Returns whether a text of n bytes is a sequence of some of these words, or empty. Computes which
+ * prefixes are: reached[i] says that the first i bytes are such a sequence. */
 static bool made_of(const char *text, size_t n, const char *const *words)
 {
   bool reached[THR_HEADER_LENGTH + 1] = {true};
+
   for (size_t i = 0; i < n; i++)
+
+    /* From each prefix, each word leads to a longer one. */
     for (int k = 0; reached[i] && words[k]; k++) {
       const size_t length = strlen(words[k]);
       if (i + length <= n && memcmp(text + i, words[k], length) == 0) reached[i + length] = true;
     }
+
   return reached[n];
 }
 
+/* Returns whether a header is one of these words, and nothing else. */
 static bool is_one_of(const thr_header *header, const char *const *words)
 {
   for (; *words; words++)
@@ -163,10 +184,13 @@ static bool is_one_of(const thr_header *header, const char *const *words)
 int thr_header_axis(const thr_header *header)
 {
   const char *word = header->word;
+
+  /* The letter may be anywhere, with words for nodes or coordinates around it. */
   for (size_t i = 0; word[i]; i++)
     if (word[i] >= 'x' && word[i] <= 'z' && made_of(word, i, beside_axis) &&
         made_of(word + i + 1, strlen(word + i + 1), beside_axis))
       return word[i] - 'x';
+
   return -1;
 }
 
@@ -190,9 +214,13 @@ bool thr_header_lines(const thr_header *header)
   return is_one_of(header, lines);
 }
 
+/* Tries each occurrence of the first word. */
 bool thr_header_ends(const thr_header *a, const thr_header *b, const char *const word[2])
 {
   const size_t n = strlen(word[0]), m = strlen(word[1]), length = strlen(a->word);
+
+  /* Wherever the word of the first end is, the second header must have its own word there, and the
+   * same words around it. */
   for (const char *at = strstr(a->word, word[0]); at; at = strstr(at + 1, word[0])) {
     const size_t before = (size_t)(at - a->word), after = length - before - n;
     if (strlen(b->word) == before + m + after && memcmp(b->word, a->word, before) == 0 &&
@@ -200,11 +228,13 @@ bool thr_header_ends(const thr_header *a, const thr_header *b, const char *const
         made_of(a->word, before, beside_end) && made_of(at + n, after, beside_end))
       return true;
   }
+
   return false;
 }
 
 int thr_header_end_axis(const thr_header *header, const char *word)
 {
+  /* Take the word of the end out; what is left must be a header of a coordinate. */
   for (const char *at = strstr(header->word, word); at; at = strstr(at + 1, word)) {
     thr_header rest = {"", ""};
     snprintf(rest.word, sizeof rest.word, "%.*s%s", (int)(at - header->word), header->word,
@@ -212,5 +242,6 @@ int thr_header_end_axis(const thr_header *header, const char *word)
     const int axis = thr_header_axis(&rest);
     if (axis >= 0) return axis;
   }
+
   return -1;
 }

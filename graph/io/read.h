@@ -1,5 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Readers of frameworks: one call for every format. */
+/* Reads frameworks: one call for every format.
+ *
+ * The room graph/io reads and writes frameworks in ten formats, and JSON documents of any kind. The
+ * text of a file goes through the reader of its format into a draft (graph/framework/frame.h),
+ * which knows nothing of formats; thr_draft_build makes the framework. Readers trust nothing: each
+ * number, index and size is checked where it is read, and a message says file, line, what is wrong
+ * and what to do.
+ *
+ * Read first read.c (from file to framework), formats.c (which format a file has), scan.c (lines,
+ * words, numbers) and read_off.c, the shortest reader. Then, as needed:
+ *   tables    read_csv.c, headers.c
+ *   meshes    read_obj.c, read_ply.c, read_stl.c, read_gltf.c, with faces.c and sites.c
+ *   drawings  read_dxf.c, read_vef.c, with curve.c and parts.c
+ *   graphs    graphml.c, xml.c, links.c
+ *   JSON      json.c, read_json.c, read_json_values.c, then the other read_json_*.c
+ *   writing   writer.c, write.c, dxf.c
+ * What only the readers share is in read_parts.h. */
 #ifndef THR_READ_H
 #define THR_READ_H
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* DXF, the drawing exchange format of AutoCAD, as text: LINE, LWPOLYLINE, POLYLINE (2-D, 3-D,
+/* Reads DXF, the drawing exchange format of AutoCAD, as text: LINE, LWPOLYLINE, POLYLINE (2-D, 3-D,
  * meshes and polyface meshes), 3DFACE, SPLINE, ARC and ELLIPSE, and INSERT of blocks, nested and in
- * arrays. Autodesk, "DXF Reference".
+ * arrays. Source: Autodesk, "DXF Reference".
  *
  * A drawing is pairs of lines, a group code and a value. Each entity is read as a whole into its
  * paths and faces, in the coordinates of its block; at the end the model's entities are placed,
@@ -15,13 +15,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Limits that keep a small malicious file from taking all memory and time. */
 enum {
-  MOST_NESTED = 16,
-  MOST_INSERTED = 1000000,
-  MOST_PLACED = 20000000
-}; /* blocks in blocks; all blocks; all their points */
+  MOST_NESTED = 16,        /* depth of blocks in blocks */
+  MOST_INSERTED = 1000000, /* insertions of all blocks together */
+  MOST_PLACED = 20000000   /* points, and entities, of all insertions together */
+};
 
-/* x' = m x + t */
+/* An affine map: x' = m x + t. */
 typedef struct {
   double m[3][3], t[3];
 } placing;
@@ -30,16 +31,21 @@ static const char binary[] = "AutoCAD Binary DXF"; /* how such files begin */
 
 static const placing unmoved = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}};
 
+/* A group code and its value, without blanks at both ends. */
 typedef struct {
   int code;
   thr_span value;
 } pair;
 
+/* PATH: an open run of points; RING: a closed one; INSERT: a block; UNUSED: a record of a type that
+ * is not read; UNSEEN: one that is invisible or on paper. */
 typedef enum { PATH, RING, INSERT, UNUSED, UNSEEN } shape_kind;
 
-/* Layer 0 is in a block that of the INSERT. */
+/* What a shape's layer may be besides a number: ON_ZERO, layer 0, which stands for the layer of the
+ * INSERT when it is in a block; SHOWN, a layer that is not hidden. */
 enum { ON_ZERO = -1, SHOWN = INT_MAX };
 
+/* The points center + cos(t) major + sin(t) minor. */
 typedef struct {
   double center[3], major[3], minor[3];
 } ellipse;
@@ -53,8 +59,8 @@ typedef struct {
   double (*control)[3], *weight, *knot;
 } curve;
 
-/* A run of points: open, or a face; or a block inserted; or a record that is only counted, wherever
- * it is placed. */
+/* A piece of a block, by kind. Records that are only counted are shapes as well, because they count
+ * as often as their block is inserted. */
 typedef struct {
   shape_kind kind;
   int first, last;     /* PATH, RING: points; INSERT: which of inserted; UNUSED: which of unused */
@@ -63,6 +69,7 @@ typedef struct {
   int layer; /* number of the part, or without --pick of the hidden layer, or SHOWN; ON_ZERO */
 } shape;
 
+/* A named group of shapes [first, last). */
 typedef struct {
   thr_span name; /* empty: a section ENTITIES, whose shapes are the model's */
   double base[3];
@@ -70,19 +77,23 @@ typedef struct {
   bool external;   /* it stands for another file */
 } block;
 
+/* An INSERT: the block and the map from its coordinates, moved by its base, to those of the
+ * inserter. */
 typedef struct {
   thr_span block;
   placing place;
 } insertion;
 
-/* A layer that is not shown. What is inserted on one that is frozen is hidden as a whole, on one
- * that is off only what would take its layer from the insertion. */
+/* A layer that is not shown. An INSERT on a frozen layer is hidden as a whole; an INSERT on a layer
+ * that is off hides only the shapes on layer 0 of the block, which take the layer of the INSERT. */
 typedef struct {
   thr_span name;
   bool frozen;
   int n_edges; /* on it, left out */
 } hidden_layer;
 
+/* The state of one reading: text, entity being read, shapes of all blocks, and what has been
+ * placed. */
 typedef struct {
   thr_scan scan;
   thr_draft *draft;
@@ -123,87 +134,107 @@ typedef struct {
   int ground;          /* the number of layer 0 outside of blocks */
   int layer;           /* of the entity being read, as in shape */
   int length_capacity;
-} dxf;
+} dxf_reader;
 
 /* ---- pairs and entities ---- */
 
-/* The next pair into d->next; at the end of the text a pair 0 EOF. */
-static thr_status look(dxf *d)
+/* Reads the next pair into reader->next. At the end of the text the pair is 0 EOF. */
+static thr_status read_next_pair(dxf_reader *reader)
 {
   thr_span code, value;
   int number;
-  if (!thr_scan_line(&d->scan, &code) || (!thr_span_trim(code).n && d->scan.at >= d->scan.end)) {
-    d->ended = true;
-    d->next = (pair){0, thr_span_of("EOF")};
+
+  /* A file may end without EOF, and with one blank line. */
+  if (!thr_scan_line(&reader->scan, &code) ||
+      (!thr_span_trim(code).n && reader->scan.at >= reader->scan.end)) {
+    reader->ended = true;
+    reader->next = (pair){0, thr_span_of("EOF")};
     return THR_OK;
   }
+
+  /* A code that is no number means that the two lines of a pair are out of step. */
   if (!thr_span_int(thr_span_trim(code), &number))
     return thr_scan_fail(
-        &d->scan, d->err,
+        &reader->scan, reader->err,
         "'%.*s' is no group code; a DXF file is pairs of lines, a number and a value",
         thr_span_width(code), code.s);
-  if (!thr_scan_line(&d->scan, &value))
-    return thr_scan_fail(&d->scan, d->err, "the file ends in the middle of a pair");
-  d->next = (pair){number, thr_span_trim(value)};
+
+  if (!thr_scan_line(&reader->scan, &value))
+    return thr_scan_fail(&reader->scan, reader->err, "the file ends in the middle of a pair");
+
+  reader->next = (pair){number, thr_span_trim(value)};
   return THR_OK;
 }
 
-/* Reads the entity that d->next begins, as far as the next pair with code 0. */
-static thr_status take_entity(dxf *d)
+/* Reads the entity that reader->next begins, as far as the next pair with code 0, into
+ * reader->pair. */
+static thr_status take_entity(dxf_reader *reader)
 {
-  d->type = d->next.value;
-  d->type_line = d->scan.line;
-  d->n_pairs = 0;
-  thr_status st = look(d);
-  while (!st && d->next.code != 0) {
-    st = thr_grow(&d->pair, d->n_pairs, &d->pairs_capacity, sizeof *d->pair, d->err);
-    if (!st) d->pair[d->n_pairs++] = d->next;
-    if (!st) st = look(d);
+  reader->type = reader->next.value;
+  reader->type_line = reader->scan.line;
+  reader->n_pairs = 0;
+  thr_status st = read_next_pair(reader);
+
+  /* All pairs up to the next entity; their number is not known before. */
+  while (!st && reader->next.code != 0) {
+    st = thr_grow(&reader->pair, reader->n_pairs, &reader->pairs_capacity, sizeof *reader->pair,
+                  reader->err);
+    if (!st) reader->pair[reader->n_pairs++] = reader->next;
+    if (!st) st = read_next_pair(reader);
   }
+
   return st;
 }
 
-static thr_status fail(dxf *d, const char *what)
+/* Records THR_EINPUT with the type and the line of the entity being read. */
+static thr_status fail(dxf_reader *reader, const char *what)
 {
-  d->scan.line = d->type_line;
-  return thr_scan_fail(&d->scan, d->err, "this %.*s %s", thr_span_width(d->type), d->type.s, what);
+  reader->scan.line = reader->type_line;
+  return thr_scan_fail(&reader->scan, reader->err, "this %.*s %s", thr_span_width(reader->type),
+                       reader->type.s, what);
 }
 
-/* The first pair with the code, NULL if there is none. */
-static const pair *find(const dxf *d, int code)
+/* Returns the first pair with the code, or NULL if there is none. */
+static const pair *find_pair(const dxf_reader *reader, int code)
 {
-  for (int i = 0; i < d->n_pairs; i++)
-    if (d->pair[i].code == code) return &d->pair[i];
+  for (int i = 0; i < reader->n_pairs; i++)
+    if (reader->pair[i].code == code) return &reader->pair[i];
   return NULL;
 }
 
-static thr_status number_of(dxf *d, const pair *p, double *x)
+/* Reads a pair's value as a finite number. */
+static thr_status number_of(dxf_reader *reader, const pair *found, double *x)
 {
-  return thr_span_number(p->value, false, x) ? THR_OK
-                                             : fail(d, "has a value that is not a finite number");
+  return thr_span_number(found->value, false, x)
+             ? THR_OK
+             : fail(reader, "has a value that is not a finite number");
 }
 
-static thr_status number(dxf *d, int code, double otherwise, double *x)
+/* Reads the number with the code; *x becomes `otherwise` if the entity has no such pair. */
+static thr_status read_number(dxf_reader *reader, int code, double otherwise, double *x)
 {
-  const pair *p = find(d, code);
+  const pair *found = find_pair(reader, code);
   *x = otherwise;
-  return p ? number_of(d, p, x) : THR_OK;
+  return found ? number_of(reader, found, x) : THR_OK;
 }
 
-static thr_status whole(dxf *d, int code, int *n)
+/* Reads the integer with the code; *n becomes 0 if the entity has no such pair. */
+static thr_status read_int(dxf_reader *reader, int code, int *n)
 {
-  const pair *p = find(d, code);
+  const pair *found = find_pair(reader, code);
   *n = 0;
-  return !p || thr_span_int(p->value, n) ? THR_OK
-                                         : fail(d, "has a value that is not a whole number");
+  return !found || thr_span_int(found->value, n)
+             ? THR_OK
+             : fail(reader, "has a value that is not a whole number");
 }
 
-/* The point whose codes are code, code + 10 and code + 20; what is missing is 0. */
-static thr_status point_of(dxf *d, int code, double xyz[3])
+/* Reads the point whose codes are code, code + 10 and code + 20. Coordinates that are missing are
+ * 0. */
+static thr_status read_point(dxf_reader *reader, int code, double xyz[3])
 {
   thr_status st = THR_OK;
   for (int k = 0; k < 3 && !st; k++)
-    st = number(d, code + 10 * k, 0, &xyz[k]);
+    st = read_number(reader, code + 10 * k, 0, &xyz[k]);
   return st;
 }
 
@@ -216,132 +247,161 @@ static unsigned char small(unsigned char before, unsigned char c)
   return capital ? c + 32 : c;
 }
 
-/* Are two names of a table of the drawing the same? Their letter case does not matter. */
+/* Returns whether two names of a table of the drawing are the same. Their letter case does not
+ * matter. */
 static bool same_name(thr_span a, thr_span b)
 {
   bool same = a.n == b.n;
   for (size_t i = 0; i < a.n && same; i++) {
+    /* The byte before tells whether this one is the second one of a letter. */
     const unsigned char before = i ? (unsigned char)a.s[i - 1] : 0;
     same = small(before, (unsigned char)a.s[i]) == small(before, (unsigned char)b.s[i]);
   }
   return same;
 }
 
-/* On paper instead of in the model, or hidden. */
-static bool is_unseen(const dxf *d)
+/* Returns whether the entity is on paper instead of in the model (code 67), or invisible (code
+ * 60). */
+static bool is_unseen(const dxf_reader *reader)
 {
-  const pair *paper = find(d, 67), *hidden = find(d, 60);
+  const pair *paper = find_pair(reader, 67), *hidden = find_pair(reader, 60);
   return (paper && thr_span_is(paper->value, "1")) || (hidden && thr_span_is(hidden->value, "1"));
 }
 
 /* ---- coordinates ---- */
 
-static void turn(const placing *p, const double in[3], double out[3])
+/* Computes out = m in: the image of a direction. in and out may be the same array. */
+static void turn(const placing *place, const double in[3], double out[3])
 {
   double r[3];
   for (int i = 0; i < 3; i++)
-    r[i] = thr_dot(p->m[i], in);
+    r[i] = thr_dot(place->m[i], in);
   memcpy(out, r, sizeof r);
 }
 
-static void apply(const placing *p, const double in[3], double out[3])
+/* Computes out = m in + t: the image of a point. */
+static void apply(const placing *place, const double in[3], double out[3])
 {
-  turn(p, in, out);
+  turn(place, in, out);
   for (int i = 0; i < 3; i++)
-    out[i] += p->t[i];
+    out[i] += place->t[i];
 }
 
-/* Returns by what factor the placing stretches all directions, mirrored or not; 0 if not all alike.
- */
-static double even_scale(const placing *p)
+/* Returns by what factor the map stretches all directions, mirrored or not, or 0 if the factors
+ * differ. m stretches all alike if and only if m^T m is a multiple of the identity matrix. */
+static double even_scale(const placing *place)
 {
   double dot[3][3];
+
+  /* dot = m^T m: the scalar products of the images of the axes. */
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
-      dot[i][j] = p->m[0][i] * p->m[0][j] + p->m[1][i] * p->m[1][j] + p->m[2][i] * p->m[2][j];
+      dot[i][j] = place->m[0][i] * place->m[0][j] + place->m[1][i] * place->m[1][j] +
+                  place->m[2][i] * place->m[2][j];
+
+  /* The images are equally long and pairwise orthogonal, up to rounding. */
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
       if (!(fabs(dot[i][j] - (i == j ? dot[0][0] : 0)) <= 1e-12 * dot[0][0])) return 0;
+
   return sqrt(dot[0][0]);
 }
 
-/* First b, then a. */
+/* Returns the composition of two maps: first b, then a. */
 static placing after(const placing *a, const placing *b)
 {
-  placing c;
+  placing both;
   for (int i = 0; i < 3; i++) {
     for (int j = 0; j < 3; j++)
-      c.m[i][j] = a->m[i][0] * b->m[0][j] + a->m[i][1] * b->m[1][j] + a->m[i][2] * b->m[2][j];
-    c.t[i] = thr_dot(a->m[i], b->t) + a->t[i];
+      both.m[i][j] = a->m[i][0] * b->m[0][j] + a->m[i][1] * b->m[1][j] + a->m[i][2] * b->m[2][j];
+    both.t[i] = thr_dot(a->m[i], b->t) + a->t[i];
   }
-  return c;
+  return both;
 }
 
+/* Scales v to length 1. Returns false, with v unchanged, if v is zero. */
 static bool normalize(double v[3])
 {
-  double n = sqrt(thr_dot(v, v));
+  double length = sqrt(thr_dot(v, v));
   for (int i = 0; i < 3; i++)
-    v[i] /= n > 0 ? n : 1;
-  return n > 0;
+    v[i] /= length > 0 ? length : 1;
+  return length > 0;
 }
 
-/* An entity's own coordinates, told by the direction of its z axis (codes 210 to 230): the
- * "arbitrary axis algorithm". */
-static thr_status own_coordinates(dxf *d, placing *p)
+/* Computes the map from an entity's own coordinates, which the direction of their z axis tells
+ * (codes 210 to 230), to those of the block: the "arbitrary axis algorithm" of the DXF
+ * Reference. */
+static thr_status own_coordinates(dxf_reader *reader, placing *place)
 {
   double z[3], x[3], y[3];
-  *p = unmoved;
-  thr_status st = point_of(d, 210, z);
+  *place = unmoved;
+
+  /* Without a direction the entity's coordinates are the block's. */
+  thr_status st = read_point(reader, 210, z);
   if (st || !normalize(z)) return st;
+
+  /* x is orthogonal to z and to the world's z axis, or to the world's y axis if z is close to the
+   * world's z axis. */
   const double world_y[3] = {0, 1, 0}, world_z[3] = {0, 0, 1};
   thr_cross(fabs(z[0]) < 1. / 64 && fabs(z[1]) < 1. / 64 ? world_y : world_z, z, x);
   normalize(x);
   thr_cross(z, x, y);
+
+  /* The columns of m are the images of the three axes. */
   for (int i = 0; i < 3; i++) {
-    p->m[i][0] = x[i];
-    p->m[i][1] = y[i];
-    p->m[i][2] = z[i];
+    place->m[i][0] = x[i];
+    place->m[i][1] = y[i];
+    place->m[i][2] = z[i];
   }
+
   return THR_OK;
 }
 
 /* ---- shapes ---- */
 
-static thr_status add_point(dxf *d, const placing *p, const double xyz[3])
+/* Appends a point, which has the coordinates xyz in place. */
+static thr_status add_point(dxf_reader *reader, const placing *place, const double xyz[3])
 {
-  thr_status st = thr_grow(&d->point, d->n_points, &d->points_capacity, sizeof *d->point, d->err);
-  if (!st) apply(p, xyz, d->point[d->n_points++]);
+  thr_status st = thr_grow(&reader->point, reader->n_points, &reader->points_capacity,
+                           sizeof *reader->point, reader->err);
+  if (!st) apply(place, xyz, reader->point[reader->n_points++]);
   return st;
 }
 
-/* Ends the shape whose points were added since first. */
-static thr_status add_shape(dxf *d, shape_kind kind, int first, int last, double curve_length)
+/* Appends the shape whose points were added since first, on the layer of the entity being read. */
+static thr_status add_shape(dxf_reader *reader, shape_kind kind, int first, int last,
+                            double curve_length)
 {
-  thr_status st = thr_grow(&d->shape, d->n_shapes, &d->shapes_capacity, sizeof *d->shape, d->err);
+  thr_status st = thr_grow(&reader->shape, reader->n_shapes, &reader->shapes_capacity,
+                           sizeof *reader->shape, reader->err);
   if (!st)
-    d->shape[d->n_shapes++] = (shape){kind, first, last, curve_length, d->n_curves - 1, d->layer};
+    reader->shape[reader->n_shapes++] =
+        (shape){kind, first, last, curve_length, reader->n_curves - 1, reader->layer};
   return st;
 }
 
-/* Leaves out the entity as one that is not used, by its type or, if that says too little, another
- * name. */
-static thr_status leave_out(dxf *d, const char *name)
+/* Appends the entity as one that is not used, to be counted by its type, or by a name that says
+ * more than the type. */
+static thr_status leave_out(dxf_reader *reader, const char *name)
 {
-  thr_status st = thr_grow(&d->unused, d->n_unused, &d->unused_capacity, sizeof *d->unused, d->err);
+  thr_status st = thr_grow(&reader->unused, reader->n_unused, &reader->unused_capacity,
+                           sizeof *reader->unused, reader->err);
   if (st) return st;
-  d->unused[d->n_unused] = name ? thr_span_of(name) : d->type;
-  return add_shape(d, UNUSED, d->n_unused++, 0, 0);
+  reader->unused[reader->n_unused] = name ? thr_span_of(name) : reader->type;
+  return add_shape(reader, UNUSED, reader->n_unused++, 0, 0);
 }
 
-static thr_status add_segment(dxf *d, const placing *p, const double a[3], const double b[3],
-                              double curve_length)
+/* Appends the edge from a to b. curve_length: 0 = straight. */
+static thr_status add_segment(dxf_reader *reader, const placing *place, const double a[3],
+                              const double b[3], double curve_length)
 {
-  int first = d->n_points;
-  thr_status st = add_point(d, p, a);
-  if (!st) st = add_point(d, p, b);
-  return st ? st : add_shape(d, PATH, first, d->n_points, curve_length);
+  int first = reader->n_points;
+  thr_status st = add_point(reader, place, a);
+  if (!st) st = add_point(reader, place, b);
+  return st ? st : add_shape(reader, PATH, first, reader->n_points, curve_length);
 }
 
+/* Returns the distance between two points. */
 static double distance(const double a[3], const double b[3])
 {
   const double v[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
@@ -350,6 +410,7 @@ static double distance(const double a[3], const double b[3])
 
 /* ---- curves ---- */
 
+/* Computes the point of an ellipse at the angle t (rad); a thr_curve_point. */
 static void ellipse_point(const void *arc, double t, double xyz[3])
 {
   const ellipse *e = arc;
@@ -357,589 +418,772 @@ static void ellipse_point(const void *arc, double t, double xyz[3])
     xyz[k] = e->center[k] + cos(t) * e->major[k] + sin(t) * e->minor[k];
 }
 
-/* Computes the length of an arc of a circle, or sums by quarters, between which a thin ellipse
- * turns sharply. */
+/* Computes the length of an ellipse from one angle to another (rad). A circle's is radius times
+ * angle. Others are summed by quarters, because a thin ellipse turns sharply between two
+ * quarters. */
 static double ellipse_length(const ellipse *e, double from, double to)
 {
   double length = 0;
   const double square = thr_dot(e->major, e->major);
+
   if (thr_dot(e->major, e->minor) == 0 && thr_dot(e->minor, e->minor) == square)
     return sqrt(square) * (to - from);
+
+  /* Each part is at most a quarter; 1e-9 keeps rounding from adding an empty one. */
   const int n = (int)ceil((to - from) / (THR_PI / 2) - 1e-9);
   for (int i = 0; i < n; i++)
     length += thr_curve_length(ellipse_point, e, from + (to - from) * i / n,
                                from + (to - from) * (i + 1) / n);
+
   return length;
 }
 
-static void free_curve(curve *c)
+/* Releases the arrays of a spline. */
+static void free_curve(curve *spline)
 {
-  free(c->control);
-  free(c->weight);
-  free(c->knot);
+  free(spline->control);
+  free(spline->weight);
+  free(spline->knot);
 }
 
-static thr_spline spline_of(const curve *c)
+/* Returns the spline of a curve, which borrows its arrays. */
+static thr_spline spline_of(const curve *spline)
 {
-  return (thr_spline){c->degree, c->n, (const double(*)[3])c->control, c->weight, c->knot};
+  return (thr_spline){spline->degree, spline->n, (const double(*)[3])spline->control,
+                      spline->weight, spline->knot};
 }
 
-/* Takes the curve over and adds the segment that it leads along. */
-static thr_status add_curve(dxf *d, const placing *p, const double a[3], const double b[3],
-                            curve *c, double length)
+/* Takes the curve over, also on failure, and appends the edge from a to b along the curve. */
+static thr_status add_curve(dxf_reader *reader, const placing *place, const double a[3],
+                            const double b[3], curve *taken, double length)
 {
-  thr_status st = thr_grow(&d->curve, d->n_curves, &d->curves_capacity, sizeof *d->curve, d->err);
+  thr_status st = thr_grow(&reader->curve, reader->n_curves, &reader->curves_capacity,
+                           sizeof *reader->curve, reader->err);
+
+  /* The caller need not know whether the curve was taken. */
   if (st) {
-    free_curve(c);
+    free_curve(taken);
     return st;
   }
-  d->curve[d->n_curves++] = *c;
-  return add_segment(d, p, a, b, length);
+
+  reader->curve[reader->n_curves++] = *taken;
+  return add_segment(reader, place, a, b, length);
 }
 
-/* Adds a part of an ellipse that lies in the coordinates p as one edge. */
-static thr_status add_arc(dxf *d, const placing *p, const ellipse *e, double from, double to,
-                          double length)
+/* Appends a part of an ellipse that lies in the coordinates `place` as one edge. */
+static thr_status add_arc(dxf_reader *reader, const placing *place, const ellipse *e, double from,
+                          double to, double length)
 {
   double a[3], b[3];
-  curve c = {.from = from, .to = to};
+  curve part = {.from = from, .to = to};
+
+  /* The edge's ends are points; of the axes only directions and lengths are kept, which is all that
+   * the length depends on. */
   ellipse_point(e, from, a);
   ellipse_point(e, to, b);
-  turn(p, e->major, c.arc.major);
-  turn(p, e->minor, c.arc.minor);
-  return add_curve(d, p, a, b, &c, length);
+  turn(place, e->major, part.arc.major);
+  turn(place, e->minor, part.arc.minor);
+
+  return add_curve(reader, place, a, b, &part, length);
 }
 
-/* Adds a segment of a polyline. Its bulge is the tangent of a quarter of its arc's angle, 0 =
- * straight. halved: the arc becomes two edges that meet in its middle. */
-static thr_status add_bulge(dxf *d, const placing *p, const double a[3], const double b[3],
-                            double bulge, bool halved)
+/* Appends a segment of a polyline. Its bulge is tan(angle / 4) of the arc's angle, 0 = straight,
+ * positive = counterclockwise. halved: the arc becomes two edges that meet in its middle. */
+static thr_status add_bulge(dxf_reader *reader, const placing *place, const double a[3],
+                            const double b[3], double bulge, bool halved)
 {
   const double angle = 4 * atan(fabs(bulge)), half = sin(angle / 2), way = bulge < 0 ? -1 : 1;
-  if (bulge == 0 || half <= 0) return add_segment(d, p, a, b, 0);
 
-  /* The centre is to the left of the chord where the bulge is between 0 and 1. */
+  if (bulge == 0 || half <= 0) return add_segment(reader, place, a, b, 0);
+
+  /* The centre is on the chord's perpendicular bisector, to the left of the chord where the bulge
+   * is between 0 and 1. The radius is chord / (2 sin(angle / 2)). */
   const double aside = (1 - bulge * bulge) / (4 * bulge),
                length = distance(a, b) * angle / (2 * half);
   const double center[3] = {(a[0] + b[0]) / 2 - aside * (b[1] - a[1]),
                             (a[1] + b[1]) / 2 + aside * (b[0] - a[0]), a[2]};
-  const double r[2] = {a[0] - center[0], a[1] - center[1]};
-  const ellipse e = {
-      {center[0], center[1], center[2]}, {r[0], r[1], 0}, {-way * r[1], way * r[0], 0}};
-  if (!halved) return add_arc(d, p, &e, 0, angle, length);
-  thr_status st = add_arc(d, p, &e, 0, angle / 2, length / 2);
-  return st ? st : add_arc(d, p, &e, angle / 2, angle, length / 2);
+
+  /* From the first end the arc turns the way that the bulge's sign says. */
+  const double radius[2] = {a[0] - center[0], a[1] - center[1]};
+  const ellipse e = {{center[0], center[1], center[2]},
+                     {radius[0], radius[1], 0},
+                     {-way * radius[1], way * radius[0], 0}};
+  if (!halved) return add_arc(reader, place, &e, 0, angle, length);
+
+  thr_status st = add_arc(reader, place, &e, 0, angle / 2, length / 2);
+  return st ? st : add_arc(reader, place, &e, angle / 2, angle, length / 2);
 }
 
-/* Adds d->vertex as segments. Two arcs between the same two vertices, like those of a circle, would
- * be one edge: both get a node in their middle. */
-static thr_status add_polyline(dxf *d, const placing *p, bool closed)
+/* Appends reader->vertex as segments. Two arcs between the same two vertices, like those of a
+ * circle, would fall together as one edge, so both get a node in their middle. */
+static thr_status add_polyline(dxf_reader *reader, const placing *place, bool closed)
 {
   thr_status st = THR_OK;
-  const int n = d->n_vertices;
-  const bool lens = closed && n == 2 && (d->bulge[0] != 0 || d->bulge[1] != 0);
+  const int n = reader->n_vertices;
+  const bool lens = closed && n == 2 && (reader->bulge[0] != 0 || reader->bulge[1] != 0);
+
+  /* A closed polyline of two straight vertices has one side, not two. */
   for (int i = 0; i < (closed && (n > 2 || lens) ? n : n - 1) && !st; i++) {
-    const double *a = d->vertex[i], *b = d->vertex[(i + 1) % n], bulge = d->bulge[i];
-    st = add_bulge(d, p, a, b, bulge, lens);
+    const double *a = reader->vertex[i], *b = reader->vertex[(i + 1) % n], bulge = reader->bulge[i];
+    st = add_bulge(reader, place, a, b, bulge, lens);
   }
+
   return st;
 }
 
-static thr_status add_vertex(dxf *d, const double xyz[3], double bulge)
+/* Appends a vertex of the polyline being read, and the bulge of the segment after the vertex. */
+static thr_status add_vertex(dxf_reader *reader, const double xyz[3], double bulge)
 {
-  thr_status st =
-      thr_grow(&d->vertex, d->n_vertices, &d->vertices_capacity, sizeof *d->vertex, d->err);
-  if (!st) st = thr_grow(&d->bulge, d->n_vertices, &d->bulge_capacity, sizeof *d->bulge, d->err);
+  thr_status st = thr_grow(&reader->vertex, reader->n_vertices, &reader->vertices_capacity,
+                           sizeof *reader->vertex, reader->err);
+
+  if (!st)
+    st = thr_grow(&reader->bulge, reader->n_vertices, &reader->bulge_capacity,
+                  sizeof *reader->bulge, reader->err);
   if (st) return st;
-  memcpy(d->vertex[d->n_vertices], xyz, sizeof *d->vertex);
-  d->bulge[d->n_vertices++] = bulge;
+  memcpy(reader->vertex[reader->n_vertices], xyz, sizeof *reader->vertex);
+
+  reader->bulge[reader->n_vertices++] = bulge;
   return THR_OK;
 }
 
 /* ---- the entities ---- */
 
-static thr_status read_line(dxf *d)
+/* Reads a LINE: one edge. */
+static thr_status read_line(dxf_reader *reader)
 {
   double a[3], b[3];
-  thr_status st = point_of(d, 10, a);
-  if (!st) st = point_of(d, 11, b);
-  return st ? st : add_segment(d, &unmoved, a, b, 0);
+  thr_status st = read_point(reader, 10, a);
+  if (!st) st = read_point(reader, 11, b);
+  return st ? st : add_segment(reader, &unmoved, a, b, 0);
 }
 
-static thr_status read_lwpolyline(dxf *d)
+/* Reads a LWPOLYLINE, whose vertices are pairs of the entity itself: 10 begins a vertex, 20 and 42
+ * add to it. */
+static thr_status read_lwpolyline(dxf_reader *reader)
 {
   placing own;
   double z, x;
   int flags = 0;
-  d->n_vertices = 0;
-  thr_status st = own_coordinates(d, &own);
-  if (!st) st = number(d, 38, 0, &z);
-  if (!st) st = whole(d, 70, &flags);
-  for (int i = 0; i < d->n_pairs && !st; i++) {
-    const int code = d->pair[i].code;
+
+  reader->n_vertices = 0;
+
+  /* The elevation (38) is the z of all vertices. */
+  thr_status st = own_coordinates(reader, &own);
+  if (!st) st = read_number(reader, 38, 0, &z);
+  if (!st) st = read_int(reader, 70, &flags);
+
+  /* The vertices, in the order of the pairs. */
+  for (int i = 0; i < reader->n_pairs && !st; i++) {
+    const int code = reader->pair[i].code;
     if (code != 10 && code != 20 && code != 42) continue;
-    if (code != 10 && d->n_vertices == 0)
-      return fail(d, "has a coordinate before its first vertex");
-    st = number_of(d, &d->pair[i], &x);
-    if (!st && code == 10) st = add_vertex(d, (double[3]){x, 0, z}, 0);
-    if (!st && code == 20) d->vertex[d->n_vertices - 1][1] = x;
-    if (!st && code == 42) d->bulge[d->n_vertices - 1] = x;
+    if (code != 10 && reader->n_vertices == 0)
+      return fail(reader, "has a coordinate before its first vertex");
+    st = number_of(reader, &reader->pair[i], &x);
+    if (!st && code == 10) st = add_vertex(reader, (double[3]){x, 0, z}, 0);
+    if (!st && code == 20) reader->vertex[reader->n_vertices - 1][1] = x;
+    if (!st && code == 42) reader->bulge[reader->n_vertices - 1] = x;
   }
-  return st ? st : add_polyline(d, &own, flags & 1);
+
+  return st ? st : add_polyline(reader, &own, flags & 1);
 }
 
-/* Invisible sides (bits of 70) are no edges; a face with none of them is one for --flat as well.
- * The last side of a triangle is the fourth of a face whose third side has no length. */
-static thr_status read_face(dxf *d)
+/* Reads a 3DFACE of three or four corners. Invisible sides (bits of code 70) are no edges; a face
+ * without invisible sides counts as a face for --flat, too. The last side of a triangle is the
+ * fourth side of a face whose third side has no length, so its bit is the fourth. */
+static thr_status read_face(dxf_reader *reader)
 {
   double corner[4][3];
   int hidden, n = 4;
-  thr_status st = whole(d, 70, &hidden);
+  thr_status st = read_int(reader, 70, &hidden);
+
   for (int i = 0; i < 4 && !st; i++)
-    st = point_of(d, 10 + i, corner[i]);
+    st = read_point(reader, 10 + i, corner[i]);
   if (st) return st;
-  if (!find(d, 13) || (corner[2][0] == corner[3][0] && corner[2][1] == corner[3][1] &&
-                       corner[2][2] == corner[3][2]))
+
+  /* A triangle repeats its third corner, or leaves out the fourth. */
+  if (!find_pair(reader, 13) || (corner[2][0] == corner[3][0] && corner[2][1] == corner[3][1] &&
+                                 corner[2][2] == corner[3][2]))
     n = 3;
-  int first = d->n_points;
+
+  /* All sides visible: a face. */
+  int first = reader->n_points;
   for (int i = 0; i < n && !st && !(hidden & 15); i++)
-    st = add_point(d, &unmoved, corner[i]);
-  if (!(hidden & 15)) return st ? st : add_shape(d, RING, first, d->n_points, 0);
+    st = add_point(reader, &unmoved, corner[i]);
+
+  if (!(hidden & 15)) return st ? st : add_shape(reader, RING, first, reader->n_points, 0);
+
+  /* Otherwise: its visible sides. */
   for (int i = 0; i < n && !st; i++)
     if (!(hidden >> (i == n - 1 ? 3 : i) & 1))
-      st = add_segment(d, &unmoved, corner[i], corner[(i + 1) % n], 0);
+      st = add_segment(reader, &unmoved, corner[i], corner[(i + 1) % n], 0);
+
   return st;
 }
 
-/* Does a curve end where it begins? Then it leads from no node to another. */
+/* Returns whether a curve ends where it begins. Such a curve leads from no node to another one. */
 static bool is_closed(const double a[3], const double b[3], double length)
 {
   return length > 0 && distance(a, b) <= 1e-6 * length;
 }
 
-/* Adds a part of an ellipse, less than all of it. */
-static thr_status add_ellipse(dxf *d, const placing *p, const ellipse *e, double from, double to)
+/* Appends a part of an ellipse as an edge, counterclockwise from one angle to the other (rad), less
+ * than all of it. */
+static thr_status add_ellipse(dxf_reader *reader, const placing *place, const ellipse *e,
+                              double from, double to)
 {
   double a[3], b[3];
+
+  /* `to` is brought to at most one turn after `from`: (0, 2 pi]. */
   const double turns = (to - from) / (2 * THR_PI);
   if (!(turns > 0 && turns <= 1)) to = from + 2 * THR_PI * (turns - ceil(turns) + 1);
   const double length = ellipse_length(e, from, to);
   ellipse_point(e, from, a);
   ellipse_point(e, to, b);
-  return is_closed(a, b, length) ? leave_out(d, "a closed curve")
-                                 : add_arc(d, p, e, from, to, length);
+
+  return is_closed(a, b, length) ? leave_out(reader, "a closed curve")
+                                 : add_arc(reader, place, e, from, to, length);
 }
 
-static thr_status read_arc(dxf *d)
+/* Reads an ARC of a circle: centre 10, radius 40, from angle 50 to angle 51 (degrees),
+ * counterclockwise. */
+static thr_status read_arc(dxf_reader *reader)
 {
   placing own;
   ellipse e = {0};
   double radius, from, to;
-  thr_status st = own_coordinates(d, &own);
-  if (!st) st = point_of(d, 10, e.center);
-  if (!st) st = number(d, 40, 0, &radius);
-  if (!st) st = number(d, 50, 0, &from);
-  if (!st) st = number(d, 51, 360, &to);
+  thr_status st = own_coordinates(reader, &own);
+
+  /* Centre, radius, and angles in degrees. */
+  if (!st) st = read_point(reader, 10, e.center);
+  if (!st) st = read_number(reader, 40, 0, &radius);
+  if (!st) st = read_number(reader, 50, 0, &from);
+  if (!st) st = read_number(reader, 51, 360, &to);
   if (st) return st;
+
+  /* Beyond this an angle modulo 360 degrees has lost too many digits. */
   if (fabs(from) > 1e6 || fabs(to) > 1e6)
-    return fail(d, "has angles of more than a million degrees");
+    return fail(reader, "has angles of more than a million degrees");
+
+  /* A circle is an ellipse with equal axes. */
   e.major[0] = e.minor[1] = radius;
-  return add_ellipse(d, &own, &e, from * THR_PI / 180, to * THR_PI / 180);
+  return add_ellipse(reader, &own, &e, from * THR_PI / 180, to * THR_PI / 180);
 }
 
-static thr_status read_ellipse(dxf *d)
+/* Reads an ELLIPSE: centre 10, half of the major axis 11, ratio of the axes 40, from parameter 41
+ * to 42 (rad). */
+static thr_status read_ellipse(dxf_reader *reader)
 {
   ellipse e = {0};
-  double ratio, from, to, z[3];
-  thr_status st = point_of(d, 10, e.center);
-  if (!st) st = point_of(d, 11, e.major);
-  if (!st) st = point_of(d, 210, z);
-  if (!st) st = number(d, 40, 1, &ratio);
-  if (!st) st = number(d, 41, 0, &from);
-  if (!st) st = number(d, 42, 2 * THR_PI, &to);
+  double ratio, from, to, normal[3];
+  thr_status st = read_point(reader, 10, e.center);
+
+  /* Half of the major axis, the normal, the ratio of the axes, and the parameters in rad. */
+  if (!st) st = read_point(reader, 11, e.major);
+  if (!st) st = read_point(reader, 210, normal);
+  if (!st) st = read_number(reader, 40, 1, &ratio);
+  if (!st) st = read_number(reader, 41, 0, &from);
+  if (!st) st = read_number(reader, 42, 2 * THR_PI, &to);
   if (st) return st;
-  if (fabs(from) > 1e6 || fabs(to) > 1e6) return fail(d, "has parameters of more than a million");
-  if (!normalize(z)) z[2] = 1;
-  thr_cross(z, e.major, e.minor);
+
+  /* As of an ARC's angles. */
+  if (fabs(from) > 1e6 || fabs(to) > 1e6)
+    return fail(reader, "has parameters of more than a million");
+
+  /* Without an extrusion direction the normal is the z axis. The minor axis is orthogonal to the
+   * normal and to the major axis. */
+  if (!normalize(normal)) normal[2] = 1;
+  thr_cross(normal, e.major, e.minor);
   for (int k = 0; k < 3; k++)
     e.minor[k] *= ratio;
-  return add_ellipse(d, &unmoved, &e, from, to);
+
+  return add_ellipse(reader, &unmoved, &e, from, to);
 }
 
-/* All values with the code, into an array that the caller frees. */
-static thr_status values_of(dxf *d, int code, double **out, int *n)
+/* Collects all values with the code in an array *out[*n], which the caller frees, also on
+ * failure. */
+static thr_status read_values(dxf_reader *reader, int code, double **out, int *n)
 {
   thr_status st = THR_OK;
   *n = 0;
-  if (!(*out = thr_calloc((size_t)d->n_pairs, sizeof **out))) return thr_nomem(d->err);
-  for (int i = 0; i < d->n_pairs && !st; i++)
-    if (d->pair[i].code == code) st = number_of(d, &d->pair[i], &(*out)[(*n)++]);
+
+  /* No more values than pairs. */
+  if (!(*out = thr_calloc((size_t)reader->n_pairs, sizeof **out))) return thr_nomem(reader->err);
+  for (int i = 0; i < reader->n_pairs && !st; i++)
+    if (reader->pair[i].code == code) st = number_of(reader, &reader->pair[i], &(*out)[(*n)++]);
+
   return st;
 }
 
-/* Degree 1: a polyline through its control points. Higher: one edge from beginning to end, as long
- * as the curve, which is taken over and left without its arrays. */
-static thr_status use_spline(dxf *d, curve *c, int n_knots, int n_weights)
+/* Appends a spline. Degree 1: a polyline through its control points. Higher: one edge from
+ * beginning to end, as long as the curve, which is taken over and left without its arrays. */
+static thr_status use_spline(dxf_reader *reader, curve *read, int n_knots, int n_weights)
 {
-  const thr_spline s = spline_of(c);
-  if (c->degree == 1) {
+  const thr_spline spline = spline_of(read);
+
+  if (read->degree == 1) {
     thr_status st = THR_OK;
-    for (int i = 0; i + 1 < c->n && !st; i++)
-      st = add_segment(d, &unmoved, c->control[i], c->control[i + 1], 0);
+    for (int i = 0; i + 1 < read->n && !st; i++)
+      st = add_segment(reader, &unmoved, read->control[i], read->control[i + 1], 0);
     return st;
   }
-  if (n_knots != c->n + c->degree + 1 || (n_weights && n_weights != c->n) ||
-      !thr_spline_is_sound(&s))
-    return leave_out(d, NULL);
+
+  /* A spline whose arrays do not fit together is counted as a record that is not used. */
+  if (n_knots != read->n + read->degree + 1 || (n_weights && n_weights != read->n) ||
+      !thr_spline_is_sound(&spline))
+    return leave_out(reader, NULL);
+
+  /* The ends of the parameter range are the knots number degree and n. */
   double a[3], b[3];
-  thr_spline_point(&s, s.knot[s.degree], a);
-  thr_spline_point(&s, s.knot[s.n], b);
-  const double length = thr_spline_length(&s);
-  if (is_closed(a, b, length)) return leave_out(d, "a closed curve");
-  curve taken = *c;
-  *c = (curve){0};
-  return add_curve(d, &unmoved, a, b, &taken, length);
+  thr_spline_point(&spline, spline.knot[spline.degree], a);
+  thr_spline_point(&spline, spline.knot[spline.n], b);
+  const double length = thr_spline_length(&spline);
+  if (is_closed(a, b, length)) return leave_out(reader, "a closed curve");
+
+  curve taken = *read;
+  *read = (curve){0};
+  return add_curve(reader, &unmoved, a, b, &taken, length);
 }
 
-static thr_status read_spline(dxf *d)
+/* Reads a SPLINE: degree 71, knots 40, weights 41, control points 10, 20, 30. */
+static thr_status read_spline(dxf_reader *reader)
 {
   double *value[3] = {0}; /* x, y, z */
   static const int code[3] = {10, 20, 30};
-  curve c = {0};
+  curve read = {0};
   int n[3] = {0}, n_knots = 0, n_weights = 0;
-  thr_status st = whole(d, 71, &c.degree);
+  thr_status st = read_int(reader, 71, &read.degree);
+
+  /* Each coordinate, the knots and the weights are a list of their own. */
   for (int i = 0; i < 3 && !st; i++)
-    st = values_of(d, code[i], &value[i], &n[i]);
-  if (!st) st = values_of(d, 40, &c.knot, &n_knots);
-  if (!st) st = values_of(d, 41, &c.weight, &n_weights);
-  if (!find(d, 71)) c.degree = n_knots - n[0] - 1; /* trimesh does not say it */
+    st = read_values(reader, code[i], &value[i], &n[i]);
+
+  if (!st) st = read_values(reader, 40, &read.knot, &n_knots);
+  if (!st) st = read_values(reader, 41, &read.weight, &n_weights);
+  if (!find_pair(reader, 71)) read.degree = n_knots - n[0] - 1; /* trimesh does not say it */
+
+  /* A spline may say only the points that it goes through (codes 11, 21, 31); these are not enough
+   * here. */
   const bool controlled = n[0] >= 2 && n[1] == n[0] && (!n[2] || n[2] == n[0]);
-  if (!st && !controlled) st = leave_out(d, NULL); /* it may have points to go through only */
-  if (!st && controlled && !(c.control = thr_calloc((size_t)n[0], sizeof *c.control)))
-    st = thr_nomem(d->err);
+  if (!st && !controlled) st = leave_out(reader, NULL);
+  if (!st && controlled && !(read.control = thr_calloc((size_t)n[0], sizeof *read.control)))
+    st = thr_nomem(reader->err);
+
+  /* Pair up the coordinates; a spline without z lies at 0, one without weights is not rational. */
   if (!st && controlled) {
     for (int i = 0; i < n[0]; i++)
       for (int k = 0; k < 3; k++)
-        c.control[i][k] = n[k] ? value[k][i] : 0;
+        read.control[i][k] = n[k] ? value[k][i] : 0;
     if (!n_weights) {
-      free(c.weight);
-      c.weight = NULL;
+      free(read.weight);
+      read.weight = NULL;
     }
-    c.n = n[0];
-    st = use_spline(d, &c, n_knots, n_weights);
+    read.n = n[0];
+    st = use_spline(reader, &read, n_knots, n_weights);
   }
-  free_curve(&c);
+
+  free_curve(&read);
   for (int i = 0; i < 3; i++)
     free(value[i]);
+
   return st;
 }
 
 /* ---- POLYLINE: its vertices are entities of their own ---- */
 
-enum {
-  CLOSED = 1,
-  SPLINE_FIT = 4,
-  SPACE = 8,
-  MESH = 16,
-  CLOSED_N = 32,
-  POLYFACE = 64
-};                                                             /* code 70 of a POLYLINE */
-enum { FRAME_POINT = 16, FACE_RECORD = 128, FACE_PLACE = 64 }; /* of a VERTEX */
+/* Bits of code 70 of a POLYLINE, and of a VERTEX. */
+enum { CLOSED = 1, SPLINE_FIT = 4, SPACE = 8, MESH = 16, CLOSED_N = 32, POLYFACE = 64 };
+enum { FRAME_POINT = 16, FACE_RECORD = 128, FACE_PLACE = 64 };
 
-/* A face record of a polyface mesh: numbers of vertices from 1, negative where the side after it is
- * hidden. */
-static thr_status read_face_record(dxf *d)
+/* Reads a face record of a polyface mesh: numbers of vertices from 1, negative where the side after
+ * the vertex is hidden. */
+static thr_status read_face_record(dxf_reader *reader)
 {
   thr_status st = THR_OK;
+
+  /* Zero stands for no vertex. */
   int corner[4] = {0}, n = 0;
   for (int i = 0; i < 4 && !st; i++) {
     int v;
-    st = whole(d, 71 + i, &v);
+    st = read_int(reader, 71 + i, &v);
     if (!st && v) corner[n++] = v;
   }
+
+  /* Each visible side is an edge. */
   for (int i = 0; i < n && !st; i++) {
     int a = abs(corner[i]), b = abs(corner[(i + 1) % n]);
-    if (a > d->n_vertices || b > d->n_vertices)
-      return fail(d, "names a vertex that does not exist");
+    if (a > reader->n_vertices || b > reader->n_vertices)
+      return fail(reader, "names a vertex that does not exist");
     if (corner[i] > 0 && n > 1)
-      st = add_segment(d, &unmoved, d->vertex[a - 1], d->vertex[b - 1], 0);
+      st = add_segment(reader, &unmoved, reader->vertex[a - 1], reader->vertex[b - 1], 0);
   }
+
   return st;
 }
 
-static thr_status read_vertex(dxf *d, int polyline_flags)
+/* Reads a VERTEX of a POLYLINE with these flags: a point, or a face of a polyface mesh. Control
+ * points of a smoothed curve are left out. */
+static thr_status read_vertex(dxf_reader *reader, int polyline_flags)
 {
   double xyz[3], bulge;
   int flags;
-  thr_status st = whole(d, 70, &flags);
+  thr_status st = read_int(reader, 70, &flags);
+
+  /* Points of the frame of a smoothed curve are not on the curve. */
   if (st || flags & FRAME_POINT) return st;
+
   if (polyline_flags & POLYFACE && flags & FACE_RECORD && !(flags & FACE_PLACE))
-    return read_face_record(d);
-  st = point_of(d, 10, xyz);
-  if (!st) st = number(d, 42, 0, &bulge);
-  return st ? st : add_vertex(d, xyz, polyline_flags & (SPACE | MESH | POLYFACE) ? 0 : bulge);
+    return read_face_record(reader);
+
+  /* Only vertices in the plane have a bulge. */
+  st = read_point(reader, 10, xyz);
+  if (!st) st = read_number(reader, 42, 0, &bulge);
+  return st ? st : add_vertex(reader, xyz, polyline_flags & (SPACE | MESH | POLYFACE) ? 0 : bulge);
 }
 
-static thr_status add_mesh(dxf *d, int m, int n, bool closed_m, bool closed_n)
+/* Appends the edges of an m x n mesh of vertices, row by row; a closed direction joins its last
+ * line to its first one. Two lines are joined already, so closing them adds nothing. */
+static thr_status add_mesh(dxf_reader *reader, int m, int n, bool closed_m, bool closed_n)
 {
   thr_status st = THR_OK;
-  if (m < 1 || n < 1 || (int64_t)m * n > d->n_vertices)
-    return fail(d, "has fewer vertices than its mesh needs");
+
+  if (m < 1 || n < 1 || (int64_t)m * n > reader->n_vertices)
+    return fail(reader, "has fewer vertices than its mesh needs");
+
+  /* From each vertex an edge to the next row and one to the next column. */
   for (int i = 0; i < m && !st; i++)
     for (int j = 0; j < n && !st; j++) {
-      const double *here = d->vertex[i * n + j];
+      const double *here = reader->vertex[i * n + j];
       if (i + 1 < m || (closed_m && m > 2))
-        st = add_segment(d, &unmoved, here, d->vertex[(i + 1) % m * n + j], 0);
+        st = add_segment(reader, &unmoved, here, reader->vertex[(i + 1) % m * n + j], 0);
       if (!st && (j + 1 < n || (closed_n && n > 2)))
-        st = add_segment(d, &unmoved, here, d->vertex[i * n + (j + 1) % n], 0);
+        st = add_segment(reader, &unmoved, here, reader->vertex[i * n + (j + 1) % n], 0);
     }
+
   return st;
 }
 
-static thr_status read_polyline(dxf *d)
+/* Reads a POLYLINE with the VERTEX entities that follow: a curve in the plane, one in space, a
+ * mesh, or a polyface mesh. */
+static thr_status read_polyline(dxf_reader *reader)
 {
   placing own;
   int flags, m, n;
   double elevation;
-  const pair *height = find(d, 30) ? find(d, 30) : find(d, 38);
-  const bool unseen = is_unseen(d);
-  const int first_shape = d->n_shapes;
-  thr_status st = whole(d, 70, &flags);
+  const pair *height = find_pair(reader, 30) ? find_pair(reader, 30) : find_pair(reader, 38);
+  const bool unseen = is_unseen(reader);
+
+  const int first_shape = reader->n_shapes;
+  thr_status st = read_int(reader, 70, &flags);
 
   /* The vertices of a smoothed mesh that are not control points are a mesh of its own density. */
   const bool smooth = !st && (flags & (MESH | SPLINE_FIT)) == (MESH | SPLINE_FIT);
-  if (!st) st = whole(d, smooth ? 73 : 71, &m);
-  if (!st) st = whole(d, smooth ? 74 : 72, &n);
+  if (!st) st = read_int(reader, smooth ? 73 : 71, &m);
+  if (!st) st = read_int(reader, smooth ? 74 : 72, &n);
+
+  /* The elevation of a 2-D polyline is the z of code 30, or 38. */
   elevation = 0;
-  if (!st && height) st = number_of(d, height, &elevation);
-  if (!st) st = own_coordinates(d, &own);
-  d->n_vertices = 0;
-  while (!st && thr_span_is(d->next.value, "VERTEX")) {
-    st = take_entity(d);
-    if (!st) st = read_vertex(d, flags);
+  if (!st && height) st = number_of(reader, height, &elevation);
+  if (!st) st = own_coordinates(reader, &own);
+
+  /* The vertices up to SEQEND. */
+  reader->n_vertices = 0;
+  while (!st && thr_span_is(reader->next.value, "VERTEX")) {
+    st = take_entity(reader);
+    if (!st) st = read_vertex(reader, flags);
   }
-  if (!st && thr_span_is(d->next.value, "SEQEND")) st = take_entity(d);
+
+  if (!st && thr_span_is(reader->next.value, "SEQEND")) st = take_entity(reader);
 
   /* All vertices of a 2-D polyline have its elevation. Where that is 0 those that say a height of
    * their own keep it. */
-  for (int i = 0; i < d->n_vertices && elevation != 0 && !(flags & (SPACE | MESH | POLYFACE)); i++)
-    d->vertex[i][2] = elevation;
+  for (int i = 0; i < reader->n_vertices && elevation != 0 && !(flags & (SPACE | MESH | POLYFACE));
+       i++)
+    reader->vertex[i][2] = elevation;
+
+  /* Polyface meshes have added their edges face by face. */
   if (!st && flags & MESH)
-    st = add_mesh(d, m, n, flags & CLOSED, flags & CLOSED_N);
+    st = add_mesh(reader, m, n, flags & CLOSED, flags & CLOSED_N);
   else if (!st && !(flags & POLYFACE))
-    st = add_polyline(d, flags & SPACE ? &unmoved : &own, flags & CLOSED);
+    st = add_polyline(reader, flags & SPACE ? &unmoved : &own, flags & CLOSED);
+
+  /* The whole is unseen if its head is: drop what was added, and count it. */
   if (st || !unseen) return st;
-  d->n_shapes = first_shape;
-  return add_shape(d, UNSEEN, 0, 0, 0);
+  reader->n_shapes = first_shape;
+  return add_shape(reader, UNSEEN, 0, 0, 0);
 }
 
 /* ---- blocks ---- */
 
-static thr_status add_insertion(dxf *d, thr_span name, const placing *place)
+/* Appends an INSERT of the named block at the place. */
+static thr_status add_insertion(dxf_reader *reader, thr_span name, const placing *place)
 {
-  thr_status st =
-      thr_grow(&d->inserted, d->n_inserted, &d->inserted_capacity, sizeof *d->inserted, d->err);
+  thr_status st = thr_grow(&reader->inserted, reader->n_inserted, &reader->inserted_capacity,
+                           sizeof *reader->inserted, reader->err);
   if (st) return st;
-  d->inserted[d->n_inserted] = (insertion){name, *place};
-  return add_shape(d, INSERT, d->n_inserted++, 0, 0);
+  reader->inserted[reader->n_inserted] = (insertion){name, *place};
+  return add_shape(reader, INSERT, reader->n_inserted++, 0, 0);
 }
 
-/* Scaled, turned about z, moved; in rows and columns. */
-static thr_status read_insert(dxf *d)
+/* Reads an INSERT: the block is scaled (41 to 43), turned about z by an angle (50, degrees), moved
+ * (10), and repeated in columns and rows (70, 71) at a distance (44, 45). */
+static thr_status read_insert(dxf_reader *reader)
 {
   placing own, local = unmoved;
   double scale[3], turn, step[2];
   int columns, rows;
-  const pair *name = find(d, 2);
-  if (!name) return fail(d, "names no block");
-  thr_status st = own_coordinates(d, &own);
-  if (!st) st = point_of(d, 10, local.t);
+  const pair *name = find_pair(reader, 2);
+
+  if (!name) return fail(reader, "names no block");
+
+  /* The parameters. */
+  thr_status st = own_coordinates(reader, &own);
+  if (!st) st = read_point(reader, 10, local.t);
   for (int k = 0; k < 3 && !st; k++)
-    st = number(d, 41 + k, 1, &scale[k]);
-  if (!st) st = number(d, 50, 0, &turn);
-  if (!st) st = whole(d, 70, &columns);
-  if (!st) st = whole(d, 71, &rows);
-  if (!st) st = number(d, 44, 0, &step[0]);
-  if (!st) st = number(d, 45, 0, &step[1]);
+    st = read_number(reader, 41 + k, 1, &scale[k]);
+
+  if (!st) st = read_number(reader, 50, 0, &turn);
+  if (!st) st = read_int(reader, 70, &columns);
+  if (!st) st = read_int(reader, 71, &rows);
+  if (!st) st = read_number(reader, 44, 0, &step[0]);
+  if (!st) st = read_number(reader, 45, 0, &step[1]);
   if (st) return st;
-  const double c = cos(turn * THR_PI / 180), s = sin(turn * THR_PI / 180),
+
+  /* m = rotation times scales; z is only scaled. */
+  const double cosine = cos(turn * THR_PI / 180), sine = sin(turn * THR_PI / 180),
                at[3] = {local.t[0], local.t[1], local.t[2]};
-  const double turned[2][2] = {{c, -s}, {s, c}};
+  const double turned[2][2] = {{cosine, -sine}, {sine, cosine}};
+
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 2; j++)
       local.m[i][j] = turned[i][j] * scale[j];
+
   local.m[2][2] = scale[2];
   columns = columns > 1 ? columns : 1;
   rows = rows > 1 ? rows : 1;
-  if ((int64_t)columns * rows > 100000) return fail(d, "is repeated more than 100,000 times");
+  if ((int64_t)columns * rows > 100000) return fail(reader, "is repeated more than 100,000 times");
+
+  /* One insertion for each cell; columns and rows follow the turned axes but are not scaled. */
   for (int row = 0; row < rows && !st; row++)
     for (int column = 0; column < columns && !st; column++) {
       for (int i = 0; i < 2; i++)
         local.t[i] = at[i] + turned[i][0] * column * step[0] + turned[i][1] * row * step[1];
-      const placing p = after(&own, &local);
-      st = add_insertion(d, name->value, &p);
+      const placing place = after(&own, &local);
+      st = add_insertion(reader, name->value, &place);
     }
+
   return st;
 }
 
-/* Returns the number of the hidden layer of a name, or SHOWN. */
-static int find_hidden(const dxf *d, thr_span name)
+/* Returns the number of the hidden layer of this name, or SHOWN. */
+static int find_hidden(const dxf_reader *reader, thr_span name)
 {
-  for (int i = 0; i < d->n_hidden; i++)
-    if (same_name(d->hidden[i].name, name)) return i;
+  for (int i = 0; i < reader->n_hidden; i++)
+    if (same_name(reader->hidden[i].name, name)) return i;
   return SHOWN;
 }
 
-/* Finds the layer of the entity that was taken: code 8. */
-static thr_status find_layer(dxf *d)
+/* Finds the layer of the entity that was taken (code 8), as reader->layer. */
+static thr_status find_layer(dxf_reader *reader)
 {
-  const pair *named = find(d, 8);
-  const thr_span name = named ? named->value : thr_span_of("0"), last = d->layer_name;
+  const pair *named = find_pair(reader, 8);
+  const thr_span name = named ? named->value : thr_span_of("0"), last = reader->layer_name;
+
+  /* Consecutive entities mostly share a layer. */
   if (last.s && name.n == last.n && memcmp(name.s, last.s, name.n) == 0) return THR_OK;
-  d->layer_name = name;
-  d->layer = ON_ZERO;
+  reader->layer_name = name;
+  reader->layer = ON_ZERO;
   if (thr_span_is(name, "0")) return THR_OK;
-  if (d->parts.asked) return thr_parts_find(&d->parts, name, &d->layer, d->err);
-  d->layer = find_hidden(d, name);
+
+  /* --pick asks for a layer by name, whether hidden or not. */
+  if (reader->parts.asked) return thr_parts_find(&reader->parts, name, &reader->layer, reader->err);
+  reader->layer = find_hidden(reader, name);
   return THR_OK;
 }
 
-/* Keeps the layer of a table if it is hidden: off, which a negative colour says, or frozen. */
-static thr_status read_layer(dxf *d)
+/* Keeps a layer of the table if it is hidden: off, as a negative colour says, or frozen (bit 1 of
+ * code 70). */
+static thr_status read_layer(dxf_reader *reader)
 {
-  const pair *name = find(d, 2);
+  const pair *name = find_pair(reader, 2);
   int flags, colour;
-  thr_status st = whole(d, 70, &flags);
-  if (!st) st = whole(d, 62, &colour);
-  if (st || !name || !((flags & 1) || colour < 0) || d->draft->all_layers || d->parts.asked)
+  thr_status st = read_int(reader, 70, &flags);
+
+  if (!st) st = read_int(reader, 62, &colour);
+
+  /* A layer that is shown, or would be read anyway, needs no entry. */
+  if (st || !name || !((flags & 1) || colour < 0) || reader->draft->all_layers ||
+      reader->parts.asked)
     return st;
-  st = thr_grow(&d->hidden, d->n_hidden, &d->hidden_capacity, sizeof *d->hidden, d->err);
-  if (!st) d->hidden[d->n_hidden++] = (hidden_layer){name->value, flags & 1, 0};
+
+  st = thr_grow(&reader->hidden, reader->n_hidden, &reader->hidden_capacity, sizeof *reader->hidden,
+                reader->err);
+  if (!st) reader->hidden[reader->n_hidden++] = (hidden_layer){name->value, flags & 1, 0};
+
   return st;
 }
 
-static thr_status read_tables(dxf *d)
+/* Reads the section TABLES, of which only layers matter. */
+static thr_status read_tables(dxf_reader *reader)
 {
   thr_status st = THR_OK;
-  while (!st && !d->ended && !thr_span_is(d->next.value, "ENDSEC")) {
-    st = take_entity(d);
-    if (!st && thr_span_is(d->type, "LAYER")) st = read_layer(d);
+  while (!st && !reader->ended && !thr_span_is(reader->next.value, "ENDSEC")) {
+    st = take_entity(reader);
+    if (!st && thr_span_is(reader->type, "LAYER")) st = read_layer(reader);
   }
   return st;
 }
 
-static thr_status read_entity(dxf *d)
+/* Reads one entity by its type. */
+static thr_status read_entity(dxf_reader *reader)
 {
   static const struct {
     const char *type;
-    thr_status (*read)(dxf *);
+    thr_status (*read)(dxf_reader *);
   } known[] = {{"LINE", read_line},    {"LWPOLYLINE", read_lwpolyline},
                {"3DFACE", read_face},  {"SPLINE", read_spline},
                {"ARC", read_arc},      {"ELLIPSE", read_ellipse},
                {"INSERT", read_insert}};
-  thr_status st = take_entity(d);
-  if (!st) st = find_layer(d);
+
+  thr_status st = take_entity(reader);
+
+  if (!st) st = find_layer(reader);
   if (st) return st;
-  if (thr_span_is(d->type, "POLYLINE")) return read_polyline(d);
-  if (is_unseen(d)) return add_shape(d, UNSEEN, 0, 0, 0);
+
+  /* A POLYLINE is read even if unseen, because its vertices follow as entities of their own. */
+  if (thr_span_is(reader->type, "POLYLINE")) return read_polyline(reader);
+  if (is_unseen(reader)) return add_shape(reader, UNSEEN, 0, 0, 0);
   for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-    if (thr_span_is(d->type, known[i].type)) return known[i].read(d);
-  return thr_span_is(d->type, "ATTRIB") || thr_span_is(d->type, "SEQEND") ? THR_OK
-                                                                          : leave_out(d, NULL);
+    if (thr_span_is(reader->type, known[i].type)) return known[i].read(reader);
+
+  /* Attributes of an INSERT are text. Whatever else there is gets counted. */
+  return thr_span_is(reader->type, "ATTRIB") || thr_span_is(reader->type, "SEQEND")
+             ? THR_OK
+             : leave_out(reader, NULL);
 }
 
-/* Entities up to the pair 0 that ends them. */
-static thr_status read_entities(dxf *d, const char *end)
+/* Reads entities up to the pair 0 that ends them. */
+static thr_status read_entities(dxf_reader *reader, const char *end)
 {
   thr_status st = THR_OK;
-  while (!st && !d->ended && !thr_span_is(d->next.value, end))
-    st = read_entity(d);
+  while (!st && !reader->ended && !thr_span_is(reader->next.value, end))
+    st = read_entity(reader);
   return st;
 }
 
-static thr_status read_block(dxf *d)
+/* Reads a BLOCK up to its ENDBLK. */
+static thr_status read_block(dxf_reader *reader)
 {
-  thr_status st = take_entity(d);
-  const pair *name = find(d, 2);
+  thr_status st = take_entity(reader);
+  const pair *name = find_pair(reader, 2);
   int flags = 0;
-  block b = {.name = name ? name->value : (thr_span){0}, .first = d->n_shapes};
-  if (!st) st = whole(d, 70, &flags);
-  if (!st) st = point_of(d, 10, b.base);
-  b.external = flags & (4 | 8); /* an external reference, or an overlay */
-  if (!st) st = read_entities(d, "ENDBLK");
-  if (b.name.n == 0) d->n_shapes = b.first; /* nothing can insert it */
-  b.last = d->n_shapes;
-  if (!st) st = thr_grow(&d->block, d->n_blocks, &d->blocks_capacity, sizeof *d->block, d->err);
-  if (!st) d->block[d->n_blocks++] = b;
-  if (!st) st = take_entity(d); /* ENDBLK */
+  block read = {.name = name ? name->value : (thr_span){0}, .first = reader->n_shapes};
+
+  if (!st) st = read_int(reader, 70, &flags);
+  if (!st) st = read_point(reader, 10, read.base);
+
+  /* Bits 4 and 8 mark an external reference and an overlay of one. */
+  read.external = flags & (4 | 8);
+  if (!st) st = read_entities(reader, "ENDBLK");
+  if (read.name.n == 0) reader->n_shapes = read.first; /* nothing can insert it */
+  read.last = reader->n_shapes;
+
+  if (!st)
+    st = thr_grow(&reader->block, reader->n_blocks, &reader->blocks_capacity, sizeof *reader->block,
+                  reader->err);
+
+  if (!st) reader->block[reader->n_blocks++] = read;
+  if (!st) st = take_entity(reader); /* ENDBLK */
   return st;
 }
 
-static thr_status read_blocks(dxf *d)
+/* Reads the section BLOCKS. */
+static thr_status read_blocks(dxf_reader *reader)
 {
   thr_status st = THR_OK;
-  while (!st && !d->ended && !thr_span_is(d->next.value, "ENDSEC"))
-    st = thr_span_is(d->next.value, "BLOCK") ? read_block(d) : take_entity(d);
+  while (!st && !reader->ended && !thr_span_is(reader->next.value, "ENDSEC"))
+    st = thr_span_is(reader->next.value, "BLOCK") ? read_block(reader) : take_entity(reader);
   return st;
 }
 
-/* The unit, code 70 after the variable $INSUNITS. */
-static thr_status read_header(dxf *d)
+/* Reads the section HEADER, of which only the unit matters: code 70 after the variable
+ * $INSUNITS. */
+static thr_status read_header(dxf_reader *reader)
 {
   int unit = 0;
-  for (int i = 0; i + 1 < d->n_pairs; i++)
-    if (d->pair[i].code == 9 && thr_span_is(d->pair[i].value, "$INSUNITS") &&
-        d->pair[i + 1].code == 70 && !thr_span_int(d->pair[i + 1].value, &unit))
-      return fail(d, "has a $INSUNITS that is not a whole number");
-  return thr_dxf_unit(unit) ? thr_draft_set_units(d->draft, thr_dxf_unit(unit), d->err) : THR_OK;
+
+  for (int i = 0; i + 1 < reader->n_pairs; i++)
+
+    /* The code 9 names a variable; its value is the next pair. */
+    if (reader->pair[i].code == 9 && thr_span_is(reader->pair[i].value, "$INSUNITS") &&
+        reader->pair[i + 1].code == 70 && !thr_span_int(reader->pair[i + 1].value, &unit))
+      return fail(reader, "has a $INSUNITS that is not a whole number");
+
+  return thr_dxf_unit(unit) ? thr_draft_set_units(reader->draft, thr_dxf_unit(unit), reader->err)
+                            : THR_OK;
 }
 
-/* Reads a section ENTITIES as a block without a name. A file may have several of them. */
-static thr_status read_model(dxf *d)
+/* Reads a section ENTITIES as a block without a name. A file may have several such sections. */
+static thr_status read_model(dxf_reader *reader)
 {
-  block model = {.first = d->n_shapes};
-  thr_status st = read_entities(d, "ENDSEC");
-  model.last = d->n_shapes;
-  if (!st) st = thr_grow(&d->block, d->n_blocks, &d->blocks_capacity, sizeof *d->block, d->err);
-  if (!st) d->block[d->n_blocks++] = model;
+  block model = {.first = reader->n_shapes};
+  thr_status st = read_entities(reader, "ENDSEC");
+
+  model.last = reader->n_shapes;
+  if (!st)
+    st = thr_grow(&reader->block, reader->n_blocks, &reader->blocks_capacity, sizeof *reader->block,
+                  reader->err);
+
+  if (!st) reader->block[reader->n_blocks++] = model;
   return st;
 }
 
-static thr_status read_sections(dxf *d)
+/* Reads all sections up to EOF. */
+static thr_status read_sections(dxf_reader *reader)
 {
-  thr_status st = look(d);
-  while (!st && !d->ended && !thr_span_is(d->next.value, "EOF")) {
-    st = take_entity(d);
-    const pair *said = thr_span_is(d->type, "SECTION") ? find(d, 2) : NULL;
+  thr_status st = read_next_pair(reader);
+
+  while (!st && !reader->ended && !thr_span_is(reader->next.value, "EOF")) {
+    st = take_entity(reader);
+
+    /* Code 2 of SECTION names the section. */
+    const pair *said = thr_span_is(reader->type, "SECTION") ? find_pair(reader, 2) : NULL;
     if (st || !said) continue;
     const thr_span name = said->value;
-    if (thr_span_is(name, "HEADER")) st = read_header(d);
-    if (!st && thr_span_is(name, "TABLES")) st = read_tables(d);
-    if (!st && thr_span_is(name, "BLOCKS")) st = read_blocks(d);
-    if (!st && thr_span_is(name, "ENTITIES")) st = read_model(d);
+    if (thr_span_is(name, "HEADER")) st = read_header(reader);
+    if (!st && thr_span_is(name, "TABLES")) st = read_tables(reader);
+
+    if (!st && thr_span_is(name, "BLOCKS")) st = read_blocks(reader);
+    if (!st && thr_span_is(name, "ENTITIES")) st = read_model(reader);
   }
+
   return st;
 }
 
 /* ---- placing ---- */
 
-/* Counts an insertion of a block that the file does not hold. */
-static void miss_block(dxf *d, thr_span name)
+/* Counts an insertion of a block that the file does not hold, and keeps the first one's name. */
+static void miss_block(dxf_reader *reader, thr_span name)
 {
-  thr_read_report *r = d->report;
-  if (r->missing_blocks++) return;
-  snprintf(r->missing_block, sizeof r->missing_block, "%.*s", name.n < 31 ? (int)name.n : 31,
-           name.s);
-  thr_text_clean(r->missing_block);
+  thr_read_report *report = reader->report;
+
+  /* One name is enough for a note. */
+  if (report->missing_blocks++) return;
+  snprintf(report->missing_block, sizeof report->missing_block, "%.*s",
+           name.n < 31 ? (int)name.n : 31, name.s);
+  thr_text_clean(report->missing_block);
 }
 
-/* Finds the block of a name in the same letter case, else in any. *found is NULL if there is none;
- * THR_EINPUT if there are two that are not empty. */
-static thr_status find_block(const dxf *d, thr_span name, const block **found)
+/* Finds the block of a name in the same letter case, else in any. *found is NULL if there is none.
+ * THR_EINPUT if two such blocks are not empty. */
+static thr_status find_block(const dxf_reader *reader, thr_span name, const block **found)
 {
   bool exact = false, twice = false;
   *found = NULL;
-  for (const block *b = d->block; b < d->block + d->n_blocks; b++) {
+
+  /* A block with shapes is better than an empty one; an exact name is better than one in another
+   * case. */
+  for (const block *b = reader->block; b < reader->block + reader->n_blocks; b++) {
     if (name.n == 0 || !same_name(b->name, name)) continue;
     const bool same = memcmp(b->name.s, name.s, name.n) == 0,
                better = !*found || (*found)->first == (*found)->last;
@@ -949,226 +1193,306 @@ static thr_status find_block(const dxf *d, thr_span name, const block **found)
     exact |= same;
     if (twice) break;
   }
+
+  /* Nobody can know which of two blocks is meant. */
   if (!twice) return THR_OK;
-  return thr_fail(d->err, THR_EINPUT,
+  return thr_fail(reader->err, THR_EINPUT,
                   "%s: two blocks are called '%.*s', and it is inserted; rename one of them",
-                  d->scan.name, thr_span_width(name), name.s);
+                  reader->scan.name, thr_span_width(name), name.s);
 }
 
-/* Computes how long a curve is where it is placed: an ellipse stays one, a spline moves with its
- * control points. */
-static thr_status placed_length(dxf *d, const shape *s, const placing *p, double *length)
+/* Computes how long a curve is after the map: an ellipse stays an ellipse, and a spline moves with
+ * its control points. */
+static thr_status placed_length(dxf_reader *reader, const shape *piece, const placing *place,
+                                double *length)
 {
-  const double scale = even_scale(p);
-  const curve *c = &d->curve[s->curve];
-  *length = s->curve_length * scale;
+  const double scale = even_scale(place);
+  const curve *original = &reader->curve[piece->curve];
+  *length = piece->curve_length * scale;
+
+  /* Similarities scale all lengths alike. */
   if (scale > 0) return THR_OK;
-  if (c->n == 0) {
+  if (original->n == 0) {
     ellipse e = {0};
-    turn(p, c->arc.major, e.major);
-    turn(p, c->arc.minor, e.minor);
-    *length = ellipse_length(&e, c->from, c->to);
+    turn(place, original->arc.major, e.major);
+    turn(place, original->arc.minor, e.minor);
+    *length = ellipse_length(&e, original->from, original->to);
     return THR_OK;
   }
-  curve moved = *c;
-  if (!(moved.control = thr_calloc((size_t)c->n, sizeof *moved.control))) return thr_nomem(d->err);
-  for (int i = 0; i < c->n; i++)
-    turn(p, c->control[i], moved.control[i]);
+
+  /* Integrate again along the moved control points. */
+  curve moved = *original;
+  if (!(moved.control = thr_calloc((size_t)original->n, sizeof *moved.control)))
+    return thr_nomem(reader->err);
+
+  for (int i = 0; i < original->n; i++)
+    turn(place, original->control[i], moved.control[i]);
+
   const thr_spline spline = spline_of(&moved);
   *length = thr_spline_length(&spline);
   free(moved.control);
   return THR_OK;
 }
 
-/* Places a run of points. */
-static thr_status place_run(dxf *d, const shape *s, const placing *p)
+/* Appends the points of a path or ring, after the map, as a run of sites, with the length of the
+ * run. */
+static thr_status place_run(dxf_reader *reader, const shape *piece, const placing *place)
 {
   double at[3];
   thr_status st = THR_OK;
-  for (int i = s->first; i < s->last && !st; i++) {
-    if (d->sites.n >= MOST_PLACED)
-      return thr_fail(d->err, THR_EINPUT, "%s: more than %d points with all inserted blocks",
-                      d->scan.name, MOST_PLACED);
-    apply(p, d->point[i], at);
+
+  /* Blocks may be inserted in each other, so that a small file makes many points, or huge ones. */
+  for (int i = piece->first; i < piece->last && !st; i++) {
+    if (reader->sites.n >= MOST_PLACED)
+      return thr_fail(reader->err, THR_EINPUT, "%s: more than %d points with all inserted blocks",
+                      reader->scan.name, MOST_PLACED);
+    apply(place, reader->point[i], at);
     if (!isfinite(at[0]) || !isfinite(at[1]) || !isfinite(at[2]))
-      return thr_fail(d->err, THR_EINPUT, "%s: an inserted block leaves the range of numbers",
-                      d->scan.name);
-    st = thr_faces_corner(&d->faces, d->sites.n, d->err);
-    if (!st) st = thr_sites_add(&d->sites, at, d->err);
+      return thr_fail(reader->err, THR_EINPUT, "%s: an inserted block leaves the range of numbers",
+                      reader->scan.name);
+    st = thr_faces_corner(&reader->faces, reader->sites.n, reader->err);
+    if (!st) st = thr_sites_add(&reader->sites, at, reader->err);
   }
-  if (!st) st = thr_grow(&d->length, d->faces.n, &d->length_capacity, sizeof *d->length, d->err);
+
+  /* The length of the run that is about to be closed. */
+  if (!st)
+    st = thr_grow(&reader->length, reader->faces.n, &reader->length_capacity,
+                  sizeof *reader->length, reader->err);
   if (st) return st;
-  d->length[d->faces.n] = 0;
-  if (s->curve_length > 0) st = placed_length(d, s, p, &d->length[d->faces.n]);
+  reader->length[reader->faces.n] = 0;
+
+  /* A curve may be stretched. */
+  if (piece->curve_length > 0)
+    st = placed_length(reader, piece, place, &reader->length[reader->faces.n]);
   if (st) return st;
-  if (!isfinite(d->length[d->faces.n]))
-    return thr_fail(d->err, THR_EINPUT, "%s: an inserted block leaves the range of numbers",
-                    d->scan.name);
-  return thr_faces_close(&d->faces, d->err);
+
+  if (!isfinite(reader->length[reader->faces.n]))
+    return thr_fail(reader->err, THR_EINPUT, "%s: an inserted block leaves the range of numbers",
+                    reader->scan.name);
+
+  return thr_faces_close(&reader->faces, reader->err);
 }
 
-/* Places a run of points, or counts a record that is left out. */
-static thr_status place_one(dxf *d, const shape *s, const placing *p)
+/* Places a path or ring, or counts a record that is left out. */
+static thr_status place_one(dxf_reader *reader, const shape *piece, const placing *place)
 {
-  if (s->kind == UNUSED) thr_report_skip(d->report, d->unused[s->first]);
-  d->report->unseen_records += s->kind == UNSEEN;
-  return s->kind == PATH || s->kind == RING ? place_run(d, s, p) : THR_OK;
+  if (piece->kind == UNUSED) thr_report_skip(reader->report, reader->unused[piece->first]);
+  reader->report->unseen_records += piece->kind == UNSEEN;
+  return piece->kind == PATH || piece->kind == RING ? place_run(reader, piece, place) : THR_OK;
 }
 
-/* Places shapes. layer: that of those on layer 0; frozen: the layer that hides them all, or SHOWN.
- */
-static thr_status place_shapes(dxf *d, int first, int last, const placing *p, int layer, int frozen,
-                               int depth)
+/* Places the shapes [first, last) and, recursively, the blocks that they insert. layer: the layer
+ * of shapes on layer 0; frozen: the layer that hides them all, or SHOWN; depth: of the insertions
+ * round them. */
+static thr_status place_shapes(dxf_reader *reader, int first, int last, const placing *place,
+                               int layer, int frozen, int depth)
 {
   thr_status st = THR_OK;
+
   for (int i = first; i < last && !st; i++) {
-    const shape *s = &d->shape[i];
-    const int own = s->layer >= 0 ? s->layer : layer, hiding = frozen < d->n_hidden ? frozen : own;
-    if (++d->n_visited > MOST_PLACED)
-      return thr_fail(d->err, THR_EINPUT, "%s: more than %d entities with all inserted blocks",
-                      d->scan.name, MOST_PLACED);
-    if (s->kind != INSERT) {
-      if (hiding >= 0 && hiding < d->n_hidden)
-        d->hidden[hiding].n_edges += s->kind == RING ? s->last - s->first : s->kind == PATH;
-      else if (thr_parts_has(&d->parts, own))
-        st = place_one(d, s, p);
+    const shape *piece = &reader->shape[i];
+    const int own = piece->layer >= 0 ? piece->layer : layer,
+              hiding = frozen < reader->n_hidden ? frozen : own;
+
+    /* What is left out counts as well, so that time is limited. */
+    if (++reader->n_visited > MOST_PLACED)
+      return thr_fail(reader->err, THR_EINPUT, "%s: more than %d entities with all inserted blocks",
+                      reader->scan.name, MOST_PLACED);
+
+    /* Hidden edges are counted by layer, for the report. */
+    if (piece->kind != INSERT) {
+      if (hiding >= 0 && hiding < reader->n_hidden)
+        reader->hidden[hiding].n_edges +=
+            piece->kind == RING ? piece->last - piece->first : piece->kind == PATH;
+      else if (thr_parts_has(&reader->parts, own))
+        st = place_one(reader, piece, place);
       continue;
     }
-    const insertion *in = &d->inserted[s->first];
-    const block *b;
-    st = find_block(d, in->block, &b);
+
+    /* The block may be in another file, or in none. */
+    const insertion *inserted = &reader->inserted[piece->first];
+    const block *inserted_block;
+    st = find_block(reader, inserted->block, &inserted_block);
     if (st) return st;
-    if (!b || (b->external && b->first == b->last)) {
-      miss_block(d, in->block);
+    if (!inserted_block ||
+        (inserted_block->external && inserted_block->first == inserted_block->last)) {
+      miss_block(reader, inserted->block);
       continue;
     }
-    if (depth == MOST_NESTED || ++d->n_placed > MOST_INSERTED)
-      return thr_fail(d->err, THR_EINPUT,
+    if (depth == MOST_NESTED || ++reader->n_placed > MOST_INSERTED)
+      return thr_fail(reader->err, THR_EINPUT,
                       "%s: blocks are nested more than %d deep, or inserted more than %d times",
-                      d->scan.name, MOST_NESTED, MOST_INSERTED);
+                      reader->scan.name, MOST_NESTED, MOST_INSERTED);
+
+    /* The block's base comes to lie on the insertion point, then the maps of all insertions apply
+     * from the inside outwards. */
     placing base = unmoved;
     for (int k = 0; k < 3; k++)
-      base.t[k] = -b->base[k];
-    placing q = after(&in->place, &base);
-    q = after(p, &q);
-    const bool freezes = hiding >= 0 && hiding < d->n_hidden && d->hidden[hiding].frozen;
-    st = place_shapes(d, b->first, b->last, &q, own, freezes ? hiding : SHOWN, depth + 1);
+      base.t[k] = -inserted_block->base[k];
+    placing inner = after(&inserted->place, &base);
+    inner = after(place, &inner);
+
+    /* Only a frozen layer hides shapes on layers other than 0. */
+    const bool freezes = hiding >= 0 && hiding < reader->n_hidden && reader->hidden[hiding].frozen;
+    st = place_shapes(reader, inserted_block->first, inserted_block->last, &inner, own,
+                      freezes ? hiding : SHOWN, depth + 1);
   }
+
   return st;
 }
 
-static thr_status place_model(dxf *d)
+/* Places the blocks without names, and sums up what hidden layers have left out. */
+static thr_status place_model(dxf_reader *reader)
 {
   thr_status st = THR_OK;
-  for (int i = 0; i < d->n_blocks && !st; i++)
-    if (d->block[i].name.n == 0)
-      st = place_shapes(d, d->block[i].first, d->block[i].last, &unmoved, d->ground, SHOWN, 0);
-  for (int i = 0; i < d->n_hidden; i++) {
-    d->report->hidden_edges += d->hidden[i].n_edges;
-    d->report->hidden_layers += d->hidden[i].n_edges > 0;
+
+  for (int i = 0; i < reader->n_blocks && !st; i++)
+    if (reader->block[i].name.n == 0)
+      st = place_shapes(reader, reader->block[i].first, reader->block[i].last, &unmoved,
+                        reader->ground, SHOWN, 0);
+
+  /* Layers that hide no edge are not worth a note. */
+  for (int i = 0; i < reader->n_hidden; i++) {
+    reader->report->hidden_edges += reader->hidden[i].n_edges;
+    reader->report->hidden_layers += reader->hidden[i].n_edges > 0;
   }
+
   return st;
 }
 
-/* The runs of two as edges, the rings as sides of faces. */
-static thr_status fill_draft(dxf *d)
+/* Fills the draft: sites at one place become one node, runs of two an edge, rings the sides of a
+ * face. */
+static thr_status fill_draft(dxf_reader *reader)
 {
-  if (d->faces.n == 0 && d->report->hidden_edges)
-    return thr_fail(d->err, THR_EINPUT,
+  /* Nothing was placed: say why. */
+  if (reader->faces.n == 0 && reader->report->hidden_edges)
+    return thr_fail(reader->err, THR_EINPUT,
                     "%s: all its edges are on hidden layers; --layers all reads them",
-                    d->scan.name);
-  if (d->faces.n == 0)
+                    reader->scan.name);
+
+  if (reader->faces.n == 0)
     return thr_fail(
-        d->err, THR_EINPUT,
+        reader->err, THR_EINPUT,
         "%s: no lines, polylines, faces or open curves in its model%s%s%s%s%s; draw its edges as "
         "lines, or explode what has them",
-        d->scan.name, d->report->skipped_records ? ", but others: " : "", d->report->skipped_kind,
-        d->report->unseen_records ? "; what is on paper or marked invisible is not read" : "",
-        d->report->missing_blocks ? "; a block that is not in the file: " : "",
-        d->report->missing_block);
+        reader->scan.name, reader->report->skipped_records ? ", but others: " : "",
+        reader->report->skipped_kind,
+        reader->report->unseen_records ? "; what is on paper or marked invisible is not read" : "",
+        reader->report->missing_blocks ? "; a block that is not in the file: " : "",
+        reader->report->missing_block);
+
+  /* Corners become nodes instead of sites. */
   thr_faces rings = {0};
-  int *node = thr_calloc((size_t)d->sites.n, sizeof *node);
-  thr_status st = node ? thr_sites_finish(&d->sites, node, d->draft, d->err) : thr_nomem(d->err);
-  for (int i = 0; i < d->faces.n && !st; i++) {
-    int first = i ? d->faces.end[i - 1] : 0, n = d->faces.end[i] - first;
-    int *corner = d->faces.corner + first;
+  int *node = thr_calloc((size_t)reader->sites.n, sizeof *node);
+  thr_status st = node ? thr_sites_finish(&reader->sites, node, reader->draft, reader->err)
+                       : thr_nomem(reader->err);
+
+  /* Runs of two are edges of their own length, longer ones faces. */
+  for (int i = 0; i < reader->faces.n && !st; i++) {
+    int first = i ? reader->faces.end[i - 1] : 0, n = reader->faces.end[i] - first;
+    int *corner = reader->faces.corner + first;
     for (int k = 0; k < n; k++)
       corner[k] = node[corner[k]];
-    st = n == 2 ? thr_draft_add_edge(d->draft, corner[0], corner[1], d->length[i], d->err)
-                : thr_faces_add(&rings, corner, n, d->err);
+    st = n == 2 ? thr_draft_add_edge(reader->draft, corner[0], corner[1], reader->length[i],
+                                     reader->err)
+                : thr_faces_add(&rings, corner, n, reader->err);
   }
-  if (!st) st = thr_faces_finish(&rings, d->draft, d->scan.name, d->err);
+
+  if (!st) st = thr_faces_finish(&rings, reader->draft, reader->scan.name, reader->err);
   thr_faces_destroy(&rings);
   free(node);
+
   return st;
 }
 
-/* Layer 0 comes last: what stands on it is counted only where it is placed. */
-static thr_status choose_layers(dxf *d)
+/* Decides which layers are read (--pick). Layer 0 gets a number last and only if the model itself
+ * has shapes on it: elsewhere shapes on layer 0 belong to the layer of the INSERT. */
+static thr_status choose_layers(dxf_reader *reader)
 {
   bool grounded = false;
   thr_status st = THR_OK;
-  d->ground = d->parts.asked ? -1 : find_hidden(d, thr_span_of("0"));
-  for (int b = 0; b < d->n_blocks; b++)
-    for (int i = d->block[b].first; i < d->block[b].last && d->block[b].name.n == 0; i++)
-      grounded |= d->shape[i].layer < 0 && d->shape[i].kind < UNUSED;
-  if (grounded && d->parts.asked)
-    st = thr_parts_find(&d->parts, thr_span_of("0"), &d->ground, d->err);
-  return st ? st : thr_parts_choose(&d->parts, d->scan.name, "layer", "layers", d->err);
+
+  reader->ground = reader->parts.asked ? -1 : find_hidden(reader, thr_span_of("0"));
+
+  /* Does a shape of the model itself lie on layer 0? */
+  for (int b = 0; b < reader->n_blocks; b++)
+    for (int i = reader->block[b].first; i < reader->block[b].last && reader->block[b].name.n == 0;
+         i++)
+      grounded |= reader->shape[i].layer < 0 && reader->shape[i].kind < UNUSED;
+
+  if (grounded && reader->parts.asked)
+    st = thr_parts_find(&reader->parts, thr_span_of("0"), &reader->ground, reader->err);
+
+  return st ? st
+            : thr_parts_choose(&reader->parts, reader->scan.name, "layer", "layers", reader->err);
 }
 
-static void destroy(dxf *d)
+/* Releases all arrays. */
+static void destroy(dxf_reader *reader)
 {
-  free(d->pair);
-  free(d->point);
-  free(d->shape);
-  free(d->block);
-  for (int i = 0; i < d->n_curves; i++)
-    free_curve(&d->curve[i]);
-  free(d->curve);
-  free(d->inserted);
-  free(d->unused);
-  free(d->hidden);
-  free(d->vertex);
-  free(d->bulge);
-  free(d->length);
-  thr_sites_destroy(&d->sites);
-  thr_faces_destroy(&d->faces);
+  free(reader->pair);
+  free(reader->point);
+  free(reader->shape);
+  free(reader->block);
+
+  for (int i = 0; i < reader->n_curves; i++)
+    free_curve(&reader->curve[i]);
+
+  free(reader->curve);
+  free(reader->inserted);
+  free(reader->unused);
+  free(reader->hidden);
+  free(reader->vertex);
+  free(reader->bulge);
+  free(reader->length);
+  thr_sites_destroy(&reader->sites);
+  thr_faces_destroy(&reader->faces);
 }
 
+/* Reads a text as thr_format.parse demands. */
 static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n,
                         const char *name, thr_err *err)
 {
-  dxf d = {.draft = draft,
-           .report = report,
-           .err = err,
-           .parts = {.asked = draft->pick},
-           .layer_name = thr_span_of("0"),
-           .layer = ON_ZERO};
+  dxf_reader reader = {.draft = draft,
+                       .report = report,
+                       .err = err,
+                       .parts = {.asked = draft->pick},
+                       .layer_name = thr_span_of("0"),
+                       .layer = ON_ZERO};
+
+  /* A binary file would fail anyway, but with a less helpful text. */
   thr_status st = THR_OK;
   if (n >= sizeof binary - 1 && memcmp(text, binary, sizeof binary - 1) == 0)
     st = thr_fail(err, THR_EINPUT, "%s: binary DXF is not read; export it as text", name);
-  if (!st) st = thr_scan_start(&d.scan, text, n, name, err);
-  if (!st) st = read_sections(&d);
-  if (!st) st = choose_layers(&d);
-  if (!st) st = place_model(&d);
-  if (!st) st = fill_draft(&d);
-  thr_parts_finish(&d.parts, report);
-  destroy(&d);
+
+  /* Read everything, then place: layers and blocks may be used before they are known. */
+  if (!st) st = thr_scan_start(&reader.scan, text, n, name, err);
+  if (!st) st = read_sections(&reader);
+  if (!st) st = choose_layers(&reader);
+  if (!st) st = place_model(&reader);
+  if (!st) st = fill_draft(&reader);
+
+  thr_parts_finish(&reader.parts, report);
+  destroy(&reader);
   return st;
 }
 
-/* Does the text begin with a section, after comments? */
+/* Returns whether the text begins with a section, after comments (code 999), or is binary DXF,
+ * which only fails with a better text. */
 static bool is_dxf(const char *text, size_t n)
 {
   thr_scan scan;
   thr_span code = {0}, value = {0};
+
   if (n >= sizeof binary - 1 && memcmp(text, binary, sizeof binary - 1) == 0) return true;
+
+  /* Binary parts after the beginning do not matter. */
   const char *nul = n ? memchr(text, '\0', n) : NULL;
   if (thr_scan_start(&scan, text, nul ? (size_t)(nul - text) : n, "", NULL)) return false;
   while (thr_scan_line(&scan, &code) && thr_scan_line(&scan, &value) &&
          thr_span_is(thr_span_trim(code), "999")) {
   }
+
   return thr_span_is(thr_span_trim(code), "0") && thr_span_is(thr_span_trim(value), "SECTION");
 }
 

@@ -1,7 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* PLY, the Stanford polygon format: ascii and both binary orders, elements and properties in any
- * order. Vertices have x, y and z, edges vertex1 and vertex2, faces, polylines and strips of
- * triangles vertex_indices. G. Turk, "The PLY Polygon File Format", 1994. */
+/* Reads and writes PLY, the Stanford polygon format: ASCII and both binary byte orders, elements
+ * and properties in any order. Vertices have x, y and z, edges vertex1 and vertex2, faces,
+ * polylines and strips of triangles vertex_indices. Source: G. Turk, "The PLY Polygon File Format",
+ * 1994.
+ *
+ * The header declares elements (how many vertices, edges, ..), and for each of them its properties:
+ * numbers or lists of numbers. After the header come the items of each element in turn, each with
+ * its properties in order. Without a correct header nothing after it makes sense, so anything left
+ * over is an error.
+ *
+ * Example of a header:
+ *     ply
+ *     format ascii 1.0
+ *     element vertex 2
+ *     property double x
+ *     property double y
+ *     property double z
+ *     element edge 1
+ *     property int vertex1
+ *     property int vertex2
+ *     end_header */
 #include "graph/io/read_parts.h"
 
 #include <limits.h>
@@ -10,6 +28,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The types of numbers. */
 typedef enum {
   INT8,
   UINT8,
@@ -23,16 +42,19 @@ typedef enum {
   FLOAT64,
   N_TYPES
 } number_type;
+/* What a property means; X .. VERTEX_2 are indices of an item's values, too. */
 typedef enum { IGNORED, X, Y, Z, VERTEX_1, VERTEX_2, CORNERS } role;
 typedef enum { ASCII, LITTLE, BIG } encoding;
 typedef enum { OTHER, VERTEX, EDGE, FACE, LINE, STRIP } element_kind;
 
+/* A property of an element: a number, or a list that begins with its length. */
 typedef struct {
   bool list;
   number_type count, type; /* count: of a list's length */
   role role;
 } property;
 
+/* An element: a table of n items with the same properties. */
 typedef struct {
   element_kind kind;
   char name[24];
@@ -40,6 +62,7 @@ typedef struct {
   int first, last; /* its properties are first .. last - 1 */
 } element;
 
+/* The state of one reading. */
 typedef struct {
   thr_scan scan; /* the header, then, if ascii, the rest */
   thr_span line; /* ascii: what is left of the current line */
@@ -55,47 +78,54 @@ typedef struct {
   const element *now; /* the element being read, and which of its items, from 0 */
   double item;
   thr_span row; /* ascii: the line on which that item begins, if nothing stands before it */
-  /* ascii: the first item that ends before its row does, which is no fault of a stream without rows
-   */
+  /* The first item that ends before its row does (ASCII), which is no fault of a stream without
+   * rows. */
   const element *short_of; /* NULL: there is none */
   double short_item;
   int short_line, row_values, item_values;
-} ply;
+} ply_reader;
 
-/* Says that a row has more values than the header declares, which is why the numbers after it make
- * no sense. */
-static thr_status fail_at_long_row(ply *p)
+/* Records THR_EINPUT: the row has more values than the header declares, which is why the numbers
+ * after the row make no sense. */
+static thr_status fail_at_long_row(ply_reader *reader)
 {
-  p->scan.line = p->short_line;
+  reader->scan.line = reader->short_line;
   return thr_scan_fail(
-      &p->scan, p->err,
+      &reader->scan, reader->err,
       "%s %.0f: the row has %d values, the header declares %d; correct the header or export again",
-      p->short_of->name, p->short_item, p->row_values, p->item_values);
+      reader->short_of->name, reader->short_item, reader->row_values, reader->item_values);
 }
 
-static thr_status fail(ply *p, const char *what)
+/* Records THR_EINPUT about the current item, with its line if the file is ASCII. */
+static thr_status fail(ply_reader *reader, const char *what)
 {
-  if (p->short_of) return fail_at_long_row(p);
-  if (p->encoding == ASCII)
-    return thr_scan_fail(&p->scan, p->err, "%s %.0f: %s", p->now->name, p->item, what);
-  return thr_fail(p->err, THR_EINPUT, "%s: %s %.0f: %s", p->scan.name, p->now->name, p->item, what);
+  /* The long row is the cause of what was found later. */
+  if (reader->short_of) return fail_at_long_row(reader);
+  if (reader->encoding == ASCII)
+    return thr_scan_fail(&reader->scan, reader->err, "%s %.0f: %s", reader->now->name, reader->item,
+                         what);
+  return thr_fail(reader->err, THR_EINPUT, "%s: %s %.0f: %s", reader->scan.name, reader->now->name,
+                  reader->item, what);
 }
 
 /* ---- the header ---- */
 
-/* N_TYPES if the word is none. */
+/* Returns the type with this name, or N_TYPES. */
 static number_type type_named(thr_span word)
 {
   static const char *const names[N_TYPES][2] = {
       {"char", "int8"},     {"uchar", "uint8"},   {"short", "int16"}, {"ushort", "uint16"},
       {"int", "int32"},     {"uint", "uint32"},   {"long", "int64"},  {"ulong", "uint64"},
       {"float", "float32"}, {"double", "float64"}};
-  number_type t = INT8;
-  while (t < N_TYPES && !thr_span_is(word, names[t][0]) && !thr_span_is(word, names[t][1]))
-    t++;
-  return t;
+  number_type type = INT8;
+
+  while (type < N_TYPES && !thr_span_is(word, names[type][0]) && !thr_span_is(word, names[type][1]))
+    type++;
+
+  return type;
 }
 
+/* Returns what a property means, by the words that programs use. */
 static role role_of(element_kind kind, bool list, thr_span name)
 {
   static const struct {
@@ -114,16 +144,22 @@ static role role_of(element_kind kind, bool list, thr_span name)
                {EDGE, false, "v2", VERTEX_2},
                {EDGE, false, "start", VERTEX_1},
                {EDGE, false, "end", VERTEX_2}};
+
   static const char *const corners[] = {"vertex_indices", "vertex_index", "vertex_ids", "vertices",
                                         "indices"};
+
+  /* Numbers first, then lists of vertices, which all elements but vertices may have. */
   for (size_t i = 0; i < sizeof known / sizeof *known; i++)
     if (known[i].kind == kind && known[i].list == list && thr_span_is(name, known[i].name))
       return known[i].role;
+
   for (size_t i = 0; i < sizeof corners / sizeof *corners && list && kind >= EDGE; i++)
     if (thr_span_is(name, corners[i])) return CORNERS;
+
   return IGNORED;
 }
 
+/* Returns the kind of an element by its name. */
 static element_kind kind_named(thr_span word)
 {
   static const struct {
@@ -131,130 +167,170 @@ static element_kind kind_named(thr_span word)
     element_kind kind;
   } known[] = {{"vertex", VERTEX}, {"edge", EDGE},      {"face", FACE},      {"polyline", LINE},
                {"line", LINE},     {"tristrip", STRIP}, {"tristrips", STRIP}};
+
   for (size_t i = 0; i < sizeof known / sizeof *known; i++)
     if (thr_span_is(word, known[i].name)) return known[i].kind;
+
   return OTHER;
 }
 
-static thr_status read_element(ply *p, thr_span rest)
+/* Reads "element vertex 12". */
+static thr_status read_element(ply_reader *reader, thr_span rest)
 {
   thr_span name = thr_span_word(&rest), count = thr_span_word(&rest);
-  element e = {OTHER, "", 0, p->n_properties, p->n_properties};
-  if (!name.n || !thr_span_number(count, false, &e.n) || e.n < 0 || e.n != floor(e.n))
-    return thr_scan_fail(&p->scan, p->err, "an element needs a name and how many there are");
-  if (e.n > INT_MAX) return thr_scan_fail(&p->scan, p->err, "more than %d are not read", INT_MAX);
-  e.kind = kind_named(name);
-  snprintf(e.name, sizeof e.name, "%.*s", name.n < 20 ? (int)name.n : 20, name.s);
-  thr_text_clean(e.name);
-  if (e.kind == OTHER && e.n > 0) thr_report_skip(p->report, name);
-  thr_status st =
-      thr_grow(&p->element, p->n_elements, &p->elements_capacity, sizeof *p->element, p->err);
-  if (!st) p->element[p->n_elements++] = e;
+  element table = {OTHER, "", 0, reader->n_properties, reader->n_properties};
+
+  /* Numbers of 2^31 and more would not fit into the framework. */
+  if (!name.n || !thr_span_number(count, false, &table.n) || table.n < 0 ||
+      table.n != floor(table.n))
+    return thr_scan_fail(&reader->scan, reader->err,
+                         "an element needs a name and how many there are");
+
+  if (table.n > INT_MAX)
+    return thr_scan_fail(&reader->scan, reader->err, "more than %d are not read", INT_MAX);
+
+  /* A table that is not used must still be read over. */
+  table.kind = kind_named(name);
+  snprintf(table.name, sizeof table.name, "%.*s", name.n < 20 ? (int)name.n : 20, name.s);
+  thr_text_clean(table.name);
+  if (table.kind == OTHER && table.n > 0) thr_report_skip(reader->report, name);
+  thr_status st = thr_grow(&reader->element, reader->n_elements, &reader->elements_capacity,
+                           sizeof *reader->element, reader->err);
+
+  if (!st) reader->element[reader->n_elements++] = table;
   return st;
 }
 
-static thr_status read_property(ply *p, thr_span rest)
+/* Reads "property float x" or "property list uchar int vertex_indices", of the element declared
+ * last. */
+static thr_status read_property(ply_reader *reader, thr_span rest)
 {
-  property q = {0};
+  property field = {0};
   thr_span word = thr_span_word(&rest);
-  if (p->n_elements == 0)
-    return thr_scan_fail(&p->scan, p->err, "a property before the first element");
-  element *e = &p->element[p->n_elements - 1];
-  q.list = thr_span_is(word, "list");
-  if (q.list) {
-    q.count = type_named(thr_span_word(&rest));
+
+  if (reader->n_elements == 0)
+    return thr_scan_fail(&reader->scan, reader->err, "a property before the first element");
+
+  element *table = &reader->element[reader->n_elements - 1];
+
+  /* A list has a type for its length and one for its values. */
+  field.list = thr_span_is(word, "list");
+  if (field.list) {
+    field.count = type_named(thr_span_word(&rest));
     word = thr_span_word(&rest);
   }
-  q.type = type_named(word);
+
+  field.type = type_named(word);
   word = thr_span_word(&rest);
-  if (q.type == N_TYPES || q.count == N_TYPES || !word.n)
+  if (field.type == N_TYPES || field.count == N_TYPES || !word.n)
     return thr_scan_fail(
-        &p->scan, p->err,
+        &reader->scan, reader->err,
         "a property is a type (char .. double, int8 .. float64) or a list of one, and a name");
-  q.role = role_of(e->kind, q.list, word);
-  thr_status st =
-      thr_grow(&p->property, p->n_properties, &p->properties_capacity, sizeof *p->property, p->err);
+
+  /* Properties of one element follow one another. */
+  field.role = role_of(table->kind, field.list, word);
+  thr_status st = thr_grow(&reader->property, reader->n_properties, &reader->properties_capacity,
+                           sizeof *reader->property, reader->err);
   if (st) return st;
-  p->property[p->n_properties++] = q;
-  e->last = p->n_properties;
+  reader->property[reader->n_properties++] = field;
+
+  table->last = reader->n_properties;
   return THR_OK;
 }
 
-static thr_status read_format(ply *p, thr_span rest)
+/* Reads "format ascii 1.0". */
+static thr_status read_format(ply_reader *reader, thr_span rest)
 {
   static const char *const names[] = {"ascii", "binary_little_endian", "binary_big_endian"};
   thr_span word = thr_span_word(&rest);
+
+  /* The names are in the order of the encodings. */
   for (int i = ASCII; i <= BIG; i++)
     if (thr_span_is(word, names[i])) {
-      p->encoding = (encoding)i;
+      reader->encoding = (encoding)i;
       return THR_OK;
     }
+
   return thr_scan_fail(
-      &p->scan, p->err,
+      &reader->scan, reader->err,
       "the format is '%.*s'; ascii, binary_little_endian and binary_big_endian are read",
       thr_span_width(word), word.s);
 }
 
-/* Has the element a property for each role from first to last? */
-static bool has_roles(const ply *p, const element *e, role first, role last)
+/* Returns whether the element has a property for each role from first to last. */
+static bool has_roles(const ply_reader *reader, const element *table, role first, role last)
 {
   for (role r = first; r <= last; r++) {
     bool found = false;
-    for (int i = e->first; i < e->last; i++)
-      found = found || p->property[i].role == r;
+    for (int i = table->first; i < table->last; i++)
+      found = found || reader->property[i].role == r;
     if (!found) return false;
   }
   return true;
 }
 
-static thr_status check_header(ply *p)
+/* Checks that elements which are used have all that they need; THR_EINPUT else. */
+static thr_status check_header(ply_reader *reader)
 {
-  for (int i = 0; i < p->n_elements; i++) {
-    const element *e = &p->element[i];
+  for (int i = 0; i < reader->n_elements; i++) {
+    const element *table = &reader->element[i];
     const char *missing = NULL;
-    if (e->kind == VERTEX && !has_roles(p, e, X, Z))
+
+    /* What is needed depends on the kind; edges may have their ends as a list of two. */
+    if (table->kind == VERTEX && !has_roles(reader, table, X, Z))
       missing = "vertices need the properties x, y and z";
-    if (e->kind == EDGE && !has_roles(p, e, VERTEX_1, VERTEX_2) &&
-        !has_roles(p, e, CORNERS, CORNERS))
+    if (table->kind == EDGE && !has_roles(reader, table, VERTEX_1, VERTEX_2) &&
+        !has_roles(reader, table, CORNERS, CORNERS))
       missing = "edges need the properties vertex1 and vertex2";
-    if (e->kind > EDGE && !has_roles(p, e, CORNERS, CORNERS))
+    if (table->kind > EDGE && !has_roles(reader, table, CORNERS, CORNERS))
       missing = "faces and lines need the property list vertex_indices";
-    if (e->n > 0 && missing)
-      return thr_fail(p->err, THR_EINPUT, "%s: %s; export it again with them", p->scan.name,
-                      missing);
+
+    /* An element without items needs nothing. */
+    if (table->n > 0 && missing)
+      return thr_fail(reader->err, THR_EINPUT, "%s: %s; export it again with them",
+                      reader->scan.name, missing);
   }
+
   return THR_OK;
 }
 
-static thr_status read_header(ply *p)
+/* Reads the header up to the line end_header. */
+static thr_status read_header(ply_reader *reader)
 {
   thr_span line;
   bool has_format = false;
-  for (int i = 0; thr_scan_line(&p->scan, &line); i++) {
+
+  for (int i = 0; thr_scan_line(&reader->scan, &line); i++) {
     thr_span word = thr_span_word(&line);
     thr_status st = THR_OK;
     if (i == 0 && !thr_span_is(word, "ply")) break;
+
+    /* By the keyword. Other lines do not matter. */
     if (thr_span_is(word, "format")) {
-      st = read_format(p, line);
+      st = read_format(reader, line);
       has_format = true;
     } else if (thr_span_is(word, "element")) {
-      st = read_element(p, line);
+      st = read_element(reader, line);
     } else if (thr_span_is(word, "property")) {
-      st = read_property(p, line);
+      st = read_property(reader, line);
     } else if (thr_span_is(word, "comment") || thr_span_is(word, "obj_info")) {
-      st = thr_scan_units(&p->scan, line, p->draft, p->err);
+      st = thr_scan_units(&reader->scan, line, reader->draft, reader->err);
     } else if (thr_span_is(word, "end_header") && has_format) {
-      return check_header(p);
+      return check_header(reader);
     }
     if (st) return st;
   }
-  return thr_fail(p->err, THR_EINPUT, "%s: the header has no %s, so this is not a whole PLY file",
-                  p->scan.name, has_format ? "line end_header" : "lines ply and format");
+
+  /* The loop ends early only without end_header. */
+  return thr_fail(reader->err, THR_EINPUT,
+                  "%s: the header has no %s, so this is not a whole PLY file", reader->scan.name,
+                  has_format ? "line end_header" : "lines ply and format");
 }
 
 /* ---- numbers ---- */
 
-/* Is the word one that programs write for a number that is not finite: nan, -inf, 1.#QNAN? */
+/* Returns whether the word is one that programs write for a number that is not finite: nan, -inf,
+ * 1.#QNAN. */
 static bool is_not_finite(thr_span word)
 {
   static const char *const known[] = {"nan",       "inf",     "infinity", "nan(ind)",
@@ -265,18 +341,24 @@ static bool is_not_finite(thr_span word)
   return false;
 }
 
-static thr_status next_text_number(ply *p, double *x)
+/* Reads the next number of an ASCII file, NaN for any word that is not finite. */
+static thr_status next_text_number(ply_reader *reader, double *value)
 {
   thr_span word;
-  while (!(word = thr_span_word(&p->line)).n)
-    if (!thr_scan_line(&p->scan, &p->line)) return fail(p, "the file ends here; it is not whole");
-  *x = NAN;
-  if (thr_span_real(word, x) || is_not_finite(word)) return THR_OK;
-  return fail(p, "not a number");
+
+  /* Rows do not matter: a number may be on a later line. */
+  while (!(word = thr_span_word(&reader->line)).n)
+    if (!thr_scan_line(&reader->scan, &reader->line))
+      return fail(reader, "the file ends here; it is not whole");
+  *value = NAN;
+
+  if (thr_span_real(word, value) || is_not_finite(word)) return THR_OK;
+  return fail(reader, "not a number");
 }
 
-/* The bytes of a number of this machine's order as a double. */
-static double number_of(const unsigned char *b, number_type type)
+/* Returns a number as a double; the first bytes of b[8] are the number in this machine's byte
+ * order. */
+static double number_of(const unsigned char *bytes, number_type type)
 {
   union {
     uint64_t bits;
@@ -289,22 +371,25 @@ static double number_of(const unsigned char *b, number_type type)
     int64_t i64;
     float f;
     double d;
-  } u = {0};
-  memcpy(u.bytes, b, 8);
+  } number = {0};
+
+  /* memcpy makes no assumption about alignment. */
+  memcpy(number.bytes, bytes, 8);
   switch (type) {
-  case INT8: return u.i8;
-  case UINT8: return u.bytes[0];
-  case INT16: return u.i16;
-  case UINT16: return u.u16;
-  case INT32: return u.i32;
-  case UINT32: return u.u32;
-  case INT64: return (double)u.i64;
-  case UINT64: return (double)u.bits;
-  case FLOAT32: return u.f;
-  default: return u.d;
+  case INT8: return number.i8;
+  case UINT8: return number.bytes[0];
+  case INT16: return number.i16;
+  case UINT16: return number.u16;
+  case INT32: return number.i32;
+  case UINT32: return number.u32;
+  case INT64: return (double)number.i64;
+  case UINT64: return (double)number.bits;
+  case FLOAT32: return number.f;
+  default: return number.d;
   }
 }
 
+/* Returns whether this machine stores the highest byte of a number first. */
 static bool this_machine_is_big(void)
 {
   const uint16_t one = 1;
@@ -313,91 +398,118 @@ static bool this_machine_is_big(void)
   return first == 0;
 }
 
-static thr_status next_binary_number(ply *p, number_type type, double *x)
+/* Reads the next number of a binary file. */
+static thr_status next_binary_number(ply_reader *reader, number_type type, double *value)
 {
   static const unsigned char size[N_TYPES] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
-  unsigned char b[8] = {0};
+  unsigned char bytes[8] = {0};
   size_t n = size[type];
-  if ((size_t)(p->scan.end - p->scan.at) < n) return fail(p, "the file ends here; it is not whole");
-  const bool turn = (p->encoding == BIG) != this_machine_is_big();
+
+  if ((size_t)(reader->scan.end - reader->scan.at) < n)
+    return fail(reader, "the file ends here; it is not whole");
+
+  /* Turn the bytes round if the file's order is not this machine's. */
+  const bool turn = (reader->encoding == BIG) != this_machine_is_big();
   for (size_t i = 0; i < n; i++)
-    b[i] = (unsigned char)p->scan.at[turn ? n - 1 - i : i];
-  p->scan.at += n;
-  *x = number_of(b, type);
+    bytes[i] = (unsigned char)reader->scan.at[turn ? n - 1 - i : i];
+
+  reader->scan.at += n;
+  *value = number_of(bytes, type);
   return THR_OK;
 }
 
-/* Reads a number, which may be NaN or infinite where nobody uses it. */
-static thr_status next_number(ply *p, number_type type, bool used, double *x)
+/* Reads a number. A number that is used must be finite; others may be NaN or infinite. */
+static thr_status next_number(ply_reader *reader, number_type type, bool used, double *value)
 {
-  thr_status st = p->encoding == ASCII ? next_text_number(p, x) : next_binary_number(p, type, x);
-  return st || !used || isfinite(*x) ? st : fail(p, "not a finite number");
+  thr_status st = reader->encoding == ASCII ? next_text_number(reader, value)
+                                            : next_binary_number(reader, type, value);
+  return st || !used || isfinite(*value) ? st : fail(reader, "not a finite number");
 }
 
 /* ---- items ---- */
 
-/* Adds a corner to a face; to a polyline the edge from the corner before it, to a strip of
- * triangles the triangle with the two before it. run holds the last two corners of n since the list
- * began or since the last -1, which begins a strip anew. */
-static thr_status corner(ply *p, double x, int run[2], int *n)
+/* Appends a corner to a face; to a polyline, the edge from the corner before; to a strip of
+ * triangles, the triangle with the two corners before. run holds the last two corners, by parity,
+ * of the *n since the list began or since the last -1, which begins a strip anew. */
+static thr_status corner(ply_reader *reader, double value, int run[2], int *n)
 {
-  if (x == -1 && p->now->kind == STRIP) {
+  /* A -1 is no vertex. */
+  if (value == -1 && reader->now->kind == STRIP) {
     *n = 0;
     return THR_OK;
   }
-  if (x != floor(x) || x < 0 || x > INT_MAX)
-    return fail(p, "a vertex number must be a whole number from 0");
-  if (p->now->kind == FACE) return thr_faces_corner(&p->faces, (int)x, p->err);
-  const int k = p->now->kind == STRIP ? 2 : 1;
+
+  /* Vertices are counted from 0. Whether they exist is checked at the end. */
+  if (value != floor(value) || value < 0 || value > INT_MAX)
+    return fail(reader, "a vertex number must be a whole number from 0");
+
+  if (reader->now->kind == FACE) return thr_faces_corner(&reader->faces, (int)value, reader->err);
+
+  /* Each corner after the first k completes an edge (k = 1) or a triangle (k = 2). */
+  const int needed = reader->now->kind == STRIP ? 2 : 1;
   thr_status st = THR_OK;
-  if (*n >= k) {
-    const int corners[3] = {run[(*n - k) % 2], run[(*n - 1) % 2], (int)x};
-    st = k == 2 ? thr_faces_add(&p->faces, corners, 3, p->err)
-                : thr_faces_add(&p->faces, corners + 1, 2, p->err);
+  if (*n >= needed) {
+    const int corners[3] = {run[(*n - needed) % 2], run[(*n - 1) % 2], (int)value};
+    st = needed == 2 ? thr_faces_add(&reader->faces, corners, 3, reader->err)
+                     : thr_faces_add(&reader->faces, corners + 1, 2, reader->err);
   }
-  run[(*n)++ % 2] = (int)x;
+
+  run[(*n)++ % 2] = (int)value;
   return st;
 }
 
-static thr_status read_list(ply *p, const property *q)
+/* Reads a list: its length, then its values, which count as corners if the property says so. */
+static thr_status read_list(ply_reader *reader, const property *field)
 {
-  double n, x;
+  double length, value;
   int run[2], n_run = 0;
-  thr_status st = next_number(p, q->count, true, &n);
-  if (!st && (n < 0 || n != floor(n)))
-    return fail(p, "the length of a list must be a whole number from 0");
-  for (double i = 0; !st && i < n; i++) {
-    st = next_number(p, q->type, q->role == CORNERS, &x);
-    if (!st && q->role == CORNERS) st = corner(p, x, run, &n_run);
+  thr_status st = next_number(reader, field->count, true, &length);
+
+  /* NaN has been refused, so the loop ends. */
+  if (!st && (length < 0 || length != floor(length)))
+    return fail(reader, "the length of a list must be a whole number from 0");
+  for (double i = 0; !st && i < length; i++) {
+    st = next_number(reader, field->type, field->role == CORNERS, &value);
+    if (!st && field->role == CORNERS) st = corner(reader, value, run, &n_run);
   }
+
   return st;
 }
 
-static thr_status read_item(ply *p)
+/* Reads one item of the current element: all its properties, then what they make. */
+static thr_status read_item(ply_reader *reader)
 {
   double value[CORNERS] = {0};
   thr_status st = THR_OK;
-  for (int i = p->now->first; i < p->now->last && !st; i++) {
-    const property *q = &p->property[i];
-    double x = 0;
-    if (q->list) {
-      st = read_list(p, q);
+
+  /* Values by role; those of IGNORED properties overwrite each other. */
+  for (int i = reader->now->first; i < reader->now->last && !st; i++) {
+    const property *field = &reader->property[i];
+    double number = 0;
+    if (field->list) {
+      st = read_list(reader, field);
       continue;
     }
-    st = next_number(p, q->type, q->role != IGNORED, &x);
-    if (!st) value[q->role] = x;
+    st = next_number(reader, field->type, field->role != IGNORED, &number);
+    if (!st) value[field->role] = number;
   }
-  if (!st && p->now->kind == VERTEX) {
+
+  if (!st && reader->now->kind == VERTEX) {
+    /* Adding 0. makes 0 of -0. */
     const double xyz[3] = {value[X] + 0., value[Y] + 0., value[Z] + 0.};
-    st = thr_draft_add_node(p->draft, xyz, NULL, false, p->err);
+    st = thr_draft_add_node(reader->draft, xyz, NULL, false, reader->err);
   }
+
+  /* An edge is a polyline of two corners. Lists have made their corners already. */
   int run[2], n_run = 0;
-  if (!st && p->now->kind == EDGE && has_roles(p, p->now, VERTEX_1, VERTEX_2))
-    st = corner(p, value[VERTEX_1], run, &n_run);
-  if (!st && n_run) st = corner(p, value[VERTEX_2], run, &n_run);
-  return st ? st : thr_faces_close(&p->faces, p->err);
+  if (!st && reader->now->kind == EDGE && has_roles(reader, reader->now, VERTEX_1, VERTEX_2))
+    st = corner(reader, value[VERTEX_1], run, &n_run);
+
+  if (!st && n_run) st = corner(reader, value[VERTEX_2], run, &n_run);
+  return st ? st : thr_faces_close(&reader->faces, reader->err);
 }
 
+/* Returns the number of words of a line. */
 static int count_words(thr_span line)
 {
   int n = 0;
@@ -407,108 +519,135 @@ static int count_words(thr_span line)
 }
 
 /* Moves to the next line that is not blank, if the current one is used up. */
-static void begin_row(ply *p)
+static void begin_row(ply_reader *reader)
 {
-  p->row = (thr_span){0};
-  if (p->encoding != ASCII || thr_span_trim(p->line).n) return;
-  while (!thr_span_trim(p->line).n && thr_scan_line(&p->scan, &p->line)) {
+  reader->row = (thr_span){0};
+  if (reader->encoding != ASCII || thr_span_trim(reader->line).n) return;
+  while (!thr_span_trim(reader->line).n && thr_scan_line(&reader->scan, &reader->line)) {
   }
-  p->row = thr_span_trim(p->line); /* ends where the words do */
+  reader->row = thr_span_trim(reader->line); /* ends where the words do */
 }
 
 /* Remembers the first item that leaves values of its row over. */
-static void end_row(ply *p)
+static void end_row(ply_reader *reader)
 {
-  if (p->short_of || !p->row.n || !thr_span_trim(p->line).n ||
-      p->line.s + p->line.n != p->row.s + p->row.n)
+  /* Only rows that the item began count: what is left must be the end of the same row. */
+  if (reader->short_of || !reader->row.n || !thr_span_trim(reader->line).n ||
+      reader->line.s + reader->line.n != reader->row.s + reader->row.n)
     return;
-  p->short_of = p->now;
-  p->short_item = p->item;
-  p->short_line = p->scan.line;
-  p->row_values = count_words(p->row);
-  p->item_values = p->row_values - count_words(p->line);
+
+  reader->short_of = reader->now;
+  reader->short_item = reader->item;
+  reader->short_line = reader->scan.line;
+  reader->row_values = count_words(reader->row);
+  reader->item_values = reader->row_values - count_words(reader->line);
 }
 
 /* Refuses a file in which anything but blanks is left after the items that its header declares:
- * then the rows have more values than the header says, and every item after the first may be wrong.
- */
-static thr_status check_end(ply *p)
+ * then the rows have more values than the header says, and every item after the first one may be
+ * wrong. */
+static thr_status check_end(ply_reader *reader)
 {
-  if (p->encoding == ASCII) {
-    begin_row(p);
-    if (!thr_span_trim(p->line).n) return THR_OK;
-    if (p->short_of) return fail_at_long_row(p);
+  /* ASCII: the next row. */
+  if (reader->encoding == ASCII) {
+    begin_row(reader);
+    if (!thr_span_trim(reader->line).n) return THR_OK;
+    if (reader->short_of) return fail_at_long_row(reader);
     return thr_scan_fail(
-        &p->scan, p->err,
+        &reader->scan, reader->err,
         "this is left after all that the header declares; correct the header or export again");
   }
-  const size_t left = (size_t)(p->scan.end - p->scan.at);
+
+  /* Binary: the bytes that are left. */
+  const size_t left = (size_t)(reader->scan.end - reader->scan.at);
   size_t blanks = 0;
-  while (blanks < left && strchr(" \t\r\n", p->scan.at[blanks]) && p->scan.at[blanks])
+  while (blanks < left && strchr(" \t\r\n", reader->scan.at[blanks]) && reader->scan.at[blanks])
     blanks++;
+
   if (blanks == left) return THR_OK;
+
+  /* Say what the header declares, so that the user finds what is missing. */
   char rows[160] = "";
-  for (int i = 0, at = 0; i < p->n_elements && at < (int)sizeof rows; i++)
+  for (int i = 0, at = 0; i < reader->n_elements && at < (int)sizeof rows; i++)
     at += snprintf(rows + at, sizeof rows - (size_t)at, "%s%.0f %s with %d", i ? ", " : "",
-                   p->element[i].n, p->element[i].name, p->element[i].last - p->element[i].first);
-  return thr_fail(p->err, THR_EINPUT,
+                   reader->element[i].n, reader->element[i].name,
+                   reader->element[i].last - reader->element[i].first);
+
+  return thr_fail(reader->err, THR_EINPUT,
                   "%s: %zu bytes are left after the values that the header declares (%s); correct "
                   "the header or export again",
-                  p->scan.name, left, rows);
+                  reader->scan.name, left, rows);
 }
 
-static thr_status read_items(ply *p)
+/* Reads all items of all elements. */
+static thr_status read_items(ply_reader *reader)
 {
   thr_status st = THR_OK;
-  for (int i = 0; i < p->n_elements && !st; i++) {
-    p->now = &p->element[i];
-    if (p->now->first == p->now->last) continue; /* nothing is written of these */
-    for (p->item = 0; p->item < p->now->n && !st; p->item++) {
-      begin_row(p);
-      st = read_item(p);
-      if (!st) end_row(p);
+
+  for (int i = 0; i < reader->n_elements && !st; i++) {
+    /* An element without properties takes no bytes. */
+    reader->now = &reader->element[i];
+    if (reader->now->first == reader->now->last) continue; /* nothing is written of these */
+    for (reader->item = 0; reader->item < reader->now->n && !st; reader->item++) {
+      begin_row(reader);
+      st = read_item(reader);
+      if (!st) end_row(reader);
     }
   }
-  return st ? st : check_end(p);
+
+  return st ? st : check_end(reader);
 }
 
+/* Reads a text as thr_format.parse demands. */
 static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n,
                         const char *name, thr_err *err)
 {
-  ply p = {.scan = {name, text, text + n, 1, 1}, .draft = draft, .report = report, .err = err};
-  thr_status st = n ? read_header(&p) : thr_fail(err, THR_EINPUT, "%s: the file is empty", name);
-  if (!st) st = read_items(&p);
-  if (!st) st = thr_faces_finish(&p.faces, draft, name, err);
+  ply_reader reader = {
+      .scan = {name, text, text + n, 1, 1}, .draft = draft, .report = report, .err = err};
+  thr_status st =
+      n ? read_header(&reader) : thr_fail(err, THR_EINPUT, "%s: the file is empty", name);
+
+  /* Nodes may be named before they come, so edges are made last. */
+  if (!st) st = read_items(&reader);
+  if (!st) st = thr_faces_finish(&reader.faces, draft, name, err);
   if (!st && draft->n_edges == 0)
     st = thr_fail(err, THR_EINPUT,
                   "%s: no edges and no faces, only %d points; export the lines or the mesh", name,
                   draft->n_nodes);
-  thr_faces_destroy(&p.faces);
-  free(p.element);
-  free(p.property);
+
+  thr_faces_destroy(&reader.faces);
+  free(reader.element);
+  free(reader.property);
+
   return st;
 }
 
+/* Returns whether a text begins as PLY. */
 static bool begins(thr_span line)
 {
   return thr_span_is(line, "ply");
 }
 
-/* Feet and lengths of their own are lost. */
+/* Writes a framework. Feet and lengths of their own are lost, because PLY has no words for them. */
 static void write(const thr_frame *frame, thr_text *out)
 {
+  /* The header. */
   thr_text_append(out, "ply\nformat ascii 1.0\ncomment units: ");
   thr_text_append_clean(out, frame->units);
   thr_text_printf(out,
                   "\nelement vertex %d\nproperty double x\nproperty double y\nproperty double z\n",
                   frame->n_nodes);
+
   thr_text_printf(out, "element edge %d\nproperty int vertex1\nproperty int vertex2\nend_header\n",
                   frame->n_edges);
+
+  /* The items: vertices, then edges. */
   for (int v = 0; v < frame->n_nodes; v++)
     for (int i = 0; i < 3; i++) {
       thr_text_double(out, frame->xyz[v][i]);
       thr_text_byte(out, i < 2 ? ' ' : '\n');
     }
+
   for (int e = 0; e < frame->n_edges; e++)
     thr_text_printf(out, "%d %d\n", frame->edge[e][0], frame->edge[e][1]);
 }

@@ -6,6 +6,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+/* Begins the line that was asked for, with its blanks. */
 static void break_line(thr_writer *writer)
 {
   thr_text_byte(writer->out, '\n');
@@ -14,15 +15,17 @@ static void break_line(thr_writer *writer)
   writer->line = 0;
 }
 
+/* Writes a key and its colon. */
 static void put_key(const thr_writer *writer, const char *key)
 {
   thr_text_json_string(writer->out, key);
   thr_text_append(writer->out, writer->compact ? ":" : ": ");
 }
 
-/* What stands before a value. */
+/* Writes what comes before a value: a comma, a blank or a new line, and the key. */
 static inline void begin(thr_writer *writer, const char *key)
 {
+  /* A new line replaces the blank after the comma. */
   const bool tight = writer->compact || (writer->tight & 1);
   if (writer->some) thr_text_byte(writer->out, ',');
   if (writer->some && !tight && !writer->line) thr_text_byte(writer->out, ' ');
@@ -31,8 +34,10 @@ static inline void begin(thr_writer *writer, const char *key)
   if (key) put_key(writer, key);
 }
 
+/* Opens an object or an array; it has no member yet. */
 static void enter(thr_writer *writer, const char *key, bool array, bool tight)
 {
+  /* The innermost bracket is the lowest bit. */
   begin(writer, key);
   thr_text_byte(writer->out, array ? '[' : '{');
   writer->array = writer->array << 1 | array;
@@ -112,6 +117,7 @@ void thr_write_ints(thr_writer *writer, const char *key, const int *value, int n
 
 void thr_write_words(thr_writer *writer, const char *key, thr_text *words)
 {
+  /* A text that failed lacks bytes, so the whole document fails. */
   thr_write_string(writer, key, words->data && !words->failed ? words->data : "");
   if (words->failed) writer->out->failed = true;
   thr_text_destroy(words);
@@ -120,10 +126,13 @@ void thr_write_words(thr_writer *writer, const char *key, thr_text *words)
 void thr_write_printf(thr_writer *writer, const char *key, const char *format, ...)
 {
   char value[64];
+
+  /* All values that are formatted here are short. */
   va_list arguments;
   va_start(arguments, format);
   vsnprintf(value, sizeof value, format, arguments);
   va_end(arguments);
   begin(writer, key);
+
   thr_text_append(writer->out, value);
 }

@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How what is threaded holds together while it is threaded. A loose chain is what the cord picks
- * up, piece after piece, until it comes to a piece that is on a cord already: so long it swings.
- * The piece that a cord begins with holds it, and is not counted.
+/* Measures how what is threaded holds together while it is being threaded. A loose chain is the
+ * pieces that the cord picks up one after the other until it comes to a piece that is on a cord
+ * already: so long is what swings. The piece that a cord begins with holds the cord, and is not
+ * counted.
  *
  * A piece is a node with solid joints, and an edge with tube joints. A cord is threaded from its
- * start with one needle; or from its fold, near the middle, with two: with the right one first, to
- * the end, then with the left one back to the start. Each needle draws through about half of the
- * cord then. */
+ * start with one needle; or from its fold, near the middle, with two needles: first with the right
+ * one to the end, then with the left one back to the start. Each needle draws through about half of
+ * the cord then.
+ *
+ * Example: a cord through pieces 1 2 3 4 2 of which 4 is on a cord already: the loose chain 2 3,
+ * which is 2 pieces long; then 2 is met again. */
 #include "graph/plan/plan_measures.h"
 
 #include <stdlib.h>
@@ -36,17 +40,22 @@ bool thr_cord_folded(int needles, const thr_cord *cord)
                       : needles == 2 && cord->n_passes >= THR_FOLD_LEAST;
 }
 
+/* From the fold on, what is left is at most half of the cord. */
 int thr_cord_fold(const thr_frame *frame, int needles, const thr_cord *cord)
 {
   if (!thr_cord_folded(needles, cord)) return 0;
   const double whole = thr_cord_length(frame, cord) * (1 - THR_FOLD_ROUNDING);
   int k = 1;
   double here = frame->length[cord->half[0] >> 1], next = here + frame->length[cord->half[1] >> 1];
+
+  /* here and next: where pass k begins, and where pass k + 1 does; twice their mean is compared
+   * with the whole. */
   while (here + next < whole) {
     k++;
     here = next;
     next += frame->length[cord->half[k] >> 1];
   }
+
   return k;
 }
 
@@ -60,8 +69,11 @@ int thr_chains_pieces(const thr_frame *frame, thr_joint joint)
 int thr_cord_pieces(const thr_frame *frame, thr_joint joint, const thr_cord *cord, int *piece)
 {
   int n = cord->n_passes;
+
+  /* Before each pass a node, and one after the last; or the edges themselves. */
   for (int k = 0; k < n; k++)
     piece[k] = joint == THR_JOINT_TUBE ? cord->half[k] >> 1 : thr_tail(frame, cord->half[k]);
+
   if (joint == THR_JOINT_SOLID) piece[n++] = thr_cord_end(frame, cord);
   return n;
 }
@@ -86,7 +98,8 @@ void thr_threaded_keep(thr_threaded *threaded, const int *piece, int n)
     threaded->on[piece[i]] = THR_KEPT;
 }
 
-/* Is it on a cord already? From now on it is. */
+/* Puts a piece on the cord of the present trial; returns whether the piece was on a cord
+ * already. */
 static inline bool thread_piece(thr_threaded *threaded, int piece)
 {
   int *on = &threaded->on[piece];
@@ -95,11 +108,14 @@ static inline bool thread_piece(thr_threaded *threaded, int piece)
   return false;
 }
 
-/* Pieces from .. end, end left out, up or down. Returns how many chains there are then. */
+/* Threads the pieces from .. end, without end, upwards or downwards. Appends the lengths of the
+ * loose chains to chain, and returns their number. */
 static int thread_row(thr_threaded *threaded, const int *piece, int from, int end, int *chain,
                       int chains)
 {
   int loose = 0, step = from < end ? 1 : -1;
+
+  /* A piece that is on a cord already ends the chain before it. */
   for (int k = from; k != end; k += step) {
     if (!thread_piece(threaded, piece[k])) {
       loose++;
@@ -108,12 +124,15 @@ static int thread_row(thr_threaded *threaded, const int *piece, int from, int en
       loose = 0;
     }
   }
+
+  /* The last chain ends with the cord. */
   if (loose) chain[chains++] = loose;
   return chains;
 }
 
 int thr_threaded_try(thr_threaded *threaded, const int *piece, int n, int fold, int *chain)
 {
+  /* The first piece holds the cord; from there one needle, then the other. */
   threaded->trial++;
   thread_piece(threaded, piece[fold]);
   int chains = thread_row(threaded, piece, fold + 1, n, chain, 0);
@@ -122,10 +141,13 @@ int thr_threaded_try(thr_threaded *threaded, const int *piece, int n, int fold, 
 
 /* ---- plans ---- */
 
+/* Lists each path, followed by its copies. */
 void thr_plan_work(const thr_plan *plan, int *order)
 {
   int n = 0;
+
   for (int path = 0; path < plan->n_cords; path++) {
+    /* Without symmetry every cord is a path of its own. */
     const int *unique = plan->symmetry.present ? plan->symmetry.unique : NULL;
     if (unique && unique[path] != path) continue;
     order[n++] = path;
@@ -134,13 +156,19 @@ void thr_plan_work(const thr_plan *plan, int *order)
   }
 }
 
+/* Threads the plan's cords in their order of work, and adds up the loose chains: the longest one,
+ * and the sum of squares of their lengths, which prefers many short ones. */
 thr_status thr_plan_chains(const thr_plan *plan, int needles, thr_chains *chains, thr_err *err)
 {
   thr_threaded threaded = {0};
   int most = 0;
   *chains = (thr_chains){0};
+
+  /* The longest cord tells how much space is needed. */
   for (int c = 0; c < plan->n_cords; c++)
     most = plan->cord[c].n_passes > most ? plan->cord[c].n_passes : most;
+
+  /* Space for the pieces of one cord. */
   int *order = thr_calloc((size_t)plan->n_cords + 1, sizeof *order),
       *piece = thr_calloc((size_t)most + 1, sizeof *piece),
       *chain = thr_calloc((size_t)most + 1, sizeof *chain);
@@ -148,6 +176,8 @@ thr_status thr_plan_chains(const thr_plan *plan, int needles, thr_chains *chains
                       ? thr_threaded_init(&threaded, &plan->frame, plan->options.joint, err)
                       : thr_nomem(err);
   if (!st) thr_plan_work(plan, order);
+
+  /* Cord after cord, as they are threaded; each one stays. */
   for (int i = 0; i < plan->n_cords && !st; i++) {
     const thr_cord *cord = &plan->cord[order[i]];
     int n = thr_cord_pieces(&plan->frame, plan->options.joint, cord, piece);
@@ -156,9 +186,11 @@ thr_status thr_plan_chains(const thr_plan *plan, int needles, thr_chains *chains
         *chains, thr_chains_of(chain, thr_threaded_try(&threaded, piece, n, fold, chain)));
     thr_threaded_keep(&threaded, piece, n);
   }
+
   thr_threaded_destroy(&threaded);
   free(order);
   free(piece);
   free(chain);
+
   return st;
 }

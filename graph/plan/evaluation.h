@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What eval/ found about a plan, as plan.json has it. */
+/* What eval/ found about a plan, as plan.json has it: tensions in N by pass, forces at the ends,
+ * the schedule after which they hold, and the proofs of a limit analysis. */
 #ifndef THR_EVALUATION_H
 #define THR_EVALUATION_H
 

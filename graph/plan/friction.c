@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How the tension of a cord falls over its turns: by a factor, or, where friction grows with less
- * than the load, by more where it is slack.
+/* Computes how the tension T of a cord falls over its turns: by a factor (the capstan law) or,
+ * where friction grows with less than the load, by more where the cord is slack.
  *
- * Howell (J. Textile Inst. 44, 1953, T359) found F = a N^n for fibres, n between 2/3 and 1. Then dT
- * / d(turning) = mu T0^(1-n) T^n, mu the coefficient at the tension T0, and T^(1-n) grows by (1-n)
- * mu T0^(1-n) a radian: what adds up along a cord is u(T) =
- * ((T / T0)^(1-n) - 1) / (1-n), which is ln(T / T0) for n = 1, and a turn holds two tensions apart
- * by its exponent mu x angle in u. (J. H. Jung, N. Pan & T. J. Kang, Tribology International 41,
- * 2008, have this law with the cord's stiffness.)
+ * Howell (J. Textile Inst. 44, 1953, T359) found F = a N^n for fibres, with n between 2/3 and 1.
+ * Then dT / d(turning) = mu T0^(1-n) T^n, with mu the coefficient at the tension T0, and T^(1-n)
+ * grows by (1-n) mu T0^(1-n) per radian. So what adds up along a cord is u(T) = ((T / T0)^(1-n) -
+ * 1) / (1-n), which is ln(T / T0) for n = 1, and a turn holds two tensions apart by its exponent mu
+ * x angle in u. (J. H. Jung, N. Pan & T. J. Kang, Tribology International 41, 2008, have this law
+ * with the cord's stiffness.)
  *
- * Example: n = 1/2, T0 = 1 N, exponent 1: 4 N becomes (2 - 1/2)^2 = 2.25 N, and 0.25 N becomes 0:
- * it holds by itself. */
+ * Example: n = 1/2, T0 = 1 N, exponent 1: 4 N becomes (2 - 1/2)^2 = 2.25 N, and 0.25 N becomes 0 N,
+ * so that the cord holds by itself. */
 #include "graph/plan/physics.h"
 
 #include <math.h>
@@ -21,7 +21,8 @@ thr_friction thr_friction_of(const thr_physics *physics)
   return (thr_friction){power ? physics->mu_power : 1, physics->mu_tension};
 }
 
-/* u of tension + exponent as a tension again, with the digits that n near 1 asks for. */
+/* Returns the tension T at which u(T) is u(tension) + exponent; 0 if there is none, because u has
+ * the least value -1 / (1-n). expm1 and log1p keep the digits that n near 1 needs. */
 static double moved(const thr_friction *friction, double tension, double exponent)
 {
   const double rest = 1 - friction->power,

@@ -2,10 +2,11 @@
 /* Computes the least pull that seats every pass of a cord whose ends are both pulled.
  *
  * A pass has to be reached from one end only. So there is always one turn that the cord slides over
- * from neither end: the start's pull overcomes the turns before it, the end's pull those after it.
- * The least pull parts the cord at the turn for which the larger of both sums is least. By the
- * capstan law the pull at an end is the seating tension times exp(mu x its sum). What a turn costs
- * may be any number that is not negative (an angle, an exponent), as only sums are compared.
+ * from neither end: the start's pull overcomes the turns before that turn, the end's pull those
+ * after it. The least pull parts the cord at the turn for which the larger of both sums is least.
+ * By the capstan law the pull at an end is the seating tension times exp(mu x sum). What a turn
+ * costs may be any number that is not negative (an angle in rad, an exponent), because only sums
+ * are compared.
  *
  * Example: turns of 30, 90 and 60 degrees are parted at the 90: 30 degrees are left to the start,
  * 60 to the end. */
@@ -18,8 +19,11 @@ double thr_parting_larger(const thr_parting *parting)
   return fmax(parting->start, parting->end);
 }
 
+/* Returns both sums where the cord is parted at a turn. sum[i] is the sum of all turns before turn
+ * i; first == last is a cord without turns. */
 static thr_parting part_at(const double *sum, int first, int last, int turn)
 {
+  /* The turn itself belongs to neither sum; the last pass has no turn after it. */
   return (thr_parting){
       .turn = turn,
       .start = sum[turn] - sum[first],
@@ -27,6 +31,8 @@ static thr_parting part_at(const double *sum, int first, int last, int turn)
   };
 }
 
+/* Searches by halving: the larger of an ascending and a descending sum is least where they
+ * cross. */
 thr_parting thr_least_pull(const double *sum, int first, int last)
 {
   if (first == last) return part_at(sum, first, last, first);
@@ -48,29 +54,36 @@ thr_parting thr_least_pull(const double *sum, int first, int last)
   const thr_parting best = part_at(sum, first, last, low);
   if (low == first) return best;
   const thr_parting before = part_at(sum, first, last, low - 1);
+
   return thr_parting_larger(&before) < thr_parting_larger(&best) ? before : best;
 }
 
+/* Returns what sums of turns may differ by because of rounding. */
 static double rounding_of(const double *sum, int first, int last)
 {
   return 1e-12 * (1 + sum[last] - sum[first]);
 }
 
+/* Looks at all turns whose larger sum is as small as the best one's. */
 double thr_least_pull_other(const double *sum, int first, int last)
 {
+  /* The smaller of both sums, among all turns at which the larger one is least. */
   const thr_parting best = thr_least_pull(sum, first, last);
   const double most = thr_parting_larger(&best) + rounding_of(sum, first, last);
   double least = fmin(best.start, best.end);
+
   for (int k = first; k < last; k++) {
     const thr_parting other = part_at(sum, first, last, k);
     if (thr_parting_larger(&other) <= most) least = fmin(least, fmin(other.start, other.end));
   }
+
   return least;
 }
 
 /* Says which of the turns i < k comes first whichever end of the cord is called its start. */
 static bool comes_first(const int *half, int n_passes, int i, int k)
 {
+  /* The one nearer to the middle; of two that are equally near the edges around them decide. */
   const int last = n_passes - 2;
   if (i + k != last) return i + k > last;
   for (int before = i + 1, after = k; before >= 0; before--, after++)
@@ -78,6 +91,7 @@ static bool comes_first(const int *half, int n_passes, int i, int k)
   return true; /* the cord is the same from either end */
 }
 
+/* Chooses among all best partings by a rule that does not depend on which end is the start. */
 thr_parting thr_least_pull_of(const double *sum, const int *half, int n_passes)
 {
   const int last = n_passes - 1;
@@ -93,6 +107,7 @@ thr_parting thr_least_pull_of(const double *sum, const int *half, int n_passes)
       continue;
     if (first < 0 || !comes_first(half, n_passes, first, k)) first = k;
   }
+
   return first < 0 ? best : part_at(sum, 0, last, first);
 }
 

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the simulation is told about cord and beads: friction, sizes, weights. One table
- * (thr_physics_fields) drives the command line, the config file and plan.json, so that a quantity
- * is named, bounded and explained once.
+/* Keeps what is known of cord and beads: friction, sizes, weights. One table of fields drives the
+ * command line, the config file and plan.json, so that a quantity is named, bounded and explained
+ * once; presets have values with their sources. Where a value is 0 = "work it out", it follows from
+ * the framework (thr_physics_resolve).
  *
- * Physical quantities: one table of fields, presets, JSON, and what follows from the framework. */
+ * Example: with edges of 20 mm in the median, the cord gets 20 / 20 = 1 mm, the bore 2 mm, and a
+ * bead's arm max(0.35 x 20, 1.5 x 2) = 7 mm. */
 #include "graph/plan/physics.h"
 #include "graph/arrays.h"
 #include "graph/text.h"
@@ -14,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The fields, in the order in which they are written. */
 enum {
   MU,
   MU_LOW,
@@ -34,7 +37,10 @@ enum {
   BEAD_STRENGTH
 };
 
+/* A field's key and its place in thr_physics. */
 #define FIELD(name) #name, offsetof(thr_physics, name)
+/* Key, place, least and largest value, whether 0 is refused, whether 0 stays 0 (optional), unit,
+ * help. */
 const thr_physics_field thr_physics_fields[] = {
     [MU] = {FIELD(mu), 0, 2, false, false, "", "friction coefficient, cord on bead"},
     [MU_LOW] = {FIELD(mu_low), 0, 2, false, false, "",
@@ -70,6 +76,7 @@ const thr_physics_field thr_physics_fields[] = {
 };
 const int thr_physics_n_fields = (int)(sizeof thr_physics_fields / sizeof *thr_physics_fields);
 
+/* What all presets have in common: 1 N of seating tension, and standard gravity in m/s2. */
 #define COMMON .seating = 1, .gravity = 9.80665
 const thr_physics_preset thr_physics_presets[] = {
     {"pla-cotton",
@@ -194,6 +201,7 @@ thr_physics thr_physics_default(void)
 
 /* ---- by name ---- */
 
+/* Returns whether a given key is the field's, with dashes or underscores. */
 static bool same_key(const char *key, const char *given)
 {
   for (; *key && *given; key++, given++)
@@ -215,6 +223,7 @@ double thr_physics_get(const thr_physics *physics, const thr_physics_field *fiel
   return value;
 }
 
+/* Returns the preset with this name, or NULL. */
 static const thr_physics_preset *find_preset(const char *name)
 {
   for (int i = 0; i < thr_physics_n_presets; i++)
@@ -222,7 +231,8 @@ static const thr_physics_preset *find_preset(const char *name)
   return NULL;
 }
 
-/* A preset's band is about the preset's cord and bead, not about a mu that somebody measured. */
+/* Drops the band of mu that came with a preset, because that band is about the preset's cord and
+ * bead, not about a mu that somebody measured. A band that was set stays. */
 static void drop_preset_band(thr_physics *physics)
 {
   const thr_physics_preset *from = find_preset(physics->preset);
@@ -231,7 +241,7 @@ static void drop_preset_band(thr_physics *physics)
   physics->mu_low = physics->mu_high = 0;
 }
 
-/* "expected 0 to 2", "expected more than 0 N, up to 1e+09 N". */
+/* Writes "expected 0 to 2", or "expected more than 0 N, up to 1e+09 N". */
 static void describe_range(const thr_physics_field *field, char *text, size_t n)
 {
   const char *space = *field->unit ? " " : "";
@@ -242,86 +252,112 @@ static void describe_range(const thr_physics_field *field, char *text, size_t n)
     snprintf(text, n, "expected %g to %g%s%s", field->low, field->high, space, field->unit);
 }
 
+/* Checks the range of a field, and sets the field. */
 thr_status thr_physics_set(thr_physics *physics, const thr_physics_field *field, double value,
                            thr_err *err)
 {
+  /* NaN is out of range, too. */
   if (!(value >= field->low && value <= field->high) || (field->positive && !(value > 0))) {
     char range[96];
     describe_range(field, range, sizeof range);
     return thr_fail(err, THR_EINPUT, "%s: %g is out of range; %s", field->key, value, range);
   }
+
   if (field == &thr_physics_fields[MU] && value != physics->mu) drop_preset_band(physics);
   memcpy((char *)physics + field->offset, &value, sizeof value);
   return THR_OK;
 }
 
+/* Replaces all values by those of a preset. */
 thr_status thr_physics_set_preset(thr_physics *physics, const char *name, thr_err *err)
 {
   const thr_physics_preset *preset = find_preset(name);
+
+  /* A preset replaces all fields. */
   if (preset) {
     *physics = preset->physics;
     return THR_OK;
   }
+
+  /* The message lists the presets. */
   char known[160] = "";
   for (int i = 0; i < thr_physics_n_presets; i++) {
     size_t n = strlen(known);
     snprintf(known + n, sizeof known - n, "%s%s", i ? ", " : "", thr_physics_presets[i].name);
   }
+
   return thr_fail(err, THR_EINPUT, "preset: there is none called %.60s; expected one of %s", name,
                   known);
 }
 
 /* ---- JSON ---- */
 
+/* Checks that an object has only fields, a preset and a note. */
 static thr_status only_fields(const thr_json *object, thr_err *err)
 {
   void *iter = NULL;
   const char *key;
   const thr_json *value;
+
   while (thr_json_next(object, &iter, &key, &value)) {
     bool text = strcmp(key, "preset") == 0 || strcmp(key, "note") == 0;
     const thr_physics_field *field = thr_physics_find(key);
+
+    /* The command line's spelling is close enough for a hint. */
     if (!text && field && strcmp(field->key, key) != 0)
       return thr_fail(err, THR_EINPUT, "%.60s: no such quantity; did you mean %s?", key,
                       field->key);
+
+    /* Anything else may be a misspelt field, which must not be passed over. */
     if (!text && !field)
       return thr_fail(
           err, THR_EINPUT,
           "%.60s: no such quantity; `thread eval --help` lists them (here with _ for -)", key);
+
     if (text && !thr_json_string(value)) return thr_fail(err, THR_EINPUT, "%s: not text", key);
   }
+
   return THR_OK;
 }
 
+/* Takes the values of an object: the preset first, then the fields in their order, so that mu drops
+ * the preset's band before the band is set. */
 static thr_status set_from_json(thr_physics *physics, const thr_json *object, thr_err *err)
 {
+  /* Nothing but an object can have fields. */
   if (thr_json_typeof(object) != THR_JSON_OBJECT)
     return thr_fail(err, THR_EINPUT, "not an object; expected {\"mu\": 0.2, ..}");
+
   thr_status st = only_fields(object, err);
   const char *preset = thr_json_string(thr_json_get(object, "preset"));
   if (!st && preset) st = thr_physics_set_preset(physics, preset, err);
+
+  /* Fields that are missing keep their value. */
   for (int i = 0; i < thr_physics_n_fields && !st; i++) {
     const thr_physics_field *field = &thr_physics_fields[i];
-    const thr_json *v = thr_json_get(object, field->key);
+    const thr_json *member = thr_json_get(object, field->key);
     double value;
     char range[96];
-    if (!v) continue;
+    if (!member) continue;
     describe_range(field, range, sizeof range);
-    st = thr_json_number(v, &value)
+    st = thr_json_number(member, &value)
              ? thr_physics_set(physics, field, value + 0.0, err) /* -0.0 is 0 */
              : thr_fail(err, THR_EINPUT, "%s: not a finite number; %s", field->key, range);
   }
+
   return st;
 }
 
 thr_status thr_physics_from_json(thr_physics *physics, const thr_json *object, const char *place,
                                  thr_err *err)
 {
+  /* On failure nothing has changed. */
   thr_physics read = *physics;
   thr_err found = {0};
   thr_status st = set_from_json(&read, object, &found);
   if (st) return thr_fail(err, st, "%s: %s", place, found.text);
   *physics = read;
+
   return THR_OK;
 }
 
@@ -331,125 +367,169 @@ thr_status thr_physics_read(thr_physics *physics, const char *path, thr_err *err
   thr_json *doc = NULL;
   const char *name = strcmp(path, "-") == 0 ? "stdin" : path;
   thr_status st = thr_text_read(&text, path, err);
+
+  /* Reading and parsing name the file in their messages. */
   if (!st) st = thr_json_parse(&doc, text.data, text.length, name, err);
   if (!st) st = thr_physics_from_json(physics, doc, name, err);
   thr_json_destroy(doc);
   thr_text_destroy(&text);
+
   return st;
 }
 
+/* Writes all fields in the order of the table. */
 void thr_physics_write(const thr_physics *physics, thr_writer *writer, const char *key)
 {
   thr_write_object(writer, key);
   if (*physics->preset) thr_write_string(writer, "preset", physics->preset);
+
+  /* Fields that are optional are left out if they are not known. */
   for (int i = 0; i < thr_physics_n_fields; i++)
     if (!thr_physics_fields[i].optional || thr_physics_get(physics, &thr_physics_fields[i]) != 0)
       thr_write_number(writer, thr_physics_fields[i].key,
                        thr_physics_get(physics, &thr_physics_fields[i]));
+
   thr_write_close(writer);
 }
 
 /* ---- against a framework ---- */
 
+/* Sizes of the edges. */
 typedef struct {
   double median, shortest; /* mm */
   int shortest_edge;
-} edges;
+} edge_sizes;
 
-static thr_status measure_edges(const thr_frame *frame, double mm, edges *out, thr_err *err)
+/* Measures the edges between their nodes. THR_EINPUT if they have no size of beads, which most
+ * often means wrong units. */
+static thr_status measure_edges(const thr_frame *frame, double mm, edge_sizes *out, thr_err *err)
 {
   double *length = thr_calloc((size_t)frame->n_edges, sizeof *length);
+
   if (!length) return thr_nomem(err);
-  *out = (edges){.shortest = INFINITY};
+  *out = (edge_sizes){.shortest = INFINITY};
+
+  /* Distances of the nodes, whatever lengths the framework gives. */
   for (int e = 0; e < frame->n_edges; e++) {
     const double *a = frame->xyz[frame->edge[e][0]], *b = frame->xyz[frame->edge[e][1]];
     length[e] = mm * hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
-    if (length[e] < out->shortest) *out = (edges){.shortest = length[e], .shortest_edge = e};
+    if (length[e] < out->shortest) *out = (edge_sizes){.shortest = length[e], .shortest_edge = e};
   }
+
+  /* Sorted only now that the shortest has been found, with its number. */
   thr_sort_doubles(length, (size_t)frame->n_edges);
   out->median = length[frame->n_edges / 2];
   free(length);
+
+  /* Shorter or longer edges are a mistake in the units. */
   if (out->shortest >= 1e-6 && out->median <= 1e8) return THR_OK;
+
   return thr_fail(
       err, THR_EINPUT,
       "edges from %g mm, half of them over %g mm, are no beads' size; set the units with --units",
       out->shortest, out->median);
 }
 
-/* Nine decimals: half of 0.2 and one and a half times 0.2 print as 0.1 and 0.3. */
+/* Rounds to nine decimals, so that half of 0.2 and one and a half times 0.2 are written as 0.1 and
+ * 0.3. */
 static double rounded(double mu)
 {
   return nearbyint(mu * 1e9) / 1e9;
 }
 
-static void fill_in(thr_physics *physics, const edges *e)
+/* Fills in what is 0 = "work it out". */
+static void fill_in(thr_physics *physics, const edge_sizes *sizes)
 {
+  /* The band of mu, and the tension at which mu holds. */
   if (physics->mu_low == 0) physics->mu_low = fmin(physics->mu, rounded(physics->mu / 2));
   if (physics->mu_high == 0) physics->mu_high = fmax(physics->mu, rounded(1.5 * physics->mu));
   if (physics->mu_power > 0 && physics->mu_tension == 0) physics->mu_tension = physics->seating;
-  if (physics->cord_diameter == 0) physics->cord_diameter = fmin(e->median / 20, e->shortest / 4);
+
+  /* From the inside outwards: cord, bore, bead. */
+  if (physics->cord_diameter == 0)
+    physics->cord_diameter = fmin(sizes->median / 20, sizes->shortest / 4);
+
   if (physics->bore == 0) physics->bore = THR_BORE_CORDS * physics->cord_diameter;
   if (physics->bead_diameter == 0)
-    physics->bead_diameter = fmax(0.35 * e->median, 1.5 * physics->bore);
+    physics->bead_diameter = fmax(0.35 * sizes->median, 1.5 * physics->bore);
 }
 
-static thr_status check_sizes(const thr_physics *physics, const thr_frame *frame, const edges *e,
-                              thr_err *err)
+/* Checks that cord, bore, bead and shortest edge fit into each other. */
+static thr_status check_sizes(const thr_physics *physics, const thr_frame *frame,
+                              const edge_sizes *sizes, thr_err *err)
 {
   if (!(physics->bore > physics->cord_diameter))
     return thr_fail(
         err, THR_EINPUT,
         "bore: a cord of %g mm does not fit into %g mm; raise --bore or lower --cord-diameter",
         physics->cord_diameter, physics->bore);
+
+  /* Around the bore there must be a wall. */
   if (!(physics->bead_diameter > physics->bore))
     return thr_fail(
         err, THR_EINPUT,
         "bead_diameter: %g mm leaves no wall round a bore of %g mm; raise it or lower --bore",
         physics->bead_diameter, physics->bore);
-  if (!(e->shortest > physics->bore)) {
-    const int *end = frame->edge[e->shortest_edge];
+
+  /* Beads of a shorter edge would have no length. */
+  if (!(sizes->shortest > physics->bore)) {
+    const int *end = frame->edge[sizes->shortest_edge];
     return thr_fail(err, THR_EINPUT,
                     "edge %d (nodes %.40s and %.40s) is %g mm long, shorter than the bore of %g "
                     "mm; set the framework's --units, "
                     "or lower --bore or --cord-diameter",
-                    e->shortest_edge, frame->name[end[0]], frame->name[end[1]], e->shortest,
+                    sizes->shortest_edge, frame->name[end[0]], frame->name[end[1]], sizes->shortest,
                     physics->bore);
   }
+
   return THR_OK;
 }
 
+/* Checks the range of every field, and that beads have some mass. */
 static thr_status check_values(const thr_physics *physics, thr_err *err)
 {
   thr_physics copy = *physics;
+
+  /* thr_physics_set knows the ranges. */
   for (int i = 0; i < thr_physics_n_fields; i++) {
     thr_status st = thr_physics_set(&copy, &thr_physics_fields[i],
                                     thr_physics_get(physics, &thr_physics_fields[i]), err);
     if (st) return st;
   }
+
+  /* Without mass nothing would fall. */
   if (physics->density == 0 && physics->bead_mass == 0)
     return thr_fail(err, THR_EINPUT, "density: beads without mass; set --density or --bead-mass");
+
   return THR_OK;
 }
 
+/* Checks the ranges, measures the edges in mm, fills in what is to be worked out, and checks that
+ * the sizes fit. */
 thr_status thr_physics_resolve(const thr_physics *physics, const thr_frame *frame, thr_physics *out,
                                thr_err *err)
 {
-  thr_physics r = *physics;
-  edges e;
+  thr_physics resolved = *physics;
+  edge_sizes sizes;
   double mm;
   *out = (thr_physics){0};
+
+  /* Sizes in mm need a unit that is known; without any, a unit counts as a mm. */
   thr_status st = check_values(physics, err);
   bool sized = physics->cord_diameter > 0 || physics->bore > 0 || physics->bead_diameter > 0;
   thr_status known = thr_units_in_mm(frame->units, &mm, !st && sized ? err : NULL);
   if (!st && sized) st = known;
-  if (!st) st = measure_edges(frame, known ? 1 : mm, &e, err);
+  if (!st) st = measure_edges(frame, known ? 1 : mm, &sizes, err);
   if (st) return st;
-  fill_in(&r, &e);
-  if ((st = check_sizes(&r, frame, &e, err))) return st;
-  if (!(r.mu_low <= r.mu && r.mu <= r.mu_high))
+
+  /* Fill in, and check that all fits. */
+  fill_in(&resolved, &sizes);
+  if ((st = check_sizes(&resolved, frame, &sizes, err))) return st;
+  if (!(resolved.mu_low <= resolved.mu && resolved.mu <= resolved.mu_high))
     return thr_fail(err, THR_EINPUT,
                     "mu_low: the band %g to %g does not hold mu = %g; set --mu-low and --mu-high",
-                    r.mu_low, r.mu_high, r.mu);
-  *out = r;
+                    resolved.mu_low, resolved.mu_high, resolved.mu);
+  *out = resolved;
+
   return THR_OK;
 }

@@ -110,7 +110,8 @@ double thr_friction_less(const thr_friction *friction, double tension, double ex
 /* The exponent that holds them apart, 0 < less <= more. */
 double thr_friction_exponent(const thr_friction *friction, double more, double less);
 
-/* ---- play.c: How far pieces can shift where their bores are wider than the cord (thesis, Fig. */
+/* ---- play.c: How far pieces can shift where their bores are wider than the cord (thesis,
+ * Fig. 14). */
 
 typedef struct {
   double gap;  /* mm, at one gap */

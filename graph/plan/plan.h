@@ -1,6 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The threading plan: the small vocabulary through which all stages meet. An objective makes one,
- * the checker, eval, compare and draw read it. docs/plan-format.md is the schema of its JSON. */
+/* The threading plan: the vocabulary through which all stages meet. The planner makes a plan; the
+ * checker, eval, compare and draw read it. docs/plan-format.md is the schema of its JSON.
+ *
+ * The room graph/plan holds what is asked of a plan, the plan itself with all that is claimed and
+ * proved of it, and what follows from its cords without any search. Lengths are in the framework's
+ * units, sizes of cord and bead in mm, angles in rad, forces in N.
+ *
+ * Read in this order:
+ *   request.h, request.c         what is asked of a plan
+ *   plan.h, plan.c               cords, claims, metrics
+ *   turning_proof.h, turning.c   proofs of least turning: the model and its columns
+ *   walk_proof.h                 proofs about the longest or hardest cord
+ *   physics.h                    cord and bead: physics.c, friction.c, least_pull.c, ..
+ *   evaluation.h, schedule.h     results of eval: evaluation.c, standing.c, schedule.c
+ *   plan_measures.h, advice.h    what follows from the cords: chains.c, channels.c, seating.c, ..
+ *   plan_fields.h                plan.json: request_fields.c, plan_read.c, plan_write.c, .. */
 #ifndef THR_PLAN_H
 #define THR_PLAN_H
 
@@ -334,13 +348,14 @@ thr_status thr_plan_parse_back(thr_plan *plan, const char *text, size_t n, const
                                thr_err *err) THR_MUST_CHECK;
 
 /* ---- What is done to the cords after threading, in order: pulled, gripped on the way, let down,
- * knotted. The tension that it leaves in every pass follows from it (eval/cord/history.c), and the
- * checker works it out again.
+ * knotted. The tensions that a schedule leaves in every pass follow from it (eval/cord/history.c),
+ * and the checker computes them again.
  *
- *   A: grip 37 18.5 from start   is drawn out at its pass 37, from the side of its start, with 18.5
- * N A: pull end 20               its end is pulled with 20 N, and held A: release end 2 its end is
- * let down to 2 N A: knot end 0.5              its end is tied; the knot gives way by 0.5 mm B:
- * none                      stays slack: its only step */
+ *   A: grip 37 18.5 from start   is drawn out at its pass 37, from the side of its start, by 18.5 N
+ *   A: pull end 20               its end is pulled with 20 N, and held
+ *   A: release end 2             its end is let down to 2 N
+ *   A: knot end 0.5              its end is tied; the knot gives way by 0.5 mm
+ *   B: none                      stays slack: its only step */
 
 const char *thr_deed_name(int deed); /* "pull", "grip", "release", "knot", "none" */
 

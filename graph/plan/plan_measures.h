@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What follows from the cords of a plan: chains of passes, channels, junctions, seats, knots,
- * instructions, prices. */
+/* Computes what follows from the cords of a plan without any search: loose chains while they are
+ * threaded, channels inside pieces, junctions, gaps that are seated, knots, instructions; and the
+ * prices that certificates may need. */
 #ifndef THR_PLAN_MEASURES_H
 #define THR_PLAN_MEASURES_H
 

@@ -1,37 +1,45 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How far pieces can shift where their bores are wider than the cord (thesis, Fig. 14).
+/* Computes how far pieces can shift where their bores are wider than the cord (thesis, Fig. 14).
  *
- * Two bores that a cord goes through may lie askew by bore - cord at the gap between them, whatever
- * the direction across. In a row of pieces this adds up from gap to gap; in a framework, where one
- * way holds the other, it is the most that the shortest row of gaps from a foot allows.
+ * Two bores that a cord goes through may be askew by bore - cord at the gap between them, in any
+ * direction across the cord. In a row of pieces this adds up from gap to gap. In a framework every
+ * row of gaps from a foot to a piece limits the shift of the piece, so the shortest row counts:
+ * breadth-first search from all feet.
  *
- * Example: 10 pieces out from a wall, cord 1 mm in bores of 1.5 mm: the last one may hang 5 mm low.
- */
+ * Example: 10 pieces out from a wall, cord 1 mm in bores of 1.5 mm: the last one may hang 5 mm
+ * low. */
 #include "graph/plan/physics.h"
 
 #include "graph/arrays.h"
 
 #include <math.h>
 
-/* Puts the feet first into the queue; how many. */
+/* Puts the feet into the queue, with distance 0, and marks all other nodes as not reached. Without
+ * feet the lowest nodes are taken. Returns the number of feet. */
 static int start_at_feet(const thr_frame *frame, int *queue, int *distance)
 {
   double lowest = INFINITY;
   bool any = false;
   int n = 0;
+
+  /* Is there a foot, and how low are the lowest nodes? */
   for (int v = 0; v < frame->n_nodes; v++) {
     any |= frame->foot[v];
     lowest = fmin(lowest, frame->xyz[v][2]);
   }
+
   const double near = lowest + 1e-6 * thr_frame_diagonal(frame);
   for (int v = 0; v < frame->n_nodes; v++) {
     const bool foot = any ? frame->foot[v] : frame->xyz[v][2] <= near;
     distance[v] = foot ? 0 : -1;
     if (foot) queue[n++] = v;
   }
+
   return n;
 }
 
+/* Measures, for every piece, the fewest gaps to a foot by breadth-first search; the shift is at
+ * most gaps x (bore - cord diameter), in mm. */
 thr_status thr_play_find(const thr_frame *frame, const thr_physics *physics, thr_play *out,
                          thr_err *err)
 {
@@ -42,6 +50,8 @@ thr_status thr_play_find(const thr_frame *frame, const thr_physics *physics, thr
   thr_status st = thr_scratch_check(&own, err);
   *out = (thr_play){.gap = physics->bore - physics->cord_diameter, .piece = -1};
   int n = st ? 0 : start_at_feet(frame, queue, distance);
+
+  /* Breadth-first search: nodes leave the queue in the order of their distance. */
   for (int i = 0; i < n; i++)
     for (int k = frame->first[queue[i]]; k < frame->first[queue[i] + 1]; k++) {
       const int v = thr_head(frame, frame->half[k]);
@@ -49,11 +59,14 @@ thr_status thr_play_find(const thr_frame *frame, const thr_physics *physics, thr
       distance[v] = distance[queue[i]] + 1;
       queue[n++] = v;
     }
+
+  /* The piece that is farthest from all feet; the first one of several. */
   for (int v = 0; v < frame->n_nodes && !st; v++)
     if (distance[v] >= 0 && (out->piece < 0 || distance[v] > out->gaps)) {
       out->piece = v;
       out->gaps = distance[v];
     }
+
   out->most = out->gaps * out->gap;
   thr_scratch_free(&own);
   return st;

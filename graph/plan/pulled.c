@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which end of a cord is pulled. */
+/* Names which end of a cord is pulled, as plan.json and the command line have it. */
 #include "graph/plan/physics.h"
 
 #include <string.h>

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The request: what a plan is asked to be, and what it is to have little of, first, second, ...
+/* Reads, writes and interprets what is asked of a plan: lists of aims, names of choices, and what
+ * request and framework say together.
  *
  *   thr_request o = thr_request_default();
  *   thr_aims_parse("length+5%,turning:sine", &o, &err)
  *
- * asks for at most 5 % above the least length, and of such plans for the least turning.
- *
- * What is asked of a plan: lists of aims, names, and what options and framework say together. */
+ * asks for at most 5 % above the least length, and of such plans for the least turning, priced by
+ * sin(angle / 2). */
 #include "graph/plan/request.h"
 #include "graph/number.h"
 
@@ -18,6 +18,7 @@
 
 thr_request thr_request_default(void)
 {
+  /* One closed cord of the least length, once over every edge. */
   return (thr_request){.aims = thr_aims_shortest,
                        .cover = 1,
                        .cords = 1,
@@ -89,6 +90,7 @@ bool thr_wants_pull(const thr_request *options)
   return thr_aims_have(options, THR_AIM_PULL);
 }
 
+/* Where cords end at few nodes only, all of them pass the few edges there. */
 int thr_request_most_passes(const thr_frame *frame, const thr_request *options)
 {
   const int usual = thr_turning_most_passes(frame, options->cover), room = 2 * options->cords;
@@ -96,27 +98,31 @@ int thr_request_most_passes(const thr_frame *frame, const thr_request *options)
   return few && room > usual ? room : usual;
 }
 
+/* Completes the order of a symmetric plan's aims. */
 void thr_aims_order(const thr_request *options, thr_aim order[THR_N_AIMS])
 {
   bool taken[THR_N_AIMS] = {false};
   int n = 0;
+
+  /* The aims that are named, in their order, then the others. */
   for (int i = 0; i < options->aims.n; i++) {
     thr_aim aim = options->aims.aim[i];
     if (aim < THR_N_AIMS) taken[order[n++] = aim] = true;
   }
+
   for (int aim = 0; aim < THR_N_AIMS; aim++)
     if (!taken[aim]) order[n++] = (thr_aim)aim;
 }
 
 /* ---- lists of aims ---- */
 
-/* A list while it is read. */
+/* A list of aims while it is read. */
 typedef struct {
   bool named[THR_ALL_AIMS], priced, limited;
   thr_aims aims;
   thr_turn_cost cost;
   double slack; /* < 0 = none */
-} list;
+} aim_list;
 
 bool thr_slack_parse(const char *text, double *slack)
 {
@@ -126,6 +132,7 @@ bool thr_slack_parse(const char *text, double *slack)
   return end != text && (*end == '\0' || strcmp(end, "%") == 0) && percent >= 0 && percent <= 1e6;
 }
 
+/* Reads the name of a cost of turns; returns false if there is none. */
 static bool read_cost(const char *name, thr_turn_cost *cost)
 {
   for (int i = 0; i < THR_N_TURN_COSTS; i++)
@@ -136,150 +143,198 @@ static bool read_cost(const char *name, thr_turn_cost *cost)
   return false;
 }
 
-/* word: one aim, which is taken apart. */
-static thr_status read_aim(char *word, list *l, thr_err *err)
+/* Reads one aim, such as "length+5%" or "turning:sine"; the word is cut at its sign. */
+static thr_status read_aim(char *word, aim_list *list, thr_err *err)
 {
   char *more = strpbrk(word, "+:"), mark = more ? *more : '\0';
   int aim = 0;
+
+  /* Look for the name. */
   if (more) *more++ = '\0';
   while (aim < THR_ALL_AIMS && strcmp(word, thr_aim_name(aim)) != 0)
     aim++;
+
   if (aim == THR_ALL_AIMS)
     return thr_fail(err, THR_EINPUT,
                     "\"%s\" is no aim; there are length, longest, turning, max-turning, pull, "
                     "overlap, steps, paths",
                     word);
-  if (l->named[aim]) return thr_fail(err, THR_EINPUT, "%s is there twice", word);
-  l->named[aim] = true;
-  l->aims.aim[l->aims.n++] = (thr_aim)aim;
+
+  if (list->named[aim]) return thr_fail(err, THR_EINPUT, "%s is there twice", word);
+  list->named[aim] = true;
+  list->aims.aim[list->aims.n++] = (thr_aim)aim;
+
+  /* A percentage above the least. */
   if (mark == '+') {
-    if (aim != THR_AIM_LENGTH || !thr_slack_parse(more, &l->slack))
+    if (aim != THR_AIM_LENGTH || !thr_slack_parse(more, &list->slack))
       return thr_fail(err, THR_EINPUT,
                       "%s+%s: only length takes a percentage, from 0 to 1e+06, like length+5%%",
                       word, more);
-    l->limited = true;
+    list->limited = true;
   }
+
+  /* A cost of turns. */
   if (mark != ':') return THR_OK;
-  if ((aim != THR_AIM_TURNING && aim != THR_AIM_MAX_TURNING) || !read_cost(more, &l->cost))
+  if ((aim != THR_AIM_TURNING && aim != THR_AIM_MAX_TURNING) || !read_cost(more, &list->cost))
     return thr_fail(err, THR_EINPUT,
                     "%s:%s: only turning and max-turning take a cost: " THR_TURN_COSTS, word, more);
-  l->priced = true;
+
+  list->priced = true;
   return THR_OK;
 }
 
-static thr_status read_list(const char *text, list *l, thr_err *err)
+/* Reads all aims of a list with commas. */
+static thr_status read_list(const char *text, aim_list *list, thr_err *err)
 {
   char word[64];
   const char *from = text, *end = text;
   thr_status st = THR_OK;
+
+  /* The last word ends at the NUL. */
   for (bool more = true; more && !st; more = *end, from = end + 1) {
     end = from + strcspn(from, ",");
     snprintf(word, sizeof word, "%.*s", (int)(end - from), from);
-    st = read_aim(word, l, err);
+    st = read_aim(word, list, err);
   }
+
   return st;
 }
 
-/* Takes an aim out of the list; false if it is not there. */
-static bool take_out(thr_aims *a, thr_aim aim)
+/* Takes an aim out of the list; returns false if the list does not have it. */
+static bool take_out(thr_aims *aims, thr_aim aim)
 {
   int at = 0;
-  while (at < a->n && a->aim[at] != aim)
+
+  while (at < aims->n && aims->aim[at] != aim)
     at++;
-  if (at == a->n) return false;
-  memmove(&a->aim[at], &a->aim[at + 1], (size_t)(--a->n - at) * sizeof *a->aim);
+
+  /* The aims after it move up. */
+  if (at == aims->n) return false;
+  memmove(&aims->aim[at], &aims->aim[at + 1], (size_t)(--aims->n - at) * sizeof *aims->aim);
   return true;
 }
 
-/* Length and overlap are one but for a constant. */
-static void rename_aim(list *l, thr_aim from, thr_aim to)
+/* Replaces an aim by another one that means the same: length and overlap differ by a constant. */
+static void rename_aim(aim_list *list, thr_aim from, thr_aim to)
 {
-  for (int i = 0; i < l->aims.n; i++)
-    if (l->aims.aim[i] == from) l->aims.aim[i] = to;
-  l->named[to] |= l->named[from];
-  l->named[from] = false;
+  for (int i = 0; i < list->aims.n; i++)
+    if (list->aims.aim[i] == from) list->aims.aim[i] = to;
+  list->named[to] |= list->named[from];
+  list->named[from] = false;
 }
 
-static thr_status settle_symmetric(list *l, thr_request *options, thr_err *err)
+/* Completes the aims of a symmetric plan, which has all of overlap, steps, paths and turning in
+ * some order, perhaps after the longest cord. */
+static thr_status settle_symmetric(aim_list *list, thr_request *options, thr_err *err)
 {
-  if (l->named[THR_AIM_MAX_TURNING] || l->named[THR_AIM_PULL])
+  /* What cannot be asked of symmetric plans. */
+  if (list->named[THR_AIM_MAX_TURNING] || list->named[THR_AIM_PULL])
     return thr_fail(
         err, THR_EINPUT,
         "symmetric plans, which steps and paths ask for, do not know %s: copies turn alike",
-        thr_aim_name(l->named[THR_AIM_PULL] ? THR_AIM_PULL : THR_AIM_MAX_TURNING));
-  if (l->named[THR_AIM_LONGEST] && l->aims.aim[0] != THR_AIM_LONGEST)
+        thr_aim_name(list->named[THR_AIM_PULL] ? THR_AIM_PULL : THR_AIM_MAX_TURNING));
+
+  if (list->named[THR_AIM_LONGEST] && list->aims.aim[0] != THR_AIM_LONGEST)
     return thr_fail(err, THR_EINPUT, "longest comes before the other aims of a symmetric plan");
-  if (l->priced)
+  if (list->priced)
     return thr_fail(err, THR_EINPUT,
                     "of symmetric plans the turning is that of its angles: no cost of turns");
-  rename_aim(l, THR_AIM_LENGTH, THR_AIM_OVERLAP);
-  options->aims = l->aims;
-  l->aims = (thr_aims){l->named[THR_AIM_LONGEST], {THR_AIM_LONGEST}};
-  thr_aims_order(options, l->aims.aim + l->aims.n);
-  l->aims.n += THR_N_AIMS;
+
+  /* The named aims first, then the others in their usual order. */
+  rename_aim(list, THR_AIM_LENGTH, THR_AIM_OVERLAP);
+  options->aims = list->aims;
+  list->aims = (thr_aims){list->named[THR_AIM_LONGEST], {THR_AIM_LONGEST}};
+  thr_aims_order(options, list->aims.aim + list->aims.n);
+  list->aims.n += THR_N_AIMS;
+
   return THR_OK;
 }
 
-/* Length before turning is a limit on it; the longest cord is made short first. */
-static thr_status settle_turning(list *l, thr_err *err)
+/* Completes the aims of a plan that turns little. Length before turning becomes a limit on the
+ * length; the longest cord may only come first. */
+static thr_status settle_turning(aim_list *list, thr_err *err)
 {
-  if (l->named[THR_AIM_TURNING] + l->named[THR_AIM_MAX_TURNING] + l->named[THR_AIM_PULL] > 1)
+  /* One of them is minimized. */
+  if (list->named[THR_AIM_TURNING] + list->named[THR_AIM_MAX_TURNING] + list->named[THR_AIM_PULL] >
+      1)
     return thr_fail(err, THR_EINPUT, "one of turning, max-turning and pull, not both");
-  thr_aim last = l->aims.aim[l->aims.n - 1];
+
+  /* What is limited, or made short first, comes first. */
+  thr_aim last = list->aims.aim[list->aims.n - 1];
   if (last == THR_AIM_LENGTH || last == THR_AIM_LONGEST)
     return thr_fail(err, THR_EINPUT, "%s comes before turning, max-turning and pull",
                     thr_aim_name(last));
-  if (take_out(&l->aims, THR_AIM_LENGTH) && l->slack < 0) l->slack = 0;
+
+  /* Length alone allows no extra cord. */
+  if (take_out(&list->aims, THR_AIM_LENGTH) && list->slack < 0) list->slack = 0;
   return THR_OK;
 }
 
-static thr_status settle_length(list *l, thr_err *err)
+/* Completes the aims of a short plan: length is the last one. */
+static thr_status settle_length(aim_list *list, thr_err *err)
 {
-  if (!l->named[THR_AIM_LENGTH]) l->aims.aim[l->aims.n++] = THR_AIM_LENGTH;
-  if (l->named[THR_AIM_LONGEST] && l->aims.aim[0] != THR_AIM_LONGEST)
+  /* Length is the last aim, unless another place is named. */
+  if (!list->named[THR_AIM_LENGTH]) list->aims.aim[list->aims.n++] = THR_AIM_LENGTH;
+  if (list->named[THR_AIM_LONGEST] && list->aims.aim[0] != THR_AIM_LONGEST)
     return thr_fail(
         err, THR_EINPUT,
         "longest comes before length: the shortest longest cord, and then the least length");
+
   return THR_OK;
 }
 
-static thr_status settle(list *l, thr_request *options, thr_err *err)
+/* Decides which kind of plan the aims mean, and completes them. */
+static thr_status settle(aim_list *list, thr_request *options, thr_err *err)
 {
-  bool symmetric = l->named[THR_AIM_STEPS] || l->named[THR_AIM_PATHS];
-  bool turning = !symmetric && (l->named[THR_AIM_TURNING] || l->named[THR_AIM_MAX_TURNING] ||
-                                l->named[THR_AIM_PULL]);
-  if (l->named[THR_AIM_LENGTH] && l->named[THR_AIM_OVERLAP])
+  bool symmetric = list->named[THR_AIM_STEPS] || list->named[THR_AIM_PATHS];
+  bool turning = !symmetric && (list->named[THR_AIM_TURNING] || list->named[THR_AIM_MAX_TURNING] ||
+                                list->named[THR_AIM_PULL]);
+
+  /* What does not go together. */
+  if (list->named[THR_AIM_LENGTH] && list->named[THR_AIM_OVERLAP])
     return thr_fail(err, THR_EINPUT, "length and overlap are the same aim");
-  if (l->limited && !turning)
+  if (list->limited && !turning)
     return thr_fail(err, THR_EINPUT,
                     "length+%g%%: cord beyond the least length is for turning, max-turning or pull",
-                    100 * l->slack);
-  if (symmetric) return settle_symmetric(l, options, err);
-  rename_aim(l, THR_AIM_OVERLAP, THR_AIM_LENGTH);
-  return turning ? settle_turning(l, err) : settle_length(l, err);
+                    100 * list->slack);
+
+  /* Each kind of plan has its own last aims. */
+  if (symmetric) return settle_symmetric(list, options, err);
+  rename_aim(list, THR_AIM_OVERLAP, THR_AIM_LENGTH);
+  return turning ? settle_turning(list, err) : settle_length(list, err);
 }
 
+/* On failure the request stays as it was. */
 thr_status thr_aims_parse(const char *text, thr_request *options, thr_err *err)
 {
-  list l = {.slack = -1};
+  aim_list list = {.slack = -1};
   thr_request trial = *options;
-  thr_status st = read_list(text, &l, err);
-  if (!st) st = settle(&l, &trial, err);
+  thr_status st = read_list(text, &list, err);
+
+  if (!st) st = settle(&list, &trial, err);
   if (st) return st;
-  options->aims = l.aims;
-  options->turning.cost = l.cost;
-  options->turning.length_slack = l.slack;
+
+  /* Lists that are wrong have changed nothing so far. */
+  options->aims = list.aims;
+  options->turning.cost = list.cost;
+  options->turning.length_slack = list.slack;
+
   return THR_OK;
 }
 
+/* Writes the list that thr_aims_parse reads as the same request. */
 void thr_aims_write(const thr_request *options, thr_text *out)
 {
   bool turning = thr_wants_turning(options),
        limited = turning && options->turning.length_slack >= 0;
+
+  /* A limit on the length comes before the turning that it limits. */
   if (limited && options->turning.length_slack > 0)
     thr_text_printf(out, "length+%.15g%%,", 100 * options->turning.length_slack);
   else if (limited)
     thr_text_append(out, "length,");
+
+  /* The aims; costs other than the angle are named. */
   for (int i = 0; i < options->aims.n; i++) {
     thr_text_printf(out, i ? ",%s" : "%s", thr_aim_name(options->aims.aim[i]));
     if (turning && options->aims.aim[i] != THR_AIM_LONGEST &&
@@ -373,6 +428,7 @@ const char *thr_confirm_name(int c)
 
 double thr_request_gap(const thr_request *options)
 {
+  /* Searches for least turning end at a hundredth above the bound unless asked otherwise. */
   const double usual = 0.01;
   return options->gap >= 0 ? options->gap / 100 : thr_wants_length(options) ? 0 : usual;
 }
@@ -380,6 +436,8 @@ double thr_request_gap(const thr_request *options)
 bool thr_plan_within_slack(const thr_request *options, double length, double least)
 {
   bool asked = thr_wants_turning(options) && options->turning.length_slack >= 0;
+
+  /* 2e-9: what the lengths and the bound may lose to rounding. */
   return !asked || length <= (1 + options->turning.length_slack) * least * (1 + 2e-9);
 }
 
@@ -410,11 +468,17 @@ double thr_request_most_turning(const thr_request *options)
   return 2 * thr_request_most_pulled(options) + (options->old_pull ? 0 : THR_PI);
 }
 
+/* Reduces a request for several cords that are all alike to a request for one of them. */
 bool thr_request_alike(const thr_frame *frame, const thr_request *options, thr_request *one)
 {
   *one = *options;
+
+  /* One of the cords, as if it were the only one. */
   one->cover = one->cords = one->cords_least = 1;
   one->distinct = 0;
+
+  /* Every cord passes every edge if there are as many cords as must pass each edge, and each edge
+   * has one pass of every cord. */
   return options->distinct > 0 && !thr_wants_symmetry(options) &&
          options->distinct == options->cords && options->cords == options->cords_least &&
          options->distinct == options->cover && !frame->cover && !frame->capacity &&
@@ -424,6 +488,7 @@ bool thr_request_alike(const thr_frame *frame, const thr_request *options, thr_r
 
 bool thr_plan_end_allowed(const thr_frame *frame, const thr_request *options, int v)
 {
+  /* Feet are the framework's, other nodes the user's. */
   switch (options->ends) {
   case THR_ENDS_FEET: return frame->foot[v];
   case THR_ENDS_NODES: return options->end_node[v];
@@ -432,14 +497,18 @@ bool thr_plan_end_allowed(const thr_frame *frame, const thr_request *options, in
   }
 }
 
+/* Translates a request into the task of the programme for least turning. */
 thr_turning_task thr_turning_task_of(const thr_frame *frame, const thr_request *request,
                                      bool *end_allowed)
 {
   const bool closed = request->ends == THR_ENDS_CLOSED;
+
+  /* Closed cords have no ends. */
   if (end_allowed)
     for (int v = 0; v < frame->n_nodes; v++)
       end_allowed[v] = thr_plan_end_allowed(frame, request, v);
 
+  /* Any length is allowed here; searches narrow the task. */
   return (thr_turning_task){.cover = request->cover,
                             .capacity = request->capacity,
                             .tube = request->joint == THR_JOINT_TUBE,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is asked of a plan. */
+/* What is asked of a plan: aims in their order, ends, joints, limits, physics. Everything that the
+ * user may wish is a field of thr_request, which the plan keeps. */
 #ifndef THR_REQUEST_H
 #define THR_REQUEST_H
 
