@@ -15,7 +15,7 @@ struct thr_symmetry_record;
 typedef struct {
   double deadline;                          /* thr_clock() at which to stop; 0 = none */
   const volatile sig_atomic_t *interrupted; /* set by a signal handler, or NULL */
-  int threads; /* in which independent parts may run (graph/process/threads.h); 0 = 1. The results
+  int threads; /* in which independent parts may run (graph/process/process.h); 0 = 1. The results
                   do not depend on it */
   /* NULL, or the work that may still be done, in seconds that are counted (thr_limits_spend) and
    * not measured: it ends a search at the same place on any machine, whatever else that does. Work

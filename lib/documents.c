@@ -7,7 +7,6 @@
 #include "lib/lib.h"
 
 #include "diagram/export/paper.h"
-#include "diagram/mat/emboss.h"
 #include "diagram/mat/mat.h"
 #include "diagram/sheets/sheets.h"
 #include "diagram/tables/tables.h"

@@ -9,7 +9,7 @@
 #include "graph/check/check_parts.h"
 #include "graph/plan/walk_proof.h"
 #include "planner/planner_parts.h"
-#include "graph/threading/anneal.h"
+#include "graph/threading/threading.h"
 #include "tortuosity/cords/walk_model.h"
 
 #include <math.h>

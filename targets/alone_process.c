@@ -5,7 +5,6 @@
  * no heed of the time is not ended. */
 #include "graph/limits.h"
 #include "graph/process/process.h"
-#include "graph/process/threads.h"
 #include "graph/status.h"
 #include "graph/text.h"
 

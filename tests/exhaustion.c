@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every choice of copies, and of partners for their ends. */
 #include "tests/exhaustion.h"
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 #include "graph/plan/plan_measures.h"
 #include "symmetry/cover/cover_parts.h"
 #include "tests/plans.h"

@@ -5,7 +5,6 @@
 #define THR_TEST_SYMMETRIC_H
 
 #include "graph/framework/frame.h"
-#include "graph/framework/make.h"
 #include "graph/plan/request.h"
 #include "symmetry/cover/cover.h"
 #include "symmetry/group/group.h"

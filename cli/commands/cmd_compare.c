@@ -25,7 +25,7 @@
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
-#include "graph/process/threads.h"
+#include "graph/process/process.h"
 #include "graph/status.h"
 #include "graph/text.h"
 

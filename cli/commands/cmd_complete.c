@@ -8,7 +8,7 @@
  * with what its help says first among them; the shell chooses what fits. */
 #include "cli/args/args.h"
 #include "cli/cli.h"
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 
 #include <ctype.h>
 #include <stdio.h>

@@ -17,7 +17,7 @@
  * This file parses the options, evaluates one plan in a guarded child process, puts the evaluation
  * into the plan, and writes the plan, pictures and a summary (cli/print/eval_text.c, eval_json.c).
  * With --calibrate there is no plan: weights at the bench become a file of frictions
- * (cli/commands/calibrate.c).
+ * (cli/commands/weighing.c).
  *
  * Example: `thread eval plan.json --mu 0.3 -o plan.json --plot tension.svg` stores the tension of
  * every pass in the plan and draws it along each cord. */

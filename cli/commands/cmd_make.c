@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* thread make: makes an example framework: dome, geodesic dome, sphere, tube or honeycomb
- * (graph/framework/make.h).
+ * (graph/framework/frame.h).
  *
  * Example: `thread make dome --size 7 -o dome.json` makes a grid of 7 x 7 nodes with a foot at each
  * corner. */
 #include "cli/cli.h"
 #include "graph/framework/frame.h"
-#include "graph/framework/make.h"
 #include "graph/io/read.h"
 #include "graph/status.h"
 #include "graph/text.h"

@@ -8,7 +8,7 @@
  * Example: a booklet of 70 pages is drawn in three batches of 32, 32 and 6. */
 
 #include "diagram/export/export_parts.h"
-#include "graph/process/threads.h"
+#include "graph/process/process.h"
 
 #include <stdlib.h>
 

@@ -10,8 +10,8 @@
  * Example: a plan without crossings whose shortest edge is 0.87 of the median is taken at once,
  * since no ratio (at most 1) can be 1.25 times as large. */
 
-#include "diagram/layout/layout_parts.h"
-#include "graph/framework/make.h"
+#include "diagram/layout/layout.h"
+#include "graph/framework/frame.h"
 #include "graph/arrays.h"
 
 #include <math.h>

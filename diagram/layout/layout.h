@@ -14,6 +14,7 @@
 #define THR_LAYOUT_H
 
 #include "graph/framework/frame.h"
+#include "graph/number.h"
 #include "graph/status.h"
 
 enum { THR_LAYOUT_DRAWN_NODES = 1000 };
@@ -96,7 +97,7 @@ thr_status thr_layout_measure(thr_layout *layout, const thr_frame *frame,
  * (ratio within a quarter) the earlier kind wins, so a plan view with no crossing and a ratio of
  * 0.8 or more is always taken, and one of 0.5 unless unrolling opens up a rim that it shows
  * foreshortened. Two panels are only considered when every single picture has faults or a ratio
- * under 0.5; a drawing by the algorithm of Kamada & Kawai (graph/framework/make.h), for up to
+ * under 0.5; a drawing by the algorithm of Kamada & Kawai (graph/framework/frame.h), for up to
  * THR_LAYOUT_DRAWN_NODES nodes, only when all others have faults. extra[n_extra] are further
  * measured candidates (NULL and 0 for none), only used if they are better; the best is copied. */
 thr_status thr_layout_choose(thr_layout *best, const thr_frame *frame, const thr_layout *extra,
@@ -120,5 +121,45 @@ thr_status thr_layout_around(const thr_frame *paper, const double *angle, int *a
 /* Returns whether distances on paper are those of the framework, up to the foreshortening of a
  * projection. */
 bool thr_layout_to_scale(thr_layout_kind kind);
+
+/* ---- Declares what the files that make layouts share: candidates of one kind each, the best-fit
+ * sphere, and the directions of the nodes seen from its centre. Private to diagram/. */
+
+/* Fill xy[n_nodes], which is allocated, and measure; THR_EINPUT if the frame is flat (not about
+ * z). */
+thr_status thr_layout_unroll(thr_layout *layout, const thr_frame *frame, int axis,
+                             thr_err *err) THR_MUST_CHECK; /* 0 = x, 1 = y, 2 = z */
+thr_status thr_layout_spread(thr_layout *layout, const thr_frame *frame,
+                             thr_err *err) THR_MUST_CHECK;
+
+/* The same for two panels, which have points of their own: fills all of *layout on success, nothing
+ * otherwise. */
+thr_status thr_layout_panels(thr_layout *layout, const thr_frame *frame,
+                             thr_err *err) THR_MUST_CHECK;
+
+/* Fills *paper of a layout with points of their own: edge[n_edges] holds the points that the edges
+ * join, and is copied. */
+thr_status thr_layout_join(thr_frame *paper, int n_points, int n_edges, const int (*edge)[2],
+                           thr_err *err) THR_MUST_CHECK;
+
+/* Replaces *best by *layout when that is better or best is empty; the loser is freed. */
+void thr_layout_keep_better(thr_layout *best, thr_layout *layout);
+
+/* Computes the centre of the least-squares sphere; returns false if the sphere is larger than
+ * THR_LAYOUT_FLAT diagonals: the frame is flat. */
+enum { THR_LAYOUT_FLAT = 50 };
+bool thr_layout_fit_sphere(const thr_frame *frame, double centre[3]);
+
+/* Computes the mean of the nodes' coordinates. */
+void thr_layout_mean_point(const thr_frame *frame, double mean[3]);
+
+/* Computes the directions of the nodes from the centre of that sphere, allocated: (*unit)[n_nodes].
+ * THR_EINPUT if the frame is flat. */
+thr_status thr_layout_directions(const thr_frame *frame, double (**unit)[3],
+                                 thr_err *err) THR_MUST_CHECK;
+
+/* Computes the middle of a widest empty cap among n directions, the lowest of nearly equal ones;
+ * returns the angle from there to the nearest direction, rad. */
+double thr_layout_opening(const double (*unit)[3], int n, double middle[3]);
 
 #endif

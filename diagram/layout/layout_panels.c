@@ -14,7 +14,7 @@
  * Example: an octahedron cut at 95 degrees has the 4 edges to its top and the 4 of its equator in
  * the left panel, the 4 to its bottom in the right one; the 4 nodes of the equator have two points
  * each. */
-#include "diagram/layout/layout_parts.h"
+#include "diagram/layout/layout.h"
 
 #include <math.h>
 #include <stdlib.h>

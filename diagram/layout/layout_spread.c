@@ -11,7 +11,7 @@
  *
  * Example: a cube opened below is a small square in a large one, with four edges between their
  * corners. */
-#include "diagram/layout/layout_parts.h"
+#include "diagram/layout/layout.h"
 #include "graph/number.h"
 
 #include <math.h>

@@ -9,7 +9,7 @@
  * theta.
  *
  * Example: a hemisphere of radius 100 mm has its rim at 100 x pi / 2 = 157 mm from the middle. */
-#include "diagram/layout/layout_parts.h"
+#include "diagram/layout/layout.h"
 
 #include <math.h>
 #include <stdlib.h>

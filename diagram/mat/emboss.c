@@ -4,7 +4,7 @@
  * All names have the same height: as high as lets the longest one lie on the hub of a piece (a
  * square as wide as its arms), or along the shortest tube, and at most HIGH of the room across
  * it. */
-#include "diagram/mat/emboss.h"
+#include "diagram/mat/mat.h"
 
 #include "diagram/export/paper.h"
 #include "diagram/overview/overview.h"

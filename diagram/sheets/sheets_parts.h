@@ -7,7 +7,6 @@
 #include "diagram/overview/overview_parts.h"
 #include "diagram/scene/scene.h"
 #include "diagram/sheets/sheets.h"
-#include "diagram/space/camera.h"
 #include "diagram/space/space.h"
 #include "diagram/tables/tables.h"
 #include "graph/framework/frame.h"

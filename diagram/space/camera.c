@@ -8,7 +8,7 @@
  * can bring; numbers that lie on each other and passes that cross cost a little.
  *
  * Example: a step round the foot of a dome is seen from its own side, from somewhat above. */
-#include "diagram/space/camera.h"
+#include "diagram/space/space.h"
 #include "graph/number.h"
 #include "graph/arrays.h"
 

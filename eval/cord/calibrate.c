@@ -7,7 +7,7 @@
  *
  * A relative error of the weights changes ln(in / hang) by up to 2 error, and mu by up to 2 error /
  * angle. Example: calibrate.h. */
-#include "eval/cord/calibrate.h"
+#include "eval/cord/profile.h"
 #include "graph/number.h"
 
 #include <math.h>

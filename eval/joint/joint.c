@@ -19,7 +19,7 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
-#include "graph/process/threads.h"
+#include "graph/process/process.h"
 
 #include <math.h>
 #include <stdio.h>

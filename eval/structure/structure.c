@@ -22,7 +22,6 @@
 #include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
 #include "graph/process/process.h"
-#include "graph/process/threads.h"
 #include "graph/text.h"
 
 #include <math.h>

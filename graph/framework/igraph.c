@@ -5,7 +5,7 @@
  * igraph's default error handler aborts the program; ours returns the error code. igraph keeps
  * global state, so that one thread at a time may use it. No routine of igraph that uses GLPK may be
  * called here: it would replace the hooks that lp/solver/lp_glpk.c sets. */
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/process/process.h"
 

@@ -8,7 +8,7 @@
  *
  * Example: the dome of size 2 has nodes A1 to B2, one at each corner of a square of one pitch, and
  * four edges. */
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 #include "graph/number.h"
 
 #include <math.h>

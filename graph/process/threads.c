@@ -18,7 +18,7 @@
  * programme lives and dies in the thread that made it: jobs that keep one from run to run need a
  * team. fontconfig is called in a child only. */
 #define _POSIX_C_SOURCE 200809L
-#include "graph/process/threads.h"
+#include "graph/process/process.h"
 #include "graph/plan/plan.h"
 
 #include <limits.h>

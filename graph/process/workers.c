@@ -9,7 +9,6 @@
  * on the number of processes either: when a job fails, the children of later jobs are killed, and
  * those of earlier ones go on. */
 #define _POSIX_C_SOURCE 200809L
-#include "graph/process/threads.h"
 #include "graph/process/process.h"
 
 #include <errno.h>

@@ -10,8 +10,8 @@
  *
  * Example: a cord that turns by 400 degrees passes an edge that another one passes as well, with
  * two turns of 90 degrees; it goes straight on instead. */
-#include "graph/threading/anneal.h"
-#include "graph/process/threads.h"
+#include "graph/threading/threading.h"
+#include "graph/process/process.h"
 #include "graph/arrays.h"
 
 #include <math.h>

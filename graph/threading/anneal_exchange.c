@@ -12,7 +12,7 @@
  *   on two cords, visits     tails, or the sections up to a second node where they meet (middles)
  */
 #include "graph/arrays.h"
-#include "graph/threading/anneal.h"
+#include "graph/threading/threading.h"
 
 /* Return the passes before and after visit i; -1 where an open cord ends. */
 static int before(const thr_annealer *annealer, const thr_anneal_walk *walk, int i)

@@ -3,7 +3,7 @@
  *
  * Example: by length, a cord over edges of 3 and 4 counts 7. */
 #include "graph/plan/plan_measures.h"
-#include "graph/threading/anneal.h"
+#include "graph/threading/threading.h"
 
 #include <math.h>
 

@@ -13,7 +13,7 @@
  * of A x = rhs and A^T y + z = cost; l = W z = W^-1 x. Products of cones are Jordan's: a o b = (a
  * b, a0 b1 + b0 a1, a0 b2 + b0 a2). */
 
-#include "lp/solver/solver_parts.h"
+#include "lp/solver/solver.h"
 
 #include <float.h>
 #include <math.h>

@@ -4,7 +4,7 @@
  * order, so that the digits are the same on every machine, whatever vectors its processor has.
  *
  * Example: columns (1 2) and (3 4) with factors 5 and 6 bring (23 34). */
-#include "lp/solver/solver_parts.h"
+#include "lp/solver/solver.h"
 
 #include "graph/number.h"
 

@@ -11,7 +11,7 @@
  *
  * Example: A A^T in which rows {0, 1} and {1, 2} share columns: 0 and 2 go before 1, and no entry
  * is added. */
-#include "lp/solver/solver_parts.h"
+#include "lp/solver/solver.h"
 
 #include "graph/arrays.h"
 

@@ -12,7 +12,7 @@
  * Notation: x, z primal values and reduced costs, y row multipliers, d* their steps; p, q, r are
  * the residuals of A x = rhs, A^T y + z = cost, x z = target. */
 
-#include "lp/solver/solver_parts.h"
+#include "lp/solver/solver.h"
 
 #include <float.h>
 #include <math.h>

@@ -13,7 +13,7 @@
  *
  * Example: A = (1 1), W = diag(2, 3), r = 10: 5 y = 10, y = 2. */
 #include "graph/number.h"
-#include "lp/solver/solver_parts.h"
+#include "lp/solver/solver.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -10,7 +10,7 @@
  *
  * Example: of 22 groups of a sphere with 270 edges the one of order 24 has 12 steps. As 270 / 12 >
  * 22, groups of order 22 and less are left out if only the choice is asked for. */
-#include "graph/process/threads.h"
+#include "graph/process/process.h"
 #include "graph/arrays.h"
 #include "symmetry/cover/cover_parts.h"
 #include "symmetry/lift/lift.h"

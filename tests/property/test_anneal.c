@@ -2,13 +2,13 @@
 /* Annealed cords of random small frameworks: what they are, and how often they are the best there
  * are, against an exhaustive search over walks. */
 #include "graph/framework/components.h"
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "tests/walks.h"
-#include "graph/threading/anneal.h"
+#include "graph/threading/threading.h"
 
 #include <math.h>
 #include <stdlib.h>

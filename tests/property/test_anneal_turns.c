@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Annealed turns and passes of random frameworks: that they stay what a cord is, and that they turn
  * as little as an exhaustive search over walks finds. */
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 #include "graph/plan/turning_proof.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "tests/walks.h"
-#include "tortuosity/cords/anneal_turns.h"
+#include "tortuosity/cords/several.h"
 #include "tortuosity/cords/join.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Several closed cords in every component against enumeration over all pairings of all passes. */
 #include "graph/number.h"
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/turning_proof.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Symmetric covers against exhaustive search and against published figures. */
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 #include "graph/plan/plan_measures.h"
 #include "symmetry/cover/cover.h"
 #include "symmetry/cover/cover_parts.h"

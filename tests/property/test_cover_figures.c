@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Symmetric covers of frameworks whose figures are published, and route inspection as the cover
  * under the trivial group. */
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 #include "graph/plan/plan_measures.h"
 #include "symmetry/cover/cover.h"
 #include "symmetry/cover/cover_parts.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cords that turn evenly, tied cords that turn least, and given numbers of ends that differ from
  * piece to piece, of random small frameworks against every choice of passes, ends and pairs. */
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 #include "graph/plan/turning_proof.h"
 #include "planner/planner.h"
 #include "tests/frameworks.h"

@@ -2,7 +2,7 @@
 /* The order of work against all starts, directions and orders of cords; and what it leaves as it
  * was. */
 #include "graph/check/check.h"
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan_measures.h"
 #include "planner/planner.h"

@@ -2,7 +2,7 @@
 /* The least turning of frameworks whose optima are known from other programs (docs/method.md), in
  * degrees. */
 #include "graph/number.h"
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "planner/planner_parts.h"

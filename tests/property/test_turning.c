@@ -2,7 +2,7 @@
 /* The least turning of random small frameworks against enumeration, its proof under alteration, and
  * what must not change. */
 #include "graph/number.h"
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 #include "graph/io/json.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"

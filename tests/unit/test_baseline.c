@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The classical tours against a second Fleury on counts of passes, pairings by enumeration, and the
  * shortest length. */
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 #include "lp/length/postman.h"
 #include "tests/frameworks.h"
 #include "tests/oracles.h"

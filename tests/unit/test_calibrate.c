@@ -2,7 +2,7 @@
 /* Friction from weights, and the piece that they hang from: what went in by the capstan law comes
  * out; the mesh is closed. */
 #include "diagram/export/paper.h"
-#include "eval/cord/calibrate.h"
+#include "eval/cord/profile.h"
 #include "graph/number.h"
 #include "tests/support.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Views of steps in space: what is claimed of a view is measured anew from its projection. */
-#include "diagram/space/camera.h"
+#include "diagram/space/space.h"
 #include "graph/number.h"
 #include "tests/support.h"
 

@@ -3,7 +3,7 @@
 #include "diagram/layout/layout.h"
 #include "diagram/overview/overview.h"
 #include "diagram/scene/scene.h"
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 #include "symmetry/symmetry.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"

@@ -3,9 +3,8 @@
  * capitals as high as they are to be.
  */
 #include "diagram/export/paper.h"
-#include "diagram/mat/emboss.h"
+#include "diagram/mat/mat.h"
 #include "graph/framework/frame.h"
-#include "graph/framework/make.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"

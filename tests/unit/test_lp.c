@@ -3,7 +3,6 @@
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "lp/solver/solver.h"
-#include "lp/solver/solver_parts.h"
 #include "tests/frameworks.h"
 #include "tests/support.h"
 

@@ -2,7 +2,6 @@
 /* Generators: counts from closed forms, Euler characteristic, symmetry, lengths; data/dome7.json is
  * the default dome. */
 #include "graph/framework/frame.h"
-#include "graph/framework/make.h"
 #include "graph/io/read.h"
 #include "graph/status.h"
 #include "graph/text.h"

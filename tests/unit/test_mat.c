@@ -3,7 +3,7 @@
  * two pages on each other. */
 #include "diagram/export/paper.h"
 #include "diagram/mat/mat.h"
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
 #include "graph/text.h"
 #include "tests/frameworks.h"

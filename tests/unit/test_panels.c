@@ -2,7 +2,7 @@
 /* Two panels of closed shells, the side that they show, and drawings by springs. */
 #include "diagram/layout/layout.h"
 #include "diagram/overview/overview_parts.h"
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 #include "tests/frameworks.h"
 #include "tests/symmetric.h"
 

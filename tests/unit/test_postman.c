@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* T-joins and the shortest cord: known answers, data files, limits. */
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 #include "lp/length/postman.h"
 #include "lp/tjoin/tjoin.h"
 #include "tests/frameworks.h"

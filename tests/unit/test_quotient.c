@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Types of copies, darts and turns under a group: known cases, counts that must agree, limits,
  * failing allocations. */
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "symmetry/cover/cover.h"
 #include "symmetry/group/group.h"

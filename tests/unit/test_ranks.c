@@ -2,7 +2,6 @@
 /* Connections counted exactly at nodes: forests against all sets of turns, and what they prove of a
  * sphere. */
 #include "graph/framework/frame.h"
-#include "graph/framework/make.h"
 #include "graph/limits.h"
 #include "graph/plan/turning_proof.h"
 #include "tests/support.h"

@@ -6,7 +6,7 @@
 #include "diagram/overview/overview_parts.h"
 #include "diagram/scene/scene.h"
 #include "graph/number.h"
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 #include "symmetry/group/group.h"
 #include "symmetry/symmetry.h"
 #include "tests/frameworks.h"

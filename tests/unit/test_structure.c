@@ -4,7 +4,7 @@
 #include "eval/eval.h"
 #include "eval/structure/beads.h"
 #include "graph/number.h"
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/threading/threading.h"

@@ -4,11 +4,10 @@
  */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/framework/frame.h"
-#include "graph/framework/make.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
-#include "graph/process/threads.h"
+#include "graph/process/process.h"
 #include "planner/planner.h"
 #include "symmetry/symmetry.h"
 #include "tests/frameworks.h"

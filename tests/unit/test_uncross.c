@@ -3,7 +3,6 @@
  * it. */
 #include "graph/check/check.h"
 #include "graph/framework/frame.h"
-#include "graph/framework/make.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/plan_measures.h"

@@ -3,7 +3,7 @@
  * names that could end the script do not, and failures leave nothing behind. What the page does is
  * tested in tests/viewer. */
 #include "diagram/export/paper.h"
-#include "graph/framework/make.h"
+#include "graph/framework/frame.h"
 #include "graph/io/json.h"
 #include "graph/plan/evaluation.h"
 #include "symmetry/symmetry.h"

@@ -2,7 +2,7 @@
 /* The pool of processes: order, failures, crashes, signals, limits, and nothing left behind. */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/limits.h"
-#include "graph/process/threads.h"
+#include "graph/process/process.h"
 #include "tests/processes.h"
 #include "tests/support.h"
 

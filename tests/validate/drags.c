@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tests/validate/drags.h"
 #include "graph/limits.h"
-#include "graph/process/threads.h"
+#include "graph/process/process.h"
 
 #include <stdlib.h>
 #include <unistd.h>

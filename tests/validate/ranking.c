@@ -5,7 +5,7 @@
 #include "graph/limits.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
-#include "graph/process/threads.h"
+#include "graph/process/process.h"
 #include "tests/validate/validate.h"
 
 #include <math.h>

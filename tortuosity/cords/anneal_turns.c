@@ -19,7 +19,7 @@
 #include "graph/number.h"
 #include "graph/framework/frame.h"
 #include "graph/arrays.h"
-#include "tortuosity/cords/anneal_turns.h"
+#include "tortuosity/cords/several.h"
 
 #include <float.h>
 #include <math.h>

@@ -12,7 +12,7 @@
  * from b and d; if b and c turn into one edge e further on, all have met there: one part. */
 #include "graph/arrays.h"
 #include "graph/framework/frame.h"
-#include "tortuosity/cords/anneal_turns.h"
+#include "tortuosity/cords/several.h"
 
 #include <math.h>
 #include <stdlib.h>

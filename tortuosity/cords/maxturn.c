@@ -11,7 +11,7 @@
  * Example: cords of 5 and 9 rad with a total of 14 cannot be better than 7 and 7. */
 #include "graph/number.h"
 #include "graph/plan/physics.h"
-#include "graph/process/threads.h"
+#include "graph/process/process.h"
 #include "graph/arrays.h"
 #include "tortuosity/cords/several.h"
 #include "tortuosity/cords/walk_model.h"

@@ -22,7 +22,7 @@
 #include "graph/plan/walk_proof.h"
 #include "graph/arrays.h"
 #include "graph/status.h"
-#include "graph/threading/anneal.h"
+#include "graph/threading/threading.h"
 #include "lp/model/tree.h"
 #include "tortuosity/proof/branch.h"
 

@@ -12,7 +12,7 @@
  * price 11. The second child is closed; the first one stays open until its leaves reach 11 or a
  * plan of price 10 is found. */
 #include "graph/number.h"
-#include "tortuosity/cords/anneal_turns.h"
+#include "tortuosity/cords/several.h"
 #include "tortuosity/proof/relax_parts.h"
 #include "tortuosity/tie/tie.h"
 

@@ -21,7 +21,7 @@
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
-#include "graph/process/threads.h"
+#include "graph/process/process.h"
 #include "graph/status.h"
 #include "lp/model/tree.h"
 #include "lp/tjoin/tjoin.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Improves the best plan of one cord per component, solid joints, by simulated annealing of its
- * turns (tortuosity/cords/anneal_turns.h).
+ * turns (tortuosity/cords/several.h).
  *
  * A round is RUNS runs in parallel. Each has random numbers of its own and goes on from the plan
  * where it ended in the round before. What a run improves is tried as a plan of the search. Rounds
@@ -9,7 +9,7 @@
  *
  * Example: a better plan in rounds 1 and 3 of the search ends it after round 5. */
 #include "graph/arrays.h"
-#include "tortuosity/cords/anneal_turns.h"
+#include "tortuosity/cords/several.h"
 #include "tortuosity/proof/branch.h"
 
 enum {

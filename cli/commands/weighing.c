@@ -4,7 +4,7 @@
  *
  * A weight HANG hangs from a cord that goes round 90 degrees through a piece; IN at the other end
  * just draws it up, OUT just lets it slip down. By the capstan law IN / OUT = exp(2 mu theta), so
- * that mu = ln(IN / OUT) / (2 theta) whatever HANG weighs (eval/cord/calibrate.h). A piece that
+ * that mu = ln(IN / OUT) / (2 theta) whatever HANG weighs (eval/cord/profile.h). A piece that
  * slides on a board tilted by alpha has mu = tan(alpha).
  *
  * Example: `--calibrate "1,1.4,0.7; bead=17,18,16"` gives mu = 0.221 (band 0.189 to 0.253) and
@@ -14,7 +14,7 @@
 #include "graph/io/read.h"
 #include "cli/cli.h"
 #include "diagram/export/paper.h"
-#include "eval/cord/calibrate.h"
+#include "eval/cord/profile.h"
 #include "graph/number.h"
 #include "graph/io/json.h"
 
