@@ -238,9 +238,9 @@ static int resolve_pulls(const pull_args *args, const char *path, const thr_plan
   for (int i = 0; i < plan->n_cords; i++)
     if ((*out)[i] != THR_PULL_NONE) options->cord_pull = *out;
 
-  return options->cord_pull
-             ? EXIT_OK
-             : cli_usage("eval", "--pull %s: no cord of %s is pulled", args->pull, path);
+  return options->cord_pull ? EXIT_OK
+                            : cli_usage(cli_command_name(), "--pull %s: no cord of %s is pulled",
+                                        args->pull, path);
 }
 
 /* Notes, once, that a very short edge makes every cord thin: sizes that were not said follow from
