@@ -65,6 +65,7 @@ run() { # NAME LOG: runs the job; its exit code, 77 = skipped
   case $name in
   layers) tests/layers.sh ;;
   layers-self-test) tests/layers.sh --self-test ;;
+  documents) tools/source_tour.py --check && tests/documents.py "$OUT/release/thread" ;;
   format) format "$log" && return ;;
   */golden/*) tests/golden/run.sh "$OUT/$build/thread" "tests/$rest" ;;
   release/memory) nice tests/memory/run.sh "$OUT/release/thread" "$OUT/release/tests/memory/fail_malloc.so" "$OUT/memory" "$MEMORY_SAMPLES" ;;
@@ -126,7 +127,7 @@ tier=${1:-test}
 export SHARE_RELEASE=1 SHARE_ASAN=10 MEMORY_SAMPLES=40 MUTANTS=50 FUZZ_RUNS=30000
 # Golden cases that take minutes under sanitizers, and whose planning and evaluation other tests run under them.
 slow='asan/figures.case asan/eval.case asan/cords.case asan/turning.case asan/threads.case asan/convert.case asan/plan.case asan/compare.case asan/schedules.case'
-builds='release asan' tree='layers layers-self-test format bench/smallest library/install readme examples formats/mutants' programs='second/json second/plans viewer/page viewer/browser' whole='' fuzz=yes
+builds='release asan' tree='layers layers-self-test documents format bench/smallest library/install readme examples formats/mutants' programs='second/json second/plans viewer/page viewer/browser' whole='' fuzz=yes
 case $tier in
 test) whole='release/watchdog release/memory' MEMORY_SAMPLES=4 ;;
 fast) builds=release SHARE_RELEASE=10 programs='' fuzz='' ;;

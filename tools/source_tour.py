@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Writes the lists of files in docs/source-tour.md from the heads of the files themselves.
+"""Writes what the folders of docs/source-tour.md offer from the heads of their headers.
 
-tools/source_tour.py           rewrites the lists
+tools/source_tour.py           rewrites the last column of the tables of folders
 tools/source_tour.py --check   compares only: prints what differs, exit code 1
 
-Between a line `<!-- files of FOLDER -->` and the next `<!-- end -->` stands one row for each name in that folder: foo.c and foo.h are
-one row, described by the first sentence of the comment that the source begins with (the header, if the source has none). Every
-folder with sources has its list; one without is an error, as is a file without a head.
+A row of such a table is `| folder/ | what for, by hand | headers |`, between a line `<!-- folders -->` and the next `<!-- end -->`.
+The last column names each header of the folder with the first sentence of the comment that it begins with; headers that only
+the folder's own files share (.._parts.h) are left out. Every folder with sources has its row, and every source and header begins
+with a comment that says what it is, or its header does: what is missing is an error.
 """
 import os
 import re
@@ -41,37 +42,33 @@ def folders():
     return out
 
 
-def rows(folder, names, bad):
-    out = ["| file | what |", "|---|---|"]
-    for name in sorted(names):
-        endings = sorted(names[name], key=ENDINGS.index)
-        heads = [first_sentence(os.path.join(folder, name + ending)) for ending in endings]
-        what = next((head for head in heads if head), None)
-        if what is None:
-            bad.append("%s: begins with no comment that says what it is" % os.path.join(folder, name + endings[0]))
-            continue
-        out.append("| `%s` | %s |" % ("`, `".join([name + endings[0]] + endings[1:]), what))
-    return out
+def without_head(known):
+    """The sources that begin with no comment, and whose header, if there is one, does not either."""
+    for folder, names in known.items():
+        for name, endings in names.items():
+            if not any(first_sentence(os.path.join(folder, name + ending)) for ending in endings):
+                yield os.path.join(folder, name + endings[0])
+
+
+def offered(folder, names):
+    headers = sorted(name for name, endings in names.items() if ".h" in endings and not name.endswith("_parts"))
+    told = [(name + ".h", first_sentence(os.path.join(folder, name + ".h"))) for name in headers]
+    return "; ".join("`%s`%s" % (name, ": " + head if head else "") for name, head in told)
 
 
 def filled(page, bad):
-    known, out, skipping = folders(), [], False
-    seen = set()
+    known, out, seen, inside = folders(), [], set(), False
     for line in page.split("\n"):
-        begin = re.match(r"<!-- files of (\S+) -->", line)
-        if line == "<!-- end -->":
-            skipping = False
-        if not skipping:
-            out.append(line)
-        if begin:
-            folder = begin.group(1).rstrip("/")
-            seen.add(folder)
-            skipping = True
-            if folder in known:
-                out += rows(folder, known[folder], bad)
-            else:
-                bad.append("%s: lists files of %s/, which has none" % (PAGE, folder))
-    bad += ["%s: has no list `<!-- files of %s -->`" % (PAGE, f) for f in sorted(set(known) - seen)]
+        inside = (inside or line == "<!-- folders -->") and line != "<!-- end -->"
+        row = re.match(r"(\| `([^`]+)/` \| [^|]* \|)", line) if inside else None
+        if row and row.group(2) in known:
+            seen.add(row.group(2))
+            line = ("%s %s" % (row.group(1), offered(row.group(2), known[row.group(2)]))).rstrip() + " |"
+        elif row:
+            bad.append("%s: has a row for %s/, which has no sources" % (PAGE, row.group(2)))
+        out.append(line)
+    bad += ["%s: has no row for %s/" % (PAGE, folder) for folder in sorted(set(known) - seen)]
+    bad += ["%s: begins with no comment that says what it is" % path for path in without_head(known)]
     return "\n".join(out)
 
 
@@ -84,7 +81,7 @@ def main():
     if "--check" in sys.argv[1:]:
         if new != page:
             old = set(page.split("\n"))
-            bad.append("%s: not what the heads of the files say; tools/source_tour.py writes it. First: %s" %
+            bad.append("%s: not what the heads of the headers say; tools/source_tour.py writes it. First: %s" %
                        (PAGE, next((line for line in new.split("\n") if line not in old), "a line too many")))
     elif not bad:
         with open(PAGE, "w", encoding="utf-8") as f:

@@ -8,7 +8,7 @@
  * bound is a concave function of p. With one price the best p is found where two of its lines meet;
  * where ends are counted at nodes, each node has a price, and they are found by cutting planes.
  *
- * Example: docs/method.md, "Several cords". */
+ * Example: docs/method.md, "Sharing the passes out". */
 #include "graph/check/check.h"
 #include "graph/arrays.h"
 #include "graph/plan/plan_measures.h"
