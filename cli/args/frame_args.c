@@ -78,7 +78,7 @@ const cli_option cli_frame_options[] = {
     {"feet", .value = "lowest|FILE|NAME,..", .kind = CLI_TEXT, AT(feet),
      .help = "where cord ends may come out (default: as the file says)"},
     {"edges", .value = "FILE", .kind = CLI_TEXT, AT(read.edges_path),
-     .help = "second file of a CSV pair: FRAME holds the nodes, FILE the edges"},
+     .help = "tables in two files: FRAME holds the nodes, FILE the edges"},
     {"weld", .value = "TOL", .kind = CLI_AMOUNT, AT(read.weld), .high = 1e300,
      .help = "merge nodes closer than TOL (default: 1e-6 of the bounding box)"},
     {"units", .value = "NAME", .kind = CLI_OTHER, .take = take_units,
@@ -93,12 +93,12 @@ const cli_option cli_frame_options[] = {
     {"columns", .value = "A,B", .kind = CLI_OTHER, .take = take_columns,
      .help = "tables: the two columns of the ends of an edge, by name or number (default: found)"},
     {"parallel", .kind = CLI_OTHER, .take = take_choice, .word = parallel_name, .n_words = 2,
-     .help = "of edges between the same nodes: all, parted by a node each, or the shortest "
-             "(default)"},
+     .help = "of edges between the same nodes: the shortest (default), or all, each but the "
+             "shortest with a node of its own in the middle"},
     {"split", .kind = CLI_FLAG, AT(read.split), .help = "cut an edge where a node lies on it"},
     {"pick", .value = "NAME|N", .kind = CLI_TEXT, AT(read.pick),
      .help = "of a file of several frameworks, objects, groups or layers: this one, or the Nth "
              "(default: all)"},
     {"layers", .kind = CLI_OTHER, .take = take_choice, .word = layers_name, .n_words = 2,
-     .help = "DXF: with the layers that are off or frozen, or without (default)"},
+     .help = "DXF: only layers that are shown (default), or also those that are off or frozen"},
     {0}};

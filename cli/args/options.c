@@ -369,7 +369,10 @@ static void put_help(thr_text *out, const cli_syntax *syntax, const cli_group *g
   for (const cli_option *option = cli_common_options; option->name; option++) {
     put_option(out, option, width);
   }
-  if (syntax->outro) thr_text_printf(out, "\n%s", syntax->outro);
+  if (syntax->outro) {
+    thr_text_append(out, "\n");
+    put_wrapped(out, syntax->outro, 0, 0, width);
+  }
 }
 
 /* ---- parsing ---- */

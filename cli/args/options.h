@@ -53,7 +53,7 @@ typedef struct {
   const char *command;
   const char
       *intro; /* usage and summary in the first line, then examples and what is to be known */
-  const char *outro; /* what comes after the options: exit codes; NULL: nothing */
+  const char *outro; /* what comes after the options, wrapped: exit codes; NULL: nothing */
 } cli_syntax;
 
 /* Reads all options of the command line into the groups, prints help if that is asked for, and

@@ -129,29 +129,32 @@ static bool take_frontier(void *into, const cli_option *option, const char *valu
 static const cli_option own_planned[] = {
     {"objective", .kind = CLI_OTHER, .take = take_objective, .word = thr_dispatch_name,
      .n_words = THR_N_OBJECTIVES,
-     .help =
-         "what the plan is to have little of: cord (default), turning, or what is to be learned"},
+     .help = "what the plan is to have little of: cord (length, the default), paths to learn "
+             "(symmetry), or turning, which makes cords hard to pull (tortuosity)"},
     {"cords", .value = "K", .kind = CLI_OTHER, .take = take_cords,
-     .help = "K cords in every component, 1 to 1000 (default: 1); A..B, ..B: at most B; auto: with "
-             "--max-length or --max-pull"},
+     .help = "K cords in every component, 1 to 1000 (default: 1); A..B, ..B: at most B; auto: as "
+             "many as --max-length or --max-pull takes"},
     {"ends", .value = "closed|any|feet|FILE|NAME,..", .kind = CLI_TEXT, AT(ends),
      .help = "both ends of a cord at one node (default), or anywhere, at feet, at these nodes; "
              "NAME:N,..: exactly so many cord ends at each of these nodes"},
-    {"balance", .kind = CLI_FLAG, AT(balance), .help = "make the longest cord short"},
+    {"balance", .kind = CLI_FLAG, AT(balance),
+     .help = "of several cords: make the longest as short as can be"},
     {"max-pull", .value = "F", .kind = CLI_OTHER, .take = take_max_pull,
-     .help = "no cord needs more at its ends, both pulled: F newtons, or 20x the seating tension; "
-             "few cords"},
+     .help = "as few cords as it takes for none to need more than F newtons, pulled at both ends; "
+             "20x: more than 20 times the seating tension"},
     {"hand", .value = "one|two|N", .kind = CLI_OTHER, .take = take_hand,
-     .help = "the same: 50 newtons (one hand), 100 (two) or N"},
+     .help = "--max-pull by what hands manage: 50 newtons (one hand), 100 (two) or N"},
     {"cord-strength", .value = "N", .kind = CLI_AMOUNT, AT(strength), .low = CLI_ABOVE_0,
      .high = 1e100,
-     .help = "refuse cords that would break: N newtons, of which an overhand knot leaves 45 %"},
+     .help =
+         "refuse plans whose pull breaks a cord that bears N newtons when straight; an overhand "
+         "knot leaves 45 % of that"},
     {"aims", .value = "LIST", .kind = CLI_TEXT, AT(aims),
-     .help = "what to minimize, first, second, ..: length; longest (cord), length; turning, "
-             "max-turning (of the cord that turns most) or pull (as --minimize), as turning:sine "
-             "with another price of turns, after length+5%: at most so much above the least; or of "
-             "symmetric plans overlap, steps, paths, turning. It says what --objective, --balance, "
-             "--minimize, --turn-cost, --length-slack and --prefer say"},
+     .help = "what to minimize first, second, .., in place of --objective, --balance, --minimize, "
+             "--turn-cost, --length-slack and --prefer: length; or longest (cord), length; or "
+             "turning, max-turning (of the cord that turns most) or pull, with another price of "
+             "turns as turning:sine, after length+5% with at most 5 % more cord than the least; or "
+             "of symmetric plans overlap, steps, paths, turning"},
     {0}};
 
 static const cli_option own_turning[] = {
@@ -160,18 +163,18 @@ static const cli_option own_turning[] = {
              "(default: any)"},
     {"minimize", .kind = CLI_OTHER, .take = take_minimize, .word = thr_minimize_name,
      .n_words = THR_N_MINIMIZE,
-     .help = "of all cords together, of the cord that turns most (default with several), or what "
-             "the hand feels: what an end of the cord that is hardest to pull at both ends has to "
-             "overcome"},
+     .help = "the turning of all cords together, that of the cord that turns most (default with "
+             "several), or what the hand feels: the pull at the harder end of the cord that is "
+             "hardest to pull at both ends"},
     {"frontier", .value = "[=N]", .kind = CLI_OTHER, .take = take_frontier,
      .help = "also the trade-off between length and turning, at up to N lengths, 2 to 1000 "
              "(default: 9)"},
     {"plot", .value = "FILE", .kind = CLI_OUTPUT, AT(plot),
      .help = "with --frontier: a picture of it, pull against cord, as SVG"},
     {"compare-shortest", .kind = CLI_FLAG, AT(compare),
-     .help = "beside it the least turning among the shortest cords; with --length-slack 0 that of "
-             "any length, with a classical tour the least turning: one more search, as long as the "
-             "first"},
+     .help = "print beside it the least turning among the shortest cords; with --length-slack 0 "
+             "that of any length, with a classical tour the least turning: one more search, as "
+             "long as the first"},
     {0}};
 
 /* The option that a row of the request's table makes. */

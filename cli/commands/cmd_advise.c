@@ -39,19 +39,16 @@ static const char intro[] =
     "thread advise FRAME [options]: how many cords, and from where, so that a hand can pull "
     "them\n\n"
     "Examples:\n"
-    "  thread advise dome.json                       a table, one line of it recommended, and the "
-    "command that makes its plan\n"
+    "  thread advise dome.json                       a table, and the command that makes its best "
+    "row\n"
     "  thread advise dome.json -T svg -o advice.svg  pull and cord against the number of cords\n"
     "  thread advise shell.obj --feet lowest --seating 2 --mu 0.25\n";
 static const char outro[] =
     "Every row is a plan whose cord that turns most turns as little as was found in its part of "
-    "the time. Steps are the\n"
-    "passes of those cords that are no mirrored or turned copies of others, and their ends if they "
-    "may be anywhere: what\n"
-    "is to be learned.\n"
+    "the time. Steps are the passes of those cords that are no mirrored or turned copies of "
+    "others, and their ends if they may be anywhere: what is to be learned.\n"
     "Exit codes: 0 a row is recommended, 2 usage, 3 bad input, 4 no row stays within the hand "
-    "(table printed), or no\n"
-    "threading, 5 no row in time\n";
+    "(table printed), or no threading, 5 no row in time";
 
 enum { TYPE_TEXT, TYPE_SVG, N_TYPES };
 

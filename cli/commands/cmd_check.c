@@ -29,15 +29,14 @@
 #include <sys/stat.h>
 
 static const char intro[] =
-    "thread check PLAN.. [--json]: verify coverage, ends, metrics and the proof of optimality; no "
-    "solver is used\n\n"
+    "thread check PLAN.. [options]: verify coverage, ends, lengths and proofs, without a solver\n\n"
     "Examples:\n"
     "  thread check plan.json\n"
     "  thread plan dome.obj -o - | thread check -\n";
 static const char outro[] =
     "-q prints nothing for plans that hold; -v what proofs are made of, and crossings.\n"
-    "Exit codes: 0 all plans hold, 1 a violation (printed with its place), 2 usage, 3 not a plan,\n"
-    "5 not verified in the time or memory\n";
+    "Exit codes: 0 all plans hold, 1 a violation (printed with its place), 2 usage, 3 not a plan, "
+    "5 not verified in the time or memory";
 
 /* Appends what is verified of the turning of a plan that was made for it. Whether its length is the
  * shortest or not is another claim. */

@@ -36,26 +36,18 @@
 #include <string.h>
 
 static const char intro[] =
-    "thread compare PLAN.. [options]: plans of one framework side by side; * marks the best of "
-    "each row\n\n"
+    "thread compare PLAN.. [options]: plans of one framework side by side; * marks the best\n\n"
     "Examples:\n"
-    "  thread compare closed.json feet.json --mu 0.3           ranked by pull, joints measured in "
+    "  thread compare closed.json feet.json --mu 0.3           by pull, joints measured in "
     "simulation\n"
-    "  thread compare closed.json feet.json --method capstan   the same by the closed form, at "
-    "once\n"
-    "  thread compare data/dome7-*.json --method all           closed form, joints, structure: do "
-    "they agree?\n"
-    "  thread compare data/dome7-*.json --method structure --load D4=1 --schedule \"all: pull both "
-    "20\"\n"
-    "                                                          by what they carry, drawn in and "
-    "afterwards\n";
+    "  thread compare closed.json feet.json --method capstan   by the closed form, at once\n"
+    "  thread compare data/dome7-*.json --method all           by either, and by when they stand\n"
+    "  thread compare data/dome7-*.json --method structure --load D4=1   by what they carry\n";
 static const char outro[] =
     "A difference within the measured error is a tie. The simulation of the structure runs twice "
-    "for each plan, the second\n"
-    "time with half the time step; only what both runs and their errors tell apart is no tie. It "
-    "takes minutes;\n"
-    "--no-dynamics is fast; it knows no loads, leaning ground, held feet and schedules, and is "
-    "left out with them.\n";
+    "for each plan, the second time with half the time step; only what both runs and their errors "
+    "tell apart is no tie. It takes minutes; --no-dynamics is fast; it knows no loads, leaning "
+    "ground, held feet and schedules, and is left out with them.";
 
 /* Rankings, one for each question, in the order in which they are printed. CAPSTAN and JOINT:
  * seating pull. HOLDING to LOADED: least pull (or part of the tensions) of the limit analysis.

@@ -17,8 +17,7 @@
 static const char intro[] =
     "thread convert FRAME [options]: a framework, read and checked, in another format\n\n"
     "Examples:\n"
-    "  thread convert shell.stl --flat 1 -o shell.obj    the mesh's edges, without diagonals of "
-    "flat faces\n"
+    "  thread convert shell.stl --flat 1 -o shell.obj    without the diagonals of flat faces\n"
     "  thread convert dome.obj --scale 1000 --units mm --feet lowest -o dome.json\n"
     "  thread convert - -T csv < dome.json | wc -l\n";
 

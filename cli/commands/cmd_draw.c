@@ -35,7 +35,7 @@ static const char intro[] =
     "  thread draw plan.json --color tension         after `thread eval plan.json -o plan.json`\n"
     "  thread draw plan.json --color turning         the sharper a turn the darker\n";
 static const char outro[] =
-    "Exit codes: 0 drawn, 2 usage, 3 not a plan, 5 not all drawn in the time or memory\n";
+    "Exit codes: 0 drawn, 2 usage, 3 not a plan, 5 not all drawn in the time or memory";
 
 /* Returns the value of --up for a choice: 0 = y, 1 = z. */
 static const char *up_name(int up)

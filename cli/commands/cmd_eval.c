@@ -44,21 +44,17 @@
 static const char intro[] =
     "thread eval PLAN [options]: pull force, friction loss and tension along each cord\n\n"
     "Examples:\n"
-    "  thread eval plan.json --mu 0.3 --seating 5         newtons at the pulled ends so that 5 N "
-    "reaches every bead\n"
-    "  thread eval plan.json --method joint               joints measured in simulation\n"
-    "  thread eval plan.json --method structure --still still.svg   least pull at which the whole "
-    "can stand\n"
-    "  thread eval plan.json -o plan.json --plot tension.svg        keep it in the plan; draw "
-    "it\n";
+    "  thread eval plan.json --mu 0.3 --seating 5    which pull leaves 5 N where it is slackest\n"
+    "  thread eval plan.json --method joint          the same, joints measured in simulation\n"
+    "  thread eval plan.json --method structure --still still.svg   which pull lets the whole "
+    "stand\n"
+    "  thread eval plan.json -o plan.json --plot tension.svg        keep it in the plan; draw it\n";
 static const char outro[] =
     "Pull is the force at the pulled ends of a cord at which its slackest pass has the seating "
-    "tension (capstan, joint),\n"
-    "or at which the structure can just stand while the cord is drawn in (structure). These are "
-    "different things. The\n"
-    "closed form takes the cord through the middle of every bead; a cord thinner than the bore "
-    "cuts corners, turns less\n"
-    "and needs less: method joint knows.\n";
+    "tension (capstan, joint), or at which the structure can just stand while the cord is drawn in "
+    "(structure). These are different things. The closed form takes the cord through the middle of "
+    "every bead; a cord thinner than the bore cuts corners, turns less and needs less: method "
+    "joint knows.";
 
 /* The command line. Strings point into argv. */
 typedef struct {
@@ -114,8 +110,8 @@ static const cli_option own_options[] = {
      .kind = CLI_OUTPUT, AT(output)},
     {"tension", .kind = CLI_FLAG, AT(tension), .help = "print the tension in every pass"},
     {"hand", .value = "N", .kind = CLI_OTHER, .take = take_hand,
-     .help = "the fewest grips with which no pull is above N newtons (one: 50, two: 100): where, "
-             "how hard"},
+     .help = "where to grip the cord on the way, and how hard, so that no pull is above N newtons "
+             "(one: 50, two: 100): the fewest grips"},
     {"schedule", .value = "TEXT", .kind = CLI_OUTPUT, AT(schedule),
      .help = "what is done to the cords, in order, and the tension that it leaves; or a file of "
              "that: \"A: pull both 40; A: release end 5; A: knot both 0.5; B: knot start; C: none; "

@@ -35,14 +35,13 @@ static const char intro[] =
     "Examples:\n"
     "  thread info dome.obj --feet lowest\n"
     "  thread info nodes.csv --edges edges.csv --json\n"
-    "  thread info plan.json                         the framework inside a plan, the joints that "
-    "its cords do not tie, and\n"
-    "                                                the channels that cross inside a piece\n\n"
-    "The line `hinged` takes every node for a ball joint: can nodes move without an edge getting "
-    "longer?\n"
-    "What can move must be held by joints that lock. A joint is tied if the cord alone holds its "
-    "edges\n"
-    "together (--joint tube); joints of solid beads need not be.\n";
+    "  thread info plan.json      the framework inside a plan, the joints that its cords do not "
+    "tie,\n"
+    "                             and the channels that cross inside a piece\n\n"
+    "The line `hinged` takes every node for a ball joint: can nodes move without an edge getting\n"
+    "longer? What can move must be held by joints that lock. A joint is tied if the cord alone "
+    "holds\n"
+    "its edges together (--joint tube); joints of solid beads need not be.\n";
 
 enum { MOST_DEGREES = 64, MOST_NAMES = 20, MOST_BARS = 50000 };
 /* What was found out about a framework. */

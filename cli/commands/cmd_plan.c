@@ -39,26 +39,22 @@
 #include <unistd.h>
 
 static const char intro[] =
-    "thread plan FRAME [options]: plan how cord is threaded: shortest or turning least, proved, or "
-    "symmetric\n\n"
+    "thread plan FRAME [options]: the threading that is shortest, turns least or is symmetric\n\n"
     "Examples:\n"
-    "  thread plan dome.obj                          plan.json, overview.svg, sheets.pdf and more "
-    "in the folder dome/\n"
-    "  thread plan dome.obj --cover 2 -o plan.json   two passes per interface; the plan only\n"
-    "  thread plan dome.obj --cords 4 --ends feet --feet lowest --balance   four cords of much the "
-    "same length\n"
+    "  thread plan dome.obj                               plan, pictures, tables in the folder "
+    "dome/\n"
+    "  thread plan dome.obj --cover 2 -o plan.json        two passes per interface; the plan only\n"
+    "  thread plan dome.obj --cords 4 --ends feet --feet lowest --balance   of much the same "
+    "length\n"
     "  thread plan dome.obj --max-length 900 --ends any   as few cords as that takes\n"
-    "  thread plan dome.obj --objective tortuosity   the cord that turns least: it pulls most "
-    "easily\n"
-    "  thread plan dome.obj --objective symmetry     a short path to learn, and its mirrored and "
-    "turned copies\n"
+    "  thread plan dome.obj --objective tortuosity        what turns least, and pulls most easily\n"
+    "  thread plan dome.obj --objective symmetry          a short path to learn, and its copies\n"
     "  thread make dome | thread plan - -o - | thread check -\n";
 static const char outro[] =
     "Exit codes: 0 as asked: the shortest, or within the gap; of other aims without --gap and "
-    "--time-limit within any gap,\n"
-    "which is said; 2 usage, 3 bad input, 4 infeasible or none found, 5 not as asked (plan "
-    "written), 70 internal.\n"
-    "What is said of cord and beads is stored in the plan; thread eval begins with it.\n";
+    "--time-limit within any gap, which is said; 2 usage, 3 bad input, 4 infeasible or none found, "
+    "5 not as asked (plan written), 70 internal.\n"
+    "What is said of cord and beads is stored in the plan; thread eval begins with it.";
 
 /* ---- options ---- */
 
@@ -79,13 +75,13 @@ typedef struct {
 
 static const cli_option time_options[] = {
     {GUARD_TIME_LIMIT,
-     .help = "stop after S seconds with the best plan so far and its gap, 0 = never (default: 0; "
-             "other objectives and tube joints: 20). --frontier, --compare-shortest and "
-             "--compare-objectives share an S that is given; else each search has its 20 s. "
-             "Drawings are made whole, and take their time. Without S --max-pull, one cord that "
-             "turns least, and several by their largest turning, count their work instead, some "
-             "three seconds, ten times as much for --max-pull where that finds no cords: the same "
-             "plan on every machine, later on a busy one"},
+     .help = "stop after S seconds with the best plan so far and its gap, 0 = never (default: 0 "
+             "for length and solid joints, else 20). The searches of --frontier, "
+             "--compare-shortest and --compare-objectives share an S that is given; else each has "
+             "its 20 s. Drawings come on top. Without S the searches for one cord that turns "
+             "least, for several by their largest turning, and for --max-pull count their work "
+             "instead: some three seconds, thirty for --max-pull where three find no cords, and "
+             "the same plan on every machine"},
     {0}};
 
 static const cli_option output_options[] = {
@@ -95,12 +91,14 @@ static const cli_option output_options[] = {
      .help = "write the diagrams into this folder, and without -o the plan too (no sheets.pdf for "
              "more than 1000 pieces: thread draw PLAN -T pdf makes it)"},
     {"force", .kind = CLI_FLAG, AT(force),
-     .help = "in a folder named after FRAME, replace another plan (else FRAME-2, FRAME-3, ..)"},
+     .help = "replace another plan in the folder that is named after FRAME (else FRAME-2, FRAME-3, "
+             "..)"},
     {"json", .kind = CLI_FLAG, AT(json), .help = "summary as JSON on stdout"},
     {"progress", .kind = CLI_FLAG, AT(progress),
      .help = "a line of JSON on stderr each time the plan or its bound is better"},
     {"compare-objectives", .kind = CLI_FLAG, AT(compare),
-     .help = "pull of this plan beside those for the other objectives, joints simulated"},
+     .help = "make the plans for the other objectives, too, and compare the pulls, joints "
+             "simulated"},
     {0}};
 
 /* Parses the command line into *args. Returns -1 to go on, or the exit code of the command. */

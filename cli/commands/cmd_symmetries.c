@@ -30,24 +30,19 @@
 #include <string.h>
 
 static const char intro[] =
-    "thread symmetries FRAME [options]: groups of symmetries, and the best symmetric threading "
-    "under each\n\n"
+    "thread symmetries FRAME [options]: groups of symmetries, the best threading under each\n\n"
     "Examples:\n"
-    "  thread symmetries dome.obj --ends feet        how much is to be learned under each group, "
-    "and at what price in cord\n"
-    "  thread symmetries dome.obj --prefer turning   the threadings that turn least instead of the "
-    "shortest\n"
+    "  thread symmetries dome.obj --ends feet        what is to be learned, and for how much cord\n"
+    "  thread symmetries dome.obj --prefer turning   threadings that turn least, not the shortest\n"
     "  thread symmetries dome.obj --geometric 0.01   only mirrors, rotations, .. of the shape\n"
     "  thread plan dome.obj --objective symmetry --group 3   the plan of row 3\n";
 static const char outro[] =
     "* marks the default choice of thread plan --objective symmetry. A step, what is to be "
-    "learned, is a pass of a unique\n"
-    "path or, with --ends any, an end of it. Read: the instructions for that; beads straight on "
-    "are one, and so is what\n"
-    "comes again turned, mirrored or moved along.\n"
+    "learned, is a pass of a unique path or, with --ends any, an end of it. Read: the instructions "
+    "for that; beads straight on are one, and so is what comes again turned, mirrored or moved "
+    "along.\n"
     "Exit codes: 0 every row optimal by the solver's word, 2 usage, 3 bad input, 4 infeasible, 5 "
-    "some rows not in\n"
-    "time (table printed)\n";
+    "some rows not in time (table printed)";
 
 /* The command line. Strings point into argv. */
 typedef struct {
@@ -66,7 +61,7 @@ static const cli_option own_options[] = {
     {"ends", .value = "closed|any|feet|FILE|NAME,..", .kind = CLI_TEXT, AT(ends),
      .help = "where cord ends may be, as for thread plan (default: closed)"},
     {"mu", .value = "X", .kind = CLI_AMOUNT, AT(plan.physics.mu), .high = 10,
-     .help = "friction, for the capstan factor (default: 0.2)"},
+     .help = "friction, cord on bead, for the pull in the table (default: 0.2)"},
     {"json", .kind = CLI_FLAG, AT(json), .help = "as JSON"},
     {0}};
 

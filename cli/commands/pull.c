@@ -143,7 +143,8 @@ static bool take_cache(void *into, const cli_option *option, const char *value)
 const cli_option pull_run_options[] = {
     {"cache", .value = "DIR", .kind = CLI_OTHER, .take = take_cache,
      .help = "keep measured joints here (default: $XDG_CACHE_HOME/thread or ~/.cache/thread)"},
-    {"no-cache", .kind = CLI_FLAG, AT(no_cache), .help = "keep none"},
+    {"no-cache", .kind = CLI_FLAG, AT(no_cache),
+     .help = "keep no measured joints, and measure anew"},
     {0}};
 
 const cli_option pull_options[] = {
@@ -154,7 +155,7 @@ const cli_option pull_options[] = {
      .help = "which end of each cord is pulled (default: both); or A=start,B=none for single "
              "cords"},
     {"seed", .value = "N", .kind = CLI_OTHER, .take = take_seed,
-     .help = "of a simulation's small initial disorder, 0 to 2^53 (default: 0)"},
+     .help = "number of the small disorder that a simulation begins with, 0 to 2^53 (default: 0)"},
     {"no-dynamics", .kind = CLI_OTHER, .take = take_no_dynamics,
      .help = "structure: limit analysis only, no simulation (of up to 400 pieces; seconds, beyond "
              "100 minutes)"},

@@ -305,7 +305,7 @@ const thr_request_field thr_request_fields[] = {
      .help = "solid: node beads are rigid pieces (default); tube: the cord ties the edges "
              "together at every node"},
     {"cover", COUNT, AT(cover), .low = 1, .high = 100, .always = true, .value = "N",
-     .help = "at least N passes over every interface (default: 1)"},
+     .help = "at least N passes of cord over every interface (default: 1)"},
     {"capacity", COUNT, AT(capacity), .low = 1, .high = INT32_MAX, .value = "N",
      .help = "at most N passes over every interface; --bore and --cord-diameter together: as "
              "many as fit"},
@@ -314,7 +314,7 @@ const thr_request_field thr_request_fields[] = {
              "any (thesis); --cover and --cords are N if not given"},
     {"cords", OTHER(cords), .always = true},
     {"max_length", .option = "max-length", AMOUNT, AT(max_length), .low = TINY, .high = INFINITY,
-     .value = "L", .help = "no cord longer than L units, as few as it takes"},
+     .value = "L", .help = "as few cords as it takes for none to be longer than L units"},
     {"max_pull", AMOUNT, AT(max_pull), .low = 1, .high = INFINITY},
     {"balance", .kind = THR_ASKS_OTHER,
      .write = write_balance}, /* read last: thr_plan_read_options */
@@ -343,15 +343,15 @@ const thr_request_field thr_request_fields[] = {
     {"counted", .in = "symmetry", OTHER(counted)},
     {"prefer", .in = "symmetry", OTHER(prefer), .always = true},
     {"order", WORD(thr_order_name, THR_N_ORDERS), AT(order),
-     .help = "cords begin and run so that what is threaded holds together: for as little "
-             "turning as serves, a twentieth more at most (starts, the default), a tenth "
-             "(hand), or not at all"},
+     .help = "the order of work: as it was planned, or begun and led so that what is threaded so "
+             "far holds together, for at most a twentieth more turning (starts, the default), or "
+             "a tenth (hand)"},
     {"crossings", WORD(thr_crossings_name, THR_N_CROSSINGS), AT(crossings),
-     .help = "channels that cross inside a piece: any (default); fewer, where cords can be "
-             "led otherwise at equal length, by more turns (with an aim of turning: at equal "
-             "turning); none, by more turns in any case. Cords that cross each other "
-             "exchange their ends, closed ones are joined and cut elsewhere, if what is "
-             "asked of single cords allows it. Not with tube joints or copies"},
+     .help = "channels that cross inside a piece: allow any (default); price: fewer, where "
+             "that takes no more cord, or with an aim of turning no more turning; forbid: none, "
+             "however much more the cords turn. To that end cords that cross exchange their ends, "
+             "and closed ones are joined and cut elsewhere, if what is asked of single cords "
+             "allows it. Not with tube joints or symmetric plans"},
     {"needles", COUNT, AT(needles), .low = 1, .high = 2},
     {"engine", WORD(thr_engine_name, 3), AT(engine), .tuned = true,
      .help = "what finds the shortest passes"},
@@ -359,9 +359,8 @@ const thr_request_field thr_request_fields[] = {
      .help = "does GLPK find the same length, exactly?"},
     {"time_limit", AMOUNT, AT(time_limit), .high = INFINITY, .always = true},
     {"gap", AMOUNT, AT(gap), .high = 100, .value = "PERCENT",
-     .help = "enough is a plan that is proved to be at most so much above the least "
-             "possible, 0 = the least itself (default: 0 for length, else 1). A search ends "
-             "there"},
+     .help = "end the search at a plan that is proved to be at most so much above the least "
+             "possible, 0 = the least itself (default: 0 for length, else 1)"},
     {"physics", OTHER(physics), .always = true},
 };
 const int thr_request_n_fields = (int)(sizeof thr_request_fields / sizeof *thr_request_fields);

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Runs what README.md and docs/guide.md show: every line "$ command" in a block, in order and in one folder each, and compares what
 # it prints to stdout with what stands below it. ".." there, on a line of its own or inside, stands for anything; a command with
-# nothing below it may print anything. tests/readme/run.sh PROGRAM; closes with "N passed, N failed".
+# nothing below it may print anything, but must end well; "  # .." behind it says what it is good for. The folder holds data/ and the
+# frameworks of tests/readme/files, which stand for the reader's own. tests/readme/run.sh PROGRAM; closes with "N passed, N failed".
 set -u
 [ $# -eq 1 ] || { echo "usage: tests/readme/run.sh PROGRAM" >&2; exit 2; }
 program=$(realpath "$1")
@@ -11,6 +12,7 @@ trap 'rm -rf "$work"' EXIT
 # One golden case each; exit code 5 says that not all is proved. Searches that their time ends (--objective, --balance) are only run,
 # for two seconds: what they find may depend on the machine.
 cases() { # PAGE
+  echo "\$ cp tests/readme/files/* {TMP} && ln -s \"$PWD/data\" {TMP}"
   awk '
   function finish() { if (shown && !lines) print " ..."; if (shown) print "? 0"; shown = lines = gap = 0 }
   /^```/ { inside = !inside; finish(); next }
@@ -19,9 +21,10 @@ cases() { # PAGE
     finish()
     shown = 1
     command = substr($0, 3)
+    sub(/ +# .*/, "", command)
     timed = command ~ /--objective|--balance/
     if (timed) command = command " --time-limit 2"
-    print "$ cd {TMP} && { " command " 2>messages || [ $? -eq 5 ] || cat messages; }"
+    print "$ cd {TMP} && { " command " 2>messages || [ $? -eq 5 ] || { cat messages; false; }; }"
     next
   }
   !shown || timed { next }
