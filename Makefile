@@ -285,7 +285,7 @@ install: all library man ## install program, library, man pages, completions, do
 	install -m 644 $(DIR)/thread.pc "$(LIB)/pkgconfig/thread.pc"
 	install -m 644 include/thread.h "$(DESTDIR)$(PREFIX)/include/thread.h"
 	install -m 644 docs/thread.1 $(MAN_PAGES) "$(SHARE)/man/man1/"
-	install -m 644 README.md CHANGELOG.md docs/*.md "$(SHARE)/doc/thread/"
+	install -m 644 README.md CHANGELOG.md docs/*.md docs/plan.schema.json "$(SHARE)/doc/thread/"
 	install -m 644 docs/pictures/* "$(SHARE)/doc/thread/pictures/"
 	cp -R examples "$(SHARE)/doc/thread/"
 	install -D -m 644 completions/thread.bash "$(SHARE)/bash-completion/completions/thread"
@@ -334,7 +334,7 @@ $(TEST_PROGRAMS:$(DIR)/tests/%=run/$(BUILD)/%): run/$(BUILD)/%: $(DIR)/tests/%
 $(FUZZ_PROGRAMS:$(DIR)/tests/%=run/%): run/%: $(DIR)/tests/%
 run/$(BUILD)/property/test_cross run/$(BUILD)/property/test_cross_known: $(PROGRAM)
 run/library/install: $(PROGRAM) $(SHARED) $(STATIC) $(DIR)/thread.pc $(MAN_PAGES)
-$(GOLDEN_JOBS) run/documents run/readme run/formats/mutants run/examples run/web run/static run/windows run/second/plans run/viewer/browser run/bench/smallest: $(PROGRAM)
+$(GOLDEN_JOBS) run/documents run/readme run/formats/mutants run/examples run/web run/static run/windows run/second/plans run/schema run/viewer/browser run/bench/smallest: $(PROGRAM)
 run/second/json: $(DIR)/tests/second/dump_json
 run/$(BUILD)/memory: $(PROGRAM) $(DIR)/tests/memory/fail_malloc.so
 run/$(BUILD)/watchdog: $(PROGRAM) $(WATCHDOG)

@@ -8,7 +8,7 @@ export LC_ALL=C OUT=${OUT:-build} FUZZ_SECONDS=${FUZZ_SECONDS:-60} MAKE=${MAKE:-
 export RESULTS=$OUT/results
 
 # Longest first, so that none of them is left alone at the end.
-longest='web second/plans release/watchdog release/memory viewer/browser unit/test_sheets property/test_cover property/test_tube_cords
+longest='web second/plans release/watchdog release/memory viewer/browser schema unit/test_sheets property/test_cover property/test_tube_cords
 property/test_evenly unit/test_structure unit/test_holding golden/figures golden/eval unit/test_overview property/test_cross property/test_circuits
 property/test_adversary_turning property/test_adversary_claims unit/test_diagram unit/test_tied_symmetry unit/test_group golden/draw golden/plan'
 
@@ -72,6 +72,7 @@ run() { # NAME LOG: runs the job; its exit code, 77 = skipped
   release/watchdog) timeout 1800 "$OUT/release/watchdog" "$OUT/release/thread" "$OUT/watchdog" ;;
   release/* | asan/*) timeout 3600 "$OUT/$build/tests/$rest" </dev/null ;;
   second/plans) timeout 1800 tests/second/compare.py "$OUT/release/thread" ;;
+  schema) tests/schema/run.sh "$OUT/release/thread" "$OUT/schema-test" ;;
   second/json) tests/second/read_json.py "$OUT/release/tests/second/dump_json" ;;
   viewer/page) viewer_page ;;
   bench/smallest) bench/run.py "$OUT/release/thread" --smallest ;;
@@ -94,7 +95,7 @@ job() { # NAME
   : >"$log"
   spent=$( { time run "$name" "$log" 7>&-; } 2>&1) || code=$?
   case $name in
-  */golden/* | */memory | */watchdog | second/* | viewer/browser | library/* | readme | examples | exchange | web | static | windows | formats/*) counts=$(count_lines "$log" "$code") ;;
+  */golden/* | */memory | */watchdog | second/* | schema | viewer/browser | library/* | readme | examples | exchange | web | static | windows | formats/*) counts=$(count_lines "$log" "$code") ;;
   asan/* | release/*) counts=$(count_check "$log" "$code") ;;
   *) if [ "$code" -eq 0 ]; then counts='1 0 0'; else counts='0 1 0'; fi ;;
   esac
@@ -127,7 +128,7 @@ tier=${1:-test}
 export SHARE_RELEASE=1 SHARE_ASAN=10 MEMORY_SAMPLES=40 MUTANTS=50 FUZZ_RUNS=30000
 # Golden cases that take minutes under sanitizers, and whose planning and evaluation other tests run under them.
 slow='asan/figures.case asan/eval.case asan/cords.case asan/turning.case asan/threads.case asan/convert.case asan/plan.case asan/compare.case asan/schedules.case'
-builds='release asan' tree='layers layers-self-test documents format bench/smallest library/install readme examples formats/mutants' programs='second/json second/plans viewer/page viewer/browser' whole='' fuzz=yes
+builds='release asan' tree='layers layers-self-test documents format bench/smallest library/install readme examples formats/mutants' programs='second/json second/plans schema viewer/page viewer/browser' whole='' fuzz=yes
 case $tier in
 test) whole='release/watchdog release/memory' MEMORY_SAMPLES=4 ;;
 fast) builds=release SHARE_RELEASE=10 programs='' fuzz='' ;;

@@ -2826,7 +2826,7 @@ def held(tension, exponent, physics):
 
 
 class Rope:
-    """One cord while its schedule is followed: docs/plan-format.md, "A step of a schedule". largest: for tension_most."""
+    """One cord while its schedule is followed: docs/plan-format.md, the steps of a schedule. largest: for tension_most."""
 
     def __init__(self, turns, metres, physics, largest):
         self.turns, self.metres, self.physics, self.largest = turns, metres, physics, largest

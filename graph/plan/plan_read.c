@@ -23,6 +23,7 @@ static thr_status read_nodes(const thr_field_reader *field_reader, const thr_jso
   for (int v = 0; v < n; v++) {
     const thr_json *p = thr_json_at(nodes, v);
     double x[3];
+    thr_err why = {0};
     if (thr_json_size(p) != 3 || !thr_json_numbers(p, 3, x))
       return thr_fail(field_reader->err, THR_EINPUT,
                       "%s: framework.nodes[%d]: not three finite numbers", field_reader->name, v);
@@ -30,7 +31,8 @@ static thr_status read_nodes(const thr_field_reader *field_reader, const thr_jso
     if (names && !name)
       return thr_fail(field_reader->err, THR_EINPUT, "%s: framework.names[%d]: not text",
                       field_reader->name, v);
-    if ((st = thr_draft_add_node(draft, x, name, false, field_reader->err))) return st;
+    if ((st = thr_draft_add_node(draft, x, name, false, &why)))
+      return thr_fail(field_reader->err, st, "%s: framework: %s", field_reader->name, why.text);
   }
   assert(draft->node);
   const thr_json *feet = thr_json_get(object, "feet");
@@ -48,7 +50,8 @@ static thr_status edge_list(const thr_field_reader *field_reader, const thr_json
                             const char *key, int n, const thr_json **list)
 {
   *list = thr_json_get(object, key);
-  if (!*list || thr_json_size(*list) == n) return THR_OK;
+  if (!*list || (thr_json_typeof(*list) == THR_JSON_ARRAY && thr_json_size(*list) == n))
+    return THR_OK;
   return thr_fail(field_reader->err, field_reader->code, "%s: framework.%s: not one per edge",
                   field_reader->name, key);
 }
@@ -80,9 +83,10 @@ static thr_status read_edges(const thr_field_reader *field_reader, const thr_jso
     if (lengths && (!thr_json_number(thr_json_at(lengths, e), &length) || !(length > 0)))
       return thr_fail(field_reader->err, THR_EINPUT,
                       "%s: framework.lengths[%d]: not a positive number", field_reader->name, e);
-    if ((st = thr_draft_add_edge(draft, end[0], end[1], length, field_reader->err))) return st;
-    if ((covers || capacities) && (st = thr_json_edge_passes(draft, thr_json_at(covers, e),
-                                                             thr_json_at(capacities, e), &why)))
+    st = thr_draft_add_edge(draft, end[0], end[1], length, &why);
+    if (!st && (covers || capacities))
+      st = thr_json_edge_passes(draft, thr_json_at(covers, e), thr_json_at(capacities, e), &why);
+    if (st)
       return thr_fail(field_reader->err, st, "%s: framework: %s", field_reader->name, why.text);
   }
   return THR_OK;
