@@ -9,6 +9,7 @@
 #ifndef THR_CHARTS_H
 #define THR_CHARTS_H
 
+#include "diagram/overview/chart.h"
 #include "graph/plan/advice.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
@@ -109,11 +110,6 @@ thr_status thr_load_svg(const thr_load_chart *chart, thr_text *svg, thr_err *err
 
 /* ---- pull_axis.c: What the charts of pull and cord share: an axis of forces over their logarithm,
  * what a hand manages, points with the band of mu, bars of cord. */
-
-/* mm */
-static const double THR_CHART_MARGIN = 10, THR_CHART_TITLE = 6, THR_CHART_NAME = 4.4,
-                    THR_CHART_TEXT = 3.2, THR_CHART_SMALL = 2.6;
-static const double THR_CHART_MARK = 1.3, THR_CHART_WIDEST_BAR = 9;
 
 typedef struct {
   double x, y, width, height; /* mm, of the plot: x, y its upper left corner */
