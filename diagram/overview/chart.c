@@ -107,7 +107,7 @@ void thr_chart_grid(thr_chart *chart, int most, const char *unit)
     if (tick[i] >= 99999.5)
       thr_chart_force(tick[i], number);
     else
-      snprintf(number, sizeof number, "%.10g", tick[i]);
+      snprintf(number, sizeof number, "%.7g", tick[i]);
     snprintf(words, sizeof words, "%s%s", number, unit);
     thr_svg_text(&chart->text, chart->left - 1.6, thr_chart_y(chart, tick[i]) + 0.36 * SMALL, SMALL,
                  " class=\"end\"", words);
@@ -128,7 +128,7 @@ void thr_chart_ticks(thr_chart *chart, int most, bool numbered)
   int n = thr_svg_ticks(chart->across.low, chart->across.high, false, most, tick);
 
   for (int i = 0; i < n; i++) {
-    if (numbered) snprintf(words, sizeof words, "%.10g", tick[i]);
+    if (numbered) snprintf(words, sizeof words, "%.7g", tick[i]);
     thr_chart_tick(chart, tick[i], words, &taken);
   }
 }
