@@ -109,8 +109,7 @@ void thr_chart_grid(thr_chart *chart, int most, const char *unit)
     else
       snprintf(number, sizeof number, "%.7g", tick[i]);
     snprintf(words, sizeof words, "%s%s", number, unit);
-    thr_svg_text(&chart->text, chart->left - 1.6, thr_chart_y(chart, tick[i]) + 0.36 * SMALL, SMALL,
-                 " class=\"end\"", words);
+    thr_chart_side(chart, thr_chart_y(chart, tick[i]) + 0.36 * SMALL, words);
   }
 }
 
@@ -140,6 +139,17 @@ void thr_chart_name_axis(thr_chart *chart, const char *words)
                " class=\"middle\"", words);
 }
 
+void thr_chart_base(thr_chart *chart, double y)
+{
+  thr_text_printf(&chart->text, "<path class=\"axis\" d=\"M%.2f %.2fh%.2f\"/>\n", chart->left, y,
+                  chart->width);
+}
+
+void thr_chart_side(thr_chart *chart, double y, const char *words)
+{
+  thr_svg_text(&chart->text, chart->left - 1.6, y, SMALL, " class=\"end\"", words);
+}
+
 void thr_chart_pull_grid(thr_chart *chart, double hand)
 {
   double y = thr_chart_y(chart, hand);
@@ -147,8 +157,7 @@ void thr_chart_pull_grid(thr_chart *chart, double hand)
   thr_chart_grid(chart, MOST_FORCES, " N");
 
   /* The numbers are in proportion to the forces, the heights are not. */
-  thr_svg_text(&chart->text, chart->left - 1.6, chart->top - 0.9 * SMALL, SMALL, " class=\"end\"",
-               "log scale");
+  thr_chart_side(chart, chart->top - 0.9 * SMALL, "log scale");
 }
 
 /* Sorts labels from above downwards (insertion: there are few), and pushes those apart that would

@@ -76,6 +76,10 @@ void thr_chart_ticks(thr_chart *chart, int most, bool numbered);
 /* Appends what the x axis counts, below the middle of the plot. */
 void thr_chart_name_axis(thr_chart *chart, const char *words);
 
+/* Append the line on which bars stand; and words left of the plot, which end there. */
+void thr_chart_base(thr_chart *chart, double y);
+void thr_chart_side(thr_chart *chart, double y, const char *words);
+
 /* Appends the grid of forces above the ground of those that stay within the hand (N). */
 void thr_chart_pull_grid(thr_chart *chart, double hand);
 
