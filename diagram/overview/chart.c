@@ -153,7 +153,7 @@ void thr_chart_side(thr_chart *chart, double y, const char *words)
 void thr_chart_pull_grid(thr_chart *chart, double hand)
 {
   double y = thr_chart_y(chart, hand);
-  thr_chart_rect(chart, "within", chart->left, y, chart->width, chart->top + chart->height - y);
+  thr_chart_rect(chart, "reach", chart->left, y, chart->width, chart->top + chart->height - y);
   thr_chart_grid(chart, MOST_FORCES, " N");
 
   /* The numbers are in proportion to the forces, the heights are not. */
@@ -296,7 +296,7 @@ static const char *const style =
     ".thread text.halo{stroke:#fff;stroke-width:0.80;stroke-linejoin:round;paint-order:stroke}\n"
     ".thread .grid{fill:none;stroke:#ddd;stroke-width:0.20}\n"
     ".thread .axis{fill:none;stroke:#222;stroke-width:0.35}\n"
-    ".thread .within{fill:#E3F3EE}.thread .band{fill:#0072B2;fill-opacity:0.18}\n"
+    ".thread .reach{fill:#E3F3EE}.thread .band{fill:#0072B2;fill-opacity:0.18}\n"
     ".thread .hand{fill:none;stroke:#009E73;stroke-width:0.35;stroke-dasharray:1.6 1}\n"
     ".thread .pull{fill:none;stroke:#0072B2;stroke-width:0.80}\n"
     ".thread .point{fill:#fff;stroke:#0072B2;stroke-width:0.55}.thread .beyond{fill:#0072B2}\n"
