@@ -4,8 +4,8 @@
  *
  * All but the last one measure a plan by the pull (N) that its hardest end needs, on a logarithmic
  * axis, because the pull grows like exp(mu theta) with the turning theta of a cord (rad); the band
- * of mu from mu_low to mu_high shows how uncertain friction makes it. pull_axis.c, at the end, has
- * what they share, and is the file to read first. */
+ * of mu from mu_low to mu_high shows how uncertain friction makes it. chart.h has what they share,
+ * and is the file to read first. */
 #ifndef THR_CHARTS_H
 #define THR_CHARTS_H
 
@@ -106,63 +106,5 @@ typedef struct {
  * same points give the same bytes. THR_EINPUT without a pull that is decided. svg is unchanged on
  * failure. O(n). */
 thr_status thr_load_svg(const thr_load_chart *chart, thr_text *svg, thr_err *err) THR_MUST_CHECK;
-
-/* ---- pull_axis.c: What the charts of pull and cord share: an axis of forces over their logarithm,
- * what a hand manages, points with the band of mu, bars of cord. */
-
-/* mm */
-static const double THR_CHART_MARGIN = 10, THR_CHART_TITLE = 6, THR_CHART_NAME = 4.4,
-                    THR_CHART_TEXT = 3.2, THR_CHART_SMALL = 2.6;
-static const double THR_CHART_MARK = 1.3, THR_CHART_WIDEST_BAR = 9;
-
-typedef struct {
-  double x, y, width, height; /* mm, of the plot: x, y its upper left corner */
-  int low, high;              /* powers of ten at its ends */
-} thr_pull_axis;
-
-/* Chooses axis->low and axis->high for forces from low to high N: at most `most` powers of ten, but
- * with twice the hand (N) on the axis. */
-void thr_pull_choose(thr_pull_axis *axis, double low, double high, double hand, int most);
-
-/* Return the y of a force, mm, within the plot whatever the force; and whether the force is above
- * the axis. */
-double thr_pull_y(const thr_pull_axis *axis, double newton);
-bool thr_pull_beyond(const thr_pull_axis *axis, double newton);
-
-/* Writes a force without its unit: "3.5", "151", "10430", "2e6"; ">1e300". */
-void thr_pull_words(double newton, char words[24]);
-
-/* Append a line for every power of ten, or for every so many where these are more than 12, with its
- * number at the left; and the ground of what stays within the hand (N). */
-void thr_pull_grid(const thr_pull_axis *axis, thr_text *text);
-void thr_pull_within(const thr_pull_axis *axis, double hand, thr_text *text);
-
-/* Writes "10 N: a hand, time after time" and returns how wide that is, mm. */
-double thr_pull_hand_words(double hand, char words[80]);
-
-/* Append a dashed line at the hand, nothing beyond the axis: with its number alone, right of the
- * plot; or with these words above the line, which begin or end at x. */
-void thr_pull_hand_line(const thr_pull_axis *axis, double hand, thr_text *text);
-void thr_pull_hand(const thr_pull_axis *axis, double hand, double x, bool begin, thr_text *text);
-
-/* Appends a disc at a pull, x mm from the left of the sheet; a triangle at the upper end if the
- * pull is beyond the axis. */
-void thr_pull_point(const thr_pull_axis *axis, double x, double newton, bool chosen,
-                    thr_text *text);
-
-/* Appends the band of mu: a pale bar `wide` mm wide about x, from low to high N; nothing where one
- * of them is NAN. */
-void thr_pull_band(const thr_pull_axis *axis, double x, double wide, double low, double high,
-                   thr_text *text);
-
-/* Appends cord as a bar on the line at y, its left edge at x: base mm high what the edges need, and
- * above it over mm high the overlap. */
-void thr_pull_bar(double x, double y, double wide, double base, double over, bool chosen,
-                  thr_text *text);
-
-/* Appends the whole sheet to svg: title, style, white ground, and the body. svg is unchanged on
- * failure. */
-thr_status thr_pull_sheet(const thr_text *body, double width, double height, const char *title,
-                          const char *description, thr_text *svg, thr_err *err) THR_MUST_CHECK;
 
 #endif

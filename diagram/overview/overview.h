@@ -10,7 +10,7 @@
  * Order in which to read the files: svg.c (numbers, words, paths), draw_parts.c and draw.c (a scene
  * as elements), legend.c and overview.c (the page round the drawing), poster.c; crop.c with
  * crop_labels.c and crop_pieces.c (parts of a scene for the pages of a booklet), miniature.c;
- * guide.c, steps.c and tighten.c (words); tension.c and still.c; pull_axis.c and then the charts.
+ * guide.c, steps.c and tighten.c (words); still.c; chart.c and then tension.c and the charts.
  * overview_parts.h has what these files share with the other folders of diagram/. */
 #ifndef THR_OVERVIEW_H
 #define THR_OVERVIEW_H
@@ -145,19 +145,17 @@ typedef struct {
 
 thr_tension_options thr_tension_options_default(void);
 
-/* Cords that get a panel of their own when there are too many for one panel; those with the largest
- * force. */
-enum { THR_TENSION_LINES = 6, THR_TENSION_PANELS = 48 };
+/* Most cords that are shown: those with the largest force. */
+enum { THR_TENSION_PANELS = 48 };
 
-/* Appends the plot of plan->evaluation to svg: a step per pass, one line per cord, all axes alike,
- * logarithmic where the tensions differ by more than a factor of 20; with a fan every cord has a
- * panel of its own. Sizes are physical (mm); no text is under 7 pt. Elements: <g id="cord-A"> holds
- * a cord's line, its pulled ends and its slackest pass, <path id="fan-A"> its fan; cords are called
- * by index as in the overview. Lines of class "hand" and "strength" are drawn where they lie within
- * the axis, which reaches up to the nearest one that is at most 5 times as much as the pull. The
- * same plan and options give the same bytes. THR_EINPUT if the plan has no evaluation, no known
- * cord, or one that does not fit its cords. O(n). svg is unchanged on
- * failure. */
+/* Appends the plot of plan->evaluation to svg: a step per pass, every cord in a panel of its own,
+ * all axes alike, logarithmic where the tensions differ by more than a factor of 20. Sizes are
+ * physical (mm); no text is under 7 pt. Elements: <g id="cord-A"> holds a cord's line, its pulled
+ * ends and its slackest pass, <path id="fan-A"> its fan; cords are called by index as in the
+ * overview. Lines of class "hand" and "strength" are drawn where they lie within the axis, which
+ * reaches up to the nearest one that is at most 5 times as much as the pull. The same plan and
+ * options give the same bytes. THR_EINPUT if the plan has no evaluation, no known cord, or one that
+ * does not fit its cords. O(n). svg is unchanged on failure. */
 thr_status thr_tension_svg(const thr_plan *plan, const thr_tension_options *options, thr_text *svg,
                            thr_err *err) THR_MUST_CHECK;
 

@@ -7,13 +7,13 @@
  * somewhere between them. The plot shows where, and how far below the pull. The tensions are those
  * of plan->evaluation, which eval/ computed before; nothing is evaluated here.
  *
- * Up to THR_TENSION_LINES cords share one panel. More cords, or cords with a fan (the tensions for
- * mu_low and mu_high of the physics), get a small panel each. All panels have the same axes.
+ * A single cord has a large panel; several have a small one each, all with the same axes. A fan
+ * shows the tensions for mu_low and mu_high of the physics.
  *
  * Example: a cord of 3 passes of 50 mm, pulled at its start, with the tensions 20, 12 and 7 N, is a
  * line with steps at x = 50 and 100, a triangle at (0, 20) and a circle at (125, 7). */
+#include "diagram/overview/chart.h"
 #include "diagram/overview/overview.h"
-
 #include "diagram/scene/scene.h"
 #include "graph/plan/plan_measures.h"
 #include "graph/plan/physics.h"
@@ -23,28 +23,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Lengths in mm on paper. */
-static const double MARGIN = 10, WIDTH = 190, TITLE_SIZE = 5, TEXT_SIZE = 3.2, SMALL = 2.6;
-static const double LEFT = 17,
-                    LABELS = 46; /* room for the numbers of the y axis and for the lines' labels */
-static const double PANEL_HEIGHT = 95, SMALL_HEIGHT = 34, SMALL_GAP = 9;
-static const double LINE = 0.6, SIGN = 1.5; /* width of a cord's line, radius of a mark */
-static const double LOGARITHMIC = 20;       /* from this ratio of tensions on */
+/* Lengths in mm on paper: room for the numbers of the y axis, panels, radius of a mark. */
+static const double LEFT = 17, PANEL_HEIGHT = 95, SMALL_HEIGHT = 34, GAP = 5, SMALL_GAP = 9,
+                    SIGN = 1.5;
+static const double TEXT_SIZE = THR_CHART_TEXT, SMALL = THR_CHART_SMALL;
+static const double LOGARITHMIC = 20; /* from this ratio of tensions on */
 static const double NEAR = 5; /* times the tensions: a limit that far above them is still shown */
-enum { COLUMNS = 3, MOST_TICKS = 10, FEW_TICKS = 5 };
+enum { COLUMNS = 3, MOST_TICKS = 10, FEW_TICKS = 5, FEWEST_TICKS = 4, MOST_LIMITS = 3 };
 
-/* The plot while it is drawn: what is shown, the axes, and the place of the current panel. */
+/* The plot while it is drawn: what is shown, and the chart with the panel at hand. */
 typedef struct {
+  thr_chart chart;
   const thr_plan *plan;
   const thr_evaluation *evaluation;
   const thr_tension_options *options;
-  bool passes, logarithmic, small;
-  bool seating;     /* does the line of the seating tension mean anything? */
-  double low, high; /* N, of the y axis */
-  double longest;   /* of the x axis, which begins at 0 */
+  bool passes;
+  bool seating; /* does the line of the seating tension mean anything? */
   int n_known, n_shown;
-  int *shown;                 /* [n_shown] cords in order */
-  double x, y, width, height; /* mm, of the panel at hand */
+  int *shown; /* [n_shown] cords in order */
 } tension_plot;
 
 /* Returns the defaults: x is the distance along the cord, no fan, no limits. */
@@ -125,24 +121,6 @@ static double step_of(const tension_plot *plot, int c, int k)
   return plot->passes ? 1 : plot->plan->frame.length[plot->plan->cord[c].half[k] >> 1];
 }
 
-/* Returns where on paper a point of the x axis is, mm. */
-static double place_x(const tension_plot *plot, double along)
-{
-  return plot->x + plot->width * (plot->longest > 0 ? along / plot->longest : 0);
-}
-
-/* Returns where on paper a tension (N) is, mm, within the panel: log(T / low) / log(high / low) of
- * the height on a logarithmic axis, else (T - low) / (high - low). */
-static double place_y(const tension_plot *plot, double tension)
-{
-  double part = plot->logarithmic
-                    ? log(fmax(tension, plot->low) / plot->low) / log(plot->high / plot->low)
-                    : (tension - plot->low) / (plot->high - plot->low);
-  return plot->y + plot->height * (1 - fmin(fmax(part, 0), 1));
-}
-
-enum { MOST_LIMITS = 3 };
-
 /* Fills in what the cord and a hand can bear, N: first the strength of the cord, then the most for
  * a hand, then what a hand manages time after time. Returns the number of these limits. */
 static int limits_of(const tension_plot *plot, double newton[MOST_LIMITS])
@@ -191,193 +169,71 @@ static void choose_axes(tension_plot *plot)
   }
 
   /* A margin below and above keeps the lines off the frame of the panel. */
-  plot->logarithmic = range[0] > 0 && range[1] / range[0] > LOGARITHMIC;
-  plot->low = plot->logarithmic ? range[0] * exp(-0.06 * log(range[1] / range[0])) : 0;
-  plot->high = plot->logarithmic ? range[1] * exp(0.04 * log(range[1] / range[0]))
-               : range[1] > 0    ? 1.06 * range[1]
-                                 : 1;
+  const double ratio = range[1] / range[0];
+  plot->chart.up = (thr_scale){0, range[1] > 0 ? 1.06 * range[1] : 1, false};
+  if (range[0] > 0 && ratio > LOGARITHMIC)
+    plot->chart.up =
+        (thr_scale){range[0] * exp(-0.06 * log(ratio)), range[1] * exp(0.04 * log(ratio)), true};
 
   /* The x axis is as long as the longest cord shown. */
   for (int i = 0; i < plot->n_shown; i++) {
     double along = 0;
     for (int k = 0; k < plot->plan->cord[plot->shown[i]].n_passes; k++)
       along += step_of(plot, plot->shown[i], k);
-    plot->longest = fmax(plot->longest, along);
+    plot->chart.across.high = fmax(plot->chart.across.high, along);
   }
-}
-
-/* Appends ticks below the panel, with their numbers if labelled. */
-static void write_x_axis(const tension_plot *plot, bool labelled, thr_text *text)
-{
-  double tick[MOST_TICKS];
-  char number[32];
-  int n = thr_svg_ticks(0, plot->longest, false, plot->small ? 4 : MOST_TICKS, tick);
-
-  /* A tick below the panel at each round value. */
-  for (int i = 0; i < n; i++) {
-    double x = thr_svg_round(place_x(plot, tick[i]));
-    thr_text_printf(text, "<path class=\"axis\" d=\"M%.2f %.2fv1.20\"/>\n", x,
-                    plot->y + plot->height);
-    if (!labelled) continue;
-    snprintf(number, sizeof number, "%.10g", tick[i]);
-    thr_svg_text(text, x, plot->y + plot->height + 1.6 + SMALL, SMALL, " class=\"middle\"", number);
-  }
-}
-
-/* Appends lines across the panel at round tensions, with their numbers if labelled. */
-static void write_y_axis(const tension_plot *plot, bool labelled, thr_text *text)
-{
-  double tick[MOST_TICKS];
-  char number[32];
-  int n = thr_svg_ticks(plot->low, plot->high, plot->logarithmic,
-                        plot->small ? FEW_TICKS : MOST_TICKS, tick);
-
-  /* A line across the panel at each round value. */
-  for (int i = 0; i < n; i++) {
-    double y = thr_svg_round(place_y(plot, tick[i]));
-    thr_text_printf(text, "<path class=\"grid\" d=\"M%.2f %.2fh%.2f\"/>\n", plot->x, y,
-                    plot->width);
-    if (!labelled) continue;
-
-    /* Large numbers are written as powers of ten, because the left margin is narrow. */
-    snprintf(number, sizeof number, tick[i] >= 1e6 ? "%.0e" : "%.10g", tick[i]);
-    thr_svg_text(text, plot->x - 1.4, y + 0.36 * SMALL, SMALL, " class=\"end\"", number);
-  }
-}
-
-/* Appends axes and frame of the panel, and the line of the seating tension. left, bottom: the panel
- * has the numbers of this axis, as the outer panels have. */
-static void write_panel(const tension_plot *plot, bool left, bool bottom, thr_text *text)
-{
-  write_y_axis(plot, left, text);
-  write_x_axis(plot, bottom, text);
-  thr_text_printf(text,
-                  "<rect class=\"axis\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n",
-                  plot->x, plot->y, plot->width, plot->height);
-
-  /* The tension that has to reach every slackest pass, so that the beads are seated. */
-  if (plot->seating)
-    thr_text_printf(text, "<path class=\"seating\" d=\"M%.2f %.2fh%.2f\"/>\n", plot->x,
-                    thr_svg_round(place_y(plot, plot->evaluation->physics.seating)), plot->width);
-}
-
-/* Appends what the x axis counts, centred below the panel. */
-static void write_axis_titles(const tension_plot *plot, thr_text *text)
-{
-  char words[80];
-
-  /* Passes are counted, distances have the unit of the framework. */
-  if (plot->passes)
-    snprintf(words, sizeof words, "pass");
-  else
-    snprintf(words, sizeof words, "along the cord, %.15s", plot->plan->frame.units);
-
-  thr_svg_text(text, plot->x + 0.5 * plot->width, plot->y + plot->height + 6 + TEXT_SIZE, TEXT_SIZE,
-               " class=\"middle\"", words);
 }
 
 /* ---- cords ---- */
 
-/* Returns whether the lines of two cords lie on each other on paper: the same steps, within a part
- * of the line's width. */
-static bool coincide(const tension_plot *plot, int a, int b)
-{
-  const thr_eval_cord *cord = &plot->evaluation->cord[a], *other = &plot->evaluation->cord[b];
-
-  if (cord->n_passes != other->n_passes) return false;
-  for (int k = 0; k < cord->n_passes; k++) {
-    if (fabs(place_y(plot, cord->tension[k]) - place_y(plot, other->tension[k])) > 0.3 * LINE)
-      return false;
-    if (fabs(step_of(plot, a, k) - step_of(plot, b, k)) > 1e-3 * plot->longest / cord->n_passes)
-      return false;
-  }
-  return true;
-}
-
-/* Appends dashes to a line that coincides with earlier ones in the same panel, and returns whether
- * this was needed. Of n lines that coincide each one but the first shows 2 mm of every 2 n mm, at
- * an offset of its own, so that every colour is seen. */
-static bool write_shared_dashes(const tension_plot *plot, int c, thr_text *text)
-{
-  int before = 0, all = 1;
-
-  /* Count the lines that coincide with this one, and those of them drawn before. */
-  for (int i = 0; i < plot->n_shown && !plot->small; i++) {
-    if (plot->shown[i] == c || !coincide(plot, plot->shown[i], c)) continue;
-    all++;
-    before += plot->shown[i] < c;
-  }
-  if (before == 0) return false;
-
-  thr_text_printf(text, " stroke-dasharray=\"2.00 %.2f\" stroke-dashoffset=\"%.2f\"",
-                  2.0 * (all - 1), -2.0 * before);
-  return true;
-}
-
-/* Appends the dash pattern of a cord, whose lengths are multiples of the line's width. */
-static void write_dash(const double *dash, thr_text *text)
-{
-  if (!dash) return;
-  thr_text_append(text, " stroke-dasharray=\"");
-  for (int i = 0; dash[i] > 0; i++)
-    thr_text_printf(text, "%s%.2f", i ? " " : "", dash[i] * LINE);
-  thr_text_append(text, "\"");
-}
-
 /* Appends the line of a cord: a step per pass. Passes that have the same height on paper are
  * joined, which keeps the path short. */
-static void write_steps(const tension_plot *plot, int c, thr_text *text)
+static void write_steps(tension_plot *plot, int c)
 {
   const thr_eval_cord *cord = &plot->evaluation->cord[c];
-  double along = 0, height = thr_svg_round(place_y(plot, cord->tension[0]));
+  thr_chart *chart = &plot->chart;
+  double along = 0, height = thr_chart_y(chart, cord->tension[0]);
 
-  /* Colour and dashes. Lines that coincide have dashes of their own. */
-  thr_text_printf(text, "<path class=\"line\" stroke=\"%s\"", thr_palette(c).hex);
-  if (!write_shared_dashes(plot, c, text)) write_dash(thr_palette_dash(c / THR_COLOURS), text);
-  thr_text_printf(text, " d=\"M%.2f %.2f", thr_svg_round(place_x(plot, 0)), height);
+  thr_text_printf(&chart->text, "<path class=\"line\" stroke=\"%s\" d=\"M%.2f %.2f",
+                  thr_palette(c).hex, chart->left, height);
 
   /* H goes along a pass, V to the tension of the next one. */
   for (int k = 0; k < cord->n_passes; k++) {
-    double next = thr_svg_round(place_y(plot, cord->tension[k]));
+    double next = thr_chart_y(chart, cord->tension[k]);
     if (next != height)
-      thr_text_printf(text, "H%.2fV%.2f", thr_svg_round(place_x(plot, along)), next);
+      thr_text_printf(&chart->text, "H%.2fV%.2f", thr_chart_x(chart, along), next);
     height = next;
     along += step_of(plot, c, k);
   }
 
-  thr_text_printf(text, "H%.2f\"/>\n", thr_svg_round(place_x(plot, along)));
+  thr_text_printf(&chart->text, "H%.2f\"/>\n", thr_chart_x(chart, along));
 }
 
 /* Appends the fan of a cord: the area between its tensions at mu_high and mu_low, along the upper
  * ones and back along the lower ones. */
-static void write_fan(const tension_plot *plot, int c, thr_text *text)
+static void write_fan(tension_plot *plot, int c)
 {
   const thr_evaluation *const fan[2] = {plot->options->high, plot->options->low};
   const int n = plot->evaluation->cord[c].n_passes;
+  thr_chart *chart = &plot->chart;
   double along = 0;
   char id[12];
   if (!fan[0] || !fan[1] || !fan[0]->cord[c].known || !fan[1]->cord[c].known) return;
 
   /* The path begins at the start of the cord, at the tension for mu_high. */
   thr_cord_id(c, id);
-  thr_text_printf(text, "<path id=\"fan-%s\" class=\"fan\" fill=\"%s\" d=\"M%.2f %.2f", id,
-                  thr_palette(c).hex, plot->x,
-                  thr_svg_round(place_y(plot, fan[0]->cord[c].tension[0])));
+  thr_text_printf(&chart->text, "<path id=\"fan-%s\" class=\"fan\" fill=\"%s\" d=\"M%.2f %.2f", id,
+                  thr_palette(c).hex, chart->left, thr_chart_y(chart, fan[0]->cord[c].tension[0]));
 
-  /* The upper border, from the start to the end. */
-  for (int k = 0; k < n; k++) {
-    along += step_of(plot, c, k);
-    thr_text_printf(text, "V%.2fH%.2f", thr_svg_round(place_y(plot, fan[0]->cord[c].tension[k])),
-                    thr_svg_round(place_x(plot, along)));
+  /* There along the upper border, and back along the lower one. */
+  for (int i = 0; i < 2 * n; i++) {
+    const bool back = i >= n;
+    const int k = back ? 2 * n - 1 - i : i;
+    along += back ? -step_of(plot, c, k) : step_of(plot, c, k);
+    thr_text_printf(&chart->text, "V%.2fH%.2f", thr_chart_y(chart, fan[back]->cord[c].tension[k]),
+                    thr_chart_x(chart, along));
   }
-
-  /* The lower border, back from the end to the start. */
-  for (int k = n - 1; k >= 0; k--) {
-    along -= step_of(plot, c, k);
-    thr_text_printf(text, "V%.2fH%.2f", thr_svg_round(place_y(plot, fan[1]->cord[c].tension[k])),
-                    thr_svg_round(place_x(plot, along)));
-  }
-  thr_text_append(text, "Z\"/>\n");
+  thr_text_append(&chart->text, "Z\"/>\n");
 }
 
 /* Returns where along the cord the middle of its slackest pass is, in units of the x axis. */
@@ -392,20 +248,19 @@ static double slackest_at(const tension_plot *plot, int c)
 /* Appends the limits that lie within the axis as lines across the panel. Each has its number above
  * the slackest pass of cord c, where the lines of the tensions are lowest, unless the number would
  * touch that of another limit. */
-static void write_limits(const tension_plot *plot, int c, thr_text *text)
+static void write_limits(tension_plot *plot, int c)
 {
-  double limit[MOST_LIMITS], at[MOST_LIMITS];
+  thr_chart *chart = &plot->chart;
+  double limit[MOST_LIMITS], at[MOST_LIMITS], right = chart->left + chart->width;
   int n = limits_of(plot, limit), named = 0;
   for (int i = 0; i < n; i++) {
     char words[32];
-    double y = thr_svg_round(place_y(plot, limit[i]));
+    double y = thr_chart_y(chart, limit[i]);
     bool apart = true;
 
     /* Only limits within the axis have a line. */
-    if (limit[i] > plot->high || limit[i] < plot->low) continue;
-    thr_text_printf(text, "<path class=\"%s\" d=\"M%.2f %.2fh%.2f\"/>\n",
-                    i == 0 && plot->options->strength > 0 ? "strength" : "hand", plot->x, y,
-                    plot->width);
+    if (limit[i] > chart->up.high || limit[i] < chart->up.low) continue;
+    thr_chart_across(chart, i == 0 && plot->options->strength > 0 ? "strength" : "hand", limit[i]);
 
     /* Limits that are close together share one number. */
     for (int k = 0; k < named; k++)
@@ -416,53 +271,55 @@ static void write_limits(const tension_plot *plot, int c, thr_text *text)
 
     /* The number stays inside the panel: its width is estimated from its letters. */
     double half = 0.35 * SMALL * (double)strlen(words) + 1;
-    double x = fmin(fmax(place_x(plot, slackest_at(plot, c)), plot->x + half),
-                    plot->x + plot->width - half);
-    thr_svg_text(text, x, y + (y - plot->y > 1.4 * SMALL ? -0.6 : 0.4 + SMALL), SMALL,
+    double x =
+        fmin(fmax(thr_chart_x(chart, slackest_at(plot, c)), chart->left + half), right - half);
+    thr_svg_text(&chart->text, x, y + (y - chart->top > 1.4 * SMALL ? -0.6 : 0.4 + SMALL), SMALL,
                  " class=\"middle halo\"", words);
   }
 }
 
-/* Appends a triangle at an end that is pulled. way: -1 at the start, where it points to the left, 1
- * at the end. */
-static void write_pulled_end(const tension_plot *plot, int c, double along, double tension,
-                             double way, thr_text *text)
+/* Appends a triangle that points to x, with its base on the side of the cord. way: -1 points to the
+ * left, 1 to the right. */
+static void write_triangle(tension_plot *plot, const char *colour, double x, double y, double way)
 {
-  double x = thr_svg_round(place_x(plot, along)), y = thr_svg_round(place_y(plot, tension));
-  thr_text_printf(text, "<path class=\"pulled\" fill=\"%s\" d=\"M%.2f %.2fl%.2f %.2fv%.2fz\"/>\n",
-                  thr_palette(c).hex, x + way * SIGN * 1.2, y, -way * SIGN * 1.8, -SIGN, 2 * SIGN);
+  thr_text_printf(&plot->chart.text,
+                  "<path class=\"pulled\" fill=\"%s\" d=\"M%.2f %.2fl%.2f %.2fv%.2fz\"/>\n", colour,
+                  x + way * SIGN * 1.2, y, -way * SIGN * 1.8, -SIGN, 2 * SIGN);
 }
 
-/* Appends the marks of a cord: a circle at its slackest pass, triangles at its pulled ends. */
-static void write_cord_marks(const tension_plot *plot, int c, thr_text *text)
+/* Appends the circle of a slackest pass. */
+static void write_circle(tension_plot *plot, const char *colour, double x, double y)
+{
+  thr_text_printf(&plot->chart.text,
+                  "<circle class=\"slackest\" stroke=\"%s\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"/>\n",
+                  colour, x, y, 0.7 * SIGN);
+}
+
+/* Appends everything of one cord as the group "cord-A": its line, a circle at its slackest pass,
+ * and triangles at its pulled ends, which point away from it. */
+static void write_cord(tension_plot *plot, int c)
 {
   const thr_eval_cord *cord = &plot->evaluation->cord[c];
-  double along = 0, slackest = slackest_at(plot, c);
+  const double *tension = cord->tension;
+  thr_chart *chart = &plot->chart;
+  const thr_colour colour = thr_palette(c);
+  double along = 0;
+  char id[12];
+
+  thr_cord_id(c, id);
+  thr_text_printf(&chart->text, "<g id=\"cord-%s\">\n", id);
+  write_steps(plot, c);
+  write_circle(plot, colour.hex, thr_chart_x(chart, slackest_at(plot, c)),
+               thr_chart_y(chart, tension[cord->slackest]));
+
   for (int k = 0; k < cord->n_passes; k++)
     along += step_of(plot, c, k);
-
-  /* The slackest pass, in its middle. */
-  thr_text_printf(text,
-                  "<circle class=\"slackest\" stroke=\"%s\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"/>\n",
-                  thr_palette(c).hex, thr_svg_round(place_x(plot, slackest)),
-                  thr_svg_round(place_y(plot, cord->tension[cord->slackest])), 0.7 * SIGN);
-
-  /* Each pulled end has a triangle that points away from the cord. */
-  if (cord->pull == THR_PULL_NONE) return;
-  if (cord->pull != THR_PULL_END) write_pulled_end(plot, c, 0, cord->tension[0], -1, text);
-  if (cord->pull != THR_PULL_START)
-    write_pulled_end(plot, c, along, cord->tension[cord->n_passes - 1], 1, text);
-}
-
-/* Appends everything of one cord as the group "cord-A". */
-static void write_cord(const tension_plot *plot, int c, thr_text *text)
-{
-  char id[12];
-  thr_cord_id(c, id);
-  thr_text_printf(text, "<g id=\"cord-%s\">\n", id);
-  write_steps(plot, c, text);
-  write_cord_marks(plot, c, text);
-  thr_text_append(text, "</g>\n");
+  if (cord->pull == THR_PULL_START || cord->pull == THR_PULL_BOTH)
+    write_triangle(plot, colour.hex, chart->left, thr_chart_y(chart, tension[0]), -1);
+  if (cord->pull == THR_PULL_END || cord->pull == THR_PULL_BOTH)
+    write_triangle(plot, colour.hex, thr_chart_x(chart, along),
+                   thr_chart_y(chart, tension[cord->n_passes - 1]), 1);
+  thr_text_append(&chart->text, "</g>\n");
 }
 
 /* Writes what a cord is called and the force at its pulled ends: "A: 39.7 and 39.3 N"; of long
@@ -482,128 +339,61 @@ static void label_cord(const tension_plot *plot, int c, char label[96])
     snprintf(label, 96, "%.11s: %s", plot->plan->cord[c].id, force);
 }
 
-/* Appends the cords' labels beside the panel, each at the height where its line ends, pushed apart
- * where they would touch. */
-static void write_line_labels(const tension_plot *plot, thr_text *text)
-{
-  double at[THR_TENSION_LINES], spacing = 1.5 * TEXT_SIZE;
-  int order[THR_TENSION_LINES];
-
-  /* Sort the labels by height (insertion: there are few). */
-  for (int i = 0; i < plot->n_shown; i++) {
-    const thr_eval_cord *cord = &plot->evaluation->cord[plot->shown[i]];
-    double y = place_y(plot, cord->tension[cord->n_passes - 1]);
-    int k = i;
-    for (; k > 0 && at[order[k - 1]] > y; k--)
-      order[k] = order[k - 1];
-    order[k] = i;
-    at[i] = y;
-  }
-
-  /* From below upwards, so that the lowest label stays in the panel; then from above downwards. */
-  for (int k = plot->n_shown - 1; k >= 0; k--)
-    at[order[k]] = fmin(at[order[k]], k + 1 < plot->n_shown ? at[order[k + 1]] - spacing
-                                                            : plot->y + plot->height);
-
-  for (int k = 0; k < plot->n_shown; k++)
-    at[order[k]] = fmax(at[order[k]], k > 0 ? at[order[k - 1]] + spacing : plot->y);
-
-  /* A short piece of the line, and what the cord is called. */
-  for (int i = 0; i < plot->n_shown; i++) {
-    char label[96];
-    int c = plot->shown[i];
-    double x = plot->x + plot->width + 4;
-    label_cord(plot, c, label);
-    thr_text_printf(text, "<path class=\"line\" stroke=\"%s\"", thr_palette(c).hex);
-    write_dash(thr_palette_dash(c / THR_COLOURS), text);
-    thr_text_printf(text, " d=\"M%.2f %.2fh5.00\"/>\n", x, thr_svg_round(at[i]));
-    thr_svg_text(text, x + 6.5, at[i] + 0.36 * TEXT_SIZE, TEXT_SIZE, "", label);
-  }
-}
-
 /* ---- sheet ---- */
 
-/* Appends all cords in one panel; returns the y below it, mm. */
-static double write_one_panel(tension_plot *plot, double y, thr_text *text)
+/* Appends a panel per cord, in rows of COLUMNS; a single cord has one large panel. */
+static void write_panels(tension_plot *plot)
 {
-  plot->x = MARGIN + LEFT;
-  plot->y = y + TEXT_SIZE;
-  plot->width = WIDTH - LEFT - LABELS;
-  plot->height = PANEL_HEIGHT;
-
-  /* The name of the y axis stands above the panel. */
-  thr_svg_text(text, MARGIN, y, TEXT_SIZE, "",
-               plot->logarithmic ? "tension, N (log scale)" : "tension, N");
-
-  /* Drawn back to front: fans lie below the limits, and both below the lines. */
-  write_panel(plot, true, true, text);
-  for (int i = 0; i < plot->n_shown; i++)
-    write_fan(plot, plot->shown[i], text);
-  write_limits(plot, plot->shown[0], text);
-  for (int i = 0; i < plot->n_shown; i++)
-    write_cord(plot, plot->shown[i], text);
-
-  write_line_labels(plot, text);
-  write_axis_titles(plot, text);
-  return plot->y + plot->height + 15;
-}
-
-/* Appends a panel per cord, in rows of COLUMNS; returns the y below them, mm. */
-static double write_small_panels(tension_plot *plot, double y, thr_text *text)
-{
-  double gap = 5;
-  plot->width = (WIDTH - LEFT - (COLUMNS - 1) * gap) / COLUMNS;
-  plot->height = SMALL_HEIGHT;
+  thr_chart *chart = &plot->chart;
+  const bool small = plot->n_shown > 1;
+  const int columns = small ? COLUMNS : 1;
+  const double height = small ? SMALL_HEIGHT : PANEL_HEIGHT, first = chart->y + SMALL_GAP;
+  const double wide = (THR_CHART_WIDTH - LEFT - (columns - 1) * GAP) / columns;
+  char words[96];
 
   /* The name of the y axis stands once, above all panels. */
-  thr_svg_text(text, MARGIN, y, TEXT_SIZE, "",
-               plot->logarithmic ? "tension, N (log scale)" : "tension, N");
-  y += 3;
+  thr_svg_text(&chart->text, THR_CHART_MARGIN, chart->y, TEXT_SIZE, "",
+               chart->up.logarithmic ? "tension, N (log scale)" : "tension, N");
 
-  /* Only the panels on the left and at the bottom have numbers at their axes. */
   for (int i = 0; i < plot->n_shown; i++) {
-    char label[96];
-    int row = i / COLUMNS;
-    plot->x = MARGIN + LEFT + i % COLUMNS * (plot->width + gap);
-    plot->y = y + SMALL_GAP - 3 + row * (SMALL_HEIGHT + SMALL_GAP);
-    write_panel(plot, i % COLUMNS == 0, i + COLUMNS >= plot->n_shown, text);
-    label_cord(plot, plot->shown[i], label);
-    thr_svg_text(text, plot->x, plot->y - 2, TEXT_SIZE, "", label);
+    const int c = plot->shown[i], row = i / columns;
+    const double left = LEFT + i % columns * (wide + GAP);
+    thr_chart_place(chart, left, THR_CHART_WIDTH - left - wide, first + row * (height + SMALL_GAP),
+                    height);
 
-    write_fan(plot, plot->shown[i], text);
-    write_limits(plot, plot->shown[i], text);
-    write_cord(plot, plot->shown[i], text);
+    /* Only the panels on the left and at the bottom have numbers at their axes. */
+    thr_chart_grid(chart, small ? FEW_TICKS : MOST_TICKS, i % columns == 0 ? "" : NULL);
+    thr_chart_ticks(chart, small ? FEWEST_TICKS : MOST_TICKS, i + columns >= plot->n_shown);
+    thr_chart_rect(chart, "axis", chart->left, chart->top, wide, height);
+    label_cord(plot, c, words);
+    thr_svg_text(&chart->text, chart->left, chart->top - 2, TEXT_SIZE, "", words);
+
+    /* Fans lie below the limits, and both below the lines. */
+    if (plot->seating) thr_chart_across(chart, "seating", plot->evaluation->physics.seating);
+    write_fan(plot, c);
+    write_limits(plot, c);
+    write_cord(plot, c);
   }
 
-  /* The title of the x axis stands once, centred below all panels. */
-  int rows = (plot->n_shown + COLUMNS - 1) / COLUMNS;
-  double bottom = y - 3 + rows * (SMALL_HEIGHT + SMALL_GAP);
-  plot->y = bottom - SMALL_HEIGHT;
-  plot->x = MARGIN + LEFT;
-  plot->width = WIDTH - LEFT;
-  write_axis_titles(plot, text);
-  return bottom + 15;
+  /* What the x axis counts stands once, below all panels. */
+  if (plot->passes)
+    snprintf(words, sizeof words, "pass");
+  else
+    snprintf(words, sizeof words, "along the cord, %.15s", plot->plan->frame.units);
+  thr_chart_place(chart, LEFT, 0, chart->top, height);
+  thr_chart_name_axis(chart, words);
+  chart->y = chart->top + height + 15;
 }
 
-/* Appends the title, how the tensions were found, the largest pull and what is missing; returns the
- * y below, mm. */
-static double write_heading(const tension_plot *plot, const char *title, thr_text *text)
+/* Appends the title, the largest pull, how the tensions were found, and what is missing. */
+static void write_heading(tension_plot *plot, const char *title)
 {
   const thr_evaluation *evaluation = plot->evaluation;
-  char line[400], largest[32], total[32], seating[48] = "";
-  double y = thr_svg_wrap(text, MARGIN, MARGIN + TITLE_SIZE, TITLE_SIZE, WIDTH,
-                          " font-weight=\"bold\"", title),
-         error = 0;
+  char line[400], note[400], largest[32], total[32], seating[48] = "";
+  double error = 0;
 
   for (int c = 0; c < evaluation->n_cords; c++)
     error = fmax(error, evaluation->cord[c].error);
-
-  /* The method, friction and the seating tension decide what the tensions are. */
-  if (plot->seating)
-    snprintf(seating, sizeof seating, ", seating tension %g N", evaluation->physics.seating);
-  snprintf(line, sizeof line, "Method %s (%s); mu = %g%s.", thr_method_name(evaluation->method),
-           thr_tension_method_words(evaluation), evaluation->physics.mu, seating);
-  y = thr_svg_wrap(text, MARGIN, y, TEXT_SIZE, WIDTH, "", line);
 
   /* The largest and the total force. An error of the exponents is a factor exp(error) on a
    * force. */
@@ -618,7 +408,13 @@ static double write_heading(const tension_plot *plot, const char *title, thr_tex
     snprintf(line + strlen(line), sizeof line - strlen(line), ", each within %.3g %%",
              100 * expm1(error));
   snprintf(line + strlen(line), sizeof line - strlen(line), ".");
-  y = thr_svg_wrap(text, MARGIN, y, TEXT_SIZE, WIDTH, "", line);
+
+  /* The method, friction and the seating tension decide what the tensions are. */
+  if (plot->seating)
+    snprintf(seating, sizeof seating, ", seating tension %g N", evaluation->physics.seating);
+  snprintf(note, sizeof note, "Method %s (%s); mu = %g%s.", thr_method_name(evaluation->method),
+           thr_tension_method_words(evaluation), evaluation->physics.mu, seating);
+  thr_chart_heading(&plot->chart, title, line, note);
 
   /* Say what the plot does not show: cords that are not known .. */
   line[0] = '\0';
@@ -630,101 +426,54 @@ static double write_heading(const tension_plot *plot, const char *title, thr_tex
   if (plot->n_shown < plot->n_known)
     snprintf(line + strlen(line), sizeof line - strlen(line),
              "Shown: the %d cords with the largest pull, of %d.", plot->n_shown, plot->n_known);
-  if (line[0]) y = thr_svg_wrap(text, MARGIN, y, TEXT_SIZE, WIDTH, " fill=\"#A03000\"", line);
-
-  return y + 3;
+  plot->chart.y = thr_svg_wrap(&plot->chart.text, THR_CHART_MARGIN, plot->chart.y, TEXT_SIZE,
+                               THR_CHART_WIDTH, " fill=\"#A03000\"", line) +
+                  3;
 }
 
-/* Appends the key of fan and limits, a row each: their colours and what they mean. Returns the y
- * below, mm. */
-static double write_key_of_limits(const tension_plot *plot, double y, thr_text *text)
+/* Appends a row of the key, unless its line is not drawn: a piece of the line, and what it means.
+ */
+static void write_key_line(thr_chart *chart, bool drawn, const char *class, const char *words)
 {
+  const double x = THR_CHART_MARGIN + LEFT;
+  if (!drawn) return;
+  thr_text_printf(&chart->text, "<path class=\"%s\" d=\"M%.2f %.2fh8.00\"/>\n", class, x, chart->y);
+  thr_svg_text(&chart->text, x + 10, chart->y + 0.36 * TEXT_SIZE, TEXT_SIZE, "", words);
+  chart->y += 5.5;
+}
+
+/* Appends the key: pulled end, slackest pass, seating tension, fan and limits. */
+static void write_key(tension_plot *plot)
+{
+  static const char *const grey = "#555"; /* the marks have the colours of their cords */
+  const thr_tension_options *options = plot->options;
   const thr_physics *physics = &plot->evaluation->physics;
-  double x = MARGIN + LEFT, base = y + 0.36 * TEXT_SIZE;
+  thr_chart *chart = &plot->chart;
+  double x = THR_CHART_MARGIN + LEFT, base = chart->y + 0.36 * TEXT_SIZE;
   char words[120];
 
-  /* The fan, a pale box in grey because fans have the colours of their cords. */
-  if (plot->options->low && plot->options->high) {
-    thr_text_printf(text,
-                    "<rect class=\"fan\" fill=\"#555\" x=\"%.2f\" y=\"%.2f\" width=\"8.00\" "
-                    "height=\"3.00\"/>\n",
-                    x, y - 1.5);
+  write_triangle(plot, grey, x + 0.9, chart->y, 1);
+  thr_svg_text(&chart->text, x + 5, base, TEXT_SIZE, "", "pulled end");
+  write_circle(plot, grey, x + 35, chart->y);
+  thr_svg_text(&chart->text, x + 38.5, base, TEXT_SIZE, "", "slackest pass");
+  chart->y += 6;
+
+  /* The fan is a pale box. */
+  if (options->low && options->high) {
+    thr_chart_rect(chart, "fan", x, chart->y - 1.5, 8, 3);
     snprintf(words, sizeof words, "mu from %g to %g (closed form)", physics->mu_low,
              physics->mu_high);
-    thr_svg_text(text, x + 10, base, TEXT_SIZE, "", words);
-    y += 5.5;
+    thr_svg_text(&chart->text, x + 10, chart->y + 0.36 * TEXT_SIZE, TEXT_SIZE, "", words);
+    chart->y += 5.5;
   }
 
-  /* A limit above the axis has no line, so the key leaves it out. */
-  if (plot->options->hand && thr_hand_always <= plot->high) {
-    thr_text_printf(text, "<path class=\"hand\" d=\"M%.2f %.2fh8.00\"/>\n", x, y);
-    snprintf(words, sizeof words, "what a hand manages: %g N time after time, %g N at most",
-             thr_hand_always, thr_hand_most);
-    thr_svg_text(text, x + 10, y + 0.36 * TEXT_SIZE, TEXT_SIZE, "", words);
-    y += 5.5;
-  }
-
-  /* The strength of the cord is named even if its line is beyond the axis. */
-  if (plot->options->strength > 0) {
-    thr_text_printf(text, "<path class=\"strength\" d=\"M%.2f %.2fh8.00\"/>\n", x, y);
-    snprintf(words, sizeof words, "at %g N the cord breaks", plot->options->strength);
-    thr_svg_text(text, x + 10, y + 0.36 * TEXT_SIZE, TEXT_SIZE, "", words);
-    y += 5.5;
-  }
-
-  return y - 6 + TEXT_SIZE;
-}
-
-/* Appends the key: pulled end, slackest pass, seating tension, fan and limits. Returns the y below,
- * mm. */
-static double write_key(const tension_plot *plot, double y, thr_text *text)
-{
-  double x = MARGIN + LEFT, base = y + 0.36 * TEXT_SIZE;
-
-  /* The triangle of a pulled end. */
-  thr_text_printf(text,
-                  "<path class=\"pulled\" fill=\"#555\" d=\"M%.2f %.2fl-2.70 -1.50v3.00z\"/>\n",
-                  x + 2.7, y);
-  thr_svg_text(text, x + 5, base, TEXT_SIZE, "", "pulled end");
-
-  /* The circle of the slackest pass. */
-  x += 35;
-  thr_text_printf(
-      text, "<circle class=\"slackest\" stroke=\"#555\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"/>\n", x,
-      y, 0.7 * SIGN);
-  thr_svg_text(text, x + 3.5, base, TEXT_SIZE, "", "slackest pass");
-
-  /* The line of the seating tension. */
-  x += 38;
-  if (plot->seating) {
-    thr_text_printf(text, "<path class=\"seating\" d=\"M%.2f %.2fh8.00\"/>\n", x, y);
-    thr_svg_text(text, x + 10, base, TEXT_SIZE, "", "seating tension");
-  }
-
-  return write_key_of_limits(plot, y + 6, text);
-}
-
-/* Appends the style sheet. Classes are those of the elements above; line widths are in mm. */
-static void write_style(thr_text *text)
-{
-  thr_text_append(
-      text,
-      "<style>\n.thread text{stroke:none;fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}\n"
-      ".thread .middle{text-anchor:middle}.thread .end{text-anchor:end}\n"
-      ".thread .axis{fill:none;stroke:#444;stroke-width:0.25}.thread "
-      ".grid{stroke:#ddd;stroke-width:0.20}\n");
-
-  thr_text_printf(text, ".thread .line{fill:none;stroke-width:%.2f;stroke-linejoin:round}\n", LINE);
-  thr_text_append(
-      text,
-      ".thread .seating{fill:none;stroke:#444;stroke-width:0.25;stroke-dasharray:1.2 0.8}\n"
-      ".thread .fan{fill-opacity:0.18;stroke:none}.thread "
-      ".hand{fill:none;stroke:#009E73;stroke-width:0.35;stroke-dasharray:1.6 1}\n"
-      ".thread .strength{fill:none;stroke:#D55E00;stroke-width:0.45;stroke-dasharray:3 0.8 0.6 "
-      "0.8}\n"
-      ".thread text.halo{stroke:#fff;stroke-width:0.80;stroke-linejoin:round;paint-order:stroke}\n"
-      ".thread .slackest{fill:#fff;stroke-width:0.50}.thread "
-      ".pulled{stroke:#fff;stroke-width:0.20}\n</style>\n");
+  /* A hand above the axis has no line; the strength of the cord is named even then. */
+  write_key_line(chart, plot->seating, "seating", "seating tension");
+  snprintf(words, sizeof words, "what a hand manages: %g N time after time, %g N at most",
+           thr_hand_always, thr_hand_most);
+  write_key_line(chart, options->hand && thr_hand_always <= chart->up.high, "hand", words);
+  snprintf(words, sizeof words, "at %g N the cord breaks", options->strength);
+  write_key_line(chart, options->strength > 0, "strength", words);
 }
 
 /* Chooses the cords to show: all known ones, or of too many those with the largest force, the lower
@@ -758,39 +507,7 @@ static thr_status choose_cords(tension_plot *plot, thr_err *err)
   return THR_OK;
 }
 
-/* Appends the whole document. The body is written first, because the sheet's height follows from
- * it. */
-static thr_status write_sheet(tension_plot *plot, const char *given, thr_text *svg, thr_err *err)
-{
-  thr_text body = {0};
-  char title[200];
-
-  /* The title given, or one made from the cords. */
-  if (given && *given)
-    snprintf(title, sizeof title, "%.199s", given);
-  else if (plot->evaluation->n_cords == 1)
-    snprintf(title, sizeof title, "Tension along cord %.11s", plot->plan->cord[0].id);
-  else
-    snprintf(title, sizeof title, "Tension along %d cords", plot->evaluation->n_cords);
-
-  double y = write_heading(plot, title, &body);
-  y = plot->small ? write_small_panels(plot, y, &body) : write_one_panel(plot, y, &body);
-  double bottom = write_key(plot, y, &body) + MARGIN, width = WIDTH + 2 * MARGIN;
-
-  /* The sheet, white, as high as the body turned out. */
-  thr_svg_open(svg, width, bottom, title,
-               "Tension in every pass of a cord, from its start to its end.");
-  write_style(svg);
-  thr_text_printf(svg, "<rect width=\"%.2f\" height=\"%.2f\" fill=\"#fff\"/>\n", width, bottom);
-  if (body.data) thr_text_append_bytes(svg, body.data, body.length);
-  thr_text_append(svg, "</svg>\n");
-
-  thr_status st = body.failed || svg->failed ? thr_nomem(err) : THR_OK;
-  thr_text_destroy(&body);
-  return st;
-}
-
-/* Chooses cords and axes, then writes the sheet. */
+/* Chooses cords and axes, then draws the sheet from above downwards. */
 thr_status thr_tension_svg(const thr_plan *plan, const thr_tension_options *options, thr_text *svg,
                            thr_err *err)
 {
@@ -799,21 +516,26 @@ thr_status thr_tension_svg(const thr_plan *plan, const thr_tension_options *opti
                        .options = options,
                        .passes = options->passes,
                        .seating = plan->evaluation.method != THR_STRUCTURE};
-  thr_text out = {0};
-  thr_status st = thr_tension_usable(plan, err);
+  char title[200];
 
   /* Check the evaluation and choose the cords. */
+  thr_status st = thr_tension_usable(plan, err);
   if (!st) st = choose_cords(&plot, err);
   if (st) return st;
-  plot.small =
-      plot.n_shown > THR_TENSION_LINES || (options->low && options->high && plot.n_shown > 1);
-
-  /* Write into a text of its own, so that svg is unchanged on failure. */
   choose_axes(&plot);
-  st = write_sheet(&plot, options->title, &out, err);
-  if (!st) thr_text_append_bytes(svg, out.data, out.length);
-  if (!st && svg->failed) st = thr_nomem(err);
-  thr_text_destroy(&out);
+
+  /* The title given, or one made from the cords. */
+  if (options->title && *options->title)
+    snprintf(title, sizeof title, "%.199s", options->title);
+  else if (plan->n_cords == 1)
+    snprintf(title, sizeof title, "Tension along cord %.11s", plan->cord[0].id);
+  else
+    snprintf(title, sizeof title, "Tension along %d cords", plan->n_cords);
+
+  write_heading(&plot, title);
+  write_panels(&plot);
+  write_key(&plot);
   free(plot.shown);
-  return st;
+  return thr_chart_finish(&plot.chart, title,
+                          "Tension in every pass of a cord, from its start to its end.", svg, err);
 }
