@@ -37,6 +37,7 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -305,7 +306,8 @@ static int write_load_plot(const thr_plan *plan, const thr_eval *eval, const cha
   /* A mark for each pull that was asked for, or chosen by the method. */
   for (int i = 0; i < eval->n_carries && !st; i++) {
     const thr_load_point *point = &eval->carries[i];
-    const bool decided = point->carry.first_bead >= 0;
+    /* Where no equilibrium was found, only what is too much is known, which is no band. */
+    const bool decided = point->carry.first_bead >= 0 && isfinite(point->carry.carried);
     mark[i] = (thr_load_mark){.pull = point->pull,
                               .decided = decided,
                               .carried = point->carry.carried,
