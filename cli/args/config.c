@@ -18,12 +18,12 @@ const char *cli_config_of(int i)
 }
 
 /* Cuts blanks off both ends, in place. */
-static char *trim(char *s)
+static char *trim(char *text)
 {
-  size_t n = strlen(s);
-  while (n > 0 && strchr(" \t\r", s[n - 1]))
-    s[--n] = '\0';
-  return s + strspn(s, " \t");
+  size_t n = strlen(text);
+  while (n > 0 && strchr(" \t\r", text[n - 1]))
+    text[--n] = '\0';
+  return text + strspn(text, " \t");
 }
 
 /* One line as a word of the command line, "" if it is none; false prints what is wrong with it. It

@@ -19,10 +19,10 @@ cli_frame_args cli_frame_args_default(void)
 
 static bool take_units(void *into, const cli_option *option, const char *value)
 {
-  cli_frame_args *a = into;
+  cli_frame_args *args = into;
   thr_err why = {0};
   (void)option;
-  if (!thr_units_find(value, &a->read.units, &why)) return true;
+  if (!thr_units_find(value, &args->read.units, &why)) return true;
   cli_usage(cli_command_name(), "--units: %s", why.text);
   return false;
 }
@@ -30,20 +30,20 @@ static bool take_units(void *into, const cli_option *option, const char *value)
 /* Degrees become rad. */
 static bool take_flat(void *into, const cli_option *option, const char *value)
 {
-  cli_frame_args *a = into;
+  cli_frame_args *args = into;
   const double least = 1e-6, most = 179; /* degrees */
   (void)option;
-  if (!cli_double(cli_command_name(), "--flat", value, least, most, &a->read.flat)) return false;
-  a->read.flat *= THR_PI / 180;
+  if (!cli_double(cli_command_name(), "--flat", value, least, most, &args->read.flat)) return false;
+  args->read.flat *= THR_PI / 180;
   return true;
 }
 
 static bool take_columns(void *into, const cli_option *option, const char *value)
 {
-  cli_frame_args *a = into;
+  cli_frame_args *args = into;
   const char *comma = strchr(value, ',');
   (void)option;
-  a->read.columns = value;
+  args->read.columns = value;
   if (comma && comma != value && comma[1] && !strchr(comma + 1, ',')) return true;
   cli_usage(cli_command_name(),
             "--columns %s: expected two columns with a comma between them, like start,end or 2,3",
@@ -64,8 +64,8 @@ static const char *layers_name(int all)
 
 static bool take_choice(void *into, const cli_option *option, const char *value)
 {
-  cli_frame_args *a = into;
-  bool *yes = option->word == layers_name ? &a->read.all_layers : &a->read.parallel;
+  cli_frame_args *args = into;
+  bool *yes = option->word == layers_name ? &args->read.all_layers : &args->read.parallel;
   int i;
   if (!cli_choose(cli_command_name(), option->word == layers_name ? "--layers" : "--parallel",
                   value, option->word, option->n_words, &i))

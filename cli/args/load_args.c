@@ -28,13 +28,13 @@ static int parse_numbers(const char *text, size_t length, double *out, int most)
 
 static bool take_pulls(void *into, const cli_option *option, const char *value)
 {
-  load_args *a = into;
+  load_args *args = into;
   const double most = 1e12; /* N */
   (void)option;
-  a->n_pulls = parse_numbers(value, strlen(value), a->pulls, LOAD_MOST_PULLS);
-  bool ok = a->n_pulls > 0;
-  for (int i = 0; i < a->n_pulls; i++) {
-    ok &= a->pulls[i] > 0 && a->pulls[i] <= most;
+  args->n_pulls = parse_numbers(value, strlen(value), args->pulls, LOAD_MOST_PULLS);
+  bool ok = args->n_pulls > 0;
+  for (int i = 0; i < args->n_pulls; i++) {
+    ok &= args->pulls[i] > 0 && args->pulls[i] <= most;
   }
   if (!ok)
     cli_usage(cli_command_name(),
@@ -46,7 +46,7 @@ static bool take_pulls(void *into, const cli_option *option, const char *value)
 /* Degrees become rad. */
 static bool take_tilt(void *into, const cli_option *option, const char *value)
 {
-  load_args *a = into;
+  load_args *args = into;
   double number[2] = {0};
   const int n = parse_numbers(value, strlen(value), number, 2);
   const bool ok = n > 0 && number[0] >= 0 && number[0] < 90 && fabs(number[1]) <= 360;
@@ -54,21 +54,21 @@ static bool take_tilt(void *into, const cli_option *option, const char *value)
   if (!ok)
     cli_usage(cli_command_name(), "--tilt %s: expected degrees from 0 to below 90, or DEG,AZIMUTH",
               value);
-  a->tilt = number[0] * THR_PI / 180;
-  a->azimuth = number[1] * THR_PI / 180;
+  args->tilt = number[0] * THR_PI / 180;
+  args->azimuth = number[1] * THR_PI / 180;
   return ok;
 }
 
 static bool take_load(void *into, const cli_option *option, const char *value)
 {
-  load_args *a = into;
+  load_args *args = into;
   (void)option;
-  if (a->load) {
+  if (args->load) {
     cli_usage(cli_command_name(),
               "--load is there twice; several nodes go into one, with semicolons");
     return false;
   }
-  a->load = value;
+  args->load = value;
   return true;
 }
 
@@ -99,9 +99,9 @@ const cli_option cli_load_options[] = {
 const cli_option cli_load_tuned[] = {
     {"rays", .kind = CLI_COUNT, AT(rays), .low = THR_USUAL_RAYS, .high = THR_MOST_RAYS}, {0}};
 
-bool load_any(const load_args *a)
+bool load_any(const load_args *args)
 {
-  return a->load || a->tilt > 0 || a->clamped;
+  return args->load || args->tilt > 0 || args->clamped;
 }
 
 /* One load, "D4=10" or "D4=0,1,-10": a single number hangs. */
@@ -139,24 +139,24 @@ static int read_loads(const char *list, const thr_frame *frame, double (*load)[3
   return some ? EXIT_OK : cli_usage(cli_command_name(), "--load %s: no force at all", list);
 }
 
-int load_apply(const load_args *a, const thr_frame *frame, thr_eval_options *options,
+int load_apply(const load_args *args, const thr_frame *frame, thr_eval_options *options,
                double (**load)[3])
 {
   int code = EXIT_OK;
   *load = NULL;
-  options->tilt = a->tilt;
-  options->azimuth = a->azimuth;
-  options->clamped = a->clamped;
-  options->taut = a->taut;
-  options->rays = a->rays;
-  options->load_pull = a->pulls;
-  options->n_load_pulls = a->n_pulls;
-  if (!a->load) return EXIT_OK;
+  options->tilt = args->tilt;
+  options->azimuth = args->azimuth;
+  options->clamped = args->clamped;
+  options->taut = args->taut;
+  options->rays = args->rays;
+  options->load_pull = args->pulls;
+  options->n_load_pulls = args->n_pulls;
+  if (!args->load) return EXIT_OK;
   if (!(*load = thr_calloc((size_t)frame->n_nodes, sizeof **load))) {
     cli_error("out of memory");
     return EXIT_INTERNAL;
   }
-  code = read_loads(a->load, frame, *load);
+  code = read_loads(args->load, frame, *load);
   options->load = (const double(*)[3]) * load;
   return code;
 }

@@ -328,8 +328,8 @@ static void put_option(thr_text *out, const cli_option *option, int width)
 
   const int room = 14;
   for (int i = 0; option->meaning && i < option->n_words; i++) {
-    const int m = (int)strlen(option->word(i));
-    thr_text_printf(out, "%*s%s%*s", TEXT_COLUMN, "", option->word(i), m + 2 < room ? room - m : 2,
+    const int length = (int)strlen(option->word(i));
+    thr_text_printf(out, "%*s%s%*s", TEXT_COLUMN, "", option->word(i), length + 2 < room ? room - length : 2,
                     "");
     put_wrapped(out, option->meaning(i), TEXT_COLUMN + room, TEXT_COLUMN + room, width);
   }

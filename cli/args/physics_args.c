@@ -54,14 +54,14 @@ static bool show_presets(void *into, const cli_option *option, const char *value
 }
 
 /* Takes down an option, to be laid over what a plan says later. */
-static bool keep(cli_physics *a, const cli_option *option, const char *value)
+static bool keep(cli_physics *args, const cli_option *option, const char *value)
 {
-  if (a->n == CLI_PHYSICS_MOST) {
+  if (args->n == CLI_PHYSICS_MOST) {
     cli_usage(cli_command_name(), "more than %d options about cord and beads", CLI_PHYSICS_MOST);
     return false;
   }
-  a->given[a->n].option = option;
-  a->given[a->n++].value = value;
+  args->given[args->n].option = option;
+  args->given[args->n++].value = value;
   return true;
 }
 
@@ -155,22 +155,22 @@ const cli_option *cli_physics_options(void)
   return row;
 }
 
-int cli_physics_apply(const cli_physics *a, thr_physics *physics)
+int cli_physics_apply(const cli_physics *args, thr_physics *physics)
 {
   thr_err err = {0};
   thr_status st = THR_OK;
-  for (int i = 0; i < a->n && !st; i++) {
-    const char *value = a->given[i].value;
-    if (a->given[i].option->take == take_preset) {
+  for (int i = 0; i < args->n && !st; i++) {
+    const char *value = args->given[i].value;
+    if (args->given[i].option->take == take_preset) {
       st = thr_physics_set_preset(physics, value, &err);
-    } else if (a->given[i].option->take == take_file) {
+    } else if (args->given[i].option->take == take_file) {
       st = thr_physics_read(physics, value, &err);
     }
   }
-  for (int i = 0; i < a->n && !st; i++) {
-    const cli_option *option = a->given[i].option;
+  for (int i = 0; i < args->n && !st; i++) {
+    const cli_option *option = args->given[i].option;
     if (option->take == take_quantity) {
-      st = thr_physics_set(physics, field_of(option), strtod(a->given[i].value, NULL), &err);
+      st = thr_physics_set(physics, field_of(option), strtod(args->given[i].value, NULL), &err);
     }
   }
   return st ? cli_fail(&err) : EXIT_OK;

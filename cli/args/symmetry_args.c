@@ -9,15 +9,15 @@
 symmetry_args symmetry_args_default(void)
 {
   const thr_request usual = thr_request_default();
-  symmetry_args a = {.options = usual.symmetry};
-  thr_aims_order(&usual, a.prefer);
-  return a;
+  symmetry_args args = {.options = usual.symmetry};
+  thr_aims_order(&usual, args.prefer);
+  return args;
 }
 
 /* The aims in the list, then the others in their usual order. */
 static bool take_prefer(void *into, const cli_option *option, const char *value)
 {
-  symmetry_args *a = into;
+  symmetry_args *args = into;
   const char *command = cli_command_name();
   bool taken[THR_N_AIMS] = {false};
   int n = 0;
@@ -36,12 +36,12 @@ static bool take_prefer(void *into, const cli_option *option, const char *value)
       return false;
     }
     taken[aim] = true;
-    a->prefer[n++] = (thr_aim)aim;
+    args->prefer[n++] = (thr_aim)aim;
   }
 
   for (int aim = 0; aim < THR_N_AIMS && n; aim++) {
     if (!taken[aim]) {
-      a->prefer[n++] = (thr_aim)aim;
+      args->prefer[n++] = (thr_aim)aim;
     }
   }
   return n > 0;
@@ -49,10 +49,10 @@ static bool take_prefer(void *into, const cli_option *option, const char *value)
 
 static bool take_group(void *into, const cli_option *option, const char *value)
 {
-  symmetry_args *a = into;
+  symmetry_args *args = into;
   (void)option;
-  snprintf(a->options.group, sizeof a->options.group, "%s", value);
-  if (*value && strlen(value) < sizeof a->options.group) return true;
+  snprintf(args->options.group, sizeof args->options.group, "%s", value);
+  if (*value && strlen(value) < sizeof args->options.group) return true;
   cli_usage(cli_command_name(), "--group %s: expected a number or a name from `thread symmetries`",
             value);
   return false;

@@ -99,14 +99,14 @@ thr_status thr_field_only(const thr_field_reader *field_reader, const thr_json *
 }
 
 /* Text that is one of n names; *out is its number. */
-thr_status thr_field_name_of(const thr_field_reader *field_reader, const thr_json *v,
+thr_status thr_field_name_of(const thr_field_reader *field_reader, const thr_json *value,
                              const char *place, const char *key, int n, const char *(*name)(int),
                              int *out)
 {
   char known[80] = "";
-  const char *value = thr_json_string(v);
+  const char *text = thr_json_string(value);
   for (*out = 0; *out < n; ++*out) {
-    if (value && strcmp(value, name(*out)) == 0) return THR_OK;
+    if (text && strcmp(text, name(*out)) == 0) return THR_OK;
     size_t length = strlen(known);
     snprintf(known + length, sizeof known - length, "%s%s", *out ? ", " : "", name(*out));
   }

@@ -11,36 +11,36 @@
 #include <stdbool.h>
 
 typedef struct {
-  const thr_plan *p;
-  double near; /* in units */
-} reader;
+  const thr_plan *plan;
+  double tolerance; /* in units */
+} plan_reader;
 
-static const double *place(const reader *r, const thr_cord *c, int k)
+static const double *place(const plan_reader *reader, const thr_cord *cord, int k)
 {
-  return r->p->frame
-      .xyz[k < c->n_passes ? thr_tail(&r->p->frame, c->half[k]) : thr_cord_end(&r->p->frame, c)];
+  return reader->plan->frame
+      .xyz[k < cord->n_passes ? thr_tail(&reader->plan->frame, cord->half[k]) : thr_cord_end(&reader->plan->frame, cord)];
 }
 
 /* Are two places, less the way between two others, the same? */
-static bool goes_along(const reader *r, const double *a, const double *b, const double *from,
+static bool goes_along(const plan_reader *reader, const double *here, const double *there, const double *from,
                        const double *to)
 {
   double off[3];
   for (int i = 0; i < 3; i++)
-    off[i] = (b[i] - a[i]) - (to[i] - from[i]);
-  return sqrt(thr_dot(off, off)) <= r->near;
+    off[i] = (there[i] - here[i]) - (to[i] - from[i]);
+  return sqrt(thr_dot(off, off)) <= reader->tolerance;
 }
 
 /* Instructions of n passes from the first on, and whether the last of them goes straight on into
  * pass n. */
-static int count_runs(const reader *r, const thr_cord *c, int n, bool *on)
+static int count_runs(const plan_reader *reader, const thr_cord *cord, int n, bool *on)
 {
   int runs = n;
   *on = false;
   for (int k = 1; k <= n; k++) {
-    if (k == c->n_passes && !thr_cord_runs_round(r->p, c)) break;
+    if (k == cord->n_passes && !thr_cord_runs_round(reader->plan, cord)) break;
     const bool straight =
-        thr_turn_angle(&r->p->frame, c->half[k - 1], c->half[k % c->n_passes]) < THR_STRAIGHT;
+        thr_turn_angle(&reader->plan->frame, cord->half[k - 1], cord->half[k % cord->n_passes]) < THR_STRAIGHT;
     runs -= straight && k < n;
     *on = straight && k == n;
   }
@@ -49,16 +49,16 @@ static int count_runs(const reader *r, const thr_cord *c, int n, bool *on)
 
 /* Fewest passes after which the cord does the same again, moved along; all of them if it never does
  * so twice. */
-static int period_of(const reader *r, const thr_cord *c)
+static int period_of(const plan_reader *reader, const thr_cord *cord)
 {
-  for (int period = 1; 2 * period <= c->n_passes; period++) {
-    bool same = !goes_along(r, place(r, c, 0), place(r, c, 0), place(r, c, 0), place(r, c, period));
-    for (int k = 1; k + period <= c->n_passes && same; k++)
-      same = goes_along(r, place(r, c, k), place(r, c, k + period), place(r, c, 0),
-                        place(r, c, period));
+  for (int period = 1; 2 * period <= cord->n_passes; period++) {
+    bool same = !goes_along(reader, place(reader, cord, 0), place(reader, cord, 0), place(reader, cord, 0), place(reader, cord, period));
+    for (int k = 1; k + period <= cord->n_passes && same; k++)
+      same = goes_along(reader, place(reader, cord, k), place(reader, cord, k + period), place(reader, cord, 0),
+                        place(reader, cord, period));
     if (same) return period;
   }
-  return c->n_passes;
+  return cord->n_passes;
 }
 
 /* ---- paths that the group maps to themselves ---- */
@@ -68,44 +68,44 @@ static int period_of(const reader *r, const thr_cord *c)
 typedef struct {
   int at;
   bool back;
-} shift;
+} place_map;
 
-static shift then(shift first, shift second)
+static place_map compose(place_map first, place_map second)
 {
-  return (shift){second.back ? second.at - first.at : second.at + first.at,
+  return (place_map){second.back ? second.at - first.at : second.at + first.at,
                  first.back != second.back};
 }
 
-static shift inverse(shift s)
+static place_map invert(place_map map)
 {
-  return (shift){s.back ? s.at : -s.at, s.back};
+  return (place_map){map.back ? map.at : -map.at, map.back};
 }
 
-static int node_at(const reader *r, const thr_cord *c, int k)
+static int node_at(const plan_reader *reader, const thr_cord *cord, int k)
 {
-  return k < c->n_passes ? thr_tail(&r->p->frame, c->half[k]) : thr_cord_end(&r->p->frame, c);
+  return k < cord->n_passes ? thr_tail(&reader->plan->frame, cord->half[k]) : thr_cord_end(&reader->plan->frame, cord);
 }
 
 /* Does the image of cord a, nodes[], run as b does, shifted? image NULL: the identity. */
-static bool runs_as(const reader *r, const thr_cord *a, const int *image, const thr_cord *b,
-                    shift s)
+static bool runs_as(const plan_reader *reader, const thr_cord *from, const int *image, const thr_cord *to,
+                    place_map map)
 {
-  const int n = a->n_passes;
-  const bool round = thr_cord_runs_round(r->p, a);
+  const int n = from->n_passes;
+  const bool round = thr_cord_runs_round(reader->plan, from);
   for (int k = 0; k < n + !round; k++) {
-    const int v = node_at(r, a, k), at = s.back ? s.at - k : s.at + k;
-    if (node_at(r, b, round ? ((at % n) + n) % n : at) != (image ? image[v] : v)) return false;
+    const int v = node_at(reader, from, k), at = map.back ? map.at - k : map.at + k;
+    if (node_at(reader, to, round ? ((at % n) + n) % n : at) != (image ? image[v] : v)) return false;
   }
   return true;
 }
 
 /* The i-th way in which the image of a may run as b does, in the order of the shifts; false if
  * there are no more. */
-static bool way(const reader *r, const thr_cord *a, int i, shift *s)
+static bool find_map(const plan_reader *reader, const thr_cord *cord, int i, place_map *map)
 {
-  const int n = a->n_passes;
-  const bool round = thr_cord_runs_round(r->p, a);
-  *s = (shift){round ? i / 2 : i % 2 ? n : 0, i % 2};
+  const int n = cord->n_passes;
+  const bool round = thr_cord_runs_round(reader->plan, cord);
+  *map = (place_map){round ? i / 2 : i % 2 ? n : 0, i % 2};
   return i < 2 * (round ? n : 1);
 }
 
@@ -125,61 +125,61 @@ static int common_divisor(int a, int b)
   return a < 0 ? -a : a;
 }
 
-static void add_map(self_maps *maps, shift s)
+static void add_map(self_maps *maps, place_map map)
 {
-  if (s.back && maps->axis < 0)
-    maps->axis = (s.at % maps->period + maps->period) % maps->period;
+  if (map.back && maps->axis < 0)
+    maps->axis = (map.at % maps->period + maps->period) % maps->period;
   else
-    maps->period = common_divisor(maps->period, s.back ? s.at - maps->axis : s.at);
+    maps->period = common_divisor(maps->period, map.back ? map.at - maps->axis : map.at);
 }
 
 /* How copy i of path u runs as the image of u does. */
-static shift copy_shift(const reader *r, int u, int i)
+static place_map map_of_copy(const plan_reader *reader, int path, int i)
 {
-  const thr_symmetry_record *record = &r->p->symmetry;
-  const int *image = record->image + (size_t)record->element[i] * (size_t)r->p->frame.n_nodes;
-  shift s;
-  for (int k = 0; way(r, &r->p->cord[u], k, &s); k++)
-    if (runs_as(r, &r->p->cord[u], image, &r->p->cord[i], s)) return s;
-  return (shift){0, false};
+  const thr_symmetry_record *record = &reader->plan->symmetry;
+  const int *image = record->image + (size_t)record->element[i] * (size_t)reader->plan->frame.n_nodes;
+  place_map map;
+  for (int k = 0; find_map(reader, &reader->plan->cord[path], k, &map); k++)
+    if (runs_as(reader, &reader->plan->cord[path], image, &reader->plan->cord[i], map)) return map;
+  return (place_map){0, false};
 }
 
 /* Schreier's generators of what maps path u to itself: from u to a copy, by a generator to another
  * copy, and back. */
-static self_maps find_self_maps(const reader *r, int u)
+static self_maps find_self_maps(const plan_reader *reader, int path)
 {
-  const thr_symmetry_record *record = &r->p->symmetry;
-  const thr_cord *cord = r->p->cord;
-  const bool round = thr_cord_runs_round(r->p, &cord[u]);
-  self_maps maps = {cord[u].n_passes, -1};
-  shift s;
+  const thr_symmetry_record *record = &reader->plan->symmetry;
+  const thr_cord *cord = reader->plan->cord;
+  const bool round = thr_cord_runs_round(reader->plan, &cord[path]);
+  self_maps maps = {cord[path].n_passes, -1};
+  place_map map;
   if (!round) maps.period = 2 * maps.period + 1; /* no shift but 0 is a map */
-  for (int i = 0; i < r->p->n_cords; i++)
-    for (int g = -1; g < record->n_generators && record->unique[i] == u; g++) {
-      const int *image = g < 0 ? NULL : record->generator + (size_t)g * (size_t)r->p->frame.n_nodes;
-      for (int j = 0; j < r->p->n_cords; j++)
-        for (int k = 0; record->unique[j] == u && way(r, &cord[u], k, &s); k++)
-          if (runs_as(r, &cord[i], image, &cord[j], s))
-            add_map(&maps, then(then(copy_shift(r, u, i), s), inverse(copy_shift(r, u, j))));
+  for (int i = 0; i < reader->plan->n_cords; i++)
+    for (int generator_at = -1; generator_at < record->n_generators && record->unique[i] == path; generator_at++) {
+      const int *image = generator_at < 0 ? NULL : record->generator + (size_t)generator_at * (size_t)reader->plan->frame.n_nodes;
+      for (int j = 0; j < reader->plan->n_cords; j++)
+        for (int k = 0; record->unique[j] == path && find_map(reader, &cord[path], k, &map); k++)
+          if (runs_as(reader, &cord[i], image, &cord[j], map))
+            add_map(&maps, compose(compose(map_of_copy(reader, path, i), map), invert(map_of_copy(reader, path, j))));
     }
-  if (!round) maps.period = cord[u].n_passes;
+  if (!round) maps.period = cord[path].n_passes;
   return maps;
 }
 
 /* Runs up to where the path goes on as an image of itself: from one axis to the next, or a period.
  */
-static int count_part(const reader *r, const thr_cord *c, const self_maps *maps)
+static int count_part(const plan_reader *reader, const thr_cord *cord, const self_maps *maps)
 {
-  const int n = c->n_passes;
-  const bool round = thr_cord_runs_round(r->p, c);
+  const int n = cord->n_passes;
+  const bool round = thr_cord_runs_round(reader->plan, cord);
   int runs = maps->axis >= 0;
-  for (int t = 0; t < 2 * n; t++) { /* the turn at place t */
-    const bool within = maps->axis < 0 ? t < maps->period
-                        : round        ? 2 * t > maps->axis && 2 * t < maps->axis + maps->period
-                                       : t > 0 && 2 * t < n;
+  for (int turn = 0; turn < 2 * n; turn++) { /* the turn at place t */
+    const bool within = maps->axis < 0 ? turn < maps->period
+                        : round        ? 2 * turn > maps->axis && 2 * turn < maps->axis + maps->period
+                                       : turn > 0 && 2 * turn < n;
     if (within)
       runs +=
-          thr_turn_angle(&r->p->frame, c->half[(t + n - 1) % n], c->half[t % n]) >= THR_STRAIGHT;
+          thr_turn_angle(&reader->plan->frame, cord->half[(turn + n - 1) % n], cord->half[turn % n]) >= THR_STRAIGHT;
   }
   return runs > 1 ? runs : 1;
 }
@@ -189,39 +189,39 @@ static int count_part(const reader *r, const thr_cord *c, const self_maps *maps)
 typedef enum { WHOLE, REPEATED, MAPPED } manner;
 
 /* Of cord i, read in the shortest manner. */
-static int count_instructions(const reader *r, int i, manner *how)
+static int count_instructions(const plan_reader *reader, int i, manner *how)
 {
-  const thr_cord *c = &r->p->cord[i];
-  const bool open = r->p->options.ends == THR_ENDS_ANY && !thr_cord_runs_round(r->p, c);
+  const thr_cord *cord = &reader->plan->cord[i];
+  const bool open = reader->plan->options.ends == THR_ENDS_ANY && !thr_cord_runs_round(reader->plan, cord);
   bool on;
-  const int all = count_runs(r, c, c->n_passes, &on), whole = all - (on && all > 1),
-            period = period_of(r, c);
-  const int once = period < c->n_passes ? count_runs(r, c, period, &on) + 1 : whole;
+  const int all = count_runs(reader, cord, cord->n_passes, &on), whole = all - (on && all > 1),
+            period = period_of(reader, cord);
+  const int once = period < cord->n_passes ? count_runs(reader, cord, period, &on) + 1 : whole;
   int ends = open ? 2 : 0, least = once < whole ? once : whole;
   *how = once < whole ? REPEATED : WHOLE;
-  if (!r->p->symmetry.present) return least + ends;
-  const self_maps maps = find_self_maps(r, i);
+  if (!reader->plan->symmetry.present) return least + ends;
+  const self_maps maps = find_self_maps(reader, i);
   const int part =
-      maps.axis >= 0 || maps.period < c->n_passes ? count_part(r, c, &maps) + 1 : least;
+      maps.axis >= 0 || maps.period < cord->n_passes ? count_part(reader, cord, &maps) + 1 : least;
   if (part < least) *how = MAPPED;
   if (open && maps.axis >= 0) ends = 1;
   return (part < least ? part : least) + ends;
 }
 
 /* Is b what a is, moved along, one way or the other; and of closed ones from any start? */
-static bool is_moved(const reader *r, const thr_cord *a, const thr_cord *b)
+static bool is_moved(const plan_reader *reader, const thr_cord *from, const thr_cord *to)
 {
-  const int n = a->n_passes;
-  const bool round = thr_cord_runs_round(r->p, a);
-  if (b->n_passes != n || round != thr_cord_runs_round(r->p, b)) return false;
+  const int n = from->n_passes;
+  const bool round = thr_cord_runs_round(reader->plan, from);
+  if (to->n_passes != n || round != thr_cord_runs_round(reader->plan, to)) return false;
   for (int start = 0; start < (round ? n : 1); start++)
     for (int back = 0; back < 2; back++) {
-      const int first = back && !round ? n : start;
+      const int first_place = back && !round ? n : start;
       bool same = true;
       for (int k = 0; k <= n && same; k++) {
-        const int at = back ? first - k : first + k;
-        same = goes_along(r, place(r, a, k), place(r, b, round ? (at + n) % n : at), place(r, a, 0),
-                          place(r, b, first));
+        const int at = back ? first_place - k : first_place + k;
+        same = goes_along(reader, place(reader, from, k), place(reader, to, round ? (at + n) % n : at), place(reader, from, 0),
+                          place(reader, to, first_place));
       }
       if (same) return true;
     }
@@ -229,12 +229,12 @@ static bool is_moved(const reader *r, const thr_cord *a, const thr_cord *b)
 }
 
 /* The first path before this one that it is moved from, or -1. */
-static int moved_from(const reader *r, int cord)
+static int moved_from(const plan_reader *reader, int cord)
 {
-  const thr_symmetry_record *record = &r->p->symmetry;
+  const thr_symmetry_record *record = &reader->plan->symmetry;
   for (int i = 0; i < cord; i++)
     if ((!record->present || record->unique[i] == i) &&
-        is_moved(r, &r->p->cord[i], &r->p->cord[cord]))
+        is_moved(reader, &reader->plan->cord[i], &reader->plan->cord[cord]))
       return i;
   return -1;
 }
@@ -242,22 +242,22 @@ static int moved_from(const reader *r, int cord)
 thr_reading thr_reading_of(const thr_plan *plan)
 {
   const thr_frame *frame = &plan->frame;
-  reader r = {.p = plan};
+  plan_reader reader = {.plan = plan};
   thr_reading out = {0};
   for (int e = 0; e < frame->n_edges; e++)
-    r.near += THR_READING_NEAR * frame->length[e] / frame->n_edges;
+    reader.tolerance += THR_READING_NEAR * frame->length[e] / frame->n_edges;
   for (int i = 0; i < plan->n_cords; i++) {
     manner how = WHOLE;
     if (plan->symmetry.present && plan->symmetry.unique[i] != i) continue;
-    const int from = moved_from(&r, i);
+    const int from = moved_from(&reader, i);
     out.moved += from >= 0;
-    if (from < 0) out.instructions += count_instructions(&r, i, &how);
+    if (from < 0) out.instructions += count_instructions(&reader, i, &how);
     out.repeated += how == REPEATED;
     out.mapped += how == MAPPED;
     bool first = from >= 0; /* one instruction says where else the path runs */
     for (int k = from + 1; k < i && first; k++)
       first = (plan->symmetry.present && plan->symmetry.unique[k] != k) ||
-              !is_moved(&r, &plan->cord[from], &plan->cord[k]);
+              !is_moved(&reader, &plan->cord[from], &plan->cord[k]);
     out.instructions += first;
   }
   return out;
