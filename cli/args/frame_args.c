@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The options that say how a framework is read (graph/io/read.h), of every command that takes one.
- */
+/* Parses the options that say how a framework is read (graph/io/read.h), for every command that
+ * takes one.
+ *
+ * Example: `--units m --scale 1000 --up y` reads a model in metres whose y axis points up. */
 #include "cli/args/args.h"
 #include "cli/cli.h"
 #include "graph/number.h"
@@ -17,6 +19,7 @@ cli_frame_args cli_frame_args_default(void)
   return (cli_frame_args){thr_read_options_default(), NULL};
 }
 
+/* Reads the value of --units. */
 static bool take_units(void *into, const cli_option *option, const char *value)
 {
   cli_frame_args *args = into;
@@ -27,7 +30,7 @@ static bool take_units(void *into, const cli_option *option, const char *value)
   return false;
 }
 
-/* Degrees become rad. */
+/* Reads the value of --flat; degrees become rad. */
 static bool take_flat(void *into, const cli_option *option, const char *value)
 {
   cli_frame_args *args = into;
@@ -38,39 +41,49 @@ static bool take_flat(void *into, const cli_option *option, const char *value)
   return true;
 }
 
+/* Reads the value of --columns: two names or numbers with a comma between them. */
 static bool take_columns(void *into, const cli_option *option, const char *value)
 {
   cli_frame_args *args = into;
   const char *comma = strchr(value, ',');
   (void)option;
+
+  /* There must be one comma, and something on both sides. */
   args->read.columns = value;
   if (comma && comma != value && comma[1] && !strchr(comma + 1, ',')) return true;
+
   cli_usage(cli_command_name(),
             "--columns %s: expected two columns with a comma between them, like start,end or 2,3",
             value);
+
   return false;
 }
 
-/* Yes or no, by two words. */
+/* Returns the words of --parallel, a choice between two. */
 static const char *parallel_name(int choice)
 {
   return choice ? "keep" : "shortest";
 }
 
+/* Returns the words of --layers, a choice between two. */
 static const char *layers_name(int all)
 {
   return all ? "all" : "shown";
 }
 
+/* Reads the value of --layers or --parallel: the second word sets the flag. */
 static bool take_choice(void *into, const cli_option *option, const char *value)
 {
   cli_frame_args *args = into;
   bool *yes = option->word == layers_name ? &args->read.all_layers : &args->read.parallel;
   int i;
+
   if (!cli_choose(cli_command_name(), option->word == layers_name ? "--layers" : "--parallel",
                   value, option->word, option->n_words, &i))
     return false;
+
   *yes = i == 1;
+
   return true;
 }
 

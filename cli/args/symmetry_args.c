@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Options of symmetric threading. */
+/* Parses the options of symmetric threading: the group, whether symmetries must be those of the
+ * shape, and the order of the aims.
+ *
+ * Example: `--prefer steps` makes the order steps, overlap, paths, turning. */
 #include "cli/args/args.h"
 #include "cli/cli.h"
 
@@ -14,7 +17,8 @@ symmetry_args symmetry_args_default(void)
   return args;
 }
 
-/* The aims in the list, then the others in their usual order. */
+/* Reads the value of --prefer: the aims in the list come first, then the others in their usual
+ * order. */
 static bool take_prefer(void *into, const cli_option *option, const char *value)
 {
   symmetry_args *args = into;
@@ -24,6 +28,7 @@ static bool take_prefer(void *into, const cli_option *option, const char *value)
   (void)option;
   if (!*value) cli_usage(command, "--prefer: what counts first?");
 
+  /* The aims that are named, each once. */
   const char *word = value, *end = value;
   for (bool more = *value; more; more = *end, word = end + 1) {
     char name[16];
@@ -39,22 +44,28 @@ static bool take_prefer(void *into, const cli_option *option, const char *value)
     args->prefer[n++] = (thr_aim)aim;
   }
 
+  /* The others. n is 0 after an empty list, which was refused. */
   for (int aim = 0; aim < THR_N_AIMS && n; aim++) {
     if (!taken[aim]) {
       args->prefer[n++] = (thr_aim)aim;
     }
   }
+
   return n > 0;
 }
 
+/* Reads the value of --group: a number or a name, which is looked up later. */
 static bool take_group(void *into, const cli_option *option, const char *value)
 {
   symmetry_args *args = into;
   (void)option;
+
+  /* A name that does not fit is refused. */
   snprintf(args->options.group, sizeof args->options.group, "%s", value);
   if (*value && strlen(value) < sizeof args->options.group) return true;
   cli_usage(cli_command_name(), "--group %s: expected a number or a name from `thread symmetries`",
             value);
+
   return false;
 }
 
