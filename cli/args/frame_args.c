@@ -2,7 +2,8 @@
 /* Parses the options that say how a framework is read (graph/io/read.h), for every command that
  * takes one.
  *
- * Example: `--units m --scale 1000 --up y` reads a model in metres whose y axis points up. */
+ * Example: `--scale 1000 --up y` reads a model in metres whose y axis points up as one in mm whose
+ * z axis does. */
 #include "cli/args/args.h"
 #include "cli/cli.h"
 #include "graph/number.h"
@@ -78,6 +79,7 @@ static bool take_choice(void *into, const cli_option *option, const char *value)
   bool *yes = option->word == layers_name ? &args->read.all_layers : &args->read.parallel;
   int i;
 
+  /* Both options share this parser; their words tell which one is read. */
   if (!cli_choose(cli_command_name(), option->word == layers_name ? "--layers" : "--parallel",
                   value, option->word, option->n_words, &i))
     return false;

@@ -72,6 +72,7 @@ static void add_row(const cli_option *option, void *into, bool tuned)
 {
   const int i = parser.n++;
   assert(i < MOST_OPTIONS && strlen(option->name) + 8 < NAME_SIZE); /* known when it is compiled */
+
   parser.option[i] = option;
   parser.into[i] = into;
   parser.tuned[i] = tuned;
@@ -105,6 +106,8 @@ static void join_rows(const cli_syntax *syntax, const cli_group *groups)
       add_row(option, group->into, group->heading == cli_tuned);
     }
   }
+
+  /* --tune stands for all rows for developers. */
   add_row(&tune, NULL, false);
 
   /* The colon in front makes getopt_long tell a missing value from an unknown option. */
@@ -117,6 +120,8 @@ static void join_rows(const cli_syntax *syntax, const cli_group *groups)
                                                                  : required_argument;
 
     parser.table[n++] = (struct option){option->name, takes, NULL, FIRST_VALUE + i};
+
+    /* A letter that needs a value has a colon behind it. */
     if (!option->letter) continue;
     parser.letters[letters++] = option->letter;
     if (takes == required_argument) {
@@ -186,6 +191,8 @@ static bool take_amount(const cli_option *option, const char *name, const char *
 {
   const double most = 1e100; /* of what has no limit, to say a number */
   const double low = option->low == CLI_ABOVE_0 ? 0 : option->low;
+
+  /* Infinite limits are not printed as numbers. */
   if (!cli_double(parser.command, name, value, low, isinf(option->high) ? most : option->high, to))
     return false;
 
@@ -333,6 +340,8 @@ static void put_wrapped(thr_text *out, const char *words, int column, int at, in
 void cli_option_value(const cli_option *option, char *text, size_t size)
 {
   size_t n = (size_t)snprintf(text, size, "%s", option->value ? option->value : "");
+
+  /* Without a name of its own the value is one of the words. */
   for (int i = 0; !option->value && option->word && i < option->n_words && n < size; i++) {
     n += (size_t)snprintf(text + n, size - n, "%s%s", i ? "|" : "", option->word(i));
   }
@@ -346,6 +355,8 @@ static void put_option(thr_text *out, const cli_option *option, int width)
   if (option->letter) {
     snprintf(letter, sizeof letter, "-%c, ", option->letter);
   }
+
+  /* The head: letter, name and value. */
   cli_option_value(option, value, sizeof value);
   const int n = snprintf(head, sizeof head, "  %s--%s%s%s", letter, option->name,
                          *value && *value != '[' ? " " : "", value);
@@ -379,6 +390,7 @@ static void put_tuned(thr_text *out, const cli_group *groups, int width)
 {
   thr_text names = {0};
 
+  /* Their names only, with commas. */
   for (const cli_group *group = groups; group->option; group++) {
     if (group->heading != cli_tuned) continue;
     for (const cli_option *option = group->option; option->name; option++) {
@@ -439,6 +451,7 @@ static int settle_operands(int argc, char **argv)
 
 int cli_options(int argc, char **argv, const cli_syntax *syntax, const cli_group *groups)
 {
+  /* Completion only asks which options there are. */
   if (cli_show_options) {
     cli_show_options(groups);
     return EXIT_OK;
@@ -457,6 +470,7 @@ int cli_options(int argc, char **argv, const cli_syntax *syntax, const cli_group
     const cli_option *option = parser.option[i];
     if (optarg) files_heard(option->name, optarg);
 
+    /* Help ends the command; a value goes to its row. */
     if (option == &tune) {
       if (!take_tuned(optarg)) return EXIT_USAGE;
     } else if (option->kind == CLI_SHOWS && !option->take) {

@@ -5,7 +5,8 @@
  * A value is checked when it is read, but laid over the quantities of a plan only when the plan is
  * known: presets and files first, then single quantities, whatever their order in the command line.
  *
- * Example: `--mu 0.3 --preset nylon` keeps mu = 0.3, and takes all else from the preset. */
+ * Example: `--mu 0.3 --preset NAME` sets mu = 0.3, and takes all else from the preset, which has a
+ * mu as well. */
 #include "cli/args/args.h"
 #include "graph/status.h"
 

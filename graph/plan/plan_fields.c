@@ -2,8 +2,8 @@
 /* Reads single members of the JSON objects of plan.json, and says what is wrong with them as "file:
  * place: what". Private to the files that read plans.
  *
- * Every reader fails with the code of the thr_field_reader, so that the same mistake is THR_EINPUT
- * in the options and THR_EVIOLATED in a proof.
+ * Every reader but thr_field_only fails with the code of the thr_field_reader, so that the same
+ * mistake is THR_EINPUT in the options and THR_EVIOLATED in a proof.
  *
  * Example: thr_field_int(reader, object, "cover", 1, 100, &n) of {"cover": 0} gives
  * plan.json: cover: missing or not an integer from 1 to 100. */
@@ -79,6 +79,7 @@ thr_status thr_field_index(const thr_field_reader *field_reader, const thr_json 
     return thr_fail(field_reader->err, field_reader->code, "%s: %s[%d]: not an integer",
                     field_reader->name, place, i);
 
+  /* Indices count from 0. */
   if (wide < 0 || wide >= limit)
     return thr_fail(field_reader->err, field_reader->code,
                     "%s: %s[%d]: %" PRId64 " is out of range; expected 0 to %d", field_reader->name,
@@ -128,6 +129,7 @@ thr_status thr_field_name_of(const thr_field_reader *field_reader, const thr_jso
     snprintf(known + length, sizeof known - length, "%s%s", *out ? ", " : "", name(*out));
   }
 
+  /* The first name is a valid number for callers that go on. */
   *out = 0;
 
   return thr_fail(field_reader->err, field_reader->code, "%s: %s.%s: this version knows %s only",

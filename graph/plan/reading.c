@@ -18,7 +18,7 @@
 /* A plan that is read, and the distance up to which two places are the same, in units. */
 typedef struct {
   const thr_plan *plan;
-  double tolerance; /* in units */
+  double tolerance;
 } plan_reader;
 
 /* Returns where place k of a cord is: the node before pass k, or the last node. */
@@ -136,7 +136,7 @@ static bool find_map(const plan_reader *reader, const thr_cord *cord, int i, pla
 /* The maps of a path to itself: shifts by multiples of period (its passes if there are none), and
  * reversals, which make place k place axis - k (axis = -1: there are none). */
 typedef struct {
-  int period, axis; /* a reversal makes place k place axis - k; -1 = none does */
+  int period, axis;
 } self_maps;
 
 /* Returns the greatest common divisor, by Euclid's algorithm. */
@@ -214,7 +214,7 @@ static int count_part(const plan_reader *reader, const thr_cord *cord, const sel
 
   /* Count the turns inside this part; each begins a new run. With an axis the part is half a
    * period. */
-  for (int turn = 0; turn < 2 * n; turn++) { /* the turn at place t */
+  for (int turn = 0; turn < 2 * n; turn++) {
     const bool within = maps->axis < 0 ? turn < maps->period
                         : round ? 2 * turn > maps->axis && 2 * turn < maps->axis + maps->period
                                 : turn > 0 && 2 * turn < n;
@@ -316,6 +316,8 @@ thr_reading thr_reading_of(const thr_plan *plan)
     const int from = moved_from(&reader, i);
     out.moved += from >= 0;
     if (from < 0) out.instructions += count_instructions(&reader, i, &how);
+
+    /* Count the manners in which paths are read. */
     out.repeated += how == REPEATED;
     out.mapped += how == MAPPED;
 

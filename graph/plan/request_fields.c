@@ -48,6 +48,7 @@ static void write_cords(thr_writer *writer, const thr_plan *plan)
     return;
   }
 
+  /* A range. */
   thr_write_object(writer, "cords");
   thr_write_int(writer, "least", request->cords_least);
   thr_write_int(writer, "most", request->cords);
@@ -562,6 +563,7 @@ static thr_status read_rows(thr_request_reader *reader, const thr_json *object, 
   char member[40];
   int n = 0;
 
+  /* The name of the object, for messages. */
   if (in) {
     snprintf(member, sizeof member, "options.%s", in);
     place = member;
@@ -578,6 +580,7 @@ static thr_status read_rows(thr_request_reader *reader, const thr_json *object, 
     }
   }
 
+  /* Members of `options` that are no row of this objective are refused. */
   known[n] = NULL;
   thr_status st = thr_field_only(reader->fields, object, place, known);
 
