@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Declares the groups of options that several commands have.
  *
- * The room cli/args parses command lines. Every option is a row of a table (options.h); a group of
- * rows writes into one struct below, and a function named .._apply or .._check then settles what
+ * The folder cli/args parses command lines. Every option is a row of a table (options.h); a group
+ * of rows writes into one struct below, and a function named .._apply or .._check then settles what
  * the struct comes to when the framework or the plan is known. Functions print what is wrong with
  * an option and return the exit code.
  *

@@ -6,8 +6,8 @@
  * looking back at the document. Whether the numbers prove the claim is the checker's business
  * (graph/check).
  *
- * Example: {"status": "optimal", "lower_bound": 12, ..} as proof.length needs a certificate, a list
- * with one packing of odd cuts for each component. */
+ * Example: {"status": "optimal", "lower_bound": 12, ..} as proof.length of a plan with solid joints
+ * needs a certificate, a list with one packing of odd cuts for each component. */
 #include "graph/number.h"
 #include "graph/framework/components.h"
 #include "graph/plan/plan_fields.h"
@@ -87,7 +87,7 @@ static thr_status read_certificate(const thr_field_reader *field_reader, const t
     st = thr_field_int(field_reader, value, "component", 0, frame->n_nodes - 1,
                        &certificate->component);
 
-  /* Scale and sums, in units of 1 / denominator. */
+  /* Scale, prices and sums. */
   if (!st) st = thr_field_double(field_reader, value, "scale", &certificate->scale);
   if (!st)
     st = thr_field_int64(field_reader, value, "denominator", 1, INT64_C(1) << 40,
@@ -125,8 +125,8 @@ static thr_status get_status(const thr_field_reader *field_reader, const thr_jso
   return st;
 }
 
-/* Reads the member `slack`: "open" says that no limit on the length is proved; left out, the limit
- * that the options set is proved. */
+/* Reads the member `slack`: "open" says that the cords may be longer than
+ * options.turning.length_slack allows; left out, that limit is proved to be kept. */
 static thr_status read_slack(const thr_field_reader *field_reader, const thr_json *value,
                              bool *open)
 {
@@ -236,8 +236,7 @@ static thr_status read_turning_claim(const thr_field_reader *field_reader, const
   if (!st) st = thr_field_or_null(field_reader, value, "length_limit", &claim->length_limit);
   if (st) return st;
 
-  /* The proof. The claim is present before the tree is read, so that its arrays are released with
-   * it. */
+  /* The tree that proves them. */
   snprintf(place, sizeof place, "%.200s: proof.turning.proof", field_reader->name);
   claim->present = true;
 
