@@ -184,7 +184,6 @@ bool cli_choose(const char *command, const char *option, const char *value,
                 const char *(*name)(int), int n, int *out)
 {
   char known[160] = "", question[THR_SUGGESTION_TEXT];
-
   thr_suggestion suggestion = {.word = value};
 
   /* Compare with every name, and remember the most similar one. */
@@ -301,7 +300,7 @@ bool cli_output_format(const char *command, const char *output, const char *type
   const bool ends = *thr_path_ending(output) != '\0';
   const thr_format *named = thr_format_of_path(output);
 
-  /* -T overrules the ending, unless they disagree. */
+  /* -T names the format of an output without an ending; an ending must agree with -T. */
   *format = named;
   if (type && !(*format = thr_format_written(type))) {
     cli_usage(command, "-T %s: expected json, obj, csv, ply, dxf or graphml", type);

@@ -244,7 +244,6 @@ const cli_option *request_options(request_rows rows)
   const cli_option *own = rows == REQUEST_PLANNED   ? own_planned
                           : rows == REQUEST_TURNING ? own_turning
                                                     : none;
-
   int n = 0;
 
   /* Rows with a parser of their own. */
@@ -320,7 +319,6 @@ void request_args_ask(const request_args *args, const symmetry_args *symmetry,
                       thr_objective objective, thr_request *request)
 {
   const thr_request usual = thr_request_default();
-
   const bool is_own = objective == args->objective;
   thr_aims *aims = &request->aims;
 
@@ -461,7 +459,6 @@ static int facts_of(const request_args *args, const thr_request *wanted)
 {
   const thr_request *asked = &args->asked;
   const thr_turning_options *turning = &asked->turning;
-
   const bool is_range = args->least != args->most, limits_pull = pull_limit(args);
 
   /* One condition for each fact, in the order of the enumeration. */
@@ -690,8 +687,9 @@ static void apply_number(const request_args *args, thr_request *request)
 {
   const bool is_free = args->most == 0 && takes_few(args);
   const bool is_counted = args->most > 0 || is_free || !thr_wants_symmetry(request);
-
   const int usual = request->distinct > 0 && is_counted ? request->distinct : 1;
+
+  /* --cords counts before all else; without it a limit leaves the number open. */
   request->cords = args->most ? args->most : is_free ? THR_MOST_CORDS : usual;
   request->cords_least = args->most && args->least > usual ? args->least : usual;
 }

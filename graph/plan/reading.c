@@ -186,12 +186,14 @@ static self_maps find_self_maps(const plan_reader *reader, int path)
 
   /* For every two copies, every generator (and the identity, -1) that maps one to the other. */
   for (int i = 0; i < reader->plan->n_cords; i++)
-    for (int generator_at = -1; generator_at < record->n_generators && record->unique[i] == path;
-         generator_at++) {
+    for (int generator = -1; generator < record->n_generators && record->unique[i] == path;
+         generator++) {
       const int *image =
-          generator_at < 0
+          generator < 0
               ? NULL
-              : record->generator + (size_t)generator_at * (size_t)reader->plan->frame.n_nodes;
+              : record->generator + (size_t)generator * (size_t)reader->plan->frame.n_nodes;
+
+      /* Every copy that the image runs as gives a map, by each shift under which it does. */
       for (int j = 0; j < reader->plan->n_cords; j++)
         for (int k = 0; record->unique[j] == path && find_map(reader, &cord[path], k, &map); k++)
           if (runs_as(reader, &cord[i], image, &cord[j], map))

@@ -76,7 +76,6 @@ static void put_junctions(thr_writer *writer, const thr_turning_dual *dual, cons
     const thr_turning_junction *turning_junction = &dual->junction[i];
     begin_item(writer, turning_junction->value);
     thr_write_int(writer, "node", turning_junction->node);
-
     thr_write_ints(writer, "blocks", turning_junction->block,
                    thr_degree(frame, turning_junction->node));
     thr_write_close(writer);
@@ -484,7 +483,6 @@ static thr_status read_node(const proof_reader *reader, const thr_json *value,
                                                                                    "multipliers",
                                                                                    NULL};
   static const char *const at_once[] = {"low", "high", "a", "b", "value", "orbit", NULL};
-
   int64_t number[5] = {0};
 
   /* A leaf has its own member; a branch may have an orbit. */
