@@ -437,7 +437,7 @@ int cli_make_folder(const char *folder)
   }
 
   /* Make every folder on the path, from the outermost one on, as mkdir -p does. */
-  for (size_t i = 1; i <= n; i++) { /* like mkdir -p */
+  for (size_t i = 1; i <= n; i++) {
     if (!thr_os_is_separator(folder[i]) && folder[i] != '\0') continue;
     snprintf(part, sizeof part, "%.*s", (int)i, folder);
     if (thr_os_is_folder(part)) continue;
