@@ -392,7 +392,7 @@ static void put_cords_claim(thr_writer *writer, const thr_plan *plan)
 }
 
 /* Writes the claim that fewer cords are not within the pull, of the whole framework or, with parts,
- * of each component. frame: only its sizes are used. */
+ * of each component. frame: of a component only the sizes are set. */
 static void put_pull_claim(thr_writer *writer, const char *name, const thr_pull_claim *claim,
                            const thr_frame *frame)
 {
