@@ -1,5 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What all commands share: options, files, messages, progress. */
+/* Declares what all commands share: options, files, messages, progress.
+ *
+ * The folder cli holds the command line program, and is the only one that prints or exits. A
+ * command parses its options, calls the planner, the checker or eval, and prints the result;
+ * functions that fail print why and return the exit code.
+ *
+ * Read in this order:
+ *   main.c, commands/          the commands
+ *   args/                      their options (args/args.h, args/options.h)
+ *   cli.c                      messages, reading and writing, the progress line
+ *   files.c                    which files a command reads and writes
+ *   guard.c, guard_process.c   limits of time and memory, by a child process
+ *   best.c, progress.c         the best cords found so far; progress for other programs
+ *   print/                     reports of results */
 #ifndef THR_CLI_H
 #define THR_CLI_H
 

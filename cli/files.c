@@ -2,7 +2,7 @@
 /* Knows the files that a command reads and writes: no file is asked for twice, and every output is
  * tried before anything is computed.
  *
- * cli_next_option tells every option and operand to this list, so that a command needs no code of
+ * cli_options tells every option and operand to this list, so that a command needs no code of
  * its own: options that name an output are known here, every other value that is the name of a file
  * is taken for an input. Files are compared by what they are, not by their names
  * (thr_os_is_same_file). Only `thread eval PLAN -o PLAN` writes what it has read: the plan with its

@@ -19,6 +19,8 @@ guard_limits guard_limits_default(void)
   return (guard_limits){.seconds = -1, .memory = 2e9};
 }
 
+/* Reads the value of --memory: a number of bytes, or of MB or GB. 0 is no limit; other limits are
+ * 50 MB at least. */
 static bool take_memory(void *into, const cli_option *option, const char *value)
 {
   double *bytes = &((guard_limits *)into)->memory;
@@ -38,6 +40,7 @@ static bool take_memory(void *into, const cli_option *option, const char *value)
   }
   cli_usage(cli_command_name(), "--memory %s: expected 50MB or more, as 500MB or 2GB, or 0 for any",
             value);
+
   return false;
 }
 

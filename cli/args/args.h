@@ -1,5 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Options that several commands have. */
+/* Declares the groups of options that several commands have.
+ *
+ * The folder cli/args parses command lines. Every option is a row of a table (options.h); a group
+ * of rows writes into one struct below, and a function named .._apply or .._check then settles what
+ * the struct comes to when the framework or the plan is known. Functions print what is wrong with
+ * an option and return the exit code.
+ *
+ * Read in this order:
+ *   options.h, options.c        rows, parser, help
+ *   config.c                    --config: options from a file
+ *   frame_args.c                how a framework is read
+ *   request_args.c              what a plan is to be; end_counts.c: numbers of cord ends
+ *   symmetry_args.c             symmetric plans
+ *   physics_args.c, load_args.c cord and beads; loads on the structure */
 #ifndef THR_ARGS_H
 #define THR_ARGS_H
 

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* `--ends NAME:N,..`: how many cord ends there are at each node. */
+/* Parses `--ends NAME:N,..`, which says how many cord ends there are at each node, and computes how
+ * many cords these are in each component: half as many as ends.
+ *
+ * Example: `--ends A:2,B:1,C:1` is two cords, if A, B and C are in one component. */
 #include "cli/args/args.h"
 #include "cli/cli.h"
 #include "graph/status.h"
@@ -8,9 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The node whose name is before the last colon of text[0 .. n-1], -1 if there is none; *number:
- * what is after it. Names may hold colons themselves: what is a node's name as a whole has no
- * number. */
+/* Returns the node whose name is before the last colon of text[0 .. n - 1], or -1 if there is none;
+ * number receives what is after the colon. Names may hold colons themselves: the name of a node as
+ * a whole has no number. */
 static int counted_node(const thr_frame *frame, const char *text, int n, char number[256])
 {
   char word[256], *colon;
@@ -26,15 +29,20 @@ int end_counts_parse(const thr_frame *frame, const char *ends, int *counts)
 {
   const char *word = ends, *end, *alone = NULL;
   bool some = false;
+
+  /* Words with commas between them; `alone` is the first one without a number. */
   for (bool more = *ends; more; word = end + 1) {
     char number[256], *rest;
     end = word + strcspn(word, ",");
     more = *end;
+
     int n = (int)(end - word), v = counted_node(frame, word, n, number);
     if (v < 0) {
       alone = alone ? alone : word;
       continue;
     }
+
+    /* A number for a node that has none yet. */
     long count = strtol(number, &rest, 10);
     some = true;
     if (rest == number || *rest || count < 1 || count > 2 * THR_MOST_CORDS)
@@ -44,12 +52,15 @@ int end_counts_parse(const thr_frame *frame, const char *ends, int *counts)
     if (counts[v]) return cli_usage("plan", "--ends %s: node %s comes twice", ends, frame->name[v]);
     counts[v] = (int)count;
   }
+
+  /* Names without any number are nodes where ends may be; a mixture is refused. */
   if (!some) return -1;
   if (alone)
     return cli_usage(
         "plan",
         "--ends %s: %.*s is no node with a number of cord ends; give every node one, or none", ends,
         (int)strcspn(alone, ","), alone);
+
   return EXIT_OK;
 }
 
@@ -61,12 +72,16 @@ int end_counts_cords(const thr_frame *frame, const int *counts, int *least, int 
       *first = thr_calloc((size_t)frame->n_nodes, sizeof *first);
   thr_status st = component && sum && first ? thr_frame_components(frame, component, &n, &err)
                                             : thr_nomem(&err);
+
+  /* Add up the ends of each component, and remember its first node for messages. */
   *least = THR_MOST_CORDS;
   *most = 0;
   for (int v = frame->n_nodes - 1; v >= 0 && !st; v--) {
     sum[component[v]] += counts[v];
     first[component[v]] = v;
   }
+
+  /* Every cord has two ends, and every component needs a cord. */
   for (int k = 0; !st && !code && k < n; k++) {
     if (sum[k] % 2 || sum[k] == 0) {
       cli_error("--ends: the component with node %s has %d %s; cords have two each, and every "
@@ -74,11 +89,14 @@ int end_counts_cords(const thr_frame *frame, const int *counts, int *least, int 
                 frame->name[first[k]], sum[k], cli_plural(sum[k], "cord end", "cord ends"));
       code = EXIT_INFEASIBLE;
     }
+
     if (sum[k] / 2 < *least) *least = sum[k] / 2;
     if (sum[k] / 2 > *most) *most = sum[k] / 2;
   }
+
   free(component);
   free(sum);
   free(first);
+
   return st ? cli_fail(&err) : code;
 }

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The options that say how a framework is read (graph/io/read.h), of every command that takes one.
- */
+/* Parses the options that say how a framework is read (graph/io/read.h), for every command that
+ * takes one.
+ *
+ * Example: `--scale 1000 --up y` reads a model in metres whose y axis points up as one in mm whose
+ * z axis does. */
 #include "cli/args/args.h"
 #include "cli/cli.h"
 #include "graph/number.h"
@@ -17,60 +20,72 @@ cli_frame_args cli_frame_args_default(void)
   return (cli_frame_args){thr_read_options_default(), NULL};
 }
 
+/* Reads the value of --units. */
 static bool take_units(void *into, const cli_option *option, const char *value)
 {
-  cli_frame_args *a = into;
+  cli_frame_args *args = into;
   thr_err why = {0};
   (void)option;
-  if (!thr_units_find(value, &a->read.units, &why)) return true;
+  if (!thr_units_find(value, &args->read.units, &why)) return true;
   cli_usage(cli_command_name(), "--units: %s", why.text);
   return false;
 }
 
-/* Degrees become rad. */
+/* Reads the value of --flat; degrees become rad. */
 static bool take_flat(void *into, const cli_option *option, const char *value)
 {
-  cli_frame_args *a = into;
+  cli_frame_args *args = into;
   const double least = 1e-6, most = 179; /* degrees */
   (void)option;
-  if (!cli_double(cli_command_name(), "--flat", value, least, most, &a->read.flat)) return false;
-  a->read.flat *= THR_PI / 180;
+  if (!cli_double(cli_command_name(), "--flat", value, least, most, &args->read.flat)) return false;
+  args->read.flat *= THR_PI / 180;
   return true;
 }
 
+/* Reads the value of --columns: two names or numbers with a comma between them. */
 static bool take_columns(void *into, const cli_option *option, const char *value)
 {
-  cli_frame_args *a = into;
+  cli_frame_args *args = into;
   const char *comma = strchr(value, ',');
   (void)option;
-  a->read.columns = value;
+
+  /* There must be one comma, and something on both sides. */
+  args->read.columns = value;
   if (comma && comma != value && comma[1] && !strchr(comma + 1, ',')) return true;
+
   cli_usage(cli_command_name(),
             "--columns %s: expected two columns with a comma between them, like start,end or 2,3",
             value);
+
   return false;
 }
 
-/* Yes or no, by two words. */
+/* Returns the words of --parallel, a choice between two. */
 static const char *parallel_name(int choice)
 {
   return choice ? "keep" : "shortest";
 }
 
+/* Returns the words of --layers, a choice between two. */
 static const char *layers_name(int all)
 {
   return all ? "all" : "shown";
 }
 
+/* Reads the value of --layers or --parallel: the second word sets the flag. */
 static bool take_choice(void *into, const cli_option *option, const char *value)
 {
-  cli_frame_args *a = into;
-  bool *yes = option->word == layers_name ? &a->read.all_layers : &a->read.parallel;
+  cli_frame_args *args = into;
+  bool *yes = option->word == layers_name ? &args->read.all_layers : &args->read.parallel;
   int i;
+
+  /* Both options share this parser; their words tell which one is read. */
   if (!cli_choose(cli_command_name(), option->word == layers_name ? "--layers" : "--parallel",
                   value, option->word, option->n_words, &i))
     return false;
+
   *yes = i == 1;
+
   return true;
 }
 

@@ -1,5 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Loads, tilt, clamped feet. */
+/* Parses the options of what acts on the structure beside weight and cords: loads on nodes, the
+ * pulls at which loads are tried, a tilted ground, held feet.
+ *
+ * Loads name nodes, and so are only read when the framework is known (load_apply).
+ *
+ * Example: `--load "D4=10;E5=0,1,-2"` hangs 10 N on D4, and on E5 the force (0, 1, -2) N. */
 #include "cli/args/args.h"
 #include "graph/number.h"
 #include "graph/status.h"
@@ -9,14 +14,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Numbers with commas between them; how many, -1 if that is no such list or one of more than most.
- */
+/* Reads numbers with commas between them. Returns how many there are, or -1 if the text is no such
+ * list or one of more than `most` numbers. */
 static int parse_numbers(const char *text, size_t length, double *out, int most)
 {
   char word[400], *at = word, *end;
   int n = 0;
   if (length >= sizeof word) return -1;
+
   snprintf(word, sizeof word, "%.*s", (int)length, text);
+
+  /* Every number is followed by a comma or the end. */
   for (;; at = end + 1) {
     if (n == most) return -1;
     out[n] = strtod(at, &end);
@@ -26,49 +34,59 @@ static int parse_numbers(const char *text, size_t length, double *out, int most)
   }
 }
 
+/* Reads the value of --load-pulls, newtons above 0. */
 static bool take_pulls(void *into, const cli_option *option, const char *value)
 {
-  load_args *a = into;
+  load_args *args = into;
   const double most = 1e12; /* N */
   (void)option;
-  a->n_pulls = parse_numbers(value, strlen(value), a->pulls, LOAD_MOST_PULLS);
-  bool ok = a->n_pulls > 0;
-  for (int i = 0; i < a->n_pulls; i++) {
-    ok &= a->pulls[i] > 0 && a->pulls[i] <= most;
+  args->n_pulls = parse_numbers(value, strlen(value), args->pulls, LOAD_MOST_PULLS);
+
+  bool ok = args->n_pulls > 0;
+  for (int i = 0; i < args->n_pulls; i++) {
+    ok &= args->pulls[i] > 0 && args->pulls[i] <= most;
   }
+
   if (!ok)
     cli_usage(cli_command_name(),
               "--load-pulls %s: expected up to %d newtons above 0 with commas, as 1,5,50", value,
               LOAD_MOST_PULLS);
+
   return ok;
 }
 
-/* Degrees become rad. */
+/* Reads the value of --tilt, DEG or DEG,AZIMUTH; degrees become rad. */
 static bool take_tilt(void *into, const cli_option *option, const char *value)
 {
-  load_args *a = into;
+  load_args *args = into;
   double number[2] = {0};
   const int n = parse_numbers(value, strlen(value), number, 2);
   const bool ok = n > 0 && number[0] >= 0 && number[0] < 90 && fabs(number[1]) <= 360;
   (void)option;
+
   if (!ok)
     cli_usage(cli_command_name(), "--tilt %s: expected degrees from 0 to below 90, or DEG,AZIMUTH",
               value);
-  a->tilt = number[0] * THR_PI / 180;
-  a->azimuth = number[1] * THR_PI / 180;
+
+  /* Without an azimuth the ground goes down towards x. */
+  args->tilt = number[0] * THR_PI / 180;
+  args->azimuth = number[1] * THR_PI / 180;
+
   return ok;
 }
 
+/* Notes the value of --load, which may be given once. */
 static bool take_load(void *into, const cli_option *option, const char *value)
 {
-  load_args *a = into;
+  load_args *args = into;
   (void)option;
-  if (a->load) {
+  if (args->load) {
     cli_usage(cli_command_name(),
               "--load is there twice; several nodes go into one, with semicolons");
     return false;
   }
-  a->load = value;
+  args->load = value;
+
   return true;
 }
 
@@ -99,32 +117,41 @@ const cli_option cli_load_options[] = {
 const cli_option cli_load_tuned[] = {
     {"rays", .kind = CLI_COUNT, AT(rays), .low = THR_USUAL_RAYS, .high = THR_MOST_RAYS}, {0}};
 
-bool load_any(const load_args *a)
+bool load_any(const load_args *args)
 {
-  return a->load || a->tilt > 0 || a->clamped;
+  return args->load || args->tilt > 0 || args->clamped;
 }
 
-/* One load, "D4=10" or "D4=0,1,-10": a single number hangs. */
+/* Adds one load to load[n_nodes]: "D4=10", which hangs on the node, or "D4=0,1,-10", a force.
+ * Returns an exit code. */
 static int add_load(const thr_frame *frame, const char *text, size_t length, double (*load)[3])
 {
   char name[256];
   double force[3];
+
+  /* Names may hold an equals sign: the last one counts. */
   size_t equals = length;
   while (equals > 0 && text[equals - 1] != '=')
     equals--;
+
+  /* One number or three behind the sign. */
   const int n = equals > 1 ? parse_numbers(text + equals, length - equals, force, 3) : -1;
   if ((n != 1 && n != 3) || equals - 1 >= sizeof name)
     return cli_usage(cli_command_name(),
                      "--load %.*s: expected NODE=N, newtons that hang there, or NODE=FX,FY,FZ",
                      (int)length, text);
+
+  /* The node is named before the sign. Weights point down. */
   snprintf(name, sizeof name, "%.*s", (int)(equals - 1), text);
   const int v = thr_frame_find(frame, name);
   if (v < 0) return cli_no_node(frame, "--load", "node", name);
   for (int k = 0; k < 3; k++)
     load[v][k] += n == 3 ? force[k] : k == 2 ? -force[0] : 0;
+
   return EXIT_OK;
 }
 
+/* Adds all loads of a list with semicolons to load[n_nodes]. Returns an exit code. */
 static int read_loads(const char *list, const thr_frame *frame, double (*load)[3])
 {
   bool some = false;
@@ -134,29 +161,37 @@ static int read_loads(const char *list, const thr_frame *frame, double (*load)[3
     if (code) return code;
     at += length + (at[length] == ';');
   }
+
+  /* Loads that add up to nothing are a mistake. */
   for (int v = 0; v < frame->n_nodes; v++)
     some |= load[v][0] != 0 || load[v][1] != 0 || load[v][2] != 0;
+
   return some ? EXIT_OK : cli_usage(cli_command_name(), "--load %s: no force at all", list);
 }
 
-int load_apply(const load_args *a, const thr_frame *frame, thr_eval_options *options,
+int load_apply(const load_args *args, const thr_frame *frame, thr_eval_options *options,
                double (**load)[3])
 {
   int code = EXIT_OK;
+
   *load = NULL;
-  options->tilt = a->tilt;
-  options->azimuth = a->azimuth;
-  options->clamped = a->clamped;
-  options->taut = a->taut;
-  options->rays = a->rays;
-  options->load_pull = a->pulls;
-  options->n_load_pulls = a->n_pulls;
-  if (!a->load) return EXIT_OK;
+  options->tilt = args->tilt;
+  options->azimuth = args->azimuth;
+  options->clamped = args->clamped;
+  options->taut = args->taut;
+  options->rays = args->rays;
+  options->load_pull = args->pulls;
+  options->n_load_pulls = args->n_pulls;
+
+  /* Loads at nodes, which the caller frees. */
+  if (!args->load) return EXIT_OK;
   if (!(*load = thr_calloc((size_t)frame->n_nodes, sizeof **load))) {
     cli_error("out of memory");
     return EXIT_INTERNAL;
   }
-  code = read_loads(a->load, frame, *load);
+
+  code = read_loads(args->load, frame, *load);
   options->load = (const double(*)[3]) * load;
+
   return code;
 }

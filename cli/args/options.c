@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Options as rows of tables: one parser, one help and one list for completions, for all commands.
+/* Parses command lines by tables of options: the same rows make the parser, the help and the list
+ * for completions of every command.
  *
- * getopt_long finds the words; a row says what is made of them. An option for developers is a row
- * of a group headed cli_tuned, and is spelled --tune NAME=VALUE. */
+ * getopt_long finds the options in the command line; a row says what becomes of a value. An option
+ * for developers is a row of a group headed cli_tuned, and is spelled --tune NAME=VALUE.
+ *
+ * Example: the row {"cover", .kind = CLI_COUNT, .low = 1, .high = 100, ..} makes --cover 2 store an
+ * int, --cover 0 a usage error, and --help print the row's text. */
 #include "cli/args/options.h"
 #include "cli/args/args.h"
 #include "cli/cli.h"
@@ -21,7 +25,8 @@ enum { MOST_OPTIONS = 160, FIRST_VALUE = 256, NAME_SIZE = 40 };
 const char cli_tuned[] = "for developers";
 void (*cli_show_options)(const cli_group *groups);
 
-/* What is being parsed: the rows of all groups one after another, as getopt_long wants them. */
+/* The state of the parser: the rows of all groups one after another, as getopt_long wants them,
+ * with the values given so far. */
 static struct {
   const char *command;
   int n;
@@ -35,6 +40,7 @@ static struct {
 
 /* ---- the options of every command ---- */
 
+/* Takes --quiet. */
 static bool be_quiet(void *into, const cli_option *option, const char *value)
 {
   (void)into, (void)option, (void)value;
@@ -42,6 +48,7 @@ static bool be_quiet(void *into, const cli_option *option, const char *value)
   return true;
 }
 
+/* Takes --verbose. */
 static bool be_verbose(void *into, const cli_option *option, const char *value)
 {
   (void)into, (void)option, (void)value;
@@ -60,31 +67,37 @@ const cli_option cli_common_options[] = {
 
 /* ---- the rows ---- */
 
+/* Appends a row, whose value goes to a struct of its group. tuned: the row is for developers. */
 static void add_row(const cli_option *option, void *into, bool tuned)
 {
   const int i = parser.n++;
   assert(i < MOST_OPTIONS && strlen(option->name) + 8 < NAME_SIZE); /* known when it is compiled */
+
   parser.option[i] = option;
   parser.into[i] = into;
   parser.tuned[i] = tuned;
   snprintf(parser.dashed[i], NAME_SIZE, "--%s%s", tuned ? "tune " : "", option->name);
 }
 
-/* --tune itself is a row that getopt_long finds; take_tuned parses its value. */
+/* The option --tune itself, which getopt_long finds; take_tuned parses its value. */
 static const cli_option tune = {"tune", .value = "NAME=VALUE", .kind = CLI_OTHER};
 
-/* What has a name for its value, or words for it, takes one. */
+/* Returns whether an option takes a value: its value has a name, or is one of some words. */
 static bool takes_value(const cli_option *option)
 {
   return option->value || option->word;
 }
 
-/* Takes all rows in; those that are not tuned become getopt_long's table and letters. */
+/* Collects the rows of all groups, and makes getopt_long's table and letters of those that are not
+ * tuned. */
 static void join_rows(const cli_syntax *syntax, const cli_group *groups)
 {
   int letters = 0, n = 0;
+
   memset(&parser, 0, sizeof parser);
   parser.command = syntax->command;
+
+  /* The common rows come first, so that their letters win. */
   for (const cli_option *option = cli_common_options; option->name; option++) {
     add_row(option, NULL, false);
   }
@@ -93,8 +106,11 @@ static void join_rows(const cli_syntax *syntax, const cli_group *groups)
       add_row(option, group->into, group->heading == cli_tuned);
     }
   }
+
+  /* --tune stands for all rows for developers. */
   add_row(&tune, NULL, false);
 
+  /* The colon in front makes getopt_long tell a missing value from an unknown option. */
   parser.letters[letters++] = ':';
   for (int i = 0; i < parser.n; i++) {
     const cli_option *option = parser.option[i];
@@ -102,7 +118,10 @@ static void join_rows(const cli_syntax *syntax, const cli_group *groups)
     const int takes = !takes_value(option)                       ? no_argument
                       : option->value && option->value[0] == '[' ? optional_argument
                                                                  : required_argument;
+
     parser.table[n++] = (struct option){option->name, takes, NULL, FIRST_VALUE + i};
+
+    /* A letter that needs a value has a colon behind it. */
     if (!option->letter) continue;
     parser.letters[letters++] = option->letter;
     if (takes == required_argument) {
@@ -111,7 +130,7 @@ static void join_rows(const cli_syntax *syntax, const cli_group *groups)
   }
 }
 
-/* The row of what getopt_long returned: a letter, or a row's number. */
+/* Returns the row of what getopt_long returned: a letter, or FIRST_VALUE plus the row. */
 static int find_row(int found)
 {
   for (int i = 0; i < parser.n; i++) {
@@ -120,7 +139,7 @@ static int find_row(int found)
   return -1;
 }
 
-/* The number of an option that was given, or -1. */
+/* Returns the row of an option that was given, or -1. */
 static int find_given(const char *name)
 {
   int i = parser.n - 1;
@@ -158,6 +177,7 @@ const char *cli_command_name(void)
 
 /* ---- values ---- */
 
+/* Stores the number of a word. */
 static bool take_word(const cli_option *option, const char *name, const char *value, void *to)
 {
   int i;
@@ -166,18 +186,25 @@ static bool take_word(const cli_option *option, const char *name, const char *va
   return true;
 }
 
+/* Stores a number within the range of its row. */
 static bool take_amount(const cli_option *option, const char *name, const char *value, double *to)
 {
   const double most = 1e100; /* of what has no limit, to say a number */
   const double low = option->low == CLI_ABOVE_0 ? 0 : option->low;
+
+  /* Infinite limits are not printed as numbers. */
   if (!cli_double(parser.command, name, value, low, isinf(option->high) ? most : option->high, to))
     return false;
+
+  /* cli_double allows the lower limit 0, which CLI_ABOVE_0 excludes. */
   if (*to >= option->low) return true;
   cli_usage(parser.command, "%s %s: expected a number above 0", name, value);
+
   return false;
 }
 
-/* Reads the value of one row into its group; false: it is none (printed). */
+/* Stores the value of row i in its group. Returns false after printing what is wrong with the
+ * value. */
 static bool take_value(int i, const char *value)
 {
   const cli_option *option = parser.option[i];
@@ -185,6 +212,8 @@ static bool take_value(int i, const char *value)
   const char *name = parser.dashed[i];
   parser.given[i] = true;
   parser.value[i] = value;
+
+  /* A row without a group, as --config, stores nothing. */
   switch (option->kind) {
   case CLI_FLAG: *(bool *)to = true; return true;
   case CLI_TEXT:
@@ -202,34 +231,40 @@ static bool take_value(int i, const char *value)
   }
 }
 
-/* Reads "NAME=VALUE" of --tune. */
+/* Reads "NAME=VALUE", the value of --tune. */
 static bool take_tuned(const char *text)
 {
   char question[THR_SUGGESTION_TEXT], name[NAME_SIZE];
   thr_suggestion suggestion = {.word = name};
   const size_t n = strcspn(text, "=");
   snprintf(name, sizeof name, "%.*s", (int)n, text);
+
+  /* Find the row, and remember the most similar name. */
   for (int i = 0; i < parser.n; i++) {
     if (!parser.tuned[i]) continue;
     if (text[n] == '=' && strcmp(parser.option[i]->name, name) == 0)
       return take_value(i, text + n + 1);
     thr_suggestion_try(&suggestion, parser.option[i]->name);
   }
+
   thr_suggestion_ask(&suggestion, question);
   cli_usage(parser.command, "--tune %s: expected NAME=VALUE%s", text, question);
+
   return false;
 }
 
 /* ---- what is no option ---- */
 
-/* The word is "--name" or "--name=value" of no option, of several, or of one that takes no value.
- */
+/* Prints why a word "--name" or "--name=value" is refused: no option has the name, several begin
+ * with it, or the option takes no value. Returns the exit code. */
 static int bad_long_option(const char *word)
 {
   char name[64], question[THR_SUGGESTION_TEXT], several[160] = "";
   thr_suggestion suggestion = {.word = name};
   int n = 0;
   snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
+
+  /* Compare with all names, and list those that begin with this one. */
   for (int i = 0; i < parser.n; i++) {
     const char *known = parser.option[i]->name;
     if (strcmp(known, name) == 0)
@@ -240,25 +275,32 @@ static int bad_long_option(const char *word)
     const size_t length = strlen(several);
     snprintf(several + length, sizeof several - length, "%s--%s", n++ ? ", " : "", known);
   }
+
+  /* getopt_long takes unique beginnings of names. */
   if (n == 1) return cli_usage(parser.command, "%s takes no value", several);
   if (n > 1) return cli_usage(parser.command, "--%s may be %s", name, several);
 
   thr_suggestion_ask(&suggestion, question);
   const char *at = strstr(question, "mean ");
   if (!at) return cli_usage(parser.command, "--%s is not an option here", name);
+
   return cli_usage(parser.command, "--%s is not an option here; did you mean --%s", name,
                    at + strlen("mean "));
 }
 
-/* What the user typed: getopt has moved operands behind the options, so the culprit is the word
- * before optind, or inside it. */
+/* Prints what is wrong with the word that getopt_long refused; returns the exit code. getopt_long
+ * has moved operands behind the options, so that the culprit is the word before optind, or a letter
+ * inside that word.
+ */
 static int bad_option(int found, char **argv)
 {
   const char *word = argv[optind - 1];
   const bool is_long = strncmp(word, "--", 2) == 0;
+
   if (found == ':')
     return is_long ? cli_usage(parser.command, "%s needs a value", word)
                    : cli_usage(parser.command, "-%c needs a value", optopt);
+
   return is_long ? bad_long_option(word)
                  : cli_usage(parser.command, "-%c is not an option here", optopt);
 }
@@ -267,11 +309,12 @@ static int bad_option(int found, char **argv)
 
 enum { TEXT_COLUMN = 23, NARROWEST = 60, WIDEST = 100 };
 
-/* Appends words wrapped at the width; those of further lines begin at a column. `at` is where the
- * line stands. A line break in the text is kept. */
+/* Appends words wrapped at the width; further lines are indented to a column. at: the column where
+ * the current line stands. Line breaks in the text are kept. */
 static void put_wrapped(thr_text *out, const char *words, int column, int at, int width)
 {
   while (*words) {
+    /* A word that does not fit begins a new line. */
     const int n = (int)strcspn(words, " \n");
     if (at > column && at + 1 + n > width) {
       thr_text_printf(out, "\n%*s", column, "");
@@ -280,9 +323,11 @@ static void put_wrapped(thr_text *out, const char *words, int column, int at, in
       thr_text_append(out, " ");
       at++;
     }
+
     thr_text_printf(out, "%.*s", n, words);
     at += n;
     words += n;
+
     if (*words == '\n') {
       thr_text_printf(out, "\n%*s", column, "");
       at = column;
@@ -295,19 +340,23 @@ static void put_wrapped(thr_text *out, const char *words, int column, int at, in
 void cli_option_value(const cli_option *option, char *text, size_t size)
 {
   size_t n = (size_t)snprintf(text, size, "%s", option->value ? option->value : "");
+
+  /* Without a name of its own the value is one of the words. */
   for (int i = 0; !option->value && option->word && i < option->n_words && n < size; i++) {
     n += (size_t)snprintf(text + n, size - n, "%s%s", i ? "|" : "", option->word(i));
   }
 }
 
-/* "  -o, --output FILE    what it does", in as many lines as it takes, and a line for each word
- * whose meaning is said. */
+/* Appends the help of an option, "  -o, --output FILE    what it does", in as many lines as needed,
+ * and a line for each word whose meaning is said. */
 static void put_option(thr_text *out, const cli_option *option, int width)
 {
   char head[160], value[100], letter[8] = "    ";
   if (option->letter) {
     snprintf(letter, sizeof letter, "-%c, ", option->letter);
   }
+
+  /* The head: letter, name and value. */
   cli_option_value(option, value, sizeof value);
   const int n = snprintf(head, sizeof head, "  %s--%s%s%s", letter, option->name,
                          *value && *value != '[' ? " " : "", value);
@@ -326,25 +375,29 @@ static void put_option(thr_text *out, const cli_option *option, int width)
     put_wrapped(out, rest + (*rest != '\0'), TEXT_COLUMN, at + first, width);
   }
 
+  /* The words of the value with their meanings, in a column of their own. */
   const int room = 14;
   for (int i = 0; option->meaning && i < option->n_words; i++) {
-    const int m = (int)strlen(option->word(i));
-    thr_text_printf(out, "%*s%s%*s", TEXT_COLUMN, "", option->word(i), m + 2 < room ? room - m : 2,
-                    "");
+    const int length = (int)strlen(option->word(i));
+    thr_text_printf(out, "%*s%s%*s", TEXT_COLUMN, "", option->word(i),
+                    length + 2 < room ? room - length : 2, "");
     put_wrapped(out, option->meaning(i), TEXT_COLUMN + room, TEXT_COLUMN + room, width);
   }
 }
 
-/* The names of what --tune takes. */
+/* Appends the names of the options for developers, as the help of --tune. */
 static void put_tuned(thr_text *out, const cli_group *groups, int width)
 {
   thr_text names = {0};
+
+  /* Their names only, with commas. */
   for (const cli_group *group = groups; group->option; group++) {
     if (group->heading != cli_tuned) continue;
     for (const cli_option *option = group->option; option->name; option++) {
       thr_text_printf(&names, "%s%s", names.length ? ", " : "for developers: ", option->name);
     }
   }
+
   if (names.length && !names.failed) {
     const cli_option row = {"tune", .value = "NAME=VALUE", .help = names.data};
     put_option(out, &row, width);
@@ -352,11 +405,14 @@ static void put_tuned(thr_text *out, const cli_group *groups, int width)
   thr_text_destroy(&names);
 }
 
+/* Appends the help of a command, as wide as the terminal within limits. */
 static void put_help(thr_text *out, const cli_syntax *syntax, const cli_group *groups)
 {
   const int columns = thr_os_columns(STDOUT_FILENO);
   const int width = columns < NARROWEST ? WIDEST - 4 : columns > WIDEST ? WIDEST : columns;
   thr_text_append(out, syntax->intro);
+
+  /* The options of the command, group by group. */
   for (const cli_group *group = groups; group->option; group++) {
     if (group->heading == cli_tuned) continue;
     if (group->heading) thr_text_printf(out, "\n%s:\n", group->heading);
@@ -364,11 +420,14 @@ static void put_help(thr_text *out, const cli_syntax *syntax, const cli_group *g
       if (option->help) put_option(out, option, width);
     }
   }
+
+  /* The options of every command. */
   thr_text_append(out, "\nEvery command:\n");
   put_tuned(out, groups, width);
   for (const cli_option *option = cli_common_options; option->name; option++) {
     put_option(out, option, width);
   }
+
   if (syntax->outro) {
     thr_text_append(out, "\n");
     put_wrapped(out, syntax->outro, 0, 0, width);
@@ -377,33 +436,41 @@ static void put_help(thr_text *out, const cli_syntax *syntax, const cli_group *g
 
 /* ---- parsing ---- */
 
-/* Operands are files, too; then all files that were named are held against each other. */
+/* Notes the operands, which are files as well, and compares all files that were named. Returns -1,
+ * or prints and returns the exit code. */
 static int settle_operands(int argc, char **argv)
 {
   for (int i = optind; i < argc; i++) {
     if (!*argv[i]) return cli_usage(parser.command, "an empty name is no file");
     files_heard(NULL, argv[i]);
   }
+
   const int code = files_settle(parser.command);
   return code ? code : -1;
 }
 
 int cli_options(int argc, char **argv, const cli_syntax *syntax, const cli_group *groups)
 {
+  /* Completion only asks which options there are. */
   if (cli_show_options) {
     cli_show_options(groups);
     return EXIT_OK;
   }
+
+  /* getopt_long prints nothing itself. */
   join_rows(syntax, groups);
   opterr = 0;
   for (;;) {
     const int found = getopt_long(argc, argv, parser.letters, parser.table, NULL);
     if (found == -1) return settle_operands(argc, argv);
     if (found == ':' || found == '?') return bad_option(found, argv);
+
+    /* Note a value in case it names a file. */
     const int i = find_row(found);
     const cli_option *option = parser.option[i];
     if (optarg) files_heard(option->name, optarg);
 
+    /* Help ends the command; a value goes to its row. */
     if (option == &tune) {
       if (!take_tuned(optarg)) return EXIT_USAGE;
     } else if (option->kind == CLI_SHOWS && !option->take) {

@@ -1,6 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The options that describe cord and beads, made from the table in graph/plan/physics.h. Shared by
- * eval, compare and plan. */
+/* Parses the options that describe cord and beads, for eval, compare and plan. The options are made
+ * from the table of quantities in graph/plan/physics.h.
+ *
+ * A value is checked when it is read, but laid over the quantities of a plan only when the plan is
+ * known: presets and files first, then single quantities, whatever their order in the command line.
+ *
+ * Example: `--mu 0.3 --preset NAME` sets mu = 0.3, and takes all else from the preset, which has a
+ * mu as well. */
 #include "cli/args/args.h"
 #include "graph/status.h"
 
@@ -11,7 +17,7 @@
 
 enum { NAME_SIZE = 24, MOST_QUANTITIES = 40 };
 
-/* The name of an option is the key with dashes. */
+/* Writes the name of an option: the key of the quantity with dashes for underscores. */
 static void option_name(int field, char name[NAME_SIZE])
 {
   snprintf(name, NAME_SIZE, "%s", thr_physics_fields[field].key);
@@ -20,12 +26,14 @@ static void option_name(int field, char name[NAME_SIZE])
   }
 }
 
-/* Indented, in lines that fit a terminal. */
+/* Prints words indented, in lines that fit a terminal. */
 static void print_wrapped(const char *words)
 {
   enum { WIDE = 96 };
   while (*words) {
     size_t n = strlen(words);
+
+    /* Break at the last blank that fits; a longer word is cut. */
     if (n > WIDE)
       for (n = WIDE; n > 1 && words[n] != ' ';)
         n--;
@@ -34,12 +42,15 @@ static void print_wrapped(const char *words)
   }
 }
 
+/* Prints every preset with its quantities and its sources. */
 static bool show_presets(void *into, const cli_option *option, const char *value)
 {
   (void)into, (void)option, (void)value;
   for (int i = 0; i < thr_physics_n_presets; i++) {
     const thr_physics_preset *preset = &thr_physics_presets[i];
     printf("%s%s\n", i ? "\n" : "", preset->name);
+
+    /* Quantities that are 0 are not part of the preset. */
     for (int k = 0; k < thr_physics_n_fields; k++) {
       char name[NAME_SIZE];
       const double quantity = thr_physics_get(&preset->physics, &thr_physics_fields[k]);
@@ -48,28 +59,32 @@ static bool show_presets(void *into, const cli_option *option, const char *value
       printf("  %-14s %g%s%s\n", name, quantity, *thr_physics_fields[k].unit ? " " : "",
              thr_physics_fields[k].unit);
     }
+
     print_wrapped(preset->source);
   }
+
   return true;
 }
 
-/* Takes down an option, to be laid over what a plan says later. */
-static bool keep(cli_physics *a, const cli_option *option, const char *value)
+/* Notes an option, to be laid over what a plan says later. */
+static bool keep(cli_physics *args, const cli_option *option, const char *value)
 {
-  if (a->n == CLI_PHYSICS_MOST) {
+  if (args->n == CLI_PHYSICS_MOST) {
     cli_usage(cli_command_name(), "more than %d options about cord and beads", CLI_PHYSICS_MOST);
     return false;
   }
-  a->given[a->n].option = option;
-  a->given[a->n++].value = value;
+  args->given[args->n].option = option;
+  args->given[args->n++].value = value;
   return true;
 }
 
+/* Notes the name of a file of quantities. */
 static bool take_file(void *into, const cli_option *option, const char *value)
 {
   return keep(into, option, value);
 }
 
+/* Notes the name of a preset, if there is one of this name. */
 static bool take_preset(void *into, const cli_option *option, const char *value)
 {
   thr_err err = {0};
@@ -79,13 +94,13 @@ static bool take_preset(void *into, const cli_option *option, const char *value)
   return false;
 }
 
-/* The quantity of a row. */
+/* Returns the quantity of a row, whose number is the row's offset. */
 static const thr_physics_field *field_of(const cli_option *option)
 {
   return &thr_physics_fields[(int)option->offset];
 }
 
-/* Is the value good, as far as one can say without a framework? */
+/* Notes the value of a quantity after checking the value as far as one can without a framework. */
 static bool take_quantity(void *into, const cli_option *option, const char *value)
 {
   const thr_physics_field *field = field_of(option);
@@ -93,20 +108,25 @@ static bool take_quantity(void *into, const cli_option *option, const char *valu
   thr_physics trial = thr_physics_default();
   char name[NAME_SIZE + 2];
   double quantity;
+
   snprintf(name, sizeof name, "--%s", option->name);
   if (!cli_double(cli_command_name(), name, value, field->low, field->high, &quantity))
     return false;
+
+  /* Setting a trial finds values that must be above 0. */
   if (!thr_physics_set(&trial, field, quantity, &err)) return keep(into, option, value);
   cli_usage(cli_command_name(), "%s %s: must be more than 0", name, value);
+
   return false;
 }
 
+/* Returns the name of preset i. */
 static const char *preset_name(int i)
 {
   return thr_physics_presets[i].name;
 }
 
-/* It lives until the next one. */
+/* Returns what help says of preset i. The text lives until the next call. */
 static const char *preset_meaning(int i)
 {
   static char text[80];
@@ -123,6 +143,8 @@ const cli_option *cli_physics_options(void)
   const thr_physics usual = thr_physics_default();
   int n = 0;
   assert(thr_physics_n_fields <= MOST_QUANTITIES); /* known when it is compiled */
+
+  /* One row for each quantity; the help ends with the default. */
   for (int i = 0; i < thr_physics_n_fields; i++) {
     const thr_physics_field *field = &thr_physics_fields[i];
     const double value = thr_physics_get(&usual, field);
@@ -138,6 +160,8 @@ const cli_option *cli_physics_options(void)
                             .offset = (size_t)i,
                             .take = take_quantity};
   }
+
+  /* Files and presets set several quantities. */
   row[n++] = (cli_option){"physics", .value = "FILE", .kind = CLI_OTHER, .take = take_file,
                           .help = "these as JSON: {\"mu\": 0.25, \"bore\": 3}, with _ for -"};
   row[n++] = (cli_option){"preset",
@@ -151,27 +175,35 @@ const cli_option *cli_physics_options(void)
                                   "quantities, whatever the order:"};
   row[n++] = (cli_option){"presets", .kind = CLI_SHOWS, .take = show_presets,
                           .help = "what each of them rests on"};
+
+  /* A row without a name ends the table. */
   row[n] = (cli_option){0};
+
   return row;
 }
 
-int cli_physics_apply(const cli_physics *a, thr_physics *physics)
+int cli_physics_apply(const cli_physics *args, thr_physics *physics)
 {
   thr_err err = {0};
   thr_status st = THR_OK;
-  for (int i = 0; i < a->n && !st; i++) {
-    const char *value = a->given[i].value;
-    if (a->given[i].option->take == take_preset) {
+
+  /* Presets and files, in the order given. */
+  for (int i = 0; i < args->n && !st; i++) {
+    const char *value = args->given[i].value;
+    if (args->given[i].option->take == take_preset) {
       st = thr_physics_set_preset(physics, value, &err);
-    } else if (a->given[i].option->take == take_file) {
+    } else if (args->given[i].option->take == take_file) {
       st = thr_physics_read(physics, value, &err);
     }
   }
-  for (int i = 0; i < a->n && !st; i++) {
-    const cli_option *option = a->given[i].option;
+
+  /* Single quantities, which count more. */
+  for (int i = 0; i < args->n && !st; i++) {
+    const cli_option *option = args->given[i].option;
     if (option->take == take_quantity) {
-      st = thr_physics_set(physics, field_of(option), strtod(a->given[i].value, NULL), &err);
+      st = thr_physics_set(physics, field_of(option), strtod(args->given[i].value, NULL), &err);
     }
   }
+
   return st ? cli_fail(&err) : EXIT_OK;
 }

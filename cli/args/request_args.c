@@ -1,9 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The options of `thread plan` that say what the plan is to be: aims, cords, ends, turning. Those
- * that are a number or a word are rows of the request's table (graph/plan/request_fields.c).
+/* Parses the options of `thread plan` that say what the plan is to be (aims, cords, ends, turning),
+ * checks whether they go together, and writes them into a thr_request.
  *
- * Options of `thread plan` that say what the plan is to be: parsed, held against each other, laid
- * over a request. */
+ * Options that are a number or a word are made from the rows of the request's table
+ * (graph/plan/request_fields.c); the others have a function take_.. here. Which options exclude or
+ * need each other is the table `refused`: a set of facts that must hold, a set none of which may
+ * hold, and the text of the refusal. What depends on the framework (ends by name, number of cords,
+ * limits in newtons) is settled last, in request_args_apply.
+ *
+ * Example: `--cords 2..4 --balance` gives least = 2, most = 4 and the aims longest, length;
+ * `--balance` alone is refused, since one cord has no longest one. */
 #include "cli/args/args.h"
 #include "cli/cli.h"
 #include "eval/cord/profile.h"
@@ -18,6 +24,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Returns the options of a command line that asks for nothing. */
 request_args request_args_default(void)
 {
   return (request_args){.asked = thr_request_default(), .ends = "closed"};
@@ -25,7 +32,8 @@ request_args request_args_default(void)
 
 /* ---- single options ---- */
 
-/* Reads n letters of --cords as a number of cords. */
+/* Reads the first n letters of a value of --cords as a number of cords. Returns false after
+ * printing what is wrong. */
 static bool parse_number_of_cords(const char *text, int n, int *out)
 {
   char number[16];
@@ -33,58 +41,74 @@ static bool parse_number_of_cords(const char *text, int n, int *out)
     cli_usage("plan", "--cords: expected a number of cords, A..B, ..B or auto");
     return false;
   }
+
+  /* Copy the number: what follows in the text may be the dots of a range. */
   snprintf(number, sizeof number, "%.*s", n, text);
+
   return cli_int("plan", "--cords", number, 1, THR_MOST_CORDS, out);
 }
 
-/* Reads "4", "2..4", "..4" or "auto". */
+/* Reads the value of --cords: "4", "2..4", "..4" or "auto". "auto" sets no limit beside
+ * THR_MOST_CORDS. */
 static bool take_cords(void *into, const cli_option *option, const char *value)
 {
-  request_args *a = into;
+  request_args *args = into;
   const char *dots = strstr(value, "..");
   (void)option;
-  a->automatic = strcmp(value, "auto") == 0;
-  a->least = 1;
-  a->most = THR_MOST_CORDS;
-  if (a->automatic) return true;
+
+  /* Without any number given, a component may have 1 to THR_MOST_CORDS cords. */
+  args->automatic = strcmp(value, "auto") == 0;
+  args->least = 1;
+  args->most = THR_MOST_CORDS;
+  if (args->automatic) return true;
 
   /* One number is both ends of the range. */
   if (!dots) {
-    const bool ok = parse_number_of_cords(value, (int)strlen(value), &a->most);
-    a->least = a->most;
+    const bool ok = parse_number_of_cords(value, (int)strlen(value), &args->most);
+    args->least = args->most;
     return ok;
   }
 
-  if (dots > value && !parse_number_of_cords(value, (int)(dots - value), &a->least)) return false;
-  if (!parse_number_of_cords(dots + 2, (int)strlen(dots + 2), &a->most)) return false;
-  if (a->least <= a->most) return true;
+  /* A range, whose first number may be left out. */
+  if (dots > value && !parse_number_of_cords(value, (int)(dots - value), &args->least))
+    return false;
+  if (!parse_number_of_cords(dots + 2, (int)strlen(dots + 2), &args->most)) return false;
+
+  if (args->least <= args->most) return true;
   cli_usage("plan", "--cords %s: the first number is the smaller one", value);
+
   return false;
 }
 
-/* Reads "50", which is newtons, or "20x", which is times the seating tension. */
+/* Reads the value of --max-pull: "50" is newtons, "20x" is 20 times the seating tension. */
 static bool take_max_pull(void *into, const cli_option *option, const char *value)
 {
-  request_args *a = into;
+  request_args *args = into;
   char number[64];
   const size_t n = strlen(value);
   (void)option;
-  a->pull_is_factor = n > 1 && value[n - 1] == 'x';
-  snprintf(number, sizeof number, "%.*s", (int)(a->pull_is_factor ? n - 1 : n), value);
-  if (!cli_double("plan", "--max-pull", number, 0, 1e100, &a->max_pull)) return false;
-  if (a->max_pull == 0) {
+
+  /* The last letter tells a factor from newtons. */
+  args->pull_is_factor = n > 1 && value[n - 1] == 'x';
+  snprintf(number, sizeof number, "%.*s", (int)(args->pull_is_factor ? n - 1 : n), value);
+  if (!cli_double("plan", "--max-pull", number, 0, 1e100, &args->max_pull)) return false;
+
+  /* No cord can be drawn in without any force. */
+  if (args->max_pull == 0) {
     cli_usage("plan", "--max-pull 0: a cord needs some pull");
   }
-  return a->max_pull > 0;
+
+  return args->max_pull > 0;
 }
 
+/* Reads the value of --hand, in newtons. */
 static bool take_hand(void *into, const cli_option *option, const char *value)
 {
   (void)option;
   return cli_hand("plan", value, &((request_args *)into)->hand);
 }
 
-/* Reads "5" or "5%". */
+/* Reads the value of --length-slack: "5" or "5%" becomes 0.05. */
 static bool take_slack(void *into, const cli_option *option, const char *value)
 {
   (void)option;
@@ -94,6 +118,7 @@ static bool take_slack(void *into, const cli_option *option, const char *value)
   return false;
 }
 
+/* Reads the value of --objective. */
 static bool take_objective(void *into, const cli_option *option, const char *value)
 {
   int i;
@@ -102,24 +127,27 @@ static bool take_objective(void *into, const cli_option *option, const char *val
   return true;
 }
 
+/* Reads the value of --minimize: turning, max-turning or pull. The last two are about one cord, and
+ * so set `largest`. */
 static bool take_minimize(void *into, const cli_option *option, const char *value)
 {
-  request_args *a = into;
+  request_args *args = into;
   int i;
-  a->minimize = true;
+  args->minimize = true;
   if (!cli_choose("plan", "--minimize", value, option->word, option->n_words, &i)) return false;
-  a->largest = i > 0;
-  a->pull = thr_minimize_aim(i) == THR_AIM_PULL;
+  args->largest = i > 0;
+  args->pull = thr_minimize_aim(i) == THR_AIM_PULL;
   return true;
 }
 
+/* Reads the number of points of --frontier, which may be left out. */
 static bool take_frontier(void *into, const cli_option *option, const char *value)
 {
   enum { USUAL_POINTS = 9, MOST_POINTS = 1000 };
-  request_args *a = into;
+  request_args *args = into;
   (void)option;
-  a->frontier = USUAL_POINTS;
-  return !value || cli_int("plan", "--frontier", value, 2, MOST_POINTS, &a->frontier);
+  args->frontier = USUAL_POINTS;
+  return !value || cli_int("plan", "--frontier", value, 2, MOST_POINTS, &args->frontier);
 }
 
 /* ---- the rows ---- */
@@ -177,11 +205,13 @@ static const cli_option own_turning[] = {
              "long as the first"},
     {0}};
 
-/* The option that a row of the request's table makes. */
+/* Returns the option that a row of the request's table makes. On the command line counts go up to a
+ * million. */
 static cli_option option_of(const thr_request_field *field)
 {
   const double most_counted = 1e6;
   const bool is_count = field->kind == THR_ASKS_COUNT;
+
   return (cli_option){.name = field->option ? field->option : field->key,
                       .value = field->value,
                       .help = field->help,
@@ -204,6 +234,8 @@ cli_option request_option_of(const char *key)
   return option_of(&thr_request_fields[i]);
 }
 
+/* Returns the table of one kind of options: first the rows that are written out above, then the
+ * rows that the request's table makes. Each table is built anew in static storage. */
 const cli_option *request_options(request_rows rows)
 {
   enum { MOST = 32 };
@@ -213,9 +245,13 @@ const cli_option *request_options(request_rows rows)
                           : rows == REQUEST_TURNING ? own_turning
                                                     : none;
   int n = 0;
+
+  /* Rows with a parser of their own. */
   for (; own->name; own++) {
     table[rows][n++] = *own;
   }
+
+  /* Rows of the request's table; their offsets count from request_args.asked. */
   for (int i = 0; i < thr_request_n_fields; i++) {
     const thr_request_field *field = &thr_request_fields[i];
     const request_rows of = field->tuned ? REQUEST_TUNED
@@ -225,94 +261,102 @@ const cli_option *request_options(request_rows rows)
     table[rows][n] = option_of(field);
     table[rows][n++].offset += offsetof(request_args, asked);
   }
+
+  /* A row without a name ends the table. */
   table[rows][n] = (cli_option){0};
+
   return table[rows];
 }
 
 /* ---- what they come to ---- */
 
-/* Returns the option that limits the pull, or NULL. */
-static const char *pull_limit(const request_args *a)
+/* Returns the option that limits the pull, or NULL if none was given. */
+static const char *pull_limit(const request_args *args)
 {
-  return a->max_pull > 0   ? "--max-pull"
-         : a->hand > 0     ? "--hand"
-         : a->strength > 0 ? "--cord-strength"
-                           : NULL;
+  return args->max_pull > 0   ? "--max-pull"
+         : args->hand > 0     ? "--hand"
+         : args->strength > 0 ? "--cord-strength"
+                              : NULL;
 }
 
-bool request_args_limits_pull(const request_args *a)
+bool request_args_limits_pull(const request_args *args)
 {
-  return pull_limit(a) != NULL;
+  return pull_limit(args) != NULL;
 }
 
-/* Is a limit given that takes as many cords as needed? */
-static bool takes_few(const request_args *a)
+/* Returns whether a limit was given within which as few cords as possible are asked for. */
+static bool takes_few(const request_args *args)
 {
-  return a->asked.max_length > 0 || a->max_pull > 0 || a->hand > 0;
+  return args->asked.max_length > 0 || args->max_pull > 0 || args->hand > 0;
 }
 
-/* Passes over every edge: as many as different cords, unless it was said. */
-static int cover_of(const request_args *a)
+/* Returns the least number of passes over every edge: --cover if given, else one for each of the
+ * different cords that --distinct asks for. */
+static int cover_of(const request_args *args)
 {
-  return cli_given("cover") ? a->asked.cover : a->asked.distinct ? a->asked.distinct : 1;
+  return cli_given("cover") ? args->asked.cover : args->asked.distinct ? args->asked.distinct : 1;
 }
 
-bool request_args_usual(const request_args *a)
+bool request_args_usual(const request_args *args)
 {
   const request_args usual = request_args_default();
-  return a->most == 0 && a->asked.max_length == 0 && strcmp(a->ends, usual.ends) == 0 &&
-         !cli_given("cover") && a->asked.distinct == 0 && a->asked.capacity == 0 &&
-         !pull_limit(a) && a->asked.joint == THR_JOINT_SOLID;
+  return args->most == 0 && args->asked.max_length == 0 && strcmp(args->ends, usual.ends) == 0 &&
+         !cli_given("cover") && args->asked.distinct == 0 && args->asked.capacity == 0 &&
+         !pull_limit(args) && args->asked.joint == THR_JOINT_SOLID;
 }
 
-/* Of several cords the hand feels the one that turns most: a small sum may leave one that nobody
- * can pull. */
-static bool wants_largest(const request_args *a)
+/* Returns whether the cord that turns most is minimized before the sum over all cords. This is the
+ * default with several cords: a small sum may leave one cord that nobody can pull. */
+static bool wants_largest(const request_args *args)
 {
-  const bool several = a->most > 1 || takes_few(a);
-  return a->minimize
-             ? a->largest
-             : several && !a->balance && !a->frontier && a->asked.turning.tour == THR_TOUR_LEAST;
+  const bool several = args->most > 1 || takes_few(args);
+  return args->minimize ? args->largest
+                        : several && !args->balance && !args->frontier &&
+                              args->asked.turning.tour == THR_TOUR_LEAST;
 }
 
-void request_args_ask(const request_args *a, const symmetry_args *symmetry, thr_objective objective,
-                      thr_request *request)
+void request_args_ask(const request_args *args, const symmetry_args *symmetry,
+                      thr_objective objective, thr_request *request)
 {
   const thr_request usual = thr_request_default();
-  const bool is_own = objective == a->objective;
+  const bool is_own = objective == args->objective;
   thr_aims *aims = &request->aims;
 
-  /* What is about turning or symmetry concerns the objective that it was said of. */
+  /* Options about turning or symmetry concern the objective that they were given with. Other
+   * objectives, which `thread plan` may compute to compare with, keep the defaults. */
   *aims = thr_aims_of(objective);
-  request->turning = is_own && thr_wants_turning(request) ? a->asked.turning : usual.turning;
+  request->turning = is_own && thr_wants_turning(request) ? args->asked.turning : usual.turning;
   request->symmetry = is_own && thr_wants_symmetry(request) ? symmetry->options : usual.symmetry;
   if (thr_wants_symmetry(request)) {
-    request->symmetry.counted = a->most > 0 || takes_few(a);
+    request->symmetry.counted = args->most > 0 || takes_few(args);
   }
+
+  /* The aims in their order: --prefer, --minimize, and --balance before all others. */
   if (is_own && thr_wants_symmetry(request)) {
     memcpy(aims->aim, symmetry->prefer, sizeof symmetry->prefer);
   }
-  if (is_own && thr_wants_turning(request) && wants_largest(a)) {
-    aims->aim[0] = a->pull ? THR_AIM_PULL : THR_AIM_MAX_TURNING;
+  if (is_own && thr_wants_turning(request) && wants_largest(args)) {
+    aims->aim[0] = args->pull ? THR_AIM_PULL : THR_AIM_MAX_TURNING;
   }
-  if (is_own && a->balance) {
+  if (is_own && args->balance) {
     memmove(&aims->aim[1], aims->aim, (size_t)aims->n++ * sizeof *aims->aim);
     aims->aim[0] = THR_AIM_LONGEST;
   }
 
-  /* The rest is any objective's. How much may be pulled is known when cord and beads are. */
-  request->joint = a->asked.joint;
-  request->order = a->asked.order;
-  request->crossings = a->asked.crossings;
-  request->gap = a->asked.gap;
-  if (pull_limit(a) && request->max_pull == 0) {
+  /* The rest concerns any objective. A limit of the pull only gets a mark here: its value is known
+   * when cord and beads are. */
+  request->joint = args->asked.joint;
+  request->order = args->asked.order;
+  request->crossings = args->asked.crossings;
+  request->gap = args->asked.gap;
+  if (pull_limit(args) && request->max_pull == 0) {
     request->max_pull = 1;
   }
 }
 
 /* ---- what goes together ---- */
 
-/* Facts about what was asked. */
+/* Facts about what was asked for, as a set of bits. */
 enum {
   LENGTH = 1 << 0,
   TURNING = 1 << 1,
@@ -346,10 +390,10 @@ enum {
   MIXED = 1 << 29        /* little turning, and a wish that is about single cords or their number */
 };
 
-/* Refused is what has all facts of the first kind and none of the second. What stands for %: the
- * option about symmetry (S) or turning (G), the crossings (X), the tour (T), the cost of turns (C),
- * the limit (L), the limit of the pull (P), the number of cords (K). The first row that applies is
- * said. */
+/* The combinations that are refused: a request with all facts of `all` and none of `none`. The
+ * first row that applies gives the text. In a text, % and a letter stand for the option about
+ * symmetry (S) or turning (G), the crossings (X), the tour (T), the cost of turns (C), the limit
+ * (L), the limit of the pull (P), or the number of cords (K). */
 static const struct {
   int all, none;
   const char *say;
@@ -402,18 +446,22 @@ static const struct {
     {CLASSICAL | TUBE, 0, "--tour %T ties no joints: no --joint tube"},
 };
 
-/* The first option that is about turning; NULL: none was given. */
+/* Returns the first option about turning that was given, or NULL. */
 static const char *turning_given(void)
 {
   const char *given = cli_given_of(request_options(REQUEST_TURNING));
   return given ? given : cli_given("nodes");
 }
 
-static int facts_of(const request_args *a, const thr_request *wanted)
+/* Returns the set of facts that hold of what was asked for. wanted holds the aims, args all else.
+ */
+static int facts_of(const request_args *args, const thr_request *wanted)
 {
-  const thr_request *asked = &a->asked;
+  const thr_request *asked = &args->asked;
   const thr_turning_options *turning = &asked->turning;
-  const bool is_range = a->least != a->most, limits_pull = pull_limit(a);
+  const bool is_range = args->least != args->most, limits_pull = pull_limit(args);
+
+  /* One condition for each fact, in the order of the enumeration. */
   const struct {
     bool holds;
     int fact;
@@ -425,19 +473,19 @@ static int facts_of(const request_args *a, const thr_request *wanted)
       {turning->tour != THR_TOUR_LEAST, CLASSICAL},
       {limits_pull, PULL},
       {asked->max_length > 0, MAX_LENGTH},
-      {a->balance, BALANCE},
-      {a->automatic, AUTOMATIC},
+      {args->balance, BALANCE},
+      {args->automatic, AUTOMATIC},
       {is_range, RANGE},
-      {takes_few(a), FEW},
-      {a->most > 1, SEVERAL},
-      {strchr(a->ends, ':'), COUNTED_ENDS},
+      {takes_few(args), FEW},
+      {args->most > 1, SEVERAL},
+      {strchr(args->ends, ':'), COUNTED_ENDS},
       {turning->length_slack >= 0, SLACK},
       {turning->length_slack > 0, SOME_SLACK},
-      {a->largest, LARGEST},
-      {a->pull, LEAST_PULL},
-      {a->frontier > 0, FRONTIER},
-      {a->compare, COMPARE},
-      {a->plot, PLOT},
+      {args->largest, LARGEST},
+      {args->pull, LEAST_PULL},
+      {args->frontier > 0, FRONTIER},
+      {args->compare, COMPARE},
+      {args->plot, PLOT},
       {cli_given("pairings"), PAIRINGS},
       {turning->nodes > 0, NODES},
       {asked->confirm == THR_CONFIRM_ALWAYS, CONFIRM},
@@ -446,218 +494,273 @@ static int facts_of(const request_args *a, const thr_request *wanted)
       {asked->distinct > 0, DISTINCT},
       {turning_given(), OF_TURNING},
       {cli_given_of(cli_symmetry_options), OF_SYMMETRY},
-      {a->max_pull > 0 && a->hand > 0, BOTH_PULLS},
+      {args->max_pull > 0 && args->hand > 0, BOTH_PULLS},
       {thr_wants_turning(wanted) &&
-           (asked->max_length > 0 || limits_pull || a->balance || is_range),
+           (asked->max_length > 0 || limits_pull || args->balance || is_range),
        MIXED},
   };
+
   int sum = 0;
   for (size_t i = 0; i < sizeof facts / sizeof *facts; i++) {
     sum |= facts[i].holds ? facts[i].fact : 0;
   }
+
   return sum;
 }
 
-/* Prints a refusal with what stands for its letters; returns the exit code. */
-static int refuse(const request_args *a, const char *say)
+/* Prints a refusal, its letters replaced by what they stand for; returns the exit code. */
+static int refuse(const request_args *args, const char *say)
 {
   char text[256], cords[16];
   size_t n = 0;
-  snprintf(cords, sizeof cords, "%d", a->most);
+
+  snprintf(cords, sizeof cords, "%d", args->most);
+
   for (; *say && n + 1 < sizeof text; say++) {
     if (*say != '%') {
       text[n++] = *say;
       continue;
     }
+
+    /* A letter after % stands for a word. */
     const char letter = *++say;
     const char *word = letter == 'S'   ? cli_given_of(cli_symmetry_options)
                        : letter == 'G' ? turning_given()
-                       : letter == 'X' ? thr_crossings_name((int)a->asked.crossings)
-                       : letter == 'T' ? thr_tour_name((int)a->asked.turning.tour)
-                       : letter == 'C' ? thr_turn_cost_name((int)a->asked.turning.cost)
-                       : letter == 'L' ? (pull_limit(a) ? pull_limit(a) : "--max-length")
-                       : letter == 'P' ? pull_limit(a)
+                       : letter == 'X' ? thr_crossings_name((int)args->asked.crossings)
+                       : letter == 'T' ? thr_tour_name((int)args->asked.turning.tour)
+                       : letter == 'C' ? thr_turn_cost_name((int)args->asked.turning.cost)
+                       : letter == 'L' ? (pull_limit(args) ? pull_limit(args) : "--max-length")
+                       : letter == 'P' ? pull_limit(args)
                                        : cords;
     n += (size_t)snprintf(text + n, sizeof text - n, "%s", word);
   }
+
+  /* A text that is too long is cut. */
   text[n < sizeof text ? n : sizeof text - 1] = '\0';
+
   return cli_usage("plan", "%s", text);
 }
 
-/* Checks numbers against each other. Returns -1, or prints and returns the exit code. */
-static int check_numbers(const request_args *a)
+/* Checks --cover, --capacity, --distinct and --cords against each other. Returns -1, or prints and
+ * returns the exit code. */
+static int check_numbers(const request_args *args)
 {
-  const thr_request *asked = &a->asked;
-  const int cover = cover_of(a);
+  const thr_request *asked = &args->asked;
+  const int cover = cover_of(args);
+
+  /* Every edge needs its passes within its capacity, and as many passes as different cords. */
   if (asked->capacity > 0 && asked->capacity < cover)
     return cli_usage("plan", "--capacity %d leaves no room for --%s %d", asked->capacity,
                      cli_given("cover") ? "cover" : "distinct", cover);
   if (cli_given("cover") && asked->distinct > 0 && asked->cover < asked->distinct)
     return cli_usage("plan", "--cover %d: --distinct %d needs as many passes", asked->cover,
                      asked->distinct);
-  if (asked->distinct == 0 || a->most == 0 || a->most >= asked->distinct) return -1;
+
+  /* k different cords over an edge take k cords in its component. */
+  if (asked->distinct == 0 || args->most == 0 || args->most >= asked->distinct) return -1;
+
   cli_error("--cords %d: no edge is passed by %d different cords (proved: there are too few)",
-            a->most, asked->distinct);
+            args->most, asked->distinct);
+
   return EXIT_INFEASIBLE;
 }
 
-/* Lets --aims, which says all that is minimized, say what the other options would. Returns -1, or
- * prints and returns the code. */
-static int settle_aims(request_args *a, symmetry_args *symmetry)
+/* Translates --aims, which lists all that is minimized, into the values that the other options
+ * would have set. Refuses --aims beside any of those options. Returns -1, or prints and returns the
+ * exit code. */
+static int settle_aims(request_args *args, symmetry_args *symmetry)
 {
   thr_err err = {0};
   thr_request listed = thr_request_default();
   static const char *const spelled[] = {"objective", "length-slack", "minimize",
                                         "turn-cost", "balance",      "prefer"};
   const char *other = NULL;
+
+  /* Each of these options would say a part of the list again. */
   for (size_t i = 0; !other && i < sizeof spelled / sizeof *spelled; i++) {
     other = cli_given(spelled[i]);
   }
-  if (!a->aims) return -1;
+  if (!args->aims) return -1;
   if (other) return cli_usage("plan", "--aims says all that is minimized: no %s beside it", other);
-  if (thr_aims_parse(a->aims, &listed, &err))
-    return cli_usage("plan", "--aims %s: %s", a->aims, err.text);
-  a->objective = thr_aims_objective(&listed);
-  a->largest = thr_wants_largest(&listed);
-  a->pull = thr_wants_pull(&listed);
-  a->minimize = true;
-  a->asked.turning.cost = listed.turning.cost;
-  a->asked.turning.length_slack = listed.turning.length_slack;
-  a->balance = thr_wants_balance(&listed);
+
+  if (thr_aims_parse(args->aims, &listed, &err))
+    return cli_usage("plan", "--aims %s: %s", args->aims, err.text);
+
+  /* Set what --objective, --minimize, --turn-cost, --length-slack, --balance and --prefer set. */
+  args->objective = thr_aims_objective(&listed);
+  args->largest = thr_wants_largest(&listed);
+  args->pull = thr_wants_pull(&listed);
+  args->minimize = true;
+  args->asked.turning.cost = listed.turning.cost;
+  args->asked.turning.length_slack = listed.turning.length_slack;
+  args->balance = thr_wants_balance(&listed);
   thr_aims_order(&listed, symmetry->prefer);
+
   return -1;
 }
 
-int request_args_check(request_args *a, symmetry_args *symmetry, thr_request *wanted)
+int request_args_check(request_args *args, symmetry_args *symmetry, thr_request *wanted)
 {
-  int code = settle_aims(a, symmetry);
+  int code = settle_aims(args, symmetry);
   if (code >= 0) return code;
-  request_args_ask(a, symmetry, a->objective, wanted);
+
+  request_args_ask(args, symmetry, args->objective, wanted);
 
   /* A picture has to go somewhere. */
-  if (a->plot && strcmp(a->plot, "-") == 0)
+  if (args->plot && strcmp(args->plot, "-") == 0)
     return cli_usage("plan", "--plot -: the summary has stdout; name a file");
 
-  const int facts = facts_of(a, wanted);
+  /* The first combination of the table that is refused. */
+  const int facts = facts_of(args, wanted);
   for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
     if ((facts & refused[i].all) == refused[i].all && !(facts & refused[i].none))
-      return refuse(a, refused[i].say);
+      return refuse(args, refused[i].say);
   }
-  return check_numbers(a);
+
+  return check_numbers(args);
 }
 
 /* ---- with the framework ---- */
 
-/* Cord and bore say how many passes there is room for, where both were given. A symmetric plan is
- * not held to that. */
+/* Limits the passes of each edge to as many as go through the bore, if the diameters of cord and
+ * bore were both given. Symmetric plans are not limited so. Returns an exit code. */
 static int apply_bore(thr_request *request)
 {
   const thr_physics *physics = &request->physics;
   if (physics->bore == 0 || physics->cord_diameter == 0 || thr_wants_symmetry(request))
     return EXIT_OK;
   const int fit = thr_bore_fits(physics->bore, physics->cord_diameter);
+
+  /* Fewer than the cover needs: no plan exists. */
   if (fit < request->cover) {
     cli_error("%d %s of a cord of %g mm %s through a bore of %g mm with ease; --cover asks for %d",
               fit, cli_plural(fit, "pass", "passes"), physics->cord_diameter,
               fit == 1 ? "goes" : "go", physics->bore, request->cover);
     return EXIT_INFEASIBLE;
   }
+
+  /* The tighter of the two limits holds. */
   if (request->capacity == 0 || fit < request->capacity) {
     request->capacity = fit;
   }
+
   return EXIT_OK;
 }
 
-/* Sets what may be pulled, as a factor on the seating tension. */
-static int apply_pull(const request_args *a, thr_request *request)
+/* Sets request->max_pull, a factor on the seating tension, from --max-pull, --hand or
+ * --cord-strength. Returns an exit code. */
+static int apply_pull(const request_args *args, thr_request *request)
 {
   const double seating = request->physics.seating;
-  const double left = thr_strength_left(0), bears = a->strength * left;
-  const double newtons = a->max_pull > 0 ? a->max_pull * (a->pull_is_factor ? seating : 1)
-                         : a->hand > 0   ? a->hand
-                                         : bears;
-  const char *option = pull_limit(a);
+  const double left = thr_strength_left(0), bears = args->strength * left;
+
+  /* The first of the three options that was given counts; a strength is reduced by the knot. */
+  const double newtons = args->max_pull > 0 ? args->max_pull * (args->pull_is_factor ? seating : 1)
+                         : args->hand > 0   ? args->hand
+                                            : bears;
+
+  const char *option = pull_limit(args);
   if (!option) return EXIT_OK;
 
-  if (a->strength > 0 && newtons > bears) {
+  /* With --cord-strength beside another limit, that limit must not break the cord at its knot. */
+  if (args->strength > 0 && newtons > bears) {
     cli_error("%s: a pull of %.6g N would break a cord of --cord-strength %.6g, of which an %s "
               "knot leaves %.0f %%; --max-pull "
               "%.6g keeps to it",
-              option, newtons, a->strength, thr_knot_name(0), 100 * left, bears);
+              option, newtons, args->strength, thr_knot_name(0), 100 * left, bears);
     return EXIT_INFEASIBLE;
   }
+
+  /* A pull below the seating tension seats no cord. */
   request->max_pull = newtons / seating;
   if (request->max_pull >= 1) return EXIT_OK;
   cli_error("%s: %.6g N is less than the seating tension of %.6g N, which every cord needs; "
             "--seating makes that less",
             option, newtons, seating);
+
   return EXIT_INFEASIBLE;
 }
 
-/* Sets how many cords there may be; where a limit takes as many as needed, any number. */
-static void apply_number(const request_args *a, thr_request *request)
+/* Sets the least and the largest number of cords in every component. A limit on length or pull
+ * alone allows any number; --distinct needs as many as it names. */
+static void apply_number(const request_args *args, thr_request *request)
 {
-  const bool is_free = a->most == 0 && takes_few(a);
-  const bool is_counted = a->most > 0 || is_free || !thr_wants_symmetry(request);
+  const bool is_free = args->most == 0 && takes_few(args);
+  const bool is_counted = args->most > 0 || is_free || !thr_wants_symmetry(request);
   const int usual = request->distinct > 0 && is_counted ? request->distinct : 1;
-  request->cords = a->most ? a->most : is_free ? THR_MOST_CORDS : usual;
-  request->cords_least = a->most && a->least > usual ? a->least : usual;
+
+  /* --cords counts before all else; without it a limit leaves the number open. */
+  request->cords = args->most ? args->most : is_free ? THR_MOST_CORDS : usual;
+  request->cords_least = args->most && args->least > usual ? args->least : usual;
 }
 
-/* Numbers of ends say how many cords there are. */
-static int apply_counts(const request_args *a, const thr_frame *frame, thr_request *request)
+/* Sets the number of cords from the numbers of cord ends at the nodes (--ends NAME:N), and checks
+ * --cords, --tour and --distinct against it. Returns an exit code. */
+static int apply_counts(const request_args *args, const thr_frame *frame, thr_request *request)
 {
   int least, most;
   if (thr_wants_symmetry(request))
     return cli_usage(
         "plan",
         "--ends NAME:N: not with --objective symmetry, whose groups move ends to other nodes");
+
   const int code = end_counts_cords(frame, request->end_count, &least, &most);
   if (code) return code;
 
+  /* A classical tour is one cord. */
   if (request->turning.tour != THR_TOUR_LEAST && most > 1)
     return cli_usage("plan", "--tour %s makes one cord in each component, not the %d of --ends %s",
-                     thr_tour_name((int)request->turning.tour), most, a->ends);
-  if (most > THR_MOST_CORDS || (a->most && (most > a->most || least < a->least))) {
-    const int wrong = most > a->most ? most : least;
+                     thr_tour_name((int)request->turning.tour), most, args->ends);
+
+  /* --cords names a range, if it was given. */
+  if (most > THR_MOST_CORDS || (args->most && (most > args->most || least < args->least))) {
+    const int wrong = most > args->most ? most : least;
     cli_error("--ends %s: these are the ends of %d %s in a component; --cords says otherwise",
-              a->ends, wrong, cli_plural(wrong, "cord", "cords"));
+              args->ends, wrong, cli_plural(wrong, "cord", "cords"));
     return EXIT_INFEASIBLE;
   }
+
   if (least < request->distinct) {
     cli_error("--ends %s: these are the ends of %d %s in a component; --distinct %d needs as many",
-              a->ends, least, cli_plural(least, "cord", "cords"), request->distinct);
+              args->ends, least, cli_plural(least, "cord", "cords"), request->distinct);
     return EXIT_INFEASIBLE;
   }
+
+  /* Each component gets half as many cords as it has ends. */
   request->ends = THR_ENDS_COUNTS;
   request->cords_least = least;
   request->cords = most;
+
   return EXIT_OK;
 }
 
-int request_args_apply(const request_args *a, const thr_frame *frame, thr_request *request)
+int request_args_apply(const request_args *args, const thr_frame *frame, thr_request *request)
 {
-  request->cover = cover_of(a);
-  request->distinct = a->asked.distinct;
-  request->capacity = a->asked.capacity;
-  request->engine = a->asked.engine;
-  request->confirm = a->asked.confirm;
-  request->max_length = a->asked.max_length;
-  int code = apply_bore(request);
-  if (!code) code = apply_pull(a, request);
-  if (code) return code;
-  apply_number(a, request);
+  request->cover = cover_of(args);
+  request->distinct = args->asked.distinct;
+  request->capacity = args->asked.capacity;
+  request->engine = args->asked.engine;
+  request->confirm = args->asked.confirm;
+  request->max_length = args->asked.max_length;
 
-  /* Ends by number, or by where they may be. */
+  /* Limits that follow from cord and bead. */
+  int code = apply_bore(request);
+  if (!code) code = apply_pull(args, request);
+  if (code) return code;
+
+  apply_number(args, request);
+
+  /* --ends gives numbers of ends at nodes, or the nodes where ends may be. */
   request->end_count = thr_calloc((size_t)frame->n_nodes, sizeof *request->end_count);
   if (!request->end_count) {
     cli_error("out of memory");
     return EXIT_INTERNAL;
   }
-  code = end_counts_parse(frame, a->ends, request->end_count);
-  if (code == EXIT_OK) return apply_counts(a, frame, request);
+  code = end_counts_parse(frame, args->ends, request->end_count);
+  if (code == EXIT_OK) return apply_counts(args, frame, request);
   if (code > 0) return code;
   free(request->end_count);
   request->end_count = NULL;
-  return cli_resolve_ends(a->ends, frame, request);
+
+  return cli_resolve_ends(args->ends, frame, request);
 }

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Options of symmetric threading. */
+/* Parses the options of symmetric threading: the group, whether symmetries must be those of the
+ * shape, and the order of the aims.
+ *
+ * Example: `--prefer steps` makes the order steps, overlap, paths, turning. */
 #include "cli/args/args.h"
 #include "cli/cli.h"
 
@@ -9,21 +12,23 @@
 symmetry_args symmetry_args_default(void)
 {
   const thr_request usual = thr_request_default();
-  symmetry_args a = {.options = usual.symmetry};
-  thr_aims_order(&usual, a.prefer);
-  return a;
+  symmetry_args args = {.options = usual.symmetry};
+  thr_aims_order(&usual, args.prefer);
+  return args;
 }
 
-/* The aims in the list, then the others in their usual order. */
+/* Reads the value of --prefer: the aims in the list come first, then the others in their usual
+ * order. */
 static bool take_prefer(void *into, const cli_option *option, const char *value)
 {
-  symmetry_args *a = into;
+  symmetry_args *args = into;
   const char *command = cli_command_name();
   bool taken[THR_N_AIMS] = {false};
   int n = 0;
   (void)option;
   if (!*value) cli_usage(command, "--prefer: what counts first?");
 
+  /* The aims that are named, each once. */
   const char *word = value, *end = value;
   for (bool more = *value; more; more = *end, word = end + 1) {
     char name[16];
@@ -36,25 +41,31 @@ static bool take_prefer(void *into, const cli_option *option, const char *value)
       return false;
     }
     taken[aim] = true;
-    a->prefer[n++] = (thr_aim)aim;
+    args->prefer[n++] = (thr_aim)aim;
   }
 
+  /* The others. n is 0 after an empty list, which was refused. */
   for (int aim = 0; aim < THR_N_AIMS && n; aim++) {
     if (!taken[aim]) {
-      a->prefer[n++] = (thr_aim)aim;
+      args->prefer[n++] = (thr_aim)aim;
     }
   }
+
   return n > 0;
 }
 
+/* Reads the value of --group: a number or a name, which is looked up later. */
 static bool take_group(void *into, const cli_option *option, const char *value)
 {
-  symmetry_args *a = into;
+  symmetry_args *args = into;
   (void)option;
-  snprintf(a->options.group, sizeof a->options.group, "%s", value);
-  if (*value && strlen(value) < sizeof a->options.group) return true;
+
+  /* A name that does not fit is refused. */
+  snprintf(args->options.group, sizeof args->options.group, "%s", value);
+  if (*value && strlen(value) < sizeof args->options.group) return true;
   cli_usage(cli_command_name(), "--group %s: expected a number or a name from `thread symmetries`",
             value);
+
   return false;
 }
 

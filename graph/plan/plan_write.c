@@ -1,8 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* plan.json, written: docs/plan-format.md is the schema. */
+/* Writes a plan as JSON. docs/plan-format.md is the schema, and plan_read.c reads all back.
+ *
+ * The text is the same on every machine: members in a fixed order, numbers in the shortest form
+ * that reads back as the same double (graph/io/json.h). Line breaks are chosen so that a person can
+ * read the file and a diff shows single cords.
+ *
+ * Example: {"id": "A", "component": 0, "closed": true,
+ * "nodes": [0, 1, 2, 0],
+ * "edges": [0, 1, 2]} is a cord round a triangle. */
 #include "graph/plan/plan_fields.h"
 
-/* A number that means nothing below 0. */
+/* Writes a number, or null for a number below 0, which means that nothing is said. */
 static void put_or_null(thr_writer *writer, const char *key, double value)
 {
   if (value < 0)
@@ -11,7 +19,7 @@ static void put_or_null(thr_writer *writer, const char *key, double value)
     thr_write_number(writer, key, value);
 }
 
-/* A line of its own for the next member of the plan. */
+/* Begins a new line for the next member of the plan. */
 static void put_line(thr_writer *writer)
 {
   thr_write_line(writer, 0);
@@ -19,6 +27,7 @@ static void put_line(thr_writer *writer)
 
 /* ---- the framework ---- */
 
+/* Writes the list of nodes that are marked. */
 static void put_marked(thr_writer *writer, const char *key, const bool *mark, int n)
 {
   thr_write_row(writer, key);
@@ -27,7 +36,7 @@ static void put_marked(thr_writer *writer, const char *key, const bool *mark, in
   thr_write_close(writer);
 }
 
-/* Covers or capacities; a capacity of 0 is none. */
+/* Writes covers or capacities of all edges; 0, which means none, is written as null. */
 static void put_passes(thr_writer *writer, const char *key, const int *passes, int n)
 {
   thr_write_line(writer, 2);
@@ -40,10 +49,12 @@ static void put_passes(thr_writer *writer, const char *key, const int *passes, i
   thr_write_close(writer);
 }
 
+/* Writes the coordinates, a node in each line. */
 static void put_nodes(thr_writer *writer, const thr_frame *frame)
 {
   thr_write_line(writer, 2);
   thr_write_array(writer, "nodes");
+
   for (int v = 0; v < frame->n_nodes; v++) {
     thr_write_line(writer, 4);
     thr_write_row(writer, NULL);
@@ -51,14 +62,17 @@ static void put_nodes(thr_writer *writer, const thr_frame *frame)
       thr_write_number(writer, NULL, frame->xyz[v][i]);
     thr_write_close(writer);
   }
+
   thr_write_line(writer, 2);
   thr_write_close(writer);
 }
 
+/* Writes the nodes of all edges, twelve edges in each line. */
 static void put_edges(thr_writer *writer, const thr_frame *frame)
 {
   thr_write_line(writer, 2);
   thr_write_row(writer, "edges");
+
   for (int e = 0; e < frame->n_edges; e++) {
     if (e && e % 12 == 0) thr_write_line(writer, 4);
     thr_write_ints(writer, NULL, frame->edge[e], 2);
@@ -66,38 +80,51 @@ static void put_edges(thr_writer *writer, const thr_frame *frame)
   thr_write_close(writer);
 }
 
+/* Writes the lengths of the edges, which a framework states if they are not the distances of their
+ * nodes. */
 static void put_lengths(thr_writer *writer, const thr_frame *frame)
 {
   thr_write_line(writer, 2);
   thr_write_row(writer, "lengths");
+
   for (int e = 0; e < frame->n_edges; e++)
     thr_write_number(writer, NULL, frame->length[e]);
   thr_write_close(writer);
 }
 
+/* Writes the names of the nodes. */
 static void put_names(thr_writer *writer, const thr_frame *frame)
 {
   thr_write_line(writer, 2);
   thr_write_row(writer, "names");
+
   for (int v = 0; v < frame->n_nodes; v++)
     thr_write_string(writer, NULL, frame->name[v]);
   thr_write_close(writer);
 }
 
+/* Writes the framework. Lists that say nothing are left out. */
 static void put_frame(thr_writer *writer, const thr_frame *frame)
 {
   put_line(writer);
   thr_write_object(writer, "framework");
+
+  /* Units and hash; the reader compares the hash with the framework that it has read. */
   thr_write_line(writer, 2);
   thr_write_string(writer, "units", frame->units);
   thr_write_line(writer, 2);
   thr_write_hash(writer, "hash", thr_frame_hash(frame));
+
+  /* The graph. */
   put_nodes(writer, frame);
   put_edges(writer, frame);
+
+  /* What only some frameworks state. */
   if (frame->own_lengths) put_lengths(writer, frame);
   if (frame->cover) put_passes(writer, "covers", frame->cover, frame->n_edges);
   if (frame->capacity) put_passes(writer, "capacities", frame->capacity, frame->n_edges);
   if (!thr_frame_names_are_indices(frame)) put_names(writer, frame);
+
   thr_write_line(writer, 2);
   put_marked(writer, "feet", frame->foot, frame->n_nodes);
   put_line(writer);
@@ -106,6 +133,7 @@ static void put_frame(thr_writer *writer, const thr_frame *frame)
 
 /* ---- cords ---- */
 
+/* Writes a cord: the nodes that it visits, and the edges between them. */
 static void put_cord(thr_writer *writer, const thr_frame *frame, const thr_cord *cord)
 {
   thr_write_line(writer, 2);
@@ -113,12 +141,16 @@ static void put_cord(thr_writer *writer, const thr_frame *frame, const thr_cord 
   thr_write_string(writer, "id", cord->id);
   thr_write_int(writer, "component", cord->component);
   thr_write_bool(writer, "closed", cord->closed);
+
+  /* n passes visit n + 1 nodes. */
   thr_write_line(writer, 3);
   thr_write_row(writer, "nodes");
   thr_write_int(writer, NULL, thr_cord_start(frame, cord));
   for (int k = 0; k < cord->n_passes; k++)
     thr_write_int(writer, NULL, thr_head(frame, cord->half[k]));
   thr_write_close(writer);
+
+  /* Half-edge h passes edge h / 2. */
   thr_write_line(writer, 3);
   thr_write_row(writer, "edges");
   for (int k = 0; k < cord->n_passes; k++)
@@ -127,6 +159,7 @@ static void put_cord(thr_writer *writer, const thr_frame *frame, const thr_cord 
   thr_write_close(writer);
 }
 
+/* Writes all cords. */
 static void put_cords(thr_writer *writer, const thr_plan *plan)
 {
   put_line(writer);
@@ -137,10 +170,12 @@ static void put_cords(thr_writer *writer, const thr_plan *plan)
   thr_write_close(writer);
 }
 
+/* Writes n images of all nodes, one in each line. */
 static void put_images(thr_writer *writer, const char *key, const int *image, int n, int n_nodes)
 {
   thr_write_line(writer, 2);
   thr_write_array(writer, key);
+
   for (int i = 0; i < n; i++) {
     thr_write_line(writer, 4);
     thr_write_ints(writer, NULL, image + (size_t)i * (size_t)n_nodes, n_nodes);
@@ -148,15 +183,20 @@ static void put_images(thr_writer *writer, const char *key, const int *image, in
   thr_write_close(writer);
 }
 
+/* Writes how the cords are copies of unique paths under a group. */
 static void put_symmetry(thr_writer *writer, const thr_plan *plan)
 {
   const thr_symmetry_record *record = &plan->symmetry;
   put_line(writer);
   thr_write_object(writer, "symmetry");
+
+  /* The group. */
   thr_write_int(writer, "order", record->order);
   thr_write_string(writer, "name", record->name);
   put_images(writer, "generators", record->generator, record->n_generators, plan->frame.n_nodes);
   put_images(writer, "images", record->image, record->n_images, plan->frame.n_nodes);
+
+  /* Of each cord the unique path, and the image that maps the path to the cord. */
   thr_write_line(writer, 2);
   thr_write_array(writer, "cords");
   for (int i = 0; i < plan->n_cords; i++) {
@@ -167,6 +207,8 @@ static void put_symmetry(thr_writer *writer, const thr_plan *plan)
     thr_write_close(writer);
   }
   thr_write_close(writer);
+
+  /* What is to be learned. A record without `retraced` is an older plan's. */
   thr_write_line(writer, 2);
   thr_write_number(writer, "steps", record->steps);
   if (record->retraced) thr_write_bool(writer, "retraced", true);
@@ -174,20 +216,28 @@ static void put_symmetry(thr_writer *writer, const thr_plan *plan)
   thr_write_close(writer);
 }
 
+/* Writes the sums over all cords. */
 static void put_metrics(thr_writer *writer, const thr_plan *plan)
 {
   const thr_metrics *metrics = &plan->metrics;
   put_line(writer);
   thr_write_object(writer, "metrics");
+
+  /* Length and passes. */
   thr_write_number(writer, "length", metrics->length);
   thr_write_number(writer, "base_length", metrics->base_length);
   thr_write_number(writer, "overlap", metrics->overlap);
   thr_write_int(writer, "passes", metrics->passes);
   thr_write_int(writer, "most_passes", metrics->most_passes);
+
+  /* Metrics that only some options ask for. */
   if (plan->options.distinct > 0) thr_write_int(writer, "distinct", metrics->distinct);
+
   thr_write_line(writer, 2);
   if (plan->options.crossings != THR_CROSSINGS_ALLOW)
     thr_write_int(writer, "crossings", metrics->crossings);
+
+  /* Turning. */
   thr_write_number(writer, "turning", metrics->turning);
   thr_write_number(writer, "max_turning", metrics->max_turning);
   thr_write_number(writer, "worst_turn", metrics->worst_turn);
@@ -197,21 +247,29 @@ static void put_metrics(thr_writer *writer, const thr_plan *plan)
 
 /* ---- proofs ---- */
 
+/* Writes the proof of length of one component: a packing of odd cuts. */
 static void put_certificate(thr_writer *writer, const thr_certificate *certificate)
 {
   thr_write_object(writer, NULL);
+
+  /* Scale and sums, in the units of the certificate. */
   thr_write_int(writer, "component", certificate->component);
   thr_write_number(writer, "scale", certificate->scale);
   thr_write_int(writer, "denominator", certificate->denominator);
   thr_write_int(writer, "end_price", certificate->end_price);
   thr_write_int(writer, "join", certificate->join);
   thr_write_int(writer, "sum", certificate->sum);
+
+  /* Prices of places, which are there where as many cords as asked for may need more passes than a
+   * join has. */
   if (certificate->n_prices) {
     thr_write_array(writer, "place_prices");
     for (int i = 0; i < certificate->n_prices; i++)
       thr_write_int(writer, NULL, certificate->place_price[i]);
     thr_write_close(writer);
   }
+
+  /* The cuts, children before parents; only own nodes are listed. */
   thr_write_line(writer, 4);
   thr_write_array(writer, "cuts");
   for (int k = 0; k < certificate->n_cuts; k++) {
@@ -227,25 +285,34 @@ static void put_certificate(thr_writer *writer, const thr_certificate *certifica
   thr_write_close(writer);
 }
 
+/* Returns what plans call a bound that is attained, or one that is not. */
 static const char *status_name(bool optimal)
 {
   return optimal ? "optimal" : "bound";
 }
 
+/* Writes the proof of least length: by odd cuts with solid joints, by a tree of multipliers with
+ * tube joints. */
 static void put_length_proof(thr_writer *writer, const thr_plan *plan)
 {
   const thr_length_proof *proof = &plan->proof;
   const bool tube = plan->options.joint == THR_JOINT_TUBE;
   thr_write_object(writer, "length");
+
+  /* What is claimed. */
   thr_write_string(writer, "status", status_name(proof->optimal));
   thr_write_number(writer, "lower_bound", proof->lower_bound);
   if (proof->slack_open) thr_write_string(writer, "slack", "open");
   thr_write_number(writer, "gap", proof->gap);
+
+  /* How the claim is proved, in words. */
   thr_write_line(writer, 2);
   thr_write_string(writer, "method",
                    tube ? "multipliers of odd sets and junctions over a tree of branchings"
                         : "odd-cut packing (Edmonds & Johnson 1973)");
   thr_write_line(writer, 2);
+
+  /* The proof. */
   if (tube) {
     thr_turning_proof_write(&proof->tied, &plan->frame, writer, "proof");
   } else {
@@ -261,14 +328,19 @@ static void put_length_proof(thr_writer *writer, const thr_plan *plan)
   thr_write_close(writer);
 }
 
+/* Writes the claim of least turning and its proof. */
 static void put_turning_proof(thr_writer *writer, const thr_plan *plan)
 {
   const thr_turning_claim *claim = &plan->turning;
   thr_write_object(writer, "turning");
+
+  /* The claim about all cords together. */
   thr_write_string(writer, "status", status_name(claim->optimal));
   thr_write_number(writer, "price", claim->price);
   thr_write_number(writer, "lower_bound", claim->lower_bound);
   thr_write_number(writer, "gap", claim->gap);
+
+  /* The claim about the cord that turns most, or is hardest to pull. */
   thr_write_line(writer, 2);
   thr_write_object(writer, "largest");
   thr_write_string(writer, "status", status_name(claim->largest_optimal));
@@ -276,9 +348,13 @@ static void put_turning_proof(thr_writer *writer, const thr_plan *plan)
   thr_write_number(writer, "lower_bound", claim->largest_bound);
   if (claim->cut > 0) thr_write_int(writer, "cut", claim->cut);
   thr_write_close(writer);
+
+  /* Among which plans the claim holds. */
   thr_write_line(writer, 2);
   thr_write_int(writer, "most_passes", claim->most_passes);
   put_or_null(writer, "length_limit", claim->length_limit);
+
+  /* The proof. */
   thr_write_line(writer, 2);
   thr_write_string(writer, "method",
                    "multipliers of odd sets, groups and partitions over a tree of branchings");
@@ -287,26 +363,36 @@ static void put_turning_proof(thr_writer *writer, const thr_plan *plan)
   thr_write_close(writer);
 }
 
+/* Writes the claims about the longest cord and the number of cords, with the prices of walks that
+ * prove them. */
 static void put_cords_claim(thr_writer *writer, const thr_plan *plan)
 {
   const thr_cords_claim *claim = &plan->cords_claim;
   thr_write_object(writer, "cords");
+
+  /* The longest cord. */
   thr_write_object(writer, "longest");
   thr_write_string(writer, "status", status_name(claim->longest_optimal));
   thr_write_number(writer, "length", claim->longest);
   thr_write_number(writer, "lower_bound", claim->longest_bound);
   thr_write_close(writer);
+
+  /* The number of cords, if few were asked for. */
   if (claim->fewest > 0) {
     thr_write_object(writer, "fewest");
     thr_write_string(writer, "status", status_name(claim->fewest_optimal));
     thr_write_int(writer, "lower_bound", claim->fewest);
     thr_write_close(writer);
   }
+
+  /* The proof. */
   thr_walk_proof_write(&plan->proof.walks, &plan->frame, "length", writer);
   if (plan->proof.walks.sets) thr_write_bool(writer, "sets", true);
   thr_write_close(writer);
 }
 
+/* Writes the claim that fewer cords are not within the pull, of the whole framework or, with parts,
+ * of each component. frame: of a component only the sizes are set. */
 static void put_pull_claim(thr_writer *writer, const char *name, const thr_pull_claim *claim,
                            const thr_frame *frame)
 {
@@ -314,6 +400,8 @@ static void put_pull_claim(thr_writer *writer, const char *name, const thr_pull_
   thr_write_object(writer, name);
   thr_write_string(writer, "status", status_name(claim->optimal));
   thr_write_int(writer, "lower_bound", claim->fewest);
+
+  /* The proof: prices of walks, or a tree of multipliers. */
   if (thr_pull_excludes(claim)) thr_write_int(writer, "excluded", claim->excluded);
   thr_walk_proof_write(&claim->walks, frame, NULL, writer);
   if (claim->tree.n_nodes > 0) {
@@ -322,6 +410,8 @@ static void put_pull_claim(thr_writer *writer, const char *name, const thr_pull_
     thr_write_line(writer, 2);
     thr_turning_proof_write(&claim->tree, frame, writer, "proof");
   }
+
+  /* Claims of the components in their order. */
   if (claim->n_parts > 0) thr_write_array(writer, "parts");
   for (int i = 0; i < claim->n_parts; i++) {
     const thr_frame sizes = {.n_nodes = claim->part[i].n_nodes, .n_edges = claim->part[i].n_edges};
@@ -331,6 +421,7 @@ static void put_pull_claim(thr_writer *writer, const char *name, const thr_pull_
   thr_write_close(writer);
 }
 
+/* Writes all proofs that the plan has; none of them is an empty object. */
 static void put_proofs(thr_writer *writer, const thr_plan *plan)
 {
   put_line(writer);
@@ -339,6 +430,8 @@ static void put_proofs(thr_writer *writer, const thr_plan *plan)
   if (plan->proof.present && plan->cords_claim.present) thr_write_line(writer, 2);
   if (plan->cords_claim.present) put_cords_claim(writer, plan);
   if (plan->pull_claim.present) put_pull_claim(writer, "pull", &plan->pull_claim, &plan->frame);
+
+  /* The proof of turning begins a line, if it is not the first. */
   bool before = plan->proof.present || plan->cords_claim.present || plan->pull_claim.present;
   if (before && plan->turning.present) thr_write_line(writer, 2);
   if (plan->turning.present) put_turning_proof(writer, plan);
@@ -348,6 +441,8 @@ static void put_proofs(thr_writer *writer, const thr_plan *plan)
 void thr_plan_write(const thr_plan *plan, thr_text *text)
 {
   thr_writer writer = {.out = text};
+
+  /* What the document is, and who wrote it. */
   thr_write_object(&writer, NULL);
   put_line(&writer);
   thr_write_string(&writer, "format", "thread-plan");
@@ -355,12 +450,18 @@ void thr_plan_write(const thr_plan *plan, thr_text *text)
   thr_write_int(&writer, "version", plan->options.old_pull ? 1 : 2);
   put_line(&writer);
   thr_write_string(&writer, "generator", plan->generator ? plan->generator : "");
+
+  /* What was asked for. */
   put_frame(&writer, &plan->frame);
   put_line(&writer);
   thr_request_write(&writer, plan);
+
+  /* What was found. */
   put_cords(&writer, plan);
   if (plan->symmetry.present) put_symmetry(&writer, plan);
   put_metrics(&writer, plan);
+
+  /* What is claimed of the cords. */
   put_line(&writer);
   if (plan->evaluation.present) thr_evaluation_write(&plan->evaluation, &writer, "evaluation");
   put_proofs(&writer, plan);

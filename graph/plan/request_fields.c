@@ -19,39 +19,44 @@
 
 /* ---- members with a shape of their own ---- */
 
+/* Writes which kind of plan was asked for. */
 static void write_objective(thr_writer *writer, const thr_plan *plan)
 {
   thr_write_string(writer, "objective", thr_objective_name(thr_aims_objective(&plan->options)));
 }
 
-/* Reads which kind of plan was asked for. What is minimized first, second, .. follows from
- * `turning` or `symmetry`. */
-static thr_status read_objective(thr_request_reader *r, const thr_json *object)
+/* Reads which kind of plan was asked for. The order of its aims follows from `turning` or
+ * `symmetry`. */
+static thr_status read_objective(thr_request_reader *reader, const thr_json *object)
 {
   int objective;
-  thr_status st = thr_field_name(r->fields, object, "options", "objective", THR_N_OBJECTIVES,
+  thr_status st = thr_field_name(reader->fields, object, "options", "objective", THR_N_OBJECTIVES,
                                  thr_objective_name, &objective);
   if (!st) {
-    r->request->aims = thr_aims_of((thr_objective)objective);
+    reader->request->aims = thr_aims_of((thr_objective)objective);
   }
   return st;
 }
 
-/* A number says exactly so many; an object says least and most. */
+/* Writes the number of cords: a number if it is exact, else an object with least and most. */
 static void write_cords(thr_writer *writer, const thr_plan *plan)
 {
   const thr_request *request = &plan->options;
+
   if (request->cords_least == request->cords) {
     thr_write_int(writer, "cords", request->cords);
     return;
   }
+
+  /* A range. */
   thr_write_object(writer, "cords");
   thr_write_int(writer, "least", request->cords_least);
   thr_write_int(writer, "most", request->cords);
   thr_write_close(writer);
 }
 
-static thr_status read_cords(thr_request_reader *r, const thr_json *object)
+/* Reads the number of cords, in either shape. */
+static thr_status read_cords(thr_request_reader *reader, const thr_json *object)
 {
   static const char *const known[] = {"least", "most", NULL};
   const thr_json *value = thr_json_get(object, "cords");
@@ -59,18 +64,23 @@ static thr_status read_cords(thr_request_reader *r, const thr_json *object)
   /* A number: exactly so many. */
   if (!value || thr_json_typeof(value) != THR_JSON_OBJECT) {
     thr_status st =
-        thr_field_int(r->fields, object, "cords", 1, THR_MOST_CORDS, &r->request->cords);
-    r->request->cords_least = r->request->cords;
+        thr_field_int(reader->fields, object, "cords", 1, THR_MOST_CORDS, &reader->request->cords);
+    reader->request->cords_least = reader->request->cords;
     return st;
   }
 
-  thr_status st = thr_field_only(r->fields, value, "options.cords", known);
-  if (!st) st = thr_field_int(r->fields, value, "most", 1, THR_MOST_CORDS, &r->request->cords);
+  /* An object: a range, whose least number is at most the largest one. */
+  thr_status st = thr_field_only(reader->fields, value, "options.cords", known);
   if (!st)
-    st = thr_field_int(r->fields, value, "least", 1, r->request->cords, &r->request->cords_least);
+    st = thr_field_int(reader->fields, value, "most", 1, THR_MOST_CORDS, &reader->request->cords);
+  if (!st)
+    st = thr_field_int(reader->fields, value, "least", 1, reader->request->cords,
+                       &reader->request->cords_least);
+
   return st;
 }
 
+/* Writes whether the longest cord is to be short, if so. */
 static void write_balance(thr_writer *writer, const thr_plan *plan)
 {
   if (thr_wants_balance(&plan->options)) {
@@ -78,7 +88,7 @@ static void write_balance(thr_writer *writer, const thr_plan *plan)
   }
 }
 
-/* Reads a member that is true or false, and may be left out: false. */
+/* Reads a member that is true or false; left out, it is false. */
 static thr_status read_yes(const thr_field_reader *reader, const thr_json *object, const char *key,
                            const char *place, bool *yes)
 {
@@ -95,6 +105,7 @@ static void write_ends(thr_writer *writer, const thr_plan *plan)
   const thr_request *request = &plan->options;
   thr_write_string(writer, "ends", thr_ends_name(request->ends));
 
+  /* The nodes where ends may be. */
   if (request->ends == THR_ENDS_NODES) {
     thr_write_row(writer, "end_nodes");
     for (int v = 0; v < plan->frame.n_nodes; v++) {
@@ -105,6 +116,7 @@ static void write_ends(thr_writer *writer, const thr_plan *plan)
     thr_write_close(writer);
   }
 
+  /* Pairs of a node and its number of ends. */
   if (request->ends == THR_ENDS_COUNTS) {
     thr_write_row(writer, "end_counts");
     for (int v = 0; v < plan->frame.n_nodes; v++) {
@@ -116,70 +128,87 @@ static void write_ends(thr_writer *writer, const thr_plan *plan)
   }
 }
 
+/* Reads the nodes where ends may be into a new array [n_nodes], which the request owns. */
 static thr_status read_end_nodes(const thr_field_reader *reader, const thr_json *object,
                                  const thr_frame *frame, bool **end_node)
 {
   const thr_json *list;
   thr_status st = thr_field_need(reader, object, "end_nodes", THR_JSON_ARRAY, &list);
   if (st) return st;
+
+  /* Nodes may come in any order. */
   if (!(*end_node = thr_calloc((size_t)frame->n_nodes, sizeof **end_node)))
     return thr_nomem(reader->err);
+
   for (int i = 0, node = 0; i < thr_json_size(list); i++) {
     if ((st = thr_field_index(reader, list, i, frame->n_nodes, "options.end_nodes", &node)))
       return st;
     (*end_node)[node] = true;
   }
+
   return THR_OK;
 }
 
-/* Reads pairs of a node and the number of cord ends there. */
+/* Reads pairs of a node and the number of cord ends there into a new array [n_nodes], which the
+ * request owns. */
 static thr_status read_end_counts(const thr_field_reader *reader, const thr_json *object,
                                   const thr_frame *frame, int **end_count)
 {
   const thr_json *list;
   thr_status st = thr_field_need(reader, object, "end_counts", THR_JSON_ARRAY, &list);
   if (st) return st;
+
   if (!(*end_count = thr_calloc((size_t)frame->n_nodes, sizeof **end_count)))
     return thr_nomem(reader->err);
+
+  /* Every pair names another node and 1 to 2 * THR_MOST_CORDS ends. */
   for (int i = 0; i < thr_json_size(list); i++) {
     const thr_json *pair = thr_json_at(list, i);
     int64_t count;
     int node = 0;
+
     if (thr_json_size(pair) != 2)
       return thr_field_bad(reader, "options.end_counts", "not pairs of a node and a number");
     if ((st = thr_field_index(reader, pair, 0, frame->n_nodes, "options.end_counts", &node)))
       return st;
+
     if (!thr_json_int(thr_json_at(pair, 1), &count) || count < 1 || count > 2 * THR_MOST_CORDS ||
         (*end_count)[node] > 0)
       return thr_fail(
           reader->err, reader->code,
           "%s: options.end_counts[%d]: not a number from 1 to %d, or the node comes twice",
           reader->name, i, 2 * THR_MOST_CORDS);
+
     (*end_count)[node] = (int)count;
   }
+
   return THR_OK;
 }
 
-static thr_status read_ends(thr_request_reader *r, const thr_json *object)
+/* Reads the kind of ends, and the list of nodes that belongs to the kind. */
+static thr_status read_ends(thr_request_reader *reader, const thr_json *object)
 {
   int kind;
-  thr_status st = thr_field_name(r->fields, object, "options", "ends", THR_ENDS_COUNTS + 1,
+  thr_status st = thr_field_name(reader->fields, object, "options", "ends", THR_ENDS_COUNTS + 1,
                                  thr_ends_name, &kind);
   if (st) return st;
-  r->request->ends = (thr_ends)kind;
+  reader->request->ends = (thr_ends)kind;
 
   /* Lists of nodes belong to one kind of ends each. */
-  if (thr_json_get(object, "end_nodes") && r->request->ends != THR_ENDS_NODES)
-    return thr_field_bad(r->fields, "options.end_nodes", "only with ends `nodes`");
-  if (thr_json_get(object, "end_counts") && r->request->ends != THR_ENDS_COUNTS)
-    return thr_field_bad(r->fields, "options.end_counts", "only with ends `counts`");
-  if (r->request->ends == THR_ENDS_NODES)
-    return read_end_nodes(r->fields, object, r->frame, &r->request->end_node);
-  return r->request->ends == THR_ENDS_COUNTS
-             ? read_end_counts(r->fields, object, r->frame, &r->request->end_count)
+  if (thr_json_get(object, "end_nodes") && reader->request->ends != THR_ENDS_NODES)
+    return thr_field_bad(reader->fields, "options.end_nodes", "only with ends `nodes`");
+  if (thr_json_get(object, "end_counts") && reader->request->ends != THR_ENDS_COUNTS)
+    return thr_field_bad(reader->fields, "options.end_counts", "only with ends `counts`");
+  if (reader->request->ends == THR_ENDS_NODES)
+    return read_end_nodes(reader->fields, object, reader->frame, &reader->request->end_node);
+
+  return reader->request->ends == THR_ENDS_COUNTS
+             ? read_end_counts(reader->fields, object, reader->frame, &reader->request->end_count)
              : THR_OK;
 }
 
+/* Writes which turning is minimized: of all cords, of the cord that turns most, or the pulled one.
+ * The numbers are those of thr_minimize_name. */
 static void write_minimize(thr_writer *writer, const thr_plan *plan)
 {
   const thr_request *request = &plan->options;
@@ -187,17 +216,19 @@ static void write_minimize(thr_writer *writer, const thr_plan *plan)
                    thr_minimize_name(thr_wants_largest(request) + thr_wants_pull(request)));
 }
 
-static thr_status read_minimize(thr_request_reader *r, const thr_json *object)
+/* Reads which turning is minimized. */
+static thr_status read_minimize(thr_request_reader *reader, const thr_json *object)
 {
   int aim;
-  thr_status st = thr_field_name(r->fields, object, "options.turning", "minimize", THR_N_MINIMIZE,
-                                 thr_minimize_name, &aim);
+  thr_status st = thr_field_name(reader->fields, object, "options.turning", "minimize",
+                                 THR_N_MINIMIZE, thr_minimize_name, &aim);
   if (!st) {
-    r->request->aims = (thr_aims){1, {thr_minimize_aim(aim)}};
+    reader->request->aims = (thr_aims){1, {thr_minimize_aim(aim)}};
   }
   return st;
 }
 
+/* Writes the group of a symmetric plan, null for the default choice. */
 static void write_group(thr_writer *writer, const thr_plan *plan)
 {
   const char *group = plan->options.symmetry.group;
@@ -208,20 +239,27 @@ static void write_group(thr_writer *writer, const thr_plan *plan)
   }
 }
 
-static thr_status read_group(thr_request_reader *r, const thr_json *object)
+/* Reads the group of a symmetric plan. */
+static thr_status read_group(thr_request_reader *reader, const thr_json *object)
 {
-  char *group = r->request->symmetry.group;
+  char *group = reader->request->symmetry.group;
   const thr_json *value = thr_json_get(object, "group");
   const char *name = thr_json_string(value);
   const bool is_null = value && thr_json_typeof(value) == THR_JSON_NULL;
-  if (!is_null && (!name || !*name || strlen(name) >= sizeof r->request->symmetry.group))
-    return thr_field_bad(r->fields, "options.symmetry.group",
+
+  /* The name has to fit into the request, and the empty name is the default's. */
+  if (!is_null && (!name || !*name || strlen(name) >= sizeof reader->request->symmetry.group))
+    return thr_field_bad(reader->fields, "options.symmetry.group",
                          "neither null nor a text of 1 to 15 bytes");
-  snprintf(group, sizeof r->request->symmetry.group, "%s", name ? name : "");
+
+  /* Names from a file may hold control characters. */
+  snprintf(group, sizeof reader->request->symmetry.group, "%s", name ? name : "");
   thr_text_clean(group);
+
   return THR_OK;
 }
 
+/* Writes whether a number of cords was asked for, if so. */
 static void write_counted(thr_writer *writer, const thr_plan *plan)
 {
   if (plan->options.symmetry.counted) {
@@ -229,16 +267,20 @@ static void write_counted(thr_writer *writer, const thr_plan *plan)
   }
 }
 
-static thr_status read_counted(thr_request_reader *r, const thr_json *object)
+/* Reads whether a number of cords was asked for. */
+static thr_status read_counted(thr_request_reader *reader, const thr_json *object)
 {
-  return read_yes(r->fields, object, "counted", "options.symmetry.counted",
-                  &r->request->symmetry.counted);
+  return read_yes(reader->fields, object, "counted", "options.symmetry.counted",
+                  &reader->request->symmetry.counted);
 }
 
+/* Writes the aims of a symmetric plan in their order. */
 static void write_prefer(thr_writer *writer, const thr_plan *plan)
 {
   thr_aim order[THR_N_AIMS];
   thr_aims_order(&plan->options, order);
+
+  /* All four, also those that the request does not name. */
   thr_write_array(writer, "prefer");
   for (int i = 0; i < THR_N_AIMS; i++) {
     thr_write_string(writer, NULL, thr_aim_name(order[i]));
@@ -246,46 +288,53 @@ static void write_prefer(thr_writer *writer, const thr_plan *plan)
   thr_write_close(writer);
 }
 
-/* Reads the order of a symmetric plan's aims, each of which is named once. */
-static thr_status read_prefer(thr_request_reader *r, const thr_json *object)
+/* Reads the order of a symmetric plan's aims, each of which must be named once. */
+static thr_status read_prefer(thr_request_reader *reader, const thr_json *object)
 {
   bool named[THR_N_AIMS] = {false};
   const thr_json *list;
-  thr_status st = thr_field_need(r->fields, object, "prefer", THR_JSON_ARRAY, &list);
+  thr_status st = thr_field_need(reader->fields, object, "prefer", THR_JSON_ARRAY, &list);
+
   if (!st && thr_json_size(list) != THR_N_AIMS)
-    return thr_field_bad(r->fields, "options.symmetry.prefer", "not four aims");
+    return thr_field_bad(reader->fields, "options.symmetry.prefer", "not four aims");
+
+  /* With THR_N_AIMS names and none twice, all aims are there. */
   for (int i = 0, aim = 0; i < THR_N_AIMS && !st; i++) {
-    st = thr_field_name_of(r->fields, thr_json_at(list, i), "options.symmetry", "prefer",
+    st = thr_field_name_of(reader->fields, thr_json_at(list, i), "options.symmetry", "prefer",
                            THR_N_AIMS, thr_aim_name, &aim);
     if (!st && named[aim])
-      return thr_field_bad(r->fields, "options.symmetry.prefer", "names one aim twice");
+      return thr_field_bad(reader->fields, "options.symmetry.prefer", "names one aim twice");
     named[aim] = true;
-    r->request->aims.aim[i] = (thr_aim)aim;
+    reader->request->aims.aim[i] = (thr_aim)aim;
   }
-  r->request->aims.n = THR_N_AIMS;
+
+  reader->request->aims.n = THR_N_AIMS;
+
   return st;
 }
 
+/* Writes the quantities of cord and bead. */
 static void write_physics(thr_writer *writer, const thr_plan *plan)
 {
   thr_write_line(writer, 2);
   thr_physics_write(&plan->options.physics, writer, "physics");
 }
 
-static thr_status read_physics(thr_request_reader *r, const thr_json *object)
+/* Reads the quantities of cord and bead. */
+static thr_status read_physics(thr_request_reader *reader, const thr_json *object)
 {
   char place[256];
-  snprintf(place, sizeof place, "%.200s: options.physics", r->fields->name);
-  return thr_physics_from_json(&r->request->physics, thr_json_get(object, "physics"), place,
-                               r->fields->err);
+  snprintf(place, sizeof place, "%.200s: options.physics", reader->fields->name);
+  return thr_physics_from_json(&reader->request->physics, thr_json_get(object, "physics"), place,
+                               reader->fields->err);
 }
 
-/* Members of their own that are of one objective only; the rows that are in them follow from the
- * table. */
+/* Objects of members that only one objective has. The functions follow the table, since their
+ * members are rows of the table, too. */
 static void write_turning(thr_writer *writer, const thr_plan *plan);
 static void write_symmetry(thr_writer *writer, const thr_plan *plan);
-static thr_status read_turning(thr_request_reader *r, const thr_json *object);
-static thr_status read_symmetry(thr_request_reader *r, const thr_json *object);
+static thr_status read_turning(thr_request_reader *reader, const thr_json *object);
+static thr_status read_symmetry(thr_request_reader *reader, const thr_json *object);
 
 /* ---- the table ---- */
 
@@ -297,7 +346,7 @@ static thr_status read_symmetry(thr_request_reader *r, const thr_json *object);
 #define OTHER(what) .kind = THR_ASKS_OTHER, .write = write_##what, .read = read_##what
 #define TINY 5e-324 /* the least number above 0 */
 
-/* In the order in which plan.json has them. */
+/* The rows, in the order of the members in plan.json. */
 const thr_request_field thr_request_fields[] = {
     {"objective", .kind = THR_ASKS_OTHER,
      .write = write_objective}, /* read first: thr_plan_read_options */
@@ -365,8 +414,8 @@ const thr_request_field thr_request_fields[] = {
 };
 const int thr_request_n_fields = (int)(sizeof thr_request_fields / sizeof *thr_request_fields);
 
-/* What a plan that does not say it had: an order of work as it was planned, since older plans had
- * no other. */
+/* Returns the request that a plan without any options stands for: the defaults, except that the
+ * order of work is as planned, since older plans had no other. */
 static thr_request unsaid(void)
 {
   thr_request request = thr_request_default();
@@ -381,12 +430,13 @@ void *thr_request_value(thr_request *request, const thr_request_field *field)
 
 /* ---- writing ---- */
 
+/* Returns whether two names of objects in `options` are equal; NULL is `options` itself. */
 static bool same_place(const char *a, const char *b)
 {
   return a == b || (a && b && strcmp(a, b) == 0);
 }
 
-/* Writes a number or a word, unless it is the default and may be left out. */
+/* Writes a number or a word, unless the value is the default and may be left out. */
 static void write_value(thr_writer *writer, const thr_request_field *field, thr_request *request,
                         thr_request *usual)
 {
@@ -395,10 +445,12 @@ static void write_value(thr_writer *writer, const thr_request_field *field, thr_
   const int count = is_integer ? *(const int *)value : 0;
   const double amount = is_integer ? 0 : *(const double *)value;
 
+  /* Compare with the default as an integer or as a double. */
   const bool is_default =
       is_integer ? count == *(const int *)other : amount == *(const double *)other;
   if (is_default && !field->always) return;
 
+  /* Write the value by its kind. */
   if (field->kind == THR_ASKS_COUNT) {
     thr_write_int(writer, field->key, count);
   } else if (field->kind == THR_ASKS_WORD) {
@@ -410,7 +462,7 @@ static void write_value(thr_writer *writer, const thr_request_field *field, thr_
   }
 }
 
-/* Writes the rows of `options`, or of one of its members. */
+/* Writes the rows of `options` (in = NULL), or of one of its objects. */
 static void write_rows(thr_writer *writer, const thr_plan *plan, const char *in)
 {
   thr_request request = plan->options, usual = unsaid();
@@ -420,6 +472,7 @@ static void write_rows(thr_writer *writer, const thr_plan *plan, const char *in)
     request.confirm = usual.confirm;
   }
 
+  /* Rows with functions of their own decide themselves what is left out. */
   for (int i = 0; i < thr_request_n_fields; i++) {
     const thr_request_field *field = &thr_request_fields[i];
     if (!same_place(field->in, in)) continue;
@@ -431,6 +484,7 @@ static void write_rows(thr_writer *writer, const thr_plan *plan, const char *in)
   }
 }
 
+/* Writes an object in `options` with all of its rows. */
 static void write_member(thr_writer *writer, const thr_plan *plan, const char *key)
 {
   thr_write_object(writer, key);
@@ -439,6 +493,7 @@ static void write_member(thr_writer *writer, const thr_plan *plan, const char *k
   thr_write_line(writer, 2);
 }
 
+/* Writes what only plans of little turning have. */
 static void write_turning(thr_writer *writer, const thr_plan *plan)
 {
   if (thr_wants_turning(&plan->options)) {
@@ -446,6 +501,7 @@ static void write_turning(thr_writer *writer, const thr_plan *plan)
   }
 }
 
+/* Writes what only symmetric plans have. */
 static void write_symmetry(thr_writer *writer, const thr_plan *plan)
 {
   if (thr_wants_symmetry(&plan->options)) {
@@ -462,43 +518,52 @@ void thr_request_write(thr_writer *writer, const thr_plan *plan)
 
 /* ---- reading ---- */
 
-static thr_status read_value(thr_request_reader *r, const thr_json *object, const char *place,
+/* Reads a number or a word within the range of its row. place: of the object, for messages. */
+static thr_status read_value(thr_request_reader *reader, const thr_json *object, const char *place,
                              const thr_request_field *field)
 {
-  void *value = thr_request_value(r->request, field);
+  void *value = thr_request_value(reader->request, field);
   double *amount = value;
   char member[80];
   thr_status st = THR_OK;
 
-  /* Counts and words. */
+  /* Counts and words have readers that check the range. */
   if (field->kind == THR_ASKS_COUNT)
-    return thr_field_int(r->fields, object, field->key, (int)field->low, (int)field->high, value);
+    return thr_field_int(reader->fields, object, field->key, (int)field->low, (int)field->high,
+                         value);
   if (field->kind == THR_ASKS_WORD)
-    return thr_field_name(r->fields, object, place, field->key, field->n_names, field->name, value);
+    return thr_field_name(reader->fields, object, place, field->key, field->n_names, field->name,
+                          value);
 
-  /* Amounts. */
+  /* Amounts are compared with the range here. A null, which is read as -1, is in any range. */
   if (field->kind == THR_ASKS_AMOUNT_OR_NULL) {
-    st = thr_field_or_null(r->fields, object, field->key, amount);
+    st = thr_field_or_null(reader->fields, object, field->key, amount);
   } else {
-    st = thr_field_amount(r->fields, object, field->key, amount);
+    st = thr_field_amount(reader->fields, object, field->key, amount);
   }
+
   const bool is_null = field->kind == THR_ASKS_AMOUNT_OR_NULL && *amount < 0;
   if (st || is_null || (*amount >= field->low && *amount <= field->high)) return st;
+
   snprintf(member, sizeof member, "%s.%s", place, field->key);
-  return thr_field_bad(r->fields, member,
+
+  return thr_field_bad(reader->fields, member,
                        *amount > field->high ? "too large"
                        : *amount == 0        ? "not above 0"
                                              : "too small");
 }
 
-/* Reads the rows of `options`, or of one of its members. A member that the table does not know, or
- * that belongs to another objective, is refused: it may be a wish that nobody checks. */
-static thr_status read_rows(thr_request_reader *r, const thr_json *object, const char *in)
+/* Reads the rows of `options` (in = NULL), or of one of its objects. Refuses a member that the
+ * table does not know, or that belongs to another objective: such a member may be a wish that
+ * nobody checks. */
+static thr_status read_rows(thr_request_reader *reader, const thr_json *object, const char *in)
 {
-  const thr_objective objective = thr_aims_objective(r->request);
+  const thr_objective objective = thr_aims_objective(reader->request);
   const char *known[sizeof thr_request_fields / sizeof *thr_request_fields + 1], *place = "options";
   char member[40];
   int n = 0;
+
+  /* The name of the object, for messages. */
   if (in) {
     snprintf(member, sizeof member, "options.%s", in);
     place = member;
@@ -514,43 +579,50 @@ static thr_status read_rows(thr_request_reader *r, const thr_json *object, const
       known[n++] = field->key;
     }
   }
-  known[n] = NULL;
-  thr_status st = thr_field_only(r->fields, object, place, known);
 
-  /* What is left out keeps its default, unless it is always there. */
+  /* Members of `options` that are no row of this objective are refused. */
+  known[n] = NULL;
+  thr_status st = thr_field_only(reader->fields, object, place, known);
+
+  /* A row that is left out keeps its default, unless the format demands it. */
   for (int i = 0; i < thr_request_n_fields && !st; i++) {
     const thr_request_field *field = &thr_request_fields[i];
     if (!same_place(field->in, in) || (!field->always && !thr_json_get(object, field->key)))
       continue;
     if (field->kind != THR_ASKS_OTHER) {
-      st = read_value(r, object, place, field);
+      st = read_value(reader, object, place, field);
     } else if (field->read) {
-      st = field->read(r, object);
+      st = field->read(reader, object);
     }
   }
+
   return st;
 }
 
-static thr_status read_member(thr_request_reader *r, const thr_json *object, const char *key)
+/* Reads an object in `options` with all of its rows. */
+static thr_status read_member(thr_request_reader *reader, const thr_json *object, const char *key)
 {
   const thr_json *value;
-  const thr_status st = thr_field_need(r->fields, object, key, THR_JSON_OBJECT, &value);
-  return st ? st : read_rows(r, value, key);
+  const thr_status st = thr_field_need(reader->fields, object, key, THR_JSON_OBJECT, &value);
+  return st ? st : read_rows(reader, value, key);
 }
 
-static thr_status read_turning(thr_request_reader *r, const thr_json *object)
+/* Reads what only plans of little turning have. */
+static thr_status read_turning(thr_request_reader *reader, const thr_json *object)
 {
-  return read_member(r, object, "turning");
+  return read_member(reader, object, "turning");
 }
 
-static thr_status read_symmetry(thr_request_reader *r, const thr_json *object)
+/* Reads what only symmetric plans have. */
+static thr_status read_symmetry(thr_request_reader *reader, const thr_json *object)
 {
-  return read_member(r, object, "symmetry");
+  return read_member(reader, object, "symmetry");
 }
 
-/* Refuses what does not go together. */
+/* Refuses wishes that do not go together. */
 static thr_status check_together(const thr_field_reader *reader, const thr_request *request)
 {
+  /* k different cords over every edge take k passes and k cords; a classical tour makes one. */
   if (request->distinct > request->cover)
     return thr_field_bad(reader, "options.distinct", "more than cover");
   if (request->distinct > (thr_plan_counted(request) ? request->cords_least : request->cords))
@@ -558,10 +630,15 @@ static thr_status check_together(const thr_field_reader *reader, const thr_reque
   if (request->distinct > 0 && thr_wants_turning(request) &&
       request->turning.tour != THR_TOUR_LEAST)
     return thr_field_bad(reader, "options.distinct", "not with a classical tour");
+
+  /* Only cords in solid pieces have channels that can cross. */
   if (request->crossings != THR_CROSSINGS_ALLOW && request->joint == THR_JOINT_TUBE)
     return thr_field_bad(reader, "options.crossings", "goes with solid joints");
+
+  /* The capstan law needs the angles of the turns. */
   if (thr_wants_pull(request) && request->turning.cost != THR_TURN_ANGLE)
     return thr_field_bad(reader, "options.turning.cost", "a pull is of angles");
+
   return THR_OK;
 }
 
@@ -572,23 +649,25 @@ thr_status thr_plan_read_options(const thr_field_reader *reader, const thr_json 
   bool balance = false;
   thr_status st = thr_field_need(reader, doc, "options", THR_JSON_OBJECT, &object);
   if (st) return st;
+
   *request = unsaid();
 
-  /* The objective first, which says what else there may be, and needs to be. */
-  thr_request_reader r = {reader, frame, request};
-  st = read_objective(&r, object);
+  /* The objective comes first: it says which objects must be there. */
+  thr_request_reader request_reader = {reader, frame, request};
+  st = read_objective(&request_reader, object);
   const char *own = thr_wants_turning(request) ? "turning" : "symmetry";
   const bool has_own = !thr_wants_length(request);
   const thr_json *member;
-  if (!st) st = read_rows(&r, object, NULL);
+  if (!st) st = read_rows(&request_reader, object, NULL);
   if (!st && has_own) st = thr_field_need(reader, object, own, THR_JSON_OBJECT, &member);
 
-  /* The longest cord comes before all other aims. */
+  /* A short longest cord comes before all other aims. */
   if (!st) st = read_yes(reader, object, "balance", "options.balance", &balance);
   if (!st && balance) {
     memmove(&request->aims.aim[1], request->aims.aim,
             (size_t)request->aims.n++ * sizeof *request->aims.aim);
     request->aims.aim[0] = THR_AIM_LONGEST;
   }
+
   return st ? st : check_together(reader, request);
 }

@@ -1,5 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The turning proof as JSON: docs/plan-format.md. */
+/* Writes and reads proofs of least turning as JSON (docs/plan-format.md).
+ *
+ * A proof is a tree of bounds on single columns of the model in graph/plan/turning_proof.h. A leaf
+ * names its multipliers by number; the multipliers (of equations, odd sets, groups, partitions,
+ * ranks, junctions) follow as a second list, then symmetries and prices of walks, if there are any.
+ * Reading only checks shapes and ranges; what a proof proves is the checker's business
+ * (graph/check).
+ *
+ * Example: a tree of one branch has three nodes,
+ * {"low": 1, "high": 2, "a": 4, "b": 9, "value": 0}, {"multipliers": 0}, {"multipliers": 1}. */
 #include "graph/plan/turning_proof.h"
 
 #include <inttypes.h>
@@ -9,6 +18,7 @@
 
 /* ---- writing ---- */
 
+/* Writes a list of n integers in one row. */
 static void put_multipliers(thr_writer *writer, const char *key, const int64_t *value, int n)
 {
   thr_write_row(writer, key);
@@ -17,7 +27,7 @@ static void put_multipliers(thr_writer *writer, const char *key, const int64_t *
   thr_write_close(writer);
 }
 
-/* One of a list, each on its own line: an object with its value, open. */
+/* Opens an item of a list, on a line of its own: an object that begins with its value. */
 static void begin_item(thr_writer *writer, int64_t value)
 {
   thr_write_line(writer, 6);
@@ -25,12 +35,14 @@ static void begin_item(thr_writer *writer, int64_t value)
   thr_write_int(writer, "value", value);
 }
 
+/* Opens a list on a line of its own. */
 static void begin_list(thr_writer *writer, const char *key)
 {
   thr_write_line(writer, 5);
   thr_write_array(writer, key);
 }
 
+/* Writes odd sets or groups with their multipliers. */
 static void put_sets(thr_writer *writer, const char *key, const thr_turning_set *set, int n)
 {
   begin_list(writer, key);
@@ -42,6 +54,7 @@ static void put_sets(thr_writer *writer, const char *key, const thr_turning_set 
   thr_write_close(writer);
 }
 
+/* Writes partitions of the edges, or ranks, with their multipliers. */
 static void put_partitions(thr_writer *writer, const char *key,
                            const thr_turning_partition *partition, int n, int n_edges)
 {
@@ -54,8 +67,10 @@ static void put_partitions(thr_writer *writer, const char *key,
   thr_write_close(writer);
 }
 
+/* Writes the blocks of edges at the nodes of tube joints, with their multipliers. */
 static void put_junctions(thr_writer *writer, const thr_turning_dual *dual, const thr_frame *frame)
 {
+  /* One block number for each half-edge of the node, in their order. */
   begin_list(writer, "junctions");
   for (int i = 0; i < dual->n_junctions; i++) {
     const thr_turning_junction *turning_junction = &dual->junction[i];
@@ -68,14 +83,20 @@ static void put_junctions(thr_writer *writer, const thr_turning_dual *dual, cons
   thr_write_close(writer);
 }
 
+/* Writes the multipliers of one leaf. Ranks and junctions are left out if there are none. */
 static void put_dual(thr_writer *writer, const thr_turning_dual *dual, const thr_frame *frame,
                      int n_ends)
 {
   thr_write_object(writer, NULL);
+
+  /* Multipliers of the equations of half-edges and of ends, and of the limit on length. */
   put_multipliers(writer, "potentials", dual->potential, 2 * frame->n_edges);
+
   thr_write_line(writer, 5);
   put_multipliers(writer, "ends", dual->ends, n_ends);
   thr_write_int(writer, "length", dual->length);
+
+  /* Multipliers of inequalities. */
   put_sets(writer, "odd_sets", dual->odd, dual->n_odd);
   put_sets(writer, "groups", dual->group, dual->n_groups);
   put_partitions(writer, "partitions", dual->partition, dual->n_partitions, frame->n_edges);
@@ -84,9 +105,13 @@ static void put_dual(thr_writer *writer, const thr_turning_dual *dual, const thr
   thr_write_close(writer);
 }
 
+/* Writes a node of the tree: a branch with its two children, or a leaf with the number of its
+ * multipliers. */
 static void put_node(thr_writer *writer, const thr_turning_node *node)
 {
   thr_write_object(writer, NULL);
+
+  /* No child is node 0, the root, so that low = 0 marks a leaf. */
   if (node->low) {
     thr_write_int(writer, "low", node->low);
     thr_write_int(writer, "high", node->high);
@@ -100,13 +125,17 @@ static void put_node(thr_writer *writer, const thr_turning_node *node)
   thr_write_close(writer);
 }
 
-/* A proof with none has no member for them. */
+/* Writes for each symmetry the images of the half-edges 2e; without any symmetry, nothing is
+ * written. */
 static void put_symmetries(thr_writer *writer, const thr_turning_proof *proof,
                            const thr_frame *frame)
 {
   if (proof->n_symmetries == 0) return;
+
   thr_write_line(writer, 3);
   thr_write_array(writer, "symmetries");
+
+  /* The rows of the table follow one another. */
   for (int i = 0; i < proof->n_symmetries; i++) {
     thr_write_line(writer, 4);
     thr_write_ints(writer, NULL, proof->symmetry + (size_t)i * (size_t)frame->n_edges,
@@ -115,12 +144,16 @@ static void put_symmetries(thr_writer *writer, const thr_turning_proof *proof,
   thr_write_close(writer);
 }
 
-/* Where walks remember edges, if they do. */
+/* Writes at which places walks remember an edge that they have passed; without any memory, nothing
+ * is written. */
 static void put_memory(thr_writer *writer, const thr_walk_proof *walks)
 {
   if (walks->n_memories == 0) return;
+
   thr_write_line(writer, 4);
   thr_write_array(writer, "memory");
+
+  /* For each remembering edge the places after it. */
   for (int i = 0; i < walks->n_memories; i++) {
     thr_write_object(writer, NULL);
     thr_write_int(writer, "edge", walks->memory[i].edge);
@@ -134,11 +167,16 @@ void thr_walk_proof_write(const thr_walk_proof *walks, const thr_frame *frame, c
                           thr_writer *writer)
 {
   if (walks->unit == 0) return;
+
   thr_write_line(writer, 3);
   thr_write_object(writer, "walks");
+
+  /* What the prices are measured in, and what all cords together pay. */
   thr_write_int(writer, "unit", walks->unit);
   thr_write_int(writer, "units", walks->units);
   thr_write_int(writer, all ? all : "bits", all ? walks->all : walks->bits);
+
+  /* Prices of passes over edges and of visits of nodes, each in a line of its own. */
   thr_write_line(writer, 4);
   put_multipliers(writer, "edges", walks->edge, frame->n_edges);
   thr_write_line(writer, 4);
@@ -151,12 +189,16 @@ void thr_turning_proof_write(const thr_turning_proof *proof, const thr_frame *fr
                              thr_writer *writer, const char *key)
 {
   thr_write_object(writer, key);
+
+  /* The tree, a node in each line. */
   thr_write_array(writer, "tree");
   for (int i = 0; i < proof->n_nodes; i++) {
     thr_write_line(writer, 4);
     put_node(writer, &proof->node[i]);
   }
   thr_write_close(writer);
+
+  /* The multipliers of the leaves. */
   thr_write_line(writer, 3);
   thr_write_array(writer, "multipliers");
   for (int i = 0; i < proof->n_duals; i++) {
@@ -164,6 +206,8 @@ void thr_turning_proof_write(const thr_turning_proof *proof, const thr_frame *fr
     put_dual(writer, &proof->dual[i], frame, proof->n_ends);
   }
   thr_write_close(writer);
+
+  /* What a proof may have besides. */
   put_symmetries(writer, proof, frame);
   thr_walk_proof_write(&proof->walks, frame, proof->walks.pulled ? NULL : "turning", writer);
   thr_write_close(writer);
@@ -171,263 +215,371 @@ void thr_turning_proof_write(const thr_turning_proof *proof, const thr_frame *fr
 
 /* ---- reading ---- */
 
+/* What is being read: place of the proof for messages, its framework, and the sizes that later
+ * lists are checked against. */
 typedef struct {
   const char *place;
-  const thr_frame *f;
+  const thr_frame *frame;
   int n_ends, n_symmetries;
   thr_err *err;
-} reader;
+} proof_reader;
 
-static thr_status bad(const reader *r, const char *key, const char *what)
+/* Records THR_EVIOLATED for a member, and what is wrong with it. */
+static thr_status bad(const proof_reader *reader, const char *key, const char *what)
 {
-  return thr_fail(r->err, THR_EVIOLATED, "%s.%s: %s", r->place, key, what);
+  return thr_fail(reader->err, THR_EVIOLATED, "%s.%s: %s", reader->place, key, what);
 }
 
-/* Exactly the members named, and no other. known ends with NULL. */
-static thr_status only_members(const reader *r, const thr_json *object, const char *const *known)
+/* Checks that an object has exactly the members named. known ends with NULL. */
+static thr_status only_members(const proof_reader *reader, const thr_json *object,
+                               const char *const *known)
 {
   if (thr_json_typeof(object) != THR_JSON_OBJECT)
-    return thr_fail(r->err, THR_EVIOLATED, "%s: expected an object", r->place);
+    return thr_fail(reader->err, THR_EVIOLATED, "%s: expected an object", reader->place);
+
+  /* All of them must be there. */
   for (int i = 0; known[i]; i++)
-    if (!thr_json_get(object, known[i])) return bad(r, known[i], "missing");
+    if (!thr_json_get(object, known[i])) return bad(reader, known[i], "missing");
+
+  /* A member that this version does not know might be a claim. */
   const char *key = thr_json_unknown(object, known);
-  return key ? bad(r, key, "this version does not know it and cannot check it") : THR_OK;
+
+  return key ? bad(reader, key, "this version does not know it and cannot check it") : THR_OK;
 }
 
-static thr_status get_int(const reader *r, const thr_json *value, const char *key, int64_t low,
-                          int64_t high, int64_t *out)
+/* Reads an integer from low to high. key names it in messages. */
+static thr_status get_int(const proof_reader *reader, const thr_json *value, const char *key,
+                          int64_t low, int64_t high, int64_t *out)
 {
   if (thr_json_int(value, out) && *out >= low && *out <= high) return THR_OK;
-  return thr_fail(r->err, THR_EVIOLATED, "%s.%s: not an integer from %" PRId64 " to %" PRId64,
-                  r->place, key, low, high);
+  return thr_fail(reader->err, THR_EVIOLATED, "%s.%s: not an integer from %" PRId64 " to %" PRId64,
+                  reader->place, key, low, high);
 }
 
-static thr_status get_array(const reader *r, const thr_json *object, const char *key,
+/* Finds a member that is a list. */
+static thr_status get_array(const proof_reader *reader, const thr_json *object, const char *key,
                             const thr_json **list)
 {
   *list = thr_json_get(object, key);
-  return thr_json_typeof(*list) == THR_JSON_ARRAY ? THR_OK : bad(r, key, "not a list");
+  return thr_json_typeof(*list) == THR_JSON_ARRAY ? THR_OK : bad(reader, key, "not a list");
 }
 
-static thr_status read_multipliers(const reader *r, const thr_json *object, const char *key, int n,
-                                   int64_t **out)
+/* Reads a list of n integers into a new array, which the proof owns. */
+static thr_status read_multipliers(const proof_reader *reader, const thr_json *object,
+                                   const char *key, int n, int64_t **out)
 {
   const thr_json *list;
-  thr_status st = get_array(r, object, key, &list);
+  thr_status st = get_array(reader, object, key, &list);
   if (st) return st;
+
   if (thr_json_size(list) != n)
-    return thr_fail(r->err, THR_EVIOLATED, "%s.%s: expected %d numbers", r->place, key, n);
-  if (!(*out = thr_calloc((size_t)n, sizeof **out))) return thr_nomem(r->err);
+    return thr_fail(reader->err, THR_EVIOLATED, "%s.%s: expected %d numbers", reader->place, key,
+                    n);
+
+  if (!(*out = thr_calloc((size_t)n, sizeof **out))) return thr_nomem(reader->err);
+
+  /* Multipliers may have any sign here; the checker asks for the sign that each needs. */
   for (int i = 0; i < n && !st; i++)
-    st = get_int(r, thr_json_at(list, i), key, INT64_MIN, INT64_MAX, &(*out)[i]);
+    st = get_int(reader, thr_json_at(list, i), key, INT64_MIN, INT64_MAX, &(*out)[i]);
+
   return st;
 }
 
-/* A list of integers from 0 to limit - 1. */
-static thr_status read_ints(const reader *r, const thr_json *list, const char *key, int limit,
-                            int *out)
+/* Reads a list of integers from 0 to limit - 1 into out, which has room for all of them. */
+static thr_status read_ints(const proof_reader *reader, const thr_json *list, const char *key,
+                            int limit, int *out)
 {
   thr_status st = THR_OK;
   for (int i = 0; i < thr_json_size(list) && !st; i++) {
     int64_t value = 0;
-    st = get_int(r, thr_json_at(list, i), key, 0, limit - 1, &value);
+    st = get_int(reader, thr_json_at(list, i), key, 0, limit - 1, &value);
     out[i] = (int)value;
   }
   return st;
 }
 
-static thr_status read_set(const reader *r, const thr_json *value, const char *key, int limit,
-                           thr_turning_set *set)
+/* Reads an odd set or a group: its multiplier, and members below limit. */
+static thr_status read_set(const proof_reader *reader, const thr_json *value, const char *key,
+                           int limit, thr_turning_set *set)
 {
   static const char *const known[] = {"value", "members", NULL};
   const thr_json *list;
-  thr_status st = only_members(r, value, known);
-  if (!st) st = get_int(r, thr_json_get(value, "value"), key, 0, INT64_MAX, &set->value);
-  if (!st) st = get_array(r, value, "members", &list);
+  thr_status st = only_members(reader, value, known);
+  if (!st) st = get_int(reader, thr_json_get(value, "value"), key, 0, INT64_MAX, &set->value);
+  if (!st) st = get_array(reader, value, "members", &list);
   if (st) return st;
+
+  /* The proof owns the array, also if a member is bad. */
   int n = thr_json_size(list);
-  if (!(set->member = thr_calloc((size_t)n, sizeof *set->member))) return thr_nomem(r->err);
+  if (!(set->member = thr_calloc((size_t)n, sizeof *set->member))) return thr_nomem(reader->err);
   set->n = n;
-  return read_ints(r, list, key, limit, set->member);
+
+  return read_ints(reader, list, key, limit, set->member);
 }
 
-static thr_status read_sets(const reader *r, const thr_json *object, const char *key, int limit,
-                            int *count, thr_turning_set **out)
+/* Reads a list of odd sets or groups. *count is set before the items, so that a failure releases
+ * them. */
+static thr_status read_sets(const proof_reader *reader, const thr_json *object, const char *key,
+                            int limit, int *count, thr_turning_set **out)
 {
   const thr_json *list;
-  thr_status st = get_array(r, object, key, &list);
+  thr_status st = get_array(reader, object, key, &list);
   if (st) return st;
+
   int n = thr_json_size(list);
-  if (!(*out = thr_calloc((size_t)n, sizeof **out))) return thr_nomem(r->err);
+  if (!(*out = thr_calloc((size_t)n, sizeof **out))) return thr_nomem(reader->err);
+
   *count = n;
   for (int i = 0; i < n && !st; i++)
-    st = read_set(r, thr_json_at(list, i), key, limit, &(*out)[i]);
+    st = read_set(reader, thr_json_at(list, i), key, limit, &(*out)[i]);
+
   return st;
 }
 
-static thr_status read_partition(const reader *r, const thr_json *value,
+/* Reads a partition: its multiplier and the block of every edge. */
+static thr_status read_partition(const proof_reader *reader, const thr_json *value,
                                  thr_turning_partition *partition)
 {
   static const char *const known[] = {"value", "blocks", NULL};
   const thr_json *list = NULL;
-  int m = r->f->n_edges;
-  thr_status st = only_members(r, value, known);
-  if (!st) st = get_int(r, thr_json_get(value, "value"), "value", 0, INT64_MAX, &partition->value);
-  if (!st) st = get_array(r, value, "blocks", &list);
-  if (!st && thr_json_size(list) != m) st = bad(r, "blocks", "not one per edge");
-  if (!st && !(partition->block = thr_calloc((size_t)m, sizeof *partition->block)))
-    st = thr_nomem(r->err);
-  return st ? st : read_ints(r, list, "blocks", m, partition->block);
+  int n_edges = reader->frame->n_edges;
+
+  thr_status st = only_members(reader, value, known);
+  if (!st)
+    st = get_int(reader, thr_json_get(value, "value"), "value", 0, INT64_MAX, &partition->value);
+  if (!st) st = get_array(reader, value, "blocks", &list);
+  if (!st && thr_json_size(list) != n_edges) st = bad(reader, "blocks", "not one per edge");
+
+  /* Blocks are numbered below the number of edges. */
+  if (!st && !(partition->block = thr_calloc((size_t)n_edges, sizeof *partition->block)))
+    st = thr_nomem(reader->err);
+
+  return st ? st : read_ints(reader, list, "blocks", n_edges, partition->block);
 }
 
-static thr_status read_partitions(const reader *r, const thr_json *object, const char *key,
-                                  int *count, thr_turning_partition **out)
+/* Reads a list of partitions or ranks. */
+static thr_status read_partitions(const proof_reader *reader, const thr_json *object,
+                                  const char *key, int *count, thr_turning_partition **out)
 {
   const thr_json *list;
-  thr_status st = get_array(r, object, key, &list);
+  thr_status st = get_array(reader, object, key, &list);
   if (st) return st;
+
   int n = thr_json_size(list);
-  if (!(*out = thr_calloc((size_t)n, sizeof **out))) return thr_nomem(r->err);
+  if (!(*out = thr_calloc((size_t)n, sizeof **out))) return thr_nomem(reader->err);
+
   *count = n;
   for (int i = 0; i < n && !st; i++)
-    st = read_partition(r, thr_json_at(list, i), &(*out)[i]);
+    st = read_partition(reader, thr_json_at(list, i), &(*out)[i]);
+
   return st;
 }
 
-static thr_status read_junction(const reader *r, const thr_json *value,
+/* Reads a junction: its multiplier, its node, and the block of every edge at the node. */
+static thr_status read_junction(const proof_reader *reader, const thr_json *value,
                                 thr_turning_junction *turning_junction)
 {
   static const char *const known[] = {"value", "node", "blocks", NULL};
   const thr_json *list = NULL;
   int64_t node = 0;
-  thr_status st = only_members(r, value, known);
+
+  thr_status st = only_members(reader, value, known);
   if (!st)
-    st = get_int(r, thr_json_get(value, "value"), "value", 0, INT64_MAX, &turning_junction->value);
-  if (!st) st = get_int(r, thr_json_get(value, "node"), "node", 0, r->f->n_nodes - 1, &node);
-  if (!st) st = get_array(r, value, "blocks", &list);
+    st = get_int(reader, thr_json_get(value, "value"), "value", 0, INT64_MAX,
+                 &turning_junction->value);
+  if (!st)
+    st = get_int(reader, thr_json_get(value, "node"), "node", 0, reader->frame->n_nodes - 1, &node);
+  if (!st) st = get_array(reader, value, "blocks", &list);
   if (st) return st;
+
+  /* The list has one block for each half-edge that leaves the node. */
   turning_junction->node = (int)node;
-  int d = thr_degree(r->f, turning_junction->node);
-  if (thr_json_size(list) != d) return bad(r, "blocks", "not one per edge of the node");
-  if (!(turning_junction->block = thr_calloc((size_t)d, sizeof *turning_junction->block)))
-    return thr_nomem(r->err);
-  return read_ints(r, list, "blocks", d, turning_junction->block);
+  int degree = thr_degree(reader->frame, turning_junction->node);
+  if (thr_json_size(list) != degree) return bad(reader, "blocks", "not one per edge of the node");
+  if (!(turning_junction->block = thr_calloc((size_t)degree, sizeof *turning_junction->block)))
+    return thr_nomem(reader->err);
+
+  return read_ints(reader, list, "blocks", degree, turning_junction->block);
 }
 
-/* Plans with tube joints only. */
-static thr_status read_junctions(const reader *r, const thr_json *object, thr_turning_dual *dual)
+/* Reads the junctions, which only plans with tube joints have. */
+static thr_status read_junctions(const proof_reader *reader, const thr_json *object,
+                                 thr_turning_dual *dual)
 {
   const thr_json *list;
   if (!thr_json_get(object, "junctions")) return THR_OK;
-  thr_status st = get_array(r, object, "junctions", &list);
+
+  thr_status st = get_array(reader, object, "junctions", &list);
   if (st) return st;
+
   int n = thr_json_size(list);
-  if (!(dual->junction = thr_calloc((size_t)n, sizeof *dual->junction))) return thr_nomem(r->err);
+  if (!(dual->junction = thr_calloc((size_t)n, sizeof *dual->junction)))
+    return thr_nomem(reader->err);
+
   dual->n_junctions = n;
+
+  /* Each junction has its own array. */
   for (int i = 0; i < n && !st; i++)
-    st = read_junction(r, thr_json_at(list, i), &dual->junction[i]);
+    st = read_junction(reader, thr_json_at(list, i), &dual->junction[i]);
+
   return st;
 }
 
-static thr_status read_dual(const reader *r, const thr_json *value, thr_turning_dual *dual)
+/* Reads the multipliers of one leaf. */
+static thr_status read_dual(const proof_reader *reader, const thr_json *value,
+                            thr_turning_dual *dual)
 {
   static const char *const optional[] = {"ranks", "junctions"};
   const char *known[9] = {"potentials", "ends", "length", "odd_sets", "groups", "partitions"};
+
+  /* Ranks and junctions may be left out. */
   for (int i = 0, n = 6; i < 2; i++)
     if (thr_json_get(value, optional[i])) known[n++] = optional[i];
-  int m = r->f->n_edges;
-  thr_status st = only_members(r, value, known);
-  if (!st) st = read_multipliers(r, value, "potentials", 2 * m, &dual->potential);
-  if (!st) st = read_multipliers(r, value, "ends", r->n_ends, &dual->ends);
-  if (!st) st = get_int(r, thr_json_get(value, "length"), "length", 0, INT64_MAX, &dual->length);
-  if (!st) st = read_sets(r, value, "odd_sets", 2 * m + r->n_ends, &dual->n_odd, &dual->odd);
-  if (!st) st = read_sets(r, value, "groups", m, &dual->n_groups, &dual->group);
-  if (!st) st = read_partitions(r, value, "partitions", &dual->n_partitions, &dual->partition);
+
+  int n_edges = reader->frame->n_edges;
+  thr_status st = only_members(reader, value, known);
+
+  /* Multipliers of equations and of the limit on length. */
+  if (!st) st = read_multipliers(reader, value, "potentials", 2 * n_edges, &dual->potential);
+  if (!st) st = read_multipliers(reader, value, "ends", reader->n_ends, &dual->ends);
+  if (!st)
+    st = get_int(reader, thr_json_get(value, "length"), "length", 0, INT64_MAX, &dual->length);
+
+  /* Multipliers of inequalities. Members of odd sets are half-edges, then equations of ends. */
+  if (!st)
+    st = read_sets(reader, value, "odd_sets", 2 * n_edges + reader->n_ends, &dual->n_odd,
+                   &dual->odd);
+  if (!st) st = read_sets(reader, value, "groups", n_edges, &dual->n_groups, &dual->group);
+  if (!st) st = read_partitions(reader, value, "partitions", &dual->n_partitions, &dual->partition);
   if (!st && thr_json_get(value, "ranks"))
-    st = read_partitions(r, value, "ranks", &dual->n_ranks, &dual->rank);
-  if (!st) st = read_junctions(r, value, dual);
+    st = read_partitions(reader, value, "ranks", &dual->n_ranks, &dual->rank);
+  if (!st) st = read_junctions(reader, value, dual);
+
   return st;
 }
 
-static thr_status read_orbit(const reader *r, const thr_json *value, thr_turning_node *node)
+/* Reads which symmetries keep the bounds at a branch, by their numbers. */
+static thr_status read_orbit(const proof_reader *reader, const thr_json *value,
+                             thr_turning_node *node)
 {
   const thr_json *list;
   if (!thr_json_get(value, "orbit")) return THR_OK;
-  thr_status st = get_array(r, value, "orbit", &list);
+
+  thr_status st = get_array(reader, value, "orbit", &list);
   if (st) return st;
+
   int n = thr_json_size(list);
-  if (!(node->orbit = thr_calloc((size_t)n, sizeof *node->orbit))) return thr_nomem(r->err);
+  if (!(node->orbit = thr_calloc((size_t)n, sizeof *node->orbit))) return thr_nomem(reader->err);
   node->n_orbit = n;
-  return read_ints(r, list, "orbit", r->n_symmetries, node->orbit);
+
+  return read_ints(reader, list, "orbit", reader->n_symmetries, node->orbit);
 }
 
-static thr_status read_node(const reader *r, const thr_json *value, thr_turning_node *node)
+/* Reads a node of the tree, a branch or a leaf. */
+static thr_status read_node(const proof_reader *reader, const thr_json *value,
+                            thr_turning_node *node)
 {
   static const char *const inner[] = {"low", "high", "a", "b", "value", NULL}, *const leaf[] = {
                                                                                    "multipliers",
                                                                                    NULL};
   static const char *const at_once[] = {"low", "high", "a", "b", "value", "orbit", NULL};
   int64_t number[5] = {0};
+
+  /* A leaf has its own member; a branch may have an orbit. */
   bool is_leaf = thr_json_get(value, "multipliers") != NULL;
   const char *const *key = is_leaf ? leaf : inner;
-  thr_status st = only_members(r, value, thr_json_get(value, "orbit") && !is_leaf ? at_once : key);
+  thr_status st =
+      only_members(reader, value, thr_json_get(value, "orbit") && !is_leaf ? at_once : key);
+
+  /* Member b may be -1: columns of ends have one half-edge only. */
   for (int i = 0; key[i] && !st; i++)
-    st = get_int(r, thr_json_get(value, key[i]), key[i], i == 3 ? -1 : 0, INT_MAX, &number[i]);
+    st = get_int(reader, thr_json_get(value, key[i]), key[i], i == 3 ? -1 : 0, INT_MAX, &number[i]);
+
+  /* Node 0 is the root, and so no child. */
   if (!st && !is_leaf && (number[0] == 0 || number[1] == 0))
-    return bad(r, "low", "a branch needs two nodes below it");
+    return bad(reader, "low", "a branch needs two nodes below it");
+
   *node = (thr_turning_node){.dual = -1};
+
+  /* The numbers are in the order of the keys. */
   if (is_leaf)
     node->dual = (int)number[0];
   else
     node->low = (int)number[0], node->high = (int)number[1], node->a = (int)number[2],
     node->b = (int)number[3], node->value = (int)number[4];
-  return st || is_leaf ? st : read_orbit(r, value, node);
+
+  return st || is_leaf ? st : read_orbit(reader, value, node);
 }
 
-static thr_status read_symmetries(reader *r, const thr_json *value, thr_turning_proof *proof)
+/* Reads the symmetries: for each the half-edge that every half-edge 2e is mapped to. */
+static thr_status read_symmetries(proof_reader *reader, const thr_json *value,
+                                  thr_turning_proof *proof)
 {
   const thr_json *list;
-  const int m = r->f->n_edges;
+  const int n_edges = reader->frame->n_edges;
   if (!thr_json_get(value, "symmetries")) return THR_OK;
-  thr_status st = get_array(r, value, "symmetries", &list);
+
+  thr_status st = get_array(reader, value, "symmetries", &list);
   if (st) return st;
+
   int n = thr_json_size(list);
-  if (!(proof->symmetry = thr_calloc((size_t)n * (size_t)m, sizeof *proof->symmetry)))
-    return thr_nomem(r->err);
-  proof->n_symmetries = r->n_symmetries = n;
+  if (!(proof->symmetry = thr_calloc((size_t)n * (size_t)n_edges, sizeof *proof->symmetry)))
+    return thr_nomem(reader->err);
+
+  proof->n_symmetries = reader->n_symmetries = n;
+
   for (int i = 0; i < n && !st; i++) {
+    /* One image for each edge, which is a half-edge. */
     const thr_json *image = thr_json_at(list, i);
-    if (thr_json_typeof(image) != THR_JSON_ARRAY || thr_json_size(image) != m)
-      return bad(r, "symmetries", "not one per edge");
-    st = read_ints(r, image, "symmetries", 2 * m, proof->symmetry + (size_t)i * (size_t)m);
+    if (thr_json_typeof(image) != THR_JSON_ARRAY || thr_json_size(image) != n_edges)
+      return bad(reader, "symmetries", "not one per edge");
+    st = read_ints(reader, image, "symmetries", 2 * n_edges,
+                   proof->symmetry + (size_t)i * (size_t)n_edges);
   }
+
   return st;
 }
 
-static thr_status read_memory(const reader *r, const thr_json *value, thr_walk_proof *walks)
+/* Reads at which places walks remember edges. */
+static thr_status read_memory(const proof_reader *reader, const thr_json *value,
+                              thr_walk_proof *walks)
 {
   static const char *const known[] = {"edge", "places", NULL};
-  const int most = 2 * r->f->n_edges > r->f->n_nodes ? 2 * r->f->n_edges : r->f->n_nodes;
+  const int most = 2 * reader->frame->n_edges > reader->frame->n_nodes ? 2 * reader->frame->n_edges
+                                                                       : reader->frame->n_nodes;
   const thr_json *list, *places = NULL;
   if (!thr_json_get(value, "memory")) return THR_OK;
-  thr_status st = get_array(r, value, "memory", &list);
+
+  thr_status st = get_array(reader, value, "memory", &list);
   if (st) return st;
+
   const int n = thr_json_size(list);
-  if (!(walks->memory = thr_calloc((size_t)n, sizeof *walks->memory))) return thr_nomem(r->err);
+  if (!(walks->memory = thr_calloc((size_t)n, sizeof *walks->memory)))
+    return thr_nomem(reader->err);
   walks->n_memories = n;
+
+  /* Places are half-edges or nodes, by the kind of the proof: both ranges are allowed here. */
   for (int i = 0; i < n && !st; i++) {
     thr_walk_memory *memory = &walks->memory[i];
     const thr_json *entry = thr_json_at(list, i);
     int64_t edge = 0;
-    st = only_members(r, entry, known);
-    if (!st) st = get_int(r, thr_json_get(entry, "edge"), "edge", 0, r->f->n_edges - 1, &edge);
-    if (!st) st = get_array(r, entry, "places", &places);
+
+    st = only_members(reader, entry, known);
+    if (!st)
+      st = get_int(reader, thr_json_get(entry, "edge"), "edge", 0, reader->frame->n_edges - 1,
+                   &edge);
+    if (!st) st = get_array(reader, entry, "places", &places);
+
     if (st) break;
+
+    /* The array belongs to the proof from here on, also if a place is bad. */
     memory->edge = (int)edge;
     memory->n = thr_json_size(places);
     memory->place = thr_calloc((size_t)memory->n, sizeof *memory->place);
-    st = memory->place ? read_ints(r, places, "places", most, memory->place) : thr_nomem(r->err);
+    st = memory->place ? read_ints(reader, places, "places", most, memory->place)
+                       : thr_nomem(reader->err);
   }
+
   return st;
 }
 
@@ -437,22 +589,30 @@ thr_status thr_walk_proof_from_json(thr_walk_proof *walks, const thr_frame *fram
   const bool remembers = value && thr_json_get(value, "memory");
   const char *known[] = {
       "unit", "units", all ? all : "bits", "edges", "nodes", remembers ? "memory" : NULL, NULL};
-  const reader r = {.place = place, .f = frame, .err = err};
+  const proof_reader reader = {.place = place, .frame = frame, .err = err};
   int64_t units = 0, bits = 0;
+
+  /* A plan may have no such proof. */
   *walks = (thr_walk_proof){.pulled = value && !all};
   if (!value) return THR_OK;
-  thr_status st = only_members(&r, value, known);
-  if (!st) st = get_int(&r, thr_json_get(value, "unit"), "unit", 1, INT64_MAX, &walks->unit);
-  if (!st) st = get_int(&r, thr_json_get(value, "units"), "units", 0, INT_MAX - 2, &units);
-  if (!st && all) st = get_int(&r, thr_json_get(value, all), all, 0, INT64_MAX, &walks->all);
+
+  /* The unit, and the price of all cords together or the bits of a pull. */
+  thr_status st = only_members(&reader, value, known);
+  if (!st) st = get_int(&reader, thr_json_get(value, "unit"), "unit", 1, INT64_MAX, &walks->unit);
+  if (!st) st = get_int(&reader, thr_json_get(value, "units"), "units", 0, INT_MAX - 2, &units);
+  if (!st && all) st = get_int(&reader, thr_json_get(value, all), all, 0, INT64_MAX, &walks->all);
   if (!st && !all)
-    st = get_int(&r, thr_json_get(value, "bits"), "bits", 0, THR_TURNING_BITS, &bits);
-  if (!st) st = read_multipliers(&r, value, "edges", frame->n_edges, &walks->edge);
-  if (!st) st = read_multipliers(&r, value, "nodes", frame->n_nodes, &walks->node);
-  if (!st) st = read_memory(&r, value, walks);
+    st = get_int(&reader, thr_json_get(value, "bits"), "bits", 0, THR_TURNING_BITS, &bits);
+
+  /* The prices. */
+  if (!st) st = read_multipliers(&reader, value, "edges", frame->n_edges, &walks->edge);
+  if (!st) st = read_multipliers(&reader, value, "nodes", frame->n_nodes, &walks->node);
+  if (!st) st = read_memory(&reader, value, walks);
+
   walks->units = (int)units;
   walks->bits = (int)bits;
   if (st) thr_walk_proof_destroy(walks);
+
   return st;
 }
 
@@ -461,31 +621,43 @@ thr_status thr_turning_proof_from_json(thr_turning_proof *proof, const thr_frame
 {
   static const char *const optional[] = {"symmetries", "walks"};
   const char *known[5] = {"tree", "multipliers"};
-  reader r = {.place = place, .f = frame, .err = err};
+  proof_reader reader = {.place = place, .frame = frame, .err = err};
   const thr_json *tree, *duals, *walks = thr_json_get(value, "walks");
   const char *all = walks && thr_json_get(walks, "bits") ? NULL : "turning";
   *proof = (thr_turning_proof){0};
+
+  /* Check the members; symmetries and walks may be left out. */
   for (int i = 0, n = 2; i < 2; i++)
     if (thr_json_get(value, optional[i])) known[n++] = optional[i];
-  thr_status st = only_members(&r, value, known);
-  if (!st) st = get_array(&r, value, "tree", &tree);
-  if (!st) st = get_array(&r, value, "multipliers", &duals);
+  thr_status st = only_members(&reader, value, known);
+  if (!st) st = get_array(&reader, value, "tree", &tree);
+  if (!st) st = get_array(&reader, value, "multipliers", &duals);
   if (st) return st;
+
+  /* The first leaf says how many equations of ends there are. */
   int n_nodes = thr_json_size(tree), n_duals = thr_json_size(duals);
-  proof->n_ends = r.n_ends = thr_json_size(thr_json_get(thr_json_at(duals, 0), "ends"));
+  proof->n_ends = reader.n_ends = thr_json_size(thr_json_get(thr_json_at(duals, 0), "ends"));
   proof->node = thr_calloc((size_t)n_nodes, sizeof *proof->node);
   proof->dual = thr_calloc((size_t)n_duals, sizeof *proof->dual);
+
+  /* Symmetries come before the tree, whose orbits name them. */
   st = proof->node && proof->dual ? THR_OK : thr_nomem(err);
   if (!st) {
     proof->n_nodes = n_nodes;
     proof->n_duals = n_duals;
-    st = read_symmetries(&r, value, proof);
+    st = read_symmetries(&reader, value, proof);
   }
+
+  /* The tree, then the multipliers of its leaves. */
   for (int i = 0; i < n_nodes && !st; i++)
-    st = read_node(&r, thr_json_at(tree, i), &proof->node[i]);
+    st = read_node(&reader, thr_json_at(tree, i), &proof->node[i]);
   for (int i = 0; i < n_duals && !st; i++)
-    st = read_dual(&r, thr_json_at(duals, i), &proof->dual[i]);
+    st = read_dual(&reader, thr_json_at(duals, i), &proof->dual[i]);
+
   if (!st) st = thr_walk_proof_from_json(&proof->walks, frame, all, walks, place, err);
+
+  /* On failure nothing is left to the caller. */
   if (st) thr_turning_proof_destroy(proof);
+
   return st;
 }
