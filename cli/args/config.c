@@ -88,10 +88,12 @@ static int join(thr_text *file, const char *command, int argc, char **argv, int 
 
   /* Each line is cut at its end, in place. */
   for (char *line = file->data, *end; line; line = end) {
-    size_t size = strlen(line) + 8;
+    if ((end = strchr(line, '\n'))) *end++ = '\0';
+
+    /* Room for the dashes before a name and what stands between it and its value. */
+    const size_t size = strlen(line) + 8;
     char *word = thr_calloc(size, 1);
     if (!word) return cli_fail(&(thr_err){THR_ENOMEM, "out of memory"});
-    if ((end = strchr(line, '\n'))) *end++ = '\0';
 
     bool good = word_of(line, ++number, command, &applies, word, size);
     if (*word)
