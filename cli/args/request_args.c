@@ -734,14 +734,23 @@ static int apply_counts(const request_args *args, const thr_frame *frame, thr_re
   return EXIT_OK;
 }
 
+/* Copies what the options say that are rows of the request's table, but for those about turning,
+ * which concern one objective only. */
+static void copy_rows(const thr_request *asked, thr_request *request)
+{
+  for (int i = 0; i < thr_request_n_fields; i++) {
+    const thr_request_field *field = &thr_request_fields[i];
+    if (!field->help || field->in) continue;
+    const bool is_int = field->kind == THR_ASKS_COUNT || field->kind == THR_ASKS_WORD;
+    memcpy((char *)request + field->offset, (const char *)asked + field->offset,
+           is_int ? sizeof(int) : sizeof(double));
+  }
+}
+
 int request_args_apply(const request_args *args, const thr_frame *frame, thr_request *request)
 {
+  copy_rows(&args->asked, request);
   request->cover = cover_of(args);
-  request->distinct = args->asked.distinct;
-  request->capacity = args->asked.capacity;
-  request->engine = args->asked.engine;
-  request->confirm = args->asked.confirm;
-  request->max_length = args->asked.max_length;
 
   /* Limits that follow from cord and bead. */
   int code = apply_bore(request);
