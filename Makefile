@@ -441,7 +441,7 @@ $(DIR)/flags.list: $(OUT)/packages.ok FORCE
 	 printf '%s\n' $(call quote,$(COMPILER) $(THR_CPPFLAGS) $(THR_CFLAGS) $(COMPILER_CXX) $(BULLET_CFLAGS) $(THR_CXXFLAGS)) > $@
 $(DIR)/objects.list: FORCE
 	@mkdir -p $(@D)
-	@echo "$(OBJECTS)" | cmp -s - $@ || echo "$(OBJECTS)" > $@
+	@echo "$(OBJECTS:$(DIR)/%=%)" | cmp -s - $@ || echo "$(OBJECTS:$(DIR)/%=%)" > $@
 
 $(OUT)/packages.ok:
 	@command -v $(CC) >/dev/null && command -v $(CXX) >/dev/null && pkg-config --exists igraph nauty bullet-float64 fontconfig zlib 2>/dev/null && \
