@@ -309,9 +309,7 @@ static int bad_option(int found, char **argv)
 
 enum { TEXT_COLUMN = 23, NARROWEST = 60, WIDEST = 100 };
 
-/* Appends words wrapped at the width; further lines are indented to a column. at: the column where
- * the current line stands. Line breaks in the text are kept. */
-static void put_wrapped(thr_text *out, const char *words, int column, int at, int width)
+void cli_put_wrapped(thr_text *out, const char *words, int column, int at, int width)
 {
   while (*words) {
     /* A word that does not fit begins a new line. */
@@ -337,7 +335,9 @@ static void put_wrapped(thr_text *out, const char *words, int column, int at, in
   thr_text_append(out, "\n");
 }
 
-void cli_option_value(const cli_option *option, char *text, size_t size)
+/* Writes what help calls the value of an option: "N", or its words with bars, "keep|ignore"; "":
+ * there is none. */
+static void name_value(const cli_option *option, char *text, size_t size)
 {
   size_t n = (size_t)snprintf(text, size, "%s", option->value ? option->value : "");
 
@@ -357,7 +357,7 @@ static void put_option(thr_text *out, const cli_option *option, int width)
   }
 
   /* The head: letter, name and value. */
-  cli_option_value(option, value, sizeof value);
+  name_value(option, value, sizeof value);
   const int n = snprintf(head, sizeof head, "  %s--%s%s%s", letter, option->name,
                          *value && *value != '[' ? " " : "", value);
 
@@ -368,11 +368,11 @@ static void put_option(thr_text *out, const cli_option *option, int width)
   const int first = (int)strcspn(option->help, " \n");
   if (at + first > width) {
     thr_text_printf(out, "\n%*s", TEXT_COLUMN, "");
-    put_wrapped(out, option->help, TEXT_COLUMN, TEXT_COLUMN, width);
+    cli_put_wrapped(out, option->help, TEXT_COLUMN, TEXT_COLUMN, width);
   } else {
     thr_text_printf(out, "%.*s", first, option->help);
     const char *rest = option->help + first;
-    put_wrapped(out, rest + (*rest != '\0'), TEXT_COLUMN, at + first, width);
+    cli_put_wrapped(out, rest + (*rest != '\0'), TEXT_COLUMN, at + first, width);
   }
 
   /* The words of the value with their meanings, in a column of their own. */
@@ -381,7 +381,7 @@ static void put_option(thr_text *out, const cli_option *option, int width)
     const int length = (int)strlen(option->word(i));
     thr_text_printf(out, "%*s%s%*s", TEXT_COLUMN, "", option->word(i),
                     length + 2 < room ? room - length : 2, "");
-    put_wrapped(out, option->meaning(i), TEXT_COLUMN + room, TEXT_COLUMN + room, width);
+    cli_put_wrapped(out, option->meaning(i), TEXT_COLUMN + room, TEXT_COLUMN + room, width);
   }
 }
 
@@ -430,7 +430,7 @@ static void put_help(thr_text *out, const cli_syntax *syntax, const cli_group *g
 
   if (syntax->outro) {
     thr_text_append(out, "\n");
-    put_wrapped(out, syntax->outro, 0, 0, width);
+    cli_put_wrapped(out, syntax->outro, 0, 0, width);
   }
 }
 

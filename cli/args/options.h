@@ -4,6 +4,8 @@
 #ifndef THR_CLI_OPTIONS_H
 #define THR_CLI_OPTIONS_H
 
+#include "graph/text.h"
+
 #include <getopt.h> /* optind */
 #include <stdbool.h>
 #include <stddef.h>
@@ -77,9 +79,9 @@ const char *cli_command_name(void);
 /* Somebody to whom a command shows its options instead of doing anything; NULL: nobody. */
 extern void (*cli_show_options)(const cli_group *groups);
 
-/* What help calls the value of an option: "N", or its words with bars, "keep|ignore"; "": it has
- * none. */
-void cli_option_value(const cli_option *option, char *text, size_t size);
+/* Appends words wrapped at the width; further lines are indented to a column. at: the column where
+ * the current line stands. Line breaks in the text are kept. O(letters). */
+void cli_put_wrapped(thr_text *out, const char *words, int column, int at, int width);
 
 /* The rows of every command: -h, -q, -v, --config. */
 extern const cli_option cli_common_options[];

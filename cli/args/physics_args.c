@@ -26,29 +26,16 @@ static void option_name(int field, char name[NAME_SIZE])
   }
 }
 
-/* Prints words indented, in lines that fit a terminal. */
-static void print_wrapped(const char *words)
-{
-  enum { WIDE = 96 };
-  while (*words) {
-    size_t n = strlen(words);
-
-    /* Break at the last blank that fits; a longer word is cut. */
-    if (n > WIDE)
-      for (n = WIDE; n > 1 && words[n] != ' ';)
-        n--;
-    printf("  %.*s\n", (int)n, words);
-    words += n + (words[n] == ' ');
-  }
-}
-
 /* Prints every preset with its quantities and its sources. */
 static bool show_presets(void *into, const cli_option *option, const char *value)
 {
+  enum { INDENT = 2, WIDTH = 98 };
+  thr_text text = {0};
   (void)into, (void)option, (void)value;
+
   for (int i = 0; i < thr_physics_n_presets; i++) {
     const thr_physics_preset *preset = &thr_physics_presets[i];
-    printf("%s%s\n", i ? "\n" : "", preset->name);
+    thr_text_printf(&text, "%s%s\n", i ? "\n" : "", preset->name);
 
     /* Quantities that are 0 are not part of the preset. */
     for (int k = 0; k < thr_physics_n_fields; k++) {
@@ -56,12 +43,17 @@ static bool show_presets(void *into, const cli_option *option, const char *value
       const double quantity = thr_physics_get(&preset->physics, &thr_physics_fields[k]);
       option_name(k, name);
       if (!(quantity > 0)) continue;
-      printf("  %-14s %g%s%s\n", name, quantity, *thr_physics_fields[k].unit ? " " : "",
-             thr_physics_fields[k].unit);
+      thr_text_printf(&text, "  %-14s %g%s%s\n", name, quantity,
+                      *thr_physics_fields[k].unit ? " " : "", thr_physics_fields[k].unit);
     }
 
-    print_wrapped(preset->source);
+    thr_text_printf(&text, "%*s", INDENT, "");
+    cli_put_wrapped(&text, preset->source, INDENT, INDENT, WIDTH);
   }
+
+  /* The end of the program says if stdout takes nothing. */
+  if (text.data) fputs(text.data, stdout);
+  thr_text_destroy(&text);
 
   return true;
 }
