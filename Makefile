@@ -87,7 +87,7 @@ LINK = $(COMPILER_CXX) $(MODE_$(BUILD)) $(CFLAGS) $(LDFLAGS)
 STRICT = $(if $(filter-out 0,$(WERROR)),$(if $(filter fuzz,$(BUILD)),,-Werror))
 
 DIR := $(OUT)/$(BUILD)
-MODULES := graph lp symmetry tortuosity planner eval diagram lib
+MODULES := graph lp symmetry tortuosity planner eval diagram kit lib
 # every module, and its folders by stage
 FOLDERS := $(MODULES) $(patsubst %/,%,$(wildcard $(addsuffix /*/,$(MODULES))))
 CLI_FOLDERS := cli $(patsubst %/,%,$(wildcard cli/*/))
