@@ -2,7 +2,8 @@
 /* Finds out whether two pieces are the same solid, turned: they are printed from one mesh then.
  *
  * A rotation takes two arms of one piece to two arms of the other. All such pairs are tried; the
- * rotation must then take every arm to an arm of equal size and key, and every channel to a channel.
+ * rotation must then take every arm to an arm of equal size and key, and every channel to a
+ * channel.
  */
 #include "kit/kit.h"
 
@@ -11,8 +12,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Fills a right-handed frame, by rows, with its first axis along `a` and its second one towards `b`.
- * Returns false where they are in one line. */
+/* Fills a right-handed frame, by rows, with its first axis along `a` and its second one towards
+ * `b`. Returns false where they are in one line. */
 static bool frame_of(const double a[3], const double b[3], double rows[3][3])
 {
   double part = thr_dot(a, b), length = 0;
@@ -85,8 +86,8 @@ static bool arms_match(const thr_kit_piece *piece, const thr_kit_piece *other,
 }
 
 /* Returns whether two channels are the same curve, in either direction. */
-static bool same_curve(const thr_kit_channel *a, const thr_kit_channel *b,
-                       const double rotation[9], double tolerance)
+static bool same_curve(const thr_kit_channel *a, const thr_kit_channel *b, const double rotation[9],
+                       double tolerance)
 {
   if (a->n != b->n || fabs(a->radius - b->radius) > tolerance) return false;
   for (int back = 0; back < 2; back++) {

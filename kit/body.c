@@ -218,8 +218,8 @@ void thr_kit_sample(const void *user, const double at[3], thr_solid_sample *out)
   double thinnest = INFINITY;
   for (int i = 0; i < piece->n_arms; i++)
     thinnest = fmin(thinnest, piece->arm[i].width);
-  double size = 0.3 * thinnest;
-  size = fmin(size, 0.9 * radius + 0.7 * fabs(hollow));
+  double size = 0.45 * thinnest;
+  size = fmin(size, 1.2 * radius + 0.7 * fabs(hollow));
   if (piece->n_strokes && body > -2 * piece->letter_depth && body < size) {
     double letters = letters_distance(piece, at, body);
     hollow = fmin(hollow, letters);

@@ -16,7 +16,7 @@ enum { BEND_POINTS = 17 };
 
 /* One end of a channel: a point far out, and the direction from the node to it. */
 typedef struct {
-  double lane[3];  /* of the axis, from the node's centre, at right angles to along */
+  double lane[3]; /* of the axis, from the node's centre, at right angles to along */
   double along[3];
   double length; /* to the face, or to well outside */
 } channel_end;
@@ -28,8 +28,8 @@ static void curve(const channel_end end[2], double reach, double (*point)[3])
   double control[4][3];
 
   /* Handles of an arc of a circle that touches both axes so far from where they meet. */
-  double handle = turn < 1e-6 ? 2.0 / 3 * reach
-                              : 4.0 / 3 * tan(turn / 4) * reach / tan(fmin(turn, 3.1) / 2);
+  double handle =
+      turn < 1e-6 ? 2.0 / 3 * reach : 4.0 / 3 * tan(turn / 4) * reach / tan(fmin(turn, 3.1) / 2);
   handle = fmax(handle, 0.3 * reach);
   for (int k = 0; k < 3; k++) {
     control[0][k] = end[0].lane[k] + reach * end[0].along[k];

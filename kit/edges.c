@@ -154,8 +154,8 @@ static void give_lanes(const thr_plan *plan, const thr_kit_edge *edge, const int
     for (int i = 0; i < n; i++)
       for (int j = 0; j < i; j++) {
         const double *a = edge->lane[of[i]], *b = edge->lane[of[j]];
-        double gain = (wish[i][0] - wish[j][0]) * (b[0] - a[0]) +
-                      (wish[i][1] - wish[j][1]) * (b[1] - a[1]);
+        double gain =
+            (wish[i][0] - wish[j][0]) * (b[0] - a[0]) + (wish[i][1] - wish[j][1]) * (b[1] - a[1]);
         if (gain <= 1e-9) continue;
         int exchanged = of[i];
         of[i] = of[j];
@@ -177,10 +177,11 @@ static thr_status check_widths(const thr_plan *plan, const thr_kit_options *opti
     int lanes = options->channels == THR_KIT_LANES ? passes[e] : 1;
     const char *a = label[frame->edge[e][0]], *b = label[frame->edge[e][1]];
     if (lanes > THR_KIT_MOST_LANES)
-      return thr_fail(err, THR_EINPUT,
-                      "%s-%s: %d passes, but a face has at most %d lanes: --channels bore makes one "
-                      "channel for all",
-                      a, b, lanes, THR_KIT_MOST_LANES);
+      return thr_fail(
+          err, THR_EINPUT,
+          "%s-%s: %d passes, but a face has at most %d lanes: --channels bore makes one "
+          "channel for all",
+          a, b, lanes, THR_KIT_MOST_LANES);
     double ring = lanes_radius(lanes, edge[e].bore + sizes->wall);
     double needed = 2 * ring + edge[e].bore + 2 * sizes->wall;
     if (edge[e].width >= needed) continue;

@@ -191,8 +191,7 @@ static thr_status add_pocket(const maker *work, thr_kit_piece *piece, const doub
                              thr_err *err)
 {
   int capacity = piece->n_pockets;
-  thr_status st =
-      thr_grow(&piece->pocket, piece->n_pockets, &capacity, sizeof *piece->pocket, err);
+  thr_status st = thr_grow(&piece->pocket, piece->n_pockets, &capacity, sizeof *piece->pocket, err);
   if (st) return st;
 
   /* How far the surface is from the node in this direction. */
@@ -247,8 +246,7 @@ static thr_status add_channel(const maker *work, thr_kit_piece *piece, int cord,
   channel.radius = 0.5 * bore;
   way_out(piece, out);
 
-  thr_status st =
-      thr_kit_channel_make(piece, &channel, start, end, out, work->sizes.wall, err);
+  thr_status st = thr_kit_channel_make(piece, &channel, start, end, out, work->sizes.wall, err);
   if (st) return st;
 
   /* The same hollow twice is one. */
@@ -286,8 +284,8 @@ static thr_status add_channels(const maker *work, thr_kit_piece *piece, int v, t
     int next = (c->pass + 1) % cord->n_passes;
     /* Where a closed cord begins, both of its ends come out and are knotted. */
     bool apart = cord->closed && c->in >= 0 && c->out >= 0 && c->pass == cord->n_passes - 1;
-    thr_status st = add_channel(work, piece, c->cord, c->pass, c->in, apart ? -1 : c->out, next,
-                                err);
+    thr_status st =
+        add_channel(work, piece, c->cord, c->pass, c->in, apart ? -1 : c->out, next, err);
     if (!st && apart) st = add_channel(work, piece, c->cord, -1, -1, c->out, next, err);
     if (st) return st;
   }
@@ -331,8 +329,7 @@ static thr_status add_names(const maker *work, thr_kit_piece *piece, thr_err *er
       int strokes = thr_kit_strokes(words[k], options->letters, NULL, 0, &room);
       if (room > free_length) continue;
       while (capacity < n + strokes) {
-        thr_status st =
-            thr_grow(&piece->stroke, capacity, &capacity, sizeof *piece->stroke, err);
+        thr_status st = thr_grow(&piece->stroke, capacity, &capacity, sizeof *piece->stroke, err);
         if (st) return st;
       }
       thr_kit_strokes(words[k], options->letters, piece->stroke + n, strokes, &room);
@@ -543,8 +540,10 @@ static thr_status give_names(maker *work, thr_err *err)
   for (int p = 0; p < kit->n_pieces && !st; p++) {
     thr_text name = {0};
     thr_pieces_name(&work->pieces, (const char(*)[THR_LABEL])work->guide.label, p, &name);
-    if (name.failed) st = thr_nomem(err);
-    else snprintf(kit->name[p], sizeof *kit->name, "%s", name.data);
+    if (name.failed)
+      st = thr_nomem(err);
+    else
+      snprintf(kit->name[p], sizeof *kit->name, "%s", name.data);
     thr_text_destroy(&name);
     if (kit->piece[p].like != p) continue;
 
@@ -599,7 +598,8 @@ static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_
 
   thr_err why = {0};
   thr_status st = thr_mesh_make(&kit->mesh[job], &solid, limits, &why);
-  if (!st) st = thr_mesh_drop_crumbs(&kit->mesh[job], 1e-4 * narrowest * narrowest * narrowest, &why);
+  if (!st)
+    st = thr_mesh_drop_crumbs(&kit->mesh[job], 1e-4 * narrowest * narrowest * narrowest, &why);
   if (!st) st = thr_mesh_examine(&kit->mesh[job], true, &kit->report[job], &why);
   return st ? thr_fail(err, st, "piece %s: %s", kit->name[job], why.text) : THR_OK;
 }
@@ -650,10 +650,10 @@ thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_option
   bool solid = plan->options.joint == THR_JOINT_SOLID;
   kit->n_pieces = thr_pieces_count(plan);
   size_t n = (size_t)kit->n_pieces;
-  kit->edges.edge = thr_scratch_array(&kit->edges.own, (size_t)frame->n_edges,
-                                      sizeof *kit->edges.edge);
-  kit->edges.first_pass = thr_scratch_array(&kit->edges.own, (size_t)plan->n_cords + 1,
-                                            sizeof *kit->edges.first_pass);
+  kit->edges.edge =
+      thr_scratch_array(&kit->edges.own, (size_t)frame->n_edges, sizeof *kit->edges.edge);
+  kit->edges.first_pass =
+      thr_scratch_array(&kit->edges.own, (size_t)plan->n_cords + 1, sizeof *kit->edges.first_pass);
   kit->piece = thr_calloc(n, sizeof *kit->piece);
   kit->mesh = thr_calloc(n, sizeof *kit->mesh);
   kit->report = thr_calloc(n, sizeof *kit->report);

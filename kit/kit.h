@@ -28,17 +28,22 @@
 typedef enum { THR_KIT_ROUND, THR_KIT_SQUARE, THR_KIT_HEX, THR_KIT_N_PROFILES } thr_kit_profile;
 typedef enum { THR_KIT_NO_KEY, THR_KIT_CONE, THR_KIT_PIN, THR_KIT_N_KEYS } thr_kit_key;
 typedef enum { THR_KIT_BORE, THR_KIT_LANES, THR_KIT_N_CHANNELS } thr_kit_channels;
-typedef enum { THR_KIT_OF_PIECES, THR_KIT_OF_KINDS, THR_KIT_NO_NAMES, THR_KIT_N_NAMES } thr_kit_names;
+typedef enum {
+  THR_KIT_OF_PIECES,
+  THR_KIT_OF_KINDS,
+  THR_KIT_NO_NAMES,
+  THR_KIT_N_NAMES
+} thr_kit_names;
 typedef enum { THR_KIT_MITRED, THR_KIT_ROUNDED, THR_KIT_N_TUBE_ENDS } thr_kit_tube_ends;
 
 /* {0} is the usual kit. */
 typedef struct {
-  double width;   /* of arms and tubes; 0 = the bead diameter of the plan's physics */
-  double taper;   /* width at the node as a part of that at the face; 0 = 1 */
-  double fillet;  /* radius between arms; < 0 = none, 0 = 0.15 of the width */
-  double gap;     /* between the faces of neighbours */
-  double wall;    /* at least; 0 = 1.2, or less where the sizes were worked out and leave less */
-  double density; /* g/cm3; 0 = as the plan's physics says */
+  double width;     /* of arms and tubes; 0 = the bead diameter of the plan's physics */
+  double taper;     /* width at the node as a part of that at the face; 0 = 1 */
+  double fillet;    /* radius between arms; < 0 = none, 0 = 0.15 of the width */
+  double gap;       /* between the faces of neighbours */
+  double wall;      /* at least; 0 = 1.2, or less where the sizes were worked out and leave less */
+  double density;   /* g/cm3; 0 = as the plan's physics says */
   double key_angle; /* rad, between a key's flank and its axis; 0 = 45 degrees, a pin's 5 */
   double letters;   /* height of capitals; 0 = 4 */
   double bed[2];    /* of the printer; 0 = 220 x 220 */
@@ -67,7 +72,7 @@ typedef struct {
   double along[3], up[3], side[3]; /* unit vectors at right angles; up: outwards of the framework */
   double length;                   /* between the nodes */
   double width, bore;              /* of its arms or tube, and of each of its channels */
-  int n_lanes;                     /* passes; one bore holds all of them unless lanes are asked for */
+  int n_lanes; /* passes; one bore holds all of them unless lanes are asked for */
   double lane[THR_KIT_MOST_LANES][2]; /* where a channel is on the face: along up and side */
 } thr_kit_edge;
 
@@ -81,9 +86,9 @@ typedef struct {
 
 /* Sizes in mm that the kit is made with. */
 typedef struct {
-  double mm;          /* per unit */
+  double mm; /* per unit */
   double cord, width, wall;
-  bool wall_given;    /* else it may be less where edges are narrow */
+  bool wall_given; /* else it may be less where edges are narrow */
 } thr_kit_sizes;
 
 /* Fills edges->edge[n_edges], whose bores are set, with directions, widths that fit and lanes, and
@@ -99,12 +104,12 @@ thr_status thr_kit_edges_make(thr_kit_edges *edges, const thr_plan *plan,
 
 /* An arm of a piece, or one half of a tube. */
 typedef struct {
-  int half;         /* half-edge that leaves the node; of a tube that leads to its end */
+  int half; /* half-edge that leaves the node; of a tube that leads to its end */
   double along[3], up[3], side[3]; /* unit vectors at right angles; along: from the centre */
-  double length;    /* from the centre to the face */
-  double width;     /* at the face */
-  bool key_out;     /* its key stands out; the neighbour's is hollow */
-  int n_mitres;     /* of a tube's end: planes that cut it instead of its face */
+  double length;                   /* from the centre to the face */
+  double width;                    /* at the face */
+  bool key_out;                    /* its key stands out; the neighbour's is hollow */
+  int n_mitres;                    /* of a tube's end: planes that cut it instead of its face */
   double (*mitre)[4]; /* [n_mitres] unit normal outwards, and its distance from the centre */
 } thr_kit_arm;
 
@@ -113,12 +118,12 @@ typedef struct {
   int cord, pass; /* by which the cord comes in; as in thr_channel */
   int in, out;    /* arms of the piece; -1 = outside: the cord ends here */
   double radius;
-  int n;              /* >= 2 */
-  double (*point)[3]; /* [n] from the piece's centre; owned */
+  int n;                   /* >= 2 */
+  double (*point)[3];      /* [n] from the piece's centre; owned */
   double middle[3], reach; /* a ball that holds the curve */
-  double bend;   /* least radius of the curve; INFINITY: straight */
-  double wall;   /* least thickness of material beside the channel */
-  bool mouth[2]; /* its first and last end is a mouth in a face, and is rounded */
+  double bend;             /* least radius of the curve; INFINITY: straight */
+  double wall;             /* least thickness of material beside the channel */
+  bool mouth[2];           /* its first and last end is a mouth in a face, and is rounded */
 } thr_kit_channel;
 
 /* A letter's stroke, on the side of an arm that looks up: from .. to in mm along the arm and
@@ -130,9 +135,9 @@ typedef struct {
 
 /* A piece: what the body is made of. Arrays are owned. */
 typedef struct {
-  int piece;        /* node or edge of the framework */
-  int kind, like;   /* number of its kind, from 1; the piece whose mesh it shares, itself for one */
-  int count;        /* of a piece with a mesh: how many pieces share it */
+  int piece;      /* node or edge of the framework */
+  int kind, like; /* number of its kind, from 1; the piece whose mesh it shares, itself for one */
+  int count;      /* of a piece with a mesh: how many pieces share it */
   double place[9], centre[3]; /* rotation by rows, and place: from the mesh to the assembly */
   bool tube, rounded;
   int n_arms, n_channels, n_strokes;
@@ -170,9 +175,9 @@ thr_status thr_kit_channel_make(const thr_kit_piece *piece, thr_kit_channel *cha
 
 /* ---- alike.c: pieces that are the same solid. */
 
-/* Can `other` be turned, not mirrored, so that it is `piece` with all arms, channels and feet, within
- * a tolerance in mm? rotation[9], by rows, then takes `piece` to `other`. Pieces with letters are
- * never alike. O(arms^3). */
+/* Can `other` be turned, not mirrored, so that it is `piece` with all arms, channels and feet,
+ * within a tolerance in mm? rotation[9], by rows, then takes `piece` to `other`. Pieces with
+ * letters are never alike. O(arms^3). */
 bool thr_kit_alike(const thr_kit_piece *piece, const thr_kit_piece *other, double tolerance,
                    double rotation[9]);
 
@@ -194,13 +199,13 @@ typedef struct {
   double cord;             /* diameter */
   thr_kit_edges edges;
   int n_pieces, n_meshes, n_kinds;
-  thr_kit_piece *piece;     /* [n_pieces] */
-  thr_mesh *mesh;           /* [n_pieces] empty where another piece's is shared */
-  thr_mesh_report *report;  /* [n_pieces] of those that have one */
-  char (*name)[64];         /* [n_pieces] as in all documents */
-  char (*kind_name)[24];    /* [n_kinds + 1] */
-  thr_text notes;           /* what a maker should know, a line each */
-  double volume, mass;      /* of all pieces, mm3 and g */
+  thr_kit_piece *piece;    /* [n_pieces] */
+  thr_mesh *mesh;          /* [n_pieces] empty where another piece's is shared */
+  thr_mesh_report *report; /* [n_pieces] of those that have one */
+  char (*name)[64];        /* [n_pieces] as in all documents */
+  char (*kind_name)[24];   /* [n_kinds + 1] */
+  thr_text notes;          /* what a maker should know, a line each */
+  double volume, mass;     /* of all pieces, mm3 and g */
 } thr_kit;
 
 /* Makes the pieces of a plan: shapes, and the meshes too if asked for, in limits->threads threads.

@@ -52,7 +52,8 @@ static int count_open(side *sides, int n)
 
 /* ---- triangles that meet ---- */
 
-/* Returns whether the segment a b goes through the inside of a triangle. Touching does not count. */
+/* Returns whether the segment a b goes through the inside of a triangle. Touching does not count.
+ */
 static bool pierces(const double a[3], const double b[3], const double t[3][3])
 {
   double e[3], f[3], d[3], to[3], p[3], q[3];
@@ -90,28 +91,16 @@ static bool cross_each_other(const thr_mesh *mesh, int a, int b)
       bool shared = false;
       for (int l = 0; l < 3; l++)
         shared |= corner[!i][l] == from || corner[!i][l] == to;
-      if (!shared &&
-          pierces(mesh->point[from], mesh->point[to], (const double(*)[3])t[!i]))
+      if (!shared && pierces(mesh->point[from], mesh->point[to], (const double(*)[3])t[!i]))
         return true;
     }
   return false;
 }
 
-/* Finds the box of a triangle in cells of a grid. */
-static void cells_of(const thr_mesh *mesh, int t, const double low[3], double cell, int from[3],
-                     int to[3])
-{
-  for (int k = 0; k < 3; k++) {
-    double least = INFINITY, most = -INFINITY;
-    for (int i = 0; i < 3; i++) {
-      double x = mesh->point[mesh->triangle[t][i]][k];
-      least = fmin(least, x);
-      most = fmax(most, x);
-    }
-    from[k] = (int)floor((least - low[k]) / cell);
-    to[k] = (int)floor((most - low[k]) / cell);
-  }
-}
+/* The box of a triangle, in cells of a grid. */
+typedef struct {
+  double low[3], high[3];
+} triangle_box;
 
 /* Counts pairs of triangles that cross. Each is put into all cells that its box touches; a pair
  * counts in the lowest cell that both are in. */
@@ -130,24 +119,30 @@ static thr_status count_crossings(const thr_mesh *mesh, const double low[3], con
   thr_scratch work = {0};
   size_t cells = (size_t)n[0] * (size_t)n[1] * (size_t)n[2];
   int *first = thr_scratch_array(&work, cells + 2, sizeof *first);
+  triangle_box *box = thr_scratch_array(&work, (size_t)mesh->n_triangles, sizeof *box);
   thr_status st = thr_scratch_check(&work, err);
   int *member = NULL;
+  for (int t = 0; t < mesh->n_triangles && !st; t++)
+    for (int k = 0; k < 3; k++) {
+      const int *corner = mesh->triangle[t];
+      double a = mesh->point[corner[0]][k], b = mesh->point[corner[1]][k],
+             c = mesh->point[corner[2]][k];
+      box[t].low[k] = (fmin(a, fmin(b, c)) - low[k]) / cell;
+      box[t].high[k] = (fmax(a, fmax(b, c)) - low[k]) / cell;
+    }
 
   /* Twice over all triangles: count, then place. */
   for (int round = 0; round < 2 && !st; round++) {
-    for (int t = 0; t < mesh->n_triangles; t++) {
-      int from[3], to[3];
-      cells_of(mesh, t, low, cell, from, to);
-      for (int z = from[2]; z <= to[2]; z++)
-        for (int y = from[1]; y <= to[1]; y++)
-          for (int x = from[0]; x <= to[0]; x++) {
+    for (int t = 0; t < mesh->n_triangles; t++)
+      for (int z = (int)box[t].low[2]; z <= (int)box[t].high[2]; z++)
+        for (int y = (int)box[t].low[1]; y <= (int)box[t].high[1]; y++)
+          for (int x = (int)box[t].low[0]; x <= (int)box[t].high[0]; x++) {
             size_t at = ((size_t)z * (size_t)n[1] + (size_t)y) * (size_t)n[0] + (size_t)x;
             if (round == 0)
               first[at + 2]++;
             else
               member[first[at + 1]++] = t;
           }
-    }
     if (round == 1) break;
     for (size_t i = 2; i < cells + 2; i++)
       first[i] += first[i - 1];
@@ -159,14 +154,13 @@ static thr_status count_crossings(const thr_mesh *mesh, const double low[3], con
   for (size_t c = 0; c < cells && !st; c++)
     for (int i = first[c]; i < first[c + 1]; i++)
       for (int j = first[c]; j < i; j++) {
-        int from[2][3], to[2][3];
+        const triangle_box *a = &box[member[i]], *b = &box[member[j]];
+        if (a->low[0] > b->high[0] || b->low[0] > a->high[0] || a->low[1] > b->high[1] ||
+            b->low[1] > a->high[1] || a->low[2] > b->high[2] || b->low[2] > a->high[2])
+          continue;
         size_t lowest = 0;
-        cells_of(mesh, member[i], low, cell, from[0], to[0]);
-        cells_of(mesh, member[j], low, cell, from[1], to[1]);
-        for (int k = 2; k >= 0; k--) {
-          int x = from[0][k] > from[1][k] ? from[0][k] : from[1][k];
-          lowest = lowest * (size_t)n[k] + (size_t)x;
-        }
+        for (int k = 2; k >= 0; k--)
+          lowest = lowest * (size_t)n[k] + (size_t)fmax(a->low[k], b->low[k]);
         if (lowest == c && cross_each_other(mesh, member[i], member[j])) ++*count;
       }
 

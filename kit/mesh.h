@@ -13,8 +13,8 @@
  * empty. Arrays are owned. */
 typedef struct {
   int n_points, n_triangles;
-  double (*point)[3];   /* [n_points] mm */
-  int (*triangle)[3];   /* [n_triangles] */
+  double (*point)[3]; /* [n_points] mm */
+  int (*triangle)[3]; /* [n_triangles] */
   int points_capacity, triangles_capacity;
 } thr_mesh;
 
@@ -24,9 +24,9 @@ void thr_mesh_destroy(thr_mesh *mesh);
 
 /* What is known of a solid at a point. */
 typedef struct {
-  double distance; /* mm, below 0 inside; changes by no more than the distance between points */
-  double cut;      /* mm, below 0 where the cut leaves the solid: the solid is where both are below
-                      0. Linear near a plane cut, whose face is then exactly flat */
+  double distance;  /* mm, below 0 inside; changes by no more than the distance between points */
+  double cut;       /* mm, below 0 where the cut leaves the solid: the solid is where both are below
+                       0. Linear near a plane cut, whose face is then exactly flat */
   double across[3]; /* unit vector along which `cut` grows by 1 per mm; where the cut is far: 0 */
   double size;      /* mm: edges of the tetrahedra near here are no longer */
 } thr_solid_sample;
@@ -52,12 +52,12 @@ thr_status thr_mesh_make(thr_mesh *mesh, const thr_solid *solid, const thr_limit
 
 /* What a mesh measures. */
 typedef struct {
-  double volume, area;     /* mm3, mm2 */
-  double centre[3];        /* of its mass */
-  double low[3], high[3];  /* its box */
-  int parts;               /* connected ones */
-  int open_edges;          /* without just one triangle on either side, run through both ways */
-  int crossings;           /* pairs of triangles that meet outside corners and edges that they share */
+  double volume, area;    /* mm3, mm2 */
+  double centre[3];       /* of its mass */
+  double low[3], high[3]; /* its box */
+  int parts;              /* connected ones */
+  int open_edges;         /* without just one triangle on either side, run through both ways */
+  int crossings; /* pairs of triangles that meet outside corners and edges that they share */
 } thr_mesh_report;
 
 /* Examines a mesh. crossings: only if asked for. O(triangles log triangles) where no place is

@@ -54,9 +54,9 @@ typedef struct {
   int n_corners, corners_capacity;
   tetrahedron *tet;
   int n_tets, tets_capacity;
-  pairs middle;  /* the corner in the middle of an edge that was bisected */
-  pairs section; /* the point where the cut meets an edge: a corner */
-  pairs crossed; /* the point where the surface meets an edge: a point of the mesh */
+  pairs middle;      /* the corner in the middle of an edge that was bisected */
+  pairs section;     /* the point where the cut meets an edge: a corner */
+  pairs crossed;     /* the point where the surface meets an edge: a point of the mesh */
   int first_section; /* corners from here on lie on the cut */
 } mesher;
 
@@ -570,8 +570,8 @@ static thr_status add_part(mesher *work, const tetrahedron *tet, thr_err *err)
 
   if (n_kept == 1) return add_surface(work, (int[]){kept[0], at[0][0], at[0][1], at[0][2]}, err);
   if (n_kept == 3) return add_prism(work, kept, (int[]){at[0][0], at[1][0], at[2][0]}, err);
-  return add_prism(work, (int[]){kept[0], at[0][0], at[0][1]},
-                   (int[]){kept[1], at[1][0], at[1][1]}, err);
+  return add_prism(work, (int[]){kept[0], at[0][0], at[0][1]}, (int[]){kept[1], at[1][0], at[1][1]},
+                   err);
 }
 
 thr_status thr_mesh_make(thr_mesh *mesh, const thr_solid *solid, const thr_limits *limits,
@@ -587,8 +587,7 @@ thr_status thr_mesh_make(thr_mesh *mesh, const thr_solid *solid, const thr_limit
 
   for (int t = 0; t < work.n_tets && !st; t++)
     st = add_part(&work, &work.tet[t], err);
-  if (!st && mesh->n_triangles == 0)
-    st = thr_fail(err, THR_EINPUT, "nothing is left of a piece");
+  if (!st && mesh->n_triangles == 0) st = thr_fail(err, THR_EINPUT, "nothing is left of a piece");
 
   free(work.corner);
   free(work.tet);
