@@ -625,7 +625,7 @@ static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_
   thr_err why = {0};
   thr_status st = thr_mesh_make(&kit->mesh[job], &solid, limits, &why);
   if (!st)
-    st = thr_mesh_drop_crumbs(&kit->mesh[job], 1e-4 * narrowest * narrowest * narrowest, &why);
+    st = thr_mesh_drop_crumbs(&kit->mesh[job], 2e-3 * narrowest * narrowest * narrowest, &why);
   if (!st) st = thr_mesh_examine(&kit->mesh[job], true, &kit->report[job], &why);
   return st ? thr_fail(err, st, "piece %s: %s", kit->name[job], why.text) : THR_OK;
 }
