@@ -219,38 +219,36 @@ bool thr_font_place(const thr_font *font, int glyph, size_t *at, size_t *n)
   return outline.n > 0;
 }
 
-/* Marks the glyphs that a composed glyph is made of, and the parts of these. A glyph is marked only
- * once, so the search ends even if a font is wrong. */
-static void mark_parts(const thr_font *font, int glyph, unsigned char *used)
+/* Marks the glyphs that a composed glyph is made of. Returns the first of all glyphs that was not
+ * marked before, n_glyphs if there is none. */
+static int mark_parts(const thr_font *font, int glyph, unsigned char *used)
 {
-  enum { WORDS = 1, SCALE = 8, MORE = 32, TWO_SCALES = 64, MATRIX = 128, DEPTH = 64 };
+  enum { WORDS = 1, SCALE = 8, MORE = 32, TWO_SCALES = 64, MATRIX = 128 };
+  int first = font->n_glyphs;
 
-  int stack[DEPTH], depth = 0;
-  for (stack[depth++] = glyph; depth;) {
-    font_table outline = outline_of(font, stack[--depth]);
+  /* A simple glyph has a number of contours >= 0 and no parts. */
+  font_table outline = outline_of(font, glyph);
+  if (outline.n < 10 || thr_font_signed(font, outline.at) >= 0) return first;
 
-    /* A simple glyph has a number of contours >= 0 and no parts. */
-    if (outline.n < 10 || thr_font_signed(font, outline.at) >= 0) continue;
+  /* Another part follows as long as the flags say so and the outline has bytes left. */
+  unsigned flags = MORE;
+  for (size_t at = outline.at + 10; flags & MORE && at + 4 <= outline.at + outline.n;) {
+    int part = (int)thr_font_16(font, at + 2);
+    flags = thr_font_16(font, at);
 
-    /* Another part follows as long as the flags say so and the outline has bytes left. */
-    unsigned flags = MORE;
-    for (size_t at = outline.at + 10; flags & MORE && at + 4 <= outline.at + outline.n;) {
-      int part = (int)thr_font_16(font, at + 2);
-      flags = thr_font_16(font, at);
+    /* A part has flags, a number, an offset in bytes or words, and perhaps a scale. */
+    at += 4 + (flags & WORDS ? 4u : 2u) +
+          (flags & SCALE        ? 2u
+           : flags & TWO_SCALES ? 4u
+           : flags & MATRIX     ? 8u
+                                : 0u);
 
-      /* A part has flags, a number, an offset in bytes or words, and perhaps a scale. */
-      at += 4 + (flags & WORDS ? 4u : 2u) +
-            (flags & SCALE        ? 2u
-             : flags & TWO_SCALES ? 4u
-             : flags & MATRIX     ? 8u
-                                  : 0u);
+    if (part >= font->n_glyphs || used[part]) continue;
 
-      if (part >= font->n_glyphs || used[part]) continue;
-
-      used[part] = 1;
-      if (depth < DEPTH) stack[depth++] = part;
-    }
+    used[part] = 1;
+    if (part < first) first = part;
   }
+  return first;
 }
 
 /* Appends the used outlines one after the other to glyf, and where each begins to loca, in 32 bits.
@@ -327,10 +325,13 @@ thr_status thr_font_subset(const thr_font *font, unsigned char *used, thr_text *
 {
   thr_text glyf = {0}, loca = {0};
 
-  /* Glyph 0 stands for all letters that the font lacks. */
+  /* Glyph 0 stands for all letters that the font lacks. A part with a smaller number sends the
+   * search back to it; parts are marked only once, so that the search ends even in a wrong font. */
   used[0] = 1;
-  for (int i = 0; i < font->n_glyphs; i++)
-    if (used[i]) mark_parts(font, i, used);
+  for (int i = 0; i < font->n_glyphs;) {
+    int first = used[i] ? mark_parts(font, i, used) : font->n_glyphs;
+    i = first < i ? first : i + 1;
+  }
 
   /* Both tables are made before the file that holds them. */
   put_outlines(font, used, &glyf, &loca);
