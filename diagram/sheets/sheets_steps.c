@@ -57,7 +57,6 @@ static thr_status find_height(thr_sheets *sheets, thr_step *step, thr_err *err)
 
   /* A flat picture needs the window that its passes take at the largest scale that fits. */
   thr_status st = thr_crop_fit(&sheets->crops, &crop, room, THR_STEP_PICTURE, &step->view, err);
-  if (step->view.scale >= THR_CROP_SCALES) step->view.scale = THR_CROP_SCALES - 1;
   step->height = step->view.size[1];
 
   return st;

@@ -875,6 +875,35 @@ START_TEST(threads_give_the_same_bytes)
 }
 END_TEST
 
+START_TEST(what_fits_no_room_is_drawn_at_the_smallest_scale)
+{
+  const int now = 0;
+  const double room[2] = {1, 1}, page[2] = {100, 100}, corner[2] = {0, 0};
+  thr_plan p = plan_of(shape_make(THR_MAKE_DOME, 4, 0), THR_ENDS_FEET, 1);
+  thr_guide guide;
+  thr_crops crops;
+  thr_crop_view view;
+  thr_box shown;
+  thr_text picture = {0};
+  unsigned char *state = calloc((size_t)p.cord[0].n_passes, 1);
+  const thr_crop crop = {.state = state, .now = &now, .n_now = 1};
+
+  ck_assert_ptr_nonnull(state);
+  ck_assert_int_eq(thr_guide_make(&guide, &p.frame, NULL, NULL), THR_OK);
+  thr_crops_make(&crops, &p, &guide.layout);
+  ck_assert_int_eq(thr_crop_fit(&crops, &crop, room, room, &view, NULL), THR_OK);
+  ck_assert_int_eq(view.scale, THR_CROP_SCALES - 1);
+  thr_crop_fill(&crops, &view, page);
+  ck_assert(view.size[0] > 1 && view.size[0] < 20 && view.size[1] > 1 && view.size[1] < 20);
+  ck_assert_int_eq(thr_crop_draw(&crops, &crop, &view, corner, &shown, &picture, NULL), THR_OK);
+  thr_text_destroy(&picture);
+  thr_crops_destroy(&crops);
+  thr_guide_destroy(&guide);
+  free(state);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("sheets");
@@ -883,6 +912,7 @@ int main(void)
   ADD_EXAMPLES(s, 60, odd_plans_are_read_back, 10);
   ADD_LARGE(s, 120, a_large_plan_is_read_back, 0, 1);
   ADD_TEST(s, 20, making_is_told);
+  ADD_TEST(s, 20, what_fits_no_room_is_drawn_at_the_smallest_scale);
   ADD_TEST(s, 20, a_pdf_tells_no_time_and_no_place);
   ADD_TEST(s, 20, an_interrupt_stops_it);
   ADD_TEST(s, 20, an_interrupt_stops_the_layout);
