@@ -34,10 +34,12 @@ static int by_hardness(const void *a, const void *b)
   return one->cord - other->cord;
 }
 
-/* Returns an angle in degrees. */
-static double degrees(double angle)
+/* Returns the total turning of cord c in rad; a closed cord turns from its end into its start,
+ * too. */
+static double turning_of(const thr_sheets *sheets, int c)
 {
-  return thr_degrees(angle);
+  return thr_cord_turning(sheets->f, &sheets->plan->cord[c],
+                          sheets->plan->options.ends == THR_ENDS_CLOSED);
 }
 
 /* Returns what the evaluation says of cord c, or NULL if it says nothing. */
@@ -51,8 +53,7 @@ static const thr_eval_cord *known_of(const thr_sheets *sheets, int c)
 static cord_pull pull_of(const thr_sheets *sheets, int c)
 {
   const thr_eval_cord *known = known_of(sheets, c);
-  double force = known ? fmax(known->force, known->other_force)
-                       : thr_cord_turning(sheets->f, &sheets->plan->cord[c], false);
+  double force = known ? fmax(known->force, known->other_force) : turning_of(sheets, c);
   return (cord_pull){c, known != NULL, force};
 }
 
@@ -168,10 +169,7 @@ static void put_cord(thr_sheets *sheets, const cord_pull *row, const double *col
              sheets->guide.label[end]);
   }
 
-  /* Turning in whole degrees; a closed cord turns from its end into its start, too. */
-  snprintf(
-      cell[5], 96, "%.0f",
-      degrees(thr_cord_turning(sheets->f, cord, sheets->plan->options.ends == THR_ENDS_CLOSED)));
+  snprintf(cell[5], 96, "%.0f", thr_degrees(turning_of(sheets, row->cord)));
 
   thr_sheets_cells(sheets, CELLS, column, cell, false);
 }

@@ -7,10 +7,12 @@
 #include "diagram/overview/overview_parts.h"
 #include "diagram/sheets/sheets.h"
 #include "graph/limits.h"
+#include "graph/number.h"
 #include "tests/frameworks.h"
 #include "tests/sample_plans.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -785,6 +787,30 @@ START_TEST(steps_end_where_the_cord_turns)
 }
 END_TEST
 
+/* Of a pentagon and a path with a bend of 40 degrees, each closed, the path turns more only with
+ * the U-turn into its start: 440 degrees against 360, and it is pulled first. */
+START_TEST(cords_are_pulled_in_the_order_of_the_turning_shown)
+{
+  const double bend[3][3] = {{0}, {1, 0, 0}, {1 + cos(THR_PI / 4.5), sin(THR_PI / 4.5), 0}};
+  const int edge[2][2] = {{0, 1}, {1, 2}}, foot[2] = {0, -1};
+  thr_frame ring = ring_make(5), path = frame_make(3, bend, 2, edge, NULL, foot);
+  thr_plan p = plan_of(side_by_side(&ring, &path), THR_ENDS_CLOSED, 1);
+  thr_sheets *s = sheets_of(&p, THR_PAGE_A4, false);
+  thr_text pdf = pdf_of(s), told = told_by("pdftotext -layout", &pdf);
+  const char *table = strstr(told.data, "Pull the cords tight"), *first, *second;
+  ck_assert_ptr_nonnull(table);
+  first = strstr(table, " 440\n");
+  second = strstr(table, " 360\n");
+  ck_assert(first && second && first < second);
+  thr_text_destroy(&told);
+  thr_text_destroy(&pdf);
+  thr_sheets_destroy(s);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&ring);
+  thr_frame_destroy(&path);
+}
+END_TEST
+
 START_TEST(plans_that_cannot_be_drawn_are_refused)
 {
   thr_err err = {0};
@@ -888,6 +914,7 @@ int main(void)
   ADD_TEST(s, 20, an_interrupt_stops_the_layout);
   ADD_TEST(s, 20, a_shell_is_seen_in_space);
   ADD_TEST(s, 20, steps_end_where_the_cord_turns);
+  ADD_TEST(s, 20, cords_are_pulled_in_the_order_of_the_turning_shown);
   ADD_TEST(s, 20, plans_that_cannot_be_drawn_are_refused);
   ADD_TEST(s, 20, threads_give_the_same_bytes);
   ADD_EXAMPLES(s, 60, every_failing_allocation_is_reported, 2);
