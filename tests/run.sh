@@ -20,10 +20,9 @@ property/test_length_options property/test_anneal property/test_walk_proof prope
 property/test_cross_known golden/meant golden/symmetries unit/test_postman unit/test_drag unit/test_frontier_chart
 unit/test_threads unit/test_tortuosity'
 
-# Programs whose examples take long: `make test` runs a tenth of them, `make test-rest` all.
+# Laws with many examples: `make test` runs an eighth of them, `make test-rest` the others, and that eighth under sanitizers.
 sweeps() {
-  grep -lE 'share_of|ADD_EXAMPLES|ADD_LARGE' tests/property/*.c | sed 's#^tests/##; s#\.c$##'
-  printf 'unit/test_%s\n' advice sheets structure svg_page tied_symmetry
+  grep -lE 'share_of|ADD_EXAMPLES|ADD_LARGE' tests/property/*.c | sed 's#^tests/#release/#; s#\.c$##'
 }
 
 # ---- one job: tests/run.sh job NAME. Writes "passed failed skipped" to $RESULTS/NAME.count and prints a line to file 7 (make has 3 and 4). ----
@@ -65,12 +64,13 @@ format() { # LOG
   return $code
 }
 
-# A program of tests runs one of so many of its examples.
+# A program of tests runs one of so many of its examples; -8: what 8 leaves out.
 share() { # NAME
   case $TIER/$1 in
   fast/* | rest/asan/unit/*) echo 10 ;;
-  rest/asan/*) echo 8 ;;
-  test/*) if sweeps | grep -qxF "${1#*/}"; then echo 10; else echo 1; fi ;;
+  test/release/property/* | rest/asan/property/*) echo 8 ;;
+  rest/release/property/test_circuits) echo 1 ;;
+  rest/release/property/*) echo -8 ;;
   *) echo 1 ;;
   esac
 }
@@ -161,7 +161,7 @@ rest='release/memory release/watchdog release/golden/figures.case release/proper
 case $TIER in
 test) left=$rest ;;
 fast) tree='layers documents format' programs='' ;;
-rest) builds=asan tree='' programs='' fuzz=yes whole="$rest $(sweeps | sed 's#^#release/#')" MEMORY_SAMPLES=16 ;;
+rest) builds=asan tree='' programs='' fuzz=yes whole="$rest $(sweeps)" MEMORY_SAMPLES=16 ;;
 all) builds='release asan' slow=asan/figures.case whole='release/watchdog release/memory exchange web static windows' fuzz=yes MUTANTS=2000 FUZZ_RUNS=1000000 ;;
 fuzz) builds='' tree='' programs='' fuzz=yes FUZZ_RUNS=0 ;;
 *) echo "tests/run.sh: $TIER is none of test, fast, rest, all and fuzz" >&2 && exit 2 ;;
