@@ -323,11 +323,9 @@ help: ## this list
 
 # ---- the jobs of tests/run.sh, each after what it needs: make BUILD=asan run/asan/unit/test_read ----
 
-# The tests of the release build begin while the other two are made. run.sh sets JOBS_release, JOBS_asan and JOBS_fuzz.
-suite-release suite-asan suite-fuzz: suite-%: suite-built
+# Each build makes no more than its jobs need. run.sh sets JOBS_release, JOBS_asan and JOBS_fuzz.
+suite-release suite-asan suite-fuzz: suite-%: $(OUT)/packages.ok
 	+@$(MAKE) BUILD=$* $(JOBS_$*)
-suite-built:
-	+-@$(MAKE) BUILD=release all
 
 GOLDEN_JOBS := $(patsubst tests/%,run/$(BUILD)/%,$(wildcard tests/golden/*.case))
 $(TEST_PROGRAMS:$(DIR)/tests/%=run/$(BUILD)/%): run/$(BUILD)/%: $(DIR)/tests/%
@@ -452,5 +450,5 @@ $(OUT)/packages.ok:
 
 FORCE:
 .PHONY: web web-pictures web-files static windows all library man dist deb demo docs formats test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
-.PHONY: suite-release suite-asan suite-fuzz suite-built test-programs fuzz-programs list-tests list-fuzz list-flags list-c FORCE
+.PHONY: suite-release suite-asan suite-fuzz test-programs fuzz-programs list-tests list-fuzz list-flags list-c FORCE
 -include $(wildcard $(DIR)/*/*.d $(DIR)/*/*/*.d)
