@@ -243,6 +243,8 @@ void thr_kit_sample(const void *user, const double at[3], thr_solid_sample *out)
   double size = 0.45 * thinnest;
   if (!piece->tube) size = fmin(size, 1.2 * piece->fillet + 0.15 * thinnest + 0.5 * corner);
   size = fmin(size, 1.2 * radius + 0.7 * fabs(hollow));
+  /* Thin walls are not to fall between the corners of tetrahedra. */
+  size = fmin(size, fmax(0.8 * (fabs(body) + fabs(hollow)), 0.7 * piece->wall));
   if (piece->n_strokes && body > -2 * piece->letter_depth && body < size) {
     double letters = letters_distance(piece, at, body);
     hollow = fmin(hollow, letters);
@@ -254,6 +256,13 @@ void thr_kit_sample(const void *user, const double at[3], thr_solid_sample *out)
   /* The cut of the nearest arm, or of the base. */
   out->cut = -1e3 * thinnest;
   memset(out->across, 0, sizeof out->across);
+  for (int i = 0; nearest == -1 && i < piece->n_arms; i++) {
+    /* The ball of a node may reach beyond the faces of short arms. */
+    double here = thr_dot(at, piece->arm[i].along) - piece->arm[i].length;
+    if (here <= out->cut) continue;
+    out->cut = here;
+    memcpy(out->across, piece->arm[i].along, sizeof out->across);
+  }
   if (nearest >= 0 && !piece->rounded) {
     const thr_kit_arm *arm = &piece->arm[nearest];
     double s = thr_dot(at, arm->along);

@@ -378,6 +378,7 @@ static void set_common(const maker *work, thr_kit_piece *piece, double narrowest
   piece->fillet = fmax(options->fillet, 0);
   piece->mouth = fmin(MOUTH * narrowest, work->kit->cord);
   piece->key = options->key;
+  piece->wall = work->sizes.wall;
   piece->key_radius = 0.4 * narrowest;
   piece->key_slope = 1 / tan(options->key_angle);
   piece->key_height = options->key == THR_KIT_PIN ? 0.2 * narrowest : 0.25 * narrowest;
@@ -392,17 +393,18 @@ static thr_status shape_node(maker *work, int v, thr_kit_piece *piece, thr_err *
   piece->arm = thr_calloc((size_t)n, sizeof *piece->arm);
   if (!piece->arm) return thr_nomem(err);
   piece->n_arms = n;
-  double widest = 0, narrowest = INFINITY;
+  double widest = 0, narrowest = INFINITY, shortest = INFINITY;
   for (int i = 0; i < n; i++) {
     set_arm(work, &piece->arm[i], frame->half[frame->first[v] + i]);
     widest = fmax(widest, piece->arm[i].width);
     narrowest = fmin(narrowest, piece->arm[i].width);
+    shortest = fmin(shortest, piece->arm[i].length);
   }
   for (int k = 0; k < 3; k++)
     piece->centre[k] = work->sizes.mm * frame->xyz[v][k];
 
   set_common(work, piece, narrowest);
-  piece->node_radius = NODE * widest * piece->taper;
+  piece->node_radius = fmin(NODE * widest * piece->taper, fmax(0.9 * shortest, 0.5 * narrowest));
   piece->foot = work->foot[v];
   piece->base = 0.75 * widest;
   piece->pad = 0.9 * widest;

@@ -147,6 +147,7 @@ typedef struct {
   thr_kit_channel *channel;
   thr_kit_stroke *stroke;
   double node_radius, fillet, taper, mouth; /* mouth: radius of the rounding */
+  double wall; /* that there is at least */
   thr_kit_profile profile;
   thr_kit_key key;
   double key_slope, key_radius, key_height, key_play;
