@@ -236,11 +236,11 @@ void thr_kit_sample(const void *user, const double at[3], thr_solid_sample *out)
     hollow = fmin(hollow, segment_distance(at, p, p + 3, &part) - p[6]);
   }
 
-  /* Sizes: a sixth of an arm, finer at channels and letters. */
+  /* Sizes: a third of an arm, finer at channels and letters. */
   double thinnest = INFINITY;
   for (int i = 0; i < piece->n_arms; i++)
     thinnest = fmin(thinnest, piece->arm[i].width);
-  double size = 0.45 * thinnest;
+  double size = 0.38 * thinnest;
   if (!piece->tube) size = fmin(size, 1.2 * piece->fillet + 0.15 * thinnest + 0.5 * corner);
   size = fmin(size, 1.2 * radius + 0.7 * fabs(hollow));
   /* Thin walls are not to fall between the corners of tetrahedra. */

@@ -18,7 +18,7 @@
 #include <string.h>
 
 /* Parts of the width of an arm, unless asked for otherwise. */
-static const double FILLET = 0.15, NODE = 0.6, MOUTH = 0.12;
+static const double FILLET = 0.15, NODE = 0.6, MOUTH = 0.08;
 /* mm: of a wall, of letters, and how deep these are; of a key's play. */
 static const double WALL = 1.2, LETTERS = 4, DEPTH = 0.6, PLAY = 0.15;
 /* A knot is three cords thick (an overhand knot: C. Ashley, 1944). */
@@ -376,7 +376,7 @@ static void set_common(const maker *work, thr_kit_piece *piece, double narrowest
   piece->profile = options->profile;
   piece->taper = options->taper;
   piece->fillet = fmax(options->fillet, 0);
-  piece->mouth = fmin(MOUTH * narrowest, work->kit->cord);
+  piece->mouth = fmin(MOUTH * narrowest, 0.5 * work->kit->cord);
   piece->key = options->key;
   piece->wall = work->sizes.wall;
   piece->key_radius = 0.4 * narrowest;
