@@ -152,13 +152,15 @@ static double channel_distance(const thr_kit_piece *piece, const thr_kit_channel
 {
   double to_ball[3] = {at[0] - channel->middle[0], at[1] - channel->middle[1],
                        at[2] - channel->middle[2]};
-  double widest = channel->radius + piece->mouth;
+  double widest = fmax(channel->radii[0], channel->radii[1]) + piece->mouth;
   if (sqrt(thr_dot(to_ball, to_ball)) - channel->reach - widest > best) return best;
 
   for (int i = 0; i + 1 < channel->n; i++) {
     double part;
     double away = segment_distance(at, channel->point[i], channel->point[i + 1], &part);
-    best = fmin(best, away - channel->radius);
+    double along = (i + part) / (channel->n - 1);
+    double radius = channel->radii[0] + along * (channel->radii[1] - channel->radii[0]);
+    best = fmin(best, away - radius);
   }
 
   /* Mouths are wider near their faces. */
@@ -172,7 +174,7 @@ static double channel_distance(const thr_kit_piece *piece, const thr_kit_channel
     double off[3] = {at[0] - mouth[0], at[1] - mouth[1], at[2] - mouth[2]};
     double along = thr_dot(off, arm->along);
     double across = sqrt(fmax(thr_dot(off, off) - along * along, 0));
-    best = fmin(best, across - channel->radius - flare(piece->mouth, depth));
+    best = fmin(best, across - channel->radii[end] - flare(piece->mouth, depth));
   }
 
   return best;

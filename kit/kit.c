@@ -235,16 +235,11 @@ static thr_status add_channel(const maker *work, thr_kit_piece *piece, int cord,
                              .out = half_out < 0 ? -1 : arm_of(piece, half_out)};
   double start[2] = {0, 0}, end[2] = {0, 0}, out[3];
   const thr_kit_edge *edge = work->kit->edges.edge;
-  double bore = INFINITY;
-  if (half_in >= 0) {
-    lane_of(work, cord, pass_in, half_in, start);
-    bore = fmin(bore, edge[half_in >> 1].bore);
-  }
-  if (half_out >= 0) {
-    lane_of(work, cord, pass_out, half_out, end);
-    bore = fmin(bore, edge[half_out >> 1].bore);
-  }
-  channel.radius = 0.5 * bore;
+  if (half_in >= 0) lane_of(work, cord, pass_in, half_in, start);
+  if (half_out >= 0) lane_of(work, cord, pass_out, half_out, end);
+  channel.radii[0] = 0.5 * edge[(half_in >= 0 ? half_in : half_out) >> 1].bore;
+  channel.radii[1] = 0.5 * edge[(half_out >= 0 ? half_out : half_in) >> 1].bore;
+  channel.radius = fmin(channel.radii[0], channel.radii[1]);
   way_out(piece, out);
 
   thr_status st = thr_kit_channel_make(piece, &channel, start, end, out, work->sizes.wall, err);
@@ -497,7 +492,10 @@ static thr_status shape_tube(maker *work, int e, thr_kit_piece *piece, thr_err *
   /* Straight channels from end to end. */
   for (int i = 0; i < edge->n_lanes; i++) {
     thr_kit_channel *channel = &piece->channel[piece->n_channels];
-    *channel = (thr_kit_channel){.in = 1, .out = 0, .radius = 0.5 * edge->bore};
+    *channel = (thr_kit_channel){.in = 1,
+                                 .out = 0,
+                                 .radius = 0.5 * edge->bore,
+                                 .radii = {0.5 * edge->bore, 0.5 * edge->bore}};
     const double at_head[2] = {edge->lane[i][0], edge->lane[i][1]};
     const double at_tail[2] = {edge->lane[i][0], -edge->lane[i][1]};
     thr_status st = thr_kit_channel_make(piece, channel, at_tail, at_head, (double[]){0, 0, 1},

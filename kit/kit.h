@@ -116,9 +116,10 @@ typedef struct {
 
 /* A hollow along a curve. */
 typedef struct {
-  int cord, pass; /* by which the cord comes in; as in thr_channel */
-  int in, out;    /* arms of the piece; -1 = outside: the cord ends here */
-  double radius;
+  int cord, pass;          /* by which the cord comes in; as in thr_channel */
+  int in, out;             /* arms of the piece; -1 = outside: the cord ends here */
+  double radius;           /* the least .. */
+  double radii[2];         /* .. at its two ends; in between it changes evenly */
   int n;                   /* >= 2 */
   double (*point)[3];      /* [n] from the piece's centre; owned */
   double middle[3], reach; /* a ball that holds the curve */
@@ -147,7 +148,7 @@ typedef struct {
   thr_kit_channel *channel;
   thr_kit_stroke *stroke;
   double node_radius, fillet, taper, mouth; /* mouth: radius of the rounding */
-  double wall; /* that there is at least */
+  double wall;                              /* that there is at least */
   thr_kit_profile profile;
   thr_kit_key key;
   double key_slope, key_radius, key_height, key_play;

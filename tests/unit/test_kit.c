@@ -143,7 +143,9 @@ static bool is_inside(const thr_kit_piece *piece, const double at[3])
       double part = fmin(fmax(thr_dot(d, e) / thr_dot(d, d), 0), 1);
       for (int k = 0; k < 3; k++)
         e[k] -= part * d[k];
-      if (sqrt(thr_dot(e, e)) < piece->channel[c].radius) return false;
+      double along = (i + part) / (piece->channel[c].n - 1);
+      const double *radii = piece->channel[c].radii;
+      if (sqrt(thr_dot(e, e)) < radii[0] + along * (radii[1] - radii[0])) return false;
     }
   return true;
 }
