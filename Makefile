@@ -147,8 +147,8 @@ demo: ## install what is missing, build, plan a dome, check the plan
 	@for f in $(DEMO_OUT)/*.svg $(DEMO_OUT)/*.pdf $(DEMO_OUT)/*.html; do if [ -e "$$f" ]; then echo "drawing: $$f"; fi; done
 
 test: ## install what is missing, build, run the tests; ends with "N passed, N failed" (ONLY=word runs the matching ones)
-test-fast: ## a minute's tests: a tenth of the examples, without sanitizers
-test-rest: ## what `make test` leaves out: all examples under sanitizers, more allocations that fail, longer fuzzing
+test-fast: ## a minute's tests: a tenth of the examples, none of the long jobs
+test-rest: ## what `make test` leaves out: sanitizers, the other examples, allocations that fail, the watchdog, fuzzing
 test-all: ## everything
 fuzz: ## fuzz every reader for FUZZ_SECONDS, keeping what is found in build/fuzz/found
 test test-fast test-rest test-all fuzz:

@@ -83,8 +83,11 @@ viewer_page() {
 }
 
 run() { # NAME LOG: runs the job; its exit code, 77 = skipped
-  case $1 in viewer/*) flock "$RESULTS/packages" tools/install-packages.sh ${VIEWER_PACKAGES:-} >>"$2" 2>&1 ;; esac
   local name=$1 build=${1%%/*} rest=${1#*/} log=$2
+  case $name in
+  # shellcheck disable=SC2086 # one word per package
+  viewer/* | schema | web) flock "$RESULTS/packages" tools/install-packages.sh ${VIEWER_PACKAGES:-} >>"$log" 2>&1 ;;
+  esac
   export THREAD_TEST_SHARE CK_TIMEOUT_MULTIPLIER=10
   THREAD_TEST_SHARE=$(share "$name")
   [ "$build" = asan ] && CK_TIMEOUT_MULTIPLIER=30
