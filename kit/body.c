@@ -181,23 +181,24 @@ static double channel_distance(const thr_kit_piece *piece, const thr_kit_channel
 }
 
 /* Distance from the letters' strokes, at the depth of a point below the surface: below 0 in the
- * groove. */
-static double letters_distance(const thr_kit_piece *piece, const double at[3], double body)
+ * groove. Only letters on the nearest arm count. */
+static double letters_distance(const thr_kit_piece *piece, const double at[3], int arm, double body)
 {
   double best = INFINITY;
   for (int i = 0; i < piece->n_strokes; i++) {
     const thr_kit_stroke *stroke = &piece->stroke[i];
-    const thr_kit_arm *arm = &piece->arm[stroke->arm];
+    if (stroke->arm != arm) continue;
+    const thr_kit_arm *on = &piece->arm[arm];
     const double side = stroke->below ? -1 : 1;
-    double u = side * thr_dot(at, arm->up), v = side * thr_dot(at, arm->side),
-           s = thr_dot(at, arm->along);
+    double u = side * thr_dot(at, on->up), v = side * thr_dot(at, on->side),
+           s = thr_dot(at, on->along);
     if (u <= 0) continue;
-    double across = piece->profile == THR_KIT_ROUND ? atan2(v, u) * 0.5 * arm->width : v;
+    double across = piece->profile == THR_KIT_ROUND ? atan2(v, u) * 0.5 * on->width : v;
     const double here[3] = {s, across, 0};
-    const double a[3] = {stroke->from[0], stroke->from[1], 0};
-    const double b[3] = {stroke->to[0], stroke->to[1], 0};
+    const double from[3] = {stroke->from[0], stroke->from[1], 0};
+    const double to[3] = {stroke->to[0], stroke->to[1], 0};
     double part;
-    best = fmin(best, segment_distance(here, a, b, &part));
+    best = fmin(best, segment_distance(here, from, to, &part));
   }
   return fmax(best - 0.5 * piece->letter_width, -body - piece->letter_depth);
 }
@@ -248,7 +249,7 @@ void thr_kit_sample(const void *user, const double at[3], thr_solid_sample *out)
   /* Thin walls are not to fall between the corners of tetrahedra. */
   size = fmin(size, fmax(0.8 * (fabs(body) + fabs(hollow)), 0.7 * piece->wall));
   if (piece->n_strokes && body > -2 * piece->letter_depth && body < size) {
-    double letters = letters_distance(piece, at, body);
+    double letters = letters_distance(piece, at, nearest, body);
     hollow = fmin(hollow, letters);
     size = fmin(size, 0.8 * piece->letter_width + 0.5 * fabs(letters));
   }
