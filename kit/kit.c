@@ -337,7 +337,7 @@ static thr_status add_names(maker *work, thr_kit_piece *piece, thr_err *err)
 
   for (int i = 0; i < piece->n_arms && !st && !of_kinds; i++) {
     const char *to = work->guide.label[thr_head(work->frame, piece->arm[i].half)];
-    double from = piece->tube ? 0 : 0.75 * piece->node_radius;
+    double from = piece->tube ? 0 : 0.9 * piece->node_radius;
     char words[3][2 * THR_LABEL + 8];
     snprintf(words[0], sizeof words[0], "%s>%s", piece->tube ? "" : name.data, to);
     snprintf(words[1], sizeof words[1], ">%s", to);
