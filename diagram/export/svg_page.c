@@ -463,6 +463,18 @@ static thr_status draw_shape(svg_reader *reader, const svg_tag *tag)
 
 /* ---- text ---- */
 
+/* Reads what stands between a tag and its end: text without elements. */
+static thr_status read_words(svg_reader *reader, const svg_tag *tag, thr_slice *words)
+{
+  svg_tag end;
+
+  thr_status st = next_tag(reader, words, &end);
+  if (!st && (!end.closes || end.name.n != tag->name.n ||
+              memcmp(end.name.s, tag->name.s, end.name.n) != 0))
+    return broken(reader, "not known inside it is", end.name);
+  return st;
+}
+
 /* Fills reader->words with a text whose entities are replaced by what they stand for. */
 static thr_status put_words(svg_reader *reader, thr_slice text)
 {
@@ -473,20 +485,17 @@ static thr_status put_words(svg_reader *reader, thr_slice text)
   while (text.n) {
     /* Everything up to the next entity is copied as it is. */
     const char *ampersand = memchr(text.s, '&', text.n);
-    size_t n = ampersand ? (size_t)(ampersand - text.s) : text.n, i;
+    size_t n = ampersand ? (size_t)(ampersand - text.s) : text.n, i = 0;
     thr_text_append_bytes(&reader->words, text.s, n);
     skip(&text, n);
 
     if (!text.n) break;
 
     /* Five entities are written; any other one is an error. */
-    for (i = 0; i < sizeof entity / sizeof *entity; i++)
-      if (text.n >= strlen(entity[i][0]) && memcmp(text.s, entity[i][0], strlen(entity[i][0])) == 0)
-        break;
+    while (i < sizeof entity / sizeof *entity && !take_word(&text, entity[i][0]))
+      i++;
     if (i == sizeof entity / sizeof *entity) return broken(reader, "not known is", text);
-
     thr_text_append(&reader->words, entity[i][1]);
-    skip(&text, strlen(entity[i][0]));
   }
   return reader->words.failed ? thr_nomem(reader->err) : THR_OK;
 }
@@ -498,17 +507,11 @@ static thr_status draw_text(svg_reader *reader, const svg_tag *tag)
   double at[2];
   thr_slice words;
   thr_line line;
-  svg_tag end;
 
   thr_status st = push(reader, tag);
   if (!st) st = read_numbers(reader, tag, 2, name, at);
-
-  /* The words stand between this tag and its end. */
-  if (!st) st = next_tag(reader, &words, &end);
-  if (!st && (!end.closes || !thr_slice_is(end.name, "text")))
-    return broken(reader, "not known inside text is", end.name);
+  if (!st) st = read_words(reader, tag, &words);
   if (!st) st = put_words(reader, words);
-
   if (st) return st;
 
   /* Size, weight and family choose the face; the anchor is a share of the width. */
@@ -567,7 +570,7 @@ static thr_status read_clip(svg_reader *reader, const svg_tag *tag)
   const thr_slice *id = find(tag, "id");
   double number[4] = {0};
   thr_slice between;
-  svg_tag inner, end;
+  svg_tag inner;
 
   if (!id || reader->n_clips == CLIPS)
     return broken(reader, "one too many, or without a name, is", tag->name);
@@ -578,26 +581,11 @@ static thr_status read_clip(svg_reader *reader, const svg_tag *tag)
     return broken(reader, "no plain rectangle clips:", inner.name);
 
   if (!st) st = read_numbers(reader, &inner, 4, name, number);
-
-  if (!st) st = next_tag(reader, &between, &end);
-  if (!st && (!end.closes || !thr_slice_is(end.name, "clipPath")))
-    return broken(reader, "not known in clipPath is", end.name);
+  if (!st) st = read_words(reader, tag, &between);
 
   /* The slice stays valid as long as the document. */
   reader->clip[reader->n_clips++] =
       (clip_rectangle){.id = *id, .at = {number[0], number[1]}, .size = {number[2], number[3]}};
-  return st;
-}
-
-/* Reads the text of an element that holds text alone: title, desc, style. */
-static thr_status read_words(svg_reader *reader, const svg_tag *tag, thr_slice *words)
-{
-  svg_tag end;
-
-  thr_status st = next_tag(reader, words, &end);
-  if (!st && (!end.closes || end.name.n != tag->name.n ||
-              memcmp(end.name.s, tag->name.s, end.name.n) != 0))
-    return broken(reader, "not known inside it is", end.name);
   return st;
 }
 
