@@ -155,27 +155,18 @@ static const thr_slice *find(const svg_tag *tag, const char *name)
   return NULL;
 }
 
-/* Reads the attribute as a number, 0 if the tag lacks it. */
-static thr_status read_number(svg_reader *reader, const svg_tag *tag, const char *name,
-                              double *value)
-{
-  const thr_slice *text = find(tag, name);
-  *value = 0;
-  if (!text) return THR_OK;
-
-  /* Nothing may follow the number, such as a unit. */
-  thr_slice rest = *text;
-  return thr_slice_number(&rest, value) && !rest.n ? THR_OK : broken(reader, name, *text);
-}
-
-/* Reads n attributes as numbers. */
+/* Reads n attributes as numbers, 0 for one that the tag lacks. */
 static thr_status read_numbers(svg_reader *reader, const svg_tag *tag, int n,
                                const char *const *name, double *value)
 {
-  thr_status st = THR_OK;
-  for (int i = 0; i < n && !st; i++)
-    st = read_number(reader, tag, name[i], &value[i]);
-  return st;
+  for (int i = 0; i < n; i++) {
+    const thr_slice *found = find(tag, name[i]), text = found ? *found : (thr_slice){"0", 1};
+    thr_slice rest = text;
+
+    /* Nothing may follow the number, such as a unit. */
+    if (!thr_slice_number(&rest, &value[i]) || rest.n) return broken(reader, name[i], text);
+  }
+  return THR_OK;
 }
 
 /* ---- styles ---- */
