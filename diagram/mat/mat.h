@@ -39,7 +39,7 @@ void thr_mat_corner(const thr_mat *mat, int i, double at[2]);
 /* Appends page i, from 0, as a whole SVG document in mm. THR_ENOMEM. */
 thr_status thr_mat_svg(const thr_mat *mat, int i, thr_text *svg, thr_err *err) THR_MUST_CHECK;
 
-/* Appends all pages as one PDF (thr_pages_pdf). */
+/* Appends all pages as one PDF. */
 thr_status thr_mat_pdf(const thr_mat *mat, const thr_limits *limits, thr_text *pdf,
                        thr_err *err) THR_MUST_CHECK;
 

@@ -5,6 +5,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "diagram/export/paper.h"
 #include "diagram/overview/overview_parts.h"
+#include "diagram/scene/scene.h"
 #include "diagram/sheets/sheets.h"
 #include "graph/limits.h"
 #include "graph/number.h"
