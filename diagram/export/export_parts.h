@@ -41,11 +41,6 @@ thr_font_part thr_font_place(const thr_font *font, int glyph);
 /* An outline begins with a head: the number of contours, < 0 for a composed glyph, and a box. */
 enum { THR_FONT_HEAD = 10 };
 
-/* Takes a part off the front of what is left of a composed glyph's outline behind the head: the
- * part's own glyph, and the map that places it, as in thr_font_outline. Returns false if there is
- * none. */
-bool thr_font_next_part(const thr_font *font, thr_font_part *left, int *glyph, double map[6]);
-
 /* ---- pdf.c: a PDF (1.4, ISO 32000-1) that grows page by page, compressed at once ---- */
 
 typedef struct thr_pdf thr_pdf;

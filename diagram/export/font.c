@@ -204,19 +204,38 @@ thr_font_part thr_font_place(const thr_font *font, int glyph)
                                    : (thr_font_part){0, 0};
 }
 
+/* Flags of a part of a composed glyph: its offset has words; scales, of 14 bits behind the point,
+ * and another part follow. */
+enum { WORDS = 1, SCALE = 8, MORE = 32, TWO_SCALES = 64, MATRIX = 128 };
+
+/* Takes a part off the front of what is left of a composed glyph's outline behind the head.
+ * Returns false if there is none. */
+static bool next_part(const thr_font *font, thr_font_part *left, int *glyph)
+{
+  if (left->n < 4) return false;
+  const unsigned flags = thr_font_16(font, left->at);
+  *glyph = (int)thr_font_16(font, left->at + 2);
+
+  /* Behind flags and glyph: an offset, then one scale for both axes, one for each, or a matrix. */
+  const size_t scales = flags & SCALE ? 1 : flags & TWO_SCALES ? 2 : flags & MATRIX ? 4 : 0;
+  const size_t read = 4 + (flags & WORDS ? 4 : 2) + 2 * scales;
+  *left = flags & MORE && read < left->n ? (thr_font_part){left->at + read, left->n - read}
+                                         : (thr_font_part){0, 0};
+  return true;
+}
+
 /* Marks the glyphs that a composed glyph is made of. Returns the first of all glyphs that was not
  * marked before, n_glyphs if there is none. */
 static int mark_parts(const thr_font *font, int glyph, unsigned char *used)
 {
   thr_font_part left = thr_font_place(font, glyph);
-  double map[6];
   int first = font->n_glyphs, part;
 
   /* A simple glyph has a number of contours >= 0 and no parts. */
   if (left.n < THR_FONT_HEAD || thr_font_signed(font, left.at) >= 0) return first;
 
   left = (thr_font_part){left.at + THR_FONT_HEAD, left.n - THR_FONT_HEAD};
-  while (thr_font_next_part(font, &left, &part, map)) {
+  while (next_part(font, &left, &part)) {
     if (part >= font->n_glyphs || used[part]) continue;
     used[part] = 1;
     if (part < first) first = part;
