@@ -218,7 +218,7 @@ static bool next_part(const thr_font *font, thr_font_part *left, int *glyph)
 
   /* Behind flags and glyph: an offset, then one scale for both axes, one for each, or a matrix. */
   const size_t scales = flags & SCALE ? 1 : flags & TWO_SCALES ? 2 : flags & MATRIX ? 4 : 0;
-  const size_t read = 4 + (flags & WORDS ? 4 : 2) + 2 * scales;
+  const size_t read = 4u + (flags & WORDS ? 4u : 2u) + 2 * scales;
   *left = flags & MORE && read < left->n ? (thr_font_part){left->at + read, left->n - read}
                                          : (thr_font_part){0, 0};
   return true;
