@@ -30,13 +30,12 @@ static const double ARM = 5, CORD = 1.4, CASING = 2.4; /* mm: widths of the line
 static const char *const OLD = "#d55e00";              /* colour of a cord */
 static const char *const NEW = "#0072b2"; /* colour of a second cord that is tied to it */
 
-/* A panel that is being filled. Drawing functions take coordinates of the page in mm, y downwards,
- * mostly as offsets from the middle of the panel's picture. */
+/* A panel that is being filled. Drawing functions take offsets in mm from the middle of the panel's
+ * picture, y downwards; those of lines, pieces and segments take points of the page. */
 typedef struct {
   thr_sheets *sheets;
-  thr_text *out;                   /* SVG of the page */
-  double left, top, width, height; /* mm: the frame of the panel */
-  double x, y;                     /* mm: the middle of its picture */
+  thr_text *out; /* SVG of the page */
+  double x, y;   /* mm on the page: the middle of its picture */
 } instruction_panel;
 
 /* ---- what pictures are made of ---- */
@@ -44,7 +43,8 @@ typedef struct {
 /* Writes words centred at (x, y), where y is the base line. */
 static void put_label(const instruction_panel *panel, double x, double y, const char *words)
 {
-  thr_svg_text(panel->out, x, y, THR_SHEET_SMALL, " text-anchor=\"middle\"", words);
+  thr_svg_text(panel->out, panel->x + x, panel->y + y, THR_SHEET_SMALL, " text-anchor=\"middle\"",
+               words);
 }
 
 /* Draws a straight line of a width in mm from (x0, y0) to (x1, y1). */
@@ -60,6 +60,9 @@ static void put_line(const instruction_panel *panel, double x0, double y0, doubl
 /* Draws a straight arrow from (x0, y0) to its tip at (x1, y1). The points must differ. */
 static void put_arrow(const instruction_panel *panel, double x0, double y0, double x1, double y1)
 {
+  x0 += panel->x, x1 += panel->x;
+  y0 += panel->y, y1 += panel->y;
+
   /* (dx, dy) is the length of the head along the shaft; 0.45 of it, turned by a right angle, is
    * half the head's width. */
   double length = hypot(x1 - x0, y1 - y0), dx = 2.2 * (x1 - x0) / length,
@@ -72,11 +75,12 @@ static void put_arrow(const instruction_panel *panel, double x0, double y0, doub
 }
 
 /* Draws a straight cord with a white casing, which separates it from what lies below. */
-static void put_cord(const instruction_panel *panel, double x0, double y0, double x1, double y1,
-                     const char *colour)
+static void put_cord(const instruction_panel *panel, double x0, double y0, double x1, double y1)
 {
+  x0 += panel->x, x1 += panel->x;
+  y0 += panel->y, y1 += panel->y;
   put_line(panel, x0, y0, x1, y1, CASING, "#fff");
-  put_line(panel, x0, y0, x1, y1, CORD, colour);
+  put_line(panel, x0, y0, x1, y1, CORD, OLD);
 }
 
 /* Draws a stopper, an upright bar, centred at (x, y). */
@@ -85,22 +89,18 @@ static void put_stopper(const instruction_panel *panel, double x, double y)
   thr_text_printf(
       panel->out,
       "<rect x=\"%.2f\" y=\"%.2f\" width=\"2.4\" height=\"6\" rx=\"0.6\" fill=\"#222\"/>\n",
-      x - 1.2, y - 3);
+      panel->x + x - 1.2, panel->y + y - 3);
 }
 
 /* Draws a needle as a slender outline from its eye at (x, y) to its tip at (x + length, y). */
 static void put_needle(const instruction_panel *panel, double x, double y, double length)
 {
+  x += panel->x;
+  y += panel->y;
   thr_text_printf(panel->out,
                   "<path fill=\"#ddd\" stroke=\"#222\" stroke-width=\"0.3\" d=\"M%.2f %.2fL%.2f "
                   "%.2fL%.2f %.2fL%.2f %.2fz\"/>\n",
                   x, y - 0.7, x + 0.8 * length, y - 0.5, x + length, y, x + 0.8 * length, y + 0.7);
-}
-
-/* Returns the colour of the inside of a piece in a state. */
-static const char *fill_of(thr_piece_state state)
-{
-  return state == THR_PIECE_NEW ? "#ffe08a" : state == THR_PIECE_HELD ? "#d3ccbf" : "#fff";
 }
 
 /* Draws a piece with its hub at (x, y) and n arms, all of one length in mm, at angles in rad
@@ -110,9 +110,13 @@ static void put_piece(const instruction_panel *panel, double x, double y, int n,
                       const double *angle, double length, thr_piece_state state)
 {
   double edge = state == THR_PIECE_NEW ? 1.2 : 0.8;
+  const char *outline = state == THR_PIECE_LATER ? "#999" : "#222";
+  const char *inside = state == THR_PIECE_NEW    ? "#ffe08a"
+                       : state == THR_PIECE_HELD ? "#d3ccbf"
+                                                 : "#fff";
   for (int above = 0; above < 2; above++) {
     double grow = above ? 0 : edge, tip = length + grow / 2;
-    const char *colour = above ? fill_of(state) : state == THR_PIECE_LATER ? "#999" : "#222";
+    const char *colour = above ? inside : outline;
 
     /* The page's y axis points down, hence the minus sign before the sine. */
     for (int i = 0; i < n; i++)
@@ -125,20 +129,19 @@ static void put_piece(const instruction_panel *panel, double x, double y, int n,
   }
 }
 
-/* Angles of the arms of a cross, rad. */
-static const double CROSS[4] = {0, THR_PI / 2, THR_PI, -THR_PI / 2};
-
-/* Draws n pieces of the plan's kind from (x, y) to the right, gap mm apart: crosses of four arms
- * with solid joints, else tubes. state[n]: how each looks. Returns x behind the last gap. */
-static double put_row(const instruction_panel *panel, double x, double y, int n, double gap,
-                      const thr_piece_state *state)
+/* Draws a row of pieces of the plan's kind from (x, y) to the right, gap mm apart: crosses of four
+ * arms with solid joints, else tubes. looks: a letter for each, n(ew), h(eld) or l(ater). */
+static void put_row(const instruction_panel *panel, double x, double y, const char *looks,
+                    double gap)
 {
+  static const double cross[4] = {0, THR_PI / 2, THR_PI, -THR_PI / 2}, tube[2] = {0, THR_PI};
   bool solid = panel->sheets->pieces.solid;
-  static const double tube[2] = {0, THR_PI};
 
-  for (int i = 0; i < n; i++, x += 13 + gap)
-    put_piece(panel, x + 6, y, solid ? 4 : 2, solid ? CROSS : tube, 6, state[i]);
-  return x;
+  for (x += panel->x; *looks; looks++, x += 13 + gap)
+    put_piece(panel, x + 6, panel->y + y, solid ? 4 : 2, solid ? cross : tube, 6,
+              *looks == 'n'   ? THR_PIECE_NEW
+              : *looks == 'h' ? THR_PIECE_HELD
+                              : THR_PIECE_LATER);
 }
 
 /* ---- cords that cross ---- */
@@ -302,12 +305,12 @@ static void put_need(instruction_panel *panel, thr_text *words)
   thr_svg_length(most, sheets->f->units, to);
 
   /* The picture: cord, stopper and needle side by side. */
-  put_cord(panel, panel->x - 36, panel->y - 3, panel->x - 8, panel->y - 3, OLD);
-  put_label(panel, panel->x - 22, panel->y + 2, "cord");
-  put_needle(panel, panel->x + 12, panel->y - 3, 22);
-  put_label(panel, panel->x + 23, panel->y + 2, "needle, blunt");
-  put_stopper(panel, panel->x + 2, panel->y - 3);
-  put_label(panel, panel->x + 2, panel->y + 5, "stopper");
+  put_cord(panel, -36, -3, -8, -3);
+  put_label(panel, -22, 2, "cord");
+  put_needle(panel, 12, -3, 22);
+  put_label(panel, 23, 2, "needle, blunt");
+  put_stopper(panel, 2, -3);
+  put_label(panel, 2, 5, "stopper");
 
   /* The text. */
   thr_text_printf(words, "%d %s; %d cord%s of %s", sheets->pieces.n,
@@ -389,16 +392,14 @@ static void put_arm(const instruction_panel *panel, int half, bool out)
   char words[THR_LABEL + 16];
 
   /* The cord ends 11.5 mm from the hub, well beyond the end of the arm (8 mm). */
-  put_cord(panel, panel->x, panel->y, panel->x + 11.5 * x, panel->y + 11.5 * y, OLD);
-  if (out)
-    put_arrow(panel, panel->x + 9 * x, panel->y + 9 * y, panel->x + 14 * x, panel->y + 14 * y);
+  put_cord(panel, 0, 0, 11.5 * x, 11.5 * y);
+  if (out) put_arrow(panel, 9 * x, 9 * y, 14 * x, 14 * y);
 
   /* The name stands beside the end of a steep arm, but beyond the end of a flat one. */
   snprintf(words, sizeof words, "%s %.20s", out ? "out to" : "in from",
            panel->sheets->guide.label[thr_head(panel->sheets->f, half)]);
-  put_label(panel,
-            panel->x + (x < -0.1 ? -1 : 1) * (fabs(24 * x) + (far > 0 ? far - 10 * fabs(x) : 0)),
-            panel->y + 11 * y + 1, words);
+  put_label(panel, (x < -0.1 ? -1 : 1) * (fabs(24 * x) + (far > 0 ? far - 10 * fabs(x) : 0)),
+            11 * y + 1, words);
 }
 
 /* Draws the piece of a visit as it lies in the overview, with its name in the widest gap and the
@@ -434,9 +435,8 @@ static void put_lay(instruction_panel *panel, thr_text *words)
   if (shown >= 0)
     put_example(panel, &sheets->visit[shown]);
   else {
-    static const thr_piece_state state[3] = {THR_PIECE_HELD, THR_PIECE_NEW, THR_PIECE_LATER};
-    put_row(panel, panel->x - 20, panel->y, 3, 1.5, state);
-    put_cord(panel, panel->x - 28, panel->y, panel->x + 5, panel->y, OLD);
+    put_row(panel, -20, 0, "hnl", 1.5);
+    put_cord(panel, -28, 0, 5, 0);
   }
 
   /* The text names the same piece, for the maker to find it in the overview. */
@@ -458,17 +458,14 @@ static void put_start(instruction_panel *panel, thr_text *words)
 {
   const thr_sheets *sheets = panel->sheets;
   const thr_part *part = &sheets->part[0];
-  static const thr_piece_state state[1] = {THR_PIECE_NEW};
-
   /* The picture: a piece on the cord between stopper and needle. */
-  put_row(panel, panel->x - 2, panel->y, 1, 0, state);
-  put_cord(panel, panel->x - 34, panel->y, panel->x + 18, panel->y, OLD);
-  put_stopper(panel, panel->x - 5, panel->y);
-  put_needle(panel, panel->x + 18, panel->y, 18);
-  put_label(panel, panel->x - 5, panel->y - 5, "stopper");
-  put_label(panel, panel->x - 24, panel->y + 5,
-            sheets->fold[part->cord] ? "other half" : "tail 150 mm");
-  put_label(panel, panel->x + 27, panel->y + 5, "needle");
+  put_row(panel, -2, 0, "n", 0);
+  put_cord(panel, -34, 0, 18, 0);
+  put_stopper(panel, -5, 0);
+  put_needle(panel, 18, 0, 18);
+  put_label(panel, -5, -5, "stopper");
+  put_label(panel, -24, 5, sheets->fold[part->cord] ? "other half" : "tail 150 mm");
+  put_label(panel, 27, 5, "needle");
 
   /* The text. A cord that is threaded from its fold has no tail yet: its other half waits there. */
   thr_text_append(words, "Thread the needle, fold the end of the cord back and tape it flat. ");
@@ -491,21 +488,18 @@ static void put_start(instruction_panel *panel, thr_text *words)
 /* Fills the panel "Drawing the slack": hold the pieces that sit, draw, and the gap closes. */
 static void put_slack(instruction_panel *panel, thr_text *words)
 {
-  static const thr_piece_state state[4] = {THR_PIECE_HELD, THR_PIECE_HELD, THR_PIECE_NEW,
-                                           THR_PIECE_NEW};
-
   /* The picture: two pairs of pieces with a gap between them. */
-  put_row(panel, panel->x - 29, panel->y, 2, 0.5, state);
-  put_row(panel, panel->x + 2, panel->y, 2, 0.5, state + 2);
-  put_cord(panel, panel->x - 33, panel->y, panel->x + 36, panel->y, OLD);
-  put_stopper(panel, panel->x - 33, panel->y);
+  put_row(panel, -29, 0, "hh", 0.5);
+  put_row(panel, 2, 0, "nn", 0.5);
+  put_cord(panel, -33, 0, 36, 0);
+  put_stopper(panel, -33, 0);
 
   /* The needle's end is drawn, the pieces on the left are held. */
-  put_arrow(panel, panel->x + 30, panel->y - 4, panel->x + 38, panel->y - 4);
-  put_label(panel, panel->x + 34, panel->y - 6.5, "draw");
-  put_label(panel, panel->x - 23, panel->y - 9, "hold");
-  put_label(panel, panel->x, panel->y + 10, "this gap closes");
-  put_arrow(panel, panel->x - 1, panel->y + 7, panel->x - 1, panel->y + 2);
+  put_arrow(panel, 30, -4, 38, -4);
+  put_label(panel, 34, -6.5, "draw");
+  put_label(panel, -23, -9, "hold");
+  put_label(panel, 0, 10, "this gap closes");
+  put_arrow(panel, -1, 7, -1, 2);
 
   thr_text_append(words, "Draw the slack every few rows, and at every check: hold the last piece "
                          "that sits, draw the cord until ");
@@ -518,18 +512,15 @@ static void put_slack(instruction_panel *panel, thr_text *words)
 /* Fills the panel "When a row went wrong": the cord is drawn back to the last check that held. */
 static void put_wrong(instruction_panel *panel, thr_text *words)
 {
-  static const thr_piece_state state[4] = {THR_PIECE_HELD, THR_PIECE_HELD, THR_PIECE_LATER,
-                                           THR_PIECE_LATER};
-
   /* The picture: two pieces up to the check, two more from which the cord was drawn. */
-  put_row(panel, panel->x - 29, panel->y, 4, 0.5, state);
-  put_cord(panel, panel->x - 33, panel->y, panel->x - 1.5, panel->y, OLD);
+  put_row(panel, -29, 0, "hhll", 0.5);
+  put_cord(panel, -33, 0, -1.5, 0);
   put_line(panel, panel->x - 2, panel->y - 8, panel->x - 2, panel->y + 8, 0.8, "#009e73");
-  put_label(panel, panel->x - 2, panel->y - 9.5, "last check");
+  put_label(panel, -2, -9.5, "last check");
 
   /* The cord goes back the way it came. */
-  put_arrow(panel, panel->x + 28, panel->y - 8, panel->x + 12, panel->y - 8);
-  put_label(panel, panel->x + 20, panel->y - 10, "back, one by one");
+  put_arrow(panel, 28, -8, 12, -8);
+  put_label(panel, 20, -10, "back, one by one");
 
   thr_text_append(words,
                   "A row went wrong: take the needle off the cord. Draw the bare cord back by "
@@ -544,22 +535,23 @@ static void put_wrong(instruction_panel *panel, thr_text *words)
 static void put_join(instruction_panel *panel, thr_text *words)
 {
   const thr_frame *frame = panel->sheets->f;
+  const double x = panel->x, y = panel->y;
   segment_list segments = {0};
   int feet = 0;
 
   /* Old cord from the left, new length from the right; they overlap in the middle, where each is
    * wound round the other. */
-  add_straight(&segments, panel->x - 36, panel->x + 6, panel->y + 1, OLD);
-  add_straight(&segments, panel->x - 6, panel->x + 36, panel->y - 1, NEW);
-  add_coil(&segments, panel->x + 6, panel->y, 1, OLD);
-  add_coil(&segments, panel->x - 6, panel->y, -1, NEW);
+  add_straight(&segments, x - 36, x + 6, y + 1, OLD);
+  add_straight(&segments, x - 6, x + 36, y - 1, NEW);
+  add_coil(&segments, x + 6, y, 1, OLD);
+  add_coil(&segments, x - 6, y, -1, NEW);
   put_strands(panel, &segments);
 
   /* Which cord is which, and how both knots are drawn together. */
-  put_label(panel, panel->x - 29, panel->y + 6, "old cord");
-  put_label(panel, panel->x + 29, panel->y + 6, "new length");
-  put_arrow(panel, panel->x - 12, panel->y + 7, panel->x - 4, panel->y + 7);
-  put_arrow(panel, panel->x + 12, panel->y + 7, panel->x + 4, panel->y + 7);
+  put_label(panel, -29, 6, "old cord");
+  put_label(panel, 29, 6, "new length");
+  put_arrow(panel, -12, 7, -4, 7);
+  put_arrow(panel, 12, 7, 4, 7);
 
   thr_text_append(
       words,
@@ -584,9 +576,9 @@ static void put_pull(const instruction_panel *panel, double side, const char *pl
 {
   char words[THR_LABEL + 16];
 
-  put_arrow(panel, panel->x + side * 30, panel->y - 4.5, panel->x + side * 38, panel->y - 4.5);
+  put_arrow(panel, side * 30, -4.5, side * 38, -4.5);
   snprintf(words, sizeof words, "at %.12s", place);
-  put_label(panel, panel->x + side * 33, panel->y + 5, words);
+  put_label(panel, side * 33, 5, words);
 }
 
 /* Appends how cord c is tightened by the plan's schedule: the largest pull and the first few grips
@@ -633,12 +625,9 @@ static void put_tighten(instruction_panel *panel, thr_text *words)
   const char *start = sheets->guide.label[thr_cord_start(sheets->f, cord)],
              *end = sheets->guide.label[thr_cord_end(sheets->f, cord)];
 
-  static const thr_piece_state state[4] = {THR_PIECE_HELD, THR_PIECE_HELD, THR_PIECE_HELD,
-                                           THR_PIECE_HELD};
-
   /* The picture: a row of pieces on the cord, to which the cases below add arrows. */
-  put_row(panel, panel->x - 27, panel->y, 4, 0.5, state);
-  put_cord(panel, panel->x - 36, panel->y, panel->x + 36, panel->y, OLD);
+  put_row(panel, -27, 0, "hhhh", 0.5);
+  put_cord(panel, -36, 0, 36, 0);
 
   thr_text_printf(words, "%sord %s%s. ",
                   sheets->plan->n_cords > 1 ? "The order is on the page \"Last\": first c" : "C",
@@ -648,11 +637,14 @@ static void put_tighten(instruction_panel *panel, thr_text *words)
        known = evaluation->present && evaluation->cord[c].known &&
                evaluation->cord[c].pull != THR_PULL_NONE;
 
+  if (known) {
+    put_label(panel, 0, 10, "first grip");
+    put_arrow(panel, -1, 7.5, -1, 3.5);
+  }
+
   /* A schedule replaces everything below. */
   if (known && evaluation->schedule.n > 0) {
     put_schedule(sheets, c, words);
-    put_label(panel, panel->x, panel->y + 10, "first grip");
-    put_arrow(panel, panel->x - 1, panel->y + 7.5, panel->x - 1, panel->y + 3.5);
     put_pull(panel, 1, end);
     return;
   }
@@ -669,8 +661,6 @@ static void put_tighten(instruction_panel *panel, thr_text *words)
                     evaluation->cord[c].slackest + 1,
                     sheets->guide.label[thr_tail(sheets->f, half)],
                     sheets->guide.label[thr_head(sheets->f, half)]);
-    put_label(panel, panel->x, panel->y + 10, "first grip");
-    put_arrow(panel, panel->x - 1, panel->y + 7.5, panel->x - 1, panel->y + 3.5);
   } else
     thr_text_append(words, "Draw the slack from its middle pass, grip by grip, to ");
 
@@ -702,14 +692,12 @@ static void put_tighten(instruction_panel *panel, thr_text *words)
 static void put_knot(instruction_panel *panel, thr_text *words)
 {
   segment_list segments = {0};
-  static const thr_piece_state state[1] = {THR_PIECE_HELD};
-
   /* The picture: a piece, and the knot on the cord that comes out of it. */
-  put_row(panel, panel->x - 32, panel->y + 4, 1, 0, state);
+  put_row(panel, -32, 4, "h", 0);
   add_overhand(&segments, panel->x, panel->y - 4.58, 2.6);
   put_strands(panel, &segments);
-  put_label(panel, panel->x + 14, panel->y + 9, "tail");
-  put_arrow(panel, panel->x - 4, panel->y + 8, panel->x - 14, panel->y + 8);
+  put_label(panel, 14, 9, "tail");
+  put_arrow(panel, -4, 8, -14, 8);
 
   thr_text_append(words, "When all cords are tight, an overhand knot at each end");
 
@@ -726,46 +714,35 @@ static void put_knot(instruction_panel *panel, thr_text *words)
 
 /* ---- the page ---- */
 
-/* Draws a panel: frame, title, picture and text. number: from 0, row by row; height in mm. */
-static void put_panel(thr_sheets *sheets, int number, const panel_subject *about, double height)
+/* Draws a panel of a width and height in mm with its upper left corner at (left, top): frame,
+ * title, picture and text. number: from 0, row by row. */
+static void put_panel(thr_sheets *sheets, int number, const panel_subject *about, double left,
+                      double top, double width, double height)
 {
-  double width = (thr_sheets_width(sheets) - AIR) / COLUMNS;
-  instruction_panel panel = {
-      .sheets = sheets, .out = thr_sheets_out(sheets), .width = width, .height = height};
-
-  /* Panels fill the page row by row. */
-  panel.left = THR_SHEET_MARGIN + number % COLUMNS * (width + AIR);
-  panel.top = sheets->y + number / COLUMNS * (height + AIR);
-
-  /* The picture's middle is halfway between title and text. */
-  double words_height = LINES * 1.45 * THR_SHEET_SMALL, head = 7;
-  panel.x = panel.left + width / 2;
-  panel.y = panel.top + head + (height - head - words_height) / 2;
-
+  const double size = THR_SHEET_SMALL, high = 1.45 * size, head = 7, room = width - 2 * INDENT;
   char title[96];
   thr_text words = {0};
+
+  /* The picture's middle is halfway between title and text. */
+  instruction_panel panel = {sheets, thr_sheets_out(sheets), left + width / 2,
+                             top + head + (height - head - LINES * high) / 2};
 
   /* The frame and the numbered title. */
   thr_text_printf(panel.out,
                   "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" rx=\"2\" "
-                  "fill=\"#fcfcf9\" stroke=\"#bbb\" "
-                  "stroke-width=\"0.3\"/>\n",
-                  panel.left, panel.top, width, height);
-
+                  "fill=\"#fcfcf9\" stroke=\"#bbb\" stroke-width=\"0.3\"/>\n",
+                  left, top, width, height);
   snprintf(title, sizeof title, "%d  %s", number + 1, about->title);
-  thr_svg_text(panel.out, panel.left + INDENT, panel.top + 5.2, 3.4, " font-weight=\"bold\"",
-               title);
+  thr_svg_text(panel.out, left + INDENT, top + 5.2, 3.4, " font-weight=\"bold\"", title);
 
   /* The picture is drawn at once; the text comes back and is set from the panel's foot upwards. */
   about->put(&panel, &words);
   if (words.failed)
     thr_nomem(&sheets->why);
-  else {
-    double size = THR_SHEET_SMALL, room = width - 2 * INDENT;
-    int lines = thr_sheets_lines(words.data, room, size);
-    thr_sheets_text(sheets, panel.left + INDENT, panel.top + height - 2 - (lines - 1) * 1.45 * size,
-                    size, room, "", words.data);
-  }
+  else
+    thr_sheets_text(sheets, left + INDENT,
+                    top + height - 2 - (thr_sheets_lines(words.data, room, size) - 1) * high, size,
+                    room, "", words.data);
   thr_text_destroy(&words);
 }
 
@@ -781,8 +758,10 @@ void thr_sheets_making(thr_sheets *sheets)
   thr_sheets_page(sheets, "Before you begin", "Before you begin (continued)");
   if (sheets->why.code) return;
 
-  /* All panels are equally high, and together as high as the page. */
-  double height = (thr_sheets_bottom(sheets) - sheets->y - (ROWS - 1) * AIR) / ROWS;
+  /* All panels are equally large, and together as large as the page, which they fill row by row. */
+  double height = (thr_sheets_bottom(sheets) - sheets->y - (ROWS - 1) * AIR) / ROWS,
+         width = (thr_sheets_width(sheets) - AIR) / COLUMNS;
   for (int i = 0; i < COLUMNS * ROWS && !sheets->why.code; i++)
-    put_panel(sheets, i, &subjects[i], height);
+    put_panel(sheets, i, &subjects[i], THR_SHEET_MARGIN + i % COLUMNS * (width + AIR),
+              sheets->y + i / COLUMNS * (height + AIR), width, height);
 }
