@@ -75,7 +75,8 @@ static void put_facing(const thr_sheets *sheets, const thr_arms *arms, int i, in
          half = 0.5 * thr_scene_text_width(sheets->guide.label[node], THR_SHEET_SMALL);
 
   /* The middle of the name is off the end by half the extent of the name in the arm's direction. */
-  double far = REACH + 1.5 + fabs(cos(turn)) * half + fabs(sin(turn)) * 0.5 * THR_SHEET_SMALL;
+  double reach = hypot(arms->end[i][0] - arms->hub[0], arms->end[i][1] - arms->hub[1]),
+         far = reach + 1.5 + fabs(cos(turn)) * half + fabs(sin(turn)) * 0.5 * THR_SHEET_SMALL;
   thr_svg_text(text, arms->hub[0] + far * cos(turn),
                arms->hub[1] + far * sin(turn) + 0.36 * THR_SHEET_SMALL, THR_SHEET_SMALL,
                " font-weight=\"bold\" text-anchor=\"middle\"", sheets->guide.label[node]);
@@ -171,4 +172,17 @@ void thr_step_put_hub(thr_sheets *sheets, const thr_step *step, const thr_camera
   thr_svg_text(text, x + 2, y + 8, THR_SHEET_SMALL, "", line);
 
   put_piece(sheets, stay, &arms, in, out, colour, text);
+}
+
+void thr_step_put_example(const thr_sheets *sheets, int visit, const double hub[2], double reach,
+                          const char *colour, thr_text *text)
+{
+  const thr_visit *stay = &sheets->visit[visit];
+  thr_arms arms = {.hub = {hub[0], hub[1]}};
+  int in, out;
+
+  thr_step_arms(sheets, NULL, stay->piece, reach, &arms, stay->in, stay->out, &in, &out);
+  thr_step_put_icon(sheets, visit, hub, reach, colour, text);
+  put_facing(sheets, &arms, in, thr_tail(sheets->f, stay->in), text);
+  put_facing(sheets, &arms, out, thr_head(sheets->f, stay->out), text);
 }

@@ -349,81 +349,6 @@ static int example(const thr_sheets *sheets)
   return best;
 }
 
-/* Returns the angle in rad at which a half-edge leaves its node in the layout that all pictures
- * use. */
-static double direction(const thr_sheets *sheets, int half)
-{
-  const thr_layout *layout = &sheets->guide.layout;
-  const thr_frame *paper = thr_layout_paper(layout, sheets->f);
-  const double *from = layout->xy[thr_tail(paper, half)], *to = layout->xy[thr_head(paper, half)];
-  return atan2(to[1] - from[1], to[0] - from[0]);
-}
-
-/* Returns the angle in the middle of the widest gap between n arms, where the piece's name is
- * written. */
-static double widest_gap(int n, const double *angle)
-{
-  double best = 0, widest = 0;
-
-  /* The gap behind arm i reaches counter-clockwise to the next arm. */
-  for (int i = 0; i < n; i++) {
-    double gap = 2 * THR_PI;
-    for (int k = 0; k < n; k++) {
-      double sweep = thr_scene_sweep(angle[i], angle[k]);
-      if (sweep > 0 && sweep < gap) gap = sweep;
-    }
-
-    /* Of equal gaps the first one, whatever rounding does. */
-    if (gap > widest + 1e-9) {
-      widest = gap;
-      best = angle[i] + gap / 2;
-    }
-  }
-
-  return best;
-}
-
-/* Draws the cord from the hub along one arm and names the piece that the arm faces: "out to C5"
- * with an arrow, "in from A5" without one. half leaves the piece. */
-static void put_arm(const instruction_panel *panel, int half, bool out)
-{
-  double angle = direction(panel->sheets, half), x = cos(angle), y = -sin(angle),
-         far = fabs(y) > 0.4 ? 13 * fmin(fabs(y), 1) : 0;
-  char words[THR_LABEL + 16];
-
-  /* The cord ends 11.5 mm from the hub, well beyond the end of the arm (8 mm). */
-  put_cord(panel, 0, 0, 11.5 * x, 11.5 * y);
-  if (out) put_arrow(panel, 9 * x, 9 * y, 14 * x, 14 * y);
-
-  /* The name stands beside the end of a steep arm, but beyond the end of a flat one. */
-  snprintf(words, sizeof words, "%s %.20s", out ? "out to" : "in from",
-           panel->sheets->guide.label[thr_head(panel->sheets->f, half)]);
-  put_label(panel, (x < -0.1 ? -1 : 1) * (fabs(24 * x) + (far > 0 ? far - 10 * fabs(x) : 0)),
-            11 * y + 1, words);
-}
-
-/* Draws the piece of a visit as it lies in the overview, with its name in the widest gap and the
- * cord in by one arm and out by another. The piece has at most four arms. */
-static void put_example(const instruction_panel *panel, const thr_visit *visit)
-{
-  const thr_frame *frame = panel->sheets->f;
-  int v = visit->piece, n = 0;
-  double angle[4] = {0};
-  for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
-    angle[n++] = direction(panel->sheets, frame->half[i]);
-
-  /* The piece itself, new, and the two arms of the visit. */
-  put_piece(panel, panel->x, panel->y, n, angle, 8, THR_PIECE_NEW);
-  put_arm(panel, visit->in ^ 1, false);
-  put_arm(panel, visit->out, true);
-
-  /* The name clears the arms, which are 8 mm long, in the middle of the widest gap. */
-  double name = widest_gap(n, angle);
-  thr_svg_text(panel->out, panel->x + 7.5 * cos(name), panel->y - 7.5 * sin(name) + 1,
-               THR_SHEET_SMALL, " text-anchor=\"middle\" font-weight=\"bold\"",
-               panel->sheets->guide.label[v]);
-}
-
 /* Fills the panel "Laying a piece": which side up, and what "in by the arm that faces" means, shown
  * on a piece of this plan; for tubes a row of three with the cord through two. */
 static void put_lay(instruction_panel *panel, thr_text *words)
@@ -432,9 +357,13 @@ static void put_lay(instruction_panel *panel, thr_text *words)
   int shown = sheets->pieces.solid ? example(sheets) : -1;
 
   /* A piece of this plan if one is simple enough, else three tubes. */
-  if (shown >= 0)
-    put_example(panel, &sheets->visit[shown]);
-  else {
+  if (shown >= 0) {
+    const double hub[2] = {panel->x, panel->y};
+    const int piece = sheets->visit[shown].piece;
+    thr_step_put_example(sheets, shown, hub, 11, OLD, panel->out);
+    thr_svg_text(panel->out, panel->x - 36, panel->y - 10, 3.4, " font-weight=\"bold\"",
+                 sheets->guide.label[piece]);
+  } else {
     put_row(panel, -20, 0, "hnl", 1.5);
     put_cord(panel, -28, 0, 5, 0);
   }

@@ -270,6 +270,14 @@ void thr_step_arms(const thr_sheets *sheets, const thr_camera *camera, int v, do
 void thr_step_put_hub(thr_sheets *sheets, const thr_step *step, const thr_camera *camera,
                       const char *colour, thr_box picture, const double (*busy)[2], int n_busy);
 
+/* Draws the icon of a visit alone, the longest arm `reach` mm long, as it lies in the layout; of a
+ * visit that comes and goes by arms, with the names of both pieces that they face (sheets_hub.c).
+ */
+void thr_step_put_icon(const thr_sheets *sheets, int visit, const double hub[2], double reach,
+                       const char *colour, thr_text *text);
+void thr_step_put_example(const thr_sheets *sheets, int visit, const double hub[2], double reach,
+                          const char *colour, thr_text *text);
+
 /* Draws the pieces in the order of threading as they lie in the picture, with the way of the cord
  * through each. camera: of a picture in space, else NULL. */
 void thr_step_put_strip(thr_sheets *sheets, const thr_step *step, const thr_camera *camera,

@@ -203,6 +203,15 @@ static double arm_width(const thr_sheets *sheets, const thr_step *step, double r
   return reach * fmin(ARM, CROWD * 2 * THR_PI / most);
 }
 
+void thr_step_put_icon(const thr_sheets *sheets, int visit, const double hub[2], double reach,
+                       const char *colour, thr_text *text)
+{
+  icon_layers row = {0};
+
+  add_icon(sheets, visit, NULL, hub, reach, &row);
+  put_layers(&row, ARM * reach, reach, colour, text);
+}
+
 /* Writes the name of a visit's piece below its icon, centred at x: in bold "X-10 B5", its kind and
  * place, if the piece is picked up; "F5" if the piece is on a cord already. */
 static void put_name(thr_sheets *sheets, int visit, double x, double y, double width)
