@@ -33,7 +33,7 @@ static const char *const NEW = "#0072b2"; /* colour of a second cord that is tie
 /* A panel that is being filled. Drawing functions take offsets in mm from the middle of the panel's
  * picture, y downwards; those of lines, pieces and segments take points of the page. */
 typedef struct {
-  thr_sheets *sheets;
+  const thr_known *known;
   thr_text *out; /* SVG of the page */
   double x, y;   /* mm on the page: the middle of its picture */
 } instruction_panel;
@@ -135,7 +135,7 @@ static void put_row(const instruction_panel *panel, double x, double y, const ch
                     double gap)
 {
   static const double cross[4] = {0, THR_PI / 2, THR_PI, -THR_PI / 2}, tube[2] = {0, THR_PI};
-  bool solid = panel->sheets->pieces.solid;
+  bool solid = panel->known->pieces.solid;
 
   for (x += panel->x; *looks; looks++, x += 13 + gap)
     put_piece(panel, x + 6, panel->y + y, solid ? 4 : 2, solid ? cross : tube, 6,
@@ -271,38 +271,38 @@ typedef struct {
 
 /* Returns the widest bore of all edges that a cord passes, or the narrowest one, in mm rounded up;
  * 0 where sizes are not known. */
-static double extreme_bore(const thr_sheets *sheets, bool narrowest)
+static double extreme_bore(const thr_known *known, bool narrowest)
 {
   double found = 0;
 
   /* An edge without a pass has no bore. */
-  for (int e = 0; e < sheets->f->n_edges; e++) {
-    double bore = thr_supplies_bore(&sheets->supplies, e);
+  for (int e = 0; e < known->f->n_edges; e++) {
+    double bore = thr_supplies_bore(&known->supplies, e);
     if (bore > 0 && (found == 0 || (narrowest ? bore < found : bore > found))) found = bore;
   }
 
-  return thr_supplies_bore_mm(&sheets->supplies, found);
+  return thr_supplies_bore_mm(&known->supplies, found);
 }
 
 /* Fills the panel "What you need": cord, needle and stopper, with the lengths to cut and the bores
  * that needle and stopper have to fit. */
 static void put_need(instruction_panel *panel, thr_text *words)
 {
-  thr_sheets *sheets = panel->sheets;
-  int n = sheets->plan->n_cords;
+  const thr_known *known = panel->known;
+  int n = known->plan->n_cords;
   double least = INFINITY, most = 0;
   char from[64], to[64];
 
   /* Shortest and longest cord to cut; where sizes in mm are unknown, without tails and knots. */
   for (int c = 0; c < n; c++) {
-    double cut = thr_supplies_cut(&sheets->supplies, c).cut;
-    if (!(sheets->supplies.mm > 0)) cut = thr_supplies_cut(&sheets->supplies, c).length;
+    double cut = thr_supplies_cut(&known->supplies, c).cut;
+    if (!(known->supplies.mm > 0)) cut = thr_supplies_cut(&known->supplies, c).length;
     least = fmin(least, cut);
     most = fmax(most, cut);
   }
 
-  thr_svg_length(least, sheets->f->units, from);
-  thr_svg_length(most, sheets->f->units, to);
+  thr_svg_length(least, known->f->units, from);
+  thr_svg_length(most, known->f->units, to);
 
   /* The picture: cord, stopper and needle side by side. */
   put_cord(panel, -36, -3, -8, -3);
@@ -313,17 +313,17 @@ static void put_need(instruction_panel *panel, thr_text *words)
   put_label(panel, 2, 5, "stopper");
 
   /* The text. */
-  thr_text_printf(words, "%d %s; %d cord%s of %s", sheets->pieces.n,
-                  thr_pieces_word(sheets->plan, sheets->pieces.n), n, n == 1 ? "" : "s", from);
+  thr_text_printf(words, "%d %s; %d cord%s of %s", known->pieces.n,
+                  thr_pieces_word(known->plan, known->pieces.n), n, n == 1 ? "" : "s", from);
   if (most > least * (1 + 1e-9)) thr_text_printf(words, " to %s", to);
   thr_text_append(words, " (cut list); a needle");
 
   /* The needle must pass the narrowest bore, the stopper none. */
-  if (sheets->supplies.mm > 0)
+  if (known->supplies.mm > 0)
     thr_text_printf(
         words,
         " that with its cord goes through %.2f mm; a stopper that does not slip into %.2f mm",
-        extreme_bore(sheets, true), extreme_bore(sheets, false));
+        extreme_bore(known, true), extreme_bore(known, false));
   else
     thr_text_append(words, " thinner than the bores; a stopper wider than they are");
 
@@ -333,14 +333,14 @@ static void put_need(instruction_panel *panel, thr_text *words)
 /* Returns the visit that explains best how a piece lies: the first one that picks up a piece,
  * comes in and goes out, and whose piece has the most arms, but no more than four; -1 if there
  * is none. */
-static int example(const thr_sheets *sheets)
+static int example(const thr_known *known)
 {
   int best = -1, arms = 0;
-  for (int i = 0; i < sheets->n_visits; i++) {
-    const thr_visit *visit = &sheets->visit[i];
+  for (int i = 0; i < known->n_visits; i++) {
+    const thr_visit *visit = &known->visit[i];
 
     /* Four arms at most: more would not leave room for the names around them. */
-    int n = thr_pieces_arms(&sheets->pieces, visit->piece);
+    int n = thr_pieces_arms(&known->pieces, visit->piece);
     if (visit->nth > 1 || visit->in < 0 || visit->out < 0 || n > 4 || n <= arms) continue;
     arms = n;
     best = i;
@@ -353,16 +353,16 @@ static int example(const thr_sheets *sheets)
  * on a piece of this plan; for tubes a row of three with the cord through two. */
 static void put_lay(instruction_panel *panel, thr_text *words)
 {
-  const thr_sheets *sheets = panel->sheets;
-  int shown = sheets->pieces.solid ? example(sheets) : -1;
+  const thr_known *known = panel->known;
+  int shown = known->pieces.solid ? example(known) : -1;
 
   /* A piece of this plan if one is simple enough, else three tubes. */
   if (shown >= 0) {
     const double hub[2] = {panel->x, panel->y};
-    const int piece = sheets->visit[shown].piece;
-    thr_step_put_example(sheets, shown, hub, 11, OLD, panel->out);
+    const int piece = known->visit[shown].piece;
+    thr_step_put_example(known, shown, hub, 11, OLD, panel->out);
     thr_svg_text(panel->out, panel->x - 36, panel->y - 10, 3.4, " font-weight=\"bold\"",
-                 sheets->guide.label[piece]);
+                 known->guide.label[piece]);
   } else {
     put_row(panel, -20, 0, "hnl", 1.5);
     put_cord(panel, -28, 0, 5, 0);
@@ -372,11 +372,11 @@ static void put_lay(instruction_panel *panel, thr_text *words)
   if (shown >= 0) {
     thr_text_append(
         words, "Lay each piece as the overview shows it: its outer side up, its name upright. ");
-    const thr_visit *visit = &sheets->visit[shown];
+    const thr_visit *visit = &known->visit[shown];
     thr_text_printf(words, "Here %s: in by the arm that faces %s, out by the one that faces %s.",
-                    sheets->guide.label[visit->piece],
-                    sheets->guide.label[thr_tail(sheets->f, visit->in)],
-                    sheets->guide.label[thr_head(sheets->f, visit->out)]);
+                    known->guide.label[visit->piece],
+                    known->guide.label[thr_tail(known->f, visit->in)],
+                    known->guide.label[thr_head(known->f, visit->out)]);
   } else
     thr_text_append(words, "Lay each piece where the overview has it, its name upright. Rows say "
                            "by which of its two ends the needle goes in.");
@@ -385,31 +385,30 @@ static void put_lay(instruction_panel *panel, thr_text *words)
 /* Fills the panel "How to start": stopper, tail and needle on the first piece of the first part. */
 static void put_start(instruction_panel *panel, thr_text *words)
 {
-  const thr_sheets *sheets = panel->sheets;
-  const thr_part *part = &sheets->part[0];
+  const thr_known *known = panel->known;
+  const thr_part *part = &known->part[0];
   /* The picture: a piece on the cord between stopper and needle. */
   put_row(panel, -2, 0, "n", 0);
   put_cord(panel, -34, 0, 18, 0);
   put_stopper(panel, -5, 0);
   put_needle(panel, 18, 0, 18);
   put_label(panel, -5, -5, "stopper");
-  put_label(panel, -24, 5, sheets->fold[part->cord] ? "other half" : "tail 150 mm");
+  put_label(panel, -24, 5, known->fold[part->cord] ? "other half" : "tail 150 mm");
   put_label(panel, 27, 5, "needle");
 
   /* The text. A cord that is threaded from its fold has no tail yet: its other half waits there. */
   thr_text_append(words, "Thread the needle, fold the end of the cord back and tape it flat. ");
 
   /* Where the cord starts, or what to do with the fold. */
-  if (sheets->fold[part->cord])
+  if (known->fold[part->cord])
     thr_text_append(words, "A cord that is threaded from its middle has the stopper at its fold "
                            "(cut list), until the left needle's turn.");
   else {
     thr_text_printf(
         words,
         "Put the stopper %.0f mm from the other end: that tail is for the knot. Cord %s starts at ",
-        THR_SUPPLIES_TAIL, sheets->plan->cord[part->cord].id);
-    thr_guide_place(&sheets->guide, thr_cord_start(sheets->f, &sheets->plan->cord[part->cord]),
-                    words);
+        THR_SUPPLIES_TAIL, known->plan->cord[part->cord].id);
+    thr_guide_place(&known->guide, thr_cord_start(known->f, &known->plan->cord[part->cord]), words);
     thr_text_append(words, "; the first piece goes up to the stopper.");
   }
 }
@@ -432,7 +431,7 @@ static void put_slack(instruction_panel *panel, thr_text *words)
 
   thr_text_append(words, "Draw the slack every few rows, and at every check: hold the last piece "
                          "that sits, draw the cord until ");
-  thr_text_append(words, panel->sheets->pieces.solid ? "the faces touch" : "the tubes meet");
+  thr_text_append(words, panel->known->pieces.solid ? "the faces touch" : "the tubes meet");
   thr_text_append(
       words,
       ", go on to the next one, from the stopper to the needle. Never a long way in one pull.");
@@ -463,7 +462,7 @@ static void put_wrong(instruction_panel *panel, thr_text *words)
  * the feet. */
 static void put_join(instruction_panel *panel, thr_text *words)
 {
-  const thr_frame *frame = panel->sheets->f;
+  const thr_frame *frame = panel->known->f;
   const double x = panel->x, y = panel->y;
   segment_list segments = {0};
   int feet = 0;
@@ -485,19 +484,18 @@ static void put_join(instruction_panel *panel, thr_text *words)
   thr_text_append(
       words,
       "To join a new length, tie each end round the other cord and draw both knots together. ");
-  thr_text_append(words, panel->sheets->pieces.solid
+  thr_text_append(words, panel->known->pieces.solid
                              ? "Join only at a foot or where a hub is open"
                              : "Join only at a foot or where tubes leave room");
 
   /* The first few feet by name, or that there is none. */
   for (int v = 0; v < frame->n_nodes; v++)
     if (frame->foot[v] && feet++ < NAMED)
-      thr_text_printf(words, "%s%s", feet > 1 ? ", " : " (feet: ", panel->sheets->guide.label[v]);
+      thr_text_printf(words, "%s%s", feet > 1 ? ", " : " (feet: ", panel->known->guide.label[v]);
 
   thr_text_append(words, feet > NAMED ? ", ..)" : feet ? ")" : "; this frame has no foot");
-  thr_text_append(words, panel->sheets->pieces.solid
-                             ? ": a knot between two faces keeps them apart."
-                             : ": a knot in a tube stops the cord.");
+  thr_text_append(words, panel->known->pieces.solid ? ": a knot between two faces keeps them apart."
+                                                    : ": a knot in a tube stops the cord.");
 }
 
 /* Draws an arrow outwards at one end of the row (side = -1: left, 1: right) and names the place. */
@@ -512,11 +510,11 @@ static void put_pull(const instruction_panel *panel, double side, const char *pl
 
 /* Appends how cord c is tightened by the plan's schedule: the largest pull and the first few grips
  * by their places; steps.txt lists all of them. */
-static void put_schedule(const thr_sheets *sheets, int c, thr_text *words)
+static void put_schedule(const thr_known *known, int c, thr_text *words)
 {
   enum { FEW = 4 };
-  const thr_schedule *schedule = &sheets->plan->evaluation.schedule;
-  const thr_cord *cord = &sheets->plan->cord[c];
+  const thr_schedule *schedule = &known->plan->evaluation.schedule;
+  const thr_cord *cord = &known->plan->cord[c];
   const int grips = thr_schedule_grips(schedule, c);
   char force[32];
   int n = 0;
@@ -531,8 +529,8 @@ static void put_schedule(const thr_sheets *sheets, int c, thr_text *words)
     if (step->cord != c || step->deed != THR_DEED_GRIP) continue;
     const int half = cord->half[step->pass];
     thr_text_printf(words, "%s%s and %s (pass %d)", n++ ? ", " : "Grip it between ",
-                    sheets->guide.label[thr_tail(sheets->f, half)],
-                    sheets->guide.label[thr_head(sheets->f, half)], step->pass + 1);
+                    known->guide.label[thr_tail(known->f, half)],
+                    known->guide.label[thr_head(known->f, half)], step->pass + 1);
   }
 
   /* What the list leaves out, and what to do between two grips. */
@@ -547,49 +545,48 @@ static void put_schedule(const thr_sheets *sheets, int c, thr_text *words)
  * one without a schedule the slack starts at its slackest pass; else in the middle. */
 static void put_tighten(instruction_panel *panel, thr_text *words)
 {
-  const thr_sheets *sheets = panel->sheets;
-  int c = thr_sheets_hardest(sheets);
-  const thr_cord *cord = &sheets->plan->cord[c];
-  const thr_evaluation *evaluation = &sheets->plan->evaluation;
-  const char *start = sheets->guide.label[thr_cord_start(sheets->f, cord)],
-             *end = sheets->guide.label[thr_cord_end(sheets->f, cord)];
+  const thr_known *known = panel->known;
+  int c = thr_sheets_hardest(known);
+  const thr_cord *cord = &known->plan->cord[c];
+  const thr_evaluation *evaluation = &known->plan->evaluation;
+  const char *start = known->guide.label[thr_cord_start(known->f, cord)],
+             *end = known->guide.label[thr_cord_end(known->f, cord)];
 
   /* The picture: a row of pieces on the cord, to which the cases below add arrows. */
   put_row(panel, -27, 0, "hhhh", 0.5);
   put_cord(panel, -36, 0, 36, 0);
 
   thr_text_printf(words, "%sord %s%s. ",
-                  sheets->plan->n_cords > 1 ? "The order is on the page \"Last\": first c" : "C",
-                  cord->id, sheets->plan->n_cords > 1 ? "" : " is tightened when all is threaded");
+                  known->plan->n_cords > 1 ? "The order is on the page \"Last\": first c" : "C",
+                  cord->id, known->plan->n_cords > 1 ? "" : " is tightened when all is threaded");
 
   bool from_start = true, from_end = true,
-       known = evaluation->present && evaluation->cord[c].known &&
-               evaluation->cord[c].pull != THR_PULL_NONE;
+       evaluated = evaluation->present && evaluation->cord[c].known &&
+                   evaluation->cord[c].pull != THR_PULL_NONE;
 
-  if (known) {
+  if (evaluated) {
     put_label(panel, 0, 10, "first grip");
     put_arrow(panel, -1, 7.5, -1, 3.5);
   }
 
   /* A schedule replaces everything below. */
-  if (known && evaluation->schedule.n > 0) {
-    put_schedule(sheets, c, words);
+  if (evaluated && evaluation->schedule.n > 0) {
+    put_schedule(known, c, words);
     put_pull(panel, 1, end);
     return;
   }
 
   /* Without a schedule the cord is drawn from its slackest pass towards the ends that were
    * evaluated. */
-  if (known) {
+  if (evaluated) {
     int pull = evaluation->cord[c].pull, half = cord->half[evaluation->cord[c].slackest];
     from_start = pull != THR_PULL_END;
     from_end = pull != THR_PULL_START;
     thr_text_printf(words,
                     "Its slackest pass is %d, %s to %s: grip the pieces on both sides of it, draw, "
                     "then grip by grip to ",
-                    evaluation->cord[c].slackest + 1,
-                    sheets->guide.label[thr_tail(sheets->f, half)],
-                    sheets->guide.label[thr_head(sheets->f, half)]);
+                    evaluation->cord[c].slackest + 1, known->guide.label[thr_tail(known->f, half)],
+                    known->guide.label[thr_head(known->f, half)]);
   } else
     thr_text_append(words, "Draw the slack from its middle pass, grip by grip, to ");
 
@@ -602,7 +599,7 @@ static void put_tighten(instruction_panel *panel, thr_text *words)
     thr_text_printf(words, "its %s, at %s", from_start ? "start" : "end", from_start ? start : end);
 
   /* How hard: the larger pull of both ends. */
-  if (known) {
+  if (evaluated) {
     char force[32];
     double pull = fmax(evaluation->cord[c].force, evaluation->cord[c].other_force);
     thr_svg_force(pull, force);
@@ -631,9 +628,9 @@ static void put_knot(instruction_panel *panel, thr_text *words)
   thr_text_append(words, "When all cords are tight, an overhand knot at each end");
 
   /* How much cord it takes, if the cord's diameter is known. */
-  if (panel->sheets->supplies.mm > 0)
+  if (panel->known->supplies.mm > 0)
     thr_text_printf(words, " (it takes %.0f mm of this cord)",
-                    ceil(THR_SUPPLIES_KNOT * panel->sheets->supplies.cord));
+                    ceil(THR_SUPPLIES_KNOT * panel->known->supplies.cord));
 
   thr_text_append(words,
                   ", drawn up to its piece with the needle's tip in the loop. Two ends that come "
@@ -645,15 +642,16 @@ static void put_knot(instruction_panel *panel, thr_text *words)
 
 /* Draws a panel of a width and height in mm with its upper left corner at (left, top): frame,
  * title, picture and text. number: from 0, row by row. */
-static void put_panel(thr_sheets *sheets, int number, const panel_subject *about, double left,
-                      double top, double width, double height)
+static void put_panel(thr_flow *flow, const thr_known *known, int number,
+                      const panel_subject *about, double left, double top, double width,
+                      double height)
 {
   const double size = THR_SHEET_SMALL, high = 1.45 * size, head = 7, room = width - 2 * INDENT;
   char title[96];
   thr_text words = {0};
 
   /* The picture's middle is halfway between title and text. */
-  instruction_panel panel = {sheets, thr_sheets_out(sheets), left + width / 2,
+  instruction_panel panel = {known, thr_sheets_out(flow), left + width / 2,
                              top + head + (height - head - LINES * high) / 2};
 
   /* The frame and the numbered title. */
@@ -667,15 +665,15 @@ static void put_panel(thr_sheets *sheets, int number, const panel_subject *about
   /* The picture is drawn at once; the text comes back and is set from the panel's foot upwards. */
   about->put(&panel, &words);
   if (words.failed)
-    thr_nomem(&sheets->why);
+    thr_nomem(&flow->why);
   else
-    thr_sheets_text(sheets, left + INDENT,
+    thr_sheets_text(flow, left + INDENT,
                     top + height - 2 - (thr_sheets_lines(words.data, room, size) - 1) * high, size,
                     room, "", words.data);
   thr_text_destroy(&words);
 }
 
-void thr_sheets_making(thr_sheets *sheets)
+void thr_sheets_making(thr_flow *flow, const thr_known *known)
 {
   /* In reading order, row by row. */
   static const panel_subject subjects[COLUMNS * ROWS] = {
@@ -684,13 +682,13 @@ void thr_sheets_making(thr_sheets *sheets)
       {"When a row went wrong", put_wrong}, {"Joining a new length", put_join},
       {"Tightening", put_tighten},          {"Knots", put_knot}};
 
-  thr_sheets_page(sheets, "Before you begin", "Before you begin (continued)");
-  if (sheets->why.code) return;
+  thr_sheets_page(flow, "Before you begin", "Before you begin (continued)");
+  if (flow->why.code) return;
 
   /* All panels are equally large, and together as large as the page, which they fill row by row. */
-  double height = (thr_sheets_bottom(sheets) - sheets->y - (ROWS - 1) * AIR) / ROWS,
-         width = (thr_sheets_width(sheets) - AIR) / COLUMNS;
-  for (int i = 0; i < COLUMNS * ROWS && !sheets->why.code; i++)
-    put_panel(sheets, i, &subjects[i], THR_SHEET_MARGIN + i % COLUMNS * (width + AIR),
-              sheets->y + i / COLUMNS * (height + AIR), width, height);
+  double height = (thr_sheets_bottom(flow) - flow->y - (ROWS - 1) * AIR) / ROWS,
+         width = (thr_sheets_width(flow) - AIR) / COLUMNS;
+  for (int i = 0; i < COLUMNS * ROWS && !flow->why.code; i++)
+    put_panel(flow, known, i, &subjects[i], THR_SHEET_MARGIN + i % COLUMNS * (width + AIR),
+              flow->y + i / COLUMNS * (height + AIR), width, height);
 }
