@@ -126,31 +126,30 @@ static void put_pages(thr_sheets *sheets)
     if (sheets->flow.page[i].failed) thr_nomem(&sheets->flow.why);
 }
 
-/* Lays out all pages; returns why that failed, with its text, or THR_OK. */
-static thr_status lay_out(thr_sheets *sheets, thr_err *err)
-{
-  put_pages(sheets);
-  return sheets->flow.why.code ? thr_fail(err, sheets->flow.why.code, "%s", sheets->flow.why.text)
-                               : THR_OK;
-}
-
-/* Makes sheets with everything but the pages. *out is NULL on failure. */
-static thr_status start(thr_sheets **out, const thr_plan *plan, const thr_sheets_options *options,
-                        const thr_limits *limits, thr_err *err)
+/* Makes sheets with all pages, which go to a PDF as they are finished if there is to be one. *out
+ * is NULL on failure. */
+static thr_status make(thr_sheets **out, const thr_plan *plan, const thr_sheets_options *options,
+                       const thr_limits *limits, bool pdf, thr_err *err)
 {
   thr_sheets *sheets = *out = thr_calloc(1, sizeof *sheets);
   if (!sheets) return thr_nomem(err);
+  thr_flow *flow = &sheets->flow;
 
   /* Everything is borrowed from the caller until the pages are laid out. */
   sheets->known.plan = plan;
   sheets->known.f = &plan->frame;
   sheets->known.o = *options;
-  sheets->flow.limits = limits;
-  thr_page_mm(options->page, sheets->flow.size);
+  flow->limits = limits;
+  thr_page_mm(options->page, flow->size);
 
   thr_status st = prepare(sheets, err);
+  if (!st && pdf)
+    st = thr_pages_open(&flow->pages, "step sheets", options->page, flow->title, limits, err);
+  if (!st) put_pages(sheets);
+  if (flow->why.code) st = thr_fail(err, flow->why.code, "%s", flow->why.text);
 
-  /* Half-made sheets are of no use to the caller. */
+  /* The sheets outlive the caller's limits. Half-made ones are of no use to the caller. */
+  flow->limits = NULL;
   if (!st) return THR_OK;
   thr_sheets_destroy(sheets);
   *out = NULL;
@@ -161,16 +160,7 @@ thr_status thr_sheets_make(thr_sheets **out, const thr_plan *plan,
                            const thr_sheets_options *options, const thr_limits *limits,
                            thr_err *err)
 {
-  thr_status st = start(out, plan, options, limits, err);
-  if (st) return st;
-
-  /* The sheets outlive the caller's limits. */
-  st = lay_out(*out, err);
-  (*out)->flow.limits = NULL;
-  if (!st) return THR_OK;
-  thr_sheets_destroy(*out);
-  *out = NULL;
-  return st;
+  return make(out, plan, options, limits, false, err);
 }
 
 int thr_sheets_pages(const thr_sheets *sheets)
@@ -272,17 +262,11 @@ thr_status thr_sheets_write(const thr_plan *plan, const thr_sheets_options *opti
                             const thr_limits *limits, int *n_pages, thr_text *pdf, thr_err *err)
 {
   thr_sheets *sheets = NULL;
-  thr_status st = start(&sheets, plan, options, limits, err);
+  thr_status st = make(&sheets, plan, options, limits, true, err);
   if (st) return st;
 
-  st = thr_pages_open(&sheets->flow.pages, "step sheets", options->page, sheets->flow.title, limits,
-                      err);
-
-  /* thr_sheets_send takes each page away when the next one begins. */
-  if (!st) st = lay_out(sheets, err);
-  if (!st) st = end_pdf(&sheets->flow, &sheets->known, pdf, err);
-
   *n_pages = sheets->flow.n_pages;
+  st = end_pdf(&sheets->flow, &sheets->known, pdf, err);
   thr_sheets_destroy(sheets);
   return st;
 }

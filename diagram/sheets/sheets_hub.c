@@ -57,16 +57,6 @@ static int count_clockwise(const thr_arms *arms, int from, int to)
   return n;
 }
 
-/* Draws arm i as a straight line of a width in mm. */
-static void put_arm(const thr_arms *arms, int i, double width, const char *colour, thr_text *text)
-{
-  thr_text_printf(text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"", colour,
-                  width);
-  thr_svg_move(text, arms->hub);
-  thr_svg_line(text, arms->end[i]);
-  thr_text_append(text, "\"/>\n");
-}
-
 /* Writes the name of the piece that arm i faces beyond the end of the arm. */
 static void put_facing(const thr_known *known, const thr_arms *arms, int i, int node,
                        thr_text *text)
@@ -94,23 +84,21 @@ static void put_piece(const thr_known *known, const thr_visit *visit, thr_arms *
     arms->end[i][1] = arms->hub[1] + REACH * sin(turn);
   }
 
-  /* Thin arms lie below the bold ones. */
-  for (int i = 0; i < arms->n; i++)
-    if (i != in && i != out) put_arm(arms, i, THIN, "#857a64", text);
-  put_arm(arms, in, BOLD, "#857a64", text);
-  put_arm(arms, out, BOLD, "#857a64", text);
-
-  /* The cord over a wider white line. */
-  for (int casing = 1; casing >= 0; casing--) {
-    thr_text_printf(text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"",
-                    casing ? "#ffffff" : colour, casing ? 1.6 * CORD : CORD);
-    thr_arms_way(arms, in, out, CORD, text);
-    thr_text_append(text, "\"/>\n");
+  /* All arms thin; then along the way of the cord its two arms bold, a white line, and the cord. */
+  const struct {
+    const char *colour;
+    double width;
+  } layer[3] = {{"#857a64", BOLD}, {"#ffffff", 1.6 * CORD}, {colour, CORD}};
+  thr_text thin = {0}, tip = {0};
+  thr_arms_strokes(arms, 0, &thin);
+  thr_step_put_path(&thin, "none", "#857a64", THIN, text);
+  for (int i = 0; i < 3; i++) {
+    thr_text way = {0};
+    thr_arms_way(arms, in, out, CORD, &way);
+    thr_step_put_path(&way, "none", layer[i].colour, layer[i].width, text);
   }
-
-  thr_text_printf(text, "<path fill=\"%s\" stroke=\"#ffffff\" stroke-width=\"0.20\" d=\"", colour);
-  thr_arms_tip(arms, out, CORD, text);
-  thr_text_append(text, "\"/>\n");
+  thr_arms_tip(arms, out, CORD, &tip);
+  thr_step_put_path(&tip, colour, "#ffffff", 0.2, text);
 
   /* The names of the pieces that the needle comes from and goes to. */
   put_facing(known, arms, in, thr_tail(known->f, visit->in), text);

@@ -131,26 +131,32 @@ static void put_crossings(thr_flow *flow, const thr_known *known)
     thr_sheets_put(flow, THR_BLOCK_PARAGRAPH, "No cords cross inside a piece.");
 }
 
-/* Begins the cards below what is on the page, if the cards take fewer further pages then than on a
- * page of their own; else on a new page. */
-static void begin_key(thr_flow *flow, const thr_known *known, const char *title)
+/* Begins a part below what is on the page if that is wanted, else on a page of its own. */
+static void begin(thr_flow *flow, bool here, const char *title, const char *running)
 {
-  const double head = 12, row = CARD + AIR, here = thr_sheets_bottom(flow) - flow->y - head - 5;
-  const double page = thr_sheets_bottom(flow) - THR_SHEET_MARGIN - head;
+  if (!here) {
+    thr_sheets_page(flow, title, running);
+    return;
+  }
+  snprintf(flow->running, sizeof flow->running, "%s", running);
+  thr_sheets_put(flow, THR_BLOCK_TITLE, "%s", title);
+}
+
+/* Returns whether n_kinds cards take fewer further pages below what is on the page than on a page
+ * of their own. */
+static bool is_shorter_here(const thr_flow *flow, int n_kinds)
+{
+  const double head = 12, row = CARD + AIR, here = thr_sheets_bottom(flow) - flow->y - head - 5,
+               page = thr_sheets_bottom(flow) - THR_SHEET_MARGIN - head;
 
   /* Rows of cards in all, and as many as a whole page takes. */
-  const int rows = (known->pieces.n_kinds + CARDS - 1) / CARDS,
-            fit = (int)floor((page + AIR) / row);
+  const int rows = (n_kinds + CARDS - 1) / CARDS, fit = (int)floor((page + AIR) / row);
 
   /* Rows below what is there; (left + fit - 1) / fit pages take the others. */
   const int rows_here = here > 0 ? (int)floor((here + AIR) / row) : 0,
             left = rows > rows_here ? rows - rows_here : 0;
 
-  if (rows_here > 0 && (left + fit - 1) / fit < (rows + fit - 1) / fit) {
-    snprintf(flow->running, sizeof flow->running, "%s", title);
-    thr_sheets_put(flow, THR_BLOCK_TITLE, "%s", title);
-  } else
-    thr_sheets_page(flow, title, title);
+  return rows_here > 0 && (left + fit - 1) / fit < (rows + fit - 1) / fit;
 }
 
 void thr_sheets_key(thr_sheets *sheets)
@@ -170,7 +176,7 @@ void thr_sheets_key(thr_sheets *sheets)
            thr_pieces_word(known->plan, pieces->n), pieces->n_kinds,
            pieces->n_kinds == 1 ? "" : "s");
 
-  begin_key(flow, known, title);
+  begin(flow, is_shorter_here(flow, pieces->n_kinds), title, title);
   if (flow->why.code) return;
 
   thr_sheets_put(
@@ -209,12 +215,8 @@ void thr_sheets_name_tags(thr_flow *flow, const thr_known *known)
   double width = thr_sheets_width(flow) / columns;
 
   /* A few rows below what is on the page, or a page of their own. */
-  if (flow->y + SOME_TAGS * TAG < thr_sheets_bottom(flow)) {
-    snprintf(flow->running, sizeof flow->running, "Names to stick on (continued)");
-    thr_sheets_put(flow, THR_BLOCK_TITLE, "Names to stick on");
-  } else
-    thr_sheets_page(flow, "Names to stick on", "Names to stick on (continued)");
-
+  begin(flow, flow->y + SOME_TAGS * TAG < thr_sheets_bottom(flow), "Names to stick on",
+        "Names to stick on (continued)");
   thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
                  "Cut these out and put each on its piece when it goes on the cord: letters up, as "
                  "in the picture.");

@@ -274,6 +274,11 @@ double thr_step_strip_height(int visits);
 void thr_step_arms(const thr_known *known, const thr_camera *camera, int v, double reach,
                    thr_arms *arms, int half_in, int half_out, int *in, int *out);
 
+/* Appends path data as an element with a look, nothing if the data are empty, and releases the
+ * data. */
+void thr_step_put_path(thr_text *data, const char *fill, const char *stroke, double width,
+                       thr_text *text);
+
 /* Draws the hub with the most arms of a step, if any has very many, in a corner of the picture that
  * is free of the points busy[n_busy]; nothing if no corner is (sheets_hub.c). */
 void thr_step_put_hub(thr_flow *flow, const thr_known *known, const thr_step *step,

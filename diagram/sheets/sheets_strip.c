@@ -148,10 +148,8 @@ static void add_icon(const thr_known *known, int visit, const thr_camera *camera
                     hub[0], hub[1], 1.1 * CORD * reach);
 }
 
-/* Appends path data as an element with a look, nothing if the data are empty, and releases the
- * data. */
-static void put_path(thr_text *data, const char *fill, const char *stroke, double width,
-                     thr_text *text)
+void thr_step_put_path(thr_text *data, const char *fill, const char *stroke, double width,
+                       thr_text *text)
 {
   if (data->data && !data->failed)
     thr_text_printf(text,
@@ -173,20 +171,20 @@ static void put_layers(icon_layers *row, double width, double reach, const char 
   /* Outlines below fills, pieces on a cord below new ones. */
   for (int state = 0; state < 2; state++)
     for (int k = 0; k < 2; k++)
-      put_path(&row->piece[state][k], "none", look[state][k], width + (k ? -1 : 1) * LINE[state],
-               text);
+      thr_step_put_path(&row->piece[state][k], "none", look[state][k],
+                        width + (k ? -1 : 1) * LINE[state], text);
 
   /* The cord over a white casing, then discs and arrows. */
   thr_text casing = {0};
   if (row->way.data) thr_text_append(&casing, row->way.data);
-  put_path(&casing, "none", "#ffffff", 1.8 * CORD * reach, text);
-  put_path(&row->way, "none", colour, CORD * reach, text);
+  thr_step_put_path(&casing, "none", "#ffffff", 1.8 * CORD * reach, text);
+  thr_step_put_path(&row->way, "none", colour, CORD * reach, text);
 
   if (row->end.data) thr_text_append(text, row->end.data);
   text->failed |= row->end.failed;
   thr_text_destroy(&row->end);
 
-  put_path(&row->tip, colour, "#ffffff", 0.2, text);
+  thr_step_put_path(&row->tip, colour, "#ffffff", 0.2, text);
 }
 
 /* Returns the width of an arm in mm, narrower where a piece of the step has many arms. */
