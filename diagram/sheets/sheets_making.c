@@ -157,6 +157,7 @@ typedef struct {
 
 typedef struct {
   int n;
+  double last[3]; /* the point that the list was led to, and its height */
   segment segment[MOST_SEGMENTS];
 } segment_list;
 
@@ -167,13 +168,17 @@ static int by_height(const void *a, const void *b)
   return one->height < other->height ? -1 : one->height > other->height;
 }
 
-/* Appends a segment between two points with heights; a full list drops it. */
-static void add_segment(segment_list *segments, const double from[3], const double to[3],
-                        const char *colour)
+/* Leads the list to a point with a height z, by a segment from the last point or, if colour is
+ * NULL, without one; a full list drops it. */
+static void lead_to(segment_list *segments, double x, double y, double z, const char *colour)
 {
-  if (segments->n < MOST_SEGMENTS)
+  const double *last = segments->last;
+  if (colour && segments->n < MOST_SEGMENTS)
     segments->segment[segments->n++] =
-        (segment){{from[0], from[1]}, {to[0], to[1]}, (from[2] + to[2]) / 2, colour};
+        (segment){{last[0], last[1]}, {x, y}, (last[2] + z) / 2, colour};
+  segments->last[0] = x;
+  segments->last[1] = y;
+  segments->last[2] = z;
 }
 
 /* Paints all segments from the lowest to the highest, each over a casing in white. A segment that
@@ -203,28 +208,20 @@ static void put_strands(const instruction_panel *panel, segment_list *segments)
 static void add_overhand(segment_list *segments, double x, double y, double size)
 {
   enum { N = 120 };
-  double before[3] = {0};
 
   /* The closed curve would run over 2 pi; 0.35 rad are left out on both sides of the lobe. */
   for (int i = 0; i <= N; i++) {
     double angle = THR_PI + 0.35 + (2 * THR_PI - 0.7) * i / N;
-    double at[3] = {x + size * (sin(angle) + 2 * sin(2 * angle)),
-                    y - size * (cos(angle) - 2 * cos(2 * angle)), -sin(3 * angle)};
-    if (i) add_segment(segments, before, at, OLD);
-    for (int k = 0; k < 3; k++)
-      before[k] = at[k];
+    lead_to(segments, x + size * (sin(angle) + 2 * sin(2 * angle)),
+            y - size * (cos(angle) - 2 * cos(2 * angle)), -sin(3 * angle), i ? OLD : NULL);
   }
 
   /* Both ends: from the tip of the curve down to the line, then outwards along this line. */
   double low = y + 3.3 * size;
-  for (int side = 0; side < 2; side++) { /* the curve ends on the left, side 0 */
-    double sign = side ? 1 : -1;
-    const double tip[3] = {x + sign * size * 0.945, y + size * 2.47, 0},
-                 bend[3] = {x + sign * size * 1.8, low, 0};
-
-    const double far[3] = {x + sign * size * 8, low, 0};
-    add_segment(segments, tip, bend, OLD);
-    add_segment(segments, bend, far, OLD);
+  for (int sign = -1; sign <= 1; sign += 2) { /* the curve ends on the left */
+    lead_to(segments, x + sign * size * 0.945, y + size * 2.47, 0, NULL);
+    lead_to(segments, x + sign * size * 1.8, low, 0, OLD);
+    lead_to(segments, x + sign * size * 8, low, 0, OLD);
   }
 }
 
@@ -234,20 +231,15 @@ static void add_overhand(segment_list *segments, double x, double y, double size
 static void add_coil(segment_list *segments, double x, double y, double dir, const char *colour)
 {
   enum { N = 60 };
-  double before[3] = {0};
 
   /* Height sin t: above the line's cord half of the time, below it the other half. */
   for (int i = 0; i <= N; i++) {
     double angle = 4 * THR_PI * i / N;
-    double at[3] = {x + dir * 0.45 * angle, y - 2.4 * cos(angle), sin(angle)};
-    if (i) add_segment(segments, before, at, colour);
-    for (int k = 0; k < 3; k++)
-      before[k] = at[k];
+    lead_to(segments, x + dir * 0.45 * angle, y - 2.4 * cos(angle), sin(angle), i ? colour : NULL);
   }
 
   /* The free end leaves the last turn upwards. */
-  double end[3] = {before[0] + dir * 3, before[1] - 2.5, 1};
-  add_segment(segments, before, end, colour);
+  lead_to(segments, segments->last[0] + dir * 3, segments->last[1] - 2.5, 1, colour);
 }
 
 /* Appends a straight cord at height 0, cut into short segments so that each is painted at the right
@@ -255,10 +247,8 @@ static void add_coil(segment_list *segments, double x, double y, double dir, con
 static void add_straight(segment_list *segments, double x0, double x1, double y, const char *colour)
 {
   enum { N = 40 };
-  for (int i = 0; i < N; i++) {
-    double from[3] = {x0 + (x1 - x0) * i / N, y, 0}, to[3] = {x0 + (x1 - x0) * (i + 1) / N, y, 0};
-    add_segment(segments, from, to, colour);
-  }
+  for (int i = 0; i <= N; i++)
+    lead_to(segments, x0 + (x1 - x0) * i / N, y, 0, i ? colour : NULL);
 }
 
 /* ---- the panels: each a picture and words ---- */

@@ -86,6 +86,15 @@ int thr_sheets_end(const thr_known *known, int c)
   return known->first_visit[c] + known->plan->cord[c].n_passes + known->pieces.solid;
 }
 
+int thr_sheets_count_new(const thr_known *known, int first, int end)
+{
+  int n = 0;
+
+  for (int i = first; i < end; i++)
+    n += known->visit[i].nth == 1;
+  return n;
+}
+
 unsigned char *thr_sheets_piece_states(thr_flow *flow, const thr_known *known, int first, int end)
 {
   unsigned char *piece = thr_calloc((size_t)known->pieces.n, sizeof *piece);

@@ -149,6 +149,9 @@ thr_status thr_sheets_follow(thr_known *known, thr_err *err) THR_MUST_CHECK;
 /* Returns the visit after the last one of cord c. */
 int thr_sheets_end(const thr_known *known, int c);
 
+/* Returns how many pieces are picked up in visits first .. end - 1. */
+int thr_sheets_count_new(const thr_known *known, int first, int end);
+
 /* Returns how pieces look in a picture of visits first .. end - 1: on a cord already, picked up
  * then, or later (thr_piece_state). Freed by the caller; NULL if memory ran out. */
 unsigned char *thr_sheets_piece_states(thr_flow *flow, const thr_known *known, int first, int end);

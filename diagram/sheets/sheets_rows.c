@@ -178,13 +178,7 @@ static void put_tally(const thr_known *known, const thr_step *step, thr_text *te
 {
   char used[64], left[64];
   const thr_move *move = &known->move[step->end - 1];
-  int picked = 0, before = 0, last = step->end - 1, n = known->pieces.n;
-
-  /* Pieces picked up in this step, and in all steps up to its end. */
-  for (int i = 0; i < step->end; i++) {
-    picked += i >= step->first && known->visit[i].nth == 1;
-    before += known->visit[i].nth == 1;
-  }
+  int picked = thr_sheets_count_new(known, step->first, step->end), last = step->end - 1;
 
   /* The way that is left reaches from here to the end of the needle's part. */
   while (!thr_step_ends(known, last))
@@ -200,7 +194,8 @@ static void put_tally(const thr_known *known, const thr_step *step, thr_text *te
                   "%d %s to pick up, %d on a cord already; %d of %d are threaded then; cord used%s "
                   "%s, left for the way %s",
                   picked, thr_pieces_word(known->plan, picked), step->end - step->first - picked,
-                  before, n, move->needle == THR_NEEDLE_ONLY ? "" : " by this needle", used, left);
+                  thr_sheets_count_new(known, 0, step->end), known->pieces.n,
+                  move->needle == THR_NEEDLE_ONLY ? "" : " by this needle", used, left);
 }
 
 /* Returns the number of the first pass that a step draws: a visit that only starts a cord (number

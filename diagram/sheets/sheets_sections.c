@@ -15,20 +15,10 @@ enum {
   MOST = 12      /* sections of a framework, about */
 };
 
-/* Returns how many pieces are picked up in visits first .. end - 1. */
-static int count_new(const thr_known *known, int first, int end)
-{
-  int n = 0;
-
-  for (int i = first; i < end; i++)
-    n += known->visit[i].nth == 1;
-  return n;
-}
-
 int thr_sheets_sections(const thr_known *known, int first, int end)
 {
   int n = known->pieces.n, size = n / MOST > SECTION ? n / MOST : SECTION,
-      new = count_new(known, first, end);
+      new = thr_sheets_count_new(known, first, end);
 
   /* Less than half the pieces of a section get no page. */
   return n <= LARGE || 2 * new < size ? 0 : new < size ? 1 : new / size;
@@ -38,7 +28,7 @@ int thr_sheets_sections(const thr_known *known, int first, int end)
 static void put_kinds(thr_flow *flow, const thr_known *known, int first, int end)
 {
   thr_text words = {0};
-  const int n = count_new(known, first, end);
+  const int n = thr_sheets_count_new(known, first, end);
   int *count = thr_calloc((size_t)known->pieces.n_kinds + 1, sizeof *count);
   const char *before = "";
 

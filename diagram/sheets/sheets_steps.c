@@ -11,6 +11,7 @@
  * first two fill a page, and each picture becomes 38 mm higher. */
 #include "diagram/sheets/sheets_parts.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -268,58 +269,33 @@ static void wait(thr_sheets *sheets, int first, int end)
     sheets->waiting[sheets->n_waiting++] = step;
 }
 
-/* Returns how many of n steps belong to the section that begins with step i: up to the first step
- * at whose end at least `share` pieces of the path are on the cord. new: pieces picked up before
- * step i. */
-static int steps_of_section(const thr_known *known, const int *end, int n, int i, int new,
-                            int share)
-{
-  int first = i ? end[i - 1] : known->first_visit[known->visit[end[0] - 1].cord], steps = 0;
-
-  for (int k = first; i + steps < n; k++) {
-    new += known->visit[k].nth == 1;
-
-    /* Only the end of a step can be the end of a section. */
-    if (k + 1 < end[i + steps]) continue;
-    steps++;
-    if (new >= share) break;
-  }
-
-  return steps;
-}
-
 void thr_sheets_steps(thr_sheets *sheets, int c)
 {
   const thr_known *known = &sheets->known;
   thr_flow *flow = &sheets->flow;
-  int *end = NULL, n = 0, first = known->first_visit[c];
-  int next = 0, section = 0; /* the step before which the next section begins; sections so far */
-  int new = 0;               /* pieces picked up so far */
+  int *end = NULL, n = 0;
+  const int begin = known->first_visit[c];
 
   if (flow->why.code) return;
   thr_sheets_fail(flow, thr_step_divide(sheets, c, &end, &n, &flow->why));
 
-  /* Sections share the pieces that this path picks up equally. */
-  int sections = n ? thr_sheets_sections(known, first, end[n - 1]) : 0, all = 0;
-  for (int i = first; n && i < end[n - 1]; i++)
-    all += known->visit[i].nth == 1;
+  /* Sections share the pieces that this path picks up equally: section s of m ends with the step at
+   * whose end s / m of them are threaded; the last one takes all steps left. */
+  const int sections = n ? thr_sheets_sections(known, begin, end[n - 1]) : 0,
+            all = n ? thr_sheets_count_new(known, begin, end[n - 1]) : 0;
 
-  for (int i = 0; i < n && !flow->why.code; first = end[i++]) {
+  /* next: the step before which the next section begins. */
+  for (int i = 0, first = begin, next = 0, section = 0; i < n && !flow->why.code;
+       first = end[i++]) {
     poll(flow, known, first);
 
-    /* Section s of m ends when s / m of all pieces are threaded; the last one takes all steps
-     * left. */
-    if (!flow->why.code && i == next && section < sections) {
-      int steps = section + 1 < sections
-                      ? steps_of_section(known, end, n, i, new, all * (section + 1) / sections)
-                      : n - i;
-      thr_sheets_section(sheets, ++section, sections, first, end[i + steps - 1], steps);
-      next = i + steps;
+    if (i == next && section < sections && !flow->why.code) {
+      const int share = ++section < sections ? all * section / sections : INT_MAX;
+      for (next = i + 1; next < n; next++)
+        if (thr_sheets_count_new(known, begin, end[next - 1]) >= share) break;
+      thr_sheets_section(sheets, section, sections, first, end[next - 1], next - i);
     }
 
-    /* Passes of this step go to the page that is waiting. */
-    for (int k = first; k < end[i]; k++)
-      new += known->visit[k].nth == 1;
     if (!flow->why.code) wait(sheets, first, end[i]);
   }
 
