@@ -147,11 +147,7 @@ void thr_step_put_hub(thr_flow *flow, const thr_known *known, const thr_step *st
   thr_text *text = thr_sheets_out(flow);
   thr_step_arms(known, camera, stay->piece, REACH, &arms, stay->in, stay->out, &in, &out);
   if (in < 0 || out < 0) return; /* beyond the arms that are drawn */
-  thr_text_printf(
-      text,
-      "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"#fff\" stroke=\"#999\" "
-      "stroke-width=\"0.25\"/>\n",
-      x, y, SIDE, SIDE);
+  thr_sheets_frame(text, x, y, SIDE, SIDE, "fill=\"#fff\" stroke=\"#999\" stroke-width=\"0.25\"");
 
   /* Two lines of heading: which visit, and what to count. */
   snprintf(line, sizeof line, "%d: hub %.20s, %d arms", stay->number,

@@ -92,11 +92,8 @@ static void put_card(thr_sheets *sheets, int kind, double x, double y, double wi
   thr_text *text = thr_sheets_out(flow);
 
   /* The frame, then name and number. */
-  thr_text_printf(text,
-                  "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" rx=\"1.50\" "
-                  "fill=\"none\" stroke=\"#bbb\" "
-                  "stroke-width=\"0.25\"/>\n",
-                  x, y, width, CARD);
+  thr_sheets_frame(text, x, y, width, CARD,
+                   "rx=\"1.50\" fill=\"none\" stroke=\"#bbb\" stroke-width=\"0.25\"");
   thr_pieces_kind_name(&known->pieces, kind, name);
   snprintf(count, sizeof count, "x %d", known->pieces.members[kind]);
   thr_svg_text(text, x + 2, y + 5.5, NAME, " font-weight=\"bold\"", name);
@@ -142,6 +139,18 @@ static void begin(thr_flow *flow, bool here, const char *title, const char *runn
   thr_sheets_put(flow, THR_BLOCK_TITLE, "%s", title);
 }
 
+/* Begins cell i, from 0, of a grid that goes on row by row over as many pages as needed, with air
+ * mm between two cells. Returns its x; its y is that of the page. */
+static double begin_cell(thr_flow *flow, int i, int columns, double width, double height,
+                         double air)
+{
+  const int column = i % columns;
+
+  if (column == 0 && i) flow->y += height + air;
+  if (column == 0) thr_sheets_room(flow, height);
+  return THR_SHEET_MARGIN + column * (width + air);
+}
+
 /* Returns whether n_kinds cards take fewer further pages below what is on the page than on a page
  * of their own. */
 static bool is_shorter_here(const thr_flow *flow, int n_kinds)
@@ -184,13 +193,10 @@ void thr_sheets_key(thr_sheets *sheets)
       "Outer side up, as in the picture. Numbers: arms from the hub to the face, in %.15s.",
       known->f->units);
 
-  /* Kinds count from 1. A row of cards begins on a new page if this one is full. */
+  /* Kinds count from 1. */
   for (int k = 1; k <= pieces->n_kinds && !flow->why.code; k++) {
-    int column = (k - 1) % CARDS;
-    if (column == 0 && k > 1) flow->y += CARD + AIR;
-    if (column == 0) thr_sheets_room(flow, CARD);
-    if (!flow->why.code)
-      put_card(sheets, k, THR_SHEET_MARGIN + column * (width + AIR), flow->y, width);
+    double x = begin_cell(flow, k - 1, CARDS, width, CARD, AIR);
+    if (!flow->why.code) put_card(sheets, k, x, flow->y, width);
   }
 
   flow->y += CARD + 2 * AIR;
@@ -221,17 +227,11 @@ void thr_sheets_name_tags(thr_flow *flow, const thr_known *known)
                  "Cut these out and put each on its piece when it goes on the cord: letters up, as "
                  "in the picture.");
   for (int i = 0; i < n && !flow->why.code; i++) {
-    /* Row by row, over as many pages as needed. */
-    int column = i % columns;
-    double x = THR_SHEET_MARGIN + column * width;
-    if (column == 0 && i) flow->y += TAG;
-    if (column == 0) thr_sheets_room(flow, TAG);
+    double x = begin_cell(flow, i, columns, width, TAG, 0);
     if (flow->why.code) return;
 
-    thr_text_printf(thr_sheets_out(flow),
-                    "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"none\" "
-                    "stroke=\"#999\" stroke-width=\"0.15\"/>\n",
-                    x, flow->y, width, TAG);
+    thr_sheets_frame(thr_sheets_out(flow), x, flow->y, width, TAG,
+                     "fill=\"none\" stroke=\"#999\" stroke-width=\"0.15\"");
     thr_svg_text(thr_sheets_out(flow), x + 0.5 * width, flow->y + 0.5 * TAG + 0.36 * NAME, NAME,
                  " font-weight=\"bold\" text-anchor=\"middle\"", known->guide.label[i]);
   }

@@ -645,10 +645,8 @@ static void put_panel(thr_flow *flow, const thr_known *known, int number,
                              top + head + (height - head - LINES * high) / 2};
 
   /* The frame and the numbered title. */
-  thr_text_printf(panel.out,
-                  "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" rx=\"2\" "
-                  "fill=\"#fcfcf9\" stroke=\"#bbb\" stroke-width=\"0.3\"/>\n",
-                  left, top, width, height);
+  thr_sheets_frame(panel.out, left, top, width, height,
+                   "rx=\"2\" fill=\"#fcfcf9\" stroke=\"#bbb\" stroke-width=\"0.3\"");
   snprintf(title, sizeof title, "%d  %s", number + 1, about->title);
   thr_svg_text(panel.out, left + INDENT, top + 5.2, 3.4, " font-weight=\"bold\"", title);
 

@@ -148,12 +148,17 @@ void thr_sheets_whole(thr_sheets *sheets, bool in_space, const unsigned char *st
 
 /* ---- flowing text ---- */
 
+void thr_sheets_frame(thr_text *text, double x, double y, double width, double height,
+                      const char *attributes)
+{
+  thr_text_printf(text, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" %s/>\n", x, y,
+                  width, height, attributes);
+}
+
 void thr_sheets_box(thr_text *text, double x, double y)
 {
-  thr_text_printf(text,
-                  "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"#fff\" "
-                  "stroke=\"#222\" stroke-width=\"0.25\"/>\n",
-                  x, y - 0.9 * BOX, BOX, BOX);
+  thr_sheets_frame(text, x, y - 0.9 * BOX, BOX, BOX,
+                   "fill=\"#fff\" stroke=\"#222\" stroke-width=\"0.25\"");
 }
 
 /* How a block of text is set: size of the letters, mm; how many lines of flowing text must fit on

@@ -133,7 +133,9 @@ typedef enum { THR_BLOCK_TITLE, THR_BLOCK_PARAGRAPH, THR_BLOCK_TICK, THR_BLOCK_W
 void thr_sheets_put(thr_flow *flow, thr_block block, const char *format, ...) THR_PRINTF(3, 4);
 void thr_sheets_put_text(thr_flow *flow, thr_block block, thr_text *words);
 
-/* Draws the box alone, beside a line at y. */
+/* Draw a frame with its upper left corner at (x, y); the box to tick alone, beside a line at y. */
+void thr_sheets_frame(thr_text *text, double x, double y, double width, double height,
+                      const char *attributes);
 void thr_sheets_box(thr_text *text, double x, double y);
 
 /* Writes a row of cells with tabs between them. column: mm from the margin to where each cell
