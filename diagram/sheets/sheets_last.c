@@ -34,34 +34,34 @@ static int by_hardness(const void *a, const void *b)
 
 /* Returns the total turning of cord c in rad; a closed cord turns from its end into its start,
  * too. */
-static double turning_of(const thr_sheets *sheets, int c)
+static double turning_of(const thr_known *known, int c)
 {
-  return thr_cord_turning(sheets->f, &sheets->plan->cord[c],
-                          sheets->plan->options.ends == THR_ENDS_CLOSED);
+  return thr_cord_turning(known->f, &known->plan->cord[c],
+                          known->plan->options.ends == THR_ENDS_CLOSED);
 }
 
 /* Returns what the evaluation says of cord c, or NULL if it says nothing. */
-static const thr_eval_cord *known_of(const thr_sheets *sheets, int c)
+static const thr_eval_cord *evaluation_of(const thr_known *known, int c)
 {
-  const thr_evaluation *evaluation = &sheets->plan->evaluation;
+  const thr_evaluation *evaluation = &known->plan->evaluation;
   return evaluation->present && evaluation->cord[c].known ? &evaluation->cord[c] : NULL;
 }
 
 /* Returns how hard cord c is to pull. */
-static cord_pull pull_of(const thr_sheets *sheets, int c)
+static cord_pull pull_of(const thr_known *known, int c)
 {
-  const thr_eval_cord *known = known_of(sheets, c);
-  double force = known ? fmax(known->force, known->other_force) : turning_of(sheets, c);
-  return (cord_pull){c, known != NULL, force};
+  const thr_eval_cord *found = evaluation_of(known, c);
+  double force = found ? fmax(found->force, found->other_force) : turning_of(known, c);
+  return (cord_pull){c, found != NULL, force};
 }
 
-int thr_sheets_hardest(const thr_sheets *sheets)
+int thr_sheets_hardest(const thr_known *known)
 {
-  cord_pull first = pull_of(sheets, 0);
+  cord_pull first = pull_of(known, 0);
 
   /* The first in the order of by_hardness, without sorting all. */
-  for (int c = 1; c < sheets->plan->n_cords; c++) {
-    cord_pull other = pull_of(sheets, c);
+  for (int c = 1; c < known->plan->n_cords; c++) {
+    cord_pull other = pull_of(known, c);
     if (by_hardness(&other, &first) < 0) first = other;
   }
 
@@ -79,22 +79,22 @@ void thr_sheets_too_hard(double newton, thr_text *words)
 
 /* Writes how many cords ask for a larger force than a hand has, and what helps; nothing if none
  * does. pulls: [n_cords] all cords. */
-static void put_too_hard(thr_sheets *sheets, const cord_pull *pulls)
+static void put_too_hard(thr_flow *flow, const thr_known *known, const cord_pull *pulls)
 {
   thr_text words = {0};
   char force[32];
   int n = 0;
 
   /* Only forces compare with a hand; turning does not. */
-  for (int i = 0; i < sheets->plan->n_cords; i++)
+  for (int i = 0; i < known->plan->n_cords; i++)
     n += pulls[i].known && pulls[i].hardness > thr_hand_most;
   if (!n) return;
 
   /* "The cord asks ..", "3 of 4 cords ask ..". */
-  if (sheets->plan->n_cords == 1)
+  if (known->plan->n_cords == 1)
     thr_text_append(&words, "The cord");
   else
-    thr_text_printf(&words, "%d of %d cords", n, sheets->plan->n_cords);
+    thr_text_printf(&words, "%d of %d cords", n, known->plan->n_cords);
   thr_text_append(&words, n == 1 ? " asks for a pull that is" : " ask for a pull that is");
 
   thr_svg_force(thr_hand_most, force);
@@ -104,22 +104,22 @@ static void put_too_hard(thr_sheets *sheets, const cord_pull *pulls)
                   "pass, or plan more cords (thread advise).",
                   force);
 
-  thr_sheets_put_text(sheets, THR_BLOCK_WARNING, &words);
+  thr_sheets_put_text(flow, THR_BLOCK_WARNING, &words);
 }
 
 /* Writes the row of a cord in the table of pulls; column: the columns' places
  * (thr_sheets_cells). */
-static void put_cord(thr_sheets *sheets, int c, const double *column)
+static void put_cord(thr_flow *flow, const thr_known *known, int c, const double *column)
 {
-  const thr_cord *cord = &sheets->plan->cord[c];
-  const thr_eval_cord *known = known_of(sheets, c);
-  const char(*label)[THR_LABEL] = thr_sheets_labels(sheets);
-  const char *start = label[thr_cord_start(sheets->f, cord)],
-             *end = label[thr_cord_end(sheets->f, cord)];
+  const thr_cord *cord = &known->plan->cord[c];
+  const thr_eval_cord *found = evaluation_of(known, c);
+  const char(*label)[THR_LABEL] = thr_sheets_labels(known);
+  const char *start = label[thr_cord_start(known->f, cord)],
+             *end = label[thr_cord_end(known->f, cord)];
   char words[96], at[96], force[32], other[32], forces[96] = "", lost[32] = "", slackest[96] = "";
 
   /* Which end the evaluation pulls; both where it says nothing. */
-  switch (known ? known->pull : THR_PULL_BOTH) {
+  switch (found ? found->pull : THR_PULL_BOTH) {
   case THR_PULL_START: snprintf(at, sizeof at, "start, at %.40s", start); break;
   case THR_PULL_END: snprintf(at, sizeof at, "end, at %.40s", end); break;
   case THR_PULL_NONE: snprintf(at, sizeof at, "not pulled"); break;
@@ -127,123 +127,123 @@ static void put_cord(thr_sheets *sheets, int c, const double *column)
   }
 
   /* Two forces where both ends are pulled. Slack is drawn from the pass with the least tension. */
-  if (known) {
-    int h = cord->half[known->slackest];
-    bool both = known->pull == THR_PULL_BOTH;
-    thr_svg_force(known->force, force);
-    thr_svg_force(known->other_force, other);
+  if (found) {
+    int h = cord->half[found->slackest];
+    bool both = found->pull == THR_PULL_BOTH;
+    thr_svg_force(found->force, force);
+    thr_svg_force(found->other_force, other);
     snprintf(forces, sizeof forces, "%s%s%s", force, both ? " and " : "", both ? other : "");
-    snprintf(lost, sizeof lost, "%.1f %%", 100 * known->loss);
-    snprintf(slackest, sizeof slackest, "pass %d, %.20s - %.20s", known->slackest + 1,
-             label[thr_tail(sheets->f, h)], label[thr_head(sheets->f, h)]);
-  } else if (sheets->plan->evaluation.present) {
+    snprintf(lost, sizeof lost, "%.1f %%", 100 * found->loss);
+    snprintf(slackest, sizeof slackest, "pass %d, %.20s - %.20s", found->slackest + 1,
+             label[thr_tail(known->f, h)], label[thr_head(known->f, h)]);
+  } else if (known->plan->evaluation.present) {
     /* A plan may be evaluated while one of its cords could not be. */
     snprintf(forces, sizeof forces, "not known");
   }
 
-  thr_sheets_cord_words(sheets, c, words);
-  thr_sheets_cells(sheets, column, false, "%s\t%s\t%s\t%s\t%s\t%.0f", words, at, forces, lost,
-                   slackest, thr_degrees(turning_of(sheets, c)));
+  thr_sheets_cord_words(known, c, words);
+  thr_sheets_cells(flow, column, false, "%s\t%s\t%s\t%s\t%s\t%.0f", words, at, forces, lost,
+                   slackest, thr_degrees(turning_of(known, c)));
 }
 
 /* Writes in which order and how the cords are pulled tight. pulls: [n_cords], receives the
  * cords in this order. */
-static void put_pulling(thr_sheets *sheets, cord_pull *pulls)
+static void put_pulling(thr_flow *flow, const thr_known *known, cord_pull *pulls)
 {
   static const double column[] = {0, 38, -116, -130, 134, -186};
-  const thr_evaluation *evaluation = &sheets->plan->evaluation;
-  int n = sheets->plan->n_cords;
+  const thr_evaluation *evaluation = &known->plan->evaluation;
+  int n = known->plan->n_cords;
 
   /* Sort the cords by hardness. */
   for (int c = 0; c < n; c++)
-    pulls[c] = pull_of(sheets, c);
+    pulls[c] = pull_of(known, c);
   qsort(pulls, (size_t)n, sizeof *pulls, by_hardness);
 
-  thr_sheets_put(sheets, THR_BLOCK_TITLE,
+  thr_sheets_put(flow, THR_BLOCK_TITLE,
                  n > 1 ? "Pull the cords tight, in this order" : "Pull the cord tight");
 
   /* What the figures rest on: method, friction, tension wanted. */
   if (evaluation->present)
-    thr_sheets_put(sheets, THR_BLOCK_PARAGRAPH,
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
                    "Forces were worked out by method %s for friction mu = %.3g, so that a tension "
                    "of %.3g N reaches the slackest pass. Lost: what friction takes off on the way "
                    "there. Hardest first.",
                    thr_method_name(evaluation->method), evaluation->physics.mu,
                    evaluation->physics.seating);
   else
-    thr_sheets_put(sheets, THR_BLOCK_PARAGRAPH,
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
                    "Forces are not known: the plan was not evaluated (thread eval). Friction grows "
                    "with the turning of a cord; the cord that turns most is the first in the list. "
                    "Pulling at both ends halves the way that slack has to go.");
 
   thr_sheets_put(
-      sheets, THR_BLOCK_PARAGRAPH,
+      flow, THR_BLOCK_PARAGRAPH,
       "How cords that share pieces hinder each other has not been worked out. Turning in degrees.");
 
   /* The table itself. Columns of forces have headings only if there are forces. */
-  sheets->y += 1.5;
-  thr_sheets_cells(sheets, column, true,
+  flow->y += 1.5;
+  thr_sheets_cells(flow, column, true,
                    evaluation->present ? "cord\tpull at its\tforce\tlost\tslackest\tturning"
                                        : "cord\tpull at its\t\t\t\tturning");
   for (int i = 0; i < n; i++)
-    put_cord(sheets, pulls[i].cord, column);
+    put_cord(flow, known, pulls[i].cord, column);
 
-  put_too_hard(sheets, pulls);
+  put_too_hard(flow, known, pulls);
 }
 
 /* Writes which knot ends a cord and how much cord it takes, in mm if the cord's size is known: a
  * length that is proportional to the cord's diameter. */
-static void put_knots(thr_sheets *sheets)
+static void put_knots(thr_flow *flow, const thr_known *known)
 {
   char taken[64] = ".";
 
-  thr_sheets_put(sheets, THR_BLOCK_TITLE, "Knots");
-  if (sheets->supplies.mm > 0)
+  thr_sheets_put(flow, THR_BLOCK_TITLE, "Knots");
+  if (known->supplies.mm > 0)
     snprintf(taken, sizeof taken, "; it takes %.0f mm of this cord.",
-             ceil(THR_SUPPLIES_KNOT * sheets->supplies.cord));
-  thr_sheets_put(sheets, THR_BLOCK_PARAGRAPH,
+             ceil(THR_SUPPLIES_KNOT * known->supplies.cord));
+  thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
                  "An overhand knot at each end, drawn up to its piece%s Cut the tails only when "
                  "all cords are tight.",
                  taken);
 }
 
 /* Writes the check list: pieces, ends, cords per arm, slack. */
-static void put_checks(thr_sheets *sheets)
+static void put_checks(thr_flow *flow, const thr_known *known)
 {
   int most = 0;
 
   /* The largest number of cords in one arm or tube bounds what channels.csv says. */
-  for (int e = 0; e < sheets->f->n_edges; e++)
-    most = sheets->supplies.passes[e] > most ? sheets->supplies.passes[e] : most;
+  for (int e = 0; e < known->f->n_edges; e++)
+    most = known->supplies.passes[e] > most ? known->supplies.passes[e] : most;
 
-  thr_sheets_put(sheets, THR_BLOCK_TITLE, "Check list");
-  thr_sheets_put(sheets, THR_BLOCK_TICK, "All %d %s are on a cord, none is left over.",
-                 sheets->pieces.n, thr_pieces_word(sheets->plan, sheets->pieces.n));
+  thr_sheets_put(flow, THR_BLOCK_TITLE, "Check list");
+  thr_sheets_put(flow, THR_BLOCK_TICK, "All %d %s are on a cord, none is left over.",
+                 known->pieces.n, thr_pieces_word(known->plan, known->pieces.n));
 
   /* A closed cord has two ends as well, which meet at one place. */
-  thr_sheets_put(sheets, THR_BLOCK_TICK, "All %d ends of cord come out where the cut list says.",
-                 2 * sheets->plan->n_cords);
-  thr_sheets_put(sheets, THR_BLOCK_TICK,
+  thr_sheets_put(flow, THR_BLOCK_TICK, "All %d ends of cord come out where the cut list says.",
+                 2 * known->plan->n_cords);
+  thr_sheets_put(flow, THR_BLOCK_TICK,
                  "No %s holds fewer or more cords than channels.csv says (%d at most).",
-                 sheets->pieces.solid ? "arm" : "tube", most);
-  thr_sheets_put(sheets, THR_BLOCK_TICK,
+                 known->pieces.solid ? "arm" : "tube", most);
+  thr_sheets_put(flow, THR_BLOCK_TICK,
                  "No cord can be drawn further at its ends; no piece turns or gapes; all knots sit "
                  "on their pieces.");
 }
 
-void thr_sheets_last(thr_sheets *sheets)
+void thr_sheets_last(thr_flow *flow, const thr_known *known)
 {
-  cord_pull *pulls = thr_calloc((size_t)sheets->plan->n_cords, sizeof *pulls);
+  cord_pull *pulls = thr_calloc((size_t)known->plan->n_cords, sizeof *pulls);
 
   if (!pulls) {
-    thr_nomem(&sheets->why);
+    thr_nomem(&flow->why);
     return;
   }
 
   /* In the order of work. */
-  thr_sheets_page(sheets, "Last", "Last (continued)");
-  put_pulling(sheets, pulls);
-  put_knots(sheets);
-  put_checks(sheets);
+  thr_sheets_page(flow, "Last", "Last (continued)");
+  put_pulling(flow, known, pulls);
+  put_knots(flow, known);
+  put_checks(flow, known);
   free(pulls);
 }

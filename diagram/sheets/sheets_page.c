@@ -4,7 +4,7 @@
  *
  * Text is measured without the font, by a table of widths that is rather too wide than too narrow,
  * so that no line runs over the margin whatever font replaces DejaVu Sans. Coordinates are mm from
- * the page's upper left corner; sheets->y is where the next line goes. */
+ * the page's upper left corner; flow->y is where the next line goes. */
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 
@@ -16,24 +16,24 @@
 
 static const double HEADING = 5, BOX = 2.8; /* mm */
 
-void thr_sheets_fail(thr_sheets *sheets, thr_status st)
+void thr_sheets_fail(thr_flow *flow, thr_status st)
 {
-  if (st) thr_fail(&sheets->why, st, "out of memory");
+  if (st) thr_fail(&flow->why, st, "out of memory");
 }
 
-thr_text *thr_sheets_out(thr_sheets *sheets)
+thr_text *thr_sheets_out(thr_flow *flow)
 {
-  return &sheets->page[sheets->n_pages - 1];
+  return &flow->page[flow->n_pages - 1];
 }
 
-double thr_sheets_width(const thr_sheets *sheets)
+double thr_sheets_width(const thr_flow *flow)
 {
-  return sheets->size[0] - 2 * THR_SHEET_MARGIN;
+  return flow->size[0] - 2 * THR_SHEET_MARGIN;
 }
 
-double thr_sheets_bottom(const thr_sheets *sheets)
+double thr_sheets_bottom(const thr_flow *flow)
 {
-  return sheets->size[1] - THR_SHEET_MARGIN - THR_SHEET_FOOT;
+  return flow->size[1] - THR_SHEET_MARGIN - THR_SHEET_FOOT;
 }
 
 /* ---- lines ---- */
@@ -93,66 +93,72 @@ static double line_height(double size)
   return size == THR_SHEET_TEXT ? THR_SHEET_LINE : 1.45 * size;
 }
 
-double thr_sheets_text(thr_sheets *sheets, double x, double y, double size, double width,
+double thr_sheets_text(thr_flow *flow, double x, double y, double size, double width,
                        const char *attributes, const char *words)
 {
   char line[512];
 
-  for (; *words && !sheets->why.code; y += line_height(size)) {
+  for (; *words && !flow->why.code; y += line_height(size)) {
     thr_sheets_next_line(&words, width, size, line);
-    thr_svg_text(thr_sheets_out(sheets), x, y, size, attributes, line);
+    thr_svg_text(thr_sheets_out(flow), x, y, size, attributes, line);
   }
   return y;
 }
 
 /* ---- pages ---- */
 
-void thr_sheets_page(thr_sheets *sheets, const char *heading, const char *running)
+void thr_sheets_page(thr_flow *flow, const char *heading, const char *running)
 {
   /* The page before is finished now. */
-  thr_sheets_send(sheets);
-  if (!sheets->why.code)
-    thr_sheets_fail(sheets, thr_grow(&sheets->page, sheets->n_pages, &sheets->pages_capacity,
-                                     sizeof *sheets->page, &sheets->why));
-  if (sheets->why.code) return;
+  thr_sheets_send(flow);
+  if (!flow->why.code)
+    thr_sheets_fail(flow, thr_grow(&flow->page, flow->n_pages, &flow->pages_capacity,
+                                   sizeof *flow->page, &flow->why));
+  if (flow->why.code) return;
 
   /* An empty page, with its heading at the top. */
-  sheets->page[sheets->n_pages++] = (thr_text){0};
-  sheets->y = 1 + thr_sheets_text(sheets, THR_SHEET_MARGIN, THR_SHEET_MARGIN + HEADING, HEADING,
-                                  thr_sheets_width(sheets), " font-weight=\"bold\"", heading);
+  flow->page[flow->n_pages++] = (thr_text){0};
+  flow->y = 1 + thr_sheets_text(flow, THR_SHEET_MARGIN, THR_SHEET_MARGIN + HEADING, HEADING,
+                                thr_sheets_width(flow), " font-weight=\"bold\"", heading);
 
   /* A page that goes on with the text keeps the running heading. */
-  if (running != sheets->running) snprintf(sheets->running, sizeof sheets->running, "%s", running);
+  if (running != flow->running) snprintf(flow->running, sizeof flow->running, "%s", running);
 }
 
-bool thr_sheets_room(thr_sheets *sheets, double height)
+bool thr_sheets_room(thr_flow *flow, double height)
 {
-  if (sheets->why.code || sheets->y + height <= thr_sheets_bottom(sheets)) return false;
-  thr_sheets_page(sheets, sheets->running, sheets->running);
+  if (flow->why.code || flow->y + height <= thr_sheets_bottom(flow)) return false;
+  thr_sheets_page(flow, flow->running, flow->running);
   return true;
 }
 
 void thr_sheets_whole(thr_sheets *sheets, bool in_space, const unsigned char *state,
                       const unsigned char *piece, double bottom, double *pitch)
 {
-  const thr_box paper = {THR_SHEET_MARGIN, sheets->y, sheets->size[0] - THR_SHEET_MARGIN, bottom};
+  thr_flow *flow = &sheets->flow;
+  const thr_box paper = {THR_SHEET_MARGIN, flow->y, flow->size[0] - THR_SHEET_MARGIN, bottom};
 
-  if (sheets->why.code) return;
+  if (flow->why.code) return;
   thr_sheets_fail(
-      sheets,
-      in_space ? thr_space_whole(&sheets->space, piece, paper, thr_sheets_out(sheets), &sheets->why)
-               : thr_crop_whole(sheets->plan, &sheets->guide.layout, state, piece, paper, pitch,
-                                sheets->limits, thr_sheets_out(sheets), &sheets->why));
+      flow, in_space
+                ? thr_space_whole(&sheets->space, piece, paper, thr_sheets_out(flow), &flow->why)
+                : thr_crop_whole(sheets->known.plan, &sheets->known.guide.layout, state, piece,
+                                 paper, pitch, flow->limits, thr_sheets_out(flow), &flow->why));
 }
 
 /* ---- flowing text ---- */
 
+void thr_sheets_frame(thr_text *text, double x, double y, double width, double height,
+                      const char *attributes)
+{
+  thr_text_printf(text, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" %s/>\n", x, y,
+                  width, height, attributes);
+}
+
 void thr_sheets_box(thr_text *text, double x, double y)
 {
-  thr_text_printf(text,
-                  "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"#fff\" "
-                  "stroke=\"#222\" stroke-width=\"0.25\"/>\n",
-                  x, y - 0.9 * BOX, BOX, BOX);
+  thr_sheets_frame(text, x, y - 0.9 * BOX, BOX, BOX,
+                   "fill=\"#fff\" stroke=\"#222\" stroke-width=\"0.25\"");
 }
 
 /* How a block of text is set: size of the letters, mm; how many lines of flowing text must fit on
@@ -171,28 +177,28 @@ static const block_look looks[] = {
 };
 
 /* Writes a block line by line, over as many pages as needed. */
-static void flow(thr_sheets *sheets, thr_block block, const char *words)
+static void put_block(thr_flow *flow, thr_block block, const char *words)
 {
   const block_look *look = &looks[block];
-  const double width = look->share * (thr_sheets_width(sheets) - look->indent);
+  const double width = look->share * (thr_sheets_width(flow) - look->indent);
   char line[512];
 
   /* No air above a block that begins a page. */
-  if (!thr_sheets_room(sheets, look->lines * THR_SHEET_LINE)) sheets->y += look->before;
-  if (block == THR_BLOCK_TICK && !sheets->why.code)
-    thr_sheets_box(thr_sheets_out(sheets), THR_SHEET_MARGIN, sheets->y);
+  if (!thr_sheets_room(flow, look->lines * THR_SHEET_LINE)) flow->y += look->before;
+  if (block == THR_BLOCK_TICK && !flow->why.code)
+    thr_sheets_box(thr_sheets_out(flow), THR_SHEET_MARGIN, flow->y);
 
-  while (*words && !sheets->why.code) {
+  while (*words && !flow->why.code) {
     thr_sheets_next_line(&words, width, look->size, line);
-    thr_sheets_room(sheets, 0);
-    thr_svg_text(thr_sheets_out(sheets), THR_SHEET_MARGIN + look->indent, sheets->y, look->size,
+    thr_sheets_room(flow, 0);
+    thr_svg_text(thr_sheets_out(flow), THR_SHEET_MARGIN + look->indent, flow->y, look->size,
                  look->attributes, line);
-    sheets->y += line_height(look->size);
+    flow->y += line_height(look->size);
   }
-  sheets->y += look->after;
+  flow->y += look->after;
 }
 
-void thr_sheets_put(thr_sheets *sheets, thr_block block, const char *format, ...)
+void thr_sheets_put(thr_flow *flow, thr_block block, const char *format, ...)
 {
   char words[1024];
   va_list values;
@@ -200,17 +206,17 @@ void thr_sheets_put(thr_sheets *sheets, thr_block block, const char *format, ...
   va_start(values, format);
   vsnprintf(words, sizeof words, format, values);
   va_end(values);
-  flow(sheets, block, words);
+  put_block(flow, block, words);
 }
 
-void thr_sheets_put_text(thr_sheets *sheets, thr_block block, thr_text *words)
+void thr_sheets_put_text(thr_flow *flow, thr_block block, thr_text *words)
 {
-  if (words->failed) thr_nomem(&sheets->why);
-  flow(sheets, block, words->data && !words->failed ? words->data : "");
+  if (words->failed) thr_nomem(&flow->why);
+  put_block(flow, block, words->data && !words->failed ? words->data : "");
   thr_text_destroy(words);
 }
 
-void thr_sheets_cells(thr_sheets *sheets, const double *column, bool bold, const char *format, ...)
+void thr_sheets_cells(thr_flow *flow, const double *column, bool bold, const char *format, ...)
 {
   char cells[1024], *cell = cells;
   va_list values;
@@ -220,8 +226,8 @@ void thr_sheets_cells(thr_sheets *sheets, const double *column, bool bold, const
   va_end(values);
 
   /* A row is never cut by the end of a page. */
-  thr_sheets_room(sheets, 0);
-  for (bool more = true; more && !sheets->why.code; column++) {
+  thr_sheets_room(flow, 0);
+  for (bool more = true; more && !flow->why.code; column++) {
     char *end = cell + strcspn(cell, "\t");
     more = *end;
     *end = '\0';
@@ -230,10 +236,10 @@ void thr_sheets_cells(thr_sheets *sheets, const double *column, bool bold, const
     char attributes[64] = "";
     if (*column < 0) strcat(attributes, " text-anchor=\"end\"");
     if (bold) strcat(attributes, " font-weight=\"bold\"");
-    thr_svg_text(thr_sheets_out(sheets), THR_SHEET_MARGIN + fabs(*column), sheets->y,
-                 THR_SHEET_SMALL, attributes, cell);
+    thr_svg_text(thr_sheets_out(flow), THR_SHEET_MARGIN + fabs(*column), flow->y, THR_SHEET_SMALL,
+                 attributes, cell);
     cell = end + 1;
   }
 
-  sheets->y += 4.1;
+  flow->y += 4.1;
 }

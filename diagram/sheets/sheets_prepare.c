@@ -20,10 +20,10 @@
 
 /* Writes a length in units without naming the unit: to a tenth of a mm where the size of a unit is
  * known (1000 mm a unit: 4 decimals), else with five digits. Returns cell. */
-static const char *length_cell(const thr_sheets *sheets, double length, char cell[32])
+static const char *length_cell(const thr_known *known, double length, char cell[32])
 {
-  if (sheets->supplies.mm > 0)
-    snprintf(cell, 32, "%.*f", 1 + (int)nearbyint(log10(sheets->supplies.mm)), length);
+  if (known->supplies.mm > 0)
+    snprintf(cell, 32, "%.*f", 1 + (int)nearbyint(log10(known->supplies.mm)), length);
   else
     snprintf(cell, 32, "%.5g", length);
   return cell;
@@ -31,91 +31,89 @@ static const char *length_cell(const thr_sheets *sheets, double length, char cel
 
 /* Returns whether any cord is threaded from its fold with two needles, which makes two parts of
  * it. */
-static bool some_folded(const thr_sheets *sheets)
+static bool some_folded(const thr_known *known)
 {
-  return sheets->n_parts > sheets->plan->n_cords;
+  return known->n_parts > known->plan->n_cords;
 }
 
 /* Writes the row of cord c in the cut list; column: the columns' places (thr_sheets_cells). */
-static void put_cord(thr_sheets *sheets, int c, const double *column)
+static void put_cord(thr_flow *flow, const thr_known *known, int c, const double *column)
 {
-  const thr_cord *cord = &sheets->plan->cord[c];
-  const thr_cut_length cut = thr_supplies_cut(&sheets->supplies, c);
+  const thr_cord *cord = &known->plan->cord[c];
+  const thr_cut_length cut = thr_supplies_cut(&known->supplies, c);
   const double allowance[4] = {cut.tails, cut.knots, cut.turns, cut.cut};
   char words[96], length[32], allowed[4][32], folded[32] = "";
   double fold = cut.tails / 2 + cut.knots / 2;
 
   /* Allowances are in mm of cord and bore: without a size they stay open. */
   for (int i = 0; i < 4; i++)
-    if (sheets->supplies.mm > 0)
-      length_cell(sheets, allowance[i], allowed[i]);
+    if (known->supplies.mm > 0)
+      length_cell(known, allowance[i], allowed[i]);
     else
       snprintf(allowed[i], sizeof allowed[i], "-");
 
   /* The fold lies between two passes: count tail, knot and all passes before. Only cords that are
    * threaded from their middle have one to mark. */
-  for (int k = 0; k < sheets->fold[c]; k++)
-    fold += sheets->f->length[cord->half[k] >> 1];
-  if (sheets->fold[c]) length_cell(sheets, fold, folded);
+  for (int k = 0; k < known->fold[c]; k++)
+    fold += known->f->length[cord->half[k] >> 1];
+  if (known->fold[c]) length_cell(known, fold, folded);
 
-  thr_sheets_cord_words(sheets, c, words);
-  thr_sheets_cells(sheets, column, false, "%s\t%d\t%s\t%s\t%s\t%s\t%s\t%s\t%.30s - %.30s", words,
-                   cord->n_passes, length_cell(sheets, cut.length, length), allowed[0], allowed[1],
+  thr_sheets_cord_words(known, c, words);
+  thr_sheets_cells(flow, column, false, "%s\t%d\t%s\t%s\t%s\t%s\t%s\t%s\t%.30s - %.30s", words,
+                   cord->n_passes, length_cell(known, cut.length, length), allowed[0], allowed[1],
                    allowed[2], allowed[3], folded,
-                   sheets->guide.label[thr_cord_start(sheets->f, cord)],
-                   sheets->guide.label[thr_cord_end(sheets->f, cord)]);
+                   known->guide.label[thr_cord_start(known->f, cord)],
+                   known->guide.label[thr_cord_end(known->f, cord)]);
 }
 
 /* Writes the cut list: a heading with the cord's thickness, a row per cord, and what "cut" adds
  * up. */
-static void put_cords(thr_sheets *sheets)
+static void put_cords(thr_flow *flow, const thr_known *known)
 {
   static const double column[9] = {0, -58, -75, -90, -104, -118, -134, -150, 153};
   char cord[32] = "";
 
-  if (sheets->supplies.mm > 0)
-    snprintf(cord, sizeof cord, ", %.3g mm thick", sheets->supplies.cord);
-  thr_sheets_put(sheets, THR_BLOCK_TITLE, "Cut these cords (lengths in %s%s)", sheets->f->units,
-                 cord);
+  if (known->supplies.mm > 0) snprintf(cord, sizeof cord, ", %.3g mm thick", known->supplies.cord);
+  thr_sheets_put(flow, THR_BLOCK_TITLE, "Cut these cords (lengths in %s%s)", known->f->units, cord);
 
   /* The column of folds stays empty where no cord has one. */
-  thr_sheets_cells(sheets, column, true,
+  thr_sheets_cells(flow, column, true,
                    "cord\tpasses\tlength\ttails\tknots\tturns\tcut\t%s\tfrom - to",
-                   some_folded(sheets) ? "fold at" : "");
-  for (int c = 0; c < sheets->plan->n_cords; c++)
-    put_cord(sheets, c, column);
-  sheets->y += 1;
+                   some_folded(known) ? "fold at" : "");
+  for (int c = 0; c < known->plan->n_cords; c++)
+    put_cord(flow, known, c, column);
+  flow->y += 1;
 
   /* How the cut length comes about, or what is missing in it. */
-  if (sheets->supplies.mm > 0)
+  if (known->supplies.mm > 0)
     thr_sheets_put(
-        sheets, THR_BLOCK_PARAGRAPH,
+        flow, THR_BLOCK_PARAGRAPH,
         "Cut = length through the middles of the pieces + a tail of %.0f mm to hold at each end + "
         "an overhand knot at each end + what turns take at most where the cord lies at the outside "
         "of its bores.%s",
         THR_SUPPLIES_TAIL,
-        some_folded(sheets)
+        some_folded(known)
             ? " Fold at: from the end that comes out at the first place of the last column."
             : "");
   else
     thr_sheets_put(
-        sheets, THR_BLOCK_PARAGRAPH,
+        flow, THR_BLOCK_PARAGRAPH,
         "The size of cord and pieces is not known: add tails, knots and what turns take.");
 
-  thr_sheets_lengths(sheets);
+  thr_sheets_lengths(flow, known);
 }
 
 /* ---- pieces ---- */
 
 /* Returns the most cords in one arm of a piece, or in a tube. */
-static int most_cords(const thr_sheets *sheets, int piece)
+static int most_cords(const thr_known *known, int piece)
 {
   int most = 0;
-  if (!sheets->pieces.solid) return sheets->supplies.passes[piece];
+  if (!known->pieces.solid) return known->supplies.passes[piece];
 
   /* An arm of a solid piece is half an edge: as many cords as the edge has passes. */
-  for (int i = sheets->f->first[piece]; i < sheets->f->first[piece + 1]; i++) {
-    int n = sheets->supplies.passes[sheets->f->half[i] >> 1];
+  for (int i = known->f->first[piece]; i < known->f->first[piece + 1]; i++) {
+    int n = known->supplies.passes[known->f->half[i] >> 1];
     most = n > most ? n : most;
   }
 
@@ -137,49 +135,49 @@ typedef struct {
 enum { MOST_SINGLE = 12 };
 
 /* Writes the five cells of a row of the table of kinds. */
-static void put_kind(const thr_sheets *sheets, const kind_row *kind, char cells[160])
+static void put_kind(const thr_known *known, const kind_row *kind, char cells[160])
 {
   char measure[32], bore[32];
 
   /* The number of arms describes a solid piece, the length a tube. */
-  if (sheets->pieces.solid)
-    snprintf(measure, sizeof measure, "%d", thr_pieces_arms(&sheets->pieces, kind->model));
+  if (known->pieces.solid)
+    snprintf(measure, sizeof measure, "%d", thr_pieces_arms(&known->pieces, kind->model));
   else
-    length_cell(sheets, sheets->f->length[kind->model], measure);
+    length_cell(known, known->f->length[kind->model], measure);
 
   /* A bore is given in mm if sizes are known, else in cord diameters. */
-  if (sheets->supplies.mm > 0)
-    snprintf(bore, sizeof bore, "%.2f mm", thr_supplies_bore_mm(&sheets->supplies, kind->bore));
+  if (known->supplies.mm > 0)
+    snprintf(bore, sizeof bore, "%.2f mm", thr_supplies_bore_mm(&known->supplies, kind->bore));
   else
     snprintf(bore, sizeof bore, "%.2f cords", kind->bore);
   snprintf(cells, 160, "%s\t%d\t%s\t%d\t%s", kind->name, kind->pieces, measure, kind->cords, bore);
 }
 
 /* Writes n rows of the table of kinds, two beside each other on a line. */
-static void put_kinds(thr_sheets *sheets, const kind_row *row, int n)
+static void put_kinds(thr_flow *flow, const thr_known *known, const kind_row *row, int n)
 {
   static const double column[] = {-14, -28, -48, -64, -86, -109, -123, -143, -159, -181};
   char left[160], right[160];
 
   /* The heading, over both halves of the table if both are used. */
   snprintf(left, sizeof left, "kind\tpieces\t%s\tcords\tbore",
-           sheets->pieces.solid ? "arms" : "length");
-  thr_sheets_cells(sheets, column, true, "%s%s%s", left, n > 1 ? "\t" : "", n > 1 ? left : "");
+           known->pieces.solid ? "arms" : "length");
+  thr_sheets_cells(flow, column, true, "%s%s%s", left, n > 1 ? "\t" : "", n > 1 ? left : "");
 
   for (int k = 0; k < n; k += 2) {
     const bool both = k + 1 < n;
-    put_kind(sheets, &row[k], left);
-    if (both) put_kind(sheets, &row[k + 1], right);
-    thr_sheets_cells(sheets, column, false, "%s%s%s", left, both ? "\t" : "", both ? right : "");
+    put_kind(known, &row[k], left);
+    if (both) put_kind(known, &row[k + 1], right);
+    thr_sheets_cells(flow, column, false, "%s%s%s", left, both ? "\t" : "", both ? right : "");
   }
 }
 
 /* Fills row[k - 1] for every kind k = 1, 2, ..: its pieces, and the most cords and the widest bore
  * that one of them needs, so that all pieces of a kind can be made alike. Returns how many kinds
  * have a single piece. */
-static int find_kinds(const thr_sheets *sheets, kind_row *row)
+static int find_kinds(const thr_known *known, kind_row *row)
 {
-  const thr_pieces *pieces = &sheets->pieces;
+  const thr_pieces *pieces = &known->pieces;
   int single = 0;
 
   /* What a kind is by itself. */
@@ -193,9 +191,9 @@ static int find_kinds(const thr_sheets *sheets, kind_row *row)
   /* What its pieces need: the maximum over all of them. */
   for (int i = 0; i < pieces->n; i++) {
     kind_row *kind = &row[pieces->kind[i] - 1];
-    int cords = most_cords(sheets, i);
-    double bore = pieces->solid ? thr_supplies_node_bore(&sheets->supplies, i)
-                                : thr_supplies_bore(&sheets->supplies, i);
+    int cords = most_cords(known, i);
+    double bore = pieces->solid ? thr_supplies_node_bore(&known->supplies, i)
+                                : thr_supplies_bore(&known->supplies, i);
 
     kind->cords = cords > kind->cords ? cords : kind->cords;
     kind->bore = fmax(kind->bore, bore);
@@ -233,61 +231,61 @@ static int count_together(kind_row *row, int n)
 }
 
 /* Writes the table of the pieces to make, kind by kind. */
-static void put_pieces(thr_sheets *sheets)
+static void put_pieces(thr_flow *flow, const thr_known *known)
 {
-  const thr_pieces *pieces = &sheets->pieces;
+  const thr_pieces *pieces = &known->pieces;
   char unit[64] = "";
   kind_row *row = thr_calloc((size_t)pieces->n_kinds, sizeof *row);
   if (!row) {
-    thr_nomem(&sheets->why);
+    thr_nomem(&flow->why);
     return;
   }
 
   /* Tubes have no letter by which they could be counted. */
-  bool together = find_kinds(sheets, row) > MOST_SINGLE && pieces->solid;
+  bool together = find_kinds(known, row) > MOST_SINGLE && pieces->solid;
 
   /* The heading counts pieces and kinds, before any are merged. */
-  if (!pieces->solid) snprintf(unit, sizeof unit, " (lengths in %s)", sheets->f->units);
-  thr_sheets_put(sheets, THR_BLOCK_TITLE, "%d %s in %d kind%s by shape%s", pieces->n,
-                 thr_pieces_word(sheets->plan, pieces->n), pieces->n_kinds,
+  if (!pieces->solid) snprintf(unit, sizeof unit, " (lengths in %s)", known->f->units);
+  thr_sheets_put(flow, THR_BLOCK_TITLE, "%d %s in %d kind%s by shape%s", pieces->n,
+                 thr_pieces_word(known->plan, pieces->n), pieces->n_kinds,
                  pieces->n_kinds == 1 ? "" : "s", unit);
 
   /* Merging happens in place, so the number of rows comes from the call. */
-  put_kinds(sheets, row, together ? count_together(row, pieces->n_kinds) : pieces->n_kinds);
+  put_kinds(flow, known, row, together ? count_together(row, pieces->n_kinds) : pieces->n_kinds);
   if (together)
-    thr_sheets_put(sheets, THR_BLOCK_PARAGRAPH,
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
                    "Letters without a number: so many pieces, each one of a kind.");
 
   free(row);
 }
 
 /* Writes the places of all feet in a line, or "None.". */
-static void put_feet(thr_sheets *sheets)
+static void put_feet(thr_flow *flow, const thr_known *known)
 {
   thr_text words = {0};
 
   /* Two blanks between names. */
-  for (int v = 0; v < sheets->f->n_nodes; v++)
-    if (sheets->f->foot[v])
-      thr_text_printf(&words, "%s%s", words.length ? "  " : "", sheets->guide.label[v]);
+  for (int v = 0; v < known->f->n_nodes; v++)
+    if (known->f->foot[v])
+      thr_text_printf(&words, "%s%s", words.length ? "  " : "", known->guide.label[v]);
   thr_text_append(&words, words.length ? "." : "None.");
 
-  thr_sheets_put(sheets, THR_BLOCK_TITLE, "Feet");
-  thr_sheets_put_text(sheets, THR_BLOCK_PARAGRAPH, &words);
+  thr_sheets_put(flow, THR_BLOCK_TITLE, "Feet");
+  thr_sheets_put_text(flow, THR_BLOCK_PARAGRAPH, &words);
 }
 
 /* ---- how to read ---- */
 
 /* Explains the rows of steps, the names of pieces, the looks in pictures and, if any cord has a
  * fold, the order of the two needles. Solid joints and tubes are read in different ways. */
-static void put_reading(thr_sheets *sheets)
+static void put_reading(thr_flow *flow, const thr_known *known)
 {
-  thr_sheets_put(sheets, THR_BLOCK_TITLE, "How to read the steps");
+  thr_sheets_put(flow, THR_BLOCK_TITLE, "How to read the steps");
 
   /* What a row says. */
   thr_sheets_put(
-      sheets, THR_BLOCK_PARAGRAPH,
-      sheets->pieces.solid
+      flow, THR_BLOCK_PARAGRAPH,
+      known->pieces.solid
           ? "Each row is a piece that the needle comes to. Pick up: a new piece goes on the cord. "
             "Through: it is on a cord already. In from A5, out to C5: arms are called by the "
             "pieces that they face; all pieces lie with their outer side up and turned as in the "
@@ -299,35 +297,35 @@ static void put_reading(thr_sheets *sheets)
             "picture.");
 
   /* What a name says. */
-  thr_sheets_put(sheets, THR_BLOCK_PARAGRAPH,
+  thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
                  "A piece has its kind in the box, by letter and number, and its place in the "
                  "whole: X-10 (B5) is one of kind X-10 that comes to B5. Put its place on it when "
                  "it goes on the cord: later rows call it by that.");
 
   /* What a picture says. */
-  thr_sheets_put(sheets, THR_BLOCK_PARAGRAPH,
+  thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
                  "In the pictures pieces to pick up have a bold outline, those that are on a cord "
                  "are grey, those that wait are dashed. Grey lines are earlier passes, coloured "
                  "ones those of the step. The small picture shows where they are. S: a cord "
                  "starts. E: it ends.");
 
   /* Two needles, if any cord needs them. */
-  if (some_folded(sheets))
-    thr_sheets_put(sheets, THR_BLOCK_PARAGRAPH,
+  if (some_folded(known))
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
                    "Cords that have a fold in the cut list are threaded from there with a needle "
                    "at each end: first the right needle, to the end of the cord, then the left "
                    "needle from the fold back to its start, with falling numbers.");
 }
 
-void thr_sheets_prepare(thr_sheets *sheets)
+void thr_sheets_prepare(thr_flow *flow, const thr_known *known)
 {
-  thr_sheets_page(sheets, "Prepare first", "Prepare first (continued)");
-  put_reading(sheets);
-  put_cords(sheets);
-  put_feet(sheets);
-  put_pieces(sheets);
-  sheets->y += 1;
-  thr_sheets_put(sheets, THR_BLOCK_PARAGRAPH,
+  thr_sheets_page(flow, "Prepare first", "Prepare first (continued)");
+  put_reading(flow, known);
+  put_cords(flow, known);
+  put_feet(flow, known);
+  put_pieces(flow, known);
+  flow->y += 1;
+  thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
                  "Cords: the most in one arm of such a piece; the bore holds them side by side. "
                  "Which piece is of which kind: beads.csv. Which way the cords take through each: "
                  "channels.csv.");
