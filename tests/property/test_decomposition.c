@@ -168,15 +168,15 @@ START_TEST(a_corridor_is_a_forced_detour)
   thr_err err = {0};
   o.cords = o.cords_least = 2;
   want(&o, "longest");
-  ck_assert_msg(length_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err) == THR_OK, "%s", err.text);
+  assert_ok(length_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err), &err);
   ck_assert_double_eq_tol(longest_of(&p), 22, 1e-9);
   ck_assert(p.cords_claim.longest_optimal);
   thr_plan_destroy(&p);
   o = options_for(THR_ENDS_FEET, 1);
   o.cords = 1000;
   o.max_length = 21.5;
-  ck_assert_int_eq(length_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err), THR_EINFEASIBLE);
-  assert_one_line(&err, "10 and 11");
+  assert_status(length_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err), THR_EINFEASIBLE, &err,
+                "10 and 11");
   thr_frame_destroy(&f);
 }
 END_TEST

@@ -145,7 +145,7 @@ START_TEST(bounds_on_several_cords_are_true)
   for (int i = 0; i < p.n_cords; i++)
     p.options.max_length = fmax(p.options.max_length, thr_cord_length(&f, &p.cord[i]));
   thr_status st = thr_check_cords(&f, &p.options, p.cord, p.n_cords, NULL, 0, NULL, &found, &err);
-  ck_assert_msg(st == THR_OK, "%s", err.text);
+  assert_ok(st, &err);
   double by_nothing = found.longest_bound;
   thr_shortest s;
   ck_assert_int_eq(thr_postman_shortest(&f, &p.options, &(thr_limits){0}, &s, NULL), THR_OK);
@@ -155,7 +155,7 @@ START_TEST(bounds_on_several_cords_are_true)
                    THR_OK);
   st = thr_check_cords(&f, &p.options, p.cord, p.n_cords, p.proof.certificate, 1, NULL,
                        &p.cords_claim, &err);
-  ck_assert_msg(st == THR_OK, "%s", err.text);
+  assert_ok(st, &err);
   int fewest = 1;
   double best = INFINITY;
   for (int k = 1; k <= p.options.cords; k++)

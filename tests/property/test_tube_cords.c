@@ -248,8 +248,8 @@ START_TEST(a_ring_takes_a_round_for_every_cord)
   thr_plan_destroy(&p);
   o.capacity = 2;
   err = (thr_err){0};
-  ck_assert_int_eq(length_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err), THR_EINFEASIBLE);
-  assert_one_line(&err, "there are no 3 closed cords");
+  assert_status(length_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err), THR_EINFEASIBLE, &err,
+                "there are no 3 closed cords");
   thr_frame_destroy(&f);
 }
 END_TEST

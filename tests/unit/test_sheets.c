@@ -28,7 +28,7 @@ static thr_sheets *sheets_of(const thr_plan *p, thr_page_size page, bool middle)
   thr_sheets_options o = thr_sheets_options_default();
   o.page = page;
   o.needles = middle ? 2 : 1;
-  ck_assert_msg(thr_sheets_make(&s, p, &o, &none, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_sheets_make(&s, p, &o, &none, &err), &err);
   return s;
 }
 
@@ -36,7 +36,7 @@ static thr_text pdf_of(const thr_sheets *s)
 {
   thr_text t = {0};
   thr_err err = {0};
-  ck_assert_msg(thr_sheets_pdf(s, &none, &t, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_sheets_pdf(s, &none, &t, &err), &err);
   return t;
 }
 
@@ -702,8 +702,7 @@ START_TEST(an_interrupt_stops_it)
   thr_text pdf = {0};
   thr_plan p = plan_of(ring_make(5), THR_ENDS_CLOSED, 1);
   thr_sheets *s = sheets_of(&p, THR_PAGE_A4, false);
-  ck_assert_int_eq(thr_sheets_pdf(s, &limits, &pdf, &err), THR_ELIMIT);
-  assert_one_line(&err, "page 1");
+  assert_status(thr_sheets_pdf(s, &limits, &pdf, &err), THR_ELIMIT, &err, "page 1");
   ck_assert_uint_eq(pdf.length, 0);
   thr_sheets_destroy(s);
   thr_plan_destroy(&p);
@@ -718,8 +717,8 @@ START_TEST(an_interrupt_stops_the_layout)
   thr_plan p = plan_of(ring_make(5), THR_ENDS_CLOSED, 1);
   thr_sheets_options o = thr_sheets_options_default();
   thr_sheets *s;
-  ck_assert_int_eq(thr_sheets_make(&s, &p, &o, &limits, &err), THR_ELIMIT);
-  assert_one_line(&err, "interrupted at page 3 of the step sheets");
+  assert_status(thr_sheets_make(&s, &p, &o, &limits, &err), THR_ELIMIT, &err,
+                "interrupted at page 3 of the step sheets");
   ck_assert_ptr_null(s);
   thr_plan_destroy(&p);
 }
@@ -792,15 +791,12 @@ START_TEST(plans_that_cannot_be_drawn_are_refused)
   thr_sheets_options o = thr_sheets_options_default();
   thr_plan p = plan_of(ring_make(5), THR_ENDS_CLOSED, 1);
   p.cord[0].half[2] = 99;
-  ck_assert_int_eq(thr_sheets_make(&s, &p, &o, &none, &err), THR_EINPUT);
-  assert_one_line(&err, "pass 3");
+  assert_status(thr_sheets_make(&s, &p, &o, &none, &err), THR_EINPUT, &err, "pass 3");
   ck_assert_ptr_null(s);
   thr_cords_destroy(p.cord, p.n_cords);
   p.cord = NULL;
   p.n_cords = 0;
-  err = (thr_err){0};
-  ck_assert_int_eq(thr_sheets_make(&s, &p, &o, &none, &err), THR_EINPUT);
-  assert_one_line(&err, "no cord");
+  assert_status(thr_sheets_make(&s, &p, &o, &none, &err), THR_EINPUT, &err, "no cord");
   thr_plan_destroy(&p);
 }
 END_TEST
