@@ -76,4 +76,12 @@ double judged_fewest(const judged *j, double limit);
 /* Least turning of plans no longer than longest; NAN: not known, INFINITY: there is none. */
 double judged_least_turning(const judged *j, double longest, double limit_turn);
 
+/* The least length of n cords in every piece of f together, and of the longest of them, asked as by
+ * o but for their number and greatest length. INFINITY: there are none. */
+double judged_together(const thr_frame *f, const thr_request *o, int n);
+double judged_longest(const thr_frame *f, const thr_request *o, int n);
+
+/* Tells whether n cords in every piece can each be no longer than limit. */
+bool judged_possible(const thr_frame *f, const thr_request *o, int n, double limit);
+
 #endif

@@ -65,6 +65,18 @@ void assert_one_line(const thr_err *err, const char *word)
   ck_assert_msg(!word || strstr(err->text, word), "\"%s\" does not name \"%s\"", err->text, word);
 }
 
+void assert_ok(thr_status st, const thr_err *err)
+{
+  ck_assert_msg(st == THR_OK, "status %d: %s", (int)st, err->text);
+}
+
+void assert_status(thr_status st, thr_status wanted, thr_err *err, const char *word)
+{
+  ck_assert_msg(st == wanted, "status %d, not %d: %s", (int)st, (int)wanted, err->text);
+  if (wanted) assert_one_line(err, word);
+  *err = (thr_err){0};
+}
+
 /* ---- random numbers: xorshift64* ---- */
 
 rng rng_make(uint64_t seed)

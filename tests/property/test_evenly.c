@@ -226,8 +226,7 @@ END_TEST
 static void assert_refused(const thr_plan *p, const char *word)
 {
   thr_err err = {0};
-  ck_assert_int_eq(judge_plan(p, &err), THR_EVIOLATED);
-  assert_one_line(&err, word);
+  assert_status(judge_plan(p, &err), THR_EVIOLATED, &err, word);
 }
 
 START_TEST(false_claims_are_refused)

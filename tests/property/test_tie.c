@@ -101,7 +101,7 @@ static void world_make(world *w, thr_frame f, int cover, bool ends, double slack
                                .tube = true,
                                .extra_limit = slack};
   thr_err err = {0};
-  ck_assert_msg(thr_turning_columns_init(&w->c, &w->f, &w->task, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_turning_columns_init(&w->c, &w->f, &w->task, &err), &err);
   w->passes = calloc((size_t)f.n_edges, sizeof *w->passes);
   w->ends = calloc((size_t)f.n_nodes, sizeof *w->ends);
 }
@@ -365,8 +365,8 @@ static double ascent_bound(const thr_turning_columns *c, const thr_limits *limit
   double *mean = calloc((size_t)c->n_columns, sizeof *mean);
   for (int j = 0; j < c->n_columns; j++)
     high[j] = thr_turning_most(c, j);
-  ck_assert_msg(thr_ascent_run(c, INFINITY, limits, &d, mean, &err) == THR_OK, "%s", err.text);
-  ck_assert_msg(thr_turning_dual_bound(c, &d, low, high, &bound, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_ascent_run(c, INFINITY, limits, &d, mean, &err), &err);
+  assert_ok(thr_turning_dual_bound(c, &d, low, high, &bound, &err), &err);
   for (int j = 0; j < c->n_columns; j++)
     ck_assert(mean[j] >= 0 && (j >= c->first_extra || mean[j] == 0));
   thr_turning_dual_destroy(&d);

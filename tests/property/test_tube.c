@@ -168,8 +168,7 @@ static thr_plan shortest(const thr_frame *f, thr_ends ends, int cover)
   thr_plan p;
   thr_err err = {0};
   o.joint = THR_JOINT_TUBE;
-  thr_status st = length_plan(f, &o, &none, &p, NULL, &err);
-  ck_assert_msg(st == THR_OK, "%s", err.text);
+  assert_ok(length_plan(f, &o, &none, &p, NULL, &err), &err);
   assert_plan_sound(&p);
   return p;
 }
@@ -228,12 +227,9 @@ START_TEST(what_cannot_be_tied_is_named)
   thr_plan p;
   thr_err err = {0};
   o.joint = THR_JOINT_TUBE;
-  ck_assert_int_eq(length_plan(&f, &o, &none, &p, NULL, &err), THR_EINFEASIBLE);
-  assert_one_line(&err, f.name[1]);
+  assert_status(length_plan(&f, &o, &none, &p, NULL, &err), THR_EINFEASIBLE, &err, f.name[1]);
   o.ends = THR_ENDS_ANY; /* three ends at the leaves, two of one cord */
-  err = (thr_err){0};
-  ck_assert_int_eq(length_plan(&f, &o, &none, &p, NULL, &err), THR_EINFEASIBLE);
-  assert_one_line(&err, "--cords");
+  assert_status(length_plan(&f, &o, &none, &p, NULL, &err), THR_EINFEASIBLE, &err, "--cords");
   o.cords = 2;
   ck_assert_int_eq(length_plan(&f, &o, &none, &p, NULL, &err), THR_OK);
   ck_assert_double_eq_tol(p.metrics.length, 4, 1e-9); /* one spoke twice */
@@ -245,8 +241,8 @@ START_TEST(what_cannot_be_tied_is_named)
   o.joint = THR_JOINT_TUBE;
   o.capacity = 1; /* three passes at a node, but four tie it */
   err = (thr_err){0};
-  ck_assert_int_eq(length_plan(&f, &o, &none, &p, NULL, &err), THR_EINFEASIBLE);
-  assert_one_line(&err, "room for 3 passes");
+  assert_status(length_plan(&f, &o, &none, &p, NULL, &err), THR_EINFEASIBLE, &err,
+                "room for 3 passes");
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -308,8 +304,7 @@ START_TEST(false_claims_are_refused)
   thr_turning_dual *d = &p.proof.tied.dual[0];
   ck_assert_int_gt(d->n_junctions, 0);
   d->junction[0].value /= 2;
-  ck_assert_int_eq(judge_plan(&p, &err), THR_EVIOLATED);
-  assert_one_line(&err, "says optimal");
+  assert_status(judge_plan(&p, &err), THR_EVIOLATED, &err, "says optimal");
   d->junction[0].value *= -2;
   ck_assert_int_eq(judge_plan(&p, NULL), THR_EVIOLATED);
   thr_plan_destroy(&p);

@@ -11,30 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { EDGES = 6, MOST_STATES = 400000 };
-
-/* The least length of n cords together; INFINITY: there are none. */
-static double least_together(const thr_frame *f, thr_request o, int n)
-{
-  o.cords = o.cords_least = n;
-  const judged all = judged_of(f, &o, MOST_STATES);
-  const double least = judged_least(&all, BACK_NEVER, judged_by_length, -1);
-  ck_assert(!isnan(least));
-  return least;
-}
-
-/* The least length of the longest of n cords, found by halving. */
-static double least_longest(const thr_frame *f, thr_request o, int n)
-{
-  double high = least_together(f, o, n), low = high / n;
-  o.cords = o.cords_least = n;
-  const judged all = judged_of(f, &o, MOST_STATES);
-  for (int i = 0; i < 45 && isfinite(high); i++) {
-    const double half = (low + high) / 2;
-    *(judged_least(&all, BACK_NEVER, judged_by_length, half) == 0 ? &high : &low) = half;
-  }
-  return high;
-}
+enum { EDGES = 6 };
 
 /* ---- small frameworks ---- */
 
@@ -121,7 +98,7 @@ static void compare_closed(const thr_frame *f, const thr_request *o, tally *t)
   thr_plan p;
   thr_cords_word word;
   thr_err err = {0};
-  double best = least_together(f, *o, o->cords_least);
+  double best = judged_together(f, o, o->cords_least);
   thr_status st = length_plan(f, o, &(thr_limits){0}, &p, &word, &err);
   if (st == THR_EINFEASIBLE) {
     ck_assert_msg(isinf(best), "%s, but %g will do", err.text, best);
@@ -165,7 +142,7 @@ static void compare_even(const thr_frame *f, const thr_request *o, tally *t)
   thr_plan p;
   thr_cords_word word;
   thr_err err = {0};
-  double best = least_longest(f, *o, o->cords);
+  double best = judged_longest(f, o, o->cords);
   thr_status st = length_plan(f, o, &(thr_limits){0}, &p, &word, &err);
   if (st == THR_EINFEASIBLE) {
     ck_assert_msg(isinf(best), "%s, but %g will do", err.text, best);
@@ -212,7 +189,7 @@ static void compare_limited(const thr_frame *f, thr_request *o, double part, tal
 {
   thr_plan p;
   thr_err err = {0};
-  double longest[2] = {least_together(f, *o, 1), least_longest(f, *o, 2)};
+  double longest[2] = {judged_together(f, o, 1), judged_longest(f, o, 2)};
   if (isinf(longest[1])) return;
   o->max_length = isinf(longest[0]) ? longest[1] * (0.9 + 0.2 * part)
                                     : longest[1] + (longest[0] * 1.05 - longest[1]) * part;
@@ -271,8 +248,8 @@ START_TEST(a_ring_takes_a_round_for_every_cord)
   thr_plan_destroy(&p);
   o.capacity = 2;
   err = (thr_err){0};
-  ck_assert_int_eq(length_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err), THR_EINFEASIBLE);
-  assert_one_line(&err, "there are no 3 closed cords");
+  assert_status(length_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err), THR_EINFEASIBLE, &err,
+                "there are no 3 closed cords");
   thr_frame_destroy(&f);
 }
 END_TEST
