@@ -110,6 +110,7 @@ typedef struct {
   double width;                    /* at the face */
   bool key_out;                    /* its key stands out; the neighbour's is hollow */
   int n_mitres;                    /* of a tube's end: planes that cut it instead of its face */
+  double tip;                      /* how far a tube's mitred end reaches beyond its length */
   double (*mitre)[4]; /* [n_mitres] unit normal outwards, and its distance from the centre */
 } thr_kit_arm;
 
@@ -130,6 +131,7 @@ typedef struct {
  * across it. */
 typedef struct {
   int arm;
+  bool below; /* on the other side */
   double from[2], to[2];
 } thr_kit_stroke;
 
