@@ -211,8 +211,7 @@ static thr_status too_large(const thr_kit *kit, int p, const thr_kit_stand *way,
   return thr_fail(
       err, THR_EINPUT,
       "piece %s (%s) is %.1f x %.1f x %.1f mm as it prints best, larger than the bed of "
-      "%g x %g mm less a margin of %g mm: a bed of %g x %g mm would do, or a smaller "
-      "framework",
+      "%g x %g mm less %g mm around: --bed %gx%g would do",
       kit->name[p], kit->kind_name[kit->piece[p].kind], way->size[0], way->size[1], way->size[2],
       bed[0], bed[1], MARGIN, ceil(way->size[0] + 2 * MARGIN), ceil(way->size[1] + 2 * MARGIN));
 }
