@@ -72,7 +72,7 @@ thr_status thr_kit_tubes_table(const thr_kit *kit, thr_text *out, thr_err *err) 
 /* ---- write_scad.c */
 
 /* Appends kit.scad: the pieces as a programme for OpenSCAD whose sizes can be changed, without
- * letters; fillets are flat there. Needs no meshes. */
+ * letters; fillets are flat there and feet have none. Needs no meshes. */
 void thr_kit_scad(const thr_kit *kit, thr_text *out);
 
 #endif
