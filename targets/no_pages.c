@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* No PDF: there are no fonts to set its words in. */
-#include "diagram/export/paper.h"
+/* No PDF: there are no fonts to set its words in; and no zlib to compress by. */
+#include "diagram/export/export_parts.h"
 
 #include "graph/limits.h"
 #include "graph/status.h"
@@ -73,4 +73,17 @@ void thr_letters_put(const thr_letters_set *set, const char *words, const double
   (void)at;
   (void)height;
   (void)path;
+}
+
+thr_status thr_deflate_load(thr_err *err)
+{
+  return thr_fail(err, THR_ESOLVER, "this program does not compress");
+}
+
+thr_status thr_deflate(const char *bytes, size_t n, thr_text *out, thr_err *err)
+{
+  (void)bytes;
+  (void)n;
+  (void)out;
+  return thr_fail(err, THR_ESOLVER, "this program does not compress");
 }
