@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* No PDF: there are no fonts to set its words in; and no zlib to compress by. */
 #include "diagram/export/export_parts.h"
+#include "diagram/export/paper.h"
 
 #include "graph/limits.h"
 #include "graph/status.h"
