@@ -282,13 +282,14 @@ static thr_status pack(thr_kit_plates *plates, thr_err *err)
   for (int k = 0; k < 2; k++)
     room[k] = kit->options.bed[k] - 2 * MARGIN + SPACING * (1 + 1e-9);
   for (int i = 0; i < kit->n_pieces; i++) {
-    int p = order[i].index, on = 0, plate = 0;
+    int p = order[i].index, on = 0;
     const double *size = plates->stand[kit->piece[p].like].size;
     while (on < n_shelves && shelves[on].used + size[0] + SPACING > room[0])
       on++;
 
     /* No shelf has room: another one, on the first plate that has. */
     if (on == n_shelves) {
+      int plate = 0;
       while (plate < plates->n_plates && used[plate] + size[1] + SPACING > room[1])
         plate++;
       if (plate == plates->n_plates) plates->n_plates++;
