@@ -7,11 +7,14 @@
  * on a mitre saw; its turn is by how much the tube is turned about its axis from the first mitre of
  * its first end, clockwise as seen from that end along the tube.
  *
- * Example, tubes.csv: "A1-A2,1,12,30,33.5,6,3,1,A1,2,54.74 54.74,0 120,A2,..". */
+ * Example, tubes.csv: "1-5,2a,2,41.231,55.579,14.431,4.13,1,2,59.51 59.51,0.00 107.92,..", a tube
+ * whose first end meets two others at 61 degrees each.
+ */
 #include "kit/files.h"
 
 #include "diagram/overview/overview_parts.h"
 #include "diagram/tables/tables.h"
+#include "graph/arrays.h"
 #include "graph/framework/frame.h"
 #include "graph/number.h"
 
@@ -127,60 +130,81 @@ thr_status thr_kit_table(const thr_kit_plates *plates, const thr_layout *layout,
 
 /* How a tube is measured round its axis. */
 typedef struct {
-  double along[3], zero[3],
-      quarter[3]; /* axis, from the first end; directions of 0 and 90 degrees */
-  double first;   /* angle of the first mitre, from which all others are measured */
+  double along[3];            /* the axis, from the first end */
+  double zero[3], quarter[3]; /* directions of 0 and 90 degrees */
+  double first;               /* degrees: of the first mitre, from which all others are measured */
   bool begun;
 } axes;
 
-/* Returns which mitre cuts the tube's outline, or its axis (radius 0), first at an angle. */
-static int cut_at(const thr_kit_arm *arm, const axes *round, double radius, double angle)
-{
-  int first = -1;
-  double least = INFINITY;
-  for (int i = 0; i < arm->n_mitres; i++) {
-    const double *plane = arm->mitre[i];
-    double off = radius * (cos(angle) * thr_dot(plane, round->zero) +
-                           sin(angle) * thr_dot(plane, round->quarter));
-    double at = (plane[3] - off) / thr_dot(plane, arm->along);
-    if (at < least - 1e-9) {
-      least = at;
-      first = i;
-    }
-  }
-  return first;
-}
-
-/* Appends the mitres of a tube's end: how many, cut angles and turns. A mitre that another one
- * repeats is one. */
-static void put_end(const thr_kit_arm *arm, axes *round, bool rounded, thr_text *out)
+/* Returns whether a mitre cuts a part of the tube's outline off that no other mitre cuts off. One
+ * that an earlier one repeats does not. */
+static bool cuts(const thr_kit_arm *arm, const axes *round, int number)
 {
   enum { STEPS = 360 };
-  thr_text cuts = {0}, turns = {0};
-  int n = 0;
-  for (int i = 0; i < arm->n_mitres && !rounded; i++) {
-    bool cuts_it = false;
-    for (int k = 0; k < STEPS && !cuts_it; k++)
-      cuts_it = cut_at(arm, round, 0.5 * arm->width, 2 * THR_PI * k / STEPS) == i;
-    if (!cuts_it) continue;
+  double radius = 0.5 * arm->width;
+  for (int step = 0; step < STEPS; step++) {
+    double angle = 2 * THR_PI * step / STEPS, first = INFINITY, own = INFINITY;
+    for (int i = 0; i < arm->n_mitres; i++) {
+      const double *plane = arm->mitre[i];
+      double off = radius * (cos(angle) * thr_dot(plane, round->zero) +
+                             sin(angle) * thr_dot(plane, round->quarter));
+      double at = (plane[3] - off) / thr_dot(plane, arm->along);
+      if (i == number)
+        own = at;
+      else if (thr_distance(plane, arm->mitre[number]) > 1e-6)
+        first = fmin(first, at);
+      else if (i < number)
+        return false;
+    }
+    if (own < first - 1e-4 * radius) return true;
+  }
+  return false;
+}
 
+/* Fills found with the mitres that cut an end, in the order of their turns in degrees. */
+static int find_mitres(const thr_kit_arm *arm, const axes *round, thr_ranked *found)
+{
+  int n = 0;
+  for (int i = 0; i < arm->n_mitres && n < THR_KIT_MOST_ARMS; i++) {
+    if (!cuts(arm, round, i)) continue;
     const double *plane = arm->mitre[i];
     double angle = atan2(thr_dot(plane, round->quarter), thr_dot(plane, round->zero));
-    if (!round->begun) {
-      round->begun = true;
-      round->first = angle;
+    double turn = fmod(thr_degrees(angle) - round->first + 720, 360);
+    found[n++] = (thr_ranked){.key = turn > 359.995 ? 0 : turn, .index = i};
+  }
+  thr_sort_ranked(found, (size_t)n);
+  return n;
+}
+
+/* Appends the mitres of a tube's end: how many, cut angles and turns. The first one of a tube is
+ * that behind the widest angle without one, so that tubes of a kind have equal rows. */
+static void put_end(const thr_kit_arm *arm, axes *round, bool rounded, thr_text *out)
+{
+  thr_ranked found[THR_KIT_MOST_ARMS];
+  int n = rounded ? 0 : find_mitres(arm, round, found);
+  if (n && !round->begun) {
+    double widest = 0;
+    for (int i = 0; i < n; i++) {
+      double free_angle = found[i].key - (i ? found[i - 1].key : found[n - 1].key - 360);
+      if (free_angle < widest + 1e-6) continue;
+      widest = free_angle;
+      round->first = found[i].key;
     }
-    double turn = fmod(thr_degrees(angle - round->first) + 720, 360);
-    if (turn > 359.995) turn = 0;
-    const char *blank = n++ ? " " : "";
-    thr_text_printf(&cuts, "%s%.2f", blank, thr_degrees(thr_angle_between(plane, arm->along)));
-    thr_text_printf(&turns, "%s%.2f", blank, turn);
+    round->begun = true;
+    n = find_mitres(arm, round, found);
+  }
+
+  thr_text angles = {0}, turns = {0};
+  for (int i = 0; i < n; i++) {
+    double cut = thr_angle_between(arm->mitre[found[i].index], arm->along);
+    thr_text_printf(&angles, "%s%.2f", i ? " " : "", thr_degrees(cut));
+    thr_text_printf(&turns, "%s%.2f", i ? " " : "", found[i].key);
   }
   put_int(out, n);
-  thr_table_text(out, n && !cuts.failed ? cuts.data : "");
+  thr_table_text(out, n && !angles.failed ? angles.data : "");
   thr_table_text(out, n && !turns.failed ? turns.data : "");
-  if (cuts.failed || turns.failed) out->failed = true;
-  thr_text_destroy(&cuts);
+  if (angles.failed || turns.failed) out->failed = true;
+  thr_text_destroy(&angles);
   thr_text_destroy(&turns);
 }
 

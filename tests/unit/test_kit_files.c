@@ -280,6 +280,24 @@ START_TEST(test_square_of_tubes_is_mitred_by_45_degrees)
 }
 END_TEST
 
+START_TEST(test_mitres_that_cut_nothing_are_not_listed)
+{
+  /* Of four tubes in a cross the opposite one cuts nothing off that the others leave. */
+  made m;
+  make(&m, star_make(4), 20, true, &plain);
+  thr_text t = {0};
+  ck_assert_int_eq(thr_kit_tubes_table(&m.kit, &t, NULL), THR_OK);
+  const char *line = strchr(t.data, '\n') + 1;
+  for (int e = 0; e < 4; e++, line = strchr(line, '\n') + 1) {
+    const char *mitres = ",2,45.00 45.00,0.00 180.00,0,,\n";
+    const char *found = strstr(line, mitres);
+    ck_assert_msg(found && strchr(line, '\n') == found + strlen(mitres) - 1, "%s", line);
+  }
+  thr_text_destroy(&t);
+  release(&m);
+}
+END_TEST
+
 /* ---- OpenSCAD, memory ---- */
 
 START_TEST(test_scad_has_all_kinds_and_places)
@@ -335,6 +353,7 @@ int main(void)
   ADD_TEST(s, 60, test_stl_has_the_volume);
   ADD_TEST(s, 60, test_rows_of_pieces);
   ADD_TEST(s, 60, test_square_of_tubes_is_mitred_by_45_degrees);
+  ADD_TEST(s, 60, test_mitres_that_cut_nothing_are_not_listed);
   ADD_TEST(s, 60, test_scad_has_all_kinds_and_places);
   ADD_TEST(s, 120, test_without_memory);
   return run_suite(s);
