@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* No PDF: there are no fonts to set its words in. */
+/* No PDF: there are no fonts to set its words in; and no zlib to compress by. */
+#include "diagram/export/export_parts.h"
 #include "diagram/export/paper.h"
 
 #include "graph/limits.h"
@@ -43,4 +44,17 @@ thr_status thr_pages_close(thr_pages *pages, bool last_first, thr_text *out, thr
   (void)last_first;
   (void)out;
   return thr_fail(err, THR_ESOLVER, "this program makes no PDF");
+}
+
+thr_status thr_deflate_load(thr_err *err)
+{
+  return thr_fail(err, THR_ESOLVER, "this program does not compress");
+}
+
+thr_status thr_deflate(const char *bytes, size_t n, thr_text *out, thr_err *err)
+{
+  (void)bytes;
+  (void)n;
+  (void)out;
+  return thr_fail(err, THR_ESOLVER, "this program does not compress");
 }

@@ -49,10 +49,7 @@ static bool is_formula(const char *text)
   return text[strspn(text, "+-.0123456789eE")] || !isfinite(value) || *end;
 }
 
-/* Appends a field of text, such as a name from the framework's file: cleaned of control
- * characters, with an apostrophe before what would be a formula, in quotes where it holds a
- * comma or a quote. */
-static void put_text(table_writer *table, const char *text)
+void thr_table_text(thr_text *out, const char *text)
 {
   thr_text word = {0};
   thr_text_append_clean(&word, text);
@@ -60,20 +57,26 @@ static void put_text(table_writer *table, const char *text)
 
   /* Quotes inside are doubled. */
   bool quoted = letter[strcspn(letter, ",\"")] != '\0';
-  thr_text_append(table->out, quoted ? "\"" : "");
+  thr_text_append(out, quoted ? "\"" : "");
 
-  if (is_formula(letter)) thr_text_append(table->out, "'");
+  if (is_formula(letter)) thr_text_append(out, "'");
 
   /* Byte by byte, so that UTF-8 passes through unchanged. */
   for (; *letter; letter++) {
-    if (*letter == '"') thr_text_append(table->out, "\"");
-    thr_text_append_bytes(table->out, letter, 1);
+    if (*letter == '"') thr_text_append(out, "\"");
+    thr_text_append_bytes(out, letter, 1);
   }
 
-  thr_text_append(table->out, quoted ? "\"," : ",");
+  thr_text_append(out, quoted ? "\"," : ",");
 
-  if (word.failed) table->out->failed = true;
+  if (word.failed) out->failed = true;
   thr_text_destroy(&word);
+}
+
+/* Appends a field of text, such as a name from the framework's file. */
+static void put_text(table_writer *table, const char *text)
+{
+  thr_table_text(table->out, text);
 }
 
 /* Appends a field of text that was made for it, and releases the text. */

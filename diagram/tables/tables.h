@@ -21,6 +21,10 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
+/* Appends a field and a comma: text cleaned of control characters, with an apostrophe before what
+ * would be a formula, in quotes where it holds a comma or a quote. */
+void thr_table_text(thr_text *out, const char *text);
+
 /* Appends steps.csv: a row per visit to a piece, in the order of thr_steps_text and in its words.
  * tolerance: as in thr_pieces_make; needles: as in thr_cord_folded. O(n log n). */
 thr_status thr_table_steps(const thr_plan *plan, double tolerance, int needles,

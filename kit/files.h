@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The files that a kit is written to: how its pieces stand on the bed of a printer, and what
+ * slicers, spreadsheets, workshops and OpenSCAD read.
+ *
+ * Everything is appended to a text; the same kit gives the same bytes. The kit has its meshes. A
+ * text that ran out of memory says so itself (thr_text.failed) where a function returns nothing. */
+#ifndef THR_KIT_FILES_H
+#define THR_KIT_FILES_H
+
+#include "diagram/layout/layout.h"
+#include "graph/status.h"
+#include "graph/text.h"
+#include "kit/kit.h"
+
+#include <stdbool.h>
+
+/* ---- plates.c: pieces on the bed of a printer. */
+
+/* How a mesh stands. Directions are those of the mesh. */
+typedef struct {
+  double down[3]; /* unit vector towards the bed */
+  int arm;        /* whose face or cut end lies on the bed; -1 = none */
+  bool base;      /* its foot's base lies there */
+  double contact; /* mm2 that lie on the bed */
+  double
+      overhang;   /* mm2 of faces above it that are nearer to level than 45 degrees and look down */
+  double turn[9]; /* rotation by rows, from the mesh to the bed */
+  double low[3], size[3]; /* its box when turned: lowest corner, edges */
+} thr_kit_stand;
+
+/* All pieces of a kit on beds. {0} is valid and empty. Arrays are owned, the kit is borrowed. */
+typedef struct {
+  const thr_kit *kit;
+  int n_plates;
+  thr_kit_stand *stand; /* [n_pieces] of those that have a mesh */
+  int *plate;           /* [n_pieces] from 0 */
+  double (*at)[2];      /* [n_pieces] lowest corner of its box on the bed, whose corner is at 0 */
+} thr_kit_plates;
+
+/* Finds for each mesh how it prints best, and gives every piece a place on a bed. THR_EINPUT names
+ * a piece that is larger than the bed, and the bed that would do. Release with
+ * thr_kit_plates_destroy, after a failure too. O(triangles arms^2 + pieces^2). */
+thr_status thr_kit_plates_make(thr_kit_plates *plates, const thr_kit *kit,
+                               thr_err *err) THR_MUST_CHECK;
+void thr_kit_plates_destroy(thr_kit_plates *plates);
+
+/* ---- write_3mf.c, write_stl.c: meshes. */
+
+/* Appends kit.3mf: an object for each mesh, and an item for each piece where it stands on its
+ * plate; plates are beside each other. O(points log points). */
+thr_status thr_kit_3mf(const thr_kit_plates *plates, thr_text *out, thr_err *err) THR_MUST_CHECK;
+
+/* Fills normal with the unit normal of a triangle, outwards; returns its area in mm2. */
+double thr_kit_normal(const thr_mesh *mesh, int triangle, double normal[3]);
+
+/* Appends the mesh of a piece as binary STL. */
+void thr_kit_stl(const thr_kit *kit, int piece, thr_text *out);
+
+/* Writes the name of that file, "X-7.stl": as the kind is called, with "_" for what not all systems
+ * allow in names. */
+void thr_kit_stl_name(const thr_kit *kit, int piece, char name[32]);
+
+/* ---- kit_tables.c: CSV, in the manner of diagram/tables/tables.h, which says what layout is. */
+
+/* Appends kit.csv: a row per piece: what it weighs, how it is printed. */
+thr_status thr_kit_table(const thr_kit_plates *plates, const thr_layout *layout, thr_text *out,
+                         thr_err *err) THR_MUST_CHECK;
+
+/* Appends tubes.csv: a row per tube with what a workshop saws. THR_EINPUT for a kit of nodes. */
+thr_status thr_kit_tubes_table(const thr_kit *kit, thr_text *out, thr_err *err) THR_MUST_CHECK;
+
+/* ---- write_scad.c */
+
+/* Appends kit.scad: the pieces as a programme for OpenSCAD whose sizes can be changed, without
+ * letters; fillets are flat there and feet have none. Needs no meshes. */
+void thr_kit_scad(const thr_kit *kit, thr_text *out);
+
+#endif

@@ -1,0 +1,286 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes a kit as a 3MF package (3MF Consortium, "3D Manufacturing Format, core specification",
+ * namespace of 2015/02): a ZIP file (PKWARE, APPNOTE.TXT 6.3) with three members: the kinds of
+ * files inside, where the model is, and the model in XML.
+ *
+ * An object is a mesh, and an item of the build is a piece that stands where it is printed. Dates
+ * are that of the beginning of ZIP, so that the same kit gives the same bytes. Where zlib is
+ * missing members are stored as they are.
+ *
+ * Example: <item objectid="3" transform="1 0 0 0 1 0 0 0 1 25.4 31 12" partnumber="B5"/> */
+#include "kit/files.h"
+
+#include "diagram/export/export_parts.h"
+#include "graph/arrays.h"
+#include "graph/number.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* mm between plates. */
+static const double BETWEEN = 30;
+
+/* ---- ZIP ---- */
+
+/* A package that grows member by member. */
+typedef struct {
+  thr_text *out, directory;
+  int n_members;
+} package;
+
+/* CRC-32 of ISO 3309, by tables of a byte. */
+static uint32_t checksum(const char *bytes, size_t n)
+{
+  uint32_t table[256], crc = UINT32_MAX;
+  for (uint32_t i = 0; i < 256; i++) {
+    table[i] = i;
+    for (int bit = 0; bit < 8; bit++)
+      table[i] = table[i] >> 1 ^ (table[i] & 1 ? UINT32_C(0xedb88320) : 0);
+  }
+  for (size_t i = 0; i < n; i++)
+    crc = crc >> 8 ^ table[(crc ^ (unsigned char)bytes[i]) & 0xff];
+  return ~crc;
+}
+
+/* Appends a number of so many bytes, the lowest first. */
+static void put(thr_text *out, uint64_t value, int bytes)
+{
+  for (int i = 0; i < bytes; i++, value >>= 8)
+    thr_text_byte(out, (char)(value & 0xff));
+}
+
+/* Adds a member: its head and bytes to the file, its entry to the directory. */
+static thr_status add_member(package *zip, const char *name, const thr_text *bytes, thr_err *err)
+{
+  /* A stream of zlib is two bytes of heading, what ZIP calls deflated, and four bytes of checksum.
+   */
+  thr_text small = {0};
+  bool deflated = !thr_deflate_load(NULL);
+  thr_status st = bytes->failed ? thr_nomem(err) : THR_OK;
+  if (!st && deflated) st = thr_deflate(bytes->data, bytes->length, &small, err);
+  const char *stored = deflated && !st ? small.data + 2 : bytes->data;
+  size_t length = deflated && !st ? small.length - 6 : bytes->length;
+  size_t at = zip->out->length;
+  if (!st && at + bytes->length + length > UINT32_MAX / 2)
+    st = thr_fail(err, THR_EINPUT, "kit.3mf would have more than 2 GB: write STL instead");
+
+  if (!st) {
+    /* What both entries say: version, flags, method, time and date, checksum, sizes, names. */
+    thr_text entry = {0};
+    put(&entry, 20, 2);
+    put(&entry, 0, 2);
+    put(&entry, deflated ? 8 : 0, 2);
+    put(&entry, 0, 2);
+    put(&entry, 1 << 5 | 1, 2); /* the first of January of 1980 */
+    put(&entry, checksum(bytes->data, bytes->length), 4);
+    put(&entry, length, 4);
+    put(&entry, bytes->length, 4);
+    put(&entry, strlen(name), 2);
+    put(&entry, 0, 2);
+
+    thr_text_append_bytes(zip->out, "PK\3\4", 4);
+    thr_text_append_bytes(zip->out, entry.data, entry.failed ? 0 : entry.length);
+    thr_text_append(zip->out, name);
+    thr_text_append_bytes(zip->out, stored, length);
+
+    /* In the directory also: no comment, first disk, no attributes, where the member is. */
+    thr_text *directory = &zip->directory;
+    thr_text_append_bytes(directory, "PK\1\2", 4);
+    put(directory, 20, 2);
+    thr_text_append_bytes(directory, entry.data, entry.failed ? 0 : entry.length);
+    put(directory, 0, 10);
+    put(directory, at, 4);
+    thr_text_append(directory, name);
+    zip->n_members++;
+    if (entry.failed) st = thr_nomem(err);
+    thr_text_destroy(&entry);
+  }
+  thr_text_destroy(&small);
+  return st;
+}
+
+/* Ends the file with the directory. */
+static void end_package(package *zip)
+{
+  size_t at = zip->out->length, length = zip->directory.length;
+  thr_text_append_bytes(zip->out, zip->directory.data, length);
+  thr_text_append_bytes(zip->out, "PK\5\6", 4);
+  put(zip->out, 0, 4);
+  put(zip->out, (uint64_t)zip->n_members, 2);
+  put(zip->out, (uint64_t)zip->n_members, 2);
+  put(zip->out, length, 4);
+  put(zip->out, at, 4);
+  put(zip->out, 0, 2);
+}
+
+/* ---- the model ---- */
+
+static double rounded(double value, double unit)
+{
+  return nearbyint(value / unit) * unit;
+}
+
+/* Returns whether rounding leaves all points of a mesh apart. Points are sorted by a sum that
+ * hardly two of them share. */
+static bool stay_apart(const thr_mesh *mesh, double unit, thr_ranked *order)
+{
+  static const double weight[3] = {1, 1.6180339887, 2.7182818285};
+  double(*point)[3] = mesh->point;
+  for (int i = 0; i < mesh->n_points; i++) {
+    order[i] = (thr_ranked){.index = i};
+    for (int k = 0; k < 3; k++)
+      order[i].key += weight[k] * rounded(point[i][k], unit);
+  }
+  thr_sort_ranked(order, (size_t)mesh->n_points);
+
+  for (int i = 0; i < mesh->n_points; i++)
+    for (int j = i + 1; j < mesh->n_points && order[j].key == order[i].key; j++) {
+      bool same = true;
+      for (int k = 0; k < 3; k++)
+        same &= rounded(point[order[i].index][k], unit) == rounded(point[order[j].index][k], unit);
+      if (same) return false;
+    }
+  return true;
+}
+
+/* Appends a number as XML allows it, rounded to a unit, 1e-6 .. */
+static void put_rounded(thr_text *xml, double value, double unit)
+{
+  thr_text_double(xml, nearbyint(value / unit) / nearbyint(1 / unit));
+}
+
+/* Appends a mesh. Points are rounded to a millionth of a mm, or finer if two would become one. */
+static thr_status put_mesh(const thr_mesh *mesh, thr_text *xml, thr_err *err)
+{
+  thr_ranked *order = thr_calloc((size_t)mesh->n_points, sizeof *order);
+  if (!order) return thr_nomem(err);
+  double unit = 1e-6;
+  while (unit > 1e-12 && !stay_apart(mesh, unit, order))
+    unit /= 10;
+  free(order);
+
+  static const char axis[] = "xyz";
+  thr_text_append(xml, "   <mesh>\n    <vertices>\n");
+  for (int i = 0; i < mesh->n_points; i++) {
+    thr_text_append(xml, "<vertex");
+    for (int k = 0; k < 3; k++) {
+      thr_text_byte(xml, ' ');
+      thr_text_byte(xml, axis[k]);
+      thr_text_append(xml, "=\"");
+      put_rounded(xml, mesh->point[i][k], unit);
+      thr_text_byte(xml, '"');
+    }
+    thr_text_append(xml, "/>\n");
+  }
+
+  thr_text_append(xml, "    </vertices>\n    <triangles>\n");
+  for (int t = 0; t < mesh->n_triangles; t++) {
+    thr_text_append(xml, "<triangle");
+    for (int k = 0; k < 3; k++) {
+      thr_text_append(xml, " v");
+      thr_text_byte(xml, (char)('1' + k));
+      thr_text_append(xml, "=\"");
+      thr_text_int(xml, mesh->triangle[t][k]);
+      thr_text_byte(xml, '"');
+    }
+    thr_text_append(xml, "/>\n");
+  }
+  thr_text_append(xml, "    </triangles>\n   </mesh>\n");
+  return THR_OK;
+}
+
+/* Appends the objects: a mesh each, called as its kind; one that no other piece shares, as its
+ * kind and piece. The number of an object is that of its kind. */
+static thr_status put_objects(const thr_kit *kit, thr_text *xml, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (int p = 0; p < kit->n_pieces && !st; p++) {
+    const thr_kit_piece *piece = &kit->piece[p];
+    if (piece->like != p) continue;
+    const char *kind = kit->kind_name[piece->kind];
+    thr_text_printf(xml, "  <object id=\"%d\" type=\"model\" partnumber=\"", piece->kind);
+    thr_text_xml(xml, kind);
+    thr_text_append(xml, "\" name=\"");
+    thr_text_xml(xml, kind);
+    if (piece->count == 1) {
+      thr_text_byte(xml, '/');
+      thr_text_xml(xml, kit->name[p]);
+    }
+    thr_text_append(xml, "\">\n");
+    st = put_mesh(&kit->mesh[p], xml, err);
+    thr_text_append(xml, "  </object>\n");
+  }
+  return st;
+}
+
+/* Appends the items: every piece, turned as it stands and moved to its place. A point is a row that
+ * is multiplied by the matrix, so its rows are the images of the axes. */
+static void put_items(const thr_kit_plates *plates, thr_text *xml)
+{
+  const thr_kit *kit = plates->kit;
+  for (int p = 0; p < kit->n_pieces; p++) {
+    const thr_kit_stand *stand = &plates->stand[kit->piece[p].like];
+    thr_text_printf(xml, "  <item objectid=\"%d\" transform=\"", kit->piece[p].kind);
+    for (int i = 0; i < 9; i++) {
+      put_rounded(xml, stand->turn[3 * (i % 3) + i / 3], 1e-12);
+      thr_text_byte(xml, ' ');
+    }
+    double next = plates->plate[p] * (kit->options.bed[0] + BETWEEN);
+    put_rounded(xml, next + plates->at[p][0] - stand->low[0], 1e-6);
+    thr_text_byte(xml, ' ');
+    put_rounded(xml, plates->at[p][1] - stand->low[1], 1e-6);
+    thr_text_byte(xml, ' ');
+    put_rounded(xml, -stand->low[2], 1e-6);
+    thr_text_append(xml, "\" partnumber=\"");
+    thr_text_xml(xml, kit->name[p]);
+    thr_text_append(xml, "\"/>\n");
+  }
+}
+
+thr_status thr_kit_3mf(const thr_kit_plates *plates, thr_text *out, thr_err *err)
+{
+  static const char head[] = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+  thr_text types = {0}, links = {0}, model = {0};
+  thr_text_append(&types, head);
+  thr_text_append(&types,
+                  "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">\n"
+                  " <Default Extension=\"rels\" "
+                  "ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>\n"
+                  " <Default Extension=\"model\" "
+                  "ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/>\n"
+                  "</Types>\n");
+  thr_text_append(&links, head);
+  thr_text_append(
+      &links,
+      "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">\n"
+      " <Relationship Id=\"model\" Target=\"/3D/3dmodel.model\" "
+      "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/>\n"
+      "</Relationships>\n");
+
+  thr_text_append(&model, head);
+  thr_text_append(&model, "<model unit=\"millimeter\" xml:lang=\"en-US\" "
+                          "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n"
+                          " <metadata name=\"Application\">thread</metadata>\n <resources>\n");
+  thr_status st = put_objects(plates->kit, &model, err);
+  thr_text_append(&model, " </resources>\n <build>\n");
+  put_items(plates, &model);
+  thr_text_append(&model, " </build>\n</model>\n");
+
+  /* The package is a text of its own until nothing can fail any more. */
+  thr_text whole = {0};
+  package zip = {.out = &whole};
+  if (!st) st = add_member(&zip, "[Content_Types].xml", &types, err);
+  if (!st) st = add_member(&zip, "_rels/.rels", &links, err);
+  if (!st) st = add_member(&zip, "3D/3dmodel.model", &model, err);
+  if (!st) end_package(&zip);
+  if (!st && (whole.failed || zip.directory.failed)) st = thr_nomem(err);
+  if (!st) thr_text_append_bytes(out, whole.data, whole.length);
+
+  thr_text_destroy(&whole);
+  thr_text_destroy(&zip.directory);
+  thr_text_destroy(&types);
+  thr_text_destroy(&links);
+  thr_text_destroy(&model);
+  return st;
+}
