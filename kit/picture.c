@@ -20,6 +20,7 @@
 enum { ROWS = 24, SIDES = 12, SHADOW = 320, JOIN = 10, MOST = 10000 };
 
 static const double SMOOTH = 0.766; /* cosine of 40 degrees */
+static const double SLENDER = 0.15; /* height of a triangle by its longest edge */
 static const double RIM = 0.045;    /* of the picture, on every side */
 static const double DARKEST = 0.42; /* of the ground below the pieces */
 static const double TAIL = 2;       /* of a node's radius: how far cords stick out of it */
@@ -35,6 +36,7 @@ typedef struct {
   const thr_kit *kit;
   const thr_kit_view *asked;
   double explode, middle[3]; /* of all pieces */
+  double out;                /* how far cords stick out of faces, in widths of arms */
   thr_camera_view view;      /* mm become samples */
   double ground;             /* height of the lowest point, mm */
   bool shaded;               /* is there a ground to draw a shadow on? */
@@ -129,12 +131,18 @@ static thr_status follow(drawing *work, const thr_kit_piece *piece, const thr_ki
     double part = fmin(fmax((i - 1.0) / (channel->n > 3 ? channel->n - 3 : 1), 0), 1), at[3];
     for (int k = 0; k < 3; k++)
       at[k] = channel->point[i][k] + (1 - part) * off[0][k] + part * off[1][k];
-    /* Ends outside are cut off. */
-    double length = sqrt(thr_dot(at, at)), most = TAIL * piece->node_radius;
-    bool outside = channel->in < 0 ? i == 0 : channel->out < 0 && i == channel->n - 1;
-    if (outside && length > most)
+    /* Curves run straight on beyond faces: there they end, or a little further if they are seen.
+     * Outside, cords are cut off. */
+    int arm = i == 0 ? channel->in : channel->out;
+    if (i == 0 || i == channel->n - 1) {
+      const double *along = arm >= 0 ? piece->arm[arm].along : at;
+      double most = arm >= 0 ? piece->arm[arm].length + work->out * piece->arm[arm].width
+                             : TAIL * piece->node_radius;
+      double length = arm >= 0 ? thr_dot(at, along) : sqrt(thr_dot(at, at));
+      double unit = arm >= 0 || length <= 0 ? 1 : 1 / length;
       for (int k = 0; k < 3; k++)
-        at[k] *= most / length;
+        at[k] += fmin(most - length, 0) * unit * along[k];
+    }
     if (piece->foot) at[2] = fmax(at[2], -piece->base);
     for (int k = 0; k < 3; k++)
       at[k] += piece->centre[k] + shift[k];
@@ -456,6 +464,31 @@ static double ground_at(const drawing *work, double x, double y)
 
 /* ---- normals ---- */
 
+/* Gives a triangle that is almost a line the normal of its neighbour at the longest edge, as its
+ * own is but noise. at[first[p] .. first[p + 1] - 1]: corners at point p, three to a triangle. */
+static void borrow_normal(const thr_mesh *mesh, int t, const int *first, const int *at,
+                          double (*face)[3])
+{
+  const int *corner = mesh->triangle[t];
+  double length[3], cross[3], side[2][3];
+  int longest = 0;
+  for (int i = 0; i < 3; i++) {
+    length[i] = thr_distance(mesh->point[corner[i]], mesh->point[corner[(i + 1) % 3]]);
+    if (length[i] > length[longest]) longest = i;
+  }
+  int from = corner[longest], to = corner[(longest + 1) % 3];
+  for (int k = 0; k < 3; k++) {
+    side[0][k] = mesh->point[corner[1]][k] - mesh->point[corner[0]][k];
+    side[1][k] = mesh->point[corner[2]][k] - mesh->point[corner[0]][k];
+  }
+  thr_cross(side[0], side[1], cross);
+  if (sqrt(thr_dot(cross, cross)) > SLENDER * length[longest] * length[longest]) return;
+
+  for (int j = first[to]; j < first[to + 1]; j++)
+    if (at[j] / 3 != t && mesh->triangle[at[j] / 3][(at[j] % 3 + 1) % 3] == from)
+      memcpy(face[t], face[at[j] / 3], sizeof *face);
+}
+
 /* Fills normal[3 * 3 * n_triangles] of a mesh's corners. */
 static thr_status smooth(const thr_mesh *mesh, float *normal, thr_err *err)
 {
@@ -495,6 +528,9 @@ static thr_status smooth(const thr_mesh *mesh, float *normal, thr_err *err)
     first[p + 2] += first[p + 1];
   for (int i = 0; i < 3 * n; i++)
     at[first[mesh->triangle[i / 3][i % 3] + 1]++] = i;
+
+  for (int t = 0; t < n; t++)
+    borrow_normal(mesh, t, first, at, face);
 
   for (int i = 0; i < 3 * n; i++) {
     int p = mesh->triangle[i / 3][i % 3];
@@ -579,6 +615,21 @@ static void draw_piece(drawing *work, int p)
   }
 }
 
+/* Closes the end of a tube: a fan. ahead: does the curve end here? */
+static void close_end(drawing *work, const thr_spot *ring, const double along[3], bool ahead,
+                      int colour)
+{
+  const thr_camera *camera = &work->view.camera;
+  const double *axis[3] = {camera->right, camera->up, camera->eye};
+  for (int s = 1; s + 1 < SIDES; s++) {
+    thr_spot fan[3] = {ring[0], ring[ahead ? s + 1 : s], ring[ahead ? s : s + 1]};
+    for (int i = 0; i < 3; i++)
+      for (int k = 0; k < 3; k++)
+        fan[i].normal[k] = (float)((ahead ? 1 : -1) * thr_dot(along, axis[k]));
+    thr_band_cord(&work->band, fan, colour);
+  }
+}
+
 /* Draws a strand into the band as a tube. */
 static void draw_strand(drawing *work, const strand *line)
 {
@@ -623,6 +674,7 @@ static void draw_strand(drawing *work, const strand *line)
       thr_band_cord(&work->band, (thr_spot[]){last[s], last[t], this[t]}, line->colour);
       thr_band_cord(&work->band, (thr_spot[]){last[s], this[t], this[s]}, line->colour);
     }
+    if (i == 0 || i == line->n - 1) close_end(work, ring[i & 1], along, i > 0, line->colour);
   }
 }
 
@@ -714,6 +766,7 @@ thr_status thr_kit_picture(const thr_kit *kit, const thr_kit_view *view, thr_tex
                     view->alone);
 
   drawing work = {.kit = kit, .asked = view, .explode = view->explode > 0 ? view->explode : 1};
+  work.out = view->alone || work.explode > 1 ? 0.3 : 0;
   double colour[THR_COLOURS][3];
   for (int i = 0; i < THR_COLOURS; i++) {
     long value = strtol(thr_palette(i).hex + 1, NULL, 16);

@@ -223,8 +223,7 @@ void thr_look_at(const thr_look *look, const thr_band *band, int x, int y, doubl
         here->through - (here->inside && here->colour >= 0 ? here->inside * here->cord : 0);
     double clear = 0;
     through = fmax(through, 0) / look->width;
-    if (!look->opaque)
-      clear = here->colour >= 0 ? 0.72 * exp(-0.25 * through) : 0.5 * exp(-1.6 * through);
+    if (!look->opaque) clear = here->colour >= 0 ? exp(-0.9 * through) : 0.5 * exp(-1.6 * through);
     const float *clay = look->clay[place(here->normal[0])][place(here->normal[1])];
     for (int k = 0; k < 3; k++)
       colour[k] = (1 - clear) * clay[k] + clear * colour[k];
