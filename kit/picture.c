@@ -19,11 +19,12 @@
 
 enum { ROWS = 24, SIDES = 12, SHADOW = 320, JOIN = 10, MOST = 10000 };
 
-static const double SMOOTH = 0.766; /* cosine of 40 degrees */
-static const double SLENDER = 0.15; /* height of a triangle by its longest edge */
-static const double RIM = 0.045;    /* of the picture, on every side */
-static const double DARKEST = 0.42; /* of the ground below the pieces */
-static const double TAIL = 2;       /* of a node's radius: how far cords stick out of it */
+static const double SMOOTH = 0.766;               /* cosine of 40 degrees */
+static const double SLENDER = 0.15;               /* height of a triangle by its longest edge */
+static const double RIM = 0.045;                  /* of the picture, on every side */
+static const double DARKEST = 0.42;               /* of the ground below the pieces */
+static const double NEAR_BY = 0.8, HOLLOW = 0.75; /* widths of an arm; how much hollows darken */
+static const double TAIL = 2; /* of a node's radius: how far cords stick out of it */
 static const double AZIMUTH = -1.05, ELEVATION = 0.4; /* as in the overview's picture */
 
 /* A cord through a piece, or between two tubes. */
@@ -49,6 +50,7 @@ typedef struct {
   double (*low)[3], (*high)[3]; /* [n_pieces] boxes in the picture: right, up, to the eye; mm */
   float **normal;               /* [n_pieces] of a mesh: [n_triangles][3][3] */
   thr_spot *spot;               /* [most points of a mesh] */
+  thr_sample *middle_of;        /* [px] the sample in the middle of each */
   thr_band band;
   thr_look look;
   thr_scratch own;
@@ -671,8 +673,8 @@ static void draw_strand(drawing *work, const strand *line)
     for (int s = 0; s < SIDES && i > 0; s++) {
       const thr_spot *last = ring[(i - 1) & 1], *this = ring[i & 1];
       int t = (s + 1) % SIDES;
-      thr_band_cord(&work->band, (thr_spot[]){last[s], last[t], this[t]}, line->colour);
-      thr_band_cord(&work->band, (thr_spot[]){last[s], this[t], this[s]}, line->colour);
+      thr_band_cord(&work->band, (thr_spot[]){last[s], this[t], last[t]}, line->colour);
+      thr_band_cord(&work->band, (thr_spot[]){last[s], this[s], this[t]}, line->colour);
     }
     if (i == 0 || i == line->n - 1) close_end(work, ring[i & 1], along, i > 0, line->colour);
   }
@@ -709,9 +711,52 @@ static void draw_rows(drawing *work, int y, const int size[2], unsigned char *pi
       for (int i = 0; i < THR_SAMPLES * THR_SAMPLES; i++)
         thr_look_at(&work->look, band, THR_SAMPLES * x + i % THR_SAMPLES,
                     THR_SAMPLES * row + i / THR_SAMPLES, ground, sum);
-      for (int k = 0; k < 3; k++)
-        pixel[3 * ((size_t)row * (size_t)size[0] + (size_t)x) + (size_t)k] =
-            (unsigned char)(255 * sum[k] / n + 0.5);
+      size_t at = (size_t)row * (size_t)size[0] + (size_t)x;
+      for (size_t k = 0; k < 3; k++)
+        pixel[3 * at + k] = (unsigned char)(255 * sum[k] / n + 0.5);
+      work->middle_of[at] =
+          band->sample[(THR_SAMPLES * (row - y) + 2) * band->width + THR_SAMPLES * x + 1];
+    }
+}
+
+/* Darkens hollows and corners, where little of the sky is seen: the mean over points around of how
+ * far the surface rises there above the plane that touches it here (M. Mittring, "Finding next gen:
+ * CryEngine 2", SIGGRAPH 2007 courses). */
+static void darken_hollows(const drawing *work, const int size[2], unsigned char *pixel)
+{
+  enum { POINTS = 32 };
+  double reach = NEAR_BY * work->kit->options.width, px = work->view.scale / THR_SAMPLES;
+  int off[POINTS][2];
+  double right[POINTS], up[POINTS], away[POINTS];
+  for (int i = 0; i < POINTS; i++) {
+    /* A sunflower's seeds. */
+    double radius = reach * px * sqrt((i + 0.5) / POINTS), angle = i * THR_PI * (3 - sqrt(5));
+    off[i][0] = (int)lround(radius * cos(angle));
+    off[i][1] = (int)lround(radius * sin(angle));
+    right[i] = off[i][0] / px;
+    up[i] = -off[i][1] / px;
+    away[i] = hypot(right[i], up[i]);
+  }
+
+  for (int y = 0; y < size[1]; y++)
+    for (int x = 0; x < size[0]; x++) {
+      size_t at = (size_t)y * (size_t)size[0] + (size_t)x;
+      const thr_sample *here = &work->middle_of[at];
+      if (here->piece < 0 || here->normal[2] <= 0) continue;
+      double steep = fmax(here->normal[2], 20), dark = 0;
+      for (int i = 0; i < POINTS; i++) {
+        int u = x + off[i][0], v = y + off[i][1];
+        if (u < 0 || u >= size[0] || v < 0 || v >= size[1] || away[i] <= 0) continue;
+        const thr_sample *there = &work->middle_of[(size_t)v * (size_t)size[0] + (size_t)u];
+        if (there->piece < 0) continue;
+        double plane = -(here->normal[0] * right[i] + here->normal[1] * up[i]) / steep;
+        double rise = (double)there->surface - here->surface - plane;
+        /* What is far in front takes no light away. */
+        double fade = rise > 2 * reach ? 2 * reach / rise : 1;
+        dark += fade * fade * fmin(fmax(rise / away[i] - 0.12, 0), 1.5) / POINTS;
+      }
+      for (size_t k = 0; k < 3; k++)
+        pixel[3 * at + k] = (unsigned char)(pixel[3 * at + k] * (1 - fmin(HOLLOW * dark, 0.6)));
     }
 }
 
@@ -733,6 +778,8 @@ static thr_status prepare(drawing *work, const int size[2], thr_err *err)
   work->band.width = THR_SAMPLES * size[0];
   work->band.sample = thr_scratch_array(
       &work->own, (size_t)work->band.width * (THR_SAMPLES * ROWS + 2), sizeof *work->band.sample);
+  work->middle_of =
+      thr_scratch_array(&work->own, (size_t)size[0] * (size_t)size[1], sizeof *work->middle_of);
   thr_status st = thr_scratch_check(&work->own, err);
   if (!st) st = lay_cords(work, err);
   if (st) return st;
@@ -783,6 +830,7 @@ thr_status thr_kit_picture(const thr_kit *kit, const thr_kit_view *view, thr_tex
     thr_look_make(&work.look, (const double[]){0, work.view.camera.up[2], work.view.camera.eye[2]});
     for (int y = 0; y < size[1]; y += ROWS)
       draw_rows(&work, y, size, pixel);
+    darken_hollows(&work, size, pixel);
     st = thr_png_write(pixel, size, png, err);
   }
 

@@ -82,8 +82,7 @@ static bool prepare(const thr_band *band, const thr_spot spot[3], filling *fill)
 }
 
 /* Writes the normal at a sample, right, up and to the eye. part: the tests at the sample. */
-static void put_normal(const filling *fill, const thr_spot spot[3], const int64_t part[3],
-                       signed char normal[3])
+static void put_normal(const thr_spot spot[3], const int64_t part[3], signed char normal[3])
 {
   double sum[3] = {0, 0, 0};
   for (int i = 0; i < 3; i++)
@@ -92,7 +91,6 @@ static void put_normal(const filling *fill, const thr_spot spot[3], const int64_
   double length = sqrt(thr_dot(sum, sum));
   for (int k = 0; k < 3; k++)
     normal[k] = (signed char)(length > 0 ? 127 * sum[k] / length : 0);
-  (void)fill;
 }
 
 void thr_band_cord(thr_band *band, const thr_spot spot[3], int colour)
@@ -114,7 +112,7 @@ void thr_band_cord(thr_band *band, const thr_spot spot[3], int colour)
       if (depth <= row[x].cord) continue;
       row[x].cord = depth;
       row[x].colour = (int16_t)colour;
-      put_normal(&fill, spot, part, row[x].rounded);
+      put_normal(spot, part, row[x].rounded);
     }
   }
 }
@@ -142,7 +140,7 @@ void thr_band_piece(thr_band *band, const thr_spot spot[3], int piece)
       if (!fill.front || depth <= row[x].surface) continue;
       row[x].surface = depth;
       row[x].piece = piece;
-      put_normal(&fill, spot, part, row[x].normal);
+      put_normal(spot, part, row[x].normal);
     }
   }
 }
@@ -155,7 +153,7 @@ static double brightness(const double normal[3], const double up[3])
 {
   static const double lamp[3] = {-0.50, 0.62, 0.605}, filling_lamp[3] = {0.83, 0.05, 0.556};
   double sky = 0.5 + 0.5 * thr_dot(normal, up);
-  return 0.34 + 0.24 * sky + 0.46 * fmax(thr_dot(normal, lamp), 0) +
+  return 0.26 + 0.26 * sky + 0.52 * fmax(thr_dot(normal, lamp), 0) +
          0.13 * fmax(thr_dot(normal, filling_lamp), 0);
 }
 
