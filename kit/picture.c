@@ -17,13 +17,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROWS = 24, SIDES = 12, SHADOW = 320, JOIN = 10, MOST = 10000 };
+enum { ROWS = 24, SIDES = 16, SHADOW = 320, JOIN = 10, MOST = 10000 };
 
-static const double SMOOTH = 0.766;               /* cosine of 40 degrees */
-static const double SLENDER = 0.15;               /* height of a triangle by its longest edge */
-static const double RIM = 0.045;                  /* of the picture, on every side */
-static const double DARKEST = 0.42;               /* of the ground below the pieces */
-static const double NEAR_BY = 0.8, HOLLOW = 0.75; /* widths of an arm; how much hollows darken */
+static const double SMOOTH = 0.766;              /* cosine of 40 degrees */
+static const double SLENDER = 0.15;              /* height of a triangle by its longest edge */
+static const double RIM = 0.045;                 /* of the picture, on every side */
+static const double DARKEST = 0.42;              /* of the ground below the pieces */
+static const double NEAR_BY = 0.8, HOLLOW = 0.7; /* widths of an arm; how much hollows darken */
 static const double TAIL = 2; /* of a node's radius: how far cords stick out of it */
 static const double AZIMUTH = -1.05, ELEVATION = 0.4; /* as in the overview's picture */
 
@@ -133,13 +133,14 @@ static thr_status follow(drawing *work, const thr_kit_piece *piece, const thr_ki
     double part = fmin(fmax((i - 1.0) / (channel->n > 3 ? channel->n - 3 : 1), 0), 1), at[3];
     for (int k = 0; k < 3; k++)
       at[k] = channel->point[i][k] + (1 - part) * off[0][k] + part * off[1][k];
-    /* Curves run straight on beyond faces: there they end, or a little further if they are seen.
+    /* Curves run straight on beyond faces: they end there, or where the neighbour's begins.
      * Outside, cords are cut off. */
     int arm = i == 0 ? channel->in : channel->out;
     if (i == 0 || i == channel->n - 1) {
       const double *along = arm >= 0 ? piece->arm[arm].along : at;
-      double most = arm >= 0 ? piece->arm[arm].length + work->out * piece->arm[arm].width
-                             : TAIL * piece->node_radius;
+      double most = arm >= 0
+                        ? work->explode * piece->arm[arm].length + work->out * piece->arm[arm].width
+                        : TAIL * piece->node_radius;
       double length = arm >= 0 ? thr_dot(at, along) : sqrt(thr_dot(at, at));
       double unit = arm >= 0 || length <= 0 ? 1 : 1 / length;
       for (int k = 0; k < 3; k++)
@@ -613,7 +614,7 @@ static void draw_piece(drawing *work, int p)
       for (int k = 0; k < 3; k++)
         spot[i].normal[k] = (float)thr_dot(turn[k], of_mesh);
     }
-    thr_band_piece(&work->band, spot, p);
+    thr_band_fill(&work->band, spot, p, 0);
   }
 }
 
@@ -628,7 +629,7 @@ static void close_end(drawing *work, const thr_spot *ring, const double along[3]
     for (int i = 0; i < 3; i++)
       for (int k = 0; k < 3; k++)
         fan[i].normal[k] = (float)((ahead ? 1 : -1) * thr_dot(along, axis[k]));
-    thr_band_cord(&work->band, fan, colour);
+    thr_band_fill(&work->band, fan, -1, colour);
   }
 }
 
@@ -673,8 +674,8 @@ static void draw_strand(drawing *work, const strand *line)
     for (int s = 0; s < SIDES && i > 0; s++) {
       const thr_spot *last = ring[(i - 1) & 1], *this = ring[i & 1];
       int t = (s + 1) % SIDES;
-      thr_band_cord(&work->band, (thr_spot[]){last[s], this[t], last[t]}, line->colour);
-      thr_band_cord(&work->band, (thr_spot[]){last[s], this[s], this[t]}, line->colour);
+      thr_band_fill(&work->band, (thr_spot[]){last[s], this[t], last[t]}, -1, line->colour);
+      thr_band_fill(&work->band, (thr_spot[]){last[s], this[s], this[t]}, -1, line->colour);
     }
     if (i == 0 || i == line->n - 1) close_end(work, ring[i & 1], along, i > 0, line->colour);
   }
@@ -724,7 +725,7 @@ static void draw_rows(drawing *work, int y, const int size[2], unsigned char *pi
  * CryEngine 2", SIGGRAPH 2007 courses). */
 static void darken_hollows(const drawing *work, const int size[2], unsigned char *pixel)
 {
-  enum { POINTS = 32 };
+  enum { POINTS = 48 };
   double reach = NEAR_BY * work->kit->options.width, px = work->view.scale / THR_SAMPLES;
   int off[POINTS][2];
   double right[POINTS], up[POINTS], away[POINTS];
@@ -752,8 +753,8 @@ static void darken_hollows(const drawing *work, const int size[2], unsigned char
         double plane = -(here->normal[0] * right[i] + here->normal[1] * up[i]) / steep;
         double rise = (double)there->surface - here->surface - plane;
         /* What is far in front takes no light away. */
-        double fade = rise > 2 * reach ? 2 * reach / rise : 1;
-        dark += fade * fade * fmin(fmax(rise / away[i] - 0.12, 0), 1.5) / POINTS;
+        double fade = rise > reach ? reach / rise : 1;
+        dark += fade * fade * fmin(fmax(rise / away[i] - 0.2, 0), 1.5) / POINTS;
       }
       for (size_t k = 0; k < 3; k++)
         pixel[3 * at + k] = (unsigned char)(pixel[3 * at + k] * (1 - fmin(HOLLOW * dark, 0.6)));
@@ -800,43 +801,55 @@ static thr_status prepare(drawing *work, const int size[2], thr_err *err)
   return st;
 }
 
-thr_status thr_kit_picture(const thr_kit *kit, const thr_kit_view *view, thr_text *png,
-                           thr_err *err)
+thr_status thr_kit_pixels(const thr_kit *kit, const thr_kit_view *view, unsigned char **pixel,
+                          int size[2], thr_err *err)
 {
-  const int size[2] = {view->size[0] ? view->size[0] : 1200, view->size[1] ? view->size[1] : 900};
-  for (int k = 0; k < 2; k++)
+  *pixel = NULL;
+  for (int k = 0; k < 2; k++) {
+    size[k] = view->size[k] ? view->size[k] : k ? 900 : 1200;
     if (size[k] < 16 || size[k] > MOST)
       return thr_fail(err, THR_EINPUT, "a picture is 16 to %d px wide and high, not %d", MOST,
                       size[k]);
+  }
   if (view->alone < 0 || view->alone > kit->n_pieces)
     return thr_fail(err, THR_EINPUT, "the kit has %d pieces, not a piece %d", kit->n_pieces,
                     view->alone);
 
   drawing work = {.kit = kit, .asked = view, .explode = view->explode > 0 ? view->explode : 1};
-  work.out = view->alone || work.explode > 1 ? 0.3 : 0;
+  work.out = view->alone ? 0.3 : 0;
   double colour[THR_COLOURS][3];
   for (int i = 0; i < THR_COLOURS; i++) {
     long value = strtol(thr_palette(i).hex + 1, NULL, 16);
     for (int k = 0; k < 3; k++)
       colour[i][k] = (double)(value >> (16 - 8 * k) & 255) / 255;
   }
+
   thr_status st = prepare(&work, size, err);
-  unsigned char *pixel = st ? NULL : thr_calloc((size_t)size[0] * (size_t)size[1], 3);
-  if (!st && !pixel) st = thr_nomem(err);
+  if (!st) *pixel = thr_calloc((size_t)size[0] * (size_t)size[1], 3);
+  if (!st && !*pixel) st = thr_nomem(err);
   if (!st) {
     work.look.colour = (const double(*)[3])colour;
     work.look.opaque = view->opaque;
     work.look.width = kit->options.width;
     thr_look_make(&work.look, (const double[]){0, work.view.camera.up[2], work.view.camera.eye[2]});
     for (int y = 0; y < size[1]; y += ROWS)
-      draw_rows(&work, y, size, pixel);
-    darken_hollows(&work, size, pixel);
-    st = thr_png_write(pixel, size, png, err);
+      draw_rows(&work, y, size, *pixel);
+    darken_hollows(&work, size, *pixel);
   }
 
-  free(pixel);
   free(work.point);
   free(work.line);
   thr_scratch_free(&work.own);
+  return st;
+}
+
+thr_status thr_kit_picture(const thr_kit *kit, const thr_kit_view *view, thr_text *png,
+                           thr_err *err)
+{
+  unsigned char *pixel;
+  int size[2];
+  thr_status st = thr_kit_pixels(kit, view, &pixel, size, err);
+  if (!st) st = thr_png_write(pixel, size, png, err);
+  free(pixel);
   return st;
 }

@@ -27,6 +27,11 @@ typedef struct {
   double explode; /* by which all pieces are further from their middle; 0 = 1, in their places */
 } thr_kit_view;
 
+/* Makes the picture: *pixel[3 * size[0] * size[1]] receives red, green and blue row by row from the
+ * top, to be freed, and size what it is. Failures as below. */
+thr_status thr_kit_pixels(const thr_kit *kit, const thr_kit_view *view, unsigned char **pixel,
+                          int size[2], thr_err *err) THR_MUST_CHECK;
+
 /* Appends the picture as PNG of 8 bits red, green and blue. The kit has meshes. The same kit and
  * view give the same bytes. THR_EINPUT: no such piece, or a size below 16 or above 10000 px;
  * THR_ENOMEM. png is unchanged on failure. O(triangles + px). */
@@ -61,10 +66,9 @@ typedef struct {
   float depth, normal[3];
 } thr_spot;
 
-/* Fills a triangle, counter-clockwise if it is seen from outside. Pieces come after all cords. O(of
- * samples in its box). */
-void thr_band_cord(thr_band *band, const thr_spot spot[3], int colour);
-void thr_band_piece(thr_band *band, const thr_spot spot[3], int piece);
+/* Fills a triangle, counter-clockwise if it is seen from outside, of a piece, or, piece < 0, of a
+ * cord of a colour. Pieces come after all cords. O(samples in its box). */
+void thr_band_fill(thr_band *band, const thr_spot spot[3], int piece, int colour);
 
 /* How samples are coloured. */
 typedef struct {

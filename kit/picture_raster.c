@@ -93,54 +93,40 @@ static void put_normal(const thr_spot spot[3], const int64_t part[3], signed cha
     normal[k] = (signed char)(length > 0 ? 127 * sum[k] / length : 0);
 }
 
-void thr_band_cord(thr_band *band, const thr_spot spot[3], int colour)
+void thr_band_fill(thr_band *band, const thr_spot spot[3], int piece, int colour)
 {
   filling fill;
-  if (!prepare(band, spot, &fill) || !fill.front) return;
+  if (!prepare(band, spot, &fill) || (piece < 0 && !fill.front)) return;
 
   for (int y = fill.low[1]; y <= fill.high[1]; y++) {
     int rows = y - fill.low[1];
-    thr_sample *row = band->sample + (size_t)(y - band->begin) * (size_t)band->width;
-    for (int x = fill.low[0]; x <= fill.high[0]; x++) {
-      int64_t part[3];
+    thr_sample *here = band->sample + (size_t)(y - band->begin) * (size_t)band->width + fill.low[0];
+    double deep = fill.depth + rows * fill.slope[1];
+    int64_t part[3];
+    for (int i = 0; i < 3; i++)
+      part[i] = fill.edge[i].here + rows * fill.edge[i].step[1];
+
+    for (int x = fill.low[0]; x <= fill.high[0]; x++, here++) {
+      bool inside = (part[0] | part[1] | part[2]) >= 0;
+      float depth = (float)(deep + (x - fill.low[0]) * fill.slope[0]);
+      const int64_t now[3] = {part[0], part[1], part[2]};
       for (int i = 0; i < 3; i++)
-        part[i] = fill.edge[i].here + rows * fill.edge[i].step[1] +
-                  (x - fill.low[0]) * fill.edge[i].step[0];
-      if ((part[0] | part[1] | part[2]) < 0) continue;
-
-      float depth = (float)(fill.depth + rows * fill.slope[1] + (x - fill.low[0]) * fill.slope[0]);
-      if (depth <= row[x].cord) continue;
-      row[x].cord = depth;
-      row[x].colour = (int16_t)colour;
-      put_normal(spot, part, row[x].rounded);
-    }
-  }
-}
-
-void thr_band_piece(thr_band *band, const thr_spot spot[3], int piece)
-{
-  filling fill;
-  if (!prepare(band, spot, &fill)) return;
-
-  for (int y = fill.low[1]; y <= fill.high[1]; y++) {
-    int rows = y - fill.low[1];
-    thr_sample *row = band->sample + (size_t)(y - band->begin) * (size_t)band->width;
-    for (int x = fill.low[0]; x <= fill.high[0]; x++) {
-      int64_t part[3];
-      for (int i = 0; i < 3; i++)
-        part[i] = fill.edge[i].here + rows * fill.edge[i].step[1] +
-                  (x - fill.low[0]) * fill.edge[i].step[0];
-      if ((part[0] | part[1] | part[2]) < 0) continue;
+        part[i] += fill.edge[i].step[0];
 
       /* What is behind the cord does not matter. */
-      float depth = (float)(fill.depth + rows * fill.slope[1] + (x - fill.low[0]) * fill.slope[0]);
-      if (depth <= row[x].cord) continue;
-      row[x].through += fill.front ? depth : -depth;
-      row[x].inside = (int16_t)(row[x].inside + (fill.front ? 1 : -1));
-      if (!fill.front || depth <= row[x].surface) continue;
-      row[x].surface = depth;
-      row[x].piece = piece;
-      put_normal(spot, part, row[x].normal);
+      if (!inside || depth <= here->cord) continue;
+      if (piece < 0) {
+        here->cord = depth;
+        here->colour = (int16_t)colour;
+        put_normal(spot, now, here->rounded);
+        continue;
+      }
+      here->through += fill.front ? depth : -depth;
+      here->inside = (int16_t)(here->inside + (fill.front ? 1 : -1));
+      if (!fill.front || depth <= here->surface) continue;
+      here->surface = depth;
+      here->piece = piece;
+      put_normal(spot, now, here->normal);
     }
   }
 }
@@ -199,7 +185,7 @@ static bool is_line(const thr_look *look, const thr_sample *a, const thr_sample 
   int dot = 0;
   for (int k = 0; k < 3; k++)
     dot += a->normal[k] * b->normal[k];
-  return dot < 127 * 127 * 0.72;
+  return dot < 127 * 127 * 0.5;
 }
 
 void thr_look_at(const thr_look *look, const thr_band *band, int x, int y, double ground,
