@@ -91,7 +91,8 @@ static bool same_curve(const thr_kit_channel *a, const thr_kit_channel *b, const
 {
   if (a->n != b->n || fabs(a->radius - b->radius) > tolerance) return false;
   for (int back = 0; back < 2; back++) {
-    bool same = true;
+    bool same = fabs(a->radii[0] - b->radii[back]) <= tolerance &&
+                fabs(a->radii[1] - b->radii[!back]) <= tolerance;
     for (int i = 0; i < a->n && same; i++) {
       double here[3];
       turn(rotation, a->point[i], here);

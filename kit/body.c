@@ -55,8 +55,8 @@ static double arm_distance(const thr_kit_piece *piece, const thr_kit_arm *arm, c
     if (over > 0) return sqrt(u * u + v * v + over * over) - radius;
   }
   double across = profile_distance(piece->profile, radius, v, u);
-  if (s >= 0 || piece->tube) return across;
-  return hypot(across + radius, s) - radius;
+  if (s >= 0) return across;
+  return piece->tube ? hypot(fmax(across, 0), s) : hypot(across + radius, s) - radius;
 }
 
 /* Joins two distances, a <= b, with a fillet of about a radius between them. */
@@ -68,7 +68,10 @@ static double join(double a, double b, double radius)
   return a - 0.25 * reach * part * part;
 }
 
-double thr_kit_body(const thr_kit_piece *piece, const double at[3], int *arm)
+/* Distance to the surface without what is hollow. *corner: how much farther the second nearest part
+ * is than the nearest: 0 where they meet. */
+static double body_distance(const thr_kit_piece *piece, const double at[3], int *arm,
+                            double *corner)
 {
   double least = INFINITY, second = INFINITY;
   int nearest = -1;
@@ -94,9 +97,10 @@ double thr_kit_body(const thr_kit_piece *piece, const double at[3], int *arm)
       second = ball;
   }
   if (piece->foot) {
-    double off = hypot(at[0], at[1]) - piece->pad, height = 0.5 * piece->base;
-    double over = at[2] + piece->base - height; /* above the disc */
-    double disc = hypot(fmax(off, 0), fmax(over, 0)) + fmin(fmax(off, over), 0);
+    /* A disc with a round rim; its lower half is cut off at the base. */
+    double rim = 0.4 * piece->base;
+    double off = hypot(at[0], at[1]) - piece->pad + rim, over = fabs(at[2] + piece->base) - rim;
+    double disc = hypot(fmax(off, 0), fmax(over, 0)) + fmin(fmax(off, over), 0) - rim;
     if (disc < least) {
       second = least;
       least = disc;
@@ -104,9 +108,18 @@ double thr_kit_body(const thr_kit_piece *piece, const double at[3], int *arm)
     } else if (disc < second)
       second = disc;
   }
-  if (arm) *arm = nearest;
+  *arm = nearest;
+  *corner = second - least;
 
   return piece->tube ? least : join(least, second, piece->fillet);
+}
+
+double thr_kit_body(const thr_kit_piece *piece, const double at[3], int *arm)
+{
+  int nearest;
+  double corner, distance = body_distance(piece, at, &nearest, &corner);
+  if (arm) *arm = nearest;
+  return distance;
 }
 
 /* Distance from a segment. */
@@ -139,13 +152,15 @@ static double channel_distance(const thr_kit_piece *piece, const thr_kit_channel
 {
   double to_ball[3] = {at[0] - channel->middle[0], at[1] - channel->middle[1],
                        at[2] - channel->middle[2]};
-  double widest = channel->radius + piece->mouth;
+  double widest = fmax(channel->radii[0], channel->radii[1]) + piece->mouth;
   if (sqrt(thr_dot(to_ball, to_ball)) - channel->reach - widest > best) return best;
 
   for (int i = 0; i + 1 < channel->n; i++) {
     double part;
     double away = segment_distance(at, channel->point[i], channel->point[i + 1], &part);
-    best = fmin(best, away - channel->radius);
+    double along = (i + part) / (channel->n - 1);
+    double radius = channel->radii[0] + along * (channel->radii[1] - channel->radii[0]);
+    best = fmin(best, away - radius);
   }
 
   /* Mouths are wider near their faces. */
@@ -159,39 +174,49 @@ static double channel_distance(const thr_kit_piece *piece, const thr_kit_channel
     double off[3] = {at[0] - mouth[0], at[1] - mouth[1], at[2] - mouth[2]};
     double along = thr_dot(off, arm->along);
     double across = sqrt(fmax(thr_dot(off, off) - along * along, 0));
-    best = fmin(best, across - channel->radius - flare(piece->mouth, depth));
+    best = fmin(best, across - channel->radii[end] - flare(piece->mouth, depth));
   }
 
   return best;
 }
 
 /* Distance from the letters' strokes, at the depth of a point below the surface: below 0 in the
- * groove. */
-static double letters_distance(const thr_kit_piece *piece, const double at[3], double body)
+ * groove. Only letters on the nearest arm count. */
+static double letters_distance(const thr_kit_piece *piece, const double at[3], int arm, double body)
 {
   double best = INFINITY;
   for (int i = 0; i < piece->n_strokes; i++) {
     const thr_kit_stroke *stroke = &piece->stroke[i];
-    const thr_kit_arm *arm = &piece->arm[stroke->arm];
-    double u = thr_dot(at, arm->up), v = thr_dot(at, arm->side), s = thr_dot(at, arm->along);
+    if (stroke->arm != arm) continue;
+    const thr_kit_arm *on = &piece->arm[arm];
+    const double side = stroke->below ? -1 : 1;
+    double u = side * thr_dot(at, on->up), v = side * thr_dot(at, on->side),
+           s = thr_dot(at, on->along);
     if (u <= 0) continue;
-    double across = piece->profile == THR_KIT_ROUND ? atan2(v, u) * 0.5 * arm->width : v;
+    double across = piece->profile == THR_KIT_ROUND ? atan2(v, u) * 0.5 * on->width : v;
     const double here[3] = {s, across, 0};
-    const double a[3] = {stroke->from[0], stroke->from[1], 0};
-    const double b[3] = {stroke->to[0], stroke->to[1], 0};
+    const double from[3] = {stroke->from[0], stroke->from[1], 0};
+    const double to[3] = {stroke->to[0], stroke->to[1], 0};
     double part;
-    best = fmin(best, segment_distance(here, a, b, &part));
+    best = fmin(best, segment_distance(here, from, to, &part));
   }
   return fmax(best - 0.5 * piece->letter_width, -body - piece->letter_depth);
 }
 
-/* Height of a key at a distance from the axis of its face, and what a hollow one has more. */
+/* Height of a key at a distance from the axis of its face; of a hollow one below 0, with play. Both
+ * rims of the flank are rounded. */
 static double key_height(const thr_kit_piece *piece, bool out, double off)
 {
   if (piece->key == THR_KIT_NO_KEY) return 0;
   double radius = piece->key_radius + (out ? 0 : piece->key_play);
   double most = piece->key_height + (out ? 0 : piece->key_play);
-  double height = fmin(fmax((radius - off) * piece->key_slope, 0), most);
+  double round = 0.2 * most, flank = (radius - off) * piece->key_slope;
+  double height = flank < -round         ? 0
+                  : flank < round        ? (flank + round) * (flank + round) / (4 * round)
+                  : flank < most - round ? flank
+                  : flank < most + round
+                      ? most - (most + round - flank) * (most + round - flank) / (4 * round)
+                      : most;
   return out ? height : -height;
 }
 
@@ -199,7 +224,7 @@ void thr_kit_sample(const void *user, const double at[3], thr_solid_sample *out)
 {
   const thr_kit_piece *piece = user;
   int nearest;
-  double body = thr_kit_body(piece, at, &nearest);
+  double corner, body = body_distance(piece, at, &nearest, &corner);
 
   /* What is hollow. */
   double hollow = INFINITY, radius = INFINITY;
@@ -214,14 +239,17 @@ void thr_kit_sample(const void *user, const double at[3], thr_solid_sample *out)
     hollow = fmin(hollow, segment_distance(at, p, p + 3, &part) - p[6]);
   }
 
-  /* Sizes: a sixth of an arm, finer at channels and letters. */
+  /* Sizes: a third of an arm, finer at channels and letters. */
   double thinnest = INFINITY;
   for (int i = 0; i < piece->n_arms; i++)
     thinnest = fmin(thinnest, piece->arm[i].width);
-  double size = 0.45 * thinnest;
+  double size = 0.38 * thinnest;
+  if (!piece->tube) size = fmin(size, 1.2 * piece->fillet + 0.15 * thinnest + 0.5 * corner);
   size = fmin(size, 1.2 * radius + 0.7 * fabs(hollow));
+  /* Thin walls are not to fall between the corners of tetrahedra. */
+  size = fmin(size, fmax(0.8 * (fabs(body) + fabs(hollow)), 0.7 * piece->wall));
   if (piece->n_strokes && body > -2 * piece->letter_depth && body < size) {
-    double letters = letters_distance(piece, at, body);
+    double letters = letters_distance(piece, at, nearest, body);
     hollow = fmin(hollow, letters);
     size = fmin(size, 0.8 * piece->letter_width + 0.5 * fabs(letters));
   }
@@ -231,6 +259,13 @@ void thr_kit_sample(const void *user, const double at[3], thr_solid_sample *out)
   /* The cut of the nearest arm, or of the base. */
   out->cut = -1e3 * thinnest;
   memset(out->across, 0, sizeof out->across);
+  for (int i = 0; nearest == -1 && i < piece->n_arms; i++) {
+    /* The ball of a node may reach beyond the faces of short arms. */
+    double here = thr_dot(at, piece->arm[i].along) - piece->arm[i].length;
+    if (here <= out->cut) continue;
+    out->cut = here;
+    memcpy(out->across, piece->arm[i].along, sizeof out->across);
+  }
   if (nearest >= 0 && !piece->rounded) {
     const thr_kit_arm *arm = &piece->arm[nearest];
     double s = thr_dot(at, arm->along);
@@ -238,10 +273,12 @@ void thr_kit_sample(const void *user, const double at[3], thr_solid_sample *out)
       double off = sqrt(fmax(thr_dot(at, at) - s * s, 0));
       out->cut = s - arm->length - key_height(piece, arm->key_out, off);
       memcpy(out->across, arm->along, sizeof out->across);
-      if (piece->key != THR_KIT_NO_KEY &&
-          fabs(out->cut) < size + piece->key_height) /* flanks are no planes */
-        out->size = fmin(out->size, 0.12 * arm->width);
+      /* Flanks of keys are no planes. */
+      if (piece->key != THR_KIT_NO_KEY && off < piece->key_radius + size &&
+          fabs(s - arm->length) < size + piece->key_height)
+        out->size = fmin(out->size, 0.16 * arm->width);
     }
+    if (arm->n_mitres > 0) out->cut = s - arm->length - arm->tip; /* whatever its mitres leave */
     for (int i = 0; i < arm->n_mitres; i++) {
       double here = thr_dot(at, arm->mitre[i]) - arm->mitre[i][3];
       if (here <= out->cut) continue;

@@ -50,13 +50,15 @@ static void curve(const channel_end end[2], double reach, double (*point)[3])
 
 /* Least thickness of the material round a curve's bend, which is where it comes near the surface.
  * Ends outside do not count: there the channel is to break through. */
-static double least_wall(const thr_kit_piece *piece, const double (*point)[3], double radius,
-                         bool open)
+static double least_wall(const thr_kit_piece *piece, const double (*point)[3],
+                         const double radii[2], bool open)
 {
   double least = INFINITY;
   int last = open ? BEND_POINTS / 2 : BEND_POINTS;
-  for (int i = 1; i <= last; i++)
+  for (int i = 1; i <= last; i++) {
+    double radius = radii[0] + (radii[1] - radii[0]) * i / (BEND_POINTS + 1);
     least = fmin(least, -thr_kit_body(piece, point[i], NULL) - radius);
+  }
   return least;
 }
 
@@ -139,7 +141,7 @@ thr_status thr_kit_channel_make(const thr_kit_piece *piece, thr_kit_channel *cha
   double reach = 0.95 * most, thickest = -INFINITY, best = reach;
   for (int i = 0; i < 24; i++, reach *= 0.86) {
     curve(ends, reach, channel->point);
-    double here = least_wall(piece, (const double(*)[3])channel->point, channel->radius, open);
+    double here = least_wall(piece, (const double(*)[3])channel->point, channel->radii, open);
     if (here > thickest) {
       thickest = here;
       best = reach;

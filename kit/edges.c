@@ -193,7 +193,7 @@ static thr_status check_widths(const thr_plan *plan, const thr_kit_options *opti
       e = -1; /* from the first one again: lanes are nearer to each other now */
       continue;
     }
-    if (options->width > 0 && edge[e].width >= options->width - 1e-9)
+    if (edge[e].width >= sizes->width * (1 - 1e-9))
       return thr_fail(err, THR_EINPUT,
                       "%s-%s: %d channel%s of %.3g mm with walls of %.3g mm %s a width of %.3g mm, "
                       "not %.3g: --width %.3g or more",

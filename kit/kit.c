@@ -18,7 +18,7 @@
 #include <string.h>
 
 /* Parts of the width of an arm, unless asked for otherwise. */
-static const double FILLET = 0.15, NODE = 0.6, MOUTH = 0.12;
+static const double FILLET = 0.15, NODE = 0.6, MOUTH = 0.08;
 /* mm: of a wall, of letters, and how deep these are; of a key's play. */
 static const double WALL = 1.2, LETTERS = 4, DEPTH = 0.6, PLAY = 0.15;
 /* A knot is three cords thick (an overhand knot: C. Ashley, 1944). */
@@ -32,7 +32,8 @@ typedef struct {
   thr_guide guide;
   thr_pieces pieces;
   thr_channels channels;
-  bool *foot; /* [n_nodes] */
+  bool *foot;  /* [n_nodes] */
+  int unnamed; /* arms and pieces without room for a name */
   thr_scratch own;
 } maker;
 
@@ -234,16 +235,11 @@ static thr_status add_channel(const maker *work, thr_kit_piece *piece, int cord,
                              .out = half_out < 0 ? -1 : arm_of(piece, half_out)};
   double start[2] = {0, 0}, end[2] = {0, 0}, out[3];
   const thr_kit_edge *edge = work->kit->edges.edge;
-  double bore = INFINITY;
-  if (half_in >= 0) {
-    lane_of(work, cord, pass_in, half_in, start);
-    bore = fmin(bore, edge[half_in >> 1].bore);
-  }
-  if (half_out >= 0) {
-    lane_of(work, cord, pass_out, half_out, end);
-    bore = fmin(bore, edge[half_out >> 1].bore);
-  }
-  channel.radius = 0.5 * bore;
+  if (half_in >= 0) lane_of(work, cord, pass_in, half_in, start);
+  if (half_out >= 0) lane_of(work, cord, pass_out, half_out, end);
+  channel.radii[0] = 0.5 * edge[(half_in >= 0 ? half_in : half_out) >> 1].bore;
+  channel.radii[1] = 0.5 * edge[(half_out >= 0 ? half_out : half_in) >> 1].bore;
+  channel.radius = fmin(channel.radii[0], channel.radii[1]);
   way_out(piece, out);
 
   thr_status st = thr_kit_channel_make(piece, &channel, start, end, out, work->sizes.wall, err);
@@ -292,58 +288,80 @@ static thr_status add_channels(const maker *work, thr_kit_piece *piece, int v, t
   return THR_OK;
 }
 
-/* Engraves the names of a piece and its neighbours on those arms where there is room: "B5>B6",
- * else "B6". */
-static thr_status add_names(const maker *work, thr_kit_piece *piece, thr_err *err)
+/* Engraves words on an arm, if there is room between `from` and its face. Returns whether there
+ * was; *n: the strokes so far, *capacity: the room for them. */
+static thr_status engrave(thr_kit_piece *piece, int arm, const char *words, double height,
+                          double from, bool below, int *capacity, bool *done, thr_err *err)
 {
-  const thr_kit *kit = work->kit;
-  const thr_kit_options *options = &kit->options;
+  double room;
+  const thr_kit_arm *a = &piece->arm[arm];
+  double free_length = a->length - piece->mouth - piece->letter_width - from;
+  int n = piece->n_strokes, strokes = thr_kit_strokes(words, height, NULL, 0, &room);
+  *done = room <= free_length && height <= 0.75 * a->width;
+  if (!*done) return THR_OK;
+
+  while (*capacity < n + strokes) {
+    thr_status st = thr_grow(&piece->stroke, *capacity, capacity, sizeof *piece->stroke, err);
+    if (st) return st;
+  }
+  thr_kit_strokes(words, height, piece->stroke + n, strokes, &room);
+  for (int i = n; i < n + strokes; i++) {
+    thr_kit_stroke *stroke = &piece->stroke[i];
+    stroke->arm = arm;
+    stroke->below = below;
+    stroke->from[0] += from + 0.5 * (free_length - room);
+    stroke->to[0] += from + 0.5 * (free_length - room);
+  }
+  piece->n_strokes = n + strokes;
+
+  return THR_OK;
+}
+
+/* Engraves names: on every arm that of the neighbour, with the piece's own before it where there is
+ * room, "B5>B6", ">B6" or "B6"; else the piece's own name on the other side of an arm. Letters are
+ * made smaller, down to the least that can be read, rather than left out. */
+static thr_status add_names(maker *work, thr_kit_piece *piece, thr_err *err)
+{
+  const thr_kit_options *options = &work->kit->options;
+  bool of_kinds = options->names == THR_KIT_OF_KINDS, own = false, done;
+  int capacity = 0;
   if (options->names == THR_KIT_NO_NAMES) return THR_OK;
   piece->letter_width = options->letters / 6;
   piece->letter_depth = fmin(DEPTH, 0.5 * work->sizes.wall);
 
-  int n = 0, capacity = 0;
-  for (int i = 0; i < piece->n_arms; i++) {
-    const thr_kit_arm *arm = &piece->arm[i];
-    char words[2][160];
-    if (options->names == THR_KIT_OF_KINDS) {
-      if (i > 0) break;
-      thr_pieces_kind_name(&work->pieces, work->pieces.kind[piece->piece], words[0]);
-      snprintf(words[1], sizeof words[1], "%s", words[0]);
-    } else {
-      const char *to = work->guide.label[thr_head(work->frame, arm->half)];
-      const char *from = work->guide.label[thr_tail(work->frame, arm->half)];
-      if (piece->tube)
-        snprintf(words[0], sizeof words[0], ">%s", to);
-      else
-        snprintf(words[0], sizeof words[0], "%s>%s", from, to);
-      snprintf(words[1], sizeof words[1], ">%s", to);
-    }
+  thr_text name = {0};
+  thr_pieces_name(&work->pieces, (const char(*)[THR_LABEL])work->guide.label, piece->piece, &name);
+  char kind[24];
+  thr_pieces_kind_name(&work->pieces, work->pieces.kind[piece->piece], kind);
+  thr_status st = name.failed ? thr_nomem(err) : THR_OK;
 
-    /* Letters go on arms that are wide enough for their height, from beside the node's ball. */
-    double from = piece->tube ? 0.05 * arm->length : 0.9 * piece->node_radius;
-    double free_length = arm->length - piece->mouth - 0.5 * piece->letter_width - from;
-    if (options->letters > 0.75 * arm->width) continue;
-    for (int k = 0; k < 2; k++) {
-      double room;
-      int strokes = thr_kit_strokes(words[k], options->letters, NULL, 0, &room);
-      if (room > free_length) continue;
-      while (capacity < n + strokes) {
-        thr_status st = thr_grow(&piece->stroke, capacity, &capacity, sizeof *piece->stroke, err);
-        if (st) return st;
+  for (int i = 0; i < piece->n_arms && !st && !of_kinds; i++) {
+    const char *to = work->guide.label[thr_head(work->frame, piece->arm[i].half)];
+    double from = piece->tube ? 0 : 0.75 * piece->node_radius;
+    char words[3][2 * THR_LABEL + 8];
+    snprintf(words[0], sizeof words[0], "%s>%s", piece->tube ? "" : name.data, to);
+    snprintf(words[1], sizeof words[1], ">%s", to);
+    snprintf(words[2], sizeof words[2], "%s", to);
+    done = false;
+    for (double height = options->letters; !done && !st && height > 0.6 * options->letters;
+         height *= 0.8)
+      for (int k = 0; k < 3 && !done && !st; k++) {
+        st = engrave(piece, i, words[k], height, from, false, &capacity, &done, err);
+        own |= done && k == 0;
       }
-      thr_kit_strokes(words[k], options->letters, piece->stroke + n, strokes, &room);
-      for (int l = n; l < n + strokes; l++) {
-        piece->stroke[l].arm = i;
-        piece->stroke[l].from[0] += from + 0.5 * (free_length - room);
-        piece->stroke[l].to[0] += from + 0.5 * (free_length - room);
-      }
-      n += strokes;
-      break;
-    }
+    work->unnamed += !done;
   }
-  piece->n_strokes = n;
-  return THR_OK;
+
+  /* The piece's own name, or its kind. */
+  for (int i = 0; i < piece->n_arms && !own && !st; i++)
+    for (double height = options->letters; !own && !st && height > 0.6 * options->letters;
+         height *= 0.8)
+      st = engrave(piece, i, of_kinds ? kind : name.data, height,
+                   piece->tube ? 0 : 0.5 * piece->node_radius, !of_kinds, &capacity, &own, err);
+  work->unnamed += !own;
+  thr_text_destroy(&name);
+
+  return st;
 }
 
 /* Sets what all pieces have in common. */
@@ -353,8 +371,9 @@ static void set_common(const maker *work, thr_kit_piece *piece, double narrowest
   piece->profile = options->profile;
   piece->taper = options->taper;
   piece->fillet = fmax(options->fillet, 0);
-  piece->mouth = fmin(MOUTH * narrowest, work->kit->cord);
+  piece->mouth = fmin(MOUTH * narrowest, 0.5 * work->kit->cord);
   piece->key = options->key;
+  piece->wall = work->sizes.wall;
   piece->key_radius = 0.4 * narrowest;
   piece->key_slope = 1 / tan(options->key_angle);
   piece->key_height = options->key == THR_KIT_PIN ? 0.2 * narrowest : 0.25 * narrowest;
@@ -362,24 +381,25 @@ static void set_common(const maker *work, thr_kit_piece *piece, double narrowest
 }
 
 /* Makes the shape of a node's piece. */
-static thr_status shape_node(const maker *work, int v, thr_kit_piece *piece, thr_err *err)
+static thr_status shape_node(maker *work, int v, thr_kit_piece *piece, thr_err *err)
 {
   const thr_frame *frame = work->frame;
   int n = thr_degree(frame, v);
   piece->arm = thr_calloc((size_t)n, sizeof *piece->arm);
   if (!piece->arm) return thr_nomem(err);
   piece->n_arms = n;
-  double widest = 0, narrowest = INFINITY;
+  double widest = 0, narrowest = INFINITY, shortest = INFINITY;
   for (int i = 0; i < n; i++) {
     set_arm(work, &piece->arm[i], frame->half[frame->first[v] + i]);
     widest = fmax(widest, piece->arm[i].width);
     narrowest = fmin(narrowest, piece->arm[i].width);
+    shortest = fmin(shortest, piece->arm[i].length);
   }
   for (int k = 0; k < 3; k++)
     piece->centre[k] = work->sizes.mm * frame->xyz[v][k];
 
   set_common(work, piece, narrowest);
-  piece->node_radius = NODE * widest * piece->taper;
+  piece->node_radius = fmin(NODE * widest * piece->taper, fmax(0.9 * shortest, 0.5 * narrowest));
   piece->foot = work->foot[v];
   piece->base = 0.75 * widest;
   piece->pad = 0.9 * widest;
@@ -410,7 +430,10 @@ static thr_status add_mitres(const maker *work, thr_kit_arm *arm, int v, thr_err
     if (thr_normalize(normal) < 1e-6) continue;
     double *plane = arm->mitre[arm->n_mitres++];
     memcpy(plane, normal, sizeof normal);
-    plane[3] = thr_dot(normal, arm->along) * arm->length - gap;
+    double slope = thr_dot(normal, arm->along);
+    plane[3] = slope * arm->length - gap;
+    double tip = 0.5 * arm->width * sqrt(fmax(1 - slope * slope, 0)) / fmax(slope, 0.1);
+    arm->tip = fmax(arm->tip, tip);
   }
 
   /* The end of a tube that meets none is cut square. */
@@ -419,7 +442,7 @@ static thr_status add_mitres(const maker *work, thr_kit_arm *arm, int v, thr_err
 }
 
 /* Makes the shape of a tube along an edge: two halves from its middle. */
-static thr_status shape_tube(const maker *work, int e, thr_kit_piece *piece, thr_err *err)
+static thr_status shape_tube(maker *work, int e, thr_kit_piece *piece, thr_err *err)
 {
   const thr_kit *kit = work->kit;
   const thr_kit_edge *edge = &kit->edges.edge[e];
@@ -469,7 +492,10 @@ static thr_status shape_tube(const maker *work, int e, thr_kit_piece *piece, thr
   /* Straight channels from end to end. */
   for (int i = 0; i < edge->n_lanes; i++) {
     thr_kit_channel *channel = &piece->channel[piece->n_channels];
-    *channel = (thr_kit_channel){.in = 1, .out = 0, .radius = 0.5 * edge->bore};
+    *channel = (thr_kit_channel){.in = 1,
+                                 .out = 0,
+                                 .radius = 0.5 * edge->bore,
+                                 .radii = {0.5 * edge->bore, 0.5 * edge->bore}};
     const double at_head[2] = {edge->lane[i][0], edge->lane[i][1]};
     const double at_tail[2] = {edge->lane[i][0], -edge->lane[i][1]};
     thr_status st = thr_kit_channel_make(piece, channel, at_tail, at_head, (double[]){0, 0, 1},
@@ -581,7 +607,7 @@ static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_
     solid.high[k] = thickest;
     for (int i = 0; i < piece->n_arms; i++) {
       const thr_kit_arm *arm = &piece->arm[i];
-      double tip = arm->along[k] * arm->length;
+      double tip = arm->along[k] * (arm->length + arm->tip);
       double round = 0.75 * arm->width * sqrt(fmax(1 - arm->along[k] * arm->along[k], 0));
       solid.low[k] = fmin(solid.low[k], tip - round);
       solid.high[k] = fmax(solid.high[k], tip + round);
@@ -599,7 +625,7 @@ static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_
   thr_err why = {0};
   thr_status st = thr_mesh_make(&kit->mesh[job], &solid, limits, &why);
   if (!st)
-    st = thr_mesh_drop_crumbs(&kit->mesh[job], 1e-4 * narrowest * narrowest * narrowest, &why);
+    st = thr_mesh_drop_crumbs(&kit->mesh[job], 2e-3 * narrowest * narrowest * narrowest, &why);
   if (!st) st = thr_mesh_examine(&kit->mesh[job], true, &kit->report[job], &why);
   return st ? thr_fail(err, st, "piece %s: %s", kit->name[job], why.text) : THR_OK;
 }
@@ -631,6 +657,10 @@ static void note_channels(const maker *work)
                     "walls are %.2g mm, thinner than the %.2g mm that print well: --width, or a "
                     "larger framework\n",
                     work->sizes.wall, WALL);
+  if (work->unnamed)
+    thr_text_printf(&kit->notes,
+                    "%d names found no room on their arms: --letters smaller than %.3g mm\n",
+                    work->unnamed, kit->options.letters);
   if (thin)
     thr_text_printf(&kit->notes, "%d channels have less wall than %.2g mm: %s has %.2g mm\n", thin,
                     work->sizes.wall, kit->name[at], thinnest);

@@ -110,14 +110,16 @@ typedef struct {
   double width;                    /* at the face */
   bool key_out;                    /* its key stands out; the neighbour's is hollow */
   int n_mitres;                    /* of a tube's end: planes that cut it instead of its face */
+  double tip;                      /* how far a tube's mitred end reaches beyond its length */
   double (*mitre)[4]; /* [n_mitres] unit normal outwards, and its distance from the centre */
 } thr_kit_arm;
 
 /* A hollow along a curve. */
 typedef struct {
-  int cord, pass; /* by which the cord comes in; as in thr_channel */
-  int in, out;    /* arms of the piece; -1 = outside: the cord ends here */
-  double radius;
+  int cord, pass;          /* by which the cord comes in; as in thr_channel */
+  int in, out;             /* arms of the piece; -1 = outside: the cord ends here */
+  double radius;           /* the least .. */
+  double radii[2];         /* .. at its two ends; in between it changes evenly */
   int n;                   /* >= 2 */
   double (*point)[3];      /* [n] from the piece's centre; owned */
   double middle[3], reach; /* a ball that holds the curve */
@@ -130,6 +132,7 @@ typedef struct {
  * across it. */
 typedef struct {
   int arm;
+  bool below; /* on the other side */
   double from[2], to[2];
 } thr_kit_stroke;
 
@@ -145,6 +148,7 @@ typedef struct {
   thr_kit_channel *channel;
   thr_kit_stroke *stroke;
   double node_radius, fillet, taper, mouth; /* mouth: radius of the rounding */
+  double wall;                              /* that there is at least */
   thr_kit_profile profile;
   thr_kit_key key;
   double key_slope, key_radius, key_height, key_play;

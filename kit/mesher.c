@@ -36,6 +36,7 @@ typedef struct {
   double distance, cut, size;
   double across[3];
   double shortest; /* of the edges that meet here; 0 = not known */
+  int pass;        /* of refine: the last one in which an edge that ends here was bisected */
 } corner;
 
 /* A tetrahedron, in the order of Maubach: it is bisected between its first corner and number
@@ -242,9 +243,14 @@ static bool too_large(const mesher *work, const tetrahedron *tet)
   return longest > size && ((inside && outside) || nearest < 0.75 * longest);
 }
 
-/* Returns whether an edge of the tetrahedron was bisected by another one. */
-static bool hangs(const mesher *work, const tetrahedron *tet)
+/* Returns whether an edge of the tetrahedron was bisected by another one, in the last pass or this
+ * one. */
+static bool hangs(const mesher *work, const tetrahedron *tet, int pass)
 {
+  int fresh = 0;
+  for (int i = 0; i < 4; i++)
+    fresh += work->corner[tet->v[i]].pass >= pass - 1;
+  if (fresh < 2) return false;
   for (int i = 0; i < 4; i++)
     for (int j = 0; j < i; j++)
       if (pairs_get(&work->middle, tet->v[i], tet->v[j]) >= 0) return true;
@@ -252,7 +258,7 @@ static bool hangs(const mesher *work, const tetrahedron *tet)
 }
 
 /* Bisects tetrahedron t: one half takes its place, the other one is the last. */
-static thr_status bisect(mesher *work, int t, bool *fresh, thr_err *err)
+static thr_status bisect(mesher *work, int t, int pass, bool *fresh, thr_err *err)
 {
   tetrahedron whole = work->tet[t];
   int tag = whole.tag, a = whole.v[0], b = whole.v[tag], middle;
@@ -266,6 +272,7 @@ static thr_status bisect(mesher *work, int t, bool *fresh, thr_err *err)
   }
   if (st) return st;
   *fresh = !found;
+  if (!found) work->corner[a].pass = work->corner[b].pass = pass;
 
   /* Maubach's rule: the middle takes the place of the last, or of the first, which leaves. */
   tetrahedron first = {.tag = tag > 1 ? tag - 1 : 3}, second = first;
@@ -286,13 +293,18 @@ static thr_status refine(mesher *work, thr_err *err)
   bool again = true;
   thr_status st = THR_OK;
 
-  while (again && !st) {
+  for (int pass = 2; again && !st; pass++) {
+    int old = work->n_tets;
     again = false;
     for (int t = 0; t < work->n_tets && !st; t++) {
-      while (!st && (too_large(work, &work->tet[t]) || hangs(work, &work->tet[t]))) {
+      /* What was small enough in an earlier pass still is. */
+      bool look = pass == 2 || t >= old;
+      while (!st &&
+             ((look && too_large(work, &work->tet[t])) || hangs(work, &work->tet[t], pass))) {
         bool fresh = false;
-        st = bisect(work, t, &fresh, err);
+        st = bisect(work, t, pass, &fresh, err);
         again |= fresh;
+        look = true;
       }
       if (t % 4096 == 0 && thr_limits_stop(work->limits))
         st = thr_fail(err, THR_ELIMIT, "stopped while a mesh was made");

@@ -45,6 +45,10 @@ void judged_case(judged *j, counts *n);
 
 /* ---- the least of all threadings (judging_least.c) ---- */
 
+/* A case of this framework and request, of which the functions below tell the least: nothing is run
+ * or written. Raises judged_most_states to most_states. Borrows f and what o points at. */
+judged judged_of(const thr_frame *f, const thr_request *o, long most_states);
+
 extern long judged_most_states;      /* of a piece that is not too large */
 extern const double judged_rounding; /* of a cord's length */
 extern const walks_weights judged_by_length, judged_by_turn;

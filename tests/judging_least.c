@@ -9,6 +9,15 @@
 
 long judged_most_states = 8000;
 
+judged judged_of(const thr_frame *f, const thr_request *o, long most_states)
+{
+  int component[64];
+  judged j = {.c = {.f = *f, .o = *o}};
+  ck_assert_int_eq(thr_frame_components(f, component, &j.n_pieces, NULL), THR_OK);
+  judged_most_states = most_states;
+  return j;
+}
+
 enum { MOST_APART = 600 }; /* states, where each cord has a limit of its own */
 
 judged_piece judged_piece_find(const judged *j, int k, walks_back back, walks_weights weights,

@@ -28,7 +28,8 @@ void add_case(Suite *s, const char *name, double seconds, const TTest *test, int
  * the environment a tenth. */
 int share_of(int n);
 
-/* Adds the test for a part of the numbers 0 .. end - 1, spread over them. */
+/* Adds the test for a part of the numbers 0 .. end - 1, spread over them. -10 instead of 10 takes
+ * the numbers that 10 leaves out. */
 #define ADD_EXAMPLES(suite, seconds, test, end) add_examples(suite, #test, seconds, test, end)
 void add_examples(Suite *s, const char *name, double seconds, const TTest *test, int end);
 

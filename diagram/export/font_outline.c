@@ -9,6 +9,7 @@
 #include "diagram/export/export_parts.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* Flags of a point: on the curve; a byte for x, for y; the flag is repeated; of a byte: it is
  * positive, else: the coordinate is that of the point before. */
@@ -144,19 +145,20 @@ static double part_scale(const thr_font *font, size_t at)
   return thr_font_signed(font, at) / 16384.0;
 }
 
-/* Reads where a part of a composed glyph lies: x goes to part[0] x + part[2] y + part[4], and so
- * on, as in thr_font_outline. Returns where the next part begins. */
-static size_t read_part(const thr_font *font, size_t at, unsigned flags, double part[6])
+bool thr_font_next_part(const thr_font *font, thr_font_part *left, int *glyph, double map[6])
 {
-  const bool words = flags & WORDS, moved = flags & OFFSETS;
-  const double own[6] = {1, 0, 0, 1, 0, 0};
+  const double same[6] = {1, 0, 0, 1, 0, 0};
+  if (left->n < 4) return false;
 
-  for (int k = 0; k < 6; k++)
-    part[k] = own[k];
+  const unsigned flags = thr_font_16(font, left->at);
+  *glyph = (int)thr_font_16(font, left->at + 2);
+  memcpy(map, same, sizeof same);
 
   /* An offset; parts that are placed by matching points stay where they are. */
+  size_t at = left->at + 4;
+  const bool words = flags & WORDS, moved = flags & OFFSETS;
   for (size_t k = 0; k < 2 && moved; k++)
-    part[4 + k] =
+    map[4 + k] =
         words ? thr_font_signed(font, at + 2 * k) : (double)(signed char)thr_font_8(font, at + k);
 
   at += words ? 4 : 2;
@@ -164,33 +166,35 @@ static size_t read_part(const thr_font *font, size_t at, unsigned flags, double 
   /* One scale for both axes, one for each, or a whole matrix. */
   const size_t n = flags & SCALE ? 1 : flags & TWO_SCALES ? 2 : flags & MATRIX ? 4 : 0;
   for (size_t k = 0; k < n; k++)
-    part[n == 2 ? 3 * k : k] = part_scale(font, at + 2 * k);
+    map[n == 2 ? 3 * k : k] = part_scale(font, at + 2 * k);
 
-  if (n == 1) part[3] = part[0];
-  return at + 2 * n;
+  if (n == 1) map[3] = map[0];
+  at += 2 * n;
+
+  /* Another part follows if the flags say so and the outline has bytes left. */
+  const size_t read = at - left->at;
+  *left =
+      flags & MORE && read < left->n ? (thr_font_part){at, left->n - read} : (thr_font_part){0, 0};
+  return true;
 }
 
 /* Appends a glyph, simple or composed; depth of glyphs inside glyphs, from 0. */
 static void put_glyph(const thr_font *font, int glyph, const double place[6], int depth,
                       thr_text *path)
 {
-  size_t at, n;
-  if (!thr_font_place(font, glyph, &at, &n) || n < 10 || depth > DEPTH) return;
+  thr_font_part left = thr_font_place(font, glyph);
+  double own[6], whole[6];
+  int part;
+  if (left.n < THR_FONT_HEAD || depth > DEPTH) return;
 
-  if (thr_font_signed(font, at) >= 0) {
-    put_simple(font, at, at + n, place, path);
+  if (thr_font_signed(font, left.at) >= 0) {
+    put_simple(font, left.at, left.at + left.n, place, path);
     return;
   }
 
   /* A composed glyph: its parts one after the other. */
-  unsigned flags = MORE;
-  for (size_t from = at + 10; flags & MORE && from + 4 <= at + n;) {
-    double own[6], whole[6];
-    int part = (int)thr_font_16(font, from + 2);
-    flags = thr_font_16(font, from);
-
-    from = read_part(font, from + 4, flags, own);
-
+  left = (thr_font_part){left.at + THR_FONT_HEAD, left.n - THR_FONT_HEAD};
+  while (thr_font_next_part(font, &left, &part, own)) {
     /* The part's map, then the map of the whole. */
     for (int k = 0; k < 2; k++) {
       whole[k] = place[k] * own[0] + place[2 + k] * own[1];

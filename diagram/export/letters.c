@@ -25,14 +25,11 @@ static const thr_font *face(const thr_letters_set *set)
 static double capitals(const thr_font *font)
 {
   enum { TOP = 8 }; /* byte of an outline at which its greatest y stands */
-  size_t at, n;
 
   /* The outline's head holds its least and greatest coordinates. */
-  if (font->glyph['H'] && thr_font_place(font, font->glyph['H'], &at, &n) &&
-      thr_font_signed(font, at + TOP) > 0)
-    return (double)thr_font_signed(font, at + TOP) / font->units;
-
-  return 0.7;
+  const thr_font_part outline = thr_font_place(font, font->glyph['H']);
+  const int top = font->glyph['H'] && outline.n ? thr_font_signed(font, outline.at + TOP) : 0;
+  return top > 0 ? (double)top / font->units : 0.7;
 }
 
 thr_status thr_letters_open(thr_letters_set **out, thr_err *err)

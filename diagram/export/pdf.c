@@ -185,11 +185,6 @@ thr_status thr_pdf_add(thr_pdf *pdf, int nth, const thr_leaf *leaf, thr_err *err
   return THR_OK;
 }
 
-int thr_pdf_pages(const thr_pdf *pdf)
-{
-  return pdf->n_pages;
-}
-
 /* Writes the page tree (7.7.3): one node whose kids are all pages, in the order in which they are
  * read. Page size and resources are inherited from this node. */
 static void put_pages(thr_pdf *pdf, bool last_first)

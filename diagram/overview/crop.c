@@ -141,18 +141,15 @@ thr_status thr_crop_fit(thr_crops *crops, const thr_crop *crop, const double roo
   thr_box box = box_of_view(&crops->scene[BASE], crop);
   double pitches[2] = {(box.x1 - box.x0) / PITCH[BASE], (box.y1 - box.y0) / PITCH[BASE]};
 
-  /* The first pitch at which this size fits. */
-  while (view->scale < THR_CROP_SCALES &&
+  /* The first pitch at which this size fits; the last one is taken even if it does not. */
+  while (view->scale < THR_CROP_SCALES - 1 &&
          (pitches[0] * PITCH[view->scale] > room[0] || pitches[1] * PITCH[view->scale] > room[1]))
     view->scale++;
 
-  /* The window is as large as the box, and at least as large as wanted if there is room for that.
-   * Without a scale that fits the last one is taken for its size. */
-  for (int i = 0; i < 2; i++) {
-    double own =
-        pitches[i] * PITCH[view->scale < THR_CROP_SCALES ? view->scale : THR_CROP_SCALES - 1];
-    view->size[i] = fmax(own, fmin(least[i], room[i]));
-  }
+  /* The window is as large as the box, and at least as large as wanted if there is room for
+   * that. */
+  for (int i = 0; i < 2; i++)
+    view->size[i] = fmax(pitches[i] * PITCH[view->scale], fmin(least[i], room[i]));
 
   return THR_OK;
 }

@@ -7,9 +7,8 @@
  * to stick on. The title page says on which page each part begins. Therefore this page is laid out
  * last, and is counted and drawn first: page i > 0 of the booklet is sheets->page[i - 1].
  *
- * Two ways to a PDF: thr_sheets_pdf draws sheets that are kept in memory; thr_sheets_write sends
- * each page to the file as soon as it is full, and adds the feet "page 3 of 41" when the number is
- * known. */
+ * A PDF gets each page as soon as it is full, and the feet "page 3 of 41" when the number of pages
+ * is known. */
 #include "diagram/sheets/sheets_parts.h"
 
 #include "diagram/overview/overview.h"
@@ -88,7 +87,7 @@ static thr_status prepare(thr_sheets *sheets, thr_err *err)
 }
 
 /* Lays out all pages in order, the title page last. */
-static void lay_out(thr_sheets *sheets)
+static void put_pages(thr_sheets *sheets)
 {
   int first[THR_SHEET_PARTS];
 
@@ -100,7 +99,7 @@ static void lay_out(thr_sheets *sheets)
 
   /* Copies are not divided into steps: one page says how each repeats its path. */
   first[THR_SHEET_STEPS] = sheets->n_pages;
-  for (int c = 0; c < sheets->plan->n_cords && !sheets->st; c++) {
+  for (int c = 0; c < sheets->plan->n_cords && !sheets->why.code; c++) {
     if (sheets->copy[c].of != c) continue;
     thr_sheets_steps(sheets, c);
     thr_sheets_copies(sheets, c);
@@ -117,15 +116,15 @@ static void lay_out(thr_sheets *sheets)
   thr_sheets_send(sheets);
 
   /* Memory that ran out while text was appended shows only here. */
-  for (int i = 0; i < sheets->n_pages && !sheets->st; i++)
-    if (sheets->page[i].failed) thr_sheets_fail(sheets, thr_nomem(NULL), NULL);
+  for (int i = 0; i < sheets->n_pages; i++)
+    if (sheets->page[i].failed) thr_nomem(&sheets->why);
 }
 
-/* Returns why laying out failed, with its text, or THR_OK. */
-static thr_status told(const thr_sheets *sheets, thr_err *err)
+/* Lays out all pages; returns why that failed, with its text, or THR_OK. */
+static thr_status lay_out(thr_sheets *sheets, thr_err *err)
 {
-  if (!sheets->st) return THR_OK;
-  return sheets->why.code ? thr_fail(err, sheets->st, "%s", sheets->why.text) : thr_nomem(err);
+  put_pages(sheets);
+  return sheets->why.code ? thr_fail(err, sheets->why.code, "%s", sheets->why.text) : THR_OK;
 }
 
 /* Makes sheets with everything but the pages. *out is NULL on failure. */
@@ -158,13 +157,9 @@ thr_status thr_sheets_make(thr_sheets **out, const thr_plan *plan,
   thr_status st = start(out, plan, options, limits, err);
   if (st) return st;
 
-  /* Failures stick to the sheets: one look at the end is enough. */
-  lay_out(*out);
-
   /* The sheets outlive the caller's limits. */
+  st = lay_out(*out, err);
   (*out)->limits = NULL;
-  st = told(*out, err);
-
   if (!st) return THR_OK;
   thr_sheets_destroy(*out);
   *out = NULL;
@@ -195,17 +190,13 @@ static void put_view(const thr_sheets *sheets, double foot, thr_text *svg)
 
   double width = thr_sheets_width(sheets) - 24;
   int lines = thr_sheets_lines(words, width, THR_SHEET_SMALL);
+  char line[512];
 
   /* Two lines begin one line higher. The loop ends at the foot, whatever is left over. */
   for (double y = foot - (lines > 1 ? 1.4 * THR_SHEET_SMALL : 0); *words && y < foot + 0.1;
        y += 1.4 * THR_SHEET_SMALL) {
-    size_t n = thr_sheets_fit(words, width, THR_SHEET_SMALL);
-
-    /* Up to a blank that fits; blanks at the break are dropped. */
-    char line[256];
-    snprintf(line, sizeof line, "%.*s", (int)n, words);
+    thr_sheets_next_line(&words, width, THR_SHEET_SMALL, line);
     thr_svg_text(svg, THR_SHEET_MARGIN, y, THR_SHEET_SMALL, " style=\"fill:#666\"", line);
-    words += n + strspn(words + n, " ");
   }
 }
 
@@ -246,36 +237,25 @@ thr_status thr_sheets_svg(const thr_sheets *sheets, int i, thr_text *svg, thr_er
 
 /* ---- PDF ---- */
 
-/* Adds a page without its foot to the file: the number of pages may not be known yet. */
-static thr_status send_body(const thr_sheets *sheets, const thr_text *body, thr_pages *pages,
-                            thr_err *err)
+void thr_sheets_send(thr_sheets *sheets)
 {
-  thr_text svg = {0};
-  open_page(sheets, &svg);
+  if (!sheets->pages || !sheets->n_pages || sheets->why.code) return;
 
-  /* A page without text, as after a failure, is still a document. */
+  /* Without its foot: the number of pages is not known yet. */
+  thr_text svg = {0}, *body = thr_sheets_out(sheets);
+  open_page(sheets, &svg);
   if (body->data) thr_text_append_bytes(&svg, body->data, body->length);
   if (body->failed) svg.failed = true;
 
-  thr_text_append(&svg, "</svg>\n");
-  return thr_pages_add(pages, -1, &svg, err);
-}
-
-void thr_sheets_send(thr_sheets *sheets)
-{
-  if (!sheets->pages || !sheets->n_pages || sheets->st) return;
-
   /* The page's text is released at once: only its drawing is kept. */
-  thr_text *body = thr_sheets_out(sheets);
-  thr_status st = send_body(sheets, body, sheets->pages, &sheets->why);
+  thr_text_append(&svg, "</svg>\n");
+  thr_sheets_fail(sheets, thr_pages_add(sheets->pages, -1, &svg, &sheets->why));
   thr_text_destroy(body);
-
-  if (st) thr_sheets_fail(sheets, st, NULL);
 }
 
 /* Draws the feet on top of all pages in the file, in the booklet's order, and closes the file. The
  * title page was added last, but comes first. */
-static thr_status end_pdf(const thr_sheets *sheets, thr_pages *pages, thr_text *pdf, thr_err *err)
+static thr_status end_pdf(const thr_sheets *sheets, thr_text *pdf, thr_err *err)
 {
   thr_status st = THR_OK;
 
@@ -285,31 +265,10 @@ static thr_status end_pdf(const thr_sheets *sheets, thr_pages *pages, thr_text *
     open_page(sheets, &svg);
     put_foot(sheets, i, &svg);
     thr_text_append(&svg, "</svg>\n");
-    st = thr_pages_add(pages, i ? i - 1 : sheets->n_pages - 1, &svg, err);
+    st = thr_pages_add(sheets->pages, i ? i - 1 : sheets->n_pages - 1, &svg, err);
   }
 
-  return st ? st : thr_pages_close(pages, true, pdf, err);
-}
-
-static const char NAME[] = "step sheets";
-
-thr_status thr_sheets_pdf(const thr_sheets *sheets, const thr_limits *limits, thr_text *pdf,
-                          thr_err *err)
-{
-  char title[96];
-  thr_pages *pages = NULL;
-  thr_sheets_heading(sheets, title);
-
-  /* The sheets stay as they are: they can be drawn again. */
-  thr_status st = thr_pages_open(&pages, NAME, sheets->o.page, title, limits, err);
-
-  /* Bodies first, then the feet, just as thr_sheets_write does: both give the same bytes. */
-  for (int i = 0; i < sheets->n_pages && !st; i++)
-    st = send_body(sheets, &sheets->page[i], pages, err);
-
-  if (!st) st = end_pdf(sheets, pages, pdf, err);
-  thr_pages_destroy(pages);
-  return st;
+  return st ? st : thr_pages_close(sheets->pages, true, pdf, err);
 }
 
 thr_status thr_sheets_write(const thr_plan *plan, const thr_sheets_options *options,
@@ -322,15 +281,11 @@ thr_status thr_sheets_write(const thr_plan *plan, const thr_sheets_options *opti
 
   /* The heading needs no page, so the file can be opened first. */
   thr_sheets_heading(sheets, title);
-  st = thr_pages_open(&sheets->pages, NAME, options->page, title, limits, err);
+  st = thr_pages_open(&sheets->pages, "step sheets", options->page, title, limits, err);
 
   /* thr_sheets_send takes each page away when the next one begins. */
-  if (!st) {
-    lay_out(sheets);
-    st = told(sheets, err);
-  }
-
-  if (!st) st = end_pdf(sheets, sheets->pages, pdf, err);
+  if (!st) st = lay_out(sheets, err);
+  if (!st) st = end_pdf(sheets, pdf, err);
 
   *n_pages = sheets->n_pages;
   thr_sheets_destroy(sheets);

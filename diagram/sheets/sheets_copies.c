@@ -22,7 +22,7 @@ static void put_picture(thr_sheets *sheets, int path)
   unsigned char *state = thr_calloc((size_t)sheets->n_passes, sizeof *state);
 
   if (!state) {
-    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
+    thr_nomem(&sheets->why);
     return;
   }
 
@@ -35,29 +35,11 @@ static void put_picture(thr_sheets *sheets, int path)
       state[i++] = own;
   }
 
-  /* The lower half of the page is for the words. */
-  double height = 0.52 * (thr_sheets_bottom(sheets) - sheets->y);
-  thr_box paper = {THR_SHEET_MARGIN, sheets->y, sheets->size[0] - THR_SHEET_MARGIN,
-                   sheets->y + height};
-
-  thr_status st = thr_crop_whole(sheets->plan, &sheets->guide.layout, state, NULL, paper, NULL,
-                                 sheets->limits, thr_sheets_out(sheets), &sheets->why);
-
-  if (st) thr_sheets_fail(sheets, st, NULL);
-
-  /* Two lines of air below the picture. */
-  sheets->y += height + 2 * THR_SHEET_LINE;
+  /* The lower half of the page is for the words, with two lines of air above them. */
+  double bottom = sheets->y + 0.52 * (thr_sheets_bottom(sheets) - sheets->y);
+  thr_sheets_whole(sheets, false, state, NULL, bottom, NULL);
+  sheets->y = bottom + 2 * THR_SHEET_LINE;
   free(state);
-}
-
-/* Writes words with a box to tick and releases them. */
-static void tick(thr_sheets *sheets, thr_text *words)
-{
-  if (words->failed)
-    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
-  else
-    thr_sheets_tick(sheets, words->data);
-  thr_text_destroy(words);
 }
 
 /* Writes how a copy repeats its path: by which symmetry, where it starts, its first places, where
@@ -81,7 +63,7 @@ static void put_copy(thr_sheets *sheets, int c)
   thr_text_append(&words, ", end at ");
   thr_guide_place(&sheets->guide, thr_cord_end(sheets->f, cord), &words);
 
-  tick(sheets, &words);
+  thr_sheets_put_text(sheets, THR_BLOCK_TICK, &words);
 }
 
 /* Appends the place of a node, in brackets if the piece holds cord already. */
@@ -123,7 +105,7 @@ static int put_places(thr_sheets *sheets, int first, int end)
   for (int i = first; i < next; i++)
     put_place(sheets, thr_head(sheets->f, sheets->visit[i].in), sheets->visit[i].nth > 1, &words);
 
-  tick(sheets, &words);
+  thr_sheets_put_text(sheets, THR_BLOCK_TICK, &words);
   return next;
 }
 
@@ -132,7 +114,7 @@ void thr_sheets_copies(thr_sheets *sheets, int c)
   char line[160];
   int n = sheets->plan->n_cords, copies = thr_copies_count(sheets->copy, n, c);
 
-  if (!copies || sheets->st) return;
+  if (!copies || sheets->why.code) return;
 
   /* Steps that wait come before this page. */
   thr_sheets_flush(sheets);
@@ -140,16 +122,15 @@ void thr_sheets_copies(thr_sheets *sheets, int c)
            copies, copies == 1 ? "" : "s");
   thr_sheets_page(sheets, line, line);
 
-  if (sheets->st) return;
-  put_picture(sheets, c);
+  if (!sheets->why.code) put_picture(sheets, c);
 
   /* First how, for all copies; then the places of each. */
   for (int i = 0; i < n; i++)
     if (i != c && sheets->copy[i].of == c) put_copy(sheets, i);
 
-  thr_sheets_title(sheets, "The places of these cords, in order");
-  thr_sheets_paragraph(
-      sheets, 0,
+  thr_sheets_put(sheets, THR_BLOCK_TITLE, "The places of these cords, in order");
+  thr_sheets_put(
+      sheets, THR_BLOCK_PARAGRAPH,
       sheets->pieces.solid
           ? "To check by. In brackets: pieces that hold cord already. All others are picked up."
           : "To check by. In brackets: the way there is through a tube that holds cord already. "
@@ -160,7 +141,7 @@ void thr_sheets_copies(thr_sheets *sheets, int c)
 
     /* put_places returns where the next row begins. */
     int end = thr_sheets_end(sheets, i);
-    for (int k = sheets->first_visit[i]; k < end && !sheets->st;)
+    for (int k = sheets->first_visit[i]; k < end && !sheets->why.code;)
       k = put_places(sheets, k, end);
   }
 }

@@ -175,7 +175,7 @@ thr_status thr_step_divide(thr_sheets *sheets, int c, int **ends, int *n_steps, 
   /* Sums of lines let is_good ask for the height of any range. */
   for (int i = 0; i < path.n && !st; i++)
     path.lines[i + 1] = path.lines[i] + thr_step_row_lines(sheets, path.first + i);
-  if (!st) st = sheets->st;
+  if (!st) st = sheets->why.code;
 
   if (!st) st = find_reach(&path, err);
   *n_steps = 0;

@@ -50,96 +50,67 @@ static void put_counts(thr_sheets *sheets)
                   feet == 1 ? "foot" : "feet", cords, plural(cords), sheets->n_passes,
                   sheets->n_passes == 1 ? "" : "es", length);
 
-  /* In one paragraph, however many lines. */
-  if (words.failed)
-    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
-  else
-    thr_sheets_paragraph(sheets, 0, words.data);
-
-  thr_text_destroy(&words);
+  thr_sheets_put_text(sheets, THR_BLOCK_PARAGRAPH, &words);
 }
 
-/* Writes into line what is proved: that no plan has less, or how much less is not ruled out. gap:
- * share of the plan's value. */
-static void put_proof(char *line, size_t size, const char *of_what, bool present, bool optimal,
-                      double gap)
+/* Writes what was minimised and what is proved of it: that no plan has less, or how much less is
+ * not ruled out. gap: share of the plan's value. */
+static void put_proof(thr_sheets *sheets, const char *goal, const char *of_what, bool present,
+                      bool optimal, double gap)
 {
   if (!present)
-    snprintf(line, size, "how little %s would do has not been worked out.", of_what);
+    thr_sheets_put(sheets, THR_BLOCK_PARAGRAPH,
+                   "Goal: %s; how little %s would do has not been worked out.", goal, of_what);
   else if (optimal)
-    snprintf(line, size, "proved: with these options no plan has less %s.", of_what);
+    thr_sheets_put(sheets, THR_BLOCK_PARAGRAPH,
+                   "Goal: %s; proved: with these options no plan has less %s.", goal, of_what);
   else
-    snprintf(line, size, "at most %.3g %% of its %s could be saved.", 100 * gap, of_what);
+    thr_sheets_put(sheets, THR_BLOCK_PARAGRAPH,
+                   "Goal: %s; at most %.3g %% of its %s could be saved.", goal, 100 * gap, of_what);
 }
 
-/* Writes what was minimised and what is proved of the plan's value: turning, cord under symmetry,
- * or cord. */
+/* Writes the goal: turning, which has a proof of its own in the plan, cord under symmetry, or cord;
+ * both others have a proof of length. */
 static void put_goal(thr_sheets *sheets)
 {
   const thr_plan *plan = sheets->plan;
-  char line[320], proof[128];
+  const int paths = thr_copies_paths(sheets->copy, plan->n_cords), copies = plan->n_cords - paths;
+  char goal[128] = "as little cord as possible";
 
-  /* Turning has a proof of its own in the plan; both other goals have one of length. */
   if (thr_wants_turning(&plan->options)) {
-    put_proof(proof, sizeof proof, "turning", plan->turning.present, plan->turning.optimal,
-              plan->turning.gap);
-    snprintf(line, sizeof line, "Goal: as little turning as possible; %s", proof);
-  } else if (thr_wants_symmetry(&plan->options)) {
-    int paths = thr_copies_paths(sheets->copy, plan->n_cords);
-    put_proof(proof, sizeof proof, "cord", plan->proof.present, plan->proof.optimal,
-              plan->proof.gap);
-    snprintf(line, sizeof line,
-             "Goal: cords that repeat each other: %d path%s to learn, %d cop%s; %s", paths,
-             plural(paths), plan->n_cords - paths, plan->n_cords - paths == 1 ? "y" : "ies", proof);
-  } else {
-    /* The length of cord alone. */
-    put_proof(proof, sizeof proof, "cord", plan->proof.present, plan->proof.optimal,
-              plan->proof.gap);
-    snprintf(line, sizeof line, "Goal: as little cord as possible; %s", proof);
+    put_proof(sheets, "as little turning as possible", "turning", plan->turning.present,
+              plan->turning.optimal, plan->turning.gap);
+    return;
   }
 
-  thr_sheets_paragraph(sheets, 0, line);
-}
-
-/* Writes on which pages the parts begin. Page numbers count the title page and begin with 1, hence
- * + 2. */
-static void put_contents(thr_sheets *sheets, const int *first)
-{
-  char line[160];
-  snprintf(line, sizeof line,
-           "%d pages. Prepare first: from page %d. Steps: from page %d. Last: from page %d.",
-           sheets->n_pages, first[THR_SHEET_PREPARE] + 2, first[THR_SHEET_STEPS] + 2,
-           first[THR_SHEET_LAST] + 2);
-  thr_sheets_paragraph(sheets, 0, line);
+  if (thr_wants_symmetry(&plan->options))
+    snprintf(goal, sizeof goal, "cords that repeat each other: %d path%s to learn, %d cop%s", paths,
+             plural(paths), copies, copies == 1 ? "y" : "ies");
+  put_proof(sheets, goal, "cord", plan->proof.present, plan->proof.optimal, plan->proof.gap);
 }
 
 void thr_sheets_front(thr_sheets *sheets, const int *first)
 {
   thr_sheets_page(sheets, "Step sheets", "");
+  if (sheets->why.code) return;
 
-  if (sheets->st) return;
-
-  /* Words first. */
+  /* Words first. Page numbers count the title page and begin with 1, hence + 2. */
   put_counts(sheets);
   put_goal(sheets);
-  put_contents(sheets, first);
+  thr_sheets_put(sheets, THR_BLOCK_PARAGRAPH,
+                 "%d pages. Prepare first: from page %d. Steps: from page %d. Last: from page %d.",
+                 sheets->n_pages, first[THR_SHEET_PREPARE] + 2, first[THR_SHEET_STEPS] + 2,
+                 first[THR_SHEET_LAST] + 2);
 
   /* A warning where sizes that were worked out look wrong. */
   char doubt[160];
-  if (thr_supplies_doubt(&sheets->supplies, doubt)) thr_sheets_paragraph(sheets, 0, doubt);
+  if (thr_supplies_doubt(&sheets->supplies, doubt))
+    thr_sheets_put(sheets, THR_BLOCK_PARAGRAPH, "%s", doubt);
 
   if (sheets->plan->n_cords == 1 && !sheets->in_space)
-    thr_sheets_paragraph(sheets, 0, "In this picture the colour changes every twenty passes.");
+    thr_sheets_put(sheets, THR_BLOCK_PARAGRAPH,
+                   "In this picture the colour changes every twenty passes.");
 
   /* The picture takes what is left of the page. */
-  thr_box paper = {THR_SHEET_MARGIN, sheets->y, sheets->size[0] - THR_SHEET_MARGIN,
-                   thr_sheets_bottom(sheets)};
-
-  thr_status st =
-      sheets->in_space
-          ? thr_space_whole(&sheets->space, NULL, paper, thr_sheets_out(sheets), &sheets->why)
-          : thr_crop_whole(sheets->plan, &sheets->guide.layout, NULL, NULL, paper, NULL,
-                           sheets->limits, thr_sheets_out(sheets), &sheets->why);
-
-  if (st) thr_sheets_fail(sheets, st, NULL);
+  thr_sheets_whole(sheets, sheets->in_space, NULL, NULL, thr_sheets_bottom(sheets), NULL);
 }

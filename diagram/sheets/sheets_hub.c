@@ -143,7 +143,7 @@ void thr_step_put_hub(thr_sheets *sheets, const thr_step *step, const thr_camera
   char line[96];
   int visit = find_hub(sheets, step), in, out;
 
-  if (visit < 0 || sheets->st || picture.x1 - picture.x0 < 2 * SIDE ||
+  if (visit < 0 || sheets->why.code || picture.x1 - picture.x0 < 2 * SIDE ||
       picture.y1 - picture.y0 < SIDE)
     return;
 

@@ -64,10 +64,9 @@ static void put_members(thr_sheets *sheets, int kind, double x, double y, double
     if (sheets->pieces.kind[i] == kind)
       thr_text_printf(&words, "%s%s", words.length ? " " : "", sheets->guide.label[i]);
 
-  if (words.failed || !words.data) {
-    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
-  } else {
-    /* As many whole names as the width takes. */
+  /* As many whole names as the width takes. */
+  if (words.failed) thr_nomem(&sheets->why);
+  if (words.data && !words.failed) {
     size_t n = thr_sheets_fit(words.data, width - 4, THR_SHEET_SMALL);
     char line[256];
     snprintf(line, sizeof line, "%.*s%s", (int)(n < 250 ? n : 250), words.data,
@@ -75,7 +74,6 @@ static void put_members(thr_sheets *sheets, int kind, double x, double y, double
     thr_svg_text(thr_sheets_out(sheets), x + 0.5 * width, y, THR_SHEET_SMALL,
                  " text-anchor=\"middle\"", line);
   }
-
   thr_text_destroy(&words);
 }
 
@@ -104,13 +102,10 @@ static void put_card(thr_sheets *sheets, int kind, double x, double y, double wi
   /* The piece at a scale of its own: cards show shapes, not relative sizes. */
   thr_status st =
       thr_crop_piece(&sheets->crops, model, at, ROOM, &scene, &point, text, &sheets->why);
-  if (st) {
-    thr_sheets_fail(sheets, st, NULL);
-    return;
-  }
+  thr_sheets_fail(sheets, st);
 
   /* Around the picture, and below it. */
-  put_lengths(sheets, scene, point, at);
+  if (!st) put_lengths(sheets, scene, point, at);
   put_members(sheets, kind, x, y + CARD - 2, width);
 }
 
@@ -118,26 +113,19 @@ static void put_card(thr_sheets *sheets, int kind, double x, double y, double wi
 static void put_crossings(thr_sheets *sheets)
 {
   thr_channels channels = {0};
-  char line[200];
 
-  /* The channels are only counted here. */
+  /* The channels are only counted here. Where some cross, a maker needs the table. */
   thr_status st = thr_channels_make(&channels, sheets->plan, &sheets->why);
-  if (st) {
-    thr_sheets_fail(sheets, st, NULL);
-    return;
-  }
-
-  /* Where some cross, a maker needs the table. */
-  if (channels.crossed)
-    snprintf(line, sizeof line,
-             "%d piece%s cords that cross inside: there one channel lies above the other "
-             "(channels.csv says which).",
-             channels.crossed, channels.crossed == 1 ? " holds" : "s hold");
-  else
-    snprintf(line, sizeof line, "No cords cross inside a piece.");
-
+  const int n = channels.crossed;
+  thr_sheets_fail(sheets, st);
   thr_channels_destroy(&channels);
-  thr_sheets_paragraph(sheets, 0, line);
+  if (!st && n)
+    thr_sheets_put(sheets, THR_BLOCK_PARAGRAPH,
+                   "%d piece%s cords that cross inside: there one channel lies above the other "
+                   "(channels.csv says which).",
+                   n, n == 1 ? " holds" : "s hold");
+  else if (!st)
+    thr_sheets_put(sheets, THR_BLOCK_PARAGRAPH, "No cords cross inside a piece.");
 }
 
 /* Begins the cards below what is on the page, if the cards take fewer further pages then than on a
@@ -157,7 +145,7 @@ static void begin_key(thr_sheets *sheets, const char *title)
 
   if (rows_here > 0 && (left + fit - 1) / fit < (rows + fit - 1) / fit) {
     snprintf(sheets->running, sizeof sheets->running, "%s", title);
-    thr_sheets_title(sheets, title);
+    thr_sheets_put(sheets, THR_BLOCK_TITLE, "%s", title);
   } else
     thr_sheets_page(sheets, title, title);
 }
@@ -168,7 +156,7 @@ void thr_sheets_key(thr_sheets *sheets)
   const thr_pieces *pieces = &sheets->pieces;
   double width = (thr_sheets_width(sheets) - (CARDS - 1) * AIR) / CARDS;
 
-  if (!pieces->solid || sheets->st) return;
+  if (!pieces->solid || sheets->why.code) return;
   put_crossings(sheets);
 
   /* A flat picture would not tell the kinds apart, or there are too many. */
@@ -178,19 +166,19 @@ void thr_sheets_key(thr_sheets *sheets)
            pieces->n_kinds == 1 ? "" : "s");
 
   begin_key(sheets, title);
-  if (sheets->st) return;
+  if (sheets->why.code) return;
 
-  snprintf(title, sizeof title,
-           "Outer side up, as in the picture. Numbers: arms from the hub to the face, in %.15s.",
-           sheets->f->units);
-  thr_sheets_paragraph(sheets, 0, title);
+  thr_sheets_put(
+      sheets, THR_BLOCK_PARAGRAPH,
+      "Outer side up, as in the picture. Numbers: arms from the hub to the face, in %.15s.",
+      sheets->f->units);
 
   /* Kinds count from 1. A row of cards begins on a new page if this one is full. */
-  for (int k = 1; k <= pieces->n_kinds && !sheets->st; k++) {
+  for (int k = 1; k <= pieces->n_kinds && !sheets->why.code; k++) {
     int column = (k - 1) % CARDS;
     if (column == 0 && k > 1) sheets->y += CARD + AIR;
     if (column == 0) thr_sheets_room(sheets, CARD);
-    if (!sheets->st)
+    if (!sheets->why.code)
       put_card(sheets, k, THR_SHEET_MARGIN + column * (width + AIR), sheets->y, width);
   }
 
@@ -201,13 +189,11 @@ void thr_sheets_key(thr_sheets *sheets)
 
 void thr_sheets_name_tags(thr_sheets *sheets)
 {
-  static const char words[] = "Cut these out and put each on its piece when it goes on the cord: "
-                              "letters up, as in the picture.";
   double longest = 0;
   int n = sheets->pieces.n;
 
   /* A tube has no side to stick a name on. */
-  if (!sheets->pieces.solid || sheets->st) return;
+  if (!sheets->pieces.solid || sheets->why.code) return;
 
   /* The longest name decides how many tags stand in a row, 14 at most. */
   for (int i = 0; i < n; i++)
@@ -220,18 +206,20 @@ void thr_sheets_name_tags(thr_sheets *sheets)
   /* A few rows below what is on the page, or a page of their own. */
   if (sheets->y + SOME_TAGS * TAG < thr_sheets_bottom(sheets)) {
     snprintf(sheets->running, sizeof sheets->running, "Names to stick on (continued)");
-    thr_sheets_title(sheets, "Names to stick on");
+    thr_sheets_put(sheets, THR_BLOCK_TITLE, "Names to stick on");
   } else
     thr_sheets_page(sheets, "Names to stick on", "Names to stick on (continued)");
 
-  if (!sheets->st) thr_sheets_paragraph(sheets, 0, words);
-  for (int i = 0; i < n && !sheets->st; i++) {
+  thr_sheets_put(sheets, THR_BLOCK_PARAGRAPH,
+                 "Cut these out and put each on its piece when it goes on the cord: letters up, as "
+                 "in the picture.");
+  for (int i = 0; i < n && !sheets->why.code; i++) {
     /* Row by row, over as many pages as needed. */
     int column = i % columns;
     double x = THR_SHEET_MARGIN + column * width;
     if (column == 0 && i) sheets->y += TAG;
     if (column == 0) thr_sheets_room(sheets, TAG);
-    if (sheets->st) return;
+    if (sheets->why.code) return;
 
     thr_text_printf(thr_sheets_out(sheets),
                     "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"none\" "

@@ -128,11 +128,7 @@ void thr_sheets_lengths(thr_sheets *sheets)
   else if (!said)
     thr_text_printf(&words, "No needle has more than %s of cord: nothing is joined on.", now);
 
-  if (words.failed || joins.failed)
-    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
-  else
-    thr_sheets_paragraph(sheets, 0, words.data);
-
-  thr_text_destroy(&words);
+  words.failed |= joins.failed;
+  thr_sheets_put_text(sheets, THR_BLOCK_PARAGRAPH, &words);
   thr_text_destroy(&joins);
 }

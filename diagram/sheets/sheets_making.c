@@ -759,7 +759,7 @@ static void put_panel(thr_sheets *sheets, int number, const panel_subject *about
   /* The picture is drawn at once; the text comes back and is set from the panel's foot upwards. */
   about->put(&panel, &words);
   if (words.failed)
-    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
+    thr_nomem(&sheets->why);
   else {
     double size = THR_SHEET_SMALL, room = width - 2 * INDENT;
     int lines = thr_sheets_lines(words.data, room, size);
@@ -779,10 +779,10 @@ void thr_sheets_making(thr_sheets *sheets)
       {"Tightening", put_tighten},          {"Knots", put_knot}};
 
   thr_sheets_page(sheets, "Before you begin", "Before you begin (continued)");
-  if (sheets->st) return;
+  if (sheets->why.code) return;
 
   /* All panels are equally high, and together as high as the page. */
   double height = (thr_sheets_bottom(sheets) - sheets->y - (ROWS - 1) * AIR) / ROWS;
-  for (int i = 0; i < COLUMNS * ROWS && !sheets->st; i++)
+  for (int i = 0; i < COLUMNS * ROWS && !sheets->why.code; i++)
     put_panel(sheets, i, &subjects[i], height);
 }

@@ -87,6 +87,19 @@ int thr_sheets_end(const thr_sheets *sheets, int c)
   return sheets->first_visit[c] + sheets->plan->cord[c].n_passes + sheets->pieces.solid;
 }
 
+unsigned char *thr_sheets_piece_states(thr_sheets *sheets, int first, int end)
+{
+  unsigned char *piece = thr_calloc((size_t)sheets->pieces.n, sizeof *piece);
+  if (!piece) thr_nomem(&sheets->why);
+
+  /* A piece is held if a visit before the range picks it up. */
+  for (int i = 0; i < sheets->pieces.n && piece; i++)
+    piece[i] = sheets->threaded[i] < first ? THR_PIECE_HELD
+               : sheets->threaded[i] < end ? THR_PIECE_NEW
+                                           : THR_PIECE_LATER;
+  return piece;
+}
+
 const char (*thr_sheets_labels(const thr_sheets *sheets))[THR_LABEL]
 {
   return (const char(*)[THR_LABEL])sheets->guide.label;

@@ -31,14 +31,13 @@ typedef struct {
 
 typedef struct thr_step thr_step; /* sheets_parts.h */
 
-/* The booklet being laid out. Failures stick: the first one is kept in st and why, and what comes
- * after it does nothing. Visits are numbered through all parts in the order of threading. */
+/* The booklet being laid out. Failures stick: the first one is kept in why, and what comes after it
+ * does nothing. Visits are numbered through all parts in the order of threading. */
 struct thr_sheets {
   const thr_plan *plan;
   const thr_frame *f; /* the plan's */
   thr_sheets_options o;
-  thr_status st;         /* of the first failure */
-  thr_err why;           /* its text */
+  thr_err why;           /* the first failure */
   thr_guide guide;       /* what places and turns are called */
   thr_supplies supplies; /* lengths to cut, bores to make */
   thr_copy *copy;        /* [n_cords] which cord repeats which */
@@ -73,8 +72,8 @@ struct thr_sheets {
   char running[160]; /* heading of the pages that follow when this one is full */
 };
 
-/* Keeps the first failure. */
-void thr_sheets_fail(thr_sheets *sheets, thr_status st, const thr_err *why);
+/* Keeps st if it is a failure and the first one. What failed may have told sheets->why already. */
+void thr_sheets_fail(thr_sheets *sheets, thr_status st);
 
 /* Sends the page that is being filled, which is finished, to sheets->pages, if there are any
  * (sheets.c). */
@@ -100,6 +99,10 @@ bool thr_sheets_room(thr_sheets *sheets, double height);
 size_t thr_sheets_fit(const char *words, double width, double size);
 int thr_sheets_lines(const char *words, double width, double size);
 
+/* Moves the next line of words, at most 511 bytes, into line and *words on to the line after;
+ * blanks at the break are dropped. */
+void thr_sheets_next_line(const char **words, double width, double size, char line[512]);
+
 /* Writes words from a point on, in as few lines as the width allows, THR_SHEET_LINE or 1.45 font
  * sizes apart. Returns the y of the line after them. */
 double thr_sheets_text(thr_sheets *sheets, double x, double y, double size, double width,
@@ -108,18 +111,26 @@ double thr_sheets_text(thr_sheets *sheets, double x, double y, double size, doub
 /* Writes the booklet's title: "Step sheets: 49 pieces, 4 cords". */
 void thr_sheets_heading(const thr_sheets *sheets, char title[96]);
 
-/* Write flowing text, which goes on to further pages: a heading within the page, a paragraph, a
- * paragraph with a box to tick. */
-void thr_sheets_title(thr_sheets *sheets, const char *words);
-void thr_sheets_paragraph(thr_sheets *sheets, double indent, const char *words);
-void thr_sheets_tick(thr_sheets *sheets, const char *words);
+/* Draws the framework from the current height to the bottom (mm): in space, or flat with passes and
+ * pieces in their states and the pitch as in thr_crop_whole. */
+void thr_sheets_whole(thr_sheets *sheets, bool in_space, const unsigned char *state,
+                      const unsigned char *piece, double bottom, double *pitch);
+
+/* Blocks of text, which go on to further pages: a heading that stays with what follows, a
+ * paragraph, a paragraph with a box to tick, a bold one. */
+typedef enum { THR_BLOCK_TITLE, THR_BLOCK_PARAGRAPH, THR_BLOCK_TICK, THR_BLOCK_WARNING } thr_block;
+
+/* Write a block: formatted words of at most 1023 bytes; a text, which is released. */
+void thr_sheets_put(thr_sheets *sheets, thr_block block, const char *format, ...) THR_PRINTF(3, 4);
+void thr_sheets_put_text(thr_sheets *sheets, thr_block block, thr_text *words);
 
 /* Draws the box alone, beside a line at y. */
 void thr_sheets_box(thr_text *text, double x, double y);
 
-/* Writes a row of n cells. x[n]: mm from the margin to where a column begins; < 0: the column is
- * aligned at its right end -x. bold: a heading. */
-void thr_sheets_cells(thr_sheets *sheets, int n, const double *x, char (*cell)[96], bool bold);
+/* Writes a row of cells with tabs between them. column: mm from the margin to where each cell
+ * begins; < 0: the cell is aligned at its right end -x. bold: a heading. */
+void thr_sheets_cells(thr_sheets *sheets, const double *column, bool bold, const char *format, ...)
+    THR_PRINTF(4, 5);
 
 /* ---- what is on them ---- */
 
@@ -129,8 +140,13 @@ thr_status thr_sheets_follow(thr_sheets *sheets, thr_err *err) THR_MUST_CHECK;
 /* Returns the visit after the last one of cord c. */
 int thr_sheets_end(const thr_sheets *sheets, int c);
 
+/* Returns how pieces look in a picture of visits first .. end - 1: on a cord already, picked up
+ * then, or later (thr_piece_state). Freed by the caller; NULL if memory ran out. */
+unsigned char *thr_sheets_piece_states(thr_sheets *sheets, int first, int end);
+
 /* Returns the places of all nodes. */
 const char (*thr_sheets_labels(const thr_sheets *sheets))[THR_LABEL];
+
 /* Parts of the booklet that the title page names. */
 typedef enum { THR_SHEET_PREPARE, THR_SHEET_STEPS, THR_SHEET_LAST, THR_SHEET_PARTS } thr_sheet_part;
 

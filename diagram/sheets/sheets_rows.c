@@ -106,7 +106,7 @@ void thr_step_destroy_text(thr_step *step)
  * out while the text was made. */
 static int count_lines(thr_sheets *sheets, const thr_text *words, double width, double size)
 {
-  if (words->failed) thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
+  if (words->failed) thr_nomem(&sheets->why);
   return words->data && !words->failed ? thr_sheets_lines(words->data, width, size) : 0;
 }
 
@@ -151,7 +151,7 @@ void thr_step_find_text(thr_sheets *sheets, thr_step *step)
   thr_step_destroy_text(step);
 
   /* A row for each visit, with the number of its lines. */
-  for (int i = step->first; i < step->end && !sheets->st; i++) {
+  for (int i = step->first; i < step->end && !sheets->why.code; i++) {
     thr_text *row = &step->row[step->n_rows];
     *row = (thr_text){0};
     thr_pieces_say(&sheets->pieces, thr_sheets_labels(sheets), sheets->visit, i, sheets->step, row);
@@ -250,12 +250,9 @@ void thr_step_put_heading(thr_sheets *sheets, const thr_step *step, double top)
                fmin(4.4, (width - x) / (0.66 * (double)strlen(line))), colour, line);
 
   /* The tally below in as many lines as needed. */
-  if (tally.failed)
-    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
-  else
-    thr_sheets_text(sheets, x, top + 9, THR_SHEET_SMALL, width - x, " style=\"fill:#444\"",
-                    tally.data);
-
+  if (tally.failed) thr_nomem(&sheets->why);
+  thr_sheets_text(sheets, x, top + 9, THR_SHEET_SMALL, width - x, " style=\"fill:#444\"",
+                  tally.data ? tally.data : "");
   thr_text_destroy(&tally);
 }
 
@@ -314,7 +311,7 @@ void thr_step_put_rows(thr_sheets *sheets, const thr_step *step)
 
   /* The second column begins at the height of the first. */
   double y = sheets->y;
-  for (int i = 0; i < step->n_rows && !sheets->st; i++) {
+  for (int i = 0; i < step->n_rows && !sheets->why.code; i++) {
     if (i == step->left) y = sheets->y;
     put_row(sheets, step, i, THR_SHEET_MARGIN + (i < step->left ? 0 : column_width(sheets) + 4), y);
     y += step->lines[i] * line_height() + AFTER;

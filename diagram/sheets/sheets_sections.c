@@ -38,11 +38,12 @@ int thr_sheets_sections(const thr_sheets *sheets, int first, int end)
 static void put_kinds(thr_sheets *sheets, int first, int end)
 {
   thr_text words = {0};
+  const int n = count_new(sheets, first, end);
   int *count = thr_calloc((size_t)sheets->pieces.n_kinds + 1, sizeof *count);
-  bool any = false;
+  const char *before = "";
 
   if (!count) {
-    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
+    thr_nomem(&sheets->why);
     return;
   }
 
@@ -50,87 +51,54 @@ static void put_kinds(thr_sheets *sheets, int first, int end)
   for (int i = first; i < end; i++)
     if (sheets->visit[i].nth == 1) count[sheets->pieces.kind[sheets->visit[i].piece]]++;
 
-  thr_text_printf(&words, "%d %s to lay ready: ", count_new(sheets, first, end),
-                  thr_pieces_word(sheets->plan, count_new(sheets, first, end)));
+  thr_text_printf(&words, "%d %s to lay ready: ", n, thr_pieces_word(sheets->plan, n));
 
   /* In the order of kinds, those without a new piece left out. */
   for (int k = 1; k <= sheets->pieces.n_kinds; k++) {
     char name[24];
     if (!count[k]) continue;
     thr_pieces_kind_name(&sheets->pieces, k, name);
-    thr_text_printf(&words, "%s%d of kind %s", any ? ", " : "", count[k], name);
-    any = true;
+    thr_text_printf(&words, "%s%d of kind %s", before, count[k], name);
+    before = ", ";
   }
 
-  /* The list ends with a full stop. */
   thr_text_append(&words, ".");
-  if (words.failed)
-    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
-  else
-    thr_sheets_paragraph(sheets, 0, words.data);
-
-  thr_text_destroy(&words);
+  thr_sheets_put_text(sheets, THR_BLOCK_PARAGRAPH, &words);
   free(count);
 }
 
 /* Draws the whole framework with the pieces of the section bold, earlier ones grey, later ones
- * dashed, and no cord. */
-static thr_status put_map(thr_sheets *sheets, int first, int end, thr_err *err)
+ * dashed, and no cord, in the same projection as the pictures of steps. */
+static void put_map(thr_sheets *sheets, int first, int end)
 {
-  unsigned char *piece = thr_calloc((size_t)sheets->pieces.n, sizeof *piece);
+  unsigned char *piece = thr_sheets_piece_states(sheets, first, end);
   unsigned char *state = thr_calloc((size_t)sheets->n_passes, sizeof *state);
-  thr_box paper = {THR_SHEET_MARGIN, sheets->y, sheets->size[0] - THR_SHEET_MARGIN,
-                   thr_sheets_bottom(sheets) - THR_STEP_LEGEND};
-
-  thr_status st = piece && state ? THR_OK : thr_nomem(err);
-
-  /* A piece is held if a visit before the section picks it up. */
-  for (int i = 0; i < sheets->pieces.n && !st; i++)
-    piece[i] = sheets->threaded[i] < first ? THR_PIECE_HELD
-               : sheets->threaded[i] < end ? THR_PIECE_NEW
-                                           : THR_PIECE_LATER;
+  if (!state) thr_nomem(&sheets->why);
 
   /* A map is about pieces: no pass is drawn. */
-  for (int i = 0; i < sheets->n_passes && !st; i++)
+  for (int i = 0; i < sheets->n_passes && state; i++)
     state[i] = THR_DRAW_HIDDEN;
 
-  /* The same projection as the pictures of steps. */
-  if (!st && sheets->in_space)
-    st = thr_space_whole(&sheets->space, piece, paper, thr_sheets_out(sheets), err);
-  if (!st && !sheets->in_space)
-    st = thr_crop_whole(sheets->plan, &sheets->guide.layout, state, piece, paper,
-                        &sheets->map_pitch, sheets->limits, thr_sheets_out(sheets), err);
-
+  thr_sheets_whole(sheets, sheets->in_space, state, piece,
+                   thr_sheets_bottom(sheets) - THR_STEP_LEGEND, &sheets->map_pitch);
   free(piece);
   free(state);
-  return st;
 }
 
 void thr_sheets_section(thr_sheets *sheets, int nth, int n, int first, int end, int steps)
 {
-  char title[128];
+  char title[128], of_all[32] = "";
   const char *id = sheets->plan->cord[sheets->visit[first].cord].id;
 
-  /* Steps that wait come before this page. */
+  /* Steps that wait come before this page. They are numbered on from those that are laid out. */
   thr_sheets_flush(sheets);
-
-  /* Steps are numbered on from those that are laid out. */
-  if (n > 1)
-    snprintf(title, sizeof title, "Section %d of %d of cord %.11s: steps %d to %d", nth, n, id,
-             sheets->n_steps + 1, sheets->n_steps + steps);
-  else
-    snprintf(title, sizeof title, "Section of cord %.11s: steps %d to %d", id, sheets->n_steps + 1,
-             sheets->n_steps + steps);
-
-  if (!sheets->st) thr_sheets_page(sheets, title, title);
-  if (!sheets->st) put_kinds(sheets, first, end);
-
-  thr_status st = sheets->st ? sheets->st : put_map(sheets, first, end, &sheets->why);
-  if (st) {
-    thr_sheets_fail(sheets, st, NULL);
-    return;
-  }
+  if (n > 1) snprintf(of_all, sizeof of_all, " %d of %d", nth, n);
+  snprintf(title, sizeof title, "Section%s of cord %.11s: steps %d to %d", of_all, id,
+           sheets->n_steps + 1, sheets->n_steps + steps);
 
   /* The legend stands below the map. */
-  thr_step_put_legend(sheets, thr_sheets_bottom(sheets) - 1, "section");
+  if (!sheets->why.code) thr_sheets_page(sheets, title, title);
+  if (!sheets->why.code) put_kinds(sheets, first, end);
+  if (!sheets->why.code) put_map(sheets, first, end);
+  if (!sheets->why.code) thr_step_put_legend(sheets, thr_sheets_bottom(sheets) - 1, "section");
 }

@@ -40,7 +40,7 @@ static thr_crop crop_of(const thr_sheets *sheets, const thr_step *step, int *now
 
 /* Computes the least height of a step's picture, in mm, into step->height. A flat picture also gets
  * its view: scale and window in which every pass is legible. */
-static thr_status find_height(thr_sheets *sheets, thr_step *step, thr_err *err)
+static void find_height(thr_sheets *sheets, thr_step *step)
 {
   int now[THR_STEP_VISITS];
   thr_crop crop = crop_of(sheets, step, now);
@@ -53,132 +53,122 @@ static thr_status find_height(thr_sheets *sheets, thr_step *step, thr_err *err)
   /* In space any size can be drawn: some mm per visit do. */
   step->height =
       fmin(room[1], fmin(MOST, THR_STEP_PICTURE[1] + IN_SPACE * (step->end - step->first)));
-  if (sheets->in_space) return THR_OK;
+  if (sheets->in_space || sheets->why.code) return;
 
   /* A flat picture needs the window that its passes take at the largest scale that fits. */
-  thr_status st = thr_crop_fit(&sheets->crops, &crop, room, THR_STEP_PICTURE, &step->view, err);
-  if (step->view.scale >= THR_CROP_SCALES) step->view.scale = THR_CROP_SCALES - 1;
+  thr_sheets_fail(sheets, thr_crop_fit(&sheets->crops, &crop, room, THR_STEP_PICTURE, &step->view,
+                                       &sheets->why));
   step->height = step->view.size[1];
-
-  return st;
 }
 
-/* Draws the flat picture of a step in room mm below its heading at height top, with the small
- * picture of the whole in the corner, a hub of many arms if there is one, legend and string of
- * pieces. */
+/* A picture of a step that is drawn. */
+typedef struct {
+  double at[2], size[2];               /* mm: its upper left corner; width and height */
+  double busy[2 * THR_STEP_VISITS][2]; /* mm on the page: the ends of all passes drawn now, which an
+                                          inset must not hide */
+  thr_camera_view view;                /* in space */
+} step_picture;
+
+/* Draws the flat picture of a step, which grows into a room in mm, with its upper edge at
+ * picture->at[1], and the small picture of the whole in the corner. */
 static thr_status put_flat(thr_sheets *sheets, thr_step *step, const thr_crop *crop,
-                           const double room[2], double top, thr_err *err)
+                           const double room[2], thr_box corner, step_picture *picture)
 {
-  thr_box shown, paper = {0, top, sheets->size[0] - THR_SHEET_MARGIN, top + LOCATOR[1]};
-  paper.x0 = paper.x1 - LOCATOR[0];
+  thr_box shown;
+  thr_text *text = thr_sheets_out(sheets);
 
-  /* The window grows into the height that was left over on the page. */
   thr_crop_fill(&sheets->crops, &step->view, room);
-  double at[2] = {0.5 * (sheets->size[0] - step->view.size[0]), top + THR_STEP_HEAD};
-
+  picture->at[0] = 0.5 * (sheets->size[0] - step->view.size[0]);
   thr_status st =
-      thr_crop_draw(&sheets->crops, crop, &step->view, at, &shown, thr_sheets_out(sheets), err);
-  if (!st) thr_crop_locate(&sheets->crops, crop, &step->view, shown, paper, thr_sheets_out(sheets));
-  sheets->y = at[1] + step->view.size[1];
+      thr_crop_draw(&sheets->crops, crop, &step->view, picture->at, &shown, text, &sheets->why);
+  if (st) return st;
+  thr_crop_locate(&sheets->crops, crop, &step->view, shown, corner, text);
 
-  /* The ends of all passes drawn now, in mm on the page: an inset must not hide them. */
-  double busy[2 * THR_STEP_VISITS][2];
   const thr_scene *scene = &sheets->crops.scene[step->view.scale];
-
-  for (int i = 0; i < crop->n_now && !st; i++)
-    for (int k = 0; k < 2; k++) {
-      double corner = k ? shown.y0 : shown.x0;
-      busy[2 * i][k] = at[k] + scene->pass[crop->now[i]].from[k] - corner;
-      busy[2 * i + 1][k] = at[k] + scene->pass[crop->now[i]].to[k] - corner;
+  const double origin[2] = {shown.x0, shown.y0};
+  for (int k = 0; k < 2; k++) {
+    picture->size[k] = step->view.size[k];
+    for (int i = 0; i < crop->n_now; i++) {
+      const thr_scene_pass *pass = &scene->pass[crop->now[i]];
+      picture->busy[2 * i][k] = picture->at[k] + pass->from[k] - origin[k];
+      picture->busy[2 * i + 1][k] = picture->at[k] + pass->to[k] - origin[k];
     }
-
-  /* The inset, if there is one, lies on top of the picture. */
-  thr_box picture = {at[0], at[1], at[0] + step->view.size[0], sheets->y};
-  if (!st)
-    thr_step_put_hub(sheets, step, NULL, crop->colour, picture, (const double(*)[2])busy,
-                     2 * crop->n_now);
-
-  if (!st) thr_step_put_legend(sheets, sheets->y + 4, "step");
-  sheets->y += THR_STEP_LEGEND;
-  if (!st) thr_step_put_strip(sheets, step, NULL, crop->colour);
-  return st;
+  }
+  return THR_OK;
 }
 
 /* Draws the picture of a step in space, seen from where its passes are most legible; all else as in
  * put_flat. */
-static thr_status put_in_space(thr_sheets *sheets, const thr_step *step, const thr_crop *crop,
-                               const double room[2], double top, thr_err *err)
+static thr_status put_in_space(thr_sheets *sheets, thr_step *step, const thr_crop *crop,
+                               const double room[2], thr_box corner, step_picture *picture)
 {
-  thr_box paper = {0, top, sheets->size[0] - THR_SHEET_MARGIN, top + LOCATOR[1]};
-  paper.x0 = paper.x1 - LOCATOR[0];
-
+  thr_text *text = thr_sheets_out(sheets);
   thr_space_step drawn = {.crop = *crop, .colour = crop->colour, .next = -1};
-  thr_camera_view view = thr_space_fit(&sheets->space, crop, room);
-  double at[2] = {THR_SHEET_MARGIN, top + THR_STEP_HEAD};
+  picture->view = thr_space_fit(&sheets->space, crop, room);
+  picture->at[0] = THR_SHEET_MARGIN;
 
   /* The needle points on towards the next piece, unless the needle's part ends here. */
   if (!thr_step_ends(sheets, step->end - 1)) drawn.next = sheets->visit[step->end].in;
-  thr_status st = thr_space_draw(&sheets->space, &drawn, &view, at, thr_sheets_out(sheets), err);
-  if (!st) st = thr_space_locate(&sheets->space, &drawn, &view, paper, thr_sheets_out(sheets), err);
-
-  sheets->y = at[1] + view.size[1];
-
-  /* The ends of all passes drawn now, projected on to the page. */
-  double busy[2 * THR_STEP_VISITS][2], seen[3];
-  for (int i = 0; i < 2 * crop->n_now; i++) {
-    int h = thr_space_half(&sheets->space, crop, crop->now[i / 2]);
-    thr_camera_project(
-        &view, sheets->f->xyz[i % 2 ? thr_head(sheets->f, h) : thr_tail(sheets->f, h)], seen);
-    for (int k = 0; k < 2; k++)
-      busy[i][k] = at[k] + seen[k];
-  }
-
-  /* The inset, if there is one, lies on top of the picture. */
-  thr_box picture = {at[0], at[1], at[0] + view.size[0], sheets->y};
+  thr_status st =
+      thr_space_draw(&sheets->space, &drawn, &picture->view, picture->at, text, &sheets->why);
   if (!st)
-    thr_step_put_hub(sheets, step, &view.camera, crop->colour, picture, (const double(*)[2])busy,
-                     2 * crop->n_now);
+    st = thr_space_locate(&sheets->space, &drawn, &picture->view, corner, text, &sheets->why);
 
-  if (!st) thr_step_put_legend(sheets, sheets->y + 4, "step");
-  sheets->y += THR_STEP_LEGEND;
-  if (!st) thr_step_put_strip(sheets, step, &view.camera, crop->colour);
+  for (int i = 0; i < 2 * crop->n_now; i++) {
+    double seen[3];
+    int h = thr_space_half(&sheets->space, crop, crop->now[i / 2]);
+    thr_camera_project(&picture->view,
+                       sheets->f->xyz[i % 2 ? thr_head(sheets->f, h) : thr_tail(sheets->f, h)],
+                       seen);
+    for (int k = 0; k < 2; k++) {
+      picture->busy[i][k] = picture->at[k] + seen[k];
+      picture->size[k] = picture->view.size[k];
+    }
+  }
   return st;
 }
 
-/* Draws all pictures of a step whose heading begins at height top. extra: mm that the main picture
- * is higher than necessary. */
-static thr_status put_pictures(thr_sheets *sheets, thr_step *step, double top, double extra,
-                               thr_err *err)
+/* Draws all pictures of a step whose heading begins at height top: in space or flat, the same for
+ * all steps of a booklet, with a hub of many arms if there is one, legend and string of pieces.
+ * extra: mm that the main picture is higher than necessary. */
+static void put_pictures(thr_sheets *sheets, thr_step *step, double top, double extra)
 {
   int now[THR_STEP_VISITS];
+  unsigned char *piece = thr_sheets_piece_states(sheets, step->first, step->end);
   unsigned char *state = thr_calloc((size_t)sheets->n_passes, sizeof *state);
-  unsigned char *piece = thr_calloc((size_t)sheets->pieces.n, sizeof *piece);
-  thr_status st = state && piece ? THR_OK : thr_nomem(err);
+  if (!state) thr_nomem(&sheets->why);
 
   /* Passes before the step are grey, later ones are not drawn. */
-  for (int i = 0; i < sheets->n_passes && !st; i++)
+  for (int i = 0; i < sheets->n_passes && state; i++)
     state[i] = sheets->visited[i] < step->first ? THR_DRAW_EARLIER
                : sheets->visited[i] < step->end ? THR_DRAW_NOW
                                                 : THR_DRAW_HIDDEN;
-
-  /* Pieces: on a cord already, picked up in this step, or waiting. */
-  for (int i = 0; i < sheets->pieces.n && !st; i++)
-    piece[i] = sheets->threaded[i] < step->first ? THR_PIECE_HELD
-               : sheets->threaded[i] < step->end ? THR_PIECE_NEW
-                                                 : THR_PIECE_LATER;
 
   thr_crop crop = crop_of(sheets, step, now);
   crop.state = state;
   crop.piece = piece;
 
-  /* In space or flat, the same for all steps of a booklet. */
-  double room[2] = {thr_sheets_width(sheets), step->height + extra};
-  if (!st && sheets->in_space) st = put_in_space(sheets, step, &crop, room, top, err);
-  if (!st && !sheets->in_space) st = put_flat(sheets, step, &crop, room, top, err);
-
+  const double room[2] = {thr_sheets_width(sheets), step->height + extra},
+               right = sheets->size[0] - THR_SHEET_MARGIN;
+  const thr_box corner = {right - LOCATOR[0], top, right, top + LOCATOR[1]};
+  step_picture picture = {.at = {0, top + THR_STEP_HEAD}};
+  if (!sheets->why.code)
+    thr_sheets_fail(sheets, (sheets->in_space ? put_in_space : put_flat)(sheets, step, &crop, room,
+                                                                         corner, &picture));
   free(state);
   free(piece);
-  return st;
+  if (sheets->why.code) return;
+
+  /* The inset, if there is one, lies on top of the picture. */
+  const thr_camera *camera = sheets->in_space ? &picture.view.camera : NULL;
+  sheets->y = picture.at[1] + picture.size[1];
+  const thr_box frame = {picture.at[0], picture.at[1], picture.at[0] + picture.size[0], sheets->y};
+  thr_step_put_hub(sheets, step, camera, crop.colour, frame, (const double(*)[2])picture.busy,
+                   2 * crop.n_now);
+
+  thr_step_put_legend(sheets, sheets->y + 4, "step");
+  sheets->y += THR_STEP_LEGEND;
+  thr_step_put_strip(sheets, step, camera, crop.colour);
 }
 
 /* ---- pages ---- */
@@ -187,11 +177,8 @@ static thr_status put_pictures(thr_sheets *sheets, thr_step *step, double top, d
 static void put_step(thr_sheets *sheets, thr_step *step, double top, double extra)
 {
   thr_step_put_heading(sheets, step, top);
-  thr_status st = sheets->st ? sheets->st : put_pictures(sheets, step, top, extra, &sheets->why);
-  if (st)
-    thr_sheets_fail(sheets, st, NULL);
-  else
-    thr_step_put_rows(sheets, step);
+  put_pictures(sheets, step, top, extra);
+  if (!sheets->why.code) thr_step_put_rows(sheets, step);
 }
 
 /* Draws a thin line between two steps at height y. */
@@ -202,42 +189,35 @@ static void put_rule(thr_sheets *sheets, double y)
                   THR_SHEET_MARGIN, y, thr_sheets_width(sheets));
 }
 
-void thr_sheets_flush(thr_sheets *sheets)
+/* Returns the height of the steps that wait for a page, with BETWEEN after each, mm. */
+static double height_waiting(const thr_sheets *sheets)
 {
-  double high = -BETWEEN, y = THR_SHEET_MARGIN;
-  int n = sheets->n_waiting;
-  if (!n) return;
-  if (!sheets->st) thr_sheets_page(sheets, "", "");
-
-  /* The height that all waiting steps need; what the page has beyond is shared equally. */
-  for (int i = 0; i < n; i++)
-    high += BETWEEN + height_beside(&sheets->waiting[i]) + sheets->waiting[i].height;
-
-  double extra = fmax(thr_sheets_bottom(sheets) - THR_SHEET_MARGIN - high, 0) / n;
-
-  /* One step below the other. */
-  for (int i = 0; i < n && !sheets->st; i++) {
-    thr_step *step = &sheets->waiting[i];
-    if (i) put_rule(sheets, y - 0.5 * BETWEEN);
-    put_step(sheets, step, y, extra);
-    y += height_beside(step) + step->height + extra + BETWEEN;
-  }
-
-  /* The steps are on paper now: their texts are released. */
-  for (int i = 0; i < n; i++)
-    thr_step_destroy_text(&sheets->waiting[i]);
-  sheets->n_waiting = 0;
+  double high = 0;
+  for (int i = 0; i < sheets->n_waiting; i++)
+    high += height_beside(&sheets->waiting[i]) + sheets->waiting[i].height + BETWEEN;
+  return high;
 }
 
-/* Returns whether another step fits on the page that is waiting. */
-static bool has_room(const thr_sheets *sheets, const thr_step *step)
+void thr_sheets_flush(thr_sheets *sheets)
 {
-  double high = height_beside(step) + step->height;
+  const double room = thr_sheets_bottom(sheets) - THR_SHEET_MARGIN;
+  double y = THR_SHEET_MARGIN;
+  int n = sheets->n_waiting;
+  if (!n) return;
+  if (!sheets->why.code) thr_sheets_page(sheets, "", "");
 
-  for (int i = 0; i < sheets->n_waiting; i++)
-    high += BETWEEN + height_beside(&sheets->waiting[i]) + sheets->waiting[i].height;
+  /* What the page has beyond the height that all waiting steps need is shared equally. */
+  double extra = fmax(room - (height_waiting(sheets) - BETWEEN), 0) / n;
 
-  return high <= thr_sheets_bottom(sheets) - THR_SHEET_MARGIN;
+  /* One step below the other; their texts are released when they are on paper. */
+  for (int i = 0; i < n; i++) {
+    thr_step *step = &sheets->waiting[i];
+    if (i && !sheets->why.code) put_rule(sheets, y - 0.5 * BETWEEN);
+    if (!sheets->why.code) put_step(sheets, step, y, extra);
+    y += height_beside(step) + step->height + extra + BETWEEN;
+    thr_step_destroy_text(step);
+  }
+  sheets->n_waiting = 0;
 }
 
 /* Tells the caller how far the work is and stops where the caller asks for it; called before each
@@ -251,15 +231,13 @@ static void poll(thr_sheets *sheets, int first)
     limits->advance(limits->user, "pages of the step sheets", (double)first / sheets->n_visits);
 
   if (thr_limits_stop(limits))
-    thr_sheets_fail(sheets,
-                    thr_fail(&sheets->why, THR_ELIMIT, "interrupted at page %d of the step sheets",
-                             sheets->n_pages + 1),
-                    NULL);
+    thr_fail(&sheets->why, THR_ELIMIT, "interrupted at page %d of the step sheets",
+             sheets->n_pages + 1);
 }
 
 /* Appends the step of visits first .. end - 1 to the page that is waiting. If there is no room for
  * the step, that page is drawn first. */
-static thr_status wait(thr_sheets *sheets, int first, int end, thr_err *err)
+static void wait(thr_sheets *sheets, int first, int end)
 {
   thr_step step = {.number = ++sheets->n_steps, .first = first, .end = end};
 
@@ -268,20 +246,18 @@ static thr_status wait(thr_sheets *sheets, int first, int end, thr_err *err)
     sheets->step[i] = step.number;
 
   thr_step_find_text(sheets, &step);
-  thr_status st = sheets->st ? sheets->st : find_height(sheets, &step, err);
-
-  if (!st && !has_room(sheets, &step)) thr_sheets_flush(sheets);
-  if (!st)
-    st = thr_grow(&sheets->waiting, sheets->n_waiting, &sheets->waiting_capacity,
-                  sizeof *sheets->waiting, err);
+  find_height(sheets, &step);
+  if (height_waiting(sheets) + height_beside(&step) + step.height >
+      thr_sheets_bottom(sheets) - THR_SHEET_MARGIN)
+    thr_sheets_flush(sheets);
+  thr_sheets_fail(sheets, thr_grow(&sheets->waiting, sheets->n_waiting, &sheets->waiting_capacity,
+                                   sizeof *sheets->waiting, &sheets->why));
 
   /* The page takes over the texts. */
-  if (st)
+  if (sheets->why.code)
     thr_step_destroy_text(&step);
   else
     sheets->waiting[sheets->n_waiting++] = step;
-
-  return st;
 }
 
 /* Returns how many of n steps belong to the section that begins with step i: up to the first step
@@ -309,20 +285,21 @@ void thr_sheets_steps(thr_sheets *sheets, int c)
   int *end = NULL, n = 0, first = sheets->first_visit[c];
   int next = 0, section = 0; /* the step before which the next section begins; sections so far */
   int new = 0;               /* pieces picked up so far */
-  thr_status st = sheets->st ? sheets->st : thr_step_divide(sheets, c, &end, &n, &sheets->why);
-  if (st) thr_sheets_fail(sheets, st, NULL);
+
+  if (sheets->why.code) return;
+  thr_sheets_fail(sheets, thr_step_divide(sheets, c, &end, &n, &sheets->why));
 
   /* Sections share the pieces that this path picks up equally. */
   int sections = n ? thr_sheets_sections(sheets, first, end[n - 1]) : 0, all = 0;
   for (int i = first; n && i < end[n - 1]; i++)
     all += sheets->visit[i].nth == 1;
 
-  for (int i = 0; i < n && !sheets->st; first = end[i++]) {
+  for (int i = 0; i < n && !sheets->why.code; first = end[i++]) {
     poll(sheets, first);
 
     /* Section s of m ends when s / m of all pieces are threaded; the last one takes all steps
      * left. */
-    if (!sheets->st && i == next && section < sections) {
+    if (!sheets->why.code && i == next && section < sections) {
       int steps = section + 1 < sections
                       ? steps_of_section(sheets, end, n, i, new, all * (section + 1) / sections)
                       : n - i;
@@ -333,8 +310,7 @@ void thr_sheets_steps(thr_sheets *sheets, int c)
     /* Passes of this step go to the page that is waiting. */
     for (int k = first; k < end[i]; k++)
       new += sheets->visit[k].nth == 1;
-    st = sheets->st ? sheets->st : wait(sheets, first, end[i], &sheets->why);
-    if (st) thr_sheets_fail(sheets, st, NULL);
+    if (!sheets->why.code) wait(sheets, first, end[i]);
   }
 
   free(end);

@@ -220,7 +220,7 @@ static void put_name(thr_sheets *sheets, int visit, double x, double y, double w
     thr_pieces_kind_name(pieces, pieces->kind[stay->piece], kind);
 
   snprintf(words, sizeof words, "%s%s%.90s", kind, *kind ? " " : "", name.data ? name.data : "");
-  if (name.failed) thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
+  if (name.failed) thr_nomem(&sheets->why);
 
   /* What does not fit loses first the kind, then everything. */
   if (*kind && thr_scene_text_width(words, THR_SHEET_SMALL) > width)
@@ -270,7 +270,7 @@ void thr_step_put_strip(thr_sheets *sheets, const thr_step *step, const thr_came
 
     /* Icons gather in layers, names are written at once. */
     icon_layers row = {0};
-    for (int i = 0; i < n && !sheets->st; i++) {
+    for (int i = 0; i < n && !sheets->why.code; i++) {
       const double hub[2] = {THR_SHEET_MARGIN + (i + 0.5) * width + aside, y};
       add_icon(sheets, step->first + first + i, camera, hub, reach, &row);
       put_name(sheets, step->first + first + i, hub[0], y + reach + 3.2, width - 0.5);
