@@ -3,9 +3,10 @@
  * by band of the picture, so that memory does not grow with its height.
  *
  * A piece's mesh is turned into the picture once for every band that it reaches. Normals at the
- * corners of triangles are means of those of their neighbours, weighted by angles (G. Thuermer and
- * C. Wuethrich, "Computing vertex normals from polygonal facets", J. Graphics Tools 3, 1998), but
- * only of neighbours that are turned by less than 40 degrees: rims stay sharp. */
+ * corners of triangles are means of those around, weighted by 1 - the cosine of their angles there
+ * (by the angles: G. Thuermer and C. Wuethrich, "Computing vertex normals from polygonal facets",
+ * J. Graphics Tools 3, 1998), but only of those that are turned by less than 40 degrees: rims stay
+ * sharp. */
 #include "kit/picture.h"
 
 #include "diagram/scene/scene.h"
@@ -17,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROWS = 24, SIDES = 16, SHADOW = 320, JOIN = 10, MOST = 10000 };
+enum { ROWS = 64, SIDES = 16, SHADOW = 320, JOIN = 10, MOST = 10000 };
 
 static const double SMOOTH = 0.766;              /* cosine of 40 degrees */
 static const double SLENDER = 0.15;              /* height of a triangle by its longest edge */
@@ -498,7 +499,7 @@ static thr_status smooth(const thr_mesh *mesh, float *normal, thr_err *err)
   thr_scratch own = {0};
   int n = mesh->n_triangles;
   double(*face)[3] = thr_scratch_array(&own, (size_t)n + 1, sizeof *face);
-  double *angle = thr_scratch_array(&own, 3 * (size_t)n + 1, sizeof *angle);
+  double *weight = thr_scratch_array(&own, 3 * (size_t)n + 1, sizeof *weight);
   int *first = thr_scratch_array(&own, (size_t)mesh->n_points + 2, sizeof *first);
   int *at = thr_scratch_array(&own, 3 * (size_t)n + 1, sizeof *at);
   thr_status st = thr_scratch_check(&own, err);
@@ -507,7 +508,8 @@ static thr_status smooth(const thr_mesh *mesh, float *normal, thr_err *err)
     return st;
   }
 
-  /* Normals and angles of the triangles; corners by point (a counting sort). */
+  /* Normals of the triangles, and weights: 1 - the cosine of the angle at each corner; corners by
+   * point (a counting sort). */
   for (int t = 0; t < n; t++) {
     double side[3][3];
     for (int i = 0; i < 3; i++) {
@@ -519,12 +521,13 @@ static thr_status smooth(const thr_mesh *mesh, float *normal, thr_err *err)
     }
     thr_cross(side[0], side[1], face[t]);
     thr_normalize(face[t]);
+    double length[3];
+    for (int i = 0; i < 3; i++)
+      length[i] = sqrt(thr_dot(side[i], side[i]));
     for (int i = 0; i < 3; i++) {
-      double before[3], cross[3];
-      for (int k = 0; k < 3; k++)
-        before[k] = -side[(i + 2) % 3][k];
-      thr_cross(side[i], before, cross);
-      angle[3 * t + i] = atan2(sqrt(thr_dot(cross, cross)), thr_dot(side[i], before));
+      int before = (i + 2) % 3;
+      double product = length[i] * length[before];
+      weight[3 * t + i] = product > 0 ? 1 + thr_dot(side[i], side[before]) / product : 0;
     }
   }
   for (int p = 0; p < mesh->n_points; p++)
@@ -543,7 +546,7 @@ static thr_status smooth(const thr_mesh *mesh, float *normal, thr_err *err)
       const double *other = face[at[j] / 3];
       if (thr_dot(own_face, other) < SMOOTH) continue;
       for (int k = 0; k < 3; k++)
-        sum[k] += angle[at[j]] * other[k];
+        sum[k] += weight[at[j]] * other[k];
     }
     if (thr_normalize(sum) <= 0) memcpy(sum, own_face, sizeof sum);
     for (int k = 0; k < 3; k++)
@@ -582,7 +585,7 @@ static void draw_piece(drawing *work, int p)
   const thr_mesh *mesh = &work->kit->mesh[piece->like];
   const float *normal = work->normal[piece->like];
   const thr_camera *camera = &work->view.camera;
-  double shift[3], turn[3][3];
+  double shift[3], middle[3], turn[3][3];
   int begin = THR_SAMPLE_PARTS * (work->band.begin - 1);
   int end = THR_SAMPLE_PARTS * (work->band.end + 1);
 
@@ -593,9 +596,11 @@ static void draw_piece(drawing *work, int p)
       turn[i][j] = axis[i][0] * piece->place[j] + axis[i][1] * piece->place[3 + j] +
                    axis[i][2] * piece->place[6 + j];
   shift_of(work, p, shift);
+  look_at(work, piece, shift, (const double[]){0, 0, 0}, middle);
   for (int i = 0; i < mesh->n_points; i++) {
     double at[3];
-    look_at(work, piece, shift, mesh->point[i], at);
+    for (int k = 0; k < 3; k++)
+      at[k] = middle[k] + thr_dot(turn[k], mesh->point[i]);
     put_spot(work, at, &work->spot[i]);
   }
 

@@ -174,18 +174,19 @@ static int place(signed char part)
   return (part + 128) >> 2;
 }
 
-/* Returns whether a line is drawn between two samples: another piece, an edge, or one part of a
- * piece in front of another. */
-static bool is_line(const thr_look *look, const thr_sample *a, const thr_sample *b)
+/* Returns how light a line between two samples is, 1: none. It is drawn to another piece and where
+ * one part of a piece is in front of another; faintly at edges, of which letters have many. */
+static double line_between(const thr_look *look, const thr_sample *a, const thr_sample *b)
 {
-  if (a->piece != b->piece) return true;
-  if (a->piece < 0) return false;
-  if (fabs((double)a->surface - b->surface) > 0.2 * look->width) return true;
+  static const double dark = 0.45, faint = 0.78;
+  if (a->piece != b->piece) return dark;
+  if (a->piece < 0) return 1;
+  if (fabs((double)a->surface - b->surface) > 0.2 * look->width) return dark;
 
   int dot = 0;
   for (int k = 0; k < 3; k++)
     dot += a->normal[k] * b->normal[k];
-  return dot < 127 * 127 * 0.5;
+  return dot < 127 * 127 * 0.5 ? faint : 1;
 }
 
 void thr_look_at(const thr_look *look, const thr_band *band, int x, int y, double ground,
@@ -214,12 +215,12 @@ void thr_look_at(const thr_look *look, const thr_band *band, int x, int y, doubl
   }
 
   /* Lines are as wide as a sample on either side. */
-  bool line = false;
+  double line = 1;
   for (int i = -1; i <= 1; i += 2) {
-    if (x + i >= 0 && x + i < band->width) line |= is_line(look, here, here + i);
+    if (x + i >= 0 && x + i < band->width) line = fmin(line, line_between(look, here, here + i));
     if (y + i >= band->begin && y + i < band->end)
-      line |= is_line(look, here, here + i * band->width);
+      line = fmin(line, line_between(look, here, here + i * band->width));
   }
   for (int k = 0; k < 3; k++)
-    sum[k] += fmin(colour[k], 1) * (line ? 0.45 : 1);
+    sum[k] += fmin(colour[k], 1) * line;
 }
