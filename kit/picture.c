@@ -1,0 +1,860 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Draws a kit: chooses where it is seen from, lays the cords along their channels, and draws band
+ * by band of the picture, so that memory does not grow with its height.
+ *
+ * A piece's mesh is turned into the picture once for every band that it reaches. Normals at the
+ * corners of triangles are means of those around, weighted by 1 - the cosine of their angles there
+ * (by the angles: G. Thuermer and C. Wuethrich, "Computing vertex normals from polygonal facets",
+ * J. Graphics Tools 3, 1998), but only of those that are turned by less than 40 degrees: rims stay
+ * sharp. */
+#include "kit/picture.h"
+
+#include "diagram/scene/scene.h"
+#include "diagram/space/space.h"
+#include "graph/number.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ROWS = 64, SIDES = 16, SHADOW = 320, JOIN = 10, MOST = 10000 };
+
+static const double SMOOTH = 0.766;              /* cosine of 40 degrees */
+static const double SLENDER = 0.15;              /* height of a triangle by its longest edge */
+static const double RIM = 0.045;                 /* of the picture, on every side */
+static const double DARKEST = 0.42;              /* of the ground below the pieces */
+static const double NEAR_BY = 0.8, HOLLOW = 0.7; /* widths of an arm; how much hollows darken */
+static const double TAIL = 2; /* of a node's radius: how far cords stick out of it */
+static const double AZIMUTH = -1.05, ELEVATION = 0.4; /* as in the overview's picture */
+
+/* A cord through a piece, or between two tubes. */
+typedef struct {
+  int first, n, colour; /* its points */
+} strand;
+
+/* While a picture is drawn. */
+typedef struct {
+  const thr_kit *kit;
+  const thr_kit_view *asked;
+  double explode, middle[3]; /* of all pieces */
+  double out;                /* how far cords stick out of faces, in widths of arms */
+  thr_camera_view view;      /* mm become samples */
+  double ground;             /* height of the lowest point, mm */
+  bool shaded;               /* is there a ground to draw a shadow on? */
+  float *shadow;             /* [SHADOW * SHADOW] 0 to 1 */
+  double corner[2], cell;    /* of the shadow's first cell, and the size of one, mm */
+  int *ordinal, *shared;     /* [passes] number in its bore; how many there are */
+  double (*point)[3];
+  strand *line;
+  int n_points, points_capacity, n_lines, lines_capacity;
+  double (*low)[3], (*high)[3]; /* [n_pieces] boxes in the picture: right, up, to the eye; mm */
+  float **normal;               /* [n_pieces] of a mesh: [n_triangles][3][3] */
+  thr_spot *spot;               /* [most points of a mesh] */
+  thr_sample *middle_of;        /* [px] the sample in the middle of each */
+  thr_band band;
+  thr_look look;
+  thr_scratch own;
+} drawing;
+
+/* Returns whether a piece is drawn. */
+static bool is_drawn(const drawing *work, int piece)
+{
+  return work->asked->alone == 0 || work->asked->alone == piece + 1;
+}
+
+/* Fills shift with what a piece is moved by, mm. */
+static void shift_of(const drawing *work, int piece, double shift[3])
+{
+  for (int k = 0; k < 3; k++)
+    shift[k] = (work->explode - 1) * (work->kit->piece[piece].centre[k] - work->middle[k]);
+}
+
+/* ---- cords ---- */
+
+/* Begins a strand of a cord, which pass k belongs to. */
+static thr_status begin_strand(drawing *work, const thr_copy *copy, int c, int k, thr_err *err)
+{
+  thr_status st =
+      thr_grow(&work->line, work->n_lines, &work->lines_capacity, sizeof *work->line, err);
+  if (st) return st;
+  int colour = work->kit->plan->n_cords == 1 ? k / THR_COLOUR_PASSES : copy[c].path;
+  work->line[work->n_lines++] = (strand){.first = work->n_points, .colour = colour % THR_COLOURS};
+  return THR_OK;
+}
+
+/* Adds a point to the last strand. */
+static thr_status add_point(drawing *work, const double at[3], thr_err *err)
+{
+  thr_status st =
+      thr_grow(&work->point, work->n_points, &work->points_capacity, sizeof *work->point, err);
+  if (st) return st;
+  memcpy(work->point[work->n_points++], at, sizeof *work->point);
+  work->line[work->n_lines - 1].n++;
+  return THR_OK;
+}
+
+/* Numbers the passes that share a bore. */
+static void share_bores(drawing *work, int *count)
+{
+  const thr_kit *kit = work->kit;
+  const thr_kit_edges *edges = &kit->edges;
+  for (int round = 0; round < 2; round++)
+    for (int c = 0; c < kit->plan->n_cords; c++)
+      for (int k = 0; k < kit->plan->cord[c].n_passes; k++) {
+        int pass = edges->first_pass[c] + k, e = kit->plan->cord[c].half[k] >> 1;
+        int lane = edges->edge[e].n_lanes > 1 ? edges->lane[pass] : 0;
+        int *here = &count[e * THR_KIT_MOST_LANES + lane];
+        if (round == 0)
+          work->ordinal[pass] = (*here)++;
+        else
+          work->shared[pass] = *here;
+      }
+}
+
+/* Fills off with where a pass is in its bore: beside the others. */
+static void place_in_bore(const drawing *work, int c, int k, double off[3])
+{
+  const thr_kit_edges *edges = &work->kit->edges;
+  int pass = edges->first_pass[c] + k, n = work->shared[pass];
+  const thr_kit_edge *edge = &edges->edge[work->kit->plan->cord[c].half[k] >> 1];
+  double room = n > 1 ? fmax(0.5 * (edge->bore - work->kit->cord), 0) : 0;
+  double angle = 2 * THR_PI * work->ordinal[pass] / n;
+  for (int i = 0; i < 3; i++)
+    off[i] = room * (cos(angle) * edge->up[i] + sin(angle) * edge->side[i]);
+}
+
+/* Adds a strand along a channel, shifted at its ends by off[0] and off[1]. */
+static thr_status follow(drawing *work, const thr_kit_piece *piece, const thr_kit_channel *channel,
+                         double off[2][3], thr_err *err)
+{
+  double shift[3];
+  shift_of(work, piece->piece, shift);
+  for (int i = 0; i < channel->n; i++) {
+    double part = fmin(fmax((i - 1.0) / (channel->n > 3 ? channel->n - 3 : 1), 0), 1), at[3];
+    for (int k = 0; k < 3; k++)
+      at[k] = channel->point[i][k] + (1 - part) * off[0][k] + part * off[1][k];
+    /* Curves run straight on beyond faces: they end there, or where the neighbour's begins.
+     * Outside, cords are cut off. */
+    int arm = i == 0 ? channel->in : channel->out;
+    if (i == 0 || i == channel->n - 1) {
+      const double *along = arm >= 0 ? piece->arm[arm].along : at;
+      double most = arm >= 0
+                        ? work->explode * piece->arm[arm].length + work->out * piece->arm[arm].width
+                        : TAIL * piece->node_radius;
+      double length = arm >= 0 ? thr_dot(at, along) : sqrt(thr_dot(at, at));
+      double unit = arm >= 0 || length <= 0 ? 1 : 1 / length;
+      for (int k = 0; k < 3; k++)
+        at[k] += fmin(most - length, 0) * unit * along[k];
+    }
+    if (piece->foot) at[2] = fmax(at[2], -piece->base);
+    for (int k = 0; k < 3; k++)
+      at[k] += piece->centre[k] + shift[k];
+    thr_status st = add_point(work, at, err);
+    if (st) return st;
+  }
+  return THR_OK;
+}
+
+/* Returns the channel by which pass k of cord c goes on with the next one, NULL if there is none.
+ * *back receives whether its curve runs the other way. */
+static const thr_kit_channel *find_channel(const thr_kit_piece *piece, const thr_cord *cord, int c,
+                                           int k, bool *back)
+{
+  int in = cord->half[k] ^ 1, out = cord->half[(k + 1) % cord->n_passes];
+  const thr_kit_channel *found = NULL;
+  for (int i = 0; i < piece->n_channels; i++) {
+    const thr_kit_channel *channel = &piece->channel[i];
+    if (channel->in < 0 || channel->out < 0) continue;
+    int ends[2] = {piece->arm[channel->in].half, piece->arm[channel->out].half};
+    bool same = ends[0] == in && ends[1] == out, turned = ends[0] == out && ends[1] == in;
+    if (!same && !turned) continue;
+    *back = !same;
+    found = channel;
+    if (channel->cord == c && channel->pass == k) break;
+  }
+  return found;
+}
+
+/* Lays the cords through solid pieces. */
+static thr_status lay_through_nodes(drawing *work, const thr_copy *copy, thr_err *err)
+{
+  const thr_kit *kit = work->kit;
+  for (int c = 0; c < kit->plan->n_cords; c++) {
+    const thr_cord *cord = &kit->plan->cord[c];
+    for (int k = 0; k < cord->n_passes - 1 + cord->closed; k++) {
+      int next = (k + 1) % cord->n_passes;
+      const thr_kit_piece *piece = &kit->piece[thr_head(&kit->plan->frame, cord->half[k])];
+      bool back;
+      const thr_kit_channel *channel = find_channel(piece, cord, c, k, &back);
+      if (!channel || !is_drawn(work, piece->piece)) continue;
+      double off[2][3];
+      place_in_bore(work, c, k, off[back]);
+      place_in_bore(work, c, next, off[!back]);
+      thr_status st = begin_strand(work, copy, c, k, err);
+      if (!st) st = follow(work, piece, channel, off, err);
+      if (st) return st;
+    }
+  }
+
+  /* Where cords end. */
+  for (int p = 0; p < kit->n_pieces; p++)
+    for (int i = 0; i < kit->piece[p].n_channels && is_drawn(work, p); i++) {
+      const thr_kit_channel *channel = &kit->piece[p].channel[i];
+      if (channel->in >= 0 && channel->out >= 0) continue;
+      const thr_cord *cord = &kit->plan->cord[channel->cord];
+      int k = channel->in < 0 ? (channel->pass + 1) % cord->n_passes : channel->pass;
+      double off[2][3] = {{0}, {0}};
+      place_in_bore(work, channel->cord, k, off[channel->in < 0]);
+      thr_status st = begin_strand(work, copy, channel->cord, k, err);
+      if (!st) st = follow(work, &kit->piece[p], channel, off, err);
+      if (st) return st;
+    }
+  return THR_OK;
+}
+
+/* Where a pass leaves its tube: the end, and the direction there. */
+typedef struct {
+  double at[3], along[3];
+} tube_end;
+
+/* Finds both ends of a pass in its tube, in the direction of the needle. */
+static void find_ends(const drawing *work, int c, int k, tube_end end[2])
+{
+  const thr_kit *kit = work->kit;
+  int half = kit->plan->cord[c].half[k], pass = kit->edges.first_pass[c] + k;
+  const thr_kit_piece *piece = &kit->piece[half >> 1];
+  const thr_kit_edge *edge = &kit->edges.edge[half >> 1];
+  const double *lane = edge->lane[edge->n_lanes > 1 ? kit->edges.lane[pass] : 0];
+  double off[3], shift[3], sign = half & 1 ? -1 : 1;
+  place_in_bore(work, c, k, off);
+  shift_of(work, piece->piece, shift);
+  for (int i = 0; i < 2; i++) {
+    const thr_kit_arm *arm = &piece->arm[(half & 1) ^ !i];
+    double reach = fmax(arm->length - (piece->rounded ? 0 : 0.75 * arm->width), 0.5 * arm->length);
+    for (int j = 0; j < 3; j++) {
+      end[i].along[j] = sign * edge->along[j];
+      end[i].at[j] = piece->centre[j] + shift[j] + off[j] + reach * arm->along[j] +
+                     lane[0] * edge->up[j] + lane[1] * edge->side[j];
+    }
+  }
+}
+
+/* Lays the cords through tubes, and from tube to tube by cubic curves. */
+static thr_status lay_through_tubes(drawing *work, const thr_copy *copy, thr_err *err)
+{
+  const thr_kit *kit = work->kit;
+  for (int c = 0; c < kit->plan->n_cords; c++) {
+    const thr_cord *cord = &kit->plan->cord[c];
+    for (int k = 0; k < cord->n_passes; k++) {
+      tube_end end[2], next[2];
+      if (!is_drawn(work, cord->half[k] >> 1)) continue;
+      find_ends(work, c, k, end);
+      thr_status st = begin_strand(work, copy, c, k, err);
+      if (!st) st = add_point(work, end[0].at, err);
+      if (!st) st = add_point(work, end[1].at, err);
+      if (st) return st;
+
+      if (k + 1 == cord->n_passes && !cord->closed) continue;
+      find_ends(work, c, (k + 1) % cord->n_passes, next);
+      double reach = 0.4 * thr_distance(end[1].at, next[0].at);
+      for (int i = 1; i <= JOIN && !work->asked->alone; i++) {
+        double t = (double)i / JOIN, u = 1 - t, at[3];
+        for (int j = 0; j < 3; j++)
+          at[j] = u * u * (u * end[1].at[j] + 3 * t * (end[1].at[j] + reach * end[1].along[j])) +
+                  t * t * (t * next[0].at[j] + 3 * u * (next[0].at[j] - reach * next[0].along[j]));
+        st = add_point(work, at, err);
+        if (st) return st;
+      }
+    }
+  }
+  return THR_OK;
+}
+
+/* Lays all cords. */
+static thr_status lay_cords(drawing *work, thr_err *err)
+{
+  const thr_kit *kit = work->kit;
+  thr_scratch own = {0};
+  size_t passes = (size_t)kit->edges.first_pass[kit->plan->n_cords];
+  thr_copy *copy = thr_scratch_array(&own, (size_t)kit->plan->n_cords, sizeof *copy);
+  int *count =
+      thr_scratch_array(&own, (size_t)kit->plan->frame.n_edges * THR_KIT_MOST_LANES, sizeof *count);
+  work->ordinal = thr_scratch_array(&work->own, passes + 1, sizeof *work->ordinal);
+  work->shared = thr_scratch_array(&work->own, passes + 1, sizeof *work->shared);
+  thr_status st = thr_scratch_check(&own, err);
+  if (!st) st = thr_scratch_check(&work->own, err);
+  if (!st) st = thr_copies_find(kit->plan, copy, err);
+  if (!st) {
+    share_bores(work, count);
+    st = kit->piece[0].tube ? lay_through_tubes(work, copy, err)
+                            : lay_through_nodes(work, copy, err);
+  }
+  thr_scratch_free(&own);
+  return st;
+}
+
+/* ---- the view ---- */
+
+/* Returns the direction to look from: as asked for, or into the mouth with the most light. */
+static thr_camera choose_camera(const drawing *work)
+{
+  const thr_kit_view *asked = work->asked;
+  if (asked->from) return thr_camera_at(asked->azimuth, asked->elevation);
+  if (!asked->alone) return thr_camera_at(AZIMUTH, ELEVATION);
+
+  const thr_kit_piece *piece = &work->kit->piece[asked->alone - 1];
+  const thr_kit_arm *widest = &piece->arm[0];
+  double most = -1;
+  for (int i = 0; i < piece->n_arms; i++) {
+    int mouths = 0;
+    for (int j = 0; j < piece->n_channels; j++)
+      mouths += (piece->channel[j].in == i) + (piece->channel[j].out == i);
+    double value = mouths + 0.5 * piece->arm[i].along[2];
+    if (value <= most) continue;
+    most = value;
+    widest = &piece->arm[i];
+  }
+  double azimuth = atan2(widest->along[1], widest->along[0]);
+  return thr_camera_at(azimuth - 0.55, fmin(fmax(asin(widest->along[2]) + 0.45, 0.35), 1.1));
+}
+
+/* Turns a mesh's point into the picture's directions, mm. */
+static void look_at(const drawing *work, const thr_kit_piece *piece, const double shift[3],
+                    const double point[3], double at[3])
+{
+  double place[3];
+  const thr_camera *camera = &work->view.camera;
+  thr_kit_place(piece, point, place);
+  for (int k = 0; k < 3; k++)
+    place[k] += shift[k];
+  at[0] = thr_dot(place, camera->right);
+  at[1] = thr_dot(place, camera->up);
+  at[2] = thr_dot(place, camera->eye);
+}
+
+/* Finds the boxes of all pieces, and the scale at which all is seen. */
+static void fit(drawing *work, const int size[2])
+{
+  const thr_kit *kit = work->kit;
+  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+  for (int p = 0; p < kit->n_pieces; p++) {
+    const thr_mesh *mesh = &kit->mesh[kit->piece[p].like];
+    double shift[3], at[3];
+    shift_of(work, p, shift);
+    for (int k = 0; k < 3; k++) {
+      work->low[p][k] = HUGE_VAL;
+      work->high[p][k] = -HUGE_VAL;
+    }
+    for (int i = 0; i < mesh->n_points && is_drawn(work, p); i++) {
+      look_at(work, &kit->piece[p], shift, mesh->point[i], at);
+      for (int k = 0; k < 3; k++) {
+        work->low[p][k] = fmin(work->low[p][k], at[k]);
+        work->high[p][k] = fmax(work->high[p][k], at[k]);
+      }
+    }
+    for (int k = 0; k < 2; k++) {
+      low[k] = fmin(low[k], work->low[p][k]);
+      high[k] = fmax(high[k], work->high[p][k]);
+    }
+  }
+
+  /* Cords stick out. */
+  for (int i = 0; i < work->n_points; i++) {
+    const double at[2] = {thr_dot(work->point[i], work->view.camera.right),
+                          thr_dot(work->point[i], work->view.camera.up)};
+    for (int k = 0; k < 2; k++) {
+      low[k] = fmin(low[k], at[k]);
+      high[k] = fmax(high[k], at[k]);
+    }
+  }
+
+  work->view.scale = HUGE_VAL;
+  for (int k = 0; k < 2; k++) {
+    work->view.size[k] = THR_SAMPLES * size[k];
+    work->view.scale =
+        fmin(work->view.scale, (1 - 2 * RIM) * work->view.size[k] / fmax(high[k] - low[k], 1e-6));
+  }
+  work->view.middle[0] = 0.5 * (low[0] + high[0]);
+  work->view.middle[1] = -0.5 * (low[1] + high[1]);
+}
+
+/* ---- the shadow on the ground ---- */
+
+/* Blurs the shadow once along rows or columns, over 2 radius + 1 cells. line: [SHADOW] */
+static void blur(float *shadow, int radius, bool columns, float *line)
+{
+  size_t next = columns ? SHADOW : 1, other = columns ? 1 : SHADOW;
+  for (size_t j = 0; j < SHADOW; j++) {
+    float *row = shadow + j * other;
+    double sum = 0;
+    for (int i = -radius; i < SHADOW; i++) {
+      if (i + radius < SHADOW) sum += row[(size_t)(i + radius) * next];
+      if (i - radius > 0) sum -= row[(size_t)(i - radius - 1) * next];
+      if (i >= 0) line[i] = (float)(sum / (2 * radius + 1));
+    }
+    for (size_t i = 0; i < SHADOW; i++)
+      row[i * next] = line[i];
+  }
+}
+
+/* Darkens the ground below all pieces: what is higher darkens less. */
+static void cast_shadow(drawing *work)
+{
+  const thr_kit *kit = work->kit;
+  double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  float line[SHADOW];
+
+  for (int pass = 0; pass < 2; pass++) {
+    for (int p = 0; p < kit->n_pieces; p++) {
+      const thr_mesh *mesh = &kit->mesh[kit->piece[p].like];
+      double shift[3], at[3];
+      shift_of(work, p, shift);
+      for (int i = 0; i < mesh->n_points && is_drawn(work, p); i++) {
+        thr_kit_place(&kit->piece[p], mesh->point[i], at);
+        for (int k = 0; k < 3; k++) {
+          at[k] += shift[k];
+          low[k] = pass ? low[k] : fmin(low[k], at[k]);
+          high[k] = pass ? high[k] : fmax(high[k], at[k]);
+        }
+        if (pass == 0) continue;
+        int x = (int)((at[0] - work->corner[0]) / work->cell);
+        int y = (int)((at[1] - work->corner[1]) / work->cell);
+        float *here = &work->shadow[y * SHADOW + x];
+        double part = exp(-(at[2] - low[2]) / (0.45 * (high[2] - low[2]) + kit->options.width));
+        *here = fmaxf(*here, (float)part);
+      }
+    }
+
+    /* A rim of a fifth is left for the blur. */
+    if (pass == 1) break;
+    double wide = fmax(high[0] - low[0], high[1] - low[1]);
+    work->cell = 1.4 * wide / SHADOW;
+    for (int k = 0; k < 2; k++)
+      work->corner[k] = 0.5 * (low[k] + high[k]) - 0.7 * wide;
+    work->ground = low[2];
+  }
+  for (int i = 0; i < 6; i++)
+    blur(work->shadow, SHADOW / 64, i & 1, line);
+}
+
+/* Returns how bright the ground is that sample x, y sees. */
+static double ground_at(const drawing *work, double x, double y)
+{
+  const thr_camera_view *view = &work->view;
+  const thr_camera *camera = &view->camera;
+  if (!work->shaded) return 1;
+
+  /* The point of the plane of view, then along the ray to the ground. */
+  double right = (x - 0.5 * view->size[0]) / view->scale + view->middle[0];
+  double up = -(y - 0.5 * view->size[1]) / view->scale - view->middle[1];
+  double at[3];
+  for (int k = 0; k < 3; k++)
+    at[k] = right * camera->right[k] + up * camera->up[k];
+  double far = (work->ground - at[2]) / camera->eye[2];
+  double cell[2], part[2];
+  int first[2];
+  for (int k = 0; k < 2; k++) {
+    cell[k] = (at[k] + far * camera->eye[k] - work->corner[k]) / work->cell - 0.5;
+    if (!(cell[k] >= 0 && cell[k] < SHADOW - 1)) return 1;
+    first[k] = (int)cell[k];
+    part[k] = cell[k] - first[k];
+  }
+  const float *four = &work->shadow[first[1] * SHADOW + first[0]];
+  double dark = (1 - part[1]) * ((1 - part[0]) * four[0] + part[0] * four[1]) +
+                part[1] * ((1 - part[0]) * four[SHADOW] + part[0] * four[SHADOW + 1]);
+  return 1 - DARKEST * dark;
+}
+
+/* ---- normals ---- */
+
+/* Gives a triangle that is almost a line the normal of its neighbour at the longest edge, as its
+ * own is but noise. at[first[p] .. first[p + 1] - 1]: corners at point p, three to a triangle. */
+static void borrow_normal(const thr_mesh *mesh, int t, const int *first, const int *at,
+                          double (*face)[3])
+{
+  const int *corner = mesh->triangle[t];
+  double length[3], cross[3], side[2][3];
+  int longest = 0;
+  for (int i = 0; i < 3; i++) {
+    length[i] = thr_distance(mesh->point[corner[i]], mesh->point[corner[(i + 1) % 3]]);
+    if (length[i] > length[longest]) longest = i;
+  }
+  int from = corner[longest], to = corner[(longest + 1) % 3];
+  for (int k = 0; k < 3; k++) {
+    side[0][k] = mesh->point[corner[1]][k] - mesh->point[corner[0]][k];
+    side[1][k] = mesh->point[corner[2]][k] - mesh->point[corner[0]][k];
+  }
+  thr_cross(side[0], side[1], cross);
+  if (sqrt(thr_dot(cross, cross)) > SLENDER * length[longest] * length[longest]) return;
+
+  for (int j = first[to]; j < first[to + 1]; j++)
+    if (at[j] / 3 != t && mesh->triangle[at[j] / 3][(at[j] % 3 + 1) % 3] == from)
+      memcpy(face[t], face[at[j] / 3], sizeof *face);
+}
+
+/* Fills normal[3 * 3 * n_triangles] of a mesh's corners. */
+static thr_status smooth(const thr_mesh *mesh, float *normal, thr_err *err)
+{
+  thr_scratch own = {0};
+  int n = mesh->n_triangles;
+  double(*face)[3] = thr_scratch_array(&own, (size_t)n + 1, sizeof *face);
+  double *weight = thr_scratch_array(&own, 3 * (size_t)n + 1, sizeof *weight);
+  int *first = thr_scratch_array(&own, (size_t)mesh->n_points + 2, sizeof *first);
+  int *at = thr_scratch_array(&own, 3 * (size_t)n + 1, sizeof *at);
+  thr_status st = thr_scratch_check(&own, err);
+  if (st) {
+    thr_scratch_free(&own);
+    return st;
+  }
+
+  /* Normals of the triangles, and weights: 1 - the cosine of the angle at each corner; corners by
+   * point (a counting sort). */
+  for (int t = 0; t < n; t++) {
+    double side[3][3];
+    for (int i = 0; i < 3; i++) {
+      const double *from = mesh->point[mesh->triangle[t][i]];
+      const double *to = mesh->point[mesh->triangle[t][(i + 1) % 3]];
+      for (int k = 0; k < 3; k++)
+        side[i][k] = to[k] - from[k];
+      first[mesh->triangle[t][i] + 2]++;
+    }
+    thr_cross(side[0], side[1], face[t]);
+    thr_normalize(face[t]);
+    double length[3];
+    for (int i = 0; i < 3; i++)
+      length[i] = sqrt(thr_dot(side[i], side[i]));
+    for (int i = 0; i < 3; i++) {
+      int before = (i + 2) % 3;
+      double product = length[i] * length[before];
+      weight[3 * t + i] = product > 0 ? 1 + thr_dot(side[i], side[before]) / product : 0;
+    }
+  }
+  for (int p = 0; p < mesh->n_points; p++)
+    first[p + 2] += first[p + 1];
+  for (int i = 0; i < 3 * n; i++)
+    at[first[mesh->triangle[i / 3][i % 3] + 1]++] = i;
+
+  for (int t = 0; t < n; t++)
+    borrow_normal(mesh, t, first, at, face);
+
+  for (int i = 0; i < 3 * n; i++) {
+    int p = mesh->triangle[i / 3][i % 3];
+    const double *own_face = face[i / 3];
+    double sum[3] = {0, 0, 0};
+    for (int j = first[p]; j < first[p + 1]; j++) {
+      const double *other = face[at[j] / 3];
+      if (thr_dot(own_face, other) < SMOOTH) continue;
+      for (int k = 0; k < 3; k++)
+        sum[k] += weight[at[j]] * other[k];
+    }
+    if (thr_normalize(sum) <= 0) memcpy(sum, own_face, sizeof sum);
+    for (int k = 0; k < 3; k++)
+      normal[3 * i + k] = (float)sum[k];
+  }
+  thr_scratch_free(&own);
+  return THR_OK;
+}
+
+/* ---- drawing ---- */
+
+/* Places a corner in the picture: a point in the picture's directions, mm. */
+static void put_spot(const drawing *work, const double at[3], thr_spot *spot)
+{
+  const thr_camera_view *view = &work->view;
+  double x = 0.5 * view->size[0] + view->scale * (at[0] - view->middle[0]);
+  double y = 0.5 * view->size[1] + view->scale * (-at[1] - view->middle[1]);
+  spot->at[0] = (int)floor(THR_SAMPLE_PARTS * (x - 0.5) + 0.5);
+  spot->at[1] = (int)floor(THR_SAMPLE_PARTS * (y - 0.5) + 0.5);
+  spot->depth = (float)at[2];
+}
+
+/* Returns whether what lies between two heights in the picture, mm, is in the band. */
+static bool in_band(const drawing *work, double low, double high)
+{
+  const thr_camera_view *view = &work->view;
+  double top = 0.5 * view->size[1] + view->scale * (-high - view->middle[1]);
+  double bottom = 0.5 * view->size[1] + view->scale * (-low - view->middle[1]);
+  return bottom >= work->band.begin - 1 && top <= work->band.end + 1;
+}
+
+/* Draws a piece into the band. */
+static void draw_piece(drawing *work, int p)
+{
+  const thr_kit_piece *piece = &work->kit->piece[p];
+  const thr_mesh *mesh = &work->kit->mesh[piece->like];
+  const float *normal = work->normal[piece->like];
+  const thr_camera *camera = &work->view.camera;
+  double shift[3], middle[3], turn[3][3];
+  int begin = THR_SAMPLE_PARTS * (work->band.begin - 1);
+  int end = THR_SAMPLE_PARTS * (work->band.end + 1);
+
+  /* From the mesh into the picture's directions. */
+  const double *axis[3] = {camera->right, camera->up, camera->eye};
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      turn[i][j] = axis[i][0] * piece->place[j] + axis[i][1] * piece->place[3 + j] +
+                   axis[i][2] * piece->place[6 + j];
+  shift_of(work, p, shift);
+  look_at(work, piece, shift, (const double[]){0, 0, 0}, middle);
+  for (int i = 0; i < mesh->n_points; i++) {
+    double at[3];
+    for (int k = 0; k < 3; k++)
+      at[k] = middle[k] + thr_dot(turn[k], mesh->point[i]);
+    put_spot(work, at, &work->spot[i]);
+  }
+
+  for (int t = 0; t < mesh->n_triangles; t++) {
+    thr_spot spot[3];
+    int above = 0, below = 0;
+    for (int i = 0; i < 3; i++) {
+      spot[i] = work->spot[mesh->triangle[t][i]];
+      above += spot[i].at[1] < begin;
+      below += spot[i].at[1] > end;
+    }
+    if (above == 3 || below == 3) continue;
+    for (int i = 0; i < 3; i++) {
+      const float *from = &normal[9 * (size_t)t + 3 * (size_t)i];
+      const double of_mesh[3] = {from[0], from[1], from[2]};
+      for (int k = 0; k < 3; k++)
+        spot[i].normal[k] = (float)thr_dot(turn[k], of_mesh);
+    }
+    thr_band_fill(&work->band, spot, p, 0);
+  }
+}
+
+/* Closes the end of a tube: a fan. ahead: does the curve end here? */
+static void close_end(drawing *work, const thr_spot *ring, const double along[3], bool ahead,
+                      int colour)
+{
+  const thr_camera *camera = &work->view.camera;
+  const double *axis[3] = {camera->right, camera->up, camera->eye};
+  for (int s = 1; s + 1 < SIDES; s++) {
+    thr_spot fan[3] = {ring[0], ring[ahead ? s + 1 : s], ring[ahead ? s : s + 1]};
+    for (int i = 0; i < 3; i++)
+      for (int k = 0; k < 3; k++)
+        fan[i].normal[k] = (float)((ahead ? 1 : -1) * thr_dot(along, axis[k]));
+    thr_band_fill(&work->band, fan, -1, colour);
+  }
+}
+
+/* Draws a strand into the band as a tube. */
+static void draw_strand(drawing *work, const strand *line)
+{
+  const thr_camera *camera = &work->view.camera;
+  const double(*point)[3] = (const double(*)[3])work->point + line->first;
+  double radius = 0.5 * work->kit->cord, up[3] = {0.31, 0.17, 0.93};
+  thr_spot ring[2][SIDES];
+
+  for (int i = 0; i < line->n; i++) {
+    /* A ring at right angles to the curve, turned as little as can be against the one before. */
+    const double *before = point[i > 0 ? i - 1 : 0], *after = point[i + 1 < line->n ? i + 1 : i];
+    double along[3], side[3];
+    for (int k = 0; k < 3; k++)
+      along[k] = after[k] - before[k];
+    thr_normalize(along);
+    thr_cross(along, up, side);
+    if (thr_normalize(side) < 1e-6) {
+      const double other[3] = {along[1], along[2], -along[0]};
+      thr_cross(along, other, side);
+      thr_normalize(side);
+    }
+    thr_cross(side, along, up);
+
+    for (int s = 0; s < SIDES; s++) {
+      double angle = 2 * THR_PI * s / SIDES, off[3], at[3];
+      for (int k = 0; k < 3; k++)
+        off[k] = cos(angle) * up[k] - sin(angle) * side[k];
+      double place[3];
+      for (int k = 0; k < 3; k++)
+        place[k] = point[i][k] + radius * off[k];
+      at[0] = thr_dot(place, camera->right);
+      at[1] = thr_dot(place, camera->up);
+      at[2] = thr_dot(place, camera->eye);
+      put_spot(work, at, &ring[i & 1][s]);
+      ring[i & 1][s].normal[0] = (float)thr_dot(off, camera->right);
+      ring[i & 1][s].normal[1] = (float)thr_dot(off, camera->up);
+      ring[i & 1][s].normal[2] = (float)thr_dot(off, camera->eye);
+    }
+    for (int s = 0; s < SIDES && i > 0; s++) {
+      const thr_spot *last = ring[(i - 1) & 1], *this = ring[i & 1];
+      int t = (s + 1) % SIDES;
+      thr_band_fill(&work->band, (thr_spot[]){last[s], this[t], last[t]}, -1, line->colour);
+      thr_band_fill(&work->band, (thr_spot[]){last[s], this[s], this[t]}, -1, line->colour);
+    }
+    if (i == 0 || i == line->n - 1) close_end(work, ring[i & 1], along, i > 0, line->colour);
+  }
+}
+
+/* Draws rows y .. y + ROWS - 1 of pixels. */
+static void draw_rows(drawing *work, int y, const int size[2], unsigned char *pixel)
+{
+  thr_band *band = &work->band;
+  int rows = size[1] - y < ROWS ? size[1] - y : ROWS;
+  /* Lines look at the neighbours of samples. */
+  band->begin = THR_SAMPLES * y - 1;
+  band->end = THR_SAMPLES * (y + rows) + 1;
+  for (int i = 0; i < band->width * (band->end - band->begin); i++)
+    band->sample[i] =
+        (thr_sample){.cord = -INFINITY, .surface = -INFINITY, .piece = -1, .colour = -1};
+
+  for (int i = 0; i < work->n_lines; i++) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (int k = 0; k < work->line[i].n; k++) {
+      double up = thr_dot(work->point[work->line[i].first + k], work->view.camera.up);
+      low = fmin(low, up - work->kit->cord);
+      high = fmax(high, up + work->kit->cord);
+    }
+    if (in_band(work, low, high)) draw_strand(work, &work->line[i]);
+  }
+  for (int p = 0; p < work->kit->n_pieces; p++)
+    if (is_drawn(work, p) && in_band(work, work->low[p][1], work->high[p][1])) draw_piece(work, p);
+
+  for (int row = y; row < y + rows; row++)
+    for (int x = 0; x < size[0]; x++) {
+      double sum[3] = {0, 0, 0}, n = THR_SAMPLES * THR_SAMPLES;
+      double ground = ground_at(work, THR_SAMPLES * (x + 0.5), THR_SAMPLES * (row + 0.5));
+      for (int i = 0; i < THR_SAMPLES * THR_SAMPLES; i++)
+        thr_look_at(&work->look, band, THR_SAMPLES * x + i % THR_SAMPLES,
+                    THR_SAMPLES * row + i / THR_SAMPLES, ground, sum);
+      size_t at = (size_t)row * (size_t)size[0] + (size_t)x;
+      for (size_t k = 0; k < 3; k++)
+        pixel[3 * at + k] = (unsigned char)(255 * sum[k] / n + 0.5);
+      work->middle_of[at] =
+          band->sample[(THR_SAMPLES * (row - y) + 2) * band->width + THR_SAMPLES * x + 1];
+    }
+}
+
+/* Darkens hollows and corners, where little of the sky is seen: the mean over points around of how
+ * far the surface rises there above the plane that touches it here (M. Mittring, "Finding next gen:
+ * CryEngine 2", SIGGRAPH 2007 courses). */
+static void darken_hollows(const drawing *work, const int size[2], unsigned char *pixel)
+{
+  enum { POINTS = 48 };
+  double reach = NEAR_BY * work->kit->options.width, px = work->view.scale / THR_SAMPLES;
+  int off[POINTS][2];
+  double right[POINTS], up[POINTS], away[POINTS];
+  for (int i = 0; i < POINTS; i++) {
+    /* A sunflower's seeds. */
+    double radius = reach * px * sqrt((i + 0.5) / POINTS), angle = i * THR_PI * (3 - sqrt(5));
+    off[i][0] = (int)lround(radius * cos(angle));
+    off[i][1] = (int)lround(radius * sin(angle));
+    right[i] = off[i][0] / px;
+    up[i] = -off[i][1] / px;
+    away[i] = hypot(right[i], up[i]);
+  }
+
+  for (int y = 0; y < size[1]; y++)
+    for (int x = 0; x < size[0]; x++) {
+      size_t at = (size_t)y * (size_t)size[0] + (size_t)x;
+      const thr_sample *here = &work->middle_of[at];
+      if (here->piece < 0 || here->normal[2] <= 0) continue;
+      double steep = fmax(here->normal[2], 20), dark = 0;
+      for (int i = 0; i < POINTS; i++) {
+        int u = x + off[i][0], v = y + off[i][1];
+        if (u < 0 || u >= size[0] || v < 0 || v >= size[1] || away[i] <= 0) continue;
+        const thr_sample *there = &work->middle_of[(size_t)v * (size_t)size[0] + (size_t)u];
+        if (there->piece < 0) continue;
+        double plane = -(here->normal[0] * right[i] + here->normal[1] * up[i]) / steep;
+        double rise = (double)there->surface - here->surface - plane;
+        /* What is far in front takes no light away. */
+        double fade = rise > reach ? reach / rise : 1;
+        dark += fade * fade * fmin(fmax(rise / away[i] - 0.2, 0), 1.5) / POINTS;
+      }
+      for (size_t k = 0; k < 3; k++)
+        pixel[3 * at + k] = (unsigned char)(pixel[3 * at + k] * (1 - fmin(HOLLOW * dark, 0.6)));
+    }
+}
+
+/* Prepares everything that all bands need. */
+static thr_status prepare(drawing *work, const int size[2], thr_err *err)
+{
+  const thr_kit *kit = work->kit;
+  size_t n = (size_t)kit->n_pieces, most = 1;
+  for (int p = 0; p < kit->n_pieces; p++) {
+    for (int k = 0; k < 3; k++)
+      work->middle[k] += kit->piece[p].centre[k] / kit->n_pieces;
+    if ((size_t)kit->mesh[p].n_points > most) most = (size_t)kit->mesh[p].n_points;
+  }
+  work->low = thr_scratch_array(&work->own, n, sizeof *work->low);
+  work->high = thr_scratch_array(&work->own, n, sizeof *work->high);
+  work->normal = thr_scratch_array(&work->own, n, sizeof *work->normal);
+  work->spot = thr_scratch_array(&work->own, most, sizeof *work->spot);
+  work->shadow = thr_scratch_array(&work->own, SHADOW * SHADOW, sizeof *work->shadow);
+  work->band.width = THR_SAMPLES * size[0];
+  work->band.sample = thr_scratch_array(
+      &work->own, (size_t)work->band.width * (THR_SAMPLES * ROWS + 2), sizeof *work->band.sample);
+  work->middle_of =
+      thr_scratch_array(&work->own, (size_t)size[0] * (size_t)size[1], sizeof *work->middle_of);
+  thr_status st = thr_scratch_check(&work->own, err);
+  if (!st) st = lay_cords(work, err);
+  if (st) return st;
+
+  work->view.camera = choose_camera(work);
+  fit(work, size);
+  work->shaded = !work->asked->alone && work->view.camera.eye[2] > 0.1;
+  if (work->shaded) cast_shadow(work);
+
+  for (int p = 0; p < kit->n_pieces && !st; p++) {
+    int like = kit->piece[p].like;
+    if (!is_drawn(work, p) || work->normal[like]) continue;
+    size_t corners = 9 * (size_t)kit->mesh[like].n_triangles;
+    work->normal[like] = thr_scratch_array(&work->own, corners + 1, sizeof(float));
+    st = thr_scratch_check(&work->own, err);
+    if (!st) st = smooth(&kit->mesh[like], work->normal[like], err);
+  }
+  return st;
+}
+
+thr_status thr_kit_pixels(const thr_kit *kit, const thr_kit_view *view, unsigned char **pixel,
+                          int size[2], thr_err *err)
+{
+  *pixel = NULL;
+  for (int k = 0; k < 2; k++) {
+    size[k] = view->size[k] ? view->size[k] : k ? 900 : 1200;
+    if (size[k] < 16 || size[k] > MOST)
+      return thr_fail(err, THR_EINPUT, "a picture is 16 to %d px wide and high, not %d", MOST,
+                      size[k]);
+  }
+  if (view->alone < 0 || view->alone > kit->n_pieces)
+    return thr_fail(err, THR_EINPUT, "the kit has %d pieces, not a piece %d", kit->n_pieces,
+                    view->alone);
+
+  drawing work = {.kit = kit, .asked = view, .explode = view->explode > 0 ? view->explode : 1};
+  work.out = view->alone ? 0.3 : 0;
+  double colour[THR_COLOURS][3];
+  for (int i = 0; i < THR_COLOURS; i++) {
+    long value = strtol(thr_palette(i).hex + 1, NULL, 16);
+    for (int k = 0; k < 3; k++)
+      colour[i][k] = (double)(value >> (16 - 8 * k) & 255) / 255;
+  }
+
+  thr_status st = prepare(&work, size, err);
+  if (!st) *pixel = thr_calloc((size_t)size[0] * (size_t)size[1], 3);
+  if (!st && !*pixel) st = thr_nomem(err);
+  if (!st) {
+    work.look.colour = (const double(*)[3])colour;
+    work.look.opaque = view->opaque;
+    work.look.width = kit->options.width;
+    thr_look_make(&work.look, (const double[]){0, work.view.camera.up[2], work.view.camera.eye[2]});
+    for (int y = 0; y < size[1]; y += ROWS)
+      draw_rows(&work, y, size, *pixel);
+    darken_hollows(&work, size, *pixel);
+  }
+
+  free(work.point);
+  free(work.line);
+  thr_scratch_free(&work.own);
+  return st;
+}
+
+thr_status thr_kit_picture(const thr_kit *kit, const thr_kit_view *view, thr_text *png,
+                           thr_err *err)
+{
+  unsigned char *pixel;
+  int size[2];
+  thr_status st = thr_kit_pixels(kit, view, &pixel, size, err);
+  if (!st) st = thr_png_write(pixel, size, png, err);
+  free(pixel);
+  return st;
+}
