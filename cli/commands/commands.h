@@ -122,6 +122,9 @@ extern const cli_option pull_options[], pull_tuned[], pull_run_options[];
 /* The name of a method, or "all", for the rows of --method that commands have. */
 const char *pull_method_name(int method);
 
+/* Returns whether a method is among those that were asked for. The closed form always is. */
+bool pull_wants(const pull_args *args, thr_method method);
+
 /* Checks that what was asked makes sense together. Returns EXIT_OK, or prints and returns the code.
  */
 int pull_check(const pull_args *a, const char *command);

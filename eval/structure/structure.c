@@ -1205,3 +1205,35 @@ thr_status thr_eval_holds_from(const thr_frame *frame, const thr_cord *cord,
   thr_beads_destroy(&beads);
   return st == THR_ENOMEM || st == THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
+
+/* Simulates the fall of a structure whose limit analysis is known; see eval.h. */
+thr_status thr_eval_settle(const thr_frame *frame, const thr_cord *cord, const thr_eval *eval,
+                           const thr_eval_options *options, const thr_limits *limits,
+                           thr_settle *out, thr_err *err)
+{
+  const thr_evaluation *evaluation = &eval->record;
+  const thr_settle_options how = options_between(options, eval->holding.lower, eval->holding.upper);
+  double **tension = thr_calloc((size_t)evaluation->n_cords, sizeof *tension);
+  thr_beads beads = {0};
+  thr_status st =
+      tension ? thr_beads_make(frame, &evaluation->physics, &beads, err) : thr_nomem(err);
+
+  /* The tensions of the record are those of the lower bound; the simulation takes those of 1 N. */
+  for (int i = 0; i < evaluation->n_cords && !st; i++) {
+    const thr_eval_cord *drawn = &evaluation->cord[i];
+    tension[i] = thr_calloc((size_t)drawn->n_passes, sizeof **tension);
+    if (!tension[i]) st = thr_nomem(err);
+    for (int k = 0; k < drawn->n_passes && !st; k++)
+      tension[i][k] = drawn->tension[k] / how.least;
+  }
+
+  if (!st)
+    st = thr_settle_run(&beads, frame, cord, evaluation->n_cords, (const double *const *)tension,
+                        NULL, &evaluation->physics, &how, limits, out, err);
+
+  for (int i = 0; i < evaluation->n_cords && tension; i++)
+    free(tension[i]);
+  free(tension);
+  thr_beads_destroy(&beads);
+  return st;
+}
