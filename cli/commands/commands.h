@@ -146,4 +146,27 @@ double pull_percent(double error);
 /* Appends the cords that are not known: "A, C, D and 4 more". */
 void pull_unknown_cords(const thr_plan *plan, const thr_evaluation *evaluation, thr_text *text);
 
+/* ---- eval_pictures.c: Writes the pictures of `thread eval`. */
+
+/* Draws the tension along each cord, N, with a fan from mu_low to mu_high where the method has one:
+ * the limit analysis has none, a schedule neither, and beyond 1e300 N nothing is drawn. Lines show
+ * what a hand manages and what the cord bears. strength: N that is left of the cord at its knots,
+ * 0 = not known. Returns an exit code. */
+int eval_write_plot(const thr_plan *plan, double strength, const char *path);
+
+/* Draws what of the load is carried against the pull at all ends, N: from the multiple at which an
+ * equilibrium was found to the one above which none exists, and which piece moves first. load: as
+ * given. Returns an exit code. */
+int eval_write_load_plot(const thr_plan *plan, const thr_eval *eval, const char *load,
+                         const char *path);
+
+/* Writes the picture of the fall, unless there is nothing to draw. stopped: as for write_stills.
+ * Returns an exit code. */
+int eval_write_still(const thr_plan *plan, const thr_settle *settle, bool stopped,
+                     const char *path);
+
+/* Writes the picture of how the structure comes up. stopped: the user or a limit ended the work,
+ * which is no error of this picture. Returns an exit code. */
+int eval_write_stills(const thr_plan *plan, const thr_erect *erect, bool stopped, const char *path);
+
 #endif

@@ -8,9 +8,9 @@
  * else. Memory that runs out is kept in text->failed, which whoever writes the text reports.
  *
  * Read plain.c first: forces and proofs in words, which all others use. Then, by command:
- * plan_summary.c with turning_summary.c, symmetry_table.c and seated.c (thread plan); terms.c
- * (thread check); eval_text.c, eval_json.c and load_words.c (thread eval); compare_rows.c and
- * ranking.c, compare_rankings.c and compare_table.c (thread compare); advice_table.c (thread
+ * plan_summary.c with turning_summary.c, symmetry_table.c and seated.c (thread plan); verdict.c and
+ * terms.c (thread check); eval_text.c, eval_json.c and load_words.c (thread eval); compare_rows.c
+ * and ranking.c, compare_rankings.c and compare_table.c (thread compare); advice_table.c (thread
  * advise). */
 #ifndef THR_PRINT_H
 #define THR_PRINT_H
@@ -28,6 +28,7 @@
 #include "graph/plan/request.h"
 #include "graph/status.h"
 #include "graph/text.h"
+#include "lib/lib.h"
 #include "lp/length/postman.h"
 #include "planner/planner.h"
 #include "symmetry/symmetry.h"
@@ -62,6 +63,11 @@ void plain_put_proof(thr_text *text, bool optimal, double value, double bound, c
  * before little length; of a symmetric plan as what the symmetry may cost, since the bound is one
  * of any cords. */
 void plain_put_length_proof(thr_text *text, const thr_plan *plan);
+
+/* Appends the same of the price of all turns, and of the cord that turns most or is hardest to
+ * pull. */
+void plain_put_turning_proof(thr_text *text, const thr_plan *plan);
+void plain_put_largest_proof(thr_text *text, const thr_plan *plan);
 
 /* Appends "; proved: fewer than 3 cords are impossible within that pull" for cords " cords" and
  * within " within that pull". Where several cords were asked for, smaller numbers are not what is
@@ -142,6 +148,41 @@ void terms_put(thr_text *text, const thr_plan *plan);
 
 /* Writes the same as members of an open object. */
 void terms_put_json(thr_writer *writer, const thr_plan *plan);
+
+/* ---- facts.c: Prints what `thread info` found out. */
+
+enum { FACTS_DEGREES = 64 };
+
+/* What was found out about a framework. */
+typedef struct {
+  int degree[FACTS_DEGREES + 1]; /* nodes of each degree; the last counts all higher ones too */
+  int odd, components, bridges, feet;
+  double shortest, longest;
+  bool analysed;
+  thr_rigidity rigidity;
+  bool planned; /* the framework came in a plan */
+  int n_untied;
+  bool *untied;      /* [n_nodes] planned: owned */
+  bool channels;     /* planned with solid joints: they run through pieces */
+  int64_t crossings; /* of two channels in a piece */
+  int crossed;       /* pieces with one */
+  int n_assumptions;
+  thr_assumption assumption[THR_ASSUMPTIONS];
+} frame_facts;
+
+/* Appends all facts, and as what the file was read. */
+void facts_put(thr_text *text, const thr_frame *frame, const frame_facts *info);
+
+/* Appends the same as a JSON object and a newline. */
+void facts_put_json(thr_text *text, const thr_frame *frame, const frame_facts *info);
+
+/* ---- verdict.c: Prints what `thread check` has verified. */
+
+/* Appends what a plan that holds says of itself, a line and its terms. */
+void verdict_put(thr_text *text, const char *path, const thr_plan *plan);
+
+/* Appends the verdict as one line of JSON. err: what is wrong with the plan, code 0 if it holds. */
+void verdict_put_json(thr_text *text, const char *path, const thr_plan *plan, const thr_err *err);
 
 /* ---- load_words.c: Prints what part of a load is carried, in words and as JSON. */
 
