@@ -12,6 +12,9 @@
 #include "cli/cli.h"
 #include "cli/print/print.h"
 #include "graph/check/check.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <math.h>
 #include <stdlib.h>

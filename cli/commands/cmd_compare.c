@@ -16,6 +16,12 @@
 #include "cli/args/args.h"
 #include "cli/print/print.h"
 #include "diagram/overview/charts.h"
+#include "eval/eval.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -24,6 +24,8 @@
 #include "cli/args/args.h"
 #include "cli/commands/commands.h"
 #include "cli/print/print.h"
+#include "eval/cord/profile.h"
+#include "graph/plan/physics.h"
 
 #include <stdlib.h>
 #include <string.h>

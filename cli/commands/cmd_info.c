@@ -14,6 +14,13 @@
  * Example: the 7 x 7 dome has 49 nodes, 84 edges, 20 odd nodes and 57 such motions (3 x 49 - 84 -
  * 6). */
 #include "cli/print/print.h"
+#include "eval/structure/beads.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/plan_measures.h"
+#include "graph/status.h"
+#include "graph/text.h"
+#include "lib/lib.h"
 
 #include <stdlib.h>
 #include <string.h>

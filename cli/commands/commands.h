@@ -6,14 +6,15 @@
 
 #include "cli/args/args.h"
 #include "cli/cli.h"
-#include "diagram/scene/scene.h"
 #include "diagram/overview/overview.h"
+#include "diagram/scene/scene.h"
 #include "eval/eval.h"
+#include "eval/structure/beads.h"
 #include "graph/limits.h"
+#include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
 #include "graph/text.h"
-#include "graph/plan/evaluation.h"
 
 #include <stdbool.h>
 

@@ -3,7 +3,11 @@
  * twice each: the second time with half the time step, so that what only one of them says is no
  * difference. */
 #include "cli/print/print.h"
+#include "eval/eval.h"
+#include "eval/structure/beads.h"
+#include "graph/limits.h"
 #include "graph/process/process.h"
+#include "graph/status.h"
 
 #include <stdlib.h>
 

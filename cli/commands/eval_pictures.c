@@ -5,6 +5,8 @@
 #include "cli/commands/commands.h"
 #include "cli/print/print.h"
 #include "diagram/overview/charts.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/physics.h"
 
 #include <math.h>
 #include <stdio.h>
