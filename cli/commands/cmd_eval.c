@@ -21,7 +21,6 @@
  *
  * Example: `thread eval plan.json --mu 0.3 -o plan.json --plot tension.svg` stores the tension of
  * every pass in the plan and draws it along each cord. */
-#include "cli/args/args.h"
 #include "cli/commands/commands.h"
 #include "cli/print/print.h"
 #include "eval/cord/profile.h"

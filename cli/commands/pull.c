@@ -18,7 +18,6 @@
 #include "graph/framework/frame.h"
 #include "graph/os.h"
 #include "graph/plan/physics.h"
-#include "graph/plan/plan.h"
 
 #include <math.h>
 #include <stdio.h>
