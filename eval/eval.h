@@ -134,6 +134,13 @@ void thr_eval_destroy(thr_eval *eval);
 /* Beyond so many pieces the limit analysis takes longer than half a second. */
 enum { THR_HOLDS_LARGEST = 500 };
 
+/* Simulates in this process, which Bullet may end, how the structure falls when the holding pull
+ * that method structure found for it is let off: > 0, and with the tensions of the record. options:
+ * start, time_step, iterations, seed and large. Release out with thr_settle_destroy. */
+thr_status thr_eval_settle(const thr_frame *frame, const thr_cord *cord, const thr_eval *eval,
+                           const thr_eval_options *options, const thr_limits *limits,
+                           thr_settle *out, thr_err *err) THR_MUST_CHECK;
+
 /* Computes the factor below which no multiple of an evaluation's tensions holds the pieces together
  * while the cords are drawn in (one programme of the limit analysis, proved at the frictions of the
  * evaluation). *times receives 0 if the pieces may need no pull, INFINITY if no multiple holds

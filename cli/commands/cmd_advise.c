@@ -15,19 +15,13 @@
  * Example: of the 7 x 7 dome `thread advise dome.json` recommends 4 cords to the feet, pulled with
  * 3.27 N at most. */
 #include "cli/commands/commands.h"
-#include "cli/args/args.h"
-#include "cli/cli.h"
 #include "cli/print/print.h"
 #include "diagram/overview/charts.h"
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"
-#include "graph/limits.h"
 #include "graph/plan/plan_measures.h"
 #include "graph/plan/physics.h"
-#include "graph/plan/plan.h"
 #include "graph/plan/request.h"
-#include "graph/status.h"
-#include "graph/text.h"
 #include "planner/planner.h"
 
 #include <stdio.h>

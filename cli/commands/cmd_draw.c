@@ -12,12 +12,8 @@
  *
  * Example: `thread draw plan.json -T all -o diagrams/` writes overview.svg, steps.txt, sheets.pdf
  * and more into diagrams/. */
-#include "cli/cli.h"
 #include "cli/commands/commands.h"
-#include "diagram/overview/overview.h"
 #include "graph/io/read.h"
-#include "graph/plan/plan.h"
-#include "graph/text.h"
 #include "lib/lib.h"
 
 #include <stdio.h>

@@ -6,14 +6,15 @@
 
 #include "cli/args/args.h"
 #include "cli/cli.h"
-#include "diagram/scene/scene.h"
 #include "diagram/overview/overview.h"
+#include "diagram/scene/scene.h"
 #include "eval/eval.h"
+#include "eval/structure/beads.h"
 #include "graph/limits.h"
+#include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
 #include "graph/text.h"
-#include "graph/plan/evaluation.h"
 
 #include <stdbool.h>
 
@@ -122,6 +123,9 @@ extern const cli_option pull_options[], pull_tuned[], pull_run_options[];
 /* The name of a method, or "all", for the rows of --method that commands have. */
 const char *pull_method_name(int method);
 
+/* Returns whether a method is among those that were asked for. The closed form always is. */
+bool pull_wants(const pull_args *args, thr_method method);
+
 /* Checks that what was asked makes sense together. Returns EXIT_OK, or prints and returns the code.
  */
 int pull_check(const pull_args *a, const char *command);
@@ -142,5 +146,28 @@ double pull_percent(double error);
 
 /* Appends the cords that are not known: "A, C, D and 4 more". */
 void pull_unknown_cords(const thr_plan *plan, const thr_evaluation *evaluation, thr_text *text);
+
+/* ---- eval_pictures.c: Writes the pictures of `thread eval`. */
+
+/* Draws the tension along each cord, N, with a fan from mu_low to mu_high where the method has one:
+ * the limit analysis has none, a schedule neither, and beyond 1e300 N nothing is drawn. Lines show
+ * what a hand manages and what the cord bears. strength: N that is left of the cord at its knots,
+ * 0 = not known. Returns an exit code. */
+int eval_write_plot(const thr_plan *plan, double strength, const char *path);
+
+/* Draws what of the load is carried against the pull at all ends, N: from the multiple at which an
+ * equilibrium was found to the one above which none exists, and which piece moves first. load: as
+ * given. Returns an exit code. */
+int eval_write_load_plot(const thr_plan *plan, const thr_eval *eval, const char *load,
+                         const char *path);
+
+/* Writes the picture of the fall, unless there is nothing to draw. stopped: as for write_stills.
+ * Returns an exit code. */
+int eval_write_still(const thr_plan *plan, const thr_settle *settle, bool stopped,
+                     const char *path);
+
+/* Writes the picture of how the structure comes up. stopped: the user or a limit ended the work,
+ * which is no error of this picture. Returns an exit code. */
+int eval_write_stills(const thr_plan *plan, const thr_erect *erect, bool stopped, const char *path);
 
 #endif

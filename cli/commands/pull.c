@@ -18,7 +18,6 @@
 #include "graph/framework/frame.h"
 #include "graph/os.h"
 #include "graph/plan/physics.h"
-#include "graph/plan/plan.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -172,10 +171,15 @@ const cli_option pull_tuned[] = {
     {"start", .kind = CLI_AMOUNT, AT(options.start), .low = 1e-9, .high = 1e12},
     {0}};
 
+bool pull_wants(const pull_args *args, thr_method method)
+{
+  return method == THR_CAPSTAN || args->method == (int)method || args->method == PULL_ALL_METHODS;
+}
+
 /* Refuses options that would be ignored. */
 int pull_check(const pull_args *args, const char *command)
 {
-  bool one = args->method != PULL_ALL_METHODS, structure = args->method == THR_STRUCTURE || !one;
+  const bool structure = pull_wants(args, THR_STRUCTURE);
   bool closed = args->method == THR_CAPSTAN || strcmp(command, "compare") == 0;
 
   /* thread compare shows the closed form whatever the method. */

@@ -12,7 +12,6 @@
 
 #include "cli/commands/commands.h"
 #include "graph/io/read.h"
-#include "cli/cli.h"
 #include "diagram/export/paper.h"
 #include "eval/cord/profile.h"
 #include "graph/number.h"

@@ -156,3 +156,21 @@ void plain_put_hand(thr_text *text, double newton)
     thr_text_printf(text, "within the %s that a hand manages time after time",
                     plain_force(thr_hand_always, force));
 }
+
+void plain_put_turning_proof(thr_text *text, const thr_plan *plan)
+{
+  const thr_turning_claim *claim = &plan->turning;
+  const bool angles = plan->options.turning.cost == THR_TURN_ANGLE;
+  plain_put_proof(text, claim->optimal, claim->price, claim->lower_bound,
+                  angles ? "nothing turns less" : "nothing has a lower price", "least possible");
+}
+
+void plain_put_largest_proof(thr_text *text, const thr_plan *plan)
+{
+  const thr_turning_claim *claim = &plan->turning;
+  const char *less = thr_wants_pull(&plan->options)                 ? "it cannot be less"
+                     : plan->options.turning.cost == THR_TURN_ANGLE ? "it cannot turn less"
+                                                                    : "it cannot cost less";
+  plain_put_proof(text, claim->largest_optimal, claim->largest, claim->largest_bound, less,
+                  "least possible");
+}

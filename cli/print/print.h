@@ -8,9 +8,10 @@
  * else. Memory that runs out is kept in text->failed, which whoever writes the text reports.
  *
  * Read plain.c first: forces and proofs in words, which all others use. Then, by command:
- * plan_summary.c with turning_summary.c, symmetry_table.c and seated.c (thread plan); terms.c
- * (thread check); eval_text.c, eval_json.c and load_words.c (thread eval); compare_rows.c and
- * ranking.c (thread compare); advice_table.c (thread advise). */
+ * plan_summary.c with turning_summary.c, symmetry_table.c and seated.c (thread plan); verdict.c and
+ * terms.c (thread check); eval_text.c, eval_json.c and load_words.c (thread eval); compare_rows.c
+ * and ranking.c, compare_rankings.c and compare_table.c (thread compare); advice_table.c (thread
+ * advise). */
 #ifndef THR_PRINT_H
 #define THR_PRINT_H
 
@@ -27,6 +28,7 @@
 #include "graph/plan/request.h"
 #include "graph/status.h"
 #include "graph/text.h"
+#include "lib/lib.h"
 #include "lp/length/postman.h"
 #include "planner/planner.h"
 #include "symmetry/symmetry.h"
@@ -61,6 +63,11 @@ void plain_put_proof(thr_text *text, bool optimal, double value, double bound, c
  * before little length; of a symmetric plan as what the symmetry may cost, since the bound is one
  * of any cords. */
 void plain_put_length_proof(thr_text *text, const thr_plan *plan);
+
+/* Appends the same of the price of all turns, and of the cord that turns most or is hardest to
+ * pull. */
+void plain_put_turning_proof(thr_text *text, const thr_plan *plan);
+void plain_put_largest_proof(thr_text *text, const thr_plan *plan);
 
 /* Appends "; proved: fewer than 3 cords are impossible within that pull" for cords " cords" and
  * within " within that pull". Where several cords were asked for, smaller numbers are not what is
@@ -142,6 +149,41 @@ void terms_put(thr_text *text, const thr_plan *plan);
 /* Writes the same as members of an open object. */
 void terms_put_json(thr_writer *writer, const thr_plan *plan);
 
+/* ---- facts.c: Prints what `thread info` found out. */
+
+enum { FACTS_DEGREES = 64 };
+
+/* What was found out about a framework. */
+typedef struct {
+  int degree[FACTS_DEGREES + 1]; /* nodes of each degree; the last counts all higher ones too */
+  int odd, components, bridges, feet;
+  double shortest, longest;
+  bool analysed;
+  thr_rigidity rigidity;
+  bool planned; /* the framework came in a plan */
+  int n_untied;
+  bool *untied;      /* [n_nodes] planned: owned */
+  bool channels;     /* planned with solid joints: they run through pieces */
+  int64_t crossings; /* of two channels in a piece */
+  int crossed;       /* pieces with one */
+  int n_assumptions;
+  thr_assumption assumption[THR_ASSUMPTIONS];
+} frame_facts;
+
+/* Appends all facts, and as what the file was read. */
+void facts_put(thr_text *text, const thr_frame *frame, const frame_facts *info);
+
+/* Appends the same as a JSON object and a newline. */
+void facts_put_json(thr_text *text, const thr_frame *frame, const frame_facts *info);
+
+/* ---- verdict.c: Prints what `thread check` has verified. */
+
+/* Appends what a plan that holds says of itself, a line and its terms. */
+void verdict_put(thr_text *text, const char *path, const thr_plan *plan);
+
+/* Appends the verdict as one line of JSON. err: what is wrong with the plan, code 0 if it holds. */
+void verdict_put_json(thr_text *text, const char *path, const thr_plan *plan, const thr_err *err);
+
 /* ---- load_words.c: Prints what part of a load is carried, in words and as JSON. */
 
 /* Appends the pull that carries all of the load, a line per pull with what is carried, and one of
@@ -198,6 +240,8 @@ void eval_put_json(thr_text *text, const thr_plan *plan, const thr_eval *eval, b
 
 /* ---- compare_rows.c: The table of `thread compare`: a row per value, a column per plan. */
 
+enum { COMPARE_ROWS = 30 };
+
 /* A plan with all that was found about it. */
 typedef struct {
   const char *path;
@@ -206,12 +250,12 @@ typedef struct {
   double fall[2], fall_error[2]; /* N, in simulation at the settings given and with half the time
                                     step; NAN = did not fall, or never came to rest */
   bool contradicted;             /* that is said of the plan */
+  double value[COMPARE_ROWS];    /* of each row; NAN = not known, INFINITY = beyond 1e300 */
 } compare_entry;
 
 /* A row of the table. */
 typedef struct {
   const char *label, *key;
-  double (*value)(const compare_entry *); /* NAN = not known, INFINITY = beyond 1e300 */
   bool rate;         /* less is better; rows that say what a plan is, not how good, mark nothing */
   int decimals;      /* -1: whole number, -k: k significant digits */
   thr_method method; /* that must be wanted */
@@ -219,26 +263,67 @@ typedef struct {
   bool machinery;    /* in the text only with --verbose: what proofs are made of */
 } compare_row;
 
-extern const compare_row compare_rows[];
-extern const int compare_n_rows;
+extern const compare_row compare_rows[COMPARE_ROWS];
+
+/* Fills in the values of all rows from the plan, its evaluations and its fall. */
+void compare_measure(compare_entry *entry);
 
 /* Returns the largest pull by a method, N; of method structure the proved lower bound of the
  * holding pull. NAN if a cord is not known. */
 double compare_largest(const compare_entry *e, thr_method method);
 
-/* Returns whether plan i is the best of n plans in row r. Values within a millionth tie: both are.
+/* Returns whether plan i is the best of n plans in a row. Values within a millionth tie: both are.
  */
-bool compare_is_best(const compare_entry *e, int n, const compare_row *r, int i);
+bool compare_is_best(const compare_entry *e, int n, int row, int i);
 
 /* Returns whether plan i is on the frontier: no other plan beats it in cord, number of cords and
  * pull (as measured, if that of every plan is). */
 bool compare_on_frontier(const compare_entry *e, int n, int i);
 
-/* Returns whether row r is in the text for n plans. */
-bool compare_is_shown(const compare_entry *e, int n, const compare_row *r);
+/* Returns whether a row is in the text for n plans. */
+bool compare_is_shown(const compare_entry *e, int n, int row);
 
 /* Appends a space, a value in 16 columns, and the mark of the best. */
-void compare_put_cell(thr_text *text, const compare_row *r, double value, bool best);
+void compare_put_cell(thr_text *text, int row, double value, bool best);
+
+/* ---- compare_rankings.c: A ranking for each question that was asked of the plans. */
+
+enum { COMPARE_RANKINGS = 9 };
+
+/* Fills `rankings` with those of the wanted methods and *count with their number. On failure the
+ * rankings so far, and the one that failed, can be released. */
+thr_status compare_rank(const pull_args *args, const compare_entry *entries, int n,
+                        ranking *rankings, int *count, thr_err *err) THR_MUST_CHECK;
+
+/* Returns whether no two rankings contradict each other: ties do not. */
+bool compare_agree(const ranking *rankings, int count);
+
+/* Appends whether the rankings agree. If all of them are about the pull while cords are drawn in,
+ * agreement says little, and the sentence says so. */
+void compare_put_agreement(const ranking *rankings, int count, const char *const *name,
+                           thr_text *text);
+
+/* ---- compare_table.c: Prints the comparison. */
+
+/* Returns whether two plans were evaluated with the same cord and beads. */
+bool compare_same_physics(const compare_entry *one, const compare_entry *other);
+
+/* Appends the table, what it was computed with, and the rankings with what the bands of friction
+ * change about them; or all of it as JSON. name[n]: of the plans. */
+void compare_put_text(thr_text *text, const pull_args *args, const compare_entry *entries, int n,
+                      const ranking *rankings, int count, const char *const *name);
+void compare_put_json(thr_text *text, const pull_args *args, const compare_entry *entries, int n,
+                      const ranking *rankings, int count, const char *const *name);
+
+/* Appends how the pulls of the picture were found: "Pull at both ends of every cord, so that 1 N is
+ * left where it is slackest ..". */
+void compare_put_note(thr_text *text, const pull_args *args, const compare_entry *entries, int n);
+
+/* ---- cli/commands/compare_settle.c: Simulates the structures that are compared. */
+
+/* Simulates every structure twice, the second time with half the time step, except where no pull is
+ * needed: then there is none to let off. Returns an exit code. */
+int compare_settle(const pull_args *args, compare_entry *entries, int n);
 
 /* ---- advice_table.c: Prints the table of `thread advise`, as text and as JSON, and the command
  * that makes the recommended plan. */

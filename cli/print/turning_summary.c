@@ -290,11 +290,7 @@ static void put_largest(thr_text *text, const thr_plan *plan)
   const bool pull = thr_wants_pull(&plan->options);
   thr_text_append(text, pull ? ", what an end of the cord that is hardest to pull has to overcome; "
                              : ", the cord that turns most; ");
-  plain_put_proof(text, claim->largest_optimal, claim->largest, claim->largest_bound,
-                  pull              ? "it cannot be less"
-                  : in_angles(plan) ? "it cannot turn less"
-                                    : "it cannot cost less",
-                  "least possible");
+  plain_put_largest_proof(text, plan);
   thr_text_append(text, "\n");
 }
 
@@ -366,9 +362,7 @@ void turning_put_status(thr_text *text, const thr_plan *plan, const thr_rivals *
     put_open_status(text, plan, rivals);
   } else {
     thr_text_append(text, "; ");
-    plain_put_proof(text, claim->optimal, claim->price, claim->lower_bound,
-                    in_angles(plan) ? "nothing turns less" : "nothing has a lower price",
-                    "least possible");
+    plain_put_turning_proof(text, plan);
     thr_text_append(text, "\n");
 
     /* The largest cord has a bound of its own if there are several, or if it is what is

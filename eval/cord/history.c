@@ -404,7 +404,7 @@ static thr_status take_state(const cord_state *state, double hardest, thr_eval_c
   out->other_force = 0;
   out->work = hardest;
   out->slackest = slackest;
-  out->loss = hardest > 0 ? 1 - state->tension[slackest] / hardest : 0;
+  out->loss = thr_profile_loss(state->tension[slackest], hardest);
   return THR_OK;
 }
 

@@ -67,6 +67,11 @@ static void leave_slack(thr_eval_cord *out, int n_passes, double *tension)
   out->tension = tension;
 }
 
+double thr_profile_loss(double slackest, double force)
+{
+  return force > 0 ? fmax(0, 1 - slackest / force) : 0;
+}
+
 thr_status thr_profile_cord(thr_eval_cord *out, const thr_cord *cord, const double *exponent,
                             thr_pull pull, double seating, const thr_friction *friction,
                             thr_err *err)
@@ -122,7 +127,7 @@ thr_status thr_profile_cord(thr_eval_cord *out, const thr_cord *cord, const doub
 
   /* The part of the larger force that friction takes on the way, and the work, J per metre of cord
    * drawn out at every pulled end. */
-  out->loss = 1 - seating / out->force;
+  out->loss = thr_profile_loss(seating, out->force);
   out->work = out->force + out->other_force;
   out->slackest = slackest;
   out->tension = tension;

@@ -34,6 +34,10 @@ thr_status thr_profile_pressure(const thr_frame *frame, const thr_cord *cord,
                                 const thr_evaluation *evaluation, double *pressure, int *edge,
                                 thr_err *err) THR_MUST_CHECK;
 
+/* Returns the part of the force at the harder end, N, that friction takes on the way to the
+ * slackest pass: from 0 to 1, however the quotient is rounded. 0 without a force. */
+double thr_profile_loss(double slackest, double force);
+
 /* Computes the tensions of one cord from its exponents. exponent[n_passes - 1] >= 0: ln of the
  * ratio of the tensions on both sides of the turn after pass k, or what takes its place with
  * another law of friction. Allocates out->tension such that the slackest pass holds `seating` N,

@@ -372,17 +372,24 @@ static thr_evaluation with_band_end(const thr_evaluation *record, int end)
   return other;
 }
 
+/* Returns the status of a question whose answers are "nothing holds it" and "not decided", too:
+ * only a lack of memory or time is a failure, with the text of *why. Empties *why for the next
+ * question, as thr_fail keeps the first text. */
+static thr_status pass_failure(thr_status st, thr_err *why, thr_err *err)
+{
+  if (st && st != THR_EINFEASIBLE && st != THR_ESOLVER) return thr_fail(err, st, "%s", why->text);
+  *why = (thr_err){0};
+  return THR_OK;
+}
+
 /* Stores the proved bound of a solved question: INFINITY if nothing holds, NAN if that is not
- * decided. Frees *found. Only a lack of memory or time is a failure. */
-static thr_status take_bound(thr_status st, thr_holding *found, const thr_err *why, double *bound,
+ * decided. Frees *found. */
+static thr_status take_bound(thr_status st, thr_holding *found, thr_err *why, double *bound,
                              thr_err *err)
 {
-  /* Both "nothing holds it" and "not decided" are answers. */
   *bound = st == THR_OK ? found->lower : st == THR_EINFEASIBLE ? INFINITY : NAN;
   thr_holding_destroy(found);
-  return st == THR_OK || st == THR_EINFEASIBLE || st == THR_ESOLVER
-             ? THR_OK
-             : thr_fail(err, st, "%s", why->text);
+  return pass_failure(st, why, err);
 }
 
 /* Computes the bound of hold_state at one end of the band. */
@@ -449,7 +456,7 @@ static thr_status carry_all(const loading *jobs, const thr_limits *limits, thr_e
        end++) {
     const thr_status more =
         bound_state(jobs->frame, jobs->cord, &loaded, DRAWN_IN, 1, end, limits, &jobs->out->record,
-                    &jobs->out->band_beads[THR_ASKED_LOADED][end], &why);
+                    &jobs->out->band_beads[THR_ASKED_LOADED][end], err);
     if (more) st = more;
   }
 
@@ -460,9 +467,7 @@ static thr_status carry_all(const loading *jobs, const thr_limits *limits, thr_e
                                       .lower = st == THR_EINFEASIBLE ? INFINITY : 0,
                                       .upper = INFINITY,
                                       .first_bead = -1};
-  return st == THR_OK || st == THR_EINFEASIBLE || st == THR_ESOLVER
-             ? THR_OK
-             : thr_fail(err, st, "%s", why.text);
+  return pass_failure(st, &why, err);
 }
 
 /* Answers one question: job 0, which pull carries the whole load; job k, what the k-th pull
@@ -693,13 +698,11 @@ static double raise_tensions(const thr_beads *beads, const double *more, double 
 }
 
 /* Turns "not decided" into bounds that say nothing (0 and INFINITY), since the rest of the
- * evaluation does not depend on this question. Only a lack of memory or time is a failure. */
-static thr_status undecided(thr_status st, const thr_err *why, thr_holding *out, thr_err *err)
+ * evaluation does not depend on this question. */
+static thr_status undecided(thr_status st, thr_err *why, thr_holding *out, thr_err *err)
 {
   if (st == THR_ESOLVER) *out = (thr_holding){.present = true, .upper = INFINITY, .first_bead = -1};
-  return st == THR_OK || st == THR_EINFEASIBLE || st == THR_ESOLVER
-             ? THR_OK
-             : thr_fail(err, st, "%s", why->text);
+  return pass_failure(st, why, err);
 }
 
 /* Computes how far the knotted cords have to stretch so that the structure stands: the sum of the
@@ -984,8 +987,7 @@ static void fill_record(thr_evaluation *evaluation, double pull)
     /* What follows from them: work per metre drawn out, and the part of the pull that friction
      * takes. */
     eval_cord->work = eval_cord->force + eval_cord->other_force;
-    eval_cord->loss =
-        eval_cord->force > 0 ? 1 - eval_cord->tension[eval_cord->slackest] / eval_cord->force : 0;
+    eval_cord->loss = thr_profile_loss(eval_cord->tension[eval_cord->slackest], eval_cord->force);
     eval_cord->known = true;
   }
 }
@@ -1202,4 +1204,36 @@ thr_status thr_eval_holds_from(const thr_frame *frame, const thr_cord *cord,
   thr_holding_destroy(&holding);
   thr_beads_destroy(&beads);
   return st == THR_ENOMEM || st == THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK;
+}
+
+/* Simulates the fall of a structure whose limit analysis is known; see eval.h. */
+thr_status thr_eval_settle(const thr_frame *frame, const thr_cord *cord, const thr_eval *eval,
+                           const thr_eval_options *options, const thr_limits *limits,
+                           thr_settle *out, thr_err *err)
+{
+  const thr_evaluation *evaluation = &eval->record;
+  const thr_settle_options how = options_between(options, eval->holding.lower, eval->holding.upper);
+  double **tension = thr_calloc((size_t)evaluation->n_cords, sizeof *tension);
+  thr_beads beads = {0};
+  thr_status st =
+      tension ? thr_beads_make(frame, &evaluation->physics, &beads, err) : thr_nomem(err);
+
+  /* The tensions of the record are those of the lower bound; the simulation takes those of 1 N. */
+  for (int i = 0; i < evaluation->n_cords && !st; i++) {
+    const thr_eval_cord *drawn = &evaluation->cord[i];
+    tension[i] = thr_calloc((size_t)drawn->n_passes, sizeof **tension);
+    if (!tension[i]) st = thr_nomem(err);
+    for (int k = 0; k < drawn->n_passes && !st; k++)
+      tension[i][k] = drawn->tension[k] / how.least;
+  }
+
+  if (!st)
+    st = thr_settle_run(&beads, frame, cord, evaluation->n_cords, (const double *const *)tension,
+                        NULL, &evaluation->physics, &how, limits, out, err);
+
+  for (int i = 0; i < evaluation->n_cords && tension; i++)
+    free(tension[i]);
+  free(tension);
+  thr_beads_destroy(&beads);
+  return st;
 }

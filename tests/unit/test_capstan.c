@@ -164,6 +164,16 @@ START_TEST(profile_is_filled_from_its_exponents_alone)
 }
 END_TEST
 
+/* A quotient may be rounded to more than 1. */
+START_TEST(loss_is_a_part_of_the_force)
+{
+  ck_assert_double_eq(thr_profile_loss(1, 4), 0.75);
+  ck_assert_double_eq(thr_profile_loss(1, 1), 0);
+  ck_assert_double_eq(thr_profile_loss(nextafter(1, 2), 1), 0);
+  ck_assert_double_eq(thr_profile_loss(0, 0), 0);
+}
+END_TEST
+
 /* Where all turns of a straight cord would do, the one in the middle parts it. */
 START_TEST(slackest_of_a_straight_cord_is_in_its_middle)
 {
@@ -451,6 +461,7 @@ int main(void)
   ADD_TEST(s, 10, mitre_law_refuses_a_turn_that_it_cannot_describe);
   ADD_TEST(s, 10, band_is_what_other_mu_give);
   ADD_TEST(s, 10, profile_is_filled_from_its_exponents_alone);
+  ADD_TEST(s, 10, loss_is_a_part_of_the_force);
   ADD_TEST(s, 10, slackest_of_a_straight_cord_is_in_its_middle);
   ADD_TEST(s, 10, slackest_pass_does_not_depend_on_the_direction);
   ADD_TEST(s, 10, cord_that_is_not_pulled_is_slack);
