@@ -15,7 +15,7 @@ import subprocess
 import sys
 
 PAGE = os.path.join("docs", "source-tour.md")
-MODULES = ["include", "lib", "graph", "lp", "symmetry", "tortuosity", "planner", "eval", "diagram", "cli", "targets", "web"]
+MODULES = ["include", "lib", "graph", "lp", "symmetry", "tortuosity", "planner", "eval", "diagram", "kit", "cli", "targets", "web"]
 ENDINGS = [".c", ".h", ".cpp", ".S"]
 
 

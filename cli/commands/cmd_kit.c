@@ -152,7 +152,10 @@ static int write_all(const thr_kit *kit, const kit_arguments *args, const char *
   thr_text text = {0};
   thr_kit_plates plates;
   thr_status st = thr_kit_plates_make(&plates, kit, &err);
-  if (st) return cli_fail(&err);
+  if (st) {
+    thr_kit_plates_destroy(&plates);
+    return cli_fail(&err);
+  }
 
   st = thr_kit_3mf(&plates, &text, &err);
   int code = write_file(st, &text, folder, "kit.3mf", &err);
@@ -176,7 +179,7 @@ static int write_all(const thr_kit *kit, const kit_arguments *args, const char *
     code = write_file(THR_OK, &text, folder, name, &err);
   }
   if (!code && !args->no_picture) {
-    thr_kit_view view = thr_kit_view_default();
+    const thr_kit_view view = {0};
     st = thr_kit_picture(kit, &view, &text, &err);
     code = write_file(st, &text, folder, "kit.png", &err);
   }
