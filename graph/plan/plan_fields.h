@@ -11,11 +11,13 @@
  * as "file: place: what". */
 
 typedef struct {
-  const char *name; /* of the file, for messages */
+  const char *name; /* of the file, or of an object in it as "file: object" */
   thr_status code;  /* THR_EINPUT while the framework is read; a bad index in a cord or a proof is a
                        violation */
   thr_err *err;
-  int without; /* claims that are passed over: a sum of THR_CLAIM_ .. */
+  int without;    /* claims that are passed over: a sum of THR_CLAIM_ .. */
+  bool in_object; /* name is that of an object: messages are "file: object.member: what" */
+  bool all_there; /* a member that may not be left out is missed before anything is read */
 } thr_field_reader;
 
 /* All fail with field_reader->code, and leave *out for the caller not to use. */
@@ -47,7 +49,7 @@ thr_status thr_field_indices(const thr_field_reader *field_reader, const thr_jso
                              int limit, const char *place, int *out) THR_MUST_CHECK;
 
 /* A member that this version does not know may be a claim that nobody checked. known ends with
- * NULL. */
+ * NULL. place: of the object, NULL: the reader's own. */
 thr_status thr_field_only(const thr_field_reader *field_reader, const thr_json *object,
                           const char *place, const char *const *known) THR_MUST_CHECK;
 
@@ -58,6 +60,51 @@ thr_status thr_field_name_of(const thr_field_reader *field_reader, const thr_jso
 thr_status thr_field_name(const thr_field_reader *field_reader, const thr_json *object,
                           const char *place, const char *key, int n, const char *(*name)(int),
                           int *out) THR_MUST_CHECK;
+
+/* ---- Tables of members: from one table an object is both read and written. */
+
+typedef enum {
+  THR_FIELD_OTHER,   /* a member that has functions of its own; its row says that it is known */
+  THR_FIELD_COUNT,   /* an int from low to high */
+  THR_FIELD_WHOLE,   /* an int64_t from low to high */
+  THR_FIELD_NUMBER,  /* a finite double */
+  THR_FIELD_AMOUNT,  /* a double of at least 0 */
+  THR_FIELD_OR_NULL, /* the same; below 0, which is written as null, nothing is said */
+  THR_FIELD_TRUTH,   /* a bool */
+  THR_FIELD_STATUS,  /* a bool: "optimal" where a bound is attained, else "bound" */
+  THR_FIELD_WORD,    /* an enumeration, by its names */
+  THR_FIELD_OBJECT   /* members of the same struct, in an object of their own */
+} thr_field_kind;
+
+/* A member of an object. Example: {"steps", THR_FIELD_NUMBER, offsetof(thr_record, steps)} */
+typedef struct thr_field {
+  const char *key; /* NULL ends a table */
+  thr_field_kind kind;
+  size_t offset;     /* of the value in the struct */
+  int64_t low, high; /* both inclusive; high 0: whatever the type holds */
+  const char *(*name)(int);
+  int n_names;                      /* of a word: name(0) .. name(n_names - 1) */
+  const struct thr_field *fields;   /* of an object */
+  int line;                         /* > 0: begins a new line, with so many blanks */
+  bool optional;                    /* left out unless the value is finite and above */
+  double unsaid;                    /* this one; what is left out is not changed by reading */
+  bool (*when)(const void *object); /* the member is written then only; NULL: always */
+  const char *with;  /* it has to be there then, and then only, else it is refused in these words */
+  const char *wrong; /* refuses a bad value, NULL: in the words of its kind */
+} thr_field;
+
+/* The first member that is in no row; NULL: there is none. */
+const char *thr_fields_unknown(const thr_json *object, const thr_field *fields);
+
+/* Reads the members of a table into a struct, row by row, and refuses all others. place: of the
+ * object, for messages; NULL: the reader's own. */
+thr_status thr_fields_read(const thr_field_reader *field_reader, const thr_json *object,
+                           const char *place, const thr_field *fields, void *to) THR_MUST_CHECK;
+void thr_fields_write(thr_writer *writer, const thr_field *fields, const void *from);
+
+/* Tables of a thr_plan and of its certificates. */
+extern const thr_field thr_metrics_fields[], thr_turning_claim_fields[], thr_cords_claim_fields[],
+    thr_certificate_fields[];
 
 /* The parts of a plan, each with the file it is in; what they have read so far is for
  * thr_plan_destroy to release. */

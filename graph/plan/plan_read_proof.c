@@ -79,25 +79,12 @@ static thr_status read_prices(const thr_field_reader *field_reader, const thr_js
 static thr_status read_certificate(const thr_field_reader *field_reader, const thr_json *value,
                                    const thr_frame *frame, thr_certificate *certificate)
 {
-  static const char *const known[] = {"component", "scale", "denominator",  "end_price", "join",
-                                      "sum",       "cuts",  "place_prices", NULL};
   const thr_json *cuts;
-  thr_status st = thr_field_only(field_reader, value, "proof.length.certificate", known);
+  thr_status st = thr_fields_read(field_reader, value, "proof.length.certificate",
+                                  thr_certificate_fields, certificate);
   if (!st)
     st = thr_field_int(field_reader, value, "component", 0, frame->n_nodes - 1,
                        &certificate->component);
-
-  /* Scale, prices and sums. */
-  if (!st) st = thr_field_double(field_reader, value, "scale", &certificate->scale);
-  if (!st)
-    st = thr_field_int64(field_reader, value, "denominator", 1, INT64_C(1) << 40,
-                         &certificate->denominator);
-  if (!st)
-    st = thr_field_int64(field_reader, value, "end_price", 0, INT64_MAX, &certificate->end_price);
-  if (!st)
-    st = thr_field_int64(field_reader, value, "join", 0, INT64_C(1) << 60, &certificate->join);
-  if (!st) st = thr_field_int64(field_reader, value, "sum", 0, INT64_MAX, &certificate->sum);
-
   if (!st && thr_json_get(value, "place_prices"))
     st = read_prices(field_reader, value, certificate);
   if (!st) st = thr_field_need(field_reader, value, "cuts", THR_JSON_ARRAY, &cuts);
@@ -196,91 +183,44 @@ static thr_status read_free_turn(const thr_field_reader *field_reader, const thr
   return THR_OK;
 }
 
-/* Reads the claim about the cord that turns most, or that is hardest to pull. */
-static thr_status read_largest(const thr_field_reader *field_reader, const thr_json *object,
-                               thr_turning_claim *claim)
-{
-  static const char *const known[] = {"status", "price", "lower_bound", "cut", NULL};
-  const thr_json *value;
-  thr_status st = thr_field_need(field_reader, object, "largest", THR_JSON_OBJECT, &value);
-  if (!st) st = thr_field_only(field_reader, value, "proof.turning.largest", known);
-  if (!st) st = get_status(field_reader, value, "proof.turning.largest", &claim->largest_optimal);
-  if (!st) st = thr_field_amount(field_reader, value, "price", &claim->largest);
-  if (!st) st = thr_field_amount(field_reader, value, "lower_bound", &claim->largest_bound);
-
-  return st ? st : read_free_turn(field_reader, value, "proof.turning.largest.cut", &claim->cut);
-}
-
 /* Reads the claim of least turning, with the tree of multipliers that proves it. */
 static thr_status read_turning_claim(const thr_field_reader *field_reader, const thr_json *value,
-                                     const thr_frame *frame, thr_turning_claim *claim)
+                                     thr_plan *plan)
 {
-  static const char *const known[] = {"status",        "price",   "lower_bound", "gap",
-                                      "pairing_bound", "largest", "most_passes", "length_limit",
-                                      "method",        "proof",   NULL};
   char place[256];
-
-  /* The claim about all cords together. Only older plans state pairing_bound. */
-  thr_status st = thr_field_only(field_reader, value, "proof.turning", known);
-  if (!st) st = get_status(field_reader, value, "proof.turning", &claim->optimal);
-  if (!st) st = thr_field_amount(field_reader, value, "price", &claim->price);
-  if (!st) st = thr_field_amount(field_reader, value, "lower_bound", &claim->lower_bound);
-  if (!st) st = thr_field_amount(field_reader, value, "gap", &claim->gap);
-  if (!st && thr_json_get(value, "pairing_bound"))
-    st = thr_field_amount(field_reader, value, "pairing_bound", &claim->pairing_bound);
-
-  /* The claim about one cord, and among which plans both claims hold. */
-  if (!st) st = read_largest(field_reader, value, claim);
-  if (!st)
-    st = thr_field_int(field_reader, value, "most_passes", 1, INT32_MAX, &claim->most_passes);
-  if (!st) st = thr_field_or_null(field_reader, value, "length_limit", &claim->length_limit);
+  thr_status st =
+      thr_fields_read(field_reader, value, "proof.turning", thr_turning_claim_fields, plan);
   if (st) return st;
 
-  /* The tree that proves them. */
   snprintf(place, sizeof place, "%.200s: proof.turning.proof", field_reader->name);
-  claim->present = true;
+  plan->turning.present = true;
 
-  return thr_turning_proof_from_json(&claim->tree, frame, thr_json_get(value, "proof"), place,
-                                     field_reader->err);
+  return thr_turning_proof_from_json(&plan->turning.tree, &plan->frame,
+                                     thr_json_get(value, "proof"), place, field_reader->err);
 }
 
 /* Reads the claims about the longest cord and the number of cords, with the prices of walks that
  * prove them. */
 static thr_status read_cords_claim(const thr_field_reader *field_reader, const thr_json *object,
-                                   const thr_frame *frame, thr_cords_claim *claim,
-                                   thr_walk_proof *walks)
+                                   thr_plan *plan)
 {
-  static const char *const known[] = {"longest", "fewest", "walks", "sets", NULL},
-                           *const of_longest[] = {"status", "length", "lower_bound", NULL},
-                           *const of_fewest[] = {"status", "lower_bound", NULL};
-  const thr_json *longest, *fewest = thr_json_get(object, "fewest");
-
-  /* The longest cord. */
-  thr_status st = thr_field_only(field_reader, object, "proof.cords", known);
-  if (!st) st = thr_field_need(field_reader, object, "longest", THR_JSON_OBJECT, &longest);
-  if (!st) st = thr_field_only(field_reader, longest, "proof.cords.longest", of_longest);
-  if (!st) st = get_status(field_reader, longest, "proof.cords.longest", &claim->longest_optimal);
-  if (!st) st = thr_field_amount(field_reader, longest, "length", &claim->longest);
-  if (!st) st = thr_field_amount(field_reader, longest, "lower_bound", &claim->longest_bound);
-  if (!st) claim->present = true;
+  thr_walk_proof *walks = &plan->proof.walks;
+  thr_status st =
+      thr_fields_read(field_reader, object, "proof.cords", thr_cords_claim_fields, plan);
+  plan->cords_claim.present = !st;
 
   /* Prices of walks by length; `sets` says that all sets of edges were tried as well. */
   char place[256];
   snprintf(place, sizeof place, "%.200s: proof.cords.walks", field_reader->name);
   if (!st)
-    st = thr_walk_proof_from_json(walks, frame, "length", thr_json_get(object, "walks"), place,
-                                  field_reader->err);
+    st = thr_walk_proof_from_json(walks, &plan->frame, "length", thr_json_get(object, "walks"),
+                                  place, field_reader->err);
   const thr_json *sets = thr_json_get(object, "sets");
   if (!st && sets && (thr_json_typeof(sets) != THR_JSON_BOOL || !thr_json_true(sets)))
     st = thr_field_bad(field_reader, "proof.cords.sets", "true, or left out");
   walks->sets = sets;
 
-  /* The number of cords, if few were asked for. */
-  if (st || !fewest) return st;
-  st = thr_field_only(field_reader, fewest, "proof.cords.fewest", of_fewest);
-  if (!st) st = get_status(field_reader, fewest, "proof.cords.fewest", &claim->fewest_optimal);
-
-  return st ? st : thr_field_int(field_reader, fewest, "lower_bound", 1, INT32_MAX, &claim->fewest);
+  return st;
 }
 
 /* Reads the members that every claim of the number of cords has, of the whole framework or of a
@@ -432,12 +372,11 @@ thr_status thr_plan_read_proofs(const thr_field_reader *field_reader, const thr_
   if (!st && length && !(without & THR_CLAIM_LENGTH))
     st = read_length_proof(field_reader, length, &plan->frame, &plan->proof);
   if (!st && cords && !(without & THR_CLAIM_CORDS))
-    st =
-        read_cords_claim(field_reader, cords, &plan->frame, &plan->cords_claim, &plan->proof.walks);
+    st = read_cords_claim(field_reader, cords, plan);
   if (!st && pull && !(without & THR_CLAIM_PULL))
     st = read_whole_pull_claim(field_reader, pull, plan);
   if (!st && turning && !(without & THR_CLAIM_TURNING))
-    st = read_turning_claim(field_reader, turning, &plan->frame, &plan->turning);
+    st = read_turning_claim(field_reader, turning, plan);
 
   if (!st && plan->options.old_pull) leave_out_older_pull(plan);
 
