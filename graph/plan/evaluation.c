@@ -263,12 +263,6 @@ void thr_evaluation_write(const thr_evaluation *evaluation, thr_writer *writer, 
 
 /* ---- reading ---- */
 
-/* Returns the reader of an object whose failures are "place.member: what". */
-static thr_field_reader reader_of(const char *place, thr_err *err)
-{
-  return (thr_field_reader){.name = place, .code = THR_EVIOLATED, .err = err, .in_object = true};
-}
-
 /* Reads a member as one of n words; *out becomes its index. */
 static thr_status get_word(const thr_field_reader *reader, const thr_json *object, const char *key,
                            const char *const *word, int n, int *out)
@@ -407,7 +401,7 @@ static thr_status read_cords(const thr_field_reader *reader, const thr_json *obj
   for (int i = 0; i < n; i++) {
     char place[256];
     snprintf(place, sizeof place, "%.200s.cords[%d]", reader->name, i);
-    const thr_field_reader inner = reader_of(place, reader->err);
+    const thr_field_reader inner = thr_field_reader_in(place, reader->err);
     thr_status st = read_cord(&inner, thr_json_at(list, i), i, &evaluation->cord[i]);
     if (st) return st;
   }
@@ -541,7 +535,7 @@ thr_status thr_evaluation_from_json(thr_evaluation *evaluation, const thr_json *
                                     const char *place, thr_err *err)
 {
   thr_evaluation read = {0};
-  const thr_field_reader reader = reader_of(place, err);
+  const thr_field_reader reader = thr_field_reader_in(place, err);
   thr_status st = thr_json_typeof(object) == THR_JSON_OBJECT
                       ? read_members(&reader, object, &read)
                       : thr_fail(err, THR_EVIOLATED, "%s: not an object", place);

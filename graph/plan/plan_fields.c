@@ -16,6 +16,11 @@
 #include <stdio.h>
 #include <string.h>
 
+thr_field_reader thr_field_reader_in(const char *place, thr_err *err)
+{
+  return (thr_field_reader){.name = place, .code = THR_EVIOLATED, .err = err, .in_object = true};
+}
+
 thr_status thr_field_bad(const thr_field_reader *field_reader, const char *place, const char *what)
 {
   return thr_fail(field_reader->err, field_reader->code, "%s%s%s: %s", field_reader->name,

@@ -20,6 +20,9 @@ typedef struct {
   bool all_there; /* a member that may not be left out is missed before anything is read */
 } thr_field_reader;
 
+/* Returns the reader of an object, place = "file: object", whose members violate its framework. */
+thr_field_reader thr_field_reader_in(const char *place, thr_err *err);
+
 /* All fail with field_reader->code, and leave *out for the caller not to use. */
 thr_status thr_field_bad(const thr_field_reader *field_reader, const char *place, const char *what);
 thr_status thr_field_need(const thr_field_reader *field_reader, const thr_json *object,
