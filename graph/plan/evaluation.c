@@ -117,7 +117,7 @@ void thr_tension_colour(const double range[2], double tension, char hex[8])
 
 /* ---- members that are numbers, as they are written and read ---- */
 
-/* Of a cord that is known. What follows from its number of passes is read by itself. */
+/* Of a cord that is known; its tensions, which say how many passes it has, are read before. */
 static const thr_field cord_fields[] = {
     {.key = "id"},
     {.key = "known"},
@@ -129,8 +129,10 @@ static const thr_field cord_fields[] = {
     {"loss", THR_FIELD_NUMBER, .offset = offsetof(thr_eval_cord, loss)},
     {"work", THR_FIELD_NUMBER, .offset = offsetof(thr_eval_cord, work)},
     {"error", THR_FIELD_NUMBER, .offset = offsetof(thr_eval_cord, error)},
-    {"slackest", THR_FIELD_COUNT, .offset = offsetof(thr_eval_cord, slackest)},
-    {"refused", THR_FIELD_COUNT, .offset = offsetof(thr_eval_cord, refused)},
+    {"slackest", THR_FIELD_COUNT, .offset = offsetof(thr_eval_cord, slackest),
+     .below = offsetof(thr_eval_cord, n_passes)},
+    {"refused", THR_FIELD_COUNT, .offset = offsetof(thr_eval_cord, refused),
+     .below = offsetof(thr_eval_cord, n_passes)},
     {.key = "tension"},
     {.key = "tension_most"},
     {.key = "colours"},
@@ -324,7 +326,6 @@ static thr_status read_numbers(const thr_field_reader *reader, const thr_json *o
                                const char *key, int n, double **number)
 {
   const thr_json *list = thr_json_get(object, key);
-
   if (!list) return THR_OK;
   if (thr_json_typeof(list) != THR_JSON_ARRAY || thr_json_size(list) != n)
     return thr_field_bad(reader, key, "not one per pass or turn");
@@ -370,16 +371,12 @@ static thr_status read_cord(const thr_field_reader *reader, const thr_json *obje
   cord->pull = (thr_pull)pull;
   if (!cord->known) return THR_OK;
 
-  st = thr_fields_read(reader, object, NULL, cord_fields, cord);
-
-  /* The tensions tell how many passes and turns the other lists must have. */
-  if (!st) st = read_tension(reader, object, cord);
+  /* The tensions tell how many passes and turns there are. */
+  st = read_tension(reader, object, cord);
   if (!st) st = read_numbers(reader, object, "exponents", cord->n_passes - 1, &cord->exponent);
   if (!st) st = read_numbers(reader, object, "tension_most", cord->n_passes, &cord->most);
-  if (!st) st = thr_field_int(reader, object, "slackest", 0, cord->n_passes - 1, &cord->slackest);
-  if (!st) st = thr_field_int(reader, object, "refused", 0, cord->n_passes - 1, &cord->refused);
 
-  return st;
+  return st ? st : thr_fields_read(reader, object, NULL, cord_fields, cord);
 }
 
 /* Reads the records of all cords. */

@@ -36,6 +36,8 @@ thr_status thr_field_need(const thr_field_reader *field_reader, const thr_json *
   /* The words are in the order of thr_json_type. */
   *value = thr_json_get(object, key);
   if (*value && thr_json_typeof(*value) == type) return THR_OK;
+  if (field_reader->all_there && type == THR_JSON_ARRAY)
+    return thr_field_bad(field_reader, key, "not a list");
 
   return thr_fail(field_reader->err, field_reader->code, "%s: %s: %s; expected %s",
                   field_reader->name, key, *value ? "wrong type" : "missing", article[type]);
@@ -58,14 +60,20 @@ thr_status thr_field_amount(const thr_field_reader *field_reader, const thr_json
   return !st && *out < 0 ? thr_field_bad(field_reader, key, "negative") : st;
 }
 
-thr_status thr_field_int64(const thr_field_reader *field_reader, const thr_json *object,
-                           const char *key, int64_t low, int64_t high, int64_t *out)
+thr_status thr_field_int64_of(const thr_field_reader *field_reader, const thr_json *value,
+                              const char *key, int64_t low, int64_t high, int64_t *out)
 {
-  if (thr_json_int(thr_json_get(object, key), out) && *out >= low && *out <= high) return THR_OK;
+  if (thr_json_int(value, out) && *out >= low && *out <= high) return THR_OK;
   return thr_fail(field_reader->err, field_reader->code,
                   "%s%s%s: %snot an integer from %" PRId64 " to %" PRId64, field_reader->name,
                   field_reader->in_object ? "." : ": ", key,
                   field_reader->all_there ? "" : "missing or ", low, high);
+}
+
+thr_status thr_field_int64(const thr_field_reader *field_reader, const thr_json *object,
+                           const char *key, int64_t low, int64_t high, int64_t *out)
+{
+  return thr_field_int64_of(field_reader, thr_json_get(object, key), key, low, high, out);
 }
 
 thr_status thr_field_int(const thr_field_reader *field_reader, const thr_json *object,
@@ -97,6 +105,19 @@ thr_status thr_field_index(const thr_field_reader *field_reader, const thr_json 
   *out = (int)wide;
 
   return THR_OK;
+}
+
+void *thr_field_list(const thr_field_reader *field_reader, const thr_json *object, const char *key,
+                     size_t size, int *count, const thr_json **list, thr_status *st)
+{
+  void *elements = NULL;
+  if ((*st = thr_field_need(field_reader, object, key, THR_JSON_ARRAY, list))) return NULL;
+
+  if ((elements = thr_calloc((size_t)thr_json_size(*list), size)))
+    *count = thr_json_size(*list);
+  else
+    *st = thr_nomem(field_reader->err);
+  return elements;
 }
 
 thr_status thr_field_indices(const thr_field_reader *field_reader, const thr_json *list, int n,
@@ -199,13 +220,18 @@ const char *thr_fields_unknown(const thr_json *object, const thr_field *fields)
 
 /* Reads a value by the kind of its row. */
 static thr_status read_value(const thr_field_reader *field_reader, const thr_json *object,
-                             const char *place, const thr_field *field, void *value)
+                             const char *place, const thr_field *field, void *to)
 {
   const thr_json *member = thr_json_get(object, field->key);
+  void *value = (char *)to + field->offset;
   const bool is_count = field->kind == THR_FIELD_COUNT;
-  const int64_t high = field->high ? field->high : is_count ? INT32_MAX : INT64_MAX;
+  int64_t high = field->high ? field->high : is_count ? INT32_MAX : INT64_MAX;
   thr_status st = THR_OK;
-  int status = 0;
+  int status = 0, below = 0;
+
+  /* The range may depend on another member. */
+  if (field->below) memcpy(&below, (char *)to + field->below, sizeof below);
+  if (field->below) high = below - 1;
 
   switch (field->kind) {
   case THR_FIELD_COUNT:
@@ -261,15 +287,30 @@ static thr_status read_field(const thr_field_reader *field_reader, const thr_jso
   /* The first message stays, and so a row with words of its own is read without any. */
   thr_field_reader reader = *field_reader;
   if (field->wrong) reader.err = NULL;
-  thr_status st = read_value(&reader, object, place, field, (char *)to + field->offset);
+  thr_status st = read_value(&reader, object, place, field, to);
 
   return st && field->wrong ? bad_member(field_reader, place, field->key, field->wrong) : st;
+}
+
+/* Checks that an object has all members that may not be left out. */
+static thr_status check_all_there(const thr_field_reader *field_reader, const thr_json *object,
+                                  const thr_field *fields)
+{
+  if (thr_json_typeof(object) != THR_JSON_OBJECT)
+    return thr_fail(field_reader->err, field_reader->code, "%s: expected an object",
+                    field_reader->name);
+
+  for (; fields->key; fields++)
+    if (!fields->optional && !thr_json_get(object, fields->key))
+      return thr_field_bad(field_reader, fields->key, "missing");
+  return THR_OK;
 }
 
 thr_status thr_fields_read(const thr_field_reader *field_reader, const thr_json *object,
                            const char *place, const thr_field *fields, void *to)
 {
-  thr_status st = refuse_unknown(field_reader, place, thr_fields_unknown(object, fields));
+  thr_status st = field_reader->all_there ? check_all_there(field_reader, object, fields) : THR_OK;
+  if (!st) st = refuse_unknown(field_reader, place, thr_fields_unknown(object, fields));
   for (; fields->key && !st; fields++)
     st = read_field(field_reader, object, place, fields, to);
   return st;

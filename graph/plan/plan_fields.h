@@ -38,10 +38,18 @@ thr_status thr_field_amount(const thr_field_reader *field_reader, const thr_json
 /* A number >= 0, or null, which is -1. */
 thr_status thr_field_or_null(const thr_field_reader *field_reader, const thr_json *object,
                              const char *key, double *out) THR_MUST_CHECK;
+thr_status thr_field_int64_of(const thr_field_reader *field_reader, const thr_json *value,
+                              const char *key, int64_t low, int64_t high,
+                              int64_t *out) THR_MUST_CHECK;
 thr_status thr_field_int64(const thr_field_reader *field_reader, const thr_json *object,
                            const char *key, int64_t low, int64_t high, int64_t *out) THR_MUST_CHECK;
 thr_status thr_field_int(const thr_field_reader *field_reader, const thr_json *object,
                          const char *key, int low, int high, int *out) THR_MUST_CHECK;
+
+/* Finds a member that is a list, and returns as many new elements of a size; NULL on failure. The
+ * count is set then only, so that what fails later on finds them to release. */
+void *thr_field_list(const thr_field_reader *field_reader, const thr_json *object, const char *key,
+                     size_t size, int *count, const thr_json **list, thr_status *st) THR_MUST_CHECK;
 
 /* Element i of a list of integers from 0 to limit - 1. place names the list. */
 thr_status thr_field_index(const thr_field_reader *field_reader, const thr_json *list, int i,
@@ -85,6 +93,7 @@ typedef struct thr_field {
   thr_field_kind kind;
   size_t offset;     /* of the value in the struct */
   int64_t low, high; /* both inclusive; high 0: whatever the type holds */
+  size_t below;      /* of an int in the struct, which was read before, that is above; 0: none */
   const char *(*name)(int);
   int n_names;                      /* of a word: name(0) .. name(n_names - 1) */
   const struct thr_field *fields;   /* of an object */

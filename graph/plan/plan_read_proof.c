@@ -37,19 +37,15 @@ static thr_status read_cut(const thr_field_reader *field_reader, const thr_json 
   cut->parent = -1;
   if (!st && thr_json_get(value, "parent"))
     st = thr_field_int(field_reader, value, "parent", i + 1, n_cuts - 1, &cut->parent);
-  if (!st) st = thr_field_need(field_reader, value, "nodes", THR_JSON_ARRAY, &nodes);
-  if (st) return st;
 
   /* The nodes of the cut that are in none of its children. */
-  int n = thr_json_size(nodes);
-  if (!(cut->node = thr_calloc((size_t)n, sizeof *cut->node))) return thr_nomem(field_reader->err);
-  cut->n_nodes = n;
-  for (int j = 0; j < n; j++)
-    if ((st = thr_field_index(field_reader, nodes, j, frame->n_nodes,
-                              "proof.length.certificate: cuts: nodes", &cut->node[j])))
-      return st;
+  if (!st)
+    cut->node =
+        thr_field_list(field_reader, value, "nodes", sizeof *cut->node, &cut->n_nodes, &nodes, &st);
 
-  return THR_OK;
+  return st ? st
+            : thr_field_indices(field_reader, nodes, cut->n_nodes, frame->n_nodes,
+                                "proof.length.certificate: cuts: nodes", cut->node);
 }
 
 /* Reads the prices of places into a new array, which the certificate owns. */
@@ -57,22 +53,19 @@ static thr_status read_prices(const thr_field_reader *field_reader, const thr_js
                               thr_certificate *certificate)
 {
   const thr_json *list;
-  thr_status st = thr_field_need(field_reader, value, "place_prices", THR_JSON_ARRAY, &list);
-  if (st) return st;
+  thr_status st;
+  certificate->place_price =
+      thr_field_list(field_reader, value, "place_prices", sizeof *certificate->place_price,
+                     &certificate->n_prices, &list, &st);
 
-  int n = thr_json_size(list);
-  if (!(certificate->place_price = thr_calloc((size_t)n, sizeof *certificate->place_price)))
-    return thr_nomem(field_reader->err);
-  certificate->n_prices = n;
-
-  for (int i = 0; i < n; i++)
+  for (int i = 0; i < certificate->n_prices; i++)
     if (!thr_json_int(
             thr_json_at(list, i),
             &certificate->place_price[i])) /* the checker says what a negative one means */
       return thr_field_bad(field_reader, "proof.length.certificate: place_prices",
                            "not all are integers");
 
-  return THR_OK;
+  return st;
 }
 
 /* Reads the proof of length of one component. */
@@ -87,19 +80,16 @@ static thr_status read_certificate(const thr_field_reader *field_reader, const t
                        &certificate->component);
   if (!st && thr_json_get(value, "place_prices"))
     st = read_prices(field_reader, value, certificate);
-  if (!st) st = thr_field_need(field_reader, value, "cuts", THR_JSON_ARRAY, &cuts);
-  if (st) return st;
 
   /* The packing of odd cuts. */
-  int n = thr_json_size(cuts);
-  if (!(certificate->cut = thr_calloc((size_t)n, sizeof *certificate->cut)))
-    return thr_nomem(field_reader->err);
-  certificate->n_cuts = n;
-  for (int i = 0; i < n; i++)
-    if ((st = read_cut(field_reader, thr_json_at(cuts, i), i, n, frame, &certificate->cut[i])))
-      return st;
+  if (!st)
+    certificate->cut = thr_field_list(field_reader, value, "cuts", sizeof *certificate->cut,
+                                      &certificate->n_cuts, &cuts, &st);
+  for (int i = 0; i < certificate->n_cuts && !st; i++)
+    st = read_cut(field_reader, thr_json_at(cuts, i), i, certificate->n_cuts, frame,
+                  &certificate->cut[i]);
 
-  return THR_OK;
+  return st;
 }
 
 /* Reads whether a bound is claimed to be attained. */
@@ -152,15 +142,13 @@ static thr_status read_length_proof(const thr_field_reader *field_reader, const 
   }
 
   /* With solid joints there is a certificate for each component. */
-  if (!st) st = thr_field_need(field_reader, value, "certificate", THR_JSON_ARRAY, &list);
+  if (!st)
+    proof->certificate =
+        thr_field_list(field_reader, value, "certificate", sizeof *proof->certificate,
+                       &proof->n_certificates, &list, &st);
+  for (int i = 0; i < proof->n_certificates && !st; i++)
+    st = read_certificate(field_reader, thr_json_at(list, i), frame, &proof->certificate[i]);
   if (st) return st;
-  int n = thr_json_size(list);
-  if (!(proof->certificate = thr_calloc((size_t)n, sizeof *proof->certificate)))
-    return thr_nomem(field_reader->err);
-  proof->n_certificates = n;
-  for (int i = 0; i < n; i++)
-    if ((st = read_certificate(field_reader, thr_json_at(list, i), frame, &proof->certificate[i])))
-      return st;
 
   /* Where the pull is limited, prices of walks may prove the bound. */
   snprintf(place, sizeof place, "%.200s: proof.length.walks", field_reader->name);
