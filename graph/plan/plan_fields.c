@@ -204,10 +204,9 @@ thr_status thr_field_or_null(const thr_field_reader *field_reader, const thr_jso
 
 enum { MOST_FIELDS = 20 };
 
-/* Returns what plans call a bound that is not attained (0), or one that is (1). */
-static const char *status_name(int i)
+const char *thr_status_name(int optimal)
 {
-  return i ? "optimal" : "bound";
+  return optimal ? "optimal" : "bound";
 }
 
 const char *thr_fields_unknown(const thr_json *object, const thr_field *fields)
@@ -246,7 +245,7 @@ static thr_status read_value(const thr_field_reader *field_reader, const thr_jso
     *(bool *)value = thr_json_true(member);
     return st;
   case THR_FIELD_STATUS:
-    st = thr_field_name(field_reader, object, place, field->key, 2, status_name, &status);
+    st = thr_field_name(field_reader, object, place, field->key, 2, thr_status_name, &status);
     *(bool *)value = status == 1;
     return st;
   case THR_FIELD_WORD:
@@ -272,9 +271,8 @@ static thr_status read_object(const thr_field_reader *field_reader, const thr_js
   return st ? st : thr_fields_read(field_reader, value, inner, field->fields, to);
 }
 
-/* Reads the member of a row. */
-static thr_status read_field(const thr_field_reader *field_reader, const thr_json *object,
-                             const char *place, const thr_field *field, void *to)
+thr_status thr_field_read(const thr_field_reader *field_reader, const thr_json *object,
+                          const char *place, const thr_field *field, void *to)
 {
   const bool is_there = thr_json_get(object, field->key) != NULL;
 
@@ -312,13 +310,13 @@ thr_status thr_fields_read(const thr_field_reader *field_reader, const thr_json 
   thr_status st = field_reader->all_there ? check_all_there(field_reader, object, fields) : THR_OK;
   if (!st) st = refuse_unknown(field_reader, place, thr_fields_unknown(object, fields));
   for (; fields->key && !st; fields++)
-    st = read_field(field_reader, object, place, fields, to);
+    st = thr_field_read(field_reader, object, place, fields, to);
   return st;
 }
 
-/* Returns the value of a row as a number, of a word its number. */
-static double number_of(const thr_field *field, const void *value)
+double thr_field_number(const thr_field *field, const void *from)
 {
+  const void *value = (const char *)from + field->offset;
   switch (field->kind) {
   case THR_FIELD_COUNT:
   case THR_FIELD_WORD: return *(const int *)value;
@@ -338,7 +336,7 @@ static double number_of(const thr_field *field, const void *value)
 static void write_field(thr_writer *writer, const thr_field *field, const void *from)
 {
   const void *value = (const char *)from + field->offset;
-  const double number = number_of(field, value);
+  const double number = thr_field_number(field, from);
   const char *key = field->key;
 
   /* A member that is left out leaves its line to the next one. */
@@ -354,7 +352,7 @@ static void write_field(thr_writer *writer, const thr_field *field, const void *
   case THR_FIELD_AMOUNT: thr_write_number(writer, key, number); break;
   case THR_FIELD_OR_NULL: thr_write_number(writer, key, number < 0 ? NAN : number); break;
   case THR_FIELD_TRUTH: thr_write_bool(writer, key, number != 0); break;
-  case THR_FIELD_STATUS: thr_write_string(writer, key, status_name(number != 0)); break;
+  case THR_FIELD_STATUS: thr_write_string(writer, key, thr_status_name(number != 0)); break;
   case THR_FIELD_WORD: thr_write_string(writer, key, field->name((int)number)); break;
   case THR_FIELD_OBJECT:
     thr_write_object(writer, key);

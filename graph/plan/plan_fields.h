@@ -114,6 +114,14 @@ thr_status thr_fields_read(const thr_field_reader *field_reader, const thr_json 
                            const char *place, const thr_field *fields, void *to) THR_MUST_CHECK;
 void thr_fields_write(thr_writer *writer, const thr_field *fields, const void *from);
 
+/* One row of a table, and its value in a struct as a number, of a word its number. */
+thr_status thr_field_read(const thr_field_reader *field_reader, const thr_json *object,
+                          const char *place, const thr_field *field, void *to) THR_MUST_CHECK;
+double thr_field_number(const thr_field *field, const void *from);
+
+/* What plans call a bound that is not attained (0), or one that is (1). */
+const char *thr_status_name(int optimal);
+
 /* Tables of a thr_plan and of its certificates. */
 extern const thr_field thr_metrics_fields[], thr_turning_claim_fields[], thr_cords_claim_fields[],
     thr_certificate_fields[];
@@ -130,11 +138,11 @@ thr_status thr_plan_read_proofs(const thr_field_reader *field_reader, const thr_
  * kind, its range and its place in thr_request. */
 
 typedef enum {
-  THR_ASKS_COUNT,          /* an int */
-  THR_ASKS_AMOUNT,         /* a double */
-  THR_ASKS_AMOUNT_OR_NULL, /* a double; below 0, which is written as null, it is not asked for */
-  THR_ASKS_WORD,           /* an enumeration, by its names */
-  THR_ASKS_OTHER           /* a shape of its own, with functions that write and read it */
+  THR_ASKS_COUNT = THR_FIELD_COUNT,
+  THR_ASKS_AMOUNT = THR_FIELD_AMOUNT,
+  THR_ASKS_AMOUNT_OR_NULL = THR_FIELD_OR_NULL, /* below 0, it is not asked for */
+  THR_ASKS_WORD = THR_FIELD_WORD,
+  THR_ASKS_OTHER = THR_FIELD_OTHER /* a shape of its own, with functions that write and read it */
 } thr_asks;
 
 /* A request while it is read from `options`. */

@@ -16,12 +16,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Returns what plans call a bound that is not attained (0), or one that is (1). */
-static const char *status_name(int i)
-{
-  return i ? "optimal" : "bound";
-}
-
 /* Reads cut i of a certificate of n_cuts. A parent comes later in the list, so that the cuts are a
  * forest. */
 static thr_status read_cut(const thr_field_reader *field_reader, const thr_json *value, int i,
@@ -97,7 +91,7 @@ static thr_status get_status(const thr_field_reader *field_reader, const thr_jso
                              const char *place, bool *optimal)
 {
   int status;
-  thr_status st = thr_field_name(field_reader, value, place, "status", 2, status_name, &status);
+  thr_status st = thr_field_name(field_reader, value, place, "status", 2, thr_status_name, &status);
   *optimal = status == 1;
   return st;
 }

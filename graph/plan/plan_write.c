@@ -242,12 +242,6 @@ static void put_certificate(thr_writer *writer, const thr_certificate *certifica
   thr_write_close(writer);
 }
 
-/* Returns what plans call a bound that is attained, or one that is not. */
-static const char *status_name(bool optimal)
-{
-  return optimal ? "optimal" : "bound";
-}
-
 /* Writes the proof of least length: by odd cuts with solid joints, by a tree of multipliers with
  * tube joints. */
 static void put_length_proof(thr_writer *writer, const thr_plan *plan)
@@ -257,7 +251,7 @@ static void put_length_proof(thr_writer *writer, const thr_plan *plan)
   thr_write_object(writer, "length");
 
   /* What is claimed. */
-  thr_write_string(writer, "status", status_name(proof->optimal));
+  thr_write_string(writer, "status", thr_status_name(proof->optimal));
   thr_write_number(writer, "lower_bound", proof->lower_bound);
   if (proof->slack_open) thr_write_string(writer, "slack", "open");
   thr_write_number(writer, "gap", proof->gap);
@@ -318,7 +312,7 @@ static void put_pull_claim(thr_writer *writer, const char *name, const thr_pull_
 {
   thr_write_line(writer, 2);
   thr_write_object(writer, name);
-  thr_write_string(writer, "status", status_name(claim->optimal));
+  thr_write_string(writer, "status", thr_status_name(claim->optimal));
   thr_write_int(writer, "lower_bound", claim->fewest);
 
   /* The proof: prices of walks, or a tree of multipliers. */
