@@ -167,10 +167,7 @@ static const thr_field own_fields[] = {
 static void put_numbers(thr_writer *writer, const char *key, const double *number, int n)
 {
   thr_write_line(writer, 5);
-  thr_write_row(writer, key);
-  for (int k = 0; k < n; k++)
-    thr_write_number(writer, NULL, number[k]);
-  thr_write_close(writer);
+  thr_write_numbers(writer, key, number, n);
 }
 
 /* Writes the tensions of a cord's passes, and their colours. */

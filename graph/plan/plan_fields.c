@@ -251,8 +251,7 @@ static thr_status read_value(const thr_field_reader *field_reader, const thr_jso
   case THR_FIELD_WORD:
     return thr_field_name(field_reader, object, place, field->key, field->n_names, field->name,
                           value);
-  case THR_FIELD_OBJECT:
-  case THR_FIELD_OTHER: break;
+  default: break;
   }
 
   return THR_OK;
@@ -326,8 +325,7 @@ double thr_field_number(const thr_field *field, const void *from)
   case THR_FIELD_OR_NULL: return *(const double *)value;
   case THR_FIELD_TRUTH:
   case THR_FIELD_STATUS: return *(const bool *)value;
-  case THR_FIELD_OBJECT:
-  case THR_FIELD_OTHER: break;
+  default: break;
   }
   return 0;
 }
@@ -359,7 +357,7 @@ static void write_field(thr_writer *writer, const thr_field *field, const void *
     thr_fields_write(writer, field->fields, from);
     thr_write_close(writer);
     break;
-  case THR_FIELD_OTHER: break;
+  default: break;
   }
 }
 

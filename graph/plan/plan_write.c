@@ -71,18 +71,6 @@ static void put_edges(thr_writer *writer, const thr_frame *frame)
   thr_write_close(writer);
 }
 
-/* Writes the lengths of the edges, which a framework states if they are not the distances of their
- * nodes. */
-static void put_lengths(thr_writer *writer, const thr_frame *frame)
-{
-  thr_write_line(writer, 2);
-  thr_write_row(writer, "lengths");
-
-  for (int e = 0; e < frame->n_edges; e++)
-    thr_write_number(writer, NULL, frame->length[e]);
-  thr_write_close(writer);
-}
-
 /* Writes the names of the nodes. */
 static void put_names(thr_writer *writer, const thr_frame *frame)
 {
@@ -111,7 +99,8 @@ static void put_frame(thr_writer *writer, const thr_frame *frame)
   put_edges(writer, frame);
 
   /* What only some frameworks state. */
-  if (frame->own_lengths) put_lengths(writer, frame);
+  if (frame->own_lengths) thr_write_line(writer, 2);
+  if (frame->own_lengths) thr_write_numbers(writer, "lengths", frame->length, frame->n_edges);
   if (frame->cover) put_passes(writer, "covers", frame->cover, frame->n_edges);
   if (frame->capacity) put_passes(writer, "capacities", frame->capacity, frame->n_edges);
   if (!thr_frame_names_are_indices(frame)) put_names(writer, frame);

@@ -133,15 +133,6 @@ static const thr_field own_fields[] = {
 
 /* ---- writing ---- */
 
-/* Writes n numbers in a row. */
-static void put_row(thr_writer *writer, const char *key, const double *number, int n)
-{
-  thr_write_row(writer, key);
-  for (int i = 0; i < n; i++)
-    thr_write_number(writer, NULL, number[i]);
-  thr_write_close(writer);
-}
-
 /* Writes the loads, in N at their nodes. */
 static void put_loads(thr_writer *writer, const thr_standing *standing)
 {
@@ -151,7 +142,7 @@ static void put_loads(thr_writer *writer, const thr_standing *standing)
   for (int i = 0; i < standing->n_loads; i++) {
     thr_write_object(writer, NULL);
     thr_fields_write(writer, load_fields, &standing->load[i]);
-    put_row(writer, "force", standing->load[i].force, 3);
+    thr_write_numbers(writer, "force", standing->load[i].force, 3);
     thr_write_close(writer);
   }
 
@@ -185,7 +176,7 @@ static void put_stills(thr_writer *writer, const thr_standing *standing)
     thr_write_line(writer, 5);
     thr_write_object(writer, NULL);
     thr_fields_write(writer, still_fields, still);
-    put_row(writer, "poses", &still->pose[0][0], 7 * still->n_beads);
+    thr_write_numbers(writer, "poses", &still->pose[0][0], 7 * still->n_beads);
     thr_write_close(writer);
   }
 
@@ -204,7 +195,7 @@ static void put_answers(thr_writer *writer, const thr_standing *standing)
     thr_write_object(writer, NULL);
     thr_fields_write(writer, answer_fields, answer);
     if (is_proved(answer))
-      put_row(writer, "mechanism", &answer->velocity[0][0], 6 * answer->n_beads);
+      thr_write_numbers(writer, "mechanism", &answer->velocity[0][0], 6 * answer->n_beads);
     thr_write_close(writer);
   }
 
