@@ -87,7 +87,7 @@ LINK = $(COMPILER_CXX) $(MODE_$(BUILD)) $(CFLAGS) $(LDFLAGS)
 STRICT = $(if $(filter-out 0,$(WERROR)),$(if $(filter fuzz,$(BUILD)),,-Werror))
 
 DIR := $(OUT)/$(BUILD)
-MODULES := graph lp symmetry tortuosity planner eval diagram lib
+MODULES := graph lp symmetry tortuosity planner eval diagram kit lib
 # every module, and its folders by stage
 FOLDERS := $(MODULES) $(patsubst %/,%,$(wildcard $(addsuffix /*/,$(MODULES))))
 CLI_FOLDERS := cli $(patsubst %/,%,$(wildcard cli/*/))
@@ -147,8 +147,8 @@ demo: ## install what is missing, build, plan a dome, check the plan
 	@for f in $(DEMO_OUT)/*.svg $(DEMO_OUT)/*.pdf $(DEMO_OUT)/*.html; do if [ -e "$$f" ]; then echo "drawing: $$f"; fi; done
 
 test: ## install what is missing, build, run the tests; ends with "N passed, N failed" (ONLY=word runs the matching ones)
-test-fast: ## a minute's tests: a tenth of the examples, without sanitizers
-test-rest: ## what `make test` leaves out: all examples under sanitizers, more allocations that fail, longer fuzzing
+test-fast: ## a minute's tests: a tenth of the examples, none of the long jobs
+test-rest: ## what `make test` leaves out: sanitizers, the other examples, allocations that fail, the watchdog, fuzzing
 test-all: ## everything
 fuzz: ## fuzz every reader for FUZZ_SECONDS, keeping what is found in build/fuzz/found
 test test-fast test-rest test-all fuzz:
@@ -323,11 +323,9 @@ help: ## this list
 
 # ---- the jobs of tests/run.sh, each after what it needs: make BUILD=asan run/asan/unit/test_read ----
 
-# The tests of the release build begin while the other two are made. run.sh sets JOBS_release, JOBS_asan and JOBS_fuzz.
-suite-release suite-asan suite-fuzz: suite-%: suite-built
+# Each build makes no more than its jobs need. run.sh sets JOBS_release, JOBS_asan and JOBS_fuzz.
+suite-release suite-asan suite-fuzz: suite-%: $(OUT)/packages.ok
 	+@$(MAKE) BUILD=$* $(JOBS_$*)
-suite-built:
-	+-@$(MAKE) BUILD=release all
 
 GOLDEN_JOBS := $(patsubst tests/%,run/$(BUILD)/%,$(wildcard tests/golden/*.case))
 $(TEST_PROGRAMS:$(DIR)/tests/%=run/$(BUILD)/%): run/$(BUILD)/%: $(DIR)/tests/%
@@ -452,5 +450,5 @@ $(OUT)/packages.ok:
 
 FORCE:
 .PHONY: web web-pictures web-files static windows all library man dist deb demo docs formats test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
-.PHONY: suite-release suite-asan suite-fuzz suite-built test-programs fuzz-programs list-tests list-fuzz list-flags list-c FORCE
+.PHONY: suite-release suite-asan suite-fuzz test-programs fuzz-programs list-tests list-fuzz list-flags list-c FORCE
 -include $(wildcard $(DIR)/*/*.d $(DIR)/*/*/*.d)

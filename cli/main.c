@@ -23,6 +23,7 @@ const cli_command cli_commands[] = {
     {"eval", "how hard to pull: closed form, simulated joints, whole structure", cmd_eval},
     {"compare", "plans side by side, ranked by pull", cmd_compare},
     {"draw", "diagrams for the hand", cmd_draw},
+    {"kit", "the pieces themselves, to print", cmd_kit},
     {"info", "what a framework is made of", cmd_info},
     {"convert", "a framework in another format", cmd_convert},
     {"make", "example frameworks", cmd_make},

@@ -47,6 +47,21 @@ static inline void thr_cross(const double *a, const double *b, double *out)
   out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+static inline double thr_distance(const double a[3], const double b[3])
+{
+  const double between[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  return sqrt(thr_dot(between, between));
+}
+
+/* Makes a vector 1 long, unless it is 0; returns how long it was. */
+static inline double thr_normalize(double v[3])
+{
+  double length = sqrt(thr_dot(v, v));
+  for (int k = 0; k < 3 && length > 0; k++)
+    v[k] /= length;
+  return length;
+}
+
 /* ---- Angles, in radians: the number pi, degrees for people, and the angle between two directions.
  */
 

@@ -30,7 +30,6 @@ typedef enum {
   COMPAS,
   PAGES,
   POSTER,
-  LABELS,
   N_DOCUMENTS
 } document;
 
@@ -64,9 +63,6 @@ static const struct {
     [POSTER] =
         {"poster", "poster.pdf",
          "poster.pdf: the overview over several sheets, to glue together; --pitch says how large"},
-    [LABELS] =
-        {"labels", "labels.svg",
-         "labels.svg: the pieces' names as outlines, true to size, to raise on printed pieces"},
 };
 
 /* Returns the number of documents. */
@@ -273,7 +269,6 @@ thr_status thr_document_make(const thr_plan *plan, int i, const thr_document_opt
     return thr_table_channels(plan, options->kind_tolerance, options->layout, out, err);
 
   /* What pieces are called and where they lie. */
-  case LABELS: return thr_emboss_svg(plan, out, err);
   case MAT: return mat(plan, options, limits, out, err);
 
   /* Lines for CAD. */

@@ -44,33 +44,3 @@ thr_status thr_pages_close(thr_pages *pages, bool last_first, thr_text *out, thr
   (void)out;
   return thr_fail(err, THR_ESOLVER, "this program makes no PDF");
 }
-
-thr_status thr_letters_open(thr_letters_set **set, thr_err *err)
-{
-  *set = NULL;
-  return thr_fail(err, THR_ESOLVER,
-                  "labels: this build of thread has no fonts; the installed program makes them "
-                  "from the same plan");
-}
-
-void thr_letters_close(thr_letters_set *set)
-{
-  (void)set;
-}
-
-double thr_letters_width(const thr_letters_set *set, const char *words)
-{
-  (void)set;
-  (void)words;
-  return 0;
-}
-
-void thr_letters_put(const thr_letters_set *set, const char *words, const double at[2],
-                     double height, thr_text *path)
-{
-  (void)set;
-  (void)words;
-  (void)at;
-  (void)height;
-  (void)path;
-}

@@ -21,7 +21,7 @@ thr_frame frame_make(int n, const double (*xyz)[3], int m, const int (*edge)[2],
                      THR_OK);
   for (int i = 0; feet && feet[i] >= 0; i++)
     d.node[feet[i]].foot = true;
-  ck_assert_msg(thr_draft_build(&d, 0, &f, &report, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_draft_build(&d, 0, &f, &report, &err), &err);
   ck_assert_int_eq(f.n_nodes, n);
   ck_assert_int_eq(f.n_edges, m);
   thr_draft_destroy(&d);
@@ -35,7 +35,7 @@ thr_frame frame_load(const char *path, const char *edges_path)
   thr_err err = {0};
   thr_read_options o = thr_read_options_default();
   o.edges_path = edges_path;
-  ck_assert_msg(thr_frame_read(&f, &report, path, &o, NULL, 0, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_frame_read(&f, &report, path, &o, NULL, 0, &err), &err);
   return f;
 }
 

@@ -45,6 +45,10 @@ void judged_case(judged *j, counts *n);
 
 /* ---- the least of all threadings (judging_least.c) ---- */
 
+/* A case of this framework and request, of which the functions below tell the least: nothing is run
+ * or written. Raises judged_most_states to most_states. Borrows f and what o points at. */
+judged judged_of(const thr_frame *f, const thr_request *o, long most_states);
+
 extern long judged_most_states;      /* of a piece that is not too large */
 extern const double judged_rounding; /* of a cord's length */
 extern const walks_weights judged_by_length, judged_by_turn;
@@ -71,5 +75,13 @@ double judged_fewest(const judged *j, double limit);
 
 /* Least turning of plans no longer than longest; NAN: not known, INFINITY: there is none. */
 double judged_least_turning(const judged *j, double longest, double limit_turn);
+
+/* The least length of n cords in every piece of f together, and of the longest of them, asked as by
+ * o but for their number and greatest length. INFINITY: there are none. */
+double judged_together(const thr_frame *f, const thr_request *o, int n);
+double judged_longest(const thr_frame *f, const thr_request *o, int n);
+
+/* Tells whether n cords in every piece can each be no longer than limit. */
+bool judged_possible(const thr_frame *f, const thr_request *o, int n, double limit);
 
 #endif

@@ -9,6 +9,15 @@
 
 long judged_most_states = 8000;
 
+judged judged_of(const thr_frame *f, const thr_request *o, long most_states)
+{
+  int component[64];
+  judged j = {.c = {.f = *f, .o = *o}};
+  ck_assert_int_eq(thr_frame_components(f, component, &j.n_pieces, NULL), THR_OK);
+  judged_most_states = most_states;
+  return j;
+}
+
 enum { MOST_APART = 600 }; /* states, where each cord has a limit of its own */
 
 judged_piece judged_piece_find(const judged *j, int k, walks_back back, walks_weights weights,
@@ -78,6 +87,40 @@ double judged_least(const judged *j, walks_back back, walks_weights weights, dou
     sum += judged_between(&l, least, most);
   }
   return sum;
+}
+
+static judged judged_of_cords(const thr_frame *f, const thr_request *o, int n)
+{
+  judged j = judged_of(f, o, 400000);
+  j.c.o.cords = j.c.o.cords_least = n;
+  j.c.o.max_length = 0;
+  return j;
+}
+
+double judged_together(const thr_frame *f, const thr_request *o, int n)
+{
+  const judged j = judged_of_cords(f, o, n);
+  const double least = judged_least(&j, BACK_ANYWHERE, judged_by_length, -1);
+  ck_assert(!isnan(least));
+  return least;
+}
+
+bool judged_possible(const thr_frame *f, const thr_request *o, int n, double limit)
+{
+  const judged j = judged_of_cords(f, o, n);
+  const double least = judged_least(&j, BACK_ANYWHERE, judged_by_length, limit);
+  ck_assert(!isnan(least));
+  return least == 0;
+}
+
+double judged_longest(const thr_frame *f, const thr_request *o, int n)
+{
+  double high = judged_together(f, o, n), low = high / n;
+  for (int i = 0; i < 45 && isfinite(high); i++) {
+    const double half = (low + high) / 2;
+    *(judged_possible(f, o, n, half) ? &high : &low) = half;
+  }
+  return high;
 }
 
 double judged_fewest(const judged *j, double limit)

@@ -16,10 +16,11 @@ symmetry:symmetry graph lp
 tortuosity:tortuosity graph lp
 eval:eval graph lp
 diagram:diagram graph
+kit:kit diagram graph
 planner:planner graph lp symmetry tortuosity
 include:include
-lib:lib include graph lp symmetry tortuosity planner eval diagram
-cli:cli lib include graph lp symmetry tortuosity planner eval diagram
+lib:lib include graph lp symmetry tortuosity planner eval diagram kit
+cli:cli lib include graph lp symmetry tortuosity planner eval diagram kit
 targets:targets cli graph eval diagram
 web:web targets cli graph eval diagram'
 

@@ -120,7 +120,7 @@ thr_plan plan_of_cords(const thr_frame *f, const thr_request *o)
   thr_shortest s;
   thr_err err = {0};
   int n_links = 0, room = 0, start = -1, *link = calloc((size_t)f->n_nodes, sizeof *link);
-  ck_assert_msg(thr_postman_shortest(f, o, &(thr_limits){0}, &s, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_postman_shortest(f, o, &(thr_limits){0}, &s, &err), &err);
   ck_assert(link && thr_plan_request(&p, f, o, NULL) == THR_OK);
   for (int e = 0; e < f->n_edges; e++)
     room += s.passes[e];
@@ -147,9 +147,7 @@ thr_plan plan_of_cords(const thr_frame *f, const thr_request *o)
   p.options.cords_least = o->cords;
   ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, p.n_cords, &p.metrics, NULL),
                    THR_OK);
-  ck_assert_msg(thr_postman_prove(&p.frame, &p.options, p.cord, p.n_cords, &s, &p.proof, &err) ==
-                    THR_OK,
-                "%s", err.text);
+  assert_ok(thr_postman_prove(&p.frame, &p.options, p.cord, p.n_cords, &s, &p.proof, &err), &err);
   thr_shortest_destroy(&s);
   free(walk);
   free(left);
@@ -180,7 +178,7 @@ thr_plan plan_from(const char *text)
 {
   thr_plan p;
   thr_err err = {0};
-  ck_assert_msg(thr_plan_parse(&p, text, strlen(text), "plan", &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_plan_parse(&p, text, strlen(text), "plan", &err), &err);
   return p;
 }
 
@@ -196,10 +194,10 @@ void assert_same_text(const thr_text *a, const thr_text *b)
 void assert_plan_sound(const thr_plan *p)
 {
   thr_err err = {0};
-  ck_assert_msg(thr_check_plan(p, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_check_plan(p, &err), &err);
   thr_text once = plan_text(p);
   thr_plan back = plan_from(once.data);
-  ck_assert_msg(thr_check_plan(&back, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_check_plan(&back, &err), &err);
   thr_text twice = plan_text(&back);
   assert_same_text(&once, &twice);
   thr_plan_destroy(&back);
@@ -230,12 +228,11 @@ void assert_violated(const thr_plan *p, const char *word)
   ck_assert_msg(thr_check_plan(p, &err) == THR_EVIOLATED, "%s", word);
   assert_one_line(&err, word);
   err = (thr_err){0};
-  ck_assert_int_eq(judge_plan(p, &err), THR_EVIOLATED);
-  assert_one_line(&err, NULL);
+  assert_status(judge_plan(p, &err), THR_EVIOLATED, &err, NULL);
 }
 
 void assert_holds(const thr_plan *p)
 {
   thr_err err = {0};
-  ck_assert_msg(thr_check_plan(p, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_check_plan(p, &err), &err);
 }

@@ -7,10 +7,23 @@ cd "$(dirname "$0")/.." || exit 1
 export LC_ALL=C OUT=${OUT:-build} FUZZ_SECONDS=${FUZZ_SECONDS:-60} MAKE=${MAKE:-make} CLANG_FORMAT=${CLANG_FORMAT:-clang-format}
 export RESULTS=$OUT/results
 
-# Longest first, so that none of them is left alone at the end.
-longest='web second/plans release/watchdog release/memory viewer/browser schema unit/test_sheets property/test_cover property/test_tube_cords
-property/test_evenly unit/test_structure unit/test_holding golden/figures golden/eval unit/test_overview property/test_cross property/test_circuits
-property/test_adversary_turning property/test_adversary_claims unit/test_diagram unit/test_tied_symmetry unit/test_group golden/draw golden/plan'
+# First what needs nothing built, so that there is something to see at once; then what takes long, the longest first, so that no
+# processor is left without work at the end. `make test-fast` does without those that take long.
+at_once='layers layers-self-test format viewer/page'
+longest='release/memory property/test_cover property/test_pull_limit release/watchdog golden/figures property/test_circuits
+property/test_shortest second/plans viewer/browser golden/eval unit/test_planner unit/test_memory unit/test_advice
+property/test_decomposition property/test_reference property/test_cross fuzz/fuzz_plan property/test_few_edges golden/turning
+property/test_distinct golden/plan golden/second golden/cords golden/schedules golden/threads golden/convert golden/compare
+golden/draw golden/usage unit/test_standing unit/test_symmetry unit/test_settle unit/test_sheets unit/test_tied_symmetry
+property/test_evenly unit/test_svg_page unit/test_joint unit/test_hubs unit/test_rigidity unit/test_eval
+property/test_length_options property/test_anneal property/test_walk_proof property/test_turning property/test_order
+property/test_cross_known golden/meant golden/symmetries unit/test_postman unit/test_drag unit/test_frontier_chart
+unit/test_threads unit/test_tortuosity'
+
+# Laws with many examples: `make test` runs an eighth of them, `make test-rest` the others, and that eighth under sanitizers.
+sweeps() {
+  grep -lE 'share_of|ADD_EXAMPLES|ADD_LARGE' tests/property/*.c | sed 's#^tests/#release/#; s#\.c$##'
+}
 
 # ---- one job: tests/run.sh job NAME. Writes "passed failed skipped" to $RESULTS/NAME.count and prints a line to file 7 (make has 3 and 4). ----
 
@@ -51,6 +64,17 @@ format() { # LOG
   return $code
 }
 
+# A program of tests runs one of so many of its examples; -8: what 8 leaves out.
+share() { # NAME
+  case $TIER/$1 in
+  fast/* | rest/asan/unit/*) echo 10 ;;
+  test/release/property/* | rest/asan/property/*) echo 8 ;;
+  rest/release/property/test_circuits) echo 1 ;;
+  rest/release/property/*) echo -8 ;;
+  *) echo 1 ;;
+  esac
+}
+
 viewer_page() {
   tools/npm-packages.sh viewer "$OUT/viewer" || { echo '1 skipped' && return 77; }
   viewer/build.sh "$OUT/viewer" | cmp - diagram/export/viewer_page.html && return
@@ -60,8 +84,13 @@ viewer_page() {
 
 run() { # NAME LOG: runs the job; its exit code, 77 = skipped
   local name=$1 build=${1%%/*} rest=${1#*/} log=$2
-  export THREAD_TEST_SHARE=$SHARE_RELEASE CK_TIMEOUT_MULTIPLIER=10
-  [ "$build" = asan ] && THREAD_TEST_SHARE=$SHARE_ASAN CK_TIMEOUT_MULTIPLIER=30
+  case $name in
+  # shellcheck disable=SC2086 # one word per package
+  viewer/* | schema | web) flock "$RESULTS/packages" tools/install-packages.sh ${VIEWER_PACKAGES:-} >>"$log" 2>&1 ;;
+  esac
+  export THREAD_TEST_SHARE CK_TIMEOUT_MULTIPLIER=10
+  THREAD_TEST_SHARE=$(share "$name")
+  [ "$build" = asan ] && CK_TIMEOUT_MULTIPLIER=30
   case $name in
   layers) tests/layers.sh ;;
   layers-self-test) tests/layers.sh --self-test ;;
@@ -112,6 +141,7 @@ job() { # NAME
     else
       printf 'ok    %-44s %4d  (%s%s)\n' "$name" "$passed" "$spent" "$note"
     fi
+    echo "$spent $name" >>"$RESULTS/times"
   } 9>"$RESULTS/lock" >&7
   echo "$counts" >"$RESULTS/${name//\//_}.count"
 }
@@ -124,38 +154,27 @@ fi
 
 # ---- which jobs ----
 
-tier=${1:-test}
-export SHARE_RELEASE=1 SHARE_ASAN=10 MEMORY_SAMPLES=40 MUTANTS=50 FUZZ_RUNS=30000
+export TIER=${1:-test} MEMORY_SAMPLES=40 MUTANTS=50 FUZZ_RUNS=100000
 # Golden cases that take minutes under sanitizers, and whose planning and evaluation other tests run under them.
 slow='asan/figures.case asan/eval.case asan/cords.case asan/turning.case asan/threads.case asan/convert.case asan/plan.case asan/compare.case asan/schedules.case'
-builds='release asan' tree='layers layers-self-test documents format bench/smallest library/install readme examples formats/mutants' programs='second/json second/plans schema viewer/page viewer/browser' whole='' fuzz=yes
-case $tier in
-test) whole='release/watchdog release/memory' MEMORY_SAMPLES=4 ;;
-fast) builds=release SHARE_RELEASE=10 programs='' fuzz='' ;;
-rest) builds=asan SHARE_ASAN=8 tree='' programs='' whole=release/memory MEMORY_SAMPLES=12 FUZZ_RUNS=100000 ;;
-all) SHARE_ASAN=1 slow=asan/figures.case whole='release/watchdog release/memory exchange web static windows' MUTANTS=2000 FUZZ_RUNS=1000000 ;;
-fuzz) builds='' tree='' programs='' FUZZ_RUNS=0 ;;
-*) echo "tests/run.sh: $tier is none of test, fast, rest, all and fuzz" >&2 && exit 2 ;;
+# What a change needs within minutes, and what `make test` leaves to `make test-rest`: no tenth of these says anything.
+builds=release tree='layers layers-self-test documents format bench/smallest library/install readme examples formats/mutants'
+programs='second/json second/plans schema viewer/page viewer/browser' fuzz='' whole='' left=''
+rest='release/memory release/watchdog release/golden/figures.case release/property/test_circuits'
+case $TIER in
+test) left=$rest ;;
+fast) tree='layers documents format' programs='' ;;
+rest) builds=asan tree='' programs='' fuzz=yes whole="$rest $(sweeps)" MEMORY_SAMPLES=16 ;;
+all) builds='release asan' slow=asan/figures.case whole='release/watchdog release/memory exchange web static windows' fuzz=yes MUTANTS=2000 FUZZ_RUNS=1000000 ;;
+fuzz) builds='' tree='' programs='' fuzz=yes FUZZ_RUNS=0 ;;
+*) echo "tests/run.sh: $TIER is none of test, fast, rest, all and fuzz" >&2 && exit 2 ;;
 esac
 
-examples_under_sanitizers() { # of those tests that take a share of their examples
-  grep -lE 'share_of|ADD_EXAMPLES|ADD_LARGE' tests/property/*.c | sed 's#^tests/#asan/#; s#\.c$##'
-}
-
-list() { # every job of the tier; what `make test` leaves out is the rest's
+list() { # every job of the tier
   local build case
   printf '%s\n' $tree $whole $programs
-  if [ "$tier" = rest ]; then
-    examples_under_sanitizers
-    "$MAKE" -s list-fuzz
-    return
-  fi
   for build in $builds; do
-    if [ "$tier $build" = 'test asan' ]; then
-      "$MAKE" -s list-tests | sed "s#^#$build/#" | grep -vxF "$(examples_under_sanitizers)"
-    else
-      "$MAKE" -s list-tests | sed "s#^#$build/#"
-    fi
+    "$MAKE" -s list-tests | sed "s#^#$build/#"
     for case in tests/golden/*.case; do
       [[ " $slow " == *" $build/${case##*/} "* ]] || echo "$build/${case#tests/}"
     done
@@ -164,14 +183,27 @@ list() { # every job of the tier; what `make test` leaves out is the rest's
 }
 
 order() {
-  awk -v longest="$longest" '
-    BEGIN { n = split(longest, name); for (i = 1; i <= n; i++) rank[name[i]] = i - n }
-    { short = $1; sub(/^(release|asan)\//, "", short); sub(/\.case$/, "", short); print ($1 in rank ? rank[$1] : rank[short] + 0), $1 }' |
-    sort -s -k1,1n | cut -d' ' -f2
+  awk -v first="$at_once" -v longest="$longest" -v tier="$TIER" '
+    BEGIN {
+      n = split(first " " longest, name)
+      for (i = 1; i <= n; i++) rank[name[i]] = i - n - 1
+      if (tier == "fast") long = -split(longest, name)
+    }
+    {
+      short = $1
+      sub(/^(release|asan)\//, "", short)
+      sub(/\.case$/, "", short)
+      place = $1 in rank ? rank[$1] : rank[short] + 0
+      if (place >= 0 || place < long) print place, $1
+    }' | sort -s -k1,1n | cut -d' ' -f2
 }
 
-mapfile -t queue < <(list | grep -F -e "${ONLY:-}" | order)
-[ ${#queue[@]} -gt 0 ] || { echo '0 passed, 0 failed' && exit 1; }
+mapfile -t queue < <(list | sort -u | grep -vxF "${left// /$'\n'}" | grep -F -e "${ONLY:-}" | order)
+if [ ${#queue[@]} = 0 ]; then
+  echo "no job of this part has \"${ONLY:-}\" in its name: see make test-rest and make test-all"
+  echo '0 passed, 0 failed'
+  exit 1
+fi
 
 # ---- running them: make builds what each job needs, and runs it; what the compilers say goes into a file ----
 
@@ -188,7 +220,6 @@ for name in "${queue[@]}"; do
   *) JOBS_release+=" run/$name" ;;
   esac
 done
-case " ${queue[*]}" in *' viewer/'*) tools/install-packages.sh ${VIEWER_PACKAGES:-} >"$RESULTS/packages.log" 2>&1 ;; esac
 jobs=("-j$(nproc)")
 case ${MAKEFLAGS:-} in *-j*) jobs=() ;; esac
 "$MAKE" --no-print-directory -k -O "${jobs[@]}" ${JOBS_release:+suite-release} ${JOBS_asan:+suite-asan} ${JOBS_fuzz:+suite-fuzz} \
@@ -204,6 +235,10 @@ for name in "${queue[@]}"; do
   echo '0 1 0' >"$file.count"
 done
 [ -z "$bad" ] || grep -vE '^  (CC|CXX|AS|AR|LINK) ' "$RESULTS/build.log" | sed 's/^/      | /'
+if [ ${#queue[@]} -gt 10 ] && [ -e "$RESULTS/times" ]; then
+  awk '{ sum += $3 + $5 } END { printf "%d s of processors; the jobs that took most:\n", sum }' "$RESULTS/times"
+  awk '{ printf "%8.1f s  %s\n", $3 + $5, $NF }' "$RESULTS/times" | sort -rn | head -n 10
+fi
 cat "$RESULTS"/*.count | awk '
   { passed += $1; failed += $2; skipped += $3 }
   END {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tests/support.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,34 +24,37 @@ void add_case(Suite *s, const char *name, double seconds, const TTest *test, int
   suite_add_tcase(s, t);
 }
 
+/* 8: one of eight examples. -8: the other seven. */
 static int share(void)
 {
   const char *text = getenv("THREAD_TEST_SHARE");
   int n = text ? atoi(text) : 1;
-  return n > 1 ? n : 1;
+  return n != 0 ? n : 1;
 }
 
 int share_of(int n)
 {
-  return (n + share() - 1) / share();
+  return share() > 1 ? (n + share() - 1) / share() : n;
 }
 
-/* One of each run of share() numbers, its place in the run another each time: kinds that take turns
- * all have theirs. */
+/* Chooses one of each run of examples, its place in the run another each time: kinds that take
+ * turns all have theirs. */
 void add_examples(Suite *s, const char *name, double seconds, const TTest *test, int end)
 {
   TCase *t = tcase_create(name);
   tcase_set_timeout(t, seconds);
-  for (int first = 0, run = 0; first < end; first += share(), run++) {
-    int i = first + 7 * run % (end - first < share() ? end - first : share());
-    tcase_add_loop_test(t, test, i, i + 1);
+  int length = abs(share());
+  for (int i = 0; i < end; i++) {
+    int run = i / length, first = run * length;
+    bool chosen = i == first + 7 * run % (end - first < length ? end - first : length);
+    if (chosen == (share() > 0)) tcase_add_loop_test(t, test, i, i + 1);
   }
   suite_add_tcase(s, t);
 }
 
 void add_large(Suite *s, const char *name, double seconds, const TTest *test, int first, int end)
 {
-  if (share() == 1) add_case(s, name, seconds, test, first, end);
+  if (share() <= 1) add_case(s, name, seconds, test, first, end);
 }
 
 void assert_one_line(const thr_err *err, const char *word)
@@ -59,6 +63,18 @@ void assert_one_line(const thr_err *err, const char *word)
   ck_assert_int_gt((int)strlen(err->text), 3);
   ck_assert_msg(!strchr(err->text, '\n'), "%s", err->text);
   ck_assert_msg(!word || strstr(err->text, word), "\"%s\" does not name \"%s\"", err->text, word);
+}
+
+void assert_ok(thr_status st, const thr_err *err)
+{
+  ck_assert_msg(st == THR_OK, "status %d: %s", (int)st, err->text);
+}
+
+void assert_status(thr_status st, thr_status wanted, thr_err *err, const char *word)
+{
+  ck_assert_msg(st == wanted, "status %d, not %d: %s", (int)st, (int)wanted, err->text);
+  if (wanted) assert_one_line(err, word);
+  *err = (thr_err){0};
 }
 
 /* ---- random numbers: xorshift64* ---- */

@@ -28,7 +28,8 @@ void add_case(Suite *s, const char *name, double seconds, const TTest *test, int
  * the environment a tenth. */
 int share_of(int n);
 
-/* Adds the test for a part of the numbers 0 .. end - 1, spread over them. */
+/* Adds the test for a part of the numbers 0 .. end - 1, spread over them. -10 instead of 10 takes
+ * the numbers that 10 leaves out. */
 #define ADD_EXAMPLES(suite, seconds, test, end) add_examples(suite, #test, seconds, test, end)
 void add_examples(Suite *s, const char *name, double seconds, const TTest *test, int end);
 
@@ -39,6 +40,13 @@ void add_large(Suite *s, const char *name, double seconds, const TTest *test, in
 
 /* Fails unless err holds a status with a text of one line that contains word (NULL: any). */
 void assert_one_line(const thr_err *err, const char *word);
+
+/* Fails, with the text of err, unless st is THR_OK. */
+void assert_ok(thr_status st, const thr_err *err);
+
+/* Fails unless st is wanted and, where that is a failure, err holds one line that contains word
+ * (NULL: any). Empties err for the next call. */
+void assert_status(thr_status st, thr_status wanted, thr_err *err, const char *word);
 
 /* ---- random numbers ---- */
 

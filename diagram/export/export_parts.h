@@ -29,8 +29,17 @@ static inline int thr_font_signed(const thr_font *f, size_t at)
   return value >= 0x8000 ? value - 0x10000 : value;
 }
 
-/* Finds the outline of a glyph: *n bytes at *at of the file. Returns whether the glyph has one. */
-bool thr_font_place(const thr_font *f, int glyph, size_t *at, size_t *n);
+/* Bytes at .. at + n - 1 of the file: a table of the font, or a part of one. n = 0: there is
+ * none. */
+typedef struct {
+  size_t at, n;
+} thr_font_part;
+
+/* Returns where the outline of a glyph is; n = 0: the glyph is blank, or there is no such one. */
+thr_font_part thr_font_place(const thr_font *font, int glyph);
+
+/* An outline begins with a head: the number of contours, < 0 for a composed glyph, and a box. */
+enum { THR_FONT_HEAD = 10 };
 
 /* ---- pdf.c: a PDF (1.4, ISO 32000-1) that grows page by page, compressed at once ---- */
 
@@ -54,7 +63,6 @@ void thr_leaf_destroy(thr_leaf *leaf);
 /* Adds a compressed leaf as another page; or, page >= 0, to what is on that page, which may be
  * added to once. One thread at a time. */
 thr_status thr_pdf_add(thr_pdf *pdf, int page, const thr_leaf *leaf, thr_err *err) THR_MUST_CHECK;
-int thr_pdf_pages(const thr_pdf *pdf);
 
 /* Ends the file, of at least one page, and appends it to out. The last page comes first if
  * last_first. The same leaves and fonts give the same bytes. */

@@ -36,14 +36,8 @@ static void put_32(thr_text *out, size_t value)
   put_16(out, (unsigned)(value & 0xffff));
 }
 
-/* Bytes at .. at + n - 1 of the file: a table of the font, or a part of one. n = 0: there is
- * none. */
-typedef struct {
-  size_t at, n;
-} font_table;
-
 /* Returns where a table of the font is, n = 0 if the font has none or the file ends before it. */
-static font_table find(const thr_font *font, const char *tag)
+static thr_font_part find(const thr_font *font, const char *tag)
 {
   enum { HEADER = 12, RECORD = 16 };
 
@@ -55,12 +49,12 @@ static font_table find(const thr_font *font, const char *tag)
     if (at + RECORD > font->file.length) break;
 
     /* A record holds the table's name, a sum of its bytes, where it is, and how long. */
-    font_table found = {read_32(font, at + 8), read_32(font, at + 12)};
+    thr_font_part found = {read_32(font, at + 8), read_32(font, at + 12)};
     if (memcmp(font->file.data + at, tag, 4) == 0 && found.at <= font->file.length &&
         found.n <= font->file.length - found.at)
       return found;
   }
-  return (font_table){0, 0};
+  return (thr_font_part){0, 0};
 }
 
 /* ---- letters ---- */
@@ -91,7 +85,7 @@ static void read_segments(thr_font *font, size_t at)
  * Unicode. */
 static bool read_letters(thr_font *font)
 {
-  font_table cmap = find(font, "cmap");
+  thr_font_part cmap = find(font, "cmap");
 
   for (unsigned i = 0; cmap.n && i < thr_font_16(font, cmap.at + 2); i++) {
     size_t record = cmap.at + 4 + 8 * (size_t)i, at = cmap.at + read_32(font, record + 4);
@@ -129,8 +123,8 @@ thr_status thr_font_read(thr_font *font, const char *path, int index, const char
     font->start = read_32(font, 12 + 4 * (size_t)index);
 
   /* Everything that a PDF needs must be there. */
-  font_table head = find(font, "head"), hhea = find(font, "hhea"), maxp = find(font, "maxp"),
-             hmtx = find(font, "hmtx");
+  thr_font_part head = find(font, "head"), hhea = find(font, "hhea"), maxp = find(font, "maxp"),
+                hmtx = find(font, "hmtx");
 
   if (!head.n || !hhea.n || !maxp.n || !hmtx.n || !find(font, "glyf").n || !find(font, "loca").n)
     return no_font(path, "it has no TrueType outlines", err);
@@ -190,67 +184,63 @@ double thr_font_advance(const thr_font *font, int glyph)
 
 /* ---- a part of a font ---- */
 
-/* Returns where the outline of a glyph is, as loca says: places are numbers of 32 bits, or halves
- * of them in 16. */
-static font_table outline_of(const thr_font *font, int glyph)
+thr_font_part thr_font_place(const thr_font *font, int glyph)
 {
-  font_table glyf = find(font, "glyf"), loca = find(font, "loca");
+  thr_font_part glyf = find(font, "glyf"), loca = find(font, "loca");
+
+  /* As loca says: places are numbers of 32 bits, or halves of them in 16. */
   bool wide = thr_font_16(font, find(font, "head").at + 50) != 0;
 
   /* A glyph ends where the next one begins, so loca has one place more than glyphs. */
   size_t i = (size_t)glyph, from, to;
 
-  if ((wide ? 4 : 2) * (i + 2) > loca.n) return (font_table){0, 0};
+  if (glyph >= font->n_glyphs || (wide ? 4 : 2) * (i + 2) > loca.n) return (thr_font_part){0, 0};
   from = wide ? read_32(font, loca.at + 4 * i) : 2 * (size_t)thr_font_16(font, loca.at + 2 * i);
   to = wide ? read_32(font, loca.at + 4 * i + 4)
             : 2 * (size_t)thr_font_16(font, loca.at + 2 * i + 2);
 
   /* A blank has no bytes. */
-  return from < to && to <= glyf.n ? (font_table){glyf.at + from, to - from} : (font_table){0, 0};
+  return from < to && to <= glyf.n ? (thr_font_part){glyf.at + from, to - from}
+                                   : (thr_font_part){0, 0};
 }
 
-bool thr_font_place(const thr_font *font, int glyph, size_t *at, size_t *n)
-{
-  font_table outline =
-      glyph >= 0 && glyph < font->n_glyphs ? outline_of(font, glyph) : (font_table){0, 0};
+/* Flags of a part of a composed glyph: its offset has words; scales, of 14 bits behind the point,
+ * and another part follow. */
+enum { WORDS = 1, SCALE = 8, MORE = 32, TWO_SCALES = 64, MATRIX = 128 };
 
-  *at = outline.at;
-  *n = outline.n;
-  return outline.n > 0;
+/* Takes a part off the front of what is left of a composed glyph's outline behind the head.
+ * Returns false if there is none. */
+static bool next_part(const thr_font *font, thr_font_part *left, int *glyph)
+{
+  if (left->n < 4) return false;
+  const unsigned flags = thr_font_16(font, left->at);
+  *glyph = (int)thr_font_16(font, left->at + 2);
+
+  /* Behind flags and glyph: an offset, then one scale for both axes, one for each, or a matrix. */
+  const size_t scales = flags & SCALE ? 1 : flags & TWO_SCALES ? 2 : flags & MATRIX ? 4 : 0;
+  const size_t read = 4u + (flags & WORDS ? 4u : 2u) + 2 * scales;
+  *left = flags & MORE && read < left->n ? (thr_font_part){left->at + read, left->n - read}
+                                         : (thr_font_part){0, 0};
+  return true;
 }
 
-/* Marks the glyphs that a composed glyph is made of, and the parts of these. A glyph is marked only
- * once, so the search ends even if a font is wrong. */
-static void mark_parts(const thr_font *font, int glyph, unsigned char *used)
+/* Marks the glyphs that a composed glyph is made of. Returns the first of all glyphs that was not
+ * marked before, n_glyphs if there is none. */
+static int mark_parts(const thr_font *font, int glyph, unsigned char *used)
 {
-  enum { WORDS = 1, SCALE = 8, MORE = 32, TWO_SCALES = 64, MATRIX = 128, DEPTH = 64 };
+  thr_font_part left = thr_font_place(font, glyph);
+  int first = font->n_glyphs, part;
 
-  int stack[DEPTH], depth = 0;
-  for (stack[depth++] = glyph; depth;) {
-    font_table outline = outline_of(font, stack[--depth]);
+  /* A simple glyph has a number of contours >= 0 and no parts. */
+  if (left.n < THR_FONT_HEAD || thr_font_signed(font, left.at) >= 0) return first;
 
-    /* A simple glyph has a number of contours >= 0 and no parts. */
-    if (outline.n < 10 || thr_font_signed(font, outline.at) >= 0) continue;
-
-    /* Another part follows as long as the flags say so and the outline has bytes left. */
-    unsigned flags = MORE;
-    for (size_t at = outline.at + 10; flags & MORE && at + 4 <= outline.at + outline.n;) {
-      int part = (int)thr_font_16(font, at + 2);
-      flags = thr_font_16(font, at);
-
-      /* A part has flags, a number, an offset in bytes or words, and perhaps a scale. */
-      at += 4 + (flags & WORDS ? 4u : 2u) +
-            (flags & SCALE        ? 2u
-             : flags & TWO_SCALES ? 4u
-             : flags & MATRIX     ? 8u
-                                  : 0u);
-
-      if (part >= font->n_glyphs || used[part]) continue;
-
-      used[part] = 1;
-      if (depth < DEPTH) stack[depth++] = part;
-    }
+  left = (thr_font_part){left.at + THR_FONT_HEAD, left.n - THR_FONT_HEAD};
+  while (next_part(font, &left, &part)) {
+    if (part >= font->n_glyphs || used[part]) continue;
+    used[part] = 1;
+    if (part < first) first = part;
   }
+  return first;
 }
 
 /* Appends the used outlines one after the other to glyf, and where each begins to loca, in 32 bits.
@@ -262,7 +252,7 @@ static void put_outlines(const thr_font *font, const unsigned char *used, thr_te
     put_32(loca, glyf->length);
 
     /* The number of a glyph stays the same, so the glyphs before it need places, too. */
-    font_table outline = used[i] ? outline_of(font, i) : (font_table){0, 0};
+    thr_font_part outline = used[i] ? thr_font_place(font, i) : (thr_font_part){0, 0};
     if (outline.n) thr_text_append_bytes(glyf, font->file.data + outline.at, outline.n);
 
     /* Outlines begin at multiples of four bytes. */
@@ -284,7 +274,7 @@ static void put_tables(const thr_font *font, const thr_text *glyf, const thr_tex
 
   size_t begin = out->length, at = 12 + 16 * N;
 
-  font_table old[N];
+  thr_font_part old[N];
 
   /* The header: version, number of tables, and three numbers for a search by halving: 16 times the
    * greatest power of 2 up to N, its exponent, 16 times the rest. */
@@ -327,10 +317,13 @@ thr_status thr_font_subset(const thr_font *font, unsigned char *used, thr_text *
 {
   thr_text glyf = {0}, loca = {0};
 
-  /* Glyph 0 stands for all letters that the font lacks. */
+  /* Glyph 0 stands for all letters that the font lacks. A part with a smaller number sends the
+   * search back to it; parts are marked only once, so that the search ends even in a wrong font. */
   used[0] = 1;
-  for (int i = 0; i < font->n_glyphs; i++)
-    if (used[i]) mark_parts(font, i, used);
+  for (int i = 0; i < font->n_glyphs;) {
+    int first = used[i] ? mark_parts(font, i, used) : font->n_glyphs;
+    i = first < i ? first : i + 1;
+  }
 
   /* Both tables are made before the file that holds them. */
   put_outlines(font, used, &glyf, &loca);

@@ -213,8 +213,7 @@ static bool is_hidden(const thr_paper *paper, thr_box box, double around)
 static void put_path(thr_paper *paper, int points, const double *point, const char *word)
 {
   for (int i = 0; i < points; i++)
-    thr_box_extend(&paper->box,
-                   (thr_box){point[2 * i], point[2 * i + 1], point[2 * i], point[2 * i + 1]});
+    thr_box_point(&paper->box, point + 2 * i);
   put(&paper->path, 2 * points, point, word);
 }
 
@@ -226,8 +225,7 @@ static void put_part(thr_paper *paper, int points, const double *point, const ch
     /* The box around the pen and all points of the part. */
     thr_box box = {paper->pen[0], paper->pen[1], paper->pen[0], paper->pen[1]};
     for (int i = 0; i < points; i++)
-      thr_box_extend(&box,
-                     (thr_box){point[2 * i], point[2 * i + 1], point[2 * i], point[2 * i + 1]});
+      thr_box_point(&box, point + 2 * i);
 
     /* Behind parts that were left out the pen must be moved to where this one begins. */
     const bool hidden = is_hidden(paper, box, paper->trim);

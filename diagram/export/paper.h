@@ -9,7 +9,7 @@
  * Reading order: pages.c (from SVG documents to a file, in parallel) calls svg_page.c (reads the
  * SVG) with svg_style.c (CSS), which draws on paper.c (one page's content stream), and pdf.c (the
  * file round all pages) with deflate.c. font_find.c (where fonts are), font.c (letters, widths, a
- * part of a font) and font_outline.c (curves) serve pdf.c, and letters.c for words to cut or print.
+ * part of a font) serve pdf.c.
  * viewer.c and test_piece.c stand alone. export_parts.h: what only these files share. */
 #ifndef THR_PAPER_H
 #define THR_PAPER_H
@@ -59,11 +59,6 @@ double thr_font_advance(const thr_font *font, int glyph);
  * O(bytes). */
 thr_status thr_font_subset(const thr_font *font, unsigned char *used, thr_text *out,
                            thr_err *err) THR_MUST_CHECK;
-
-/* Appends the outline of a glyph to an SVG path: closed curves, quadratic ones, with numbers of
- * three decimals. A point x, y of it, in units, goes to place[0] x + place[2] y + place[4],
- * place[1] x + place[3] y + place[5]. Nothing for a blank. O(points). */
-void thr_font_outline(const thr_font *font, int glyph, const double place[6], thr_text *path);
 
 /* The faces that pages are set in. */
 enum { THR_FACE_BOLD = 1, THR_FACE_MONO = 2, THR_FACES = 4 }; /* a face is a sum of these */
@@ -181,24 +176,6 @@ thr_status thr_pages_add(thr_pages *pages, int page, thr_text *svg, thr_err *err
  * the same bytes, whatever the number of threads. out is unchanged on failure. */
 thr_status thr_pages_close(thr_pages *pages, bool last_first, thr_text *out,
                            thr_err *err) THR_MUST_CHECK;
-
-/* ---- letters.c: words as closed outlines, for programs that know no fonts: to cut, to engrave, to
- * raise on a printed piece ---- */
-
-typedef struct thr_letters_set thr_letters_set;
-
-/* Finds the bold face of pages. THR_ESOLVER where there are no fonts: in a browser. Release with
- * thr_letters_close (NULL ok). */
-thr_status thr_letters_open(thr_letters_set **set, thr_err *err) THR_MUST_CHECK;
-void thr_letters_close(thr_letters_set *set);
-
-/* Returns the width of words whose capitals are 1 high. */
-double thr_letters_width(const thr_letters_set *set, const char *words);
-
-/* Appends words as data of an SVG path, with the left end of the base line at a point and capitals
- * of a height. */
-void thr_letters_put(const thr_letters_set *set, const char *words, const double at[2],
-                     double height, thr_text *path);
 
 /* ---- test_piece.c: the piece in which a cord's friction is measured: a bore that turns by 90
  * degrees, as in a bead with two arms ---- */

@@ -121,6 +121,19 @@ static int put_stream(thr_pdf *pdf, const thr_text *small, const char *more)
   return pdf->out.failed ? 0 : object;
 }
 
+/* Compresses bytes into a stream object and releases them. Returns the object's number; *st
+ * receives failures. */
+static int put_bytes(thr_pdf *pdf, thr_text *bytes, const char *more, thr_err *err, thr_status *st)
+{
+  thr_text small = {0};
+  *st = bytes->failed ? thr_nomem(err) : thr_deflate(bytes->data, bytes->length, &small, err);
+  int object = *st ? 0 : put_stream(pdf, &small, more);
+
+  thr_text_destroy(bytes);
+  thr_text_destroy(&small);
+  return object;
+}
+
 /* ---- pages ---- */
 
 thr_status thr_leaf_open(thr_leaf *leaf, const thr_pdf *pdf, thr_err *err)
@@ -185,11 +198,6 @@ thr_status thr_pdf_add(thr_pdf *pdf, int nth, const thr_leaf *leaf, thr_err *err
   return THR_OK;
 }
 
-int thr_pdf_pages(const thr_pdf *pdf)
-{
-  return pdf->n_pages;
-}
-
 /* Writes the page tree (7.7.3): one node whose kids are all pages, in the order in which they are
  * read. Page size and resources are inherited from this node. */
 static void put_pages(thr_pdf *pdf, bool last_first)
@@ -237,8 +245,8 @@ static bool is_set(const unsigned char *letters, int letter)
 static int put_file(thr_pdf *pdf, const thr_font *font, const unsigned char *letters, thr_err *err,
                     thr_status *st)
 {
-  thr_text part = {0}, small = {0};
-  int object = 0;
+  thr_text part = {0};
+  char more[40];
   unsigned char *used = thr_calloc((size_t)font->n_glyphs, 1);
 
   *st = used ? THR_OK : thr_nomem(err);
@@ -247,21 +255,14 @@ static int put_file(thr_pdf *pdf, const thr_font *font, const unsigned char *let
   for (int letter = 0; letter < THR_FONT_LETTERS && used; letter++)
     if (is_set(letters, letter)) used[font->glyph[letter]] = 1;
 
-  /* Only their outlines, compressed. */
+  /* Only their outlines. A PDF must say how long the font is when it is not compressed. */
   if (!*st) *st = thr_font_subset(font, used, &part, err);
-  if (!*st) *st = thr_deflate(part.data, part.length, &small, err);
-
-  /* A PDF must say how long the font is when it is not compressed. */
-  if (!*st) {
-    char more[40];
-    snprintf(more, sizeof more, "/Length1 %zu", part.length);
-    object = put_stream(pdf, &small, more);
-  }
+  snprintf(more, sizeof more, "/Length1 %zu", part.length);
 
   free(used);
+  if (!*st) return put_bytes(pdf, &part, more, err, st);
   thr_text_destroy(&part);
-  thr_text_destroy(&small);
-  return object;
+  return 0;
 }
 
 /* Writes CIDToGIDMap: the glyph of each code, two bytes, the higher first. 128 KiB, nearly all of
@@ -269,7 +270,7 @@ static int put_file(thr_pdf *pdf, const thr_font *font, const unsigned char *let
 static int put_glyphs(thr_pdf *pdf, const thr_font *font, const unsigned char *letters,
                       thr_err *err, thr_status *st)
 {
-  thr_text map = {0}, small = {0};
+  thr_text map = {0};
 
   /* A code that is not used leads to glyph 0. */
   for (int letter = 0; letter < THR_FONT_LETTERS; letter++) {
@@ -279,12 +280,7 @@ static int put_glyphs(thr_pdf *pdf, const thr_font *font, const unsigned char *l
   }
 
   /* The map is as long as the basic plane, whatever is used of it. */
-  *st = map.failed ? thr_nomem(err) : thr_deflate(map.data, map.length, &small, err);
-  int object = *st ? 0 : put_stream(pdf, &small, "");
-
-  thr_text_destroy(&map);
-  thr_text_destroy(&small);
-  return object;
+  return put_bytes(pdf, &map, "", err, st);
 }
 
 /* Writes ToUnicode (9.10.3): each code is found as the letter itself. Returns the object's
@@ -292,8 +288,7 @@ static int put_glyphs(thr_pdf *pdf, const thr_font *font, const unsigned char *l
 static int put_words(thr_pdf *pdf, const unsigned char *letters, thr_err *err, thr_status *st)
 {
   enum { MOST = 100 }; /* in one list */
-  thr_text map = {0}, list = {0}, small = {0};
-
+  thr_text map = {0}, list = {0};
   int n = 0;
 
   /* The frame of a CMap, which is a small PostScript program. */
@@ -316,13 +311,9 @@ static int put_words(thr_pdf *pdf, const unsigned char *letters, thr_err *err, t
   }
 
   thr_text_append(&map, "endcmap\nCMapName currentdict /CMap defineresource pop\nend\nend\n");
-  *st = map.failed || list.failed ? thr_nomem(err) : thr_deflate(map.data, map.length, &small, err);
-
-  int object = *st ? 0 : put_stream(pdf, &small, "");
-  thr_text_destroy(&map);
+  map.failed |= list.failed;
   thr_text_destroy(&list);
-  thr_text_destroy(&small);
-  return object;
+  return put_bytes(pdf, &map, "", err, st);
 }
 
 /* Appends the name of a font of which only a part is embedded: six capital letters, a different one

@@ -155,27 +155,18 @@ static const thr_slice *find(const svg_tag *tag, const char *name)
   return NULL;
 }
 
-/* Reads the attribute as a number, 0 if the tag lacks it. */
-static thr_status read_number(svg_reader *reader, const svg_tag *tag, const char *name,
-                              double *value)
-{
-  const thr_slice *text = find(tag, name);
-  *value = 0;
-  if (!text) return THR_OK;
-
-  /* Nothing may follow the number, such as a unit. */
-  thr_slice rest = *text;
-  return thr_slice_number(&rest, value) && !rest.n ? THR_OK : broken(reader, name, *text);
-}
-
-/* Reads n attributes as numbers. */
+/* Reads n attributes as numbers, 0 for one that the tag lacks. */
 static thr_status read_numbers(svg_reader *reader, const svg_tag *tag, int n,
                                const char *const *name, double *value)
 {
-  thr_status st = THR_OK;
-  for (int i = 0; i < n && !st; i++)
-    st = read_number(reader, tag, name[i], &value[i]);
-  return st;
+  for (int i = 0; i < n; i++) {
+    const thr_slice *found = find(tag, name[i]), text = found ? *found : (thr_slice){"0", 1};
+    thr_slice rest = text;
+
+    /* Nothing may follow the number, such as a unit. */
+    if (!thr_slice_number(&rest, &value[i]) || rest.n) return broken(reader, name[i], text);
+  }
+  return THR_OK;
 }
 
 /* ---- styles ---- */
@@ -463,6 +454,18 @@ static thr_status draw_shape(svg_reader *reader, const svg_tag *tag)
 
 /* ---- text ---- */
 
+/* Reads what stands between a tag and its end: text without elements. */
+static thr_status read_words(svg_reader *reader, const svg_tag *tag, thr_slice *words)
+{
+  svg_tag end;
+
+  thr_status st = next_tag(reader, words, &end);
+  if (!st && (!end.closes || end.name.n != tag->name.n ||
+              memcmp(end.name.s, tag->name.s, end.name.n) != 0))
+    return broken(reader, "not known inside it is", end.name);
+  return st;
+}
+
 /* Fills reader->words with a text whose entities are replaced by what they stand for. */
 static thr_status put_words(svg_reader *reader, thr_slice text)
 {
@@ -473,20 +476,17 @@ static thr_status put_words(svg_reader *reader, thr_slice text)
   while (text.n) {
     /* Everything up to the next entity is copied as it is. */
     const char *ampersand = memchr(text.s, '&', text.n);
-    size_t n = ampersand ? (size_t)(ampersand - text.s) : text.n, i;
+    size_t n = ampersand ? (size_t)(ampersand - text.s) : text.n, i = 0;
     thr_text_append_bytes(&reader->words, text.s, n);
     skip(&text, n);
 
     if (!text.n) break;
 
     /* Five entities are written; any other one is an error. */
-    for (i = 0; i < sizeof entity / sizeof *entity; i++)
-      if (text.n >= strlen(entity[i][0]) && memcmp(text.s, entity[i][0], strlen(entity[i][0])) == 0)
-        break;
+    while (i < sizeof entity / sizeof *entity && !take_word(&text, entity[i][0]))
+      i++;
     if (i == sizeof entity / sizeof *entity) return broken(reader, "not known is", text);
-
     thr_text_append(&reader->words, entity[i][1]);
-    skip(&text, strlen(entity[i][0]));
   }
   return reader->words.failed ? thr_nomem(reader->err) : THR_OK;
 }
@@ -498,17 +498,11 @@ static thr_status draw_text(svg_reader *reader, const svg_tag *tag)
   double at[2];
   thr_slice words;
   thr_line line;
-  svg_tag end;
 
   thr_status st = push(reader, tag);
   if (!st) st = read_numbers(reader, tag, 2, name, at);
-
-  /* The words stand between this tag and its end. */
-  if (!st) st = next_tag(reader, &words, &end);
-  if (!st && (!end.closes || !thr_slice_is(end.name, "text")))
-    return broken(reader, "not known inside text is", end.name);
+  if (!st) st = read_words(reader, tag, &words);
   if (!st) st = put_words(reader, words);
-
   if (st) return st;
 
   /* Size, weight and family choose the face; the anchor is a share of the width. */
@@ -567,7 +561,7 @@ static thr_status read_clip(svg_reader *reader, const svg_tag *tag)
   const thr_slice *id = find(tag, "id");
   double number[4] = {0};
   thr_slice between;
-  svg_tag inner, end;
+  svg_tag inner;
 
   if (!id || reader->n_clips == CLIPS)
     return broken(reader, "one too many, or without a name, is", tag->name);
@@ -578,26 +572,11 @@ static thr_status read_clip(svg_reader *reader, const svg_tag *tag)
     return broken(reader, "no plain rectangle clips:", inner.name);
 
   if (!st) st = read_numbers(reader, &inner, 4, name, number);
-
-  if (!st) st = next_tag(reader, &between, &end);
-  if (!st && (!end.closes || !thr_slice_is(end.name, "clipPath")))
-    return broken(reader, "not known in clipPath is", end.name);
+  if (!st) st = read_words(reader, tag, &between);
 
   /* The slice stays valid as long as the document. */
   reader->clip[reader->n_clips++] =
       (clip_rectangle){.id = *id, .at = {number[0], number[1]}, .size = {number[2], number[3]}};
-  return st;
-}
-
-/* Reads the text of an element that holds text alone: title, desc, style. */
-static thr_status read_words(svg_reader *reader, const svg_tag *tag, thr_slice *words)
-{
-  svg_tag end;
-
-  thr_status st = next_tag(reader, words, &end);
-  if (!st && (!end.closes || end.name.n != tag->name.n ||
-              memcmp(end.name.s, tag->name.s, end.name.n) != 0))
-    return broken(reader, "not known inside it is", end.name);
   return st;
 }
 

@@ -85,22 +85,22 @@ static double find_spread(const thr_mat *mat)
 static void place_points(thr_mat *mat, double extent[2])
 {
   const thr_layout *layout = &mat->guide.layout;
-  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL},
-         around = 0.5 * mat->width + AROUND;
+  const double around = 0.5 * mat->width + AROUND;
 
-  /* Paper has y downwards. */
-  for (int point = 0; point < layout->n_points; point++)
-    for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < 2; k++) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+
+    /* Paper has y downwards. */
+    for (int point = 0; point < layout->n_points; point++) {
       mat->at[point][k] = (k ? -1 : 1) * layout->xy[point][k] * mat->spread * mat->mm;
-      low[k] = fmin(low[k], mat->at[point][k]);
-      high[k] = fmax(high[k], mat->at[point][k]);
+      low = fmin(low, mat->at[point][k]);
+      high = fmax(high, mat->at[point][k]);
     }
 
-  /* Move the corner to the origin. */
-  for (int k = 0; k < 2; k++) {
-    extent[k] = high[k] - low[k] + 2 * around;
+    /* Move the corner to the origin. */
+    extent[k] = high - low + 2 * around;
     for (int point = 0; point < layout->n_points; point++)
-      mat->at[point][k] += around - low[k];
+      mat->at[point][k] += around - low;
   }
 }
 
@@ -202,20 +202,14 @@ static int count_items(const thr_mat *mat)
 /* Returns whether a piece reaches into the window whose corner is given, by its bounding box. */
 static bool reaches(const thr_mat *mat, const thr_arms *arms, const double corner[2])
 {
-  /* The bounding box of the arms. */
-  double low[2] = {arms->hub[0], arms->hub[1]}, high[2] = {arms->hub[0], arms->hub[1]},
-         half = 0.5 * mat->width;
+  thr_box box = {arms->hub[0], arms->hub[1], arms->hub[0], arms->hub[1]};
   for (int i = 0; i < arms->n; i++)
-    for (int k = 0; k < 2; k++) {
-      low[k] = fmin(low[k], arms->end[i][k]);
-      high[k] = fmax(high[k], arms->end[i][k]);
-    }
+    thr_box_point(&box, arms->end[i]);
 
   /* Widened by half an arm, does the box meet the window both ways? */
-  bool in = true;
-  for (int k = 0; k < 2; k++)
-    in &= high[k] + half > corner[k] && low[k] - half < corner[k] + mat->window[k];
-  return in;
+  const double half = 0.5 * mat->width;
+  return box.x1 + half > corner[0] && box.x0 - half < corner[0] + mat->window[0] &&
+         box.y1 + half > corner[1] && box.y0 - half < corner[1] + mat->window[1];
 }
 
 /* Numbers the tiles that a piece reaches into, row by row. THR_EINPUT: too many pages. */

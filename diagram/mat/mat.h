@@ -2,9 +2,7 @@
 /* The mat: the framework flat, true to size, over as many pages as it takes, with the outline and
  * the name of every piece, so that pieces are laid out before they are threaded.
  *
- * The room makes what is printed at true size. Reading order: mat.c (the mat and its pages), then
- * emboss.c (emboss.h: the names of pieces as outlines, to be raised or engraved). All lengths are
- * in mm, y goes down. */
+ * All lengths are in mm, y goes down. */
 #ifndef THR_MAT_H
 #define THR_MAT_H
 
@@ -39,17 +37,11 @@ void thr_mat_corner(const thr_mat *mat, int i, double at[2]);
 /* Appends page i, from 0, as a whole SVG document in mm. THR_ENOMEM. */
 thr_status thr_mat_svg(const thr_mat *mat, int i, thr_text *svg, thr_err *err) THR_MUST_CHECK;
 
-/* Appends all pages as one PDF (thr_pages_pdf). */
+/* Appends all pages as one PDF. */
 thr_status thr_mat_pdf(const thr_mat *mat, const thr_limits *limits, thr_text *pdf,
                        thr_err *err) THR_MUST_CHECK;
 
 /* ---- Writes the names of all pieces as closed outlines, true to size: to be raised on printed
  * pieces, engraved or cut. */
-
-/* Appends an SVG document in mm: for each piece a group label-NAME with one path, side by side. All
- * are as high as lets the longest name lie on the hub of a piece, a square as wide as its arms, or
- * along a tube. THR_EINPUT as thr_mat_make, but of any size; THR_ESOLVER where there are no fonts.
- * O(n log n). */
-thr_status thr_emboss_svg(const thr_plan *plan, thr_text *svg, thr_err *err) THR_MUST_CHECK;
 
 #endif

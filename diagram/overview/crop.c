@@ -26,12 +26,6 @@ static const double RING = 0.85; /* pitches of context around what is drawn now 
 static const double EDGE = 1;    /* mm of white around the whole */
 enum { BASE = 6 };               /* scale at which sizes are asked for first */
 
-/* Extends a box to a point. */
-static void box_point(thr_box *box, const double at[2])
-{
-  thr_box_extend(box, (thr_box){at[0], at[1], at[0], at[1]});
-}
-
 /* Makes crops without a scene. slender is the height of the layout over its width; a layout without
  * width counts as a millionth of its height wide. */
 void thr_crops_make(thr_crops *crops, const thr_plan *plan, const thr_layout *layout)
@@ -39,7 +33,7 @@ void thr_crops_make(thr_crops *crops, const thr_plan *plan, const thr_layout *la
   /* The bounding box of the layout. */
   thr_box all = {layout->xy[0][0], layout->xy[0][1], layout->xy[0][0], layout->xy[0][1]};
   for (int v = 1; v < layout->n_points; v++)
-    box_point(&all, layout->xy[v]);
+    thr_box_point(&all, layout->xy[v]);
 
   *crops =
       (thr_crops){.plan = plan,
@@ -95,9 +89,9 @@ static thr_box box_of_view(const thr_scene *scene, const thr_crop *crop)
   /* All points that a pass may reach: its lane, the turn before it, its marks. */
   for (int k = 0; k < crop->n_now; k++) {
     int i = crop->now[k];
-    box_point(&box, scene->pass[i].from);
-    box_point(&box, scene->pass[i].to);
-    box_point(&box, thr_scene_turn_start(scene, i));
+    thr_box_point(&box, scene->pass[i].from);
+    thr_box_point(&box, scene->pass[i].to);
+    thr_box_point(&box, thr_scene_turn_start(scene, i));
     box_mark(&box, thr_scene_mark_before(scene, i));
     box_mark(&box, thr_scene_mark_after(scene, i));
   }
@@ -141,18 +135,15 @@ thr_status thr_crop_fit(thr_crops *crops, const thr_crop *crop, const double roo
   thr_box box = box_of_view(&crops->scene[BASE], crop);
   double pitches[2] = {(box.x1 - box.x0) / PITCH[BASE], (box.y1 - box.y0) / PITCH[BASE]};
 
-  /* The first pitch at which this size fits. */
-  while (view->scale < THR_CROP_SCALES &&
+  /* The first pitch at which this size fits; the last one is taken even if it does not. */
+  while (view->scale < THR_CROP_SCALES - 1 &&
          (pitches[0] * PITCH[view->scale] > room[0] || pitches[1] * PITCH[view->scale] > room[1]))
     view->scale++;
 
-  /* The window is as large as the box, and at least as large as wanted if there is room for that.
-   * Without a scale that fits the last one is taken for its size. */
-  for (int i = 0; i < 2; i++) {
-    double own =
-        pitches[i] * PITCH[view->scale < THR_CROP_SCALES ? view->scale : THR_CROP_SCALES - 1];
-    view->size[i] = fmax(own, fmin(least[i], room[i]));
-  }
+  /* The window is as large as the box, and at least as large as wanted if there is room for
+   * that. */
+  for (int i = 0; i < 2; i++)
+    view->size[i] = fmax(pitches[i] * PITCH[view->scale], fmin(least[i], room[i]));
 
   return THR_OK;
 }

@@ -37,12 +37,6 @@ static double towards(const crop_labels *labels, double part)
   return labels->crop->backward && labels->scene->solid ? 1 - part : part;
 }
 
-/* Returns whether a box lies wholly in another one. */
-static bool inside(thr_box outer, thr_box box)
-{
-  return box.x0 >= outer.x0 && box.x1 <= outer.x1 && box.y0 >= outer.y0 && box.y1 <= outer.y1;
-}
-
 /* Adds a line as a row of squares, half mm wide on each side, of a kind. At most 200 of them, so
  * that a very long line may have gaps. */
 static thr_status box_line(crop_labels *labels, const double from[2], const double to[2],
@@ -74,9 +68,7 @@ static thr_status box_strands(crop_labels *labels, thr_err *err)
                    fmax(pass->from[0], pass->to[0]), fmax(pass->from[1], pass->to[1])};
 
     /* Passes out of the window, or not drawn, hide nothing. */
-    const thr_box *box = &labels->window;
-    bool seen = own.x0 <= box->x1 && own.x1 >= box->x0 && own.y0 <= box->y1 && own.y1 >= box->y0;
-    if (!seen || labels->crop->state[i] == THR_DRAW_HIDDEN) continue;
+    if (!thr_box_touch(own, labels->window) || labels->crop->state[i] == THR_DRAW_HIDDEN) continue;
 
     /* Passes drawn now are cords that a name must not hide. */
     int kind = labels->crop->state[i] == THR_DRAW_NOW ? THR_BOX_CORD : THR_BOX_BEAD;
@@ -110,7 +102,7 @@ static thr_box pill_box(const thr_scene *scene, int i, const double at[2])
 static void judge(crop_labels *labels, thr_box box, const double at[2], double penalty,
                   double *least, double best[2])
 {
-  if (!inside(labels->window, box)) return;
+  if (!thr_box_inside(labels->window, box)) return;
   double cost = penalty +
                 100 * thr_boxes_overlap(&labels->boxes, box,
                                         THR_BOX_MARK | THR_BOX_NUMBER | THR_BOX_NAME, HUGE_VAL) +
@@ -223,7 +215,7 @@ static thr_status place_name(crop_labels *labels, int v, thr_err *err)
        * value: thr_boxes_overlap stops there. */
       double cost = 0.02 * ring;
 
-      if (cost < least && inside(labels->window, box))
+      if (cost < least && thr_box_inside(labels->window, box))
         cost += 20 * thr_boxes_overlap(&labels->boxes, box, THR_BOX_CORD | THR_BOX_ARROW,
                                        (least - cost) / 20);
       if (cost < least)
@@ -249,8 +241,7 @@ static thr_status box_beads(crop_labels *labels, thr_err *err)
   /* Pads of feet are wider than beads. */
   for (int v = 0; v < scene->layout->n_points && !st; v++)
     if (scene->frame->foot[thr_layout_node(scene->layout, v)] &&
-        inside(labels->window,
-               (thr_box){scene->at[v][0], scene->at[v][1], scene->at[v][0], scene->at[v][1]}))
+        thr_box_inside(labels->window, thr_box_around(scene->at[v][0], scene->at[v][1], 0, 0)))
       st = thr_boxes_add(
           &labels->boxes,
           thr_box_around(scene->at[v][0], scene->at[v][1], scene->size.foot, scene->size.foot),
@@ -260,8 +251,8 @@ static thr_status box_beads(crop_labels *labels, thr_err *err)
    * window is left out. */
   for (int i = 0; i < scene->n_passes && !st; i++) {
     const thr_scene_pass *pass = &scene->pass[i];
-    if (pass->lane || !inside(labels->window, (thr_box){pass->from[0], pass->from[1], pass->from[0],
-                                                        pass->from[1]}))
+    if (pass->lane ||
+        !thr_box_inside(labels->window, thr_box_around(pass->from[0], pass->from[1], 0, 0)))
       continue;
 
     /* Squares as wide as the bead, from both ends to the middle. */

@@ -13,12 +13,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Returns whether two boxes overlap or touch. */
-static bool touch(thr_box a, thr_box b)
-{
-  return a.x0 <= b.x1 && a.x1 >= b.x0 && a.y0 <= b.y1 && a.y1 >= b.y0;
-}
-
 /* Appends path data as an element in the look of a state: tubes if width > 0, mm, else outlines.
  * Destroys data. */
 static void put_path(const thr_scene *scene, thr_piece_state state, double width, thr_text *data,
@@ -43,7 +37,7 @@ static void put_solid(const thr_scene *scene, const unsigned char *state, thr_pi
   for (int point = 0; point < scene->layout->n_points; point++) {
     int v = thr_layout_node(scene->layout, point);
     if ((state ? state[v] : THR_PIECE_PLAIN) == wanted &&
-        touch(thr_outline_box(scene, point), *window))
+        thr_box_touch(thr_outline_box(scene, point), *window))
       thr_outline_solid(scene, point, &data);
   }
 
@@ -82,11 +76,11 @@ static bool is_seen(const tube_look *tube, const thr_box *box)
 {
   /* Half the width, in mm: width counts tenths. */
   double radius = 0.05 * tube->width;
-  return touch((thr_box){fmin(tube->end[0][0], tube->end[1][0]) - radius,
-                         fmin(tube->end[0][1], tube->end[1][1]) - radius,
-                         fmax(tube->end[0][0], tube->end[1][0]) + radius,
-                         fmax(tube->end[0][1], tube->end[1][1]) + radius},
-               *box);
+  return thr_box_touch((thr_box){fmin(tube->end[0][0], tube->end[1][0]) - radius,
+                                 fmin(tube->end[0][1], tube->end[1][1]) - radius,
+                                 fmax(tube->end[0][0], tube->end[1][0]) + radius,
+                                 fmax(tube->end[0][1], tube->end[1][1]) + radius},
+                       *box);
 }
 
 /* Appends all tubes in the window, an element or two for each look. */

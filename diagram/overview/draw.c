@@ -30,37 +30,23 @@ typedef struct {
 
 /* ---- what the style shows ---- */
 
-/* Returns whether two boxes overlap or touch. */
-static bool touch(thr_box a, thr_box b)
-{
-  return a.x0 <= b.x1 && a.x1 >= b.x0 && a.y0 <= b.y1 && a.y1 >= b.y0;
-}
-
 /* Returns whether any of a box is in the window; without a window everything is. */
 static bool in_window(const scene_drawing *drawing, thr_box box)
 {
-  return !drawing->style->window || touch(box, *drawing->style->window);
+  return !drawing->style->window || thr_box_touch(box, *drawing->style->window);
 }
 
 /* Returns whether all of a box is in the window. Marks with letters are drawn whole or not at all,
  * because the rest of a letter could be read as another one. */
 static bool wholly_in_window(const scene_drawing *drawing, thr_box box)
 {
-  const thr_box *window = drawing->style->window;
-  return !window || (box.x0 >= window->x0 && box.x1 <= window->x1 && box.y0 >= window->y0 &&
-                     box.y1 <= window->y1);
+  return !drawing->style->window || thr_box_inside(*drawing->style->window, box);
 }
 
 /* Returns the state of pass i. */
 static thr_draw_state state_of(const scene_drawing *drawing, int i)
 {
   return drawing->style->state ? (thr_draw_state)drawing->style->state[i] : THR_DRAW_NOW;
-}
-
-/* Extends a box to a point. */
-static void box_point(thr_box *box, const double at[2])
-{
-  thr_box_extend(box, (thr_box){at[0], at[1], at[0], at[1]});
 }
 
 /* Returns the box round a pass with the curve before it, and with the way to a mark if the cord
@@ -74,11 +60,11 @@ static thr_box box_of_strand(const thr_scene *scene, int i, double half)
   const thr_mark *after = thr_scene_mark_after(scene, i);
 
   /* The straight part, the curve that leads to it, and the way to a mark. */
-  box_point(&box, scene_pass->to);
-  box_point(&box, scene_pass->turn[0]);
-  box_point(&box, scene_pass->turn[1]);
-  box_point(&box, thr_scene_turn_start(scene, i));
-  if (after) box_point(&box, after->at);
+  thr_box_point(&box, scene_pass->to);
+  thr_box_point(&box, scene_pass->turn[0]);
+  thr_box_point(&box, scene_pass->turn[1]);
+  thr_box_point(&box, thr_scene_turn_start(scene, i));
+  if (after) thr_box_point(&box, after->at);
   return (thr_box){box.x0 - half, box.y0 - half, box.x1 + half, box.y1 + half};
 }
 
@@ -438,7 +424,7 @@ static void add_to_batch(const scene_drawing *drawing, pass_batch *batch, int i,
   /* Passes that follow each other meet at a node, and may touch. */
   bool free = batch->n < BATCH;
   for (int k = 0; k < batch->n && free; k++)
-    free = batch->pass[k] == i - 1 || !touch(box, batch->box[k]);
+    free = batch->pass[k] == i - 1 || !thr_box_touch(box, batch->box[k]);
 
   if (!free) write_batch(drawing, batch, text);
   batch->pass[batch->n] = i;

@@ -128,13 +128,13 @@ typedef struct {
 
 /* How it is shown: a window on the scene. */
 typedef struct {
-  int scale;      /* number of the scene; THR_CROP_SCALES: none is small enough */
+  int scale;      /* number of the scene */
   double size[2]; /* mm */
 } thr_crop_view;
 
 /* Finds the largest scale at which the passes drawn now fit in room (width and height, mm) with a
- * ring of their neighbours around them. The window is at least as large as least, if there is room
- * for that. O(n_now), and O(n log n) the first time. */
+ * ring of their neighbours around them, or else the smallest one. The window is at least as large
+ * as least, if there is room for that. O(n_now), and O(n log n) the first time. */
 thr_status thr_crop_fit(thr_crops *crops, const thr_crop *crop, const double room[2],
                         const double least[2], thr_crop_view *view, thr_err *err) THR_MUST_CHECK;
 
@@ -144,7 +144,7 @@ void thr_crop_fill(const thr_crops *crops, thr_crop_view *view, const double roo
 /* Appends the picture with its top left corner at a point of the page: clipped, in a frame, each
  * pass that is drawn now with its number and arrow, names at the places that they come to. It is a
  * group of class "view-NUMBER" and brings its style. shown receives what of the scene the window
- * shows. The view's scale is below THR_CROP_SCALES. The layout is in one panel. O(n). */
+ * shows. The layout is in one panel. O(n). */
 thr_status thr_crop_draw(thr_crops *crops, const thr_crop *crop, const thr_crop_view *view,
                          const double at[2], thr_box *shown, thr_text *text,
                          thr_err *err) THR_MUST_CHECK;

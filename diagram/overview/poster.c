@@ -52,9 +52,7 @@ static void lay_out(poster_sheets *poster, thr_page_size page)
   poster->window[1] = poster->page[1] - 2 * MARGIN - HEAD;
 
   for (int k = 0; k < 2; k++)
-    poster->tiles[k] = poster->size[k] <= poster->window[k]
-                           ? 1
-                           : (int)ceil((poster->size[k] - STRIP) / (poster->window[k] - STRIP));
+    poster->tiles[k] = (int)fmax(1, ceil((poster->size[k] - STRIP) / (poster->window[k] - STRIP)));
 }
 
 /* Appends the frame of a window, and the borders of the strips on which the next pages are glued:

@@ -25,6 +25,21 @@ void thr_box_extend(thr_box *box, thr_box other)
   if (other.y1 > box->y1) box->y1 = other.y1;
 }
 
+void thr_box_point(thr_box *box, const double at[2])
+{
+  thr_box_extend(box, (thr_box){at[0], at[1], at[0], at[1]});
+}
+
+bool thr_box_touch(thr_box a, thr_box b)
+{
+  return a.x0 <= b.x1 && a.x1 >= b.x0 && a.y0 <= b.y1 && a.y1 >= b.y0;
+}
+
+bool thr_box_inside(thr_box outer, thr_box box)
+{
+  return box.x0 >= outer.x0 && box.x1 <= outer.x1 && box.y0 >= outer.y0 && box.y1 <= outer.y1;
+}
+
 thr_status thr_boxes_init(thr_boxes *boxes, thr_box bounds, double cell, thr_err *err)
 {
   /* A cell is larger than asked for on a large sheet, so that the grid stays small. */

@@ -73,6 +73,11 @@ double thr_boxes_overlap(thr_boxes *boxes, thr_box box, int kinds, double enough
 
 thr_box thr_box_around(double x, double y, double half_width, double half_height);
 void thr_box_extend(thr_box *box, thr_box other);
+void thr_box_point(thr_box *box, const double at[2]); /* extends the box to a point */
+
+/* Return whether two boxes overlap or touch, and whether a box lies wholly in another one. */
+bool thr_box_touch(thr_box a, thr_box b);
+bool thr_box_inside(thr_box outer, thr_box box);
 
 /* ---- copies.c: finds which cords of a symmetric plan are copies of a unique path, and how they
  * run through it. */

@@ -5,11 +5,10 @@
  * Order of the pages: a title page with the picture of the whole; how pieces are handled; what to
  * prepare; each path in steps of about twenty passes, with its copies; what to do at the end; names
  * to stick on. The title page says on which page each part begins. Therefore this page is laid out
- * last, and is counted and drawn first: page i > 0 of the booklet is sheets->page[i - 1].
+ * last, and is counted and drawn first: page i > 0 of the booklet is flow->page[i - 1].
  *
- * Two ways to a PDF: thr_sheets_pdf draws sheets that are kept in memory; thr_sheets_write sends
- * each page to the file as soon as it is full, and adds the feet "page 3 of 41" when the number is
- * known. */
+ * A PDF gets each page as soon as it is full, and the feet "page 3 of 41" when the number of pages
+ * is known. */
 #include "diagram/sheets/sheets_parts.h"
 
 #include "diagram/overview/overview.h"
@@ -29,29 +28,29 @@ void thr_sheets_destroy(thr_sheets *sheets)
   if (!sheets) return;
 
   /* What the sheets are made from. */
-  thr_pages_destroy(sheets->pages);
-  thr_guide_destroy(&sheets->guide);
-  thr_supplies_destroy(&sheets->supplies);
+  thr_pages_destroy(sheets->flow.pages);
+  thr_guide_destroy(&sheets->known.guide);
+  thr_supplies_destroy(&sheets->known.supplies);
   thr_crops_destroy(&sheets->crops);
   thr_space_destroy(&sheets->space);
 
   /* What is known of cords, pieces and visits. */
-  free(sheets->copy);
-  thr_pieces_destroy(&sheets->pieces);
-  free(sheets->part);
-  free(sheets->fold);
-  free(sheets->visit);
-  free(sheets->move);
+  free(sheets->known.copy);
+  thr_pieces_destroy(&sheets->known.pieces);
+  free(sheets->known.part);
+  free(sheets->known.fold);
+  free(sheets->known.visit);
+  free(sheets->known.move);
   free(sheets->step);
-  free(sheets->first_visit);
-  free(sheets->threaded);
-  free(sheets->first_pass);
-  free(sheets->visited);
+  free(sheets->known.first_visit);
+  free(sheets->known.threaded);
+  free(sheets->known.first_pass);
+  free(sheets->known.visited);
 
   /* Pages, and steps that no page took. */
-  for (int i = 0; i < sheets->n_pages; i++)
-    thr_text_destroy(&sheets->page[i]);
-  free(sheets->page);
+  for (int i = 0; i < sheets->flow.n_pages; i++)
+    thr_text_destroy(&sheets->flow.page[i]);
+  free(sheets->flow.page);
   for (int i = 0; i < sheets->n_waiting; i++)
     thr_step_destroy_text(&sheets->waiting[i]);
   free(sheets->waiting);
@@ -62,89 +61,95 @@ void thr_sheets_destroy(thr_sheets *sheets)
  * the order of threading and, where a flat picture would not do, the scene in space. */
 static thr_status prepare(thr_sheets *sheets, thr_err *err)
 {
-  const thr_plan *plan = sheets->plan;
-  thr_status st = thr_supplies_make(&sheets->supplies, plan, err);
-  if (!st) st = thr_supplies_find_sizes(&sheets->supplies, err);
+  const thr_plan *plan = sheets->known.plan;
+  thr_status st = thr_supplies_make(&sheets->known.supplies, plan, err);
+  if (!st) st = thr_supplies_find_sizes(&sheets->known.supplies, err);
 
   if (st) return st;
 
   /* Visits need the parts, and parts the copies. */
-  sheets->copy = thr_calloc((size_t)plan->n_cords, sizeof *sheets->copy);
-  if (!sheets->copy) return thr_nomem(err);
-  st = thr_copies_find(plan, sheets->copy, err);
-  if (!st) st = thr_pieces_make(&sheets->pieces, plan, sheets->o.kind_tolerance, err);
-  if (!st) st = thr_guide_make(&sheets->guide, sheets->f, sheets->o.layout, err);
-  if (!st) st = thr_sheets_follow(sheets, err);
+  sheets->known.copy = thr_calloc((size_t)plan->n_cords, sizeof *sheets->known.copy);
+  if (!sheets->known.copy) return thr_nomem(err);
+  st = thr_copies_find(plan, sheets->known.copy, err);
+  if (!st) st = thr_pieces_make(&sheets->known.pieces, plan, sheets->known.o.kind_tolerance, err);
+  if (!st) st = thr_guide_make(&sheets->known.guide, sheets->known.f, sheets->known.o.layout, err);
+  if (!st) st = thr_sheets_follow(&sheets->known, err);
   if (st) return st;
+  sheets->step = thr_calloc((size_t)sheets->known.n_visits, sizeof *sheets->step);
+  if (!sheets->step) return thr_nomem(err);
+
+  snprintf(sheets->flow.title, sizeof sheets->flow.title, "Step sheets: %d %s, %d cord%s",
+           sheets->known.pieces.n, thr_pieces_word(plan, sheets->known.pieces.n), plan->n_cords,
+           plan->n_cords == 1 ? "" : "s");
 
   /* A flat picture shows the framework whole only if the layout has sides and draws every node
    * once. */
-  thr_crops_make(&sheets->crops, plan, &sheets->guide.layout);
-  sheets->in_space = !sheets->guide.sides || sheets->guide.layout.node;
-  if (!sheets->in_space) return THR_OK;
-  return thr_space_make(&sheets->space, plan, thr_sheets_labels(sheets),
-                        sheets->guide.sides ? (const double(*)[3])sheets->guide.outward : NULL,
-                        err);
+  thr_crops_make(&sheets->crops, plan, &sheets->known.guide.layout);
+  sheets->known.in_space = !sheets->known.guide.sides || sheets->known.guide.layout.node;
+  if (!sheets->known.in_space) return THR_OK;
+  return thr_space_make(
+      &sheets->space, plan, thr_sheets_labels(&sheets->known),
+      sheets->known.guide.sides ? (const double(*)[3])sheets->known.guide.outward : NULL, err);
 }
 
 /* Lays out all pages in order, the title page last. */
-static void lay_out(thr_sheets *sheets)
+static void put_pages(thr_sheets *sheets)
 {
   int first[THR_SHEET_PARTS];
 
   /* first[part] is the number of pages before a part, without the title page. */
-  first[THR_SHEET_PREPARE] = sheets->n_pages;
-  thr_sheets_making(sheets);
-  thr_sheets_prepare(sheets);
+  first[THR_SHEET_PREPARE] = sheets->flow.n_pages;
+  thr_sheets_making(&sheets->flow, &sheets->known);
+  thr_sheets_prepare(&sheets->flow, &sheets->known);
   thr_sheets_key(sheets);
 
   /* Copies are not divided into steps: one page says how each repeats its path. */
-  first[THR_SHEET_STEPS] = sheets->n_pages;
-  for (int c = 0; c < sheets->plan->n_cords && !sheets->st; c++) {
-    if (sheets->copy[c].of != c) continue;
+  first[THR_SHEET_STEPS] = sheets->flow.n_pages;
+  for (int c = 0; c < sheets->known.plan->n_cords && !sheets->flow.why.code; c++) {
+    if (sheets->known.copy[c].of != c) continue;
     thr_sheets_steps(sheets, c);
     thr_sheets_copies(sheets, c);
   }
 
   /* The last steps still wait for their page. */
   thr_sheets_flush(sheets);
-  first[THR_SHEET_LAST] = sheets->n_pages;
-  thr_sheets_last(sheets);
-  thr_sheets_name_tags(sheets);
+  first[THR_SHEET_LAST] = sheets->flow.n_pages;
+  thr_sheets_last(&sheets->flow, &sheets->known);
+  thr_sheets_name_tags(&sheets->flow, &sheets->known);
 
   /* Every part's first page is known now. */
   thr_sheets_front(sheets, first);
-  thr_sheets_send(sheets);
+  thr_sheets_send(&sheets->flow);
 
   /* Memory that ran out while text was appended shows only here. */
-  for (int i = 0; i < sheets->n_pages && !sheets->st; i++)
-    if (sheets->page[i].failed) thr_sheets_fail(sheets, thr_nomem(NULL), NULL);
+  for (int i = 0; i < sheets->flow.n_pages; i++)
+    if (sheets->flow.page[i].failed) thr_nomem(&sheets->flow.why);
 }
 
-/* Returns why laying out failed, with its text, or THR_OK. */
-static thr_status told(const thr_sheets *sheets, thr_err *err)
-{
-  if (!sheets->st) return THR_OK;
-  return sheets->why.code ? thr_fail(err, sheets->st, "%s", sheets->why.text) : thr_nomem(err);
-}
-
-/* Makes sheets with everything but the pages. *out is NULL on failure. */
-static thr_status start(thr_sheets **out, const thr_plan *plan, const thr_sheets_options *options,
-                        const thr_limits *limits, thr_err *err)
+/* Makes sheets with all pages, which go to a PDF as they are finished if there is to be one. *out
+ * is NULL on failure. */
+static thr_status make(thr_sheets **out, const thr_plan *plan, const thr_sheets_options *options,
+                       const thr_limits *limits, bool pdf, thr_err *err)
 {
   thr_sheets *sheets = *out = thr_calloc(1, sizeof *sheets);
   if (!sheets) return thr_nomem(err);
+  thr_flow *flow = &sheets->flow;
 
   /* Everything is borrowed from the caller until the pages are laid out. */
-  sheets->plan = plan;
-  sheets->f = &plan->frame;
-  sheets->o = *options;
-  sheets->limits = limits;
-  thr_page_mm(options->page, sheets->size);
+  sheets->known.plan = plan;
+  sheets->known.f = &plan->frame;
+  sheets->known.o = *options;
+  flow->limits = limits;
+  thr_page_mm(options->page, flow->size);
 
   thr_status st = prepare(sheets, err);
+  if (!st && pdf)
+    st = thr_pages_open(&flow->pages, "step sheets", options->page, flow->title, limits, err);
+  if (!st) put_pages(sheets);
+  if (flow->why.code) st = thr_fail(err, flow->why.code, "%s", flow->why.text);
 
-  /* Half-made sheets are of no use to the caller. */
+  /* The sheets outlive the caller's limits. Half-made ones are of no use to the caller. */
+  flow->limits = NULL;
   if (!st) return THR_OK;
   thr_sheets_destroy(sheets);
   *out = NULL;
@@ -155,90 +160,63 @@ thr_status thr_sheets_make(thr_sheets **out, const thr_plan *plan,
                            const thr_sheets_options *options, const thr_limits *limits,
                            thr_err *err)
 {
-  thr_status st = start(out, plan, options, limits, err);
-  if (st) return st;
-
-  /* Failures stick to the sheets: one look at the end is enough. */
-  lay_out(*out);
-
-  /* The sheets outlive the caller's limits. */
-  (*out)->limits = NULL;
-  st = told(*out, err);
-
-  if (!st) return THR_OK;
-  thr_sheets_destroy(*out);
-  *out = NULL;
-  return st;
+  return make(out, plan, options, limits, false, err);
 }
 
 int thr_sheets_pages(const thr_sheets *sheets)
 {
-  return sheets->n_pages;
-}
-
-void thr_sheets_heading(const thr_sheets *sheets, char title[96])
-{
-  int n = sheets->plan->n_cords;
-  snprintf(title, 96, "Step sheets: %d %s, %d cord%s", sheets->pieces.n,
-           thr_pieces_word(sheets->plan, sheets->pieces.n), n, n == 1 ? "" : "s");
+  return sheets->flow.n_pages;
 }
 
 /* Writes at the foot of a page from which side its pictures are seen, in at most two lines whose
  * last one has its base line at foot (mm). */
-static void put_view(const thr_sheets *sheets, double foot, thr_text *svg)
+static void put_view(const thr_flow *flow, const thr_known *known, double foot, thr_text *svg)
 {
   static const char *const in_space = "Each step is drawn from where it is seen best: turn the "
                                       "pieces until they look like the small "
                                       "picture. Round openings are arms that come towards you.";
 
-  const char *words = sheets->in_space ? in_space : thr_layout_words(sheets->guide.layout.kind);
+  const char *words = known->in_space ? in_space : thr_layout_words(known->guide.layout.kind);
 
-  double width = thr_sheets_width(sheets) - 24;
+  double width = thr_sheets_width(flow) - 24;
   int lines = thr_sheets_lines(words, width, THR_SHEET_SMALL);
+  char line[512];
 
   /* Two lines begin one line higher. The loop ends at the foot, whatever is left over. */
   for (double y = foot - (lines > 1 ? 1.4 * THR_SHEET_SMALL : 0); *words && y < foot + 0.1;
        y += 1.4 * THR_SHEET_SMALL) {
-    size_t n = thr_sheets_fit(words, width, THR_SHEET_SMALL);
-
-    /* Up to a blank that fits; blanks at the break are dropped. */
-    char line[256];
-    snprintf(line, sizeof line, "%.*s", (int)n, words);
+    thr_sheets_next_line(&words, width, THR_SHEET_SMALL, line);
     thr_svg_text(svg, THR_SHEET_MARGIN, y, THR_SHEET_SMALL, " style=\"fill:#666\"", line);
-    words += n + strspn(words + n, " ");
   }
 }
 
 /* Appends the beginning of a page's document, up to where its content follows. */
-static void open_page(const thr_sheets *sheets, thr_text *svg)
+static void open_page(const thr_flow *flow, thr_text *svg)
 {
-  char title[96];
-  thr_sheets_heading(sheets, title);
-
-  thr_svg_open(svg, sheets->size[0], sheets->size[1], title, "A page of step sheets.");
+  thr_svg_open(svg, flow->size[0], flow->size[1], flow->title, "A page of step sheets.");
   thr_text_append(
       svg, "<style>.thread text{fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}</style>\n");
 }
 
 /* Appends the foot of page i, from 0, with its number. All pages must be laid out by then. */
-static void put_foot(const thr_sheets *sheets, int i, thr_text *svg)
+static void put_foot(const thr_flow *flow, const thr_known *known, int i, thr_text *svg)
 {
   char line[128];
-  double foot = sheets->size[1] - THR_SHEET_MARGIN;
-  put_view(sheets, foot, svg);
+  double foot = flow->size[1] - THR_SHEET_MARGIN;
+  put_view(flow, known, foot, svg);
 
-  snprintf(line, sizeof line, "page %d of %d", i + 1, sheets->n_pages);
-  thr_svg_text(svg, sheets->size[0] - THR_SHEET_MARGIN, foot, THR_SHEET_SMALL,
+  snprintf(line, sizeof line, "page %d of %d", i + 1, flow->n_pages);
+  thr_svg_text(svg, flow->size[0] - THR_SHEET_MARGIN, foot, THR_SHEET_SMALL,
                " text-anchor=\"end\" style=\"fill:#666\"", line);
 }
 
 thr_status thr_sheets_svg(const thr_sheets *sheets, int i, thr_text *svg, thr_err *err)
 {
   /* The title page is kept last. */
-  const thr_text *body = &sheets->page[i ? i - 1 : sheets->n_pages - 1];
-  open_page(sheets, svg);
+  const thr_text *body = &sheets->flow.page[i ? i - 1 : sheets->flow.n_pages - 1];
+  open_page(&sheets->flow, svg);
   if (body->data) thr_text_append_bytes(svg, body->data, body->length);
-  put_foot(sheets, i, svg);
+  put_foot(&sheets->flow, &sheets->known, i, svg);
   thr_text_append(svg, "</svg>\n");
 
   return svg->failed ? thr_nomem(err) : THR_OK;
@@ -246,93 +224,49 @@ thr_status thr_sheets_svg(const thr_sheets *sheets, int i, thr_text *svg, thr_er
 
 /* ---- PDF ---- */
 
-/* Adds a page without its foot to the file: the number of pages may not be known yet. */
-static thr_status send_body(const thr_sheets *sheets, const thr_text *body, thr_pages *pages,
-                            thr_err *err)
+void thr_sheets_send(thr_flow *flow)
 {
-  thr_text svg = {0};
-  open_page(sheets, &svg);
+  if (!flow->pages || !flow->n_pages || flow->why.code) return;
 
-  /* A page without text, as after a failure, is still a document. */
+  /* Without its foot: the number of pages is not known yet. */
+  thr_text svg = {0}, *body = thr_sheets_out(flow);
+  open_page(flow, &svg);
   if (body->data) thr_text_append_bytes(&svg, body->data, body->length);
   if (body->failed) svg.failed = true;
 
-  thr_text_append(&svg, "</svg>\n");
-  return thr_pages_add(pages, -1, &svg, err);
-}
-
-void thr_sheets_send(thr_sheets *sheets)
-{
-  if (!sheets->pages || !sheets->n_pages || sheets->st) return;
-
   /* The page's text is released at once: only its drawing is kept. */
-  thr_text *body = thr_sheets_out(sheets);
-  thr_status st = send_body(sheets, body, sheets->pages, &sheets->why);
+  thr_text_append(&svg, "</svg>\n");
+  thr_sheets_fail(flow, thr_pages_add(flow->pages, -1, &svg, &flow->why));
   thr_text_destroy(body);
-
-  if (st) thr_sheets_fail(sheets, st, NULL);
 }
 
 /* Draws the feet on top of all pages in the file, in the booklet's order, and closes the file. The
  * title page was added last, but comes first. */
-static thr_status end_pdf(const thr_sheets *sheets, thr_pages *pages, thr_text *pdf, thr_err *err)
+static thr_status end_pdf(const thr_flow *flow, const thr_known *known, thr_text *pdf, thr_err *err)
 {
   thr_status st = THR_OK;
 
   /* One small document per foot. */
-  for (int i = 0; i < sheets->n_pages && !st; i++) {
+  for (int i = 0; i < flow->n_pages && !st; i++) {
     thr_text svg = {0};
-    open_page(sheets, &svg);
-    put_foot(sheets, i, &svg);
+    open_page(flow, &svg);
+    put_foot(flow, known, i, &svg);
     thr_text_append(&svg, "</svg>\n");
-    st = thr_pages_add(pages, i ? i - 1 : sheets->n_pages - 1, &svg, err);
+    st = thr_pages_add(flow->pages, i ? i - 1 : flow->n_pages - 1, &svg, err);
   }
 
-  return st ? st : thr_pages_close(pages, true, pdf, err);
-}
-
-static const char NAME[] = "step sheets";
-
-thr_status thr_sheets_pdf(const thr_sheets *sheets, const thr_limits *limits, thr_text *pdf,
-                          thr_err *err)
-{
-  char title[96];
-  thr_pages *pages = NULL;
-  thr_sheets_heading(sheets, title);
-
-  /* The sheets stay as they are: they can be drawn again. */
-  thr_status st = thr_pages_open(&pages, NAME, sheets->o.page, title, limits, err);
-
-  /* Bodies first, then the feet, just as thr_sheets_write does: both give the same bytes. */
-  for (int i = 0; i < sheets->n_pages && !st; i++)
-    st = send_body(sheets, &sheets->page[i], pages, err);
-
-  if (!st) st = end_pdf(sheets, pages, pdf, err);
-  thr_pages_destroy(pages);
-  return st;
+  return st ? st : thr_pages_close(flow->pages, true, pdf, err);
 }
 
 thr_status thr_sheets_write(const thr_plan *plan, const thr_sheets_options *options,
                             const thr_limits *limits, int *n_pages, thr_text *pdf, thr_err *err)
 {
-  char title[96];
   thr_sheets *sheets = NULL;
-  thr_status st = start(&sheets, plan, options, limits, err);
+  thr_status st = make(&sheets, plan, options, limits, true, err);
   if (st) return st;
 
-  /* The heading needs no page, so the file can be opened first. */
-  thr_sheets_heading(sheets, title);
-  st = thr_pages_open(&sheets->pages, NAME, options->page, title, limits, err);
-
-  /* thr_sheets_send takes each page away when the next one begins. */
-  if (!st) {
-    lay_out(sheets);
-    st = told(sheets, err);
-  }
-
-  if (!st) st = end_pdf(sheets, sheets->pages, pdf, err);
-
-  *n_pages = sheets->n_pages;
+  *n_pages = sheets->flow.n_pages;
+  st = end_pdf(&sheets->flow, &sheets->known, pdf, err);
   thr_sheets_destroy(sheets);
   return st;
 }

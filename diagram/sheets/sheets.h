@@ -63,16 +63,11 @@ int thr_sheets_pages(const thr_sheets *sheets);
 thr_status thr_sheets_svg(const thr_sheets *sheets, int i, thr_text *svg,
                           thr_err *err) THR_MUST_CHECK;
 
-/* Appends all pages as one PDF, drawn in limits->threads threads, of which fonts are embedded:
- * DejaVu Sans (Debian: fonts-dejavu-core) or what fontconfig puts in its place. The same plan,
- * options and fonts give the same bytes. THR_ELIMIT if it was interrupted. pdf is unchanged on
- * failure. */
-thr_status thr_sheets_pdf(const thr_sheets *sheets, const thr_limits *limits, thr_text *pdf,
-                          thr_err *err) THR_MUST_CHECK;
-
-/* Appends the same PDF without keeping sheets: pages are drawn as they are laid out, so that little
- * memory is taken beyond the file's own size. *n_pages receives the number of pages. Errors: as of
- * thr_sheets_make. */
+/* Lays out all pages and appends them as one PDF, drawn in limits->threads threads as they are laid
+ * out, so that little memory is taken beyond the file's own size. Fonts are embedded: DejaVu Sans
+ * (Debian: fonts-dejavu-core) or what fontconfig puts in its place. The same plan, options and
+ * fonts give the same bytes. *n_pages receives the number of pages. Errors: as of thr_sheets_make;
+ * pdf is unchanged then. */
 thr_status thr_sheets_write(const thr_plan *plan, const thr_sheets_options *options,
                             const thr_limits *limits, int *n_pages, thr_text *pdf,
                             thr_err *err) THR_MUST_CHECK;
@@ -80,7 +75,7 @@ thr_status thr_sheets_write(const thr_plan *plan, const thr_sheets_options *opti
 /* ---- sheets_html.c: the booklet for browsers, which print it as they show it ---- */
 
 /* Appends all pages as one HTML file without scripts or links, of the same words and pictures as
- * thr_sheets_pdf. Names within a page's SVG get its number before them. html is unchanged on
+ * thr_sheets_write. Names within a page's SVG get its number before them. html is unchanged on
  * failure: THR_ENOMEM. O(bytes). */
 thr_status thr_sheets_html(const thr_sheets *sheets, thr_text *html, thr_err *err) THR_MUST_CHECK;
 

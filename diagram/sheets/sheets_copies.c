@@ -19,148 +19,133 @@ enum { ROW = 16 }; /* passes in a row of places */
 /* Draws the path and its copies bold, cords that are threaded already grey, over half the page. */
 static void put_picture(thr_sheets *sheets, int path)
 {
-  unsigned char *state = thr_calloc((size_t)sheets->n_passes, sizeof *state);
+  const thr_known *known = &sheets->known;
+  thr_flow *flow = &sheets->flow;
+  unsigned char *state = thr_calloc((size_t)known->n_passes, sizeof *state);
 
   if (!state) {
-    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
+    thr_nomem(&flow->why);
     return;
   }
 
   /* All passes of a cord have its state; i counts them in the order of the scene. */
-  for (int c = 0, i = 0; c < sheets->plan->n_cords; c++) {
-    unsigned char own = sheets->copy[c].of == path  ? THR_DRAW_NOW
-                        : sheets->copy[c].of < path ? THR_DRAW_EARLIER
-                                                    : THR_DRAW_HIDDEN;
-    for (int k = 0; k < sheets->plan->cord[c].n_passes; k++)
+  for (int c = 0, i = 0; c < known->plan->n_cords; c++) {
+    unsigned char own = known->copy[c].of == path  ? THR_DRAW_NOW
+                        : known->copy[c].of < path ? THR_DRAW_EARLIER
+                                                   : THR_DRAW_HIDDEN;
+    for (int k = 0; k < known->plan->cord[c].n_passes; k++)
       state[i++] = own;
   }
 
-  /* The lower half of the page is for the words. */
-  double height = 0.52 * (thr_sheets_bottom(sheets) - sheets->y);
-  thr_box paper = {THR_SHEET_MARGIN, sheets->y, sheets->size[0] - THR_SHEET_MARGIN,
-                   sheets->y + height};
-
-  thr_status st = thr_crop_whole(sheets->plan, &sheets->guide.layout, state, NULL, paper, NULL,
-                                 sheets->limits, thr_sheets_out(sheets), &sheets->why);
-
-  if (st) thr_sheets_fail(sheets, st, NULL);
-
-  /* Two lines of air below the picture. */
-  sheets->y += height + 2 * THR_SHEET_LINE;
+  /* The lower half of the page is for the words, with two lines of air above them. */
+  double bottom = flow->y + 0.52 * (thr_sheets_bottom(flow) - flow->y);
+  thr_sheets_whole(sheets, false, state, NULL, bottom, NULL);
+  flow->y = bottom + 2 * THR_SHEET_LINE;
   free(state);
-}
-
-/* Writes words with a box to tick and releases them. */
-static void tick(thr_sheets *sheets, thr_text *words)
-{
-  if (words->failed)
-    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
-  else
-    thr_sheets_tick(sheets, words->data);
-  thr_text_destroy(words);
 }
 
 /* Writes how a copy repeats its path: by which symmetry, where it starts, its first places, where
  * it ends. */
-static void put_copy(thr_sheets *sheets, int c)
+static void put_copy(thr_flow *flow, const thr_known *known, int c)
 {
   thr_text words = {0};
   char how[192];
-  const thr_cord *cord = &sheets->plan->cord[c];
+  const thr_cord *cord = &known->plan->cord[c];
 
   /* "turned by 90 degrees": the symmetry, as far as it has a name. */
-  thr_copies_words(sheets->plan, sheets->copy, c, sheets->o.motion, how);
+  thr_copies_words(known->plan, known->copy, c, known->o.motion, how);
   thr_text_printf(&words, "Repeat as cord %s%s: start at ", cord->id, how);
-  thr_guide_place(&sheets->guide, thr_cord_start(sheets->f, cord), &words);
+  thr_guide_place(&known->guide, thr_cord_start(known->f, cord), &words);
 
   /* Three places show the direction. */
   thr_text_append(&words, ", first to");
   for (int k = 0; k < cord->n_passes && k < 3; k++)
-    thr_text_printf(&words, " %s", sheets->guide.label[thr_head(sheets->f, cord->half[k])]);
+    thr_text_printf(&words, " %s", known->guide.label[thr_head(known->f, cord->half[k])]);
 
   thr_text_append(&words, ", end at ");
-  thr_guide_place(&sheets->guide, thr_cord_end(sheets->f, cord), &words);
+  thr_guide_place(&known->guide, thr_cord_end(known->f, cord), &words);
 
-  tick(sheets, &words);
+  thr_sheets_put_text(flow, THR_BLOCK_TICK, &words);
 }
 
 /* Appends the place of a node, in brackets if the piece holds cord already. */
-static void put_place(const thr_sheets *sheets, int node, bool held, thr_text *words)
+static void put_place(const thr_known *known, int node, bool held, thr_text *words)
 {
-  thr_text_printf(words, held ? " (%s)" : " %s", sheets->guide.label[node]);
+  thr_text_printf(words, held ? " (%s)" : " %s", known->guide.label[node]);
 }
 
 /* Writes the places of the next visits, at most ROW passes of one needle. Returns the visit behind
  * them. With tubes the brackets are about the tube on the way to a place. */
-static int put_places(thr_sheets *sheets, int first, int end)
+static int put_places(thr_flow *flow, const thr_known *known, int first, int end)
 {
   thr_text words = {0};
-  const thr_visit *visit = &sheets->visit[first];
-  int part = sheets->move[first].part;
+  const thr_visit *visit = &known->visit[first];
+  int part = known->move[first].part;
 
   /* A visit that starts the cord has no pass: its piece is the first place. */
-  bool starts = visit->number == 0, held = starts ? visit->nth > 1 : sheets->pieces.solid;
+  bool starts = visit->number == 0, held = starts ? visit->nth > 1 : known->pieces.solid;
 
-  if (starts) visit = &sheets->visit[++first];
+  if (starts) visit = &known->visit[++first];
 
   /* As many passes as a row takes, of one needle. */
   int next = first + 1;
-  while (next < end && next < first + ROW && sheets->move[next].part == part)
+  while (next < end && next < first + ROW && known->move[next].part == part)
     next++;
 
-  thr_needle needle = sheets->move[first].needle;
-  thr_text_printf(&words, "Cord %s%s, ", sheets->plan->cord[visit->cord].id,
+  thr_needle needle = known->move[first].needle;
+  thr_text_printf(&words, "Cord %s%s, ", known->plan->cord[visit->cord].id,
                   needle == THR_NEEDLE_RIGHT  ? ", right needle"
                   : needle == THR_NEEDLE_LEFT ? ", left needle"
                                               : "");
 
   thr_text_printf(&words, next > first + 1 ? "passes %d-%d:" : "pass %d:", visit->number,
-                  sheets->visit[next - 1].number);
-  put_place(sheets, thr_tail(sheets->f, visit->in), held, &words);
+                  known->visit[next - 1].number);
+  put_place(known, thr_tail(known->f, visit->in), held, &words);
   thr_text_append(&words, " to");
 
   /* Each pass leads to the node at the head of its half-edge. */
   for (int i = first; i < next; i++)
-    put_place(sheets, thr_head(sheets->f, sheets->visit[i].in), sheets->visit[i].nth > 1, &words);
+    put_place(known, thr_head(known->f, known->visit[i].in), known->visit[i].nth > 1, &words);
 
-  tick(sheets, &words);
+  thr_sheets_put_text(flow, THR_BLOCK_TICK, &words);
   return next;
 }
 
 void thr_sheets_copies(thr_sheets *sheets, int c)
 {
+  const thr_known *known = &sheets->known;
+  thr_flow *flow = &sheets->flow;
   char line[160];
-  int n = sheets->plan->n_cords, copies = thr_copies_count(sheets->copy, n, c);
+  int n = known->plan->n_cords, copies = thr_copies_count(known->copy, n, c);
 
-  if (!copies || sheets->st) return;
+  if (!copies || flow->why.code) return;
 
   /* Steps that wait come before this page. */
   thr_sheets_flush(sheets);
-  snprintf(line, sizeof line, "Repeat cord %s with %d other cord%s", sheets->plan->cord[c].id,
+  snprintf(line, sizeof line, "Repeat cord %s with %d other cord%s", known->plan->cord[c].id,
            copies, copies == 1 ? "" : "s");
-  thr_sheets_page(sheets, line, line);
+  thr_sheets_page(flow, line, line);
 
-  if (sheets->st) return;
-  put_picture(sheets, c);
+  if (!flow->why.code) put_picture(sheets, c);
 
   /* First how, for all copies; then the places of each. */
   for (int i = 0; i < n; i++)
-    if (i != c && sheets->copy[i].of == c) put_copy(sheets, i);
+    if (i != c && known->copy[i].of == c) put_copy(flow, known, i);
 
-  thr_sheets_title(sheets, "The places of these cords, in order");
-  thr_sheets_paragraph(
-      sheets, 0,
-      sheets->pieces.solid
+  thr_sheets_put(flow, THR_BLOCK_TITLE, "The places of these cords, in order");
+  thr_sheets_put(
+      flow, THR_BLOCK_PARAGRAPH,
+      known->pieces.solid
           ? "To check by. In brackets: pieces that hold cord already. All others are picked up."
           : "To check by. In brackets: the way there is through a tube that holds cord already. "
             "All others are picked up.");
 
   for (int i = 0; i < n; i++) {
-    if (i == c || sheets->copy[i].of != c) continue;
+    if (i == c || known->copy[i].of != c) continue;
 
     /* put_places returns where the next row begins. */
-    int end = thr_sheets_end(sheets, i);
-    for (int k = sheets->first_visit[i]; k < end && !sheets->st;)
-      k = put_places(sheets, k, end);
+    int end = thr_sheets_end(known, i);
+    for (int k = known->first_visit[i]; k < end && !flow->why.code;)
+      k = put_places(flow, known, k, end);
   }
 }

@@ -25,22 +25,22 @@ static const double NEW = 6;       /* of an end at a piece that is picked up by 
 static const double SHORT = 4;     /* of each visit that a step has less than FEW */
 enum { FEW = 6 };
 
-bool thr_step_begins(const thr_sheets *sheets, int i)
+bool thr_step_begins(const thr_known *known, int i)
 {
-  return i == 0 || sheets->move[i].part != sheets->move[i - 1].part;
+  return i == 0 || known->move[i].part != known->move[i - 1].part;
 }
 
-bool thr_step_ends(const thr_sheets *sheets, int i)
+bool thr_step_ends(const thr_known *known, int i)
 {
-  return i + 1 == sheets->n_visits || thr_step_begins(sheets, i + 1);
+  return i + 1 == known->n_visits || thr_step_begins(known, i + 1);
 }
 
-int thr_step_now(const thr_sheets *sheets, int first, int end, int *now)
+int thr_step_now(const thr_known *known, int first, int end, int *now)
 {
   int n = 0;
   for (int i = first; i < end; i++) {
-    const thr_visit *visit = &sheets->visit[i];
-    if (visit->number) now[n++] = sheets->first_pass[visit->cord] + visit->number - 1;
+    const thr_visit *visit = &known->visit[i];
+    if (visit->number) now[n++] = known->first_pass[visit->cord] + visit->number - 1;
   }
 
   return n;
@@ -49,7 +49,7 @@ int thr_step_now(const thr_sheets *sheets, int first, int end, int *now)
 /* A path that is divided into steps. Its visits are numbered from 0 here. */
 typedef struct {
   thr_sheets *sheets;
-  int first;  /* number of the path's first visit in sheets->visit */
+  int first;  /* number of the path's first visit in known->visit */
   int n;      /* visits of the path */
   int *lines; /* [n + 1] lines of text in the rows of all visits before */
   int *reach; /* [n] the last possible end of a step that begins with a visit */
@@ -60,7 +60,7 @@ typedef struct {
  * has no pass to draw. */
 static int fewest(const divided_path *path, int i)
 {
-  return path->sheets->visit[path->first + i].number || i + 1 == path->n ? 1 : 2;
+  return path->sheets->known.visit[path->first + i].number || i + 1 == path->n ? 1 : 2;
 }
 
 /* Finds out whether the visits i .. end - 1 may be a step: *good says whether a page takes them
@@ -68,26 +68,27 @@ static int fewest(const divided_path *path, int i)
 static thr_status is_good(divided_path *path, int i, int end, bool *good, thr_err *err)
 {
   thr_sheets *sheets = path->sheets;
+  const thr_known *known = &sheets->known;
   int now[THR_STEP_VISITS];
 
   thr_crop crop = {.now = now,
-                   .n_now = thr_step_now(sheets, path->first + i, path->first + end, now)};
-  crop.backward = sheets->move[path->first + i].needle == THR_NEEDLE_LEFT;
+                   .n_now = thr_step_now(known, path->first + i, path->first + end, now)};
+  crop.backward = known->move[path->first + i].needle == THR_NEEDLE_LEFT;
 
   /* Everything but the picture has a known height; the text before and after the rows takes a line
    * each. */
   double below =
       THR_STEP_LEGEND + thr_step_strip_height(end - i) +
       thr_step_words_height(thr_step_rows_height(path->lines[end] - path->lines[i], end - i), 1, 1);
-  double room[2] = {thr_sheets_width(sheets),
-                    thr_sheets_bottom(sheets) - THR_SHEET_MARGIN - THR_STEP_HEAD - below};
+  double room[2] = {thr_sheets_width(&sheets->flow),
+                    thr_sheets_bottom(&sheets->flow) - THR_SHEET_MARGIN - THR_STEP_HEAD - below};
 
   thr_crop_view view;
   *good = room[1] >= THR_STEP_PICTURE[1];
   if (!*good) return THR_OK;
 
   /* In space some view must show every pass long enough. */
-  if (sheets->in_space) {
+  if (known->in_space) {
     *good = thr_space_legible(&sheets->space, &crop, room, &path->view);
     return THR_OK;
   }
@@ -112,7 +113,7 @@ static thr_status find_reach(divided_path *path, thr_err *err)
 
     /* One visit more, as long as the page takes it and the needle's part goes on. */
     while (good && !st && end < path->n && end < i + THR_STEP_VISITS &&
-           !thr_step_ends(path->sheets, path->first + end - 1)) {
+           !thr_step_ends(&path->sheets->known, path->first + end - 1)) {
       st = is_good(path, i, end + 1, &good, err);
       end += good;
     }
@@ -125,13 +126,13 @@ static thr_status find_reach(divided_path *path, thr_err *err)
 /* Returns the cost of ending a step behind a visit: 0 where the needle's part ends anyway. */
 static double price_of_end(const divided_path *path, int last)
 {
-  const thr_sheets *sheets = path->sheets;
-  const thr_visit *visit = &sheets->visit[path->first + last];
-  if (thr_step_ends(sheets, path->first + last)) return 0;
+  const thr_known *known = &path->sheets->known;
+  const thr_visit *visit = &known->visit[path->first + last];
+  if (thr_step_ends(known, path->first + last)) return 0;
 
   /* At the start of a cord there is no turn: a step had better not end there. */
-  int out = sheets->visit[path->first + last + 1].in;
-  bool turns = visit->number && thr_degrees(thr_turn_angle(sheets->f, visit->in, out)) > TURNED;
+  int out = known->visit[path->first + last + 1].in;
+  bool turns = visit->number && thr_degrees(thr_turn_angle(known->f, visit->in, out)) > TURNED;
 
   return (turns ? 0 : STRAIGHT) + (visit->nth == 1 ? NEW : 0);
 }
@@ -159,9 +160,10 @@ static void choose(const divided_path *path, double *least, int *begin_of)
 
 thr_status thr_step_divide(thr_sheets *sheets, int c, int **ends, int *n_steps, thr_err *err)
 {
+  const thr_known *known = &sheets->known;
   divided_path path = {.sheets = sheets,
-                       .first = sheets->first_visit[c],
-                       .n = thr_sheets_end(sheets, c) - sheets->first_visit[c]};
+                       .first = known->first_visit[c],
+                       .n = thr_sheets_end(known, c) - known->first_visit[c]};
 
   size_t n = (size_t)path.n + 1;
   double *least = thr_calloc(n, sizeof *least);
@@ -175,7 +177,7 @@ thr_status thr_step_divide(thr_sheets *sheets, int c, int **ends, int *n_steps, 
   /* Sums of lines let is_good ask for the height of any range. */
   for (int i = 0; i < path.n && !st; i++)
     path.lines[i + 1] = path.lines[i] + thr_step_row_lines(sheets, path.first + i);
-  if (!st) st = sheets->st;
+  if (!st) st = sheets->flow.why.code;
 
   if (!st) st = find_reach(&path, err);
   *n_steps = 0;

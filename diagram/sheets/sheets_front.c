@@ -19,127 +19,100 @@ static const char *plural(int n)
 
 /* Writes how many pieces, places, feet, cords and passes there are, and how much cord is on the
  * way. */
-static void put_counts(thr_sheets *sheets)
+static void put_counts(thr_flow *flow, const thr_known *known)
 {
   char length[64];
   thr_text words = {0};
-  const thr_frame *frame = sheets->f;
+  const thr_frame *frame = known->f;
   double total = 0;
-  int feet = 0, n = sheets->pieces.n, cords = sheets->plan->n_cords;
+  int feet = 0, n = known->pieces.n, cords = known->plan->n_cords;
 
   /* Cord through the middles of the pieces, without tails, knots and turns. */
   for (int c = 0; c < cords; c++)
-    total += thr_cord_length(frame, &sheets->plan->cord[c]);
+    total += thr_cord_length(frame, &known->plan->cord[c]);
   for (int v = 0; v < frame->n_nodes; v++)
     feet += frame->foot[v];
 
   thr_svg_length(total, frame->units, length);
-  thr_text_printf(&words, "%d %s", n, thr_pieces_word(sheets->plan, n));
+  thr_text_printf(&words, "%d %s", n, thr_pieces_word(known->plan, n));
 
   /* Solid pieces meet at the middles of edges, tubes at nodes. */
-  if (sheets->pieces.solid) {
+  if (known->pieces.solid) {
     thr_text_append(&words, " (");
-    thr_pieces_shapes(&sheets->pieces, &words);
+    thr_pieces_shapes(&known->pieces, &words);
     thr_text_printf(&words, ") that meet in %d place%s, face to face", frame->n_edges,
                     plural(frame->n_edges));
   } else
-    thr_text_printf(&words, " of %d length%s between %d places", sheets->pieces.n_kinds,
-                    plural(sheets->pieces.n_kinds), frame->n_nodes);
+    thr_text_printf(&words, " of %d length%s between %d places", known->pieces.n_kinds,
+                    plural(known->pieces.n_kinds), frame->n_nodes);
 
   thr_text_printf(&words, "; %d %s; %d cord%s, %d pass%s, %s of cord.", feet,
-                  feet == 1 ? "foot" : "feet", cords, plural(cords), sheets->n_passes,
-                  sheets->n_passes == 1 ? "" : "es", length);
+                  feet == 1 ? "foot" : "feet", cords, plural(cords), known->n_passes,
+                  known->n_passes == 1 ? "" : "es", length);
 
-  /* In one paragraph, however many lines. */
-  if (words.failed)
-    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
-  else
-    thr_sheets_paragraph(sheets, 0, words.data);
-
-  thr_text_destroy(&words);
+  thr_sheets_put_text(flow, THR_BLOCK_PARAGRAPH, &words);
 }
 
-/* Writes into line what is proved: that no plan has less, or how much less is not ruled out. gap:
- * share of the plan's value. */
-static void put_proof(char *line, size_t size, const char *of_what, bool present, bool optimal,
-                      double gap)
+/* Writes what was minimised and what is proved of it: that no plan has less, or how much less is
+ * not ruled out. gap: share of the plan's value. */
+static void put_proof(thr_flow *flow, const char *goal, const char *of_what, bool present,
+                      bool optimal, double gap)
 {
   if (!present)
-    snprintf(line, size, "how little %s would do has not been worked out.", of_what);
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                   "Goal: %s; how little %s would do has not been worked out.", goal, of_what);
   else if (optimal)
-    snprintf(line, size, "proved: with these options no plan has less %s.", of_what);
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                   "Goal: %s; proved: with these options no plan has less %s.", goal, of_what);
   else
-    snprintf(line, size, "at most %.3g %% of its %s could be saved.", 100 * gap, of_what);
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH, "Goal: %s; at most %.3g %% of its %s could be saved.",
+                   goal, 100 * gap, of_what);
 }
 
-/* Writes what was minimised and what is proved of the plan's value: turning, cord under symmetry,
- * or cord. */
-static void put_goal(thr_sheets *sheets)
+/* Writes the goal: turning, which has a proof of its own in the plan, cord under symmetry, or cord;
+ * both others have a proof of length. */
+static void put_goal(thr_flow *flow, const thr_known *known)
 {
-  const thr_plan *plan = sheets->plan;
-  char line[320], proof[128];
+  const thr_plan *plan = known->plan;
+  const int paths = thr_copies_paths(known->copy, plan->n_cords), copies = plan->n_cords - paths;
+  char goal[128] = "as little cord as possible";
 
-  /* Turning has a proof of its own in the plan; both other goals have one of length. */
   if (thr_wants_turning(&plan->options)) {
-    put_proof(proof, sizeof proof, "turning", plan->turning.present, plan->turning.optimal,
-              plan->turning.gap);
-    snprintf(line, sizeof line, "Goal: as little turning as possible; %s", proof);
-  } else if (thr_wants_symmetry(&plan->options)) {
-    int paths = thr_copies_paths(sheets->copy, plan->n_cords);
-    put_proof(proof, sizeof proof, "cord", plan->proof.present, plan->proof.optimal,
-              plan->proof.gap);
-    snprintf(line, sizeof line,
-             "Goal: cords that repeat each other: %d path%s to learn, %d cop%s; %s", paths,
-             plural(paths), plan->n_cords - paths, plan->n_cords - paths == 1 ? "y" : "ies", proof);
-  } else {
-    /* The length of cord alone. */
-    put_proof(proof, sizeof proof, "cord", plan->proof.present, plan->proof.optimal,
-              plan->proof.gap);
-    snprintf(line, sizeof line, "Goal: as little cord as possible; %s", proof);
+    put_proof(flow, "as little turning as possible", "turning", plan->turning.present,
+              plan->turning.optimal, plan->turning.gap);
+    return;
   }
 
-  thr_sheets_paragraph(sheets, 0, line);
-}
-
-/* Writes on which pages the parts begin. Page numbers count the title page and begin with 1, hence
- * + 2. */
-static void put_contents(thr_sheets *sheets, const int *first)
-{
-  char line[160];
-  snprintf(line, sizeof line,
-           "%d pages. Prepare first: from page %d. Steps: from page %d. Last: from page %d.",
-           sheets->n_pages, first[THR_SHEET_PREPARE] + 2, first[THR_SHEET_STEPS] + 2,
-           first[THR_SHEET_LAST] + 2);
-  thr_sheets_paragraph(sheets, 0, line);
+  if (thr_wants_symmetry(&plan->options))
+    snprintf(goal, sizeof goal, "cords that repeat each other: %d path%s to learn, %d cop%s", paths,
+             plural(paths), copies, copies == 1 ? "y" : "ies");
+  put_proof(flow, goal, "cord", plan->proof.present, plan->proof.optimal, plan->proof.gap);
 }
 
 void thr_sheets_front(thr_sheets *sheets, const int *first)
 {
-  thr_sheets_page(sheets, "Step sheets", "");
+  const thr_known *known = &sheets->known;
+  thr_flow *flow = &sheets->flow;
+  thr_sheets_page(flow, "Step sheets", "");
+  if (flow->why.code) return;
 
-  if (sheets->st) return;
-
-  /* Words first. */
-  put_counts(sheets);
-  put_goal(sheets);
-  put_contents(sheets, first);
+  /* Words first. Page numbers count the title page and begin with 1, hence + 2. */
+  put_counts(flow, known);
+  put_goal(flow, known);
+  thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                 "%d pages. Prepare first: from page %d. Steps: from page %d. Last: from page %d.",
+                 flow->n_pages, first[THR_SHEET_PREPARE] + 2, first[THR_SHEET_STEPS] + 2,
+                 first[THR_SHEET_LAST] + 2);
 
   /* A warning where sizes that were worked out look wrong. */
   char doubt[160];
-  if (thr_supplies_doubt(&sheets->supplies, doubt)) thr_sheets_paragraph(sheets, 0, doubt);
+  if (thr_supplies_doubt(&known->supplies, doubt))
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH, "%s", doubt);
 
-  if (sheets->plan->n_cords == 1 && !sheets->in_space)
-    thr_sheets_paragraph(sheets, 0, "In this picture the colour changes every twenty passes.");
+  if (known->plan->n_cords == 1 && !known->in_space)
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                   "In this picture the colour changes every twenty passes.");
 
   /* The picture takes what is left of the page. */
-  thr_box paper = {THR_SHEET_MARGIN, sheets->y, sheets->size[0] - THR_SHEET_MARGIN,
-                   thr_sheets_bottom(sheets)};
-
-  thr_status st =
-      sheets->in_space
-          ? thr_space_whole(&sheets->space, NULL, paper, thr_sheets_out(sheets), &sheets->why)
-          : thr_crop_whole(sheets->plan, &sheets->guide.layout, NULL, NULL, paper, NULL,
-                           sheets->limits, thr_sheets_out(sheets), &sheets->why);
-
-  if (st) thr_sheets_fail(sheets, st, NULL);
+  thr_sheets_whole(sheets, known->in_space, NULL, NULL, thr_sheets_bottom(flow), NULL);
 }

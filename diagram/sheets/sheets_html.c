@@ -68,17 +68,15 @@ static void put_page(thr_text *html, const thr_text *svg, int page)
 
 /* Appends the head of the document: title and style. A page is as large as the paper; on a screen
  * it shrinks with the window. */
-static void put_head(const thr_sheets *sheets, thr_text *html)
+static void put_head(const thr_flow *flow, thr_text *html)
 {
-  const double *mm = sheets->size;
-  char title[96];
-  thr_sheets_heading(sheets, title);
+  const double *mm = flow->size;
 
   /* The language is for hyphens and for readers of screens. */
   thr_text_append(
       html, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>");
-  thr_text_append(html, title);
+  thr_text_append(html, flow->title);
 
   /* One page per sheet of paper, without margins of the browser's own. */
   thr_text_printf(
@@ -96,7 +94,7 @@ thr_status thr_sheets_html(const thr_sheets *sheets, thr_text *html, thr_err *er
 {
   thr_status st = THR_OK;
   const size_t before = html->length;
-  put_head(sheets, html);
+  put_head(&sheets->flow, html);
 
   for (int i = 0; i < thr_sheets_pages(sheets) && !st; i++) {
     /* One page at a time, so that memory does not hold all of them twice. */

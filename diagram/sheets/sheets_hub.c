@@ -22,13 +22,13 @@ static const double CLEAR = 8;   /* mm between the inset and the ends of the ste
 
 /* Returns the visit that passes through the piece with the most arms, at least MANY; -1 if there is
  * none. */
-static int find_hub(const thr_sheets *sheets, const thr_step *step)
+static int find_hub(const thr_known *known, const thr_step *step)
 {
   int best = -1, most = MANY - 1;
-  for (int i = step->first; i < step->end && sheets->pieces.solid; i++) {
+  for (int i = step->first; i < step->end && known->pieces.solid; i++) {
     /* Tubes have no arms to tell apart. */
-    const thr_visit *v = &sheets->visit[i];
-    int arms = thr_degree(sheets->f, v->piece);
+    const thr_visit *v = &known->visit[i];
+    int arms = thr_degree(known->f, v->piece);
 
     /* Where a cord starts or ends there are no two arms to count between. */
     if (arms <= most || v->in < 0 || v->out < 0) continue;
@@ -57,33 +57,24 @@ static int count_clockwise(const thr_arms *arms, int from, int to)
   return n;
 }
 
-/* Draws arm i as a straight line of a width in mm. */
-static void put_arm(const thr_arms *arms, int i, double width, const char *colour, thr_text *text)
-{
-  thr_text_printf(text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"", colour,
-                  width);
-  thr_svg_move(text, arms->hub);
-  thr_svg_line(text, arms->end[i]);
-  thr_text_append(text, "\"/>\n");
-}
-
 /* Writes the name of the piece that arm i faces beyond the end of the arm. */
-static void put_facing(const thr_sheets *sheets, const thr_arms *arms, int i, int node,
+static void put_facing(const thr_known *known, const thr_arms *arms, int i, int node,
                        thr_text *text)
 {
   double turn = angle_of(arms, i),
-         half = 0.5 * thr_scene_text_width(sheets->guide.label[node], THR_SHEET_SMALL);
+         half = 0.5 * thr_scene_text_width(known->guide.label[node], THR_SHEET_SMALL);
 
   /* The middle of the name is off the end by half the extent of the name in the arm's direction. */
-  double far = REACH + 1.5 + fabs(cos(turn)) * half + fabs(sin(turn)) * 0.5 * THR_SHEET_SMALL;
+  double reach = hypot(arms->end[i][0] - arms->hub[0], arms->end[i][1] - arms->hub[1]),
+         far = reach + 1.5 + fabs(cos(turn)) * half + fabs(sin(turn)) * 0.5 * THR_SHEET_SMALL;
   thr_svg_text(text, arms->hub[0] + far * cos(turn),
                arms->hub[1] + far * sin(turn) + 0.36 * THR_SHEET_SMALL, THR_SHEET_SMALL,
-               " font-weight=\"bold\" text-anchor=\"middle\"", sheets->guide.label[node]);
+               " font-weight=\"bold\" text-anchor=\"middle\"", known->guide.label[node]);
 }
 
 /* Draws the hub of a visit with all arms equally long, those with the cord bold, the cord with its
  * casing and arrow, and the names at both ends. */
-static void put_piece(const thr_sheets *sheets, const thr_visit *visit, thr_arms *arms, int in,
+static void put_piece(const thr_known *known, const thr_visit *visit, thr_arms *arms, int in,
                       int out, const char *colour, thr_text *text)
 {
   /* Lengths carry no meaning here: only directions are counted. */
@@ -93,27 +84,25 @@ static void put_piece(const thr_sheets *sheets, const thr_visit *visit, thr_arms
     arms->end[i][1] = arms->hub[1] + REACH * sin(turn);
   }
 
-  /* Thin arms lie below the bold ones. */
-  for (int i = 0; i < arms->n; i++)
-    if (i != in && i != out) put_arm(arms, i, THIN, "#857a64", text);
-  put_arm(arms, in, BOLD, "#857a64", text);
-  put_arm(arms, out, BOLD, "#857a64", text);
-
-  /* The cord over a wider white line. */
-  for (int casing = 1; casing >= 0; casing--) {
-    thr_text_printf(text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"",
-                    casing ? "#ffffff" : colour, casing ? 1.6 * CORD : CORD);
-    thr_arms_way(arms, in, out, CORD, text);
-    thr_text_append(text, "\"/>\n");
+  /* All arms thin; then along the way of the cord its two arms bold, a white line, and the cord. */
+  const struct {
+    const char *colour;
+    double width;
+  } layer[3] = {{"#857a64", BOLD}, {"#ffffff", 1.6 * CORD}, {colour, CORD}};
+  thr_text thin = {0}, tip = {0};
+  thr_arms_strokes(arms, 0, &thin);
+  thr_step_put_path(&thin, "none", "#857a64", THIN, text);
+  for (int i = 0; i < 3; i++) {
+    thr_text way = {0};
+    thr_arms_way(arms, in, out, CORD, &way);
+    thr_step_put_path(&way, "none", layer[i].colour, layer[i].width, text);
   }
-
-  thr_text_printf(text, "<path fill=\"%s\" stroke=\"#ffffff\" stroke-width=\"0.20\" d=\"", colour);
-  thr_arms_tip(arms, out, CORD, text);
-  thr_text_append(text, "\"/>\n");
+  thr_arms_tip(arms, out, CORD, &tip);
+  thr_step_put_path(&tip, colour, "#ffffff", 0.2, text);
 
   /* The names of the pieces that the needle comes from and goes to. */
-  put_facing(sheets, arms, in, thr_tail(sheets->f, visit->in), text);
-  put_facing(sheets, arms, out, thr_head(sheets->f, visit->out), text);
+  put_facing(known, arms, in, thr_tail(known->f, visit->in), text);
+  put_facing(known, arms, out, thr_head(known->f, visit->out), text);
 }
 
 /* Finds a corner of the picture that is free of the points of the step: below before above, left
@@ -136,39 +125,49 @@ static bool find_corner(thr_box picture, const double (*busy)[2], int n, double 
   return false;
 }
 
-void thr_step_put_hub(thr_sheets *sheets, const thr_step *step, const thr_camera *camera,
-                      const char *colour, thr_box picture, const double (*busy)[2], int n_busy)
+void thr_step_put_hub(thr_flow *flow, const thr_known *known, const thr_step *step,
+                      const thr_camera *camera, const char *colour, thr_box picture,
+                      const double (*busy)[2], int n_busy)
 {
   double corner[2];
   char line[96];
-  int visit = find_hub(sheets, step), in, out;
+  int visit = find_hub(known, step), in, out;
 
-  if (visit < 0 || sheets->st || picture.x1 - picture.x0 < 2 * SIDE ||
+  if (visit < 0 || flow->why.code || picture.x1 - picture.x0 < 2 * SIDE ||
       picture.y1 - picture.y0 < SIDE)
     return;
 
   if (!find_corner(picture, busy, n_busy, corner)) return;
-  const thr_visit *stay = &sheets->visit[visit];
+  const thr_visit *stay = &known->visit[visit];
   double x = corner[0], y = corner[1];
 
   /* The hub is in the middle of what the heading leaves. */
   thr_arms arms = {.hub = {x + 0.5 * SIDE, y + HEADING + 0.5 * (SIDE - HEADING)}};
 
-  thr_text *text = thr_sheets_out(sheets);
-  thr_step_arms(sheets, camera, stay->piece, REACH, &arms, stay->in, stay->out, &in, &out);
+  thr_text *text = thr_sheets_out(flow);
+  thr_step_arms(known, camera, stay->piece, REACH, &arms, stay->in, stay->out, &in, &out);
   if (in < 0 || out < 0) return; /* beyond the arms that are drawn */
-  thr_text_printf(
-      text,
-      "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"#fff\" stroke=\"#999\" "
-      "stroke-width=\"0.25\"/>\n",
-      x, y, SIDE, SIDE);
+  thr_sheets_frame(text, x, y, SIDE, SIDE, "fill=\"#fff\" stroke=\"#999\" stroke-width=\"0.25\"");
 
   /* Two lines of heading: which visit, and what to count. */
   snprintf(line, sizeof line, "%d: hub %.20s, %d arms", stay->number,
-           sheets->guide.label[stay->piece], arms.n);
+           known->guide.label[stay->piece], arms.n);
   thr_svg_text(text, x + 2, y + 4, THR_SHEET_SMALL, " font-weight=\"bold\"", line);
   snprintf(line, sizeof line, "out %d on from in, clockwise", count_clockwise(&arms, in, out));
   thr_svg_text(text, x + 2, y + 8, THR_SHEET_SMALL, "", line);
 
-  put_piece(sheets, stay, &arms, in, out, colour, text);
+  put_piece(known, stay, &arms, in, out, colour, text);
+}
+
+void thr_step_put_example(const thr_known *known, int visit, const double hub[2], double reach,
+                          const char *colour, thr_text *text)
+{
+  const thr_visit *stay = &known->visit[visit];
+  thr_arms arms = {.hub = {hub[0], hub[1]}};
+  int in, out;
+
+  thr_step_arms(known, NULL, stay->piece, reach, &arms, stay->in, stay->out, &in, &out);
+  thr_step_put_icon(known, visit, hub, reach, colour, text);
+  put_facing(known, &arms, in, thr_tail(known->f, stay->in), text);
+  put_facing(known, &arms, out, thr_head(known->f, stay->out), text);
 }

@@ -32,7 +32,8 @@ enum { SOME_TAGS = 4 };             /* rows of tags that must fit below what is 
 
 /* Writes the length of each arm of a piece, in units, beyond the end of the arm. point: the piece
  * in the scene; at: its hub on the page, mm. */
-static void put_lengths(thr_sheets *sheets, const thr_scene *scene, int point, const double at[2])
+static void put_lengths(thr_flow *flow, const thr_known *known, const thr_scene *scene, int point,
+                        const double at[2])
 {
   const thr_frame *paper = scene->paper;
   for (int i = paper->first[point];
@@ -43,11 +44,11 @@ static void put_lengths(thr_sheets *sheets, const thr_scene *scene, int point, c
     char number[32];
 
     thr_scene_direction(scene, h, outwards);
-    snprintf(number, sizeof number, "%.3g", sheets->f->length[h >> 1] / 2);
+    snprintf(number, sizeof number, "%.3g", known->f->length[h >> 1] / 2);
 
     /* A figure is wider than high: beside a flat arm it needs more distance. */
     off += fabs(outwards[0]) * 0.3 * THR_SHEET_SMALL * (double)strlen(number);
-    thr_svg_text(thr_sheets_out(sheets), at[0] + off * outwards[0],
+    thr_svg_text(thr_sheets_out(flow), at[0] + off * outwards[0],
                  at[1] + off * outwards[1] + 0.36 * THR_SHEET_SMALL, THR_SHEET_SMALL,
                  " text-anchor=\"middle\" style=\"fill:#666\"", number);
   }
@@ -55,27 +56,26 @@ static void put_lengths(thr_sheets *sheets, const thr_scene *scene, int point, c
 
 /* Writes the places of all pieces of a kind in a line, centred in a card, with ".." where some do
  * not fit. */
-static void put_members(thr_sheets *sheets, int kind, double x, double y, double width)
+static void put_members(thr_flow *flow, const thr_known *known, int kind, double x, double y,
+                        double width)
 {
   thr_text words = {0};
 
   /* All names of the kind, in the order of pieces. */
-  for (int i = 0; i < sheets->pieces.n; i++)
-    if (sheets->pieces.kind[i] == kind)
-      thr_text_printf(&words, "%s%s", words.length ? " " : "", sheets->guide.label[i]);
+  for (int i = 0; i < known->pieces.n; i++)
+    if (known->pieces.kind[i] == kind)
+      thr_text_printf(&words, "%s%s", words.length ? " " : "", known->guide.label[i]);
 
-  if (words.failed || !words.data) {
-    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
-  } else {
-    /* As many whole names as the width takes. */
+  /* As many whole names as the width takes. */
+  if (words.failed) thr_nomem(&flow->why);
+  if (words.data && !words.failed) {
     size_t n = thr_sheets_fit(words.data, width - 4, THR_SHEET_SMALL);
     char line[256];
     snprintf(line, sizeof line, "%.*s%s", (int)(n < 250 ? n : 250), words.data,
              words.data[n] ? " .." : "");
-    thr_svg_text(thr_sheets_out(sheets), x + 0.5 * width, y, THR_SHEET_SMALL,
+    thr_svg_text(thr_sheets_out(flow), x + 0.5 * width, y, THR_SHEET_SMALL,
                  " text-anchor=\"middle\"", line);
   }
-
   thr_text_destroy(&words);
 }
 
@@ -83,161 +83,156 @@ static void put_members(thr_sheets *sheets, int kind, double x, double y, double
  * outline and lengths in the middle, places below. */
 static void put_card(thr_sheets *sheets, int kind, double x, double y, double width)
 {
+  const thr_known *known = &sheets->known;
+  thr_flow *flow = &sheets->flow;
   char name[24], count[24];
   const thr_scene *scene;
-  int model = sheets->pieces.model[kind], point;
+  int model = known->pieces.model[kind], point;
   double at[2] = {x + 0.5 * width, y + 24};
-  thr_text *text = thr_sheets_out(sheets);
+  thr_text *text = thr_sheets_out(flow);
 
   /* The frame, then name and number. */
-  thr_text_printf(text,
-                  "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" rx=\"1.50\" "
-                  "fill=\"none\" stroke=\"#bbb\" "
-                  "stroke-width=\"0.25\"/>\n",
-                  x, y, width, CARD);
-  thr_pieces_kind_name(&sheets->pieces, kind, name);
-  snprintf(count, sizeof count, "x %d", sheets->pieces.members[kind]);
+  thr_sheets_frame(text, x, y, width, CARD,
+                   "rx=\"1.50\" fill=\"none\" stroke=\"#bbb\" stroke-width=\"0.25\"");
+  thr_pieces_kind_name(&known->pieces, kind, name);
+  snprintf(count, sizeof count, "x %d", known->pieces.members[kind]);
   thr_svg_text(text, x + 2, y + 5.5, NAME, " font-weight=\"bold\"", name);
   thr_svg_text(text, x + width - 2, y + 5.5, NAME, " font-weight=\"bold\" text-anchor=\"end\"",
                count);
 
   /* The piece at a scale of its own: cards show shapes, not relative sizes. */
-  thr_status st =
-      thr_crop_piece(&sheets->crops, model, at, ROOM, &scene, &point, text, &sheets->why);
-  if (st) {
-    thr_sheets_fail(sheets, st, NULL);
-    return;
-  }
+  thr_status st = thr_crop_piece(&sheets->crops, model, at, ROOM, &scene, &point, text, &flow->why);
+  thr_sheets_fail(flow, st);
 
   /* Around the picture, and below it. */
-  put_lengths(sheets, scene, point, at);
-  put_members(sheets, kind, x, y + CARD - 2, width);
+  if (!st) put_lengths(flow, known, scene, point, at);
+  put_members(flow, known, kind, x, y + CARD - 2, width);
 }
 
 /* Writes in how many pieces cords cross: such pieces need channels one above the other. */
-static void put_crossings(thr_sheets *sheets)
+static void put_crossings(thr_flow *flow, const thr_known *known)
 {
   thr_channels channels = {0};
-  char line[200];
 
-  /* The channels are only counted here. */
-  thr_status st = thr_channels_make(&channels, sheets->plan, &sheets->why);
-  if (st) {
-    thr_sheets_fail(sheets, st, NULL);
-    return;
-  }
-
-  /* Where some cross, a maker needs the table. */
-  if (channels.crossed)
-    snprintf(line, sizeof line,
-             "%d piece%s cords that cross inside: there one channel lies above the other "
-             "(channels.csv says which).",
-             channels.crossed, channels.crossed == 1 ? " holds" : "s hold");
-  else
-    snprintf(line, sizeof line, "No cords cross inside a piece.");
-
+  /* The channels are only counted here. Where some cross, a maker needs the table. */
+  thr_status st = thr_channels_make(&channels, known->plan, &flow->why);
+  const int n = channels.crossed;
+  thr_sheets_fail(flow, st);
   thr_channels_destroy(&channels);
-  thr_sheets_paragraph(sheets, 0, line);
+  if (!st && n)
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                   "%d piece%s cords that cross inside: there one channel lies above the other "
+                   "(channels.csv says which).",
+                   n, n == 1 ? " holds" : "s hold");
+  else if (!st)
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH, "No cords cross inside a piece.");
 }
 
-/* Begins the cards below what is on the page, if the cards take fewer further pages then than on a
- * page of their own; else on a new page. */
-static void begin_key(thr_sheets *sheets, const char *title)
+/* Begins a part below what is on the page if that is wanted, else on a page of its own. */
+static void begin(thr_flow *flow, bool here, const char *title, const char *running)
 {
-  const double head = 12, row = CARD + AIR, here = thr_sheets_bottom(sheets) - sheets->y - head - 5;
-  const double page = thr_sheets_bottom(sheets) - THR_SHEET_MARGIN - head;
+  if (!here) {
+    thr_sheets_page(flow, title, running);
+    return;
+  }
+  snprintf(flow->running, sizeof flow->running, "%s", running);
+  thr_sheets_put(flow, THR_BLOCK_TITLE, "%s", title);
+}
+
+/* Begins cell i, from 0, of a grid that goes on row by row over as many pages as needed, with air
+ * mm between two cells. Returns its x; its y is that of the page. */
+static double begin_cell(thr_flow *flow, int i, int columns, double width, double height,
+                         double air)
+{
+  const int column = i % columns;
+
+  if (column == 0 && i) flow->y += height + air;
+  if (column == 0) thr_sheets_room(flow, height);
+  return THR_SHEET_MARGIN + column * (width + air);
+}
+
+/* Returns whether n_kinds cards take fewer further pages below what is on the page than on a page
+ * of their own. */
+static bool is_shorter_here(const thr_flow *flow, int n_kinds)
+{
+  const double head = 12, row = CARD + AIR, here = thr_sheets_bottom(flow) - flow->y - head - 5,
+               page = thr_sheets_bottom(flow) - THR_SHEET_MARGIN - head;
 
   /* Rows of cards in all, and as many as a whole page takes. */
-  const int rows = (sheets->pieces.n_kinds + CARDS - 1) / CARDS,
-            fit = (int)floor((page + AIR) / row);
+  const int rows = (n_kinds + CARDS - 1) / CARDS, fit = (int)floor((page + AIR) / row);
 
   /* Rows below what is there; (left + fit - 1) / fit pages take the others. */
   const int rows_here = here > 0 ? (int)floor((here + AIR) / row) : 0,
             left = rows > rows_here ? rows - rows_here : 0;
 
-  if (rows_here > 0 && (left + fit - 1) / fit < (rows + fit - 1) / fit) {
-    snprintf(sheets->running, sizeof sheets->running, "%s", title);
-    thr_sheets_title(sheets, title);
-  } else
-    thr_sheets_page(sheets, title, title);
+  return rows_here > 0 && (left + fit - 1) / fit < (rows + fit - 1) / fit;
 }
 
 void thr_sheets_key(thr_sheets *sheets)
 {
+  const thr_known *known = &sheets->known;
+  thr_flow *flow = &sheets->flow;
   char title[96];
-  const thr_pieces *pieces = &sheets->pieces;
-  double width = (thr_sheets_width(sheets) - (CARDS - 1) * AIR) / CARDS;
+  const thr_pieces *pieces = &known->pieces;
+  double width = (thr_sheets_width(flow) - (CARDS - 1) * AIR) / CARDS;
 
-  if (!pieces->solid || sheets->st) return;
-  put_crossings(sheets);
+  if (!pieces->solid || flow->why.code) return;
+  put_crossings(flow, known);
 
   /* A flat picture would not tell the kinds apart, or there are too many. */
-  if (!sheets->guide.sides || pieces->n_kinds > MOST_CARDS) return;
+  if (!known->guide.sides || pieces->n_kinds > MOST_CARDS) return;
   snprintf(title, sizeof title, "The %d %s: %d kind%s", pieces->n,
-           thr_pieces_word(sheets->plan, pieces->n), pieces->n_kinds,
+           thr_pieces_word(known->plan, pieces->n), pieces->n_kinds,
            pieces->n_kinds == 1 ? "" : "s");
 
-  begin_key(sheets, title);
-  if (sheets->st) return;
+  begin(flow, is_shorter_here(flow, pieces->n_kinds), title, title);
+  if (flow->why.code) return;
 
-  snprintf(title, sizeof title,
-           "Outer side up, as in the picture. Numbers: arms from the hub to the face, in %.15s.",
-           sheets->f->units);
-  thr_sheets_paragraph(sheets, 0, title);
+  thr_sheets_put(
+      flow, THR_BLOCK_PARAGRAPH,
+      "Outer side up, as in the picture. Numbers: arms from the hub to the face, in %.15s.",
+      known->f->units);
 
-  /* Kinds count from 1. A row of cards begins on a new page if this one is full. */
-  for (int k = 1; k <= pieces->n_kinds && !sheets->st; k++) {
-    int column = (k - 1) % CARDS;
-    if (column == 0 && k > 1) sheets->y += CARD + AIR;
-    if (column == 0) thr_sheets_room(sheets, CARD);
-    if (!sheets->st)
-      put_card(sheets, k, THR_SHEET_MARGIN + column * (width + AIR), sheets->y, width);
+  /* Kinds count from 1. */
+  for (int k = 1; k <= pieces->n_kinds && !flow->why.code; k++) {
+    double x = begin_cell(flow, k - 1, CARDS, width, CARD, AIR);
+    if (!flow->why.code) put_card(sheets, k, x, flow->y, width);
   }
 
-  sheets->y += CARD + 2 * AIR;
+  flow->y += CARD + 2 * AIR;
 }
 
 /* ---- tags ---- */
 
-void thr_sheets_name_tags(thr_sheets *sheets)
+void thr_sheets_name_tags(thr_flow *flow, const thr_known *known)
 {
-  static const char words[] = "Cut these out and put each on its piece when it goes on the cord: "
-                              "letters up, as in the picture.";
   double longest = 0;
-  int n = sheets->pieces.n;
+  int n = known->pieces.n;
 
   /* A tube has no side to stick a name on. */
-  if (!sheets->pieces.solid || sheets->st) return;
+  if (!known->pieces.solid || flow->why.code) return;
 
   /* The longest name decides how many tags stand in a row, 14 at most. */
   for (int i = 0; i < n; i++)
-    longest = fmax(longest, thr_text_columns(sheets->guide.label[i], SIZE_MAX));
-  int columns = (int)fmax(1, floor(thr_sheets_width(sheets) / (0.75 * NAME * longest + 3)));
+    longest = fmax(longest, thr_text_columns(known->guide.label[i], SIZE_MAX));
+  int columns = (int)fmax(1, floor(thr_sheets_width(flow) / (0.75 * NAME * longest + 3)));
   columns = columns > 14 ? 14 : columns;
 
-  double width = thr_sheets_width(sheets) / columns;
+  double width = thr_sheets_width(flow) / columns;
 
   /* A few rows below what is on the page, or a page of their own. */
-  if (sheets->y + SOME_TAGS * TAG < thr_sheets_bottom(sheets)) {
-    snprintf(sheets->running, sizeof sheets->running, "Names to stick on (continued)");
-    thr_sheets_title(sheets, "Names to stick on");
-  } else
-    thr_sheets_page(sheets, "Names to stick on", "Names to stick on (continued)");
+  begin(flow, flow->y + SOME_TAGS * TAG < thr_sheets_bottom(flow), "Names to stick on",
+        "Names to stick on (continued)");
+  thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                 "Cut these out and put each on its piece when it goes on the cord: letters up, as "
+                 "in the picture.");
+  for (int i = 0; i < n && !flow->why.code; i++) {
+    double x = begin_cell(flow, i, columns, width, TAG, 0);
+    if (flow->why.code) return;
 
-  if (!sheets->st) thr_sheets_paragraph(sheets, 0, words);
-  for (int i = 0; i < n && !sheets->st; i++) {
-    /* Row by row, over as many pages as needed. */
-    int column = i % columns;
-    double x = THR_SHEET_MARGIN + column * width;
-    if (column == 0 && i) sheets->y += TAG;
-    if (column == 0) thr_sheets_room(sheets, TAG);
-    if (sheets->st) return;
-
-    thr_text_printf(thr_sheets_out(sheets),
-                    "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"none\" "
-                    "stroke=\"#999\" stroke-width=\"0.15\"/>\n",
-                    x, sheets->y, width, TAG);
-    thr_svg_text(thr_sheets_out(sheets), x + 0.5 * width, sheets->y + 0.5 * TAG + 0.36 * NAME, NAME,
-                 " font-weight=\"bold\" text-anchor=\"middle\"", sheets->guide.label[i]);
+    thr_sheets_frame(thr_sheets_out(flow), x, flow->y, width, TAG,
+                     "fill=\"none\" stroke=\"#999\" stroke-width=\"0.15\"");
+    thr_svg_text(thr_sheets_out(flow), x + 0.5 * width, flow->y + 0.5 * TAG + 0.36 * NAME, NAME,
+                 " font-weight=\"bold\" text-anchor=\"middle\"", known->guide.label[i]);
   }
 }

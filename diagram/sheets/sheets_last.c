@@ -16,8 +16,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { CELLS = 6 };
-
 /* How hard a cord is to pull, for sorting. */
 typedef struct {
   int cord;
@@ -34,35 +32,36 @@ static int by_hardness(const void *a, const void *b)
   return one->cord - other->cord;
 }
 
-/* Returns an angle in degrees. */
-static double degrees(double angle)
+/* Returns the total turning of cord c in rad; a closed cord turns from its end into its start,
+ * too. */
+static double turning_of(const thr_known *known, int c)
 {
-  return thr_degrees(angle);
+  return thr_cord_turning(known->f, &known->plan->cord[c],
+                          known->plan->options.ends == THR_ENDS_CLOSED);
 }
 
 /* Returns what the evaluation says of cord c, or NULL if it says nothing. */
-static const thr_eval_cord *known_of(const thr_sheets *sheets, int c)
+static const thr_eval_cord *evaluation_of(const thr_known *known, int c)
 {
-  const thr_evaluation *evaluation = &sheets->plan->evaluation;
+  const thr_evaluation *evaluation = &known->plan->evaluation;
   return evaluation->present && evaluation->cord[c].known ? &evaluation->cord[c] : NULL;
 }
 
 /* Returns how hard cord c is to pull. */
-static cord_pull pull_of(const thr_sheets *sheets, int c)
+static cord_pull pull_of(const thr_known *known, int c)
 {
-  const thr_eval_cord *known = known_of(sheets, c);
-  double force = known ? fmax(known->force, known->other_force)
-                       : thr_cord_turning(sheets->f, &sheets->plan->cord[c], false);
-  return (cord_pull){c, known != NULL, force};
+  const thr_eval_cord *found = evaluation_of(known, c);
+  double force = found ? fmax(found->force, found->other_force) : turning_of(known, c);
+  return (cord_pull){c, found != NULL, force};
 }
 
-int thr_sheets_hardest(const thr_sheets *sheets)
+int thr_sheets_hardest(const thr_known *known)
 {
-  cord_pull first = pull_of(sheets, 0);
+  cord_pull first = pull_of(known, 0);
 
   /* The first in the order of by_hardness, without sorting all. */
-  for (int c = 1; c < sheets->plan->n_cords; c++) {
-    cord_pull other = pull_of(sheets, c);
+  for (int c = 1; c < known->plan->n_cords; c++) {
+    cord_pull other = pull_of(known, c);
     if (by_hardness(&other, &first) < 0) first = other;
   }
 
@@ -80,22 +79,22 @@ void thr_sheets_too_hard(double newton, thr_text *words)
 
 /* Writes how many cords ask for a larger force than a hand has, and what helps; nothing if none
  * does. pulls: [n_cords] all cords. */
-static void put_too_hard(thr_sheets *sheets, const cord_pull *pulls)
+static void put_too_hard(thr_flow *flow, const thr_known *known, const cord_pull *pulls)
 {
   thr_text words = {0};
   char force[32];
   int n = 0;
 
   /* Only forces compare with a hand; turning does not. */
-  for (int i = 0; i < sheets->plan->n_cords; i++)
+  for (int i = 0; i < known->plan->n_cords; i++)
     n += pulls[i].known && pulls[i].hardness > thr_hand_most;
   if (!n) return;
 
   /* "The cord asks ..", "3 of 4 cords ask ..". */
-  if (sheets->plan->n_cords == 1)
+  if (known->plan->n_cords == 1)
     thr_text_append(&words, "The cord");
   else
-    thr_text_printf(&words, "%d of %d cords", n, sheets->plan->n_cords);
+    thr_text_printf(&words, "%d of %d cords", n, known->plan->n_cords);
   thr_text_append(&words, n == 1 ? " asks for a pull that is" : " ask for a pull that is");
 
   thr_svg_force(thr_hand_most, force);
@@ -105,191 +104,146 @@ static void put_too_hard(thr_sheets *sheets, const cord_pull *pulls)
                   "pass, or plan more cords (thread advise).",
                   force);
 
-  /* Bold letters are wider than the measure assumes: the line is 8 % shorter. */
-  if (words.failed)
-    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
-  else
-    sheets->y =
-        thr_sheets_text(sheets, THR_SHEET_MARGIN, sheets->y + 1, THR_SHEET_TEXT,
-                        0.92 * thr_sheets_width(sheets), " font-weight=\"bold\"", words.data);
-
-  thr_text_destroy(&words);
-}
-
-/* Fills the cells "pull at its", "force" and "lost" of a cord that was evaluated. */
-static void put_force(const thr_sheets *sheets, const thr_eval_cord *known, int start, int end,
-                      char (*cell)[96])
-{
-  const char *from = sheets->guide.label[start], *to = sheets->guide.label[end];
-  char force[32], other[32];
-
-  thr_svg_force(known->force, force);
-  thr_svg_force(known->other_force, other);
-
-  /* Which end the evaluation pulls, or both. */
-  switch (known->pull) {
-  case THR_PULL_START: snprintf(cell[1], 96, "start, at %.40s", from); break;
-  case THR_PULL_END: snprintf(cell[1], 96, "end, at %.40s", to); break;
-  case THR_PULL_NONE: snprintf(cell[1], 96, "not pulled"); break;
-  default: snprintf(cell[1], 96, "both, at %.30s and %.30s", from, to);
-  }
-
-  /* Two forces where both ends are pulled. */
-  if (known->pull == THR_PULL_BOTH)
-    snprintf(cell[2], 96, "%s and %s", force, other);
-  else
-    snprintf(cell[2], 96, "%s", force);
-
-  snprintf(cell[3], 96, "%.1f %%", 100 * known->loss);
+  thr_sheets_put_text(flow, THR_BLOCK_WARNING, &words);
 }
 
 /* Writes the row of a cord in the table of pulls; column: the columns' places
  * (thr_sheets_cells). */
-static void put_cord(thr_sheets *sheets, const cord_pull *row, const double *column)
+static void put_cord(thr_flow *flow, const thr_known *known, int c, const double *column)
 {
-  char cell[CELLS][96] = {""};
-  const thr_cord *cord = &sheets->plan->cord[row->cord];
-  const thr_eval_cord *known = known_of(sheets, row->cord);
-  int start = thr_cord_start(sheets->f, cord), end = thr_cord_end(sheets->f, cord);
+  const thr_cord *cord = &known->plan->cord[c];
+  const thr_eval_cord *found = evaluation_of(known, c);
+  const char(*label)[THR_LABEL] = thr_sheets_labels(known);
+  const char *start = label[thr_cord_start(known->f, cord)],
+             *end = label[thr_cord_end(known->f, cord)];
+  char words[96], at[96], force[32], other[32], forces[96] = "", lost[32] = "", slackest[96] = "";
 
-  thr_sheets_cord_words(sheets, row->cord, cell[0]);
-
-  /* Where slack is drawn from: the pass with the least tension. */
-  if (known) {
-    put_force(sheets, known, start, end, cell);
-    int h = cord->half[known->slackest];
-    snprintf(cell[4], 96, "pass %d, %.20s - %.20s", known->slackest + 1,
-             sheets->guide.label[thr_tail(sheets->f, h)],
-             sheets->guide.label[thr_head(sheets->f, h)]);
-  } else {
-    /* A plan may be evaluated while one of its cords could not be. */
-    if (sheets->plan->evaluation.present) snprintf(cell[2], 96, "not known");
-    snprintf(cell[1], 96, "both, at %.30s and %.30s", sheets->guide.label[start],
-             sheets->guide.label[end]);
+  /* Which end the evaluation pulls; both where it says nothing. */
+  switch (found ? found->pull : THR_PULL_BOTH) {
+  case THR_PULL_START: snprintf(at, sizeof at, "start, at %.40s", start); break;
+  case THR_PULL_END: snprintf(at, sizeof at, "end, at %.40s", end); break;
+  case THR_PULL_NONE: snprintf(at, sizeof at, "not pulled"); break;
+  default: snprintf(at, sizeof at, "both, at %.30s and %.30s", start, end);
   }
 
-  /* Turning in whole degrees; a closed cord turns from its end into its start, too. */
-  snprintf(
-      cell[5], 96, "%.0f",
-      degrees(thr_cord_turning(sheets->f, cord, sheets->plan->options.ends == THR_ENDS_CLOSED)));
+  /* Two forces where both ends are pulled. Slack is drawn from the pass with the least tension. */
+  if (found) {
+    int h = cord->half[found->slackest];
+    bool both = found->pull == THR_PULL_BOTH;
+    thr_svg_force(found->force, force);
+    thr_svg_force(found->other_force, other);
+    snprintf(forces, sizeof forces, "%s%s%s", force, both ? " and " : "", both ? other : "");
+    snprintf(lost, sizeof lost, "%.1f %%", 100 * found->loss);
+    snprintf(slackest, sizeof slackest, "pass %d, %.20s - %.20s", found->slackest + 1,
+             label[thr_tail(known->f, h)], label[thr_head(known->f, h)]);
+  } else if (known->plan->evaluation.present) {
+    /* A plan may be evaluated while one of its cords could not be. */
+    snprintf(forces, sizeof forces, "not known");
+  }
 
-  thr_sheets_cells(sheets, CELLS, column, cell, false);
+  thr_sheets_cord_words(known, c, words);
+  thr_sheets_cells(flow, column, false, "%s\t%s\t%s\t%s\t%s\t%.0f", words, at, forces, lost,
+                   slackest, thr_degrees(turning_of(known, c)));
 }
 
 /* Writes in which order and how the cords are pulled tight. pulls: [n_cords], receives the
  * cords in this order. */
-static void put_pulling(thr_sheets *sheets, cord_pull *pulls)
+static void put_pulling(thr_flow *flow, const thr_known *known, cord_pull *pulls)
 {
-  static const double column[CELLS] = {0, 38, -116, -130, 134, -186};
-  const thr_evaluation *evaluation = &sheets->plan->evaluation;
-  char line[320], head[CELLS][96] = {"cord", "pull at its", "", "", "", "turning"};
-  int n = sheets->plan->n_cords;
+  static const double column[] = {0, 38, -116, -130, 134, -186};
+  const thr_evaluation *evaluation = &known->plan->evaluation;
+  int n = known->plan->n_cords;
 
   /* Sort the cords by hardness. */
   for (int c = 0; c < n; c++)
-    pulls[c] = pull_of(sheets, c);
+    pulls[c] = pull_of(known, c);
   qsort(pulls, (size_t)n, sizeof *pulls, by_hardness);
 
-  thr_sheets_title(sheets, n > 1 ? "Pull the cords tight, in this order" : "Pull the cord tight");
-
-  /* Columns of forces have headings only if there are forces. */
-  for (int i = 2; evaluation->present && i < 5; i++)
-    snprintf(head[i], 96, "%s", (const char *const[]){"force", "lost", "slackest"}[i - 2]);
+  thr_sheets_put(flow, THR_BLOCK_TITLE,
+                 n > 1 ? "Pull the cords tight, in this order" : "Pull the cord tight");
 
   /* What the figures rest on: method, friction, tension wanted. */
   if (evaluation->present)
-    snprintf(line, sizeof line,
-             "Forces were worked out by method %s for friction mu = %.3g, so that a tension of "
-             "%.3g N reaches the slackest pass. "
-             "Lost: what friction takes off on the way there. Hardest first.",
-             thr_method_name(evaluation->method), evaluation->physics.mu,
-             evaluation->physics.seating);
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                   "Forces were worked out by method %s for friction mu = %.3g, so that a tension "
+                   "of %.3g N reaches the slackest pass. Lost: what friction takes off on the way "
+                   "there. Hardest first.",
+                   thr_method_name(evaluation->method), evaluation->physics.mu,
+                   evaluation->physics.seating);
   else
-    snprintf(line, sizeof line,
-             "Forces are not known: the plan was not evaluated (thread eval). Friction grows with "
-             "the turning of a cord; the "
-             "cord that "
-             "turns most is the first in the list. Pulling at both ends halves the way that slack "
-             "has to go.");
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                   "Forces are not known: the plan was not evaluated (thread eval). Friction grows "
+                   "with the turning of a cord; the cord that turns most is the first in the list. "
+                   "Pulling at both ends halves the way that slack has to go.");
 
-  thr_sheets_paragraph(sheets, 0, line);
-  thr_sheets_paragraph(
-      sheets, 0,
+  thr_sheets_put(
+      flow, THR_BLOCK_PARAGRAPH,
       "How cords that share pieces hinder each other has not been worked out. Turning in degrees.");
 
-  /* The table itself. */
-  sheets->y += 1.5;
-  thr_sheets_cells(sheets, CELLS, column, head, true);
+  /* The table itself. Columns of forces have headings only if there are forces. */
+  flow->y += 1.5;
+  thr_sheets_cells(flow, column, true,
+                   evaluation->present ? "cord\tpull at its\tforce\tlost\tslackest\tturning"
+                                       : "cord\tpull at its\t\t\t\tturning");
   for (int i = 0; i < n; i++)
-    put_cord(sheets, &pulls[i], column);
+    put_cord(flow, known, pulls[i].cord, column);
 
-  put_too_hard(sheets, pulls);
+  put_too_hard(flow, known, pulls);
 }
 
-/* Writes which knot ends a cord and how much cord it takes, in mm if the cord's size is known. */
-static void put_knots(thr_sheets *sheets)
+/* Writes which knot ends a cord and how much cord it takes, in mm if the cord's size is known: a
+ * length that is proportional to the cord's diameter. */
+static void put_knots(thr_flow *flow, const thr_known *known)
 {
-  char line[320];
-  thr_sheets_title(sheets, "Knots");
+  char taken[64] = ".";
 
-  /* A knot takes a length that is proportional to the cord's diameter. */
-  if (sheets->supplies.mm > 0)
-    snprintf(line, sizeof line,
-             "An overhand knot at each end, drawn up to its piece; it takes %.0f mm of this cord. "
-             "Cut the tails only when all "
-             "cords are "
-             "tight.",
-             ceil(THR_SUPPLIES_KNOT * sheets->supplies.cord));
-  else
-    snprintf(line, sizeof line,
-             "An overhand knot at each end, drawn up to its piece. Cut the tails only when all "
-             "cords are tight.");
-
-  thr_sheets_paragraph(sheets, 0, line);
+  thr_sheets_put(flow, THR_BLOCK_TITLE, "Knots");
+  if (known->supplies.mm > 0)
+    snprintf(taken, sizeof taken, "; it takes %.0f mm of this cord.",
+             ceil(THR_SUPPLIES_KNOT * known->supplies.cord));
+  thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                 "An overhand knot at each end, drawn up to its piece%s Cut the tails only when "
+                 "all cords are tight.",
+                 taken);
 }
 
 /* Writes the check list: pieces, ends, cords per arm, slack. */
-static void put_checks(thr_sheets *sheets)
+static void put_checks(thr_flow *flow, const thr_known *known)
 {
-  char line[320];
   int most = 0;
 
   /* The largest number of cords in one arm or tube bounds what channels.csv says. */
-  for (int e = 0; e < sheets->f->n_edges; e++)
-    most = sheets->supplies.passes[e] > most ? sheets->supplies.passes[e] : most;
+  for (int e = 0; e < known->f->n_edges; e++)
+    most = known->supplies.passes[e] > most ? known->supplies.passes[e] : most;
 
-  thr_sheets_title(sheets, "Check list");
-  snprintf(line, sizeof line, "All %d %s are on a cord, none is left over.", sheets->pieces.n,
-           thr_pieces_word(sheets->plan, sheets->pieces.n));
-  thr_sheets_tick(sheets, line);
+  thr_sheets_put(flow, THR_BLOCK_TITLE, "Check list");
+  thr_sheets_put(flow, THR_BLOCK_TICK, "All %d %s are on a cord, none is left over.",
+                 known->pieces.n, thr_pieces_word(known->plan, known->pieces.n));
 
   /* A closed cord has two ends as well, which meet at one place. */
-  snprintf(line, sizeof line, "All %d ends of cord come out where the cut list says.",
-           2 * sheets->plan->n_cords);
-  thr_sheets_tick(sheets, line);
-
-  snprintf(line, sizeof line,
-           "No %s holds fewer or more cords than channels.csv says (%d at most).",
-           sheets->pieces.solid ? "arm" : "tube", most);
-  thr_sheets_tick(sheets, line);
-
-  thr_sheets_tick(sheets, "No cord can be drawn further at its ends; no piece turns or gapes; all "
-                          "knots sit on their pieces.");
+  thr_sheets_put(flow, THR_BLOCK_TICK, "All %d ends of cord come out where the cut list says.",
+                 2 * known->plan->n_cords);
+  thr_sheets_put(flow, THR_BLOCK_TICK,
+                 "No %s holds fewer or more cords than channels.csv says (%d at most).",
+                 known->pieces.solid ? "arm" : "tube", most);
+  thr_sheets_put(flow, THR_BLOCK_TICK,
+                 "No cord can be drawn further at its ends; no piece turns or gapes; all knots sit "
+                 "on their pieces.");
 }
 
-void thr_sheets_last(thr_sheets *sheets)
+void thr_sheets_last(thr_flow *flow, const thr_known *known)
 {
-  cord_pull *pulls = thr_calloc((size_t)sheets->plan->n_cords, sizeof *pulls);
+  cord_pull *pulls = thr_calloc((size_t)known->plan->n_cords, sizeof *pulls);
 
   if (!pulls) {
-    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
+    thr_nomem(&flow->why);
     return;
   }
 
   /* In the order of work. */
-  thr_sheets_page(sheets, "Last", "Last (continued)");
-  put_pulling(sheets, pulls);
-  put_knots(sheets);
-  put_checks(sheets);
+  thr_sheets_page(flow, "Last", "Last (continued)");
+  put_pulling(flow, known, pulls);
+  put_knots(flow, known);
+  put_checks(flow, known);
   free(pulls);
 }

@@ -17,59 +17,59 @@
 enum { MOST_NAMED = 8 }; /* rows to join at that are named */
 
 /* Returns the sum over all rows of the cord that the needle has yet to use then, in units. */
-static double drawn_by_needles(const thr_sheets *sheets)
+static double drawn_by_needles(const thr_known *known)
 {
   double drawn = 0, whole = 0;
 
   /* Backwards, since the last visit of a part knows how much the part uses in all. */
-  for (int i = sheets->n_visits - 1; i >= 0; i--) {
-    if (i + 1 == sheets->n_visits || sheets->move[i].part != sheets->move[i + 1].part)
-      whole = sheets->move[i].used;
-    if (sheets->visit[i].number) drawn += whole - sheets->move[i].used;
+  for (int i = known->n_visits - 1; i >= 0; i--) {
+    if (i + 1 == known->n_visits || known->move[i].part != known->move[i + 1].part)
+      whole = known->move[i].used;
+    if (known->visit[i].number) drawn += whole - known->move[i].used;
   }
 
   return drawn;
 }
 
 /* Returns the same sum with a single needle for each cord, from its start, in units. */
-static double drawn_by_one(const thr_sheets *sheets)
+static double drawn_by_one(const thr_known *known)
 {
   double drawn = 0;
-  for (int c = 0; c < sheets->plan->n_cords; c++) {
-    const thr_cord *cord = &sheets->plan->cord[c];
+  for (int c = 0; c < known->plan->n_cords; c++) {
+    const thr_cord *cord = &known->plan->cord[c];
 
     /* What is behind the needle after each pass. */
-    double rest = thr_cord_length(sheets->f, cord);
+    double rest = thr_cord_length(known->f, cord);
 
     for (int k = 0; k < cord->n_passes; k++)
-      drawn += rest -= sheets->f->length[cord->half[k] >> 1];
+      drawn += rest -= known->f->length[cord->half[k] >> 1];
   }
   return drawn;
 }
 
 /* Returns the node at which the needle comes out at a visit. */
-static int place_of(const thr_sheets *sheets, int i)
+static int place_of(const thr_known *known, int i)
 {
-  const thr_visit *visit = &sheets->visit[i];
-  return visit->number ? thr_head(sheets->f, visit->in) : visit->piece;
+  const thr_visit *visit = &known->visit[i];
+  return visit->number ? thr_head(known->f, visit->in) : visit->piece;
 }
 
 /* Appends the joins of the part that begins with visit `first`: each at the last foot that a length
  * of `working` units reaches. Returns the visit behind the part. *said counts joins; *late is set
  * if a stretch without a foot is longer than a length. */
-static int put_joins(const thr_sheets *sheets, int first, double working, int *said, bool *late,
+static int put_joins(const thr_known *known, int first, double working, int *said, bool *late,
                      thr_text *words)
 {
   double from = 0;
   int i = first, foot = -1;
 
-  for (; i < sheets->n_visits && sheets->move[i].part == sheets->move[first].part; i++) {
+  for (; i < known->n_visits && known->move[i].part == known->move[first].part; i++) {
     /* The last foot behind the last join at which a length could end. */
-    bool more = i + 1 < sheets->n_visits && sheets->move[i + 1].part == sheets->move[i].part;
-    if (sheets->move[i].used > from && sheets->f->foot[place_of(sheets, i)]) foot = i;
+    bool more = i + 1 < known->n_visits && known->move[i + 1].part == known->move[i].part;
+    if (known->move[i].used > from && known->f->foot[place_of(known, i)]) foot = i;
 
     /* The length still reaches the end of the next pass. */
-    if (!more || sheets->move[i + 1].used - from <= working) continue;
+    if (!more || known->move[i + 1].used - from <= working) continue;
 
     /* No foot within reach: nothing can be joined before the next one. */
     if (foot < 0) {
@@ -78,20 +78,20 @@ static int put_joins(const thr_sheets *sheets, int first, double working, int *s
     }
 
     /* The new length begins at that foot. */
-    from = sheets->move[foot].used;
+    from = known->move[foot].used;
     if ((*said)++ < MOST_NAMED)
       thr_text_printf(words, "%scord %s after row %d (foot %s)", *said > 1 ? ", " : "",
-                      sheets->plan->cord[sheets->visit[foot].cord].id, sheets->visit[foot].number,
-                      sheets->guide.label[place_of(sheets, foot)]);
+                      known->plan->cord[known->visit[foot].cord].id, known->visit[foot].number,
+                      known->guide.label[place_of(known, foot)]);
     foot = -1;
   }
   return i;
 }
 
-void thr_sheets_lengths(thr_sheets *sheets)
+void thr_sheets_lengths(thr_flow *flow, const thr_known *known)
 {
-  double mm = sheets->supplies.mm,
-         working = sheets->o.working_mm > 0 ? sheets->o.working_mm : THR_SHEETS_WORKING;
+  double mm = known->supplies.mm,
+         working = known->o.working_mm > 0 ? known->o.working_mm : THR_SHEETS_WORKING;
   thr_text words = {0}, joins = {0};
   char now[64], one[64];
 
@@ -102,17 +102,17 @@ void thr_sheets_lengths(thr_sheets *sheets)
   if (!(mm > 0)) return;
 
   /* What is drawn through in all, and what a single needle would draw. */
-  thr_svg_length(drawn_by_needles(sheets) * mm / 1000, "m", now);
-  thr_svg_length(drawn_by_one(sheets) * mm / 1000, "m", one);
+  thr_svg_length(drawn_by_needles(known) * mm / 1000, "m", now);
+  thr_svg_length(drawn_by_one(known) * mm / 1000, "m", one);
 
   thr_text_printf(&words, "Drawn through the pieces in all: %s of cord", now);
-  if (sheets->n_parts > sheets->plan->n_cords)
+  if (known->n_parts > known->plan->n_cords)
     thr_text_printf(&words, ", with two needles from the fold; %s with one from the end", one);
   thr_text_append(&words, ". ");
 
   /* Part by part, since each begins with a new end of cord. */
-  for (int i = 0; i < sheets->n_visits;)
-    i = put_joins(sheets, i, working / mm, &said, &late, &joins);
+  for (int i = 0; i < known->n_visits;)
+    i = put_joins(known, i, working / mm, &said, &late, &joins);
   snprintf(now, sizeof now, "%g m", working / 1000);
 
   /* Where lengths are joined, or why not. */
@@ -128,11 +128,7 @@ void thr_sheets_lengths(thr_sheets *sheets)
   else if (!said)
     thr_text_printf(&words, "No needle has more than %s of cord: nothing is joined on.", now);
 
-  if (words.failed || joins.failed)
-    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
-  else
-    thr_sheets_paragraph(sheets, 0, words.data);
-
-  thr_text_destroy(&words);
+  words.failed |= joins.failed;
+  thr_sheets_put_text(flow, THR_BLOCK_PARAGRAPH, &words);
   thr_text_destroy(&joins);
 }

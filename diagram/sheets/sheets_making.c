@@ -30,13 +30,12 @@ static const double ARM = 5, CORD = 1.4, CASING = 2.4; /* mm: widths of the line
 static const char *const OLD = "#d55e00";              /* colour of a cord */
 static const char *const NEW = "#0072b2"; /* colour of a second cord that is tied to it */
 
-/* A panel that is being filled. Drawing functions take coordinates of the page in mm, y downwards,
- * mostly as offsets from the middle of the panel's picture. */
+/* A panel that is being filled. Drawing functions take offsets in mm from the middle of the panel's
+ * picture, y downwards; those of lines, pieces and segments take points of the page. */
 typedef struct {
-  thr_sheets *sheets;
-  thr_text *out;                   /* SVG of the page */
-  double left, top, width, height; /* mm: the frame of the panel */
-  double x, y;                     /* mm: the middle of its picture */
+  const thr_known *known;
+  thr_text *out; /* SVG of the page */
+  double x, y;   /* mm on the page: the middle of its picture */
 } instruction_panel;
 
 /* ---- what pictures are made of ---- */
@@ -44,7 +43,8 @@ typedef struct {
 /* Writes words centred at (x, y), where y is the base line. */
 static void put_label(const instruction_panel *panel, double x, double y, const char *words)
 {
-  thr_svg_text(panel->out, x, y, THR_SHEET_SMALL, " text-anchor=\"middle\"", words);
+  thr_svg_text(panel->out, panel->x + x, panel->y + y, THR_SHEET_SMALL, " text-anchor=\"middle\"",
+               words);
 }
 
 /* Draws a straight line of a width in mm from (x0, y0) to (x1, y1). */
@@ -60,6 +60,9 @@ static void put_line(const instruction_panel *panel, double x0, double y0, doubl
 /* Draws a straight arrow from (x0, y0) to its tip at (x1, y1). The points must differ. */
 static void put_arrow(const instruction_panel *panel, double x0, double y0, double x1, double y1)
 {
+  x0 += panel->x, x1 += panel->x;
+  y0 += panel->y, y1 += panel->y;
+
   /* (dx, dy) is the length of the head along the shaft; 0.45 of it, turned by a right angle, is
    * half the head's width. */
   double length = hypot(x1 - x0, y1 - y0), dx = 2.2 * (x1 - x0) / length,
@@ -72,11 +75,12 @@ static void put_arrow(const instruction_panel *panel, double x0, double y0, doub
 }
 
 /* Draws a straight cord with a white casing, which separates it from what lies below. */
-static void put_cord(const instruction_panel *panel, double x0, double y0, double x1, double y1,
-                     const char *colour)
+static void put_cord(const instruction_panel *panel, double x0, double y0, double x1, double y1)
 {
+  x0 += panel->x, x1 += panel->x;
+  y0 += panel->y, y1 += panel->y;
   put_line(panel, x0, y0, x1, y1, CASING, "#fff");
-  put_line(panel, x0, y0, x1, y1, CORD, colour);
+  put_line(panel, x0, y0, x1, y1, CORD, OLD);
 }
 
 /* Draws a stopper, an upright bar, centred at (x, y). */
@@ -85,22 +89,18 @@ static void put_stopper(const instruction_panel *panel, double x, double y)
   thr_text_printf(
       panel->out,
       "<rect x=\"%.2f\" y=\"%.2f\" width=\"2.4\" height=\"6\" rx=\"0.6\" fill=\"#222\"/>\n",
-      x - 1.2, y - 3);
+      panel->x + x - 1.2, panel->y + y - 3);
 }
 
 /* Draws a needle as a slender outline from its eye at (x, y) to its tip at (x + length, y). */
 static void put_needle(const instruction_panel *panel, double x, double y, double length)
 {
+  x += panel->x;
+  y += panel->y;
   thr_text_printf(panel->out,
                   "<path fill=\"#ddd\" stroke=\"#222\" stroke-width=\"0.3\" d=\"M%.2f %.2fL%.2f "
                   "%.2fL%.2f %.2fL%.2f %.2fz\"/>\n",
                   x, y - 0.7, x + 0.8 * length, y - 0.5, x + length, y, x + 0.8 * length, y + 0.7);
-}
-
-/* Returns the colour of the inside of a piece in a state. */
-static const char *fill_of(thr_piece_state state)
-{
-  return state == THR_PIECE_NEW ? "#ffe08a" : state == THR_PIECE_HELD ? "#d3ccbf" : "#fff";
 }
 
 /* Draws a piece with its hub at (x, y) and n arms, all of one length in mm, at angles in rad
@@ -110,9 +110,13 @@ static void put_piece(const instruction_panel *panel, double x, double y, int n,
                       const double *angle, double length, thr_piece_state state)
 {
   double edge = state == THR_PIECE_NEW ? 1.2 : 0.8;
+  const char *outline = state == THR_PIECE_LATER ? "#999" : "#222";
+  const char *inside = state == THR_PIECE_NEW    ? "#ffe08a"
+                       : state == THR_PIECE_HELD ? "#d3ccbf"
+                                                 : "#fff";
   for (int above = 0; above < 2; above++) {
     double grow = above ? 0 : edge, tip = length + grow / 2;
-    const char *colour = above ? fill_of(state) : state == THR_PIECE_LATER ? "#999" : "#222";
+    const char *colour = above ? inside : outline;
 
     /* The page's y axis points down, hence the minus sign before the sine. */
     for (int i = 0; i < n; i++)
@@ -125,20 +129,19 @@ static void put_piece(const instruction_panel *panel, double x, double y, int n,
   }
 }
 
-/* Angles of the arms of a cross, rad. */
-static const double CROSS[4] = {0, THR_PI / 2, THR_PI, -THR_PI / 2};
-
-/* Draws n pieces of the plan's kind from (x, y) to the right, gap mm apart: crosses of four arms
- * with solid joints, else tubes. state[n]: how each looks. Returns x behind the last gap. */
-static double put_row(const instruction_panel *panel, double x, double y, int n, double gap,
-                      const thr_piece_state *state)
+/* Draws a row of pieces of the plan's kind from (x, y) to the right, gap mm apart: crosses of four
+ * arms with solid joints, else tubes. looks: a letter for each, n(ew), h(eld) or l(ater). */
+static void put_row(const instruction_panel *panel, double x, double y, const char *looks,
+                    double gap)
 {
-  bool solid = panel->sheets->pieces.solid;
-  static const double tube[2] = {0, THR_PI};
+  static const double cross[4] = {0, THR_PI / 2, THR_PI, -THR_PI / 2}, tube[2] = {0, THR_PI};
+  bool solid = panel->known->pieces.solid;
 
-  for (int i = 0; i < n; i++, x += 13 + gap)
-    put_piece(panel, x + 6, y, solid ? 4 : 2, solid ? CROSS : tube, 6, state[i]);
-  return x;
+  for (x += panel->x; *looks; looks++, x += 13 + gap)
+    put_piece(panel, x + 6, panel->y + y, solid ? 4 : 2, solid ? cross : tube, 6,
+              *looks == 'n'   ? THR_PIECE_NEW
+              : *looks == 'h' ? THR_PIECE_HELD
+                              : THR_PIECE_LATER);
 }
 
 /* ---- cords that cross ---- */
@@ -154,6 +157,7 @@ typedef struct {
 
 typedef struct {
   int n;
+  double last[3]; /* the point that the list was led to, and its height */
   segment segment[MOST_SEGMENTS];
 } segment_list;
 
@@ -164,13 +168,17 @@ static int by_height(const void *a, const void *b)
   return one->height < other->height ? -1 : one->height > other->height;
 }
 
-/* Appends a segment between two points with heights; a full list drops it. */
-static void add_segment(segment_list *segments, const double from[3], const double to[3],
-                        const char *colour)
+/* Leads the list to a point with a height z, by a segment from the last point or, if colour is
+ * NULL, without one; a full list drops it. */
+static void lead_to(segment_list *segments, double x, double y, double z, const char *colour)
 {
-  if (segments->n < MOST_SEGMENTS)
+  const double *last = segments->last;
+  if (colour && segments->n < MOST_SEGMENTS)
     segments->segment[segments->n++] =
-        (segment){{from[0], from[1]}, {to[0], to[1]}, (from[2] + to[2]) / 2, colour};
+        (segment){{last[0], last[1]}, {x, y}, (last[2] + z) / 2, colour};
+  segments->last[0] = x;
+  segments->last[1] = y;
+  segments->last[2] = z;
 }
 
 /* Paints all segments from the lowest to the highest, each over a casing in white. A segment that
@@ -200,28 +208,20 @@ static void put_strands(const instruction_panel *panel, segment_list *segments)
 static void add_overhand(segment_list *segments, double x, double y, double size)
 {
   enum { N = 120 };
-  double before[3] = {0};
 
   /* The closed curve would run over 2 pi; 0.35 rad are left out on both sides of the lobe. */
   for (int i = 0; i <= N; i++) {
     double angle = THR_PI + 0.35 + (2 * THR_PI - 0.7) * i / N;
-    double at[3] = {x + size * (sin(angle) + 2 * sin(2 * angle)),
-                    y - size * (cos(angle) - 2 * cos(2 * angle)), -sin(3 * angle)};
-    if (i) add_segment(segments, before, at, OLD);
-    for (int k = 0; k < 3; k++)
-      before[k] = at[k];
+    lead_to(segments, x + size * (sin(angle) + 2 * sin(2 * angle)),
+            y - size * (cos(angle) - 2 * cos(2 * angle)), -sin(3 * angle), i ? OLD : NULL);
   }
 
   /* Both ends: from the tip of the curve down to the line, then outwards along this line. */
   double low = y + 3.3 * size;
-  for (int side = 0; side < 2; side++) { /* the curve ends on the left, side 0 */
-    double sign = side ? 1 : -1;
-    const double tip[3] = {x + sign * size * 0.945, y + size * 2.47, 0},
-                 bend[3] = {x + sign * size * 1.8, low, 0};
-
-    const double far[3] = {x + sign * size * 8, low, 0};
-    add_segment(segments, tip, bend, OLD);
-    add_segment(segments, bend, far, OLD);
+  for (int sign = -1; sign <= 1; sign += 2) { /* the curve ends on the left */
+    lead_to(segments, x + sign * size * 0.945, y + size * 2.47, 0, NULL);
+    lead_to(segments, x + sign * size * 1.8, low, 0, OLD);
+    lead_to(segments, x + sign * size * 8, low, 0, OLD);
   }
 }
 
@@ -231,20 +231,15 @@ static void add_overhand(segment_list *segments, double x, double y, double size
 static void add_coil(segment_list *segments, double x, double y, double dir, const char *colour)
 {
   enum { N = 60 };
-  double before[3] = {0};
 
   /* Height sin t: above the line's cord half of the time, below it the other half. */
   for (int i = 0; i <= N; i++) {
     double angle = 4 * THR_PI * i / N;
-    double at[3] = {x + dir * 0.45 * angle, y - 2.4 * cos(angle), sin(angle)};
-    if (i) add_segment(segments, before, at, colour);
-    for (int k = 0; k < 3; k++)
-      before[k] = at[k];
+    lead_to(segments, x + dir * 0.45 * angle, y - 2.4 * cos(angle), sin(angle), i ? colour : NULL);
   }
 
   /* The free end leaves the last turn upwards. */
-  double end[3] = {before[0] + dir * 3, before[1] - 2.5, 1};
-  add_segment(segments, before, end, colour);
+  lead_to(segments, segments->last[0] + dir * 3, segments->last[1] - 2.5, 1, colour);
 }
 
 /* Appends a straight cord at height 0, cut into short segments so that each is painted at the right
@@ -252,10 +247,8 @@ static void add_coil(segment_list *segments, double x, double y, double dir, con
 static void add_straight(segment_list *segments, double x0, double x1, double y, const char *colour)
 {
   enum { N = 40 };
-  for (int i = 0; i < N; i++) {
-    double from[3] = {x0 + (x1 - x0) * i / N, y, 0}, to[3] = {x0 + (x1 - x0) * (i + 1) / N, y, 0};
-    add_segment(segments, from, to, colour);
-  }
+  for (int i = 0; i <= N; i++)
+    lead_to(segments, x0 + (x1 - x0) * i / N, y, 0, i ? colour : NULL);
 }
 
 /* ---- the panels: each a picture and words ---- */
@@ -268,59 +261,59 @@ typedef struct {
 
 /* Returns the widest bore of all edges that a cord passes, or the narrowest one, in mm rounded up;
  * 0 where sizes are not known. */
-static double extreme_bore(const thr_sheets *sheets, bool narrowest)
+static double extreme_bore(const thr_known *known, bool narrowest)
 {
   double found = 0;
 
   /* An edge without a pass has no bore. */
-  for (int e = 0; e < sheets->f->n_edges; e++) {
-    double bore = thr_supplies_bore(&sheets->supplies, e);
+  for (int e = 0; e < known->f->n_edges; e++) {
+    double bore = thr_supplies_bore(&known->supplies, e);
     if (bore > 0 && (found == 0 || (narrowest ? bore < found : bore > found))) found = bore;
   }
 
-  return thr_supplies_bore_mm(&sheets->supplies, found);
+  return thr_supplies_bore_mm(&known->supplies, found);
 }
 
 /* Fills the panel "What you need": cord, needle and stopper, with the lengths to cut and the bores
  * that needle and stopper have to fit. */
 static void put_need(instruction_panel *panel, thr_text *words)
 {
-  thr_sheets *sheets = panel->sheets;
-  int n = sheets->plan->n_cords;
+  const thr_known *known = panel->known;
+  int n = known->plan->n_cords;
   double least = INFINITY, most = 0;
   char from[64], to[64];
 
   /* Shortest and longest cord to cut; where sizes in mm are unknown, without tails and knots. */
   for (int c = 0; c < n; c++) {
-    double cut = thr_supplies_cut(&sheets->supplies, c).cut;
-    if (!(sheets->supplies.mm > 0)) cut = thr_supplies_cut(&sheets->supplies, c).length;
+    double cut = thr_supplies_cut(&known->supplies, c).cut;
+    if (!(known->supplies.mm > 0)) cut = thr_supplies_cut(&known->supplies, c).length;
     least = fmin(least, cut);
     most = fmax(most, cut);
   }
 
-  thr_svg_length(least, sheets->f->units, from);
-  thr_svg_length(most, sheets->f->units, to);
+  thr_svg_length(least, known->f->units, from);
+  thr_svg_length(most, known->f->units, to);
 
   /* The picture: cord, stopper and needle side by side. */
-  put_cord(panel, panel->x - 36, panel->y - 3, panel->x - 8, panel->y - 3, OLD);
-  put_label(panel, panel->x - 22, panel->y + 2, "cord");
-  put_needle(panel, panel->x + 12, panel->y - 3, 22);
-  put_label(panel, panel->x + 23, panel->y + 2, "needle, blunt");
-  put_stopper(panel, panel->x + 2, panel->y - 3);
-  put_label(panel, panel->x + 2, panel->y + 5, "stopper");
+  put_cord(panel, -36, -3, -8, -3);
+  put_label(panel, -22, 2, "cord");
+  put_needle(panel, 12, -3, 22);
+  put_label(panel, 23, 2, "needle, blunt");
+  put_stopper(panel, 2, -3);
+  put_label(panel, 2, 5, "stopper");
 
   /* The text. */
-  thr_text_printf(words, "%d %s; %d cord%s of %s", sheets->pieces.n,
-                  thr_pieces_word(sheets->plan, sheets->pieces.n), n, n == 1 ? "" : "s", from);
+  thr_text_printf(words, "%d %s; %d cord%s of %s", known->pieces.n,
+                  thr_pieces_word(known->plan, known->pieces.n), n, n == 1 ? "" : "s", from);
   if (most > least * (1 + 1e-9)) thr_text_printf(words, " to %s", to);
   thr_text_append(words, " (cut list); a needle");
 
   /* The needle must pass the narrowest bore, the stopper none. */
-  if (sheets->supplies.mm > 0)
+  if (known->supplies.mm > 0)
     thr_text_printf(
         words,
         " that with its cord goes through %.2f mm; a stopper that does not slip into %.2f mm",
-        extreme_bore(sheets, true), extreme_bore(sheets, false));
+        extreme_bore(known, true), extreme_bore(known, false));
   else
     thr_text_append(words, " thinner than the bores; a stopper wider than they are");
 
@@ -330,14 +323,14 @@ static void put_need(instruction_panel *panel, thr_text *words)
 /* Returns the visit that explains best how a piece lies: the first one that picks up a piece,
  * comes in and goes out, and whose piece has the most arms, but no more than four; -1 if there
  * is none. */
-static int example(const thr_sheets *sheets)
+static int example(const thr_known *known)
 {
   int best = -1, arms = 0;
-  for (int i = 0; i < sheets->n_visits; i++) {
-    const thr_visit *visit = &sheets->visit[i];
+  for (int i = 0; i < known->n_visits; i++) {
+    const thr_visit *visit = &known->visit[i];
 
     /* Four arms at most: more would not leave room for the names around them. */
-    int n = thr_pieces_arms(&sheets->pieces, visit->piece);
+    int n = thr_pieces_arms(&known->pieces, visit->piece);
     if (visit->nth > 1 || visit->in < 0 || visit->out < 0 || n > 4 || n <= arms) continue;
     arms = n;
     best = i;
@@ -346,108 +339,34 @@ static int example(const thr_sheets *sheets)
   return best;
 }
 
-/* Returns the angle in rad at which a half-edge leaves its node in the layout that all pictures
- * use. */
-static double direction(const thr_sheets *sheets, int half)
-{
-  const thr_layout *layout = &sheets->guide.layout;
-  const thr_frame *paper = thr_layout_paper(layout, sheets->f);
-  const double *from = layout->xy[thr_tail(paper, half)], *to = layout->xy[thr_head(paper, half)];
-  return atan2(to[1] - from[1], to[0] - from[0]);
-}
-
-/* Returns the angle in the middle of the widest gap between n arms, where the piece's name is
- * written. */
-static double widest_gap(int n, const double *angle)
-{
-  double best = 0, widest = 0;
-
-  /* The gap behind arm i reaches counter-clockwise to the next arm. */
-  for (int i = 0; i < n; i++) {
-    double gap = 2 * THR_PI;
-    for (int k = 0; k < n; k++) {
-      double sweep = thr_scene_sweep(angle[i], angle[k]);
-      if (sweep > 0 && sweep < gap) gap = sweep;
-    }
-
-    /* Of equal gaps the first one, whatever rounding does. */
-    if (gap > widest + 1e-9) {
-      widest = gap;
-      best = angle[i] + gap / 2;
-    }
-  }
-
-  return best;
-}
-
-/* Draws the cord from the hub along one arm and names the piece that the arm faces: "out to C5"
- * with an arrow, "in from A5" without one. half leaves the piece. */
-static void put_arm(const instruction_panel *panel, int half, bool out)
-{
-  double angle = direction(panel->sheets, half), x = cos(angle), y = -sin(angle),
-         far = fabs(y) > 0.4 ? 13 * fmin(fabs(y), 1) : 0;
-  char words[THR_LABEL + 16];
-
-  /* The cord ends 11.5 mm from the hub, well beyond the end of the arm (8 mm). */
-  put_cord(panel, panel->x, panel->y, panel->x + 11.5 * x, panel->y + 11.5 * y, OLD);
-  if (out)
-    put_arrow(panel, panel->x + 9 * x, panel->y + 9 * y, panel->x + 14 * x, panel->y + 14 * y);
-
-  /* The name stands beside the end of a steep arm, but beyond the end of a flat one. */
-  snprintf(words, sizeof words, "%s %.20s", out ? "out to" : "in from",
-           panel->sheets->guide.label[thr_head(panel->sheets->f, half)]);
-  put_label(panel,
-            panel->x + (x < -0.1 ? -1 : 1) * (fabs(24 * x) + (far > 0 ? far - 10 * fabs(x) : 0)),
-            panel->y + 11 * y + 1, words);
-}
-
-/* Draws the piece of a visit as it lies in the overview, with its name in the widest gap and the
- * cord in by one arm and out by another. The piece has at most four arms. */
-static void put_example(const instruction_panel *panel, const thr_visit *visit)
-{
-  const thr_frame *frame = panel->sheets->f;
-  int v = visit->piece, n = 0;
-  double angle[4] = {0};
-  for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
-    angle[n++] = direction(panel->sheets, frame->half[i]);
-
-  /* The piece itself, new, and the two arms of the visit. */
-  put_piece(panel, panel->x, panel->y, n, angle, 8, THR_PIECE_NEW);
-  put_arm(panel, visit->in ^ 1, false);
-  put_arm(panel, visit->out, true);
-
-  /* The name clears the arms, which are 8 mm long, in the middle of the widest gap. */
-  double name = widest_gap(n, angle);
-  thr_svg_text(panel->out, panel->x + 7.5 * cos(name), panel->y - 7.5 * sin(name) + 1,
-               THR_SHEET_SMALL, " text-anchor=\"middle\" font-weight=\"bold\"",
-               panel->sheets->guide.label[v]);
-}
-
 /* Fills the panel "Laying a piece": which side up, and what "in by the arm that faces" means, shown
  * on a piece of this plan; for tubes a row of three with the cord through two. */
 static void put_lay(instruction_panel *panel, thr_text *words)
 {
-  const thr_sheets *sheets = panel->sheets;
-  int shown = sheets->pieces.solid ? example(sheets) : -1;
+  const thr_known *known = panel->known;
+  int shown = known->pieces.solid ? example(known) : -1;
 
   /* A piece of this plan if one is simple enough, else three tubes. */
-  if (shown >= 0)
-    put_example(panel, &sheets->visit[shown]);
-  else {
-    static const thr_piece_state state[3] = {THR_PIECE_HELD, THR_PIECE_NEW, THR_PIECE_LATER};
-    put_row(panel, panel->x - 20, panel->y, 3, 1.5, state);
-    put_cord(panel, panel->x - 28, panel->y, panel->x + 5, panel->y, OLD);
+  if (shown >= 0) {
+    const double hub[2] = {panel->x, panel->y};
+    const int piece = known->visit[shown].piece;
+    thr_step_put_example(known, shown, hub, 11, OLD, panel->out);
+    thr_svg_text(panel->out, panel->x - 36, panel->y - 10, 3.4, " font-weight=\"bold\"",
+                 known->guide.label[piece]);
+  } else {
+    put_row(panel, -20, 0, "hnl", 1.5);
+    put_cord(panel, -28, 0, 5, 0);
   }
 
   /* The text names the same piece, for the maker to find it in the overview. */
   if (shown >= 0) {
     thr_text_append(
         words, "Lay each piece as the overview shows it: its outer side up, its name upright. ");
-    const thr_visit *visit = &sheets->visit[shown];
+    const thr_visit *visit = &known->visit[shown];
     thr_text_printf(words, "Here %s: in by the arm that faces %s, out by the one that faces %s.",
-                    sheets->guide.label[visit->piece],
-                    sheets->guide.label[thr_tail(sheets->f, visit->in)],
-                    sheets->guide.label[thr_head(sheets->f, visit->out)]);
+                    known->guide.label[visit->piece],
+                    known->guide.label[thr_tail(known->f, visit->in)],
+                    known->guide.label[thr_head(known->f, visit->out)]);
   } else
     thr_text_append(words, "Lay each piece where the overview has it, its name upright. Rows say "
                            "by which of its two ends the needle goes in.");
@@ -456,34 +375,30 @@ static void put_lay(instruction_panel *panel, thr_text *words)
 /* Fills the panel "How to start": stopper, tail and needle on the first piece of the first part. */
 static void put_start(instruction_panel *panel, thr_text *words)
 {
-  const thr_sheets *sheets = panel->sheets;
-  const thr_part *part = &sheets->part[0];
-  static const thr_piece_state state[1] = {THR_PIECE_NEW};
-
+  const thr_known *known = panel->known;
+  const thr_part *part = &known->part[0];
   /* The picture: a piece on the cord between stopper and needle. */
-  put_row(panel, panel->x - 2, panel->y, 1, 0, state);
-  put_cord(panel, panel->x - 34, panel->y, panel->x + 18, panel->y, OLD);
-  put_stopper(panel, panel->x - 5, panel->y);
-  put_needle(panel, panel->x + 18, panel->y, 18);
-  put_label(panel, panel->x - 5, panel->y - 5, "stopper");
-  put_label(panel, panel->x - 24, panel->y + 5,
-            sheets->fold[part->cord] ? "other half" : "tail 150 mm");
-  put_label(panel, panel->x + 27, panel->y + 5, "needle");
+  put_row(panel, -2, 0, "n", 0);
+  put_cord(panel, -34, 0, 18, 0);
+  put_stopper(panel, -5, 0);
+  put_needle(panel, 18, 0, 18);
+  put_label(panel, -5, -5, "stopper");
+  put_label(panel, -24, 5, known->fold[part->cord] ? "other half" : "tail 150 mm");
+  put_label(panel, 27, 5, "needle");
 
   /* The text. A cord that is threaded from its fold has no tail yet: its other half waits there. */
   thr_text_append(words, "Thread the needle, fold the end of the cord back and tape it flat. ");
 
   /* Where the cord starts, or what to do with the fold. */
-  if (sheets->fold[part->cord])
+  if (known->fold[part->cord])
     thr_text_append(words, "A cord that is threaded from its middle has the stopper at its fold "
                            "(cut list), until the left needle's turn.");
   else {
     thr_text_printf(
         words,
         "Put the stopper %.0f mm from the other end: that tail is for the knot. Cord %s starts at ",
-        THR_SUPPLIES_TAIL, sheets->plan->cord[part->cord].id);
-    thr_guide_place(&sheets->guide, thr_cord_start(sheets->f, &sheets->plan->cord[part->cord]),
-                    words);
+        THR_SUPPLIES_TAIL, known->plan->cord[part->cord].id);
+    thr_guide_place(&known->guide, thr_cord_start(known->f, &known->plan->cord[part->cord]), words);
     thr_text_append(words, "; the first piece goes up to the stopper.");
   }
 }
@@ -491,25 +406,22 @@ static void put_start(instruction_panel *panel, thr_text *words)
 /* Fills the panel "Drawing the slack": hold the pieces that sit, draw, and the gap closes. */
 static void put_slack(instruction_panel *panel, thr_text *words)
 {
-  static const thr_piece_state state[4] = {THR_PIECE_HELD, THR_PIECE_HELD, THR_PIECE_NEW,
-                                           THR_PIECE_NEW};
-
   /* The picture: two pairs of pieces with a gap between them. */
-  put_row(panel, panel->x - 29, panel->y, 2, 0.5, state);
-  put_row(panel, panel->x + 2, panel->y, 2, 0.5, state + 2);
-  put_cord(panel, panel->x - 33, panel->y, panel->x + 36, panel->y, OLD);
-  put_stopper(panel, panel->x - 33, panel->y);
+  put_row(panel, -29, 0, "hh", 0.5);
+  put_row(panel, 2, 0, "nn", 0.5);
+  put_cord(panel, -33, 0, 36, 0);
+  put_stopper(panel, -33, 0);
 
   /* The needle's end is drawn, the pieces on the left are held. */
-  put_arrow(panel, panel->x + 30, panel->y - 4, panel->x + 38, panel->y - 4);
-  put_label(panel, panel->x + 34, panel->y - 6.5, "draw");
-  put_label(panel, panel->x - 23, panel->y - 9, "hold");
-  put_label(panel, panel->x, panel->y + 10, "this gap closes");
-  put_arrow(panel, panel->x - 1, panel->y + 7, panel->x - 1, panel->y + 2);
+  put_arrow(panel, 30, -4, 38, -4);
+  put_label(panel, 34, -6.5, "draw");
+  put_label(panel, -23, -9, "hold");
+  put_label(panel, 0, 10, "this gap closes");
+  put_arrow(panel, -1, 7, -1, 2);
 
   thr_text_append(words, "Draw the slack every few rows, and at every check: hold the last piece "
                          "that sits, draw the cord until ");
-  thr_text_append(words, panel->sheets->pieces.solid ? "the faces touch" : "the tubes meet");
+  thr_text_append(words, panel->known->pieces.solid ? "the faces touch" : "the tubes meet");
   thr_text_append(
       words,
       ", go on to the next one, from the stopper to the needle. Never a long way in one pull.");
@@ -518,18 +430,15 @@ static void put_slack(instruction_panel *panel, thr_text *words)
 /* Fills the panel "When a row went wrong": the cord is drawn back to the last check that held. */
 static void put_wrong(instruction_panel *panel, thr_text *words)
 {
-  static const thr_piece_state state[4] = {THR_PIECE_HELD, THR_PIECE_HELD, THR_PIECE_LATER,
-                                           THR_PIECE_LATER};
-
   /* The picture: two pieces up to the check, two more from which the cord was drawn. */
-  put_row(panel, panel->x - 29, panel->y, 4, 0.5, state);
-  put_cord(panel, panel->x - 33, panel->y, panel->x - 1.5, panel->y, OLD);
+  put_row(panel, -29, 0, "hhll", 0.5);
+  put_cord(panel, -33, 0, -1.5, 0);
   put_line(panel, panel->x - 2, panel->y - 8, panel->x - 2, panel->y + 8, 0.8, "#009e73");
-  put_label(panel, panel->x - 2, panel->y - 9.5, "last check");
+  put_label(panel, -2, -9.5, "last check");
 
   /* The cord goes back the way it came. */
-  put_arrow(panel, panel->x + 28, panel->y - 8, panel->x + 12, panel->y - 8);
-  put_label(panel, panel->x + 20, panel->y - 10, "back, one by one");
+  put_arrow(panel, 28, -8, 12, -8);
+  put_label(panel, 20, -10, "back, one by one");
 
   thr_text_append(words,
                   "A row went wrong: take the needle off the cord. Draw the bare cord back by "
@@ -543,40 +452,40 @@ static void put_wrong(instruction_panel *panel, thr_text *words)
  * the feet. */
 static void put_join(instruction_panel *panel, thr_text *words)
 {
-  const thr_frame *frame = panel->sheets->f;
+  const thr_frame *frame = panel->known->f;
+  const double x = panel->x, y = panel->y;
   segment_list segments = {0};
   int feet = 0;
 
   /* Old cord from the left, new length from the right; they overlap in the middle, where each is
    * wound round the other. */
-  add_straight(&segments, panel->x - 36, panel->x + 6, panel->y + 1, OLD);
-  add_straight(&segments, panel->x - 6, panel->x + 36, panel->y - 1, NEW);
-  add_coil(&segments, panel->x + 6, panel->y, 1, OLD);
-  add_coil(&segments, panel->x - 6, panel->y, -1, NEW);
+  add_straight(&segments, x - 36, x + 6, y + 1, OLD);
+  add_straight(&segments, x - 6, x + 36, y - 1, NEW);
+  add_coil(&segments, x + 6, y, 1, OLD);
+  add_coil(&segments, x - 6, y, -1, NEW);
   put_strands(panel, &segments);
 
   /* Which cord is which, and how both knots are drawn together. */
-  put_label(panel, panel->x - 29, panel->y + 6, "old cord");
-  put_label(panel, panel->x + 29, panel->y + 6, "new length");
-  put_arrow(panel, panel->x - 12, panel->y + 7, panel->x - 4, panel->y + 7);
-  put_arrow(panel, panel->x + 12, panel->y + 7, panel->x + 4, panel->y + 7);
+  put_label(panel, -29, 6, "old cord");
+  put_label(panel, 29, 6, "new length");
+  put_arrow(panel, -12, 7, -4, 7);
+  put_arrow(panel, 12, 7, 4, 7);
 
   thr_text_append(
       words,
       "To join a new length, tie each end round the other cord and draw both knots together. ");
-  thr_text_append(words, panel->sheets->pieces.solid
+  thr_text_append(words, panel->known->pieces.solid
                              ? "Join only at a foot or where a hub is open"
                              : "Join only at a foot or where tubes leave room");
 
   /* The first few feet by name, or that there is none. */
   for (int v = 0; v < frame->n_nodes; v++)
     if (frame->foot[v] && feet++ < NAMED)
-      thr_text_printf(words, "%s%s", feet > 1 ? ", " : " (feet: ", panel->sheets->guide.label[v]);
+      thr_text_printf(words, "%s%s", feet > 1 ? ", " : " (feet: ", panel->known->guide.label[v]);
 
   thr_text_append(words, feet > NAMED ? ", ..)" : feet ? ")" : "; this frame has no foot");
-  thr_text_append(words, panel->sheets->pieces.solid
-                             ? ": a knot between two faces keeps them apart."
-                             : ": a knot in a tube stops the cord.");
+  thr_text_append(words, panel->known->pieces.solid ? ": a knot between two faces keeps them apart."
+                                                    : ": a knot in a tube stops the cord.");
 }
 
 /* Draws an arrow outwards at one end of the row (side = -1: left, 1: right) and names the place. */
@@ -584,18 +493,18 @@ static void put_pull(const instruction_panel *panel, double side, const char *pl
 {
   char words[THR_LABEL + 16];
 
-  put_arrow(panel, panel->x + side * 30, panel->y - 4.5, panel->x + side * 38, panel->y - 4.5);
+  put_arrow(panel, side * 30, -4.5, side * 38, -4.5);
   snprintf(words, sizeof words, "at %.12s", place);
-  put_label(panel, panel->x + side * 33, panel->y + 5, words);
+  put_label(panel, side * 33, 5, words);
 }
 
 /* Appends how cord c is tightened by the plan's schedule: the largest pull and the first few grips
  * by their places; steps.txt lists all of them. */
-static void put_schedule(const thr_sheets *sheets, int c, thr_text *words)
+static void put_schedule(const thr_known *known, int c, thr_text *words)
 {
   enum { FEW = 4 };
-  const thr_schedule *schedule = &sheets->plan->evaluation.schedule;
-  const thr_cord *cord = &sheets->plan->cord[c];
+  const thr_schedule *schedule = &known->plan->evaluation.schedule;
+  const thr_cord *cord = &known->plan->cord[c];
   const int grips = thr_schedule_grips(schedule, c);
   char force[32];
   int n = 0;
@@ -610,8 +519,8 @@ static void put_schedule(const thr_sheets *sheets, int c, thr_text *words)
     if (step->cord != c || step->deed != THR_DEED_GRIP) continue;
     const int half = cord->half[step->pass];
     thr_text_printf(words, "%s%s and %s (pass %d)", n++ ? ", " : "Grip it between ",
-                    sheets->guide.label[thr_tail(sheets->f, half)],
-                    sheets->guide.label[thr_head(sheets->f, half)], step->pass + 1);
+                    known->guide.label[thr_tail(known->f, half)],
+                    known->guide.label[thr_head(known->f, half)], step->pass + 1);
   }
 
   /* What the list leaves out, and what to do between two grips. */
@@ -626,51 +535,48 @@ static void put_schedule(const thr_sheets *sheets, int c, thr_text *words)
  * one without a schedule the slack starts at its slackest pass; else in the middle. */
 static void put_tighten(instruction_panel *panel, thr_text *words)
 {
-  const thr_sheets *sheets = panel->sheets;
-  int c = thr_sheets_hardest(sheets);
-  const thr_cord *cord = &sheets->plan->cord[c];
-  const thr_evaluation *evaluation = &sheets->plan->evaluation;
-  const char *start = sheets->guide.label[thr_cord_start(sheets->f, cord)],
-             *end = sheets->guide.label[thr_cord_end(sheets->f, cord)];
-
-  static const thr_piece_state state[4] = {THR_PIECE_HELD, THR_PIECE_HELD, THR_PIECE_HELD,
-                                           THR_PIECE_HELD};
+  const thr_known *known = panel->known;
+  int c = thr_sheets_hardest(known);
+  const thr_cord *cord = &known->plan->cord[c];
+  const thr_evaluation *evaluation = &known->plan->evaluation;
+  const char *start = known->guide.label[thr_cord_start(known->f, cord)],
+             *end = known->guide.label[thr_cord_end(known->f, cord)];
 
   /* The picture: a row of pieces on the cord, to which the cases below add arrows. */
-  put_row(panel, panel->x - 27, panel->y, 4, 0.5, state);
-  put_cord(panel, panel->x - 36, panel->y, panel->x + 36, panel->y, OLD);
+  put_row(panel, -27, 0, "hhhh", 0.5);
+  put_cord(panel, -36, 0, 36, 0);
 
   thr_text_printf(words, "%sord %s%s. ",
-                  sheets->plan->n_cords > 1 ? "The order is on the page \"Last\": first c" : "C",
-                  cord->id, sheets->plan->n_cords > 1 ? "" : " is tightened when all is threaded");
+                  known->plan->n_cords > 1 ? "The order is on the page \"Last\": first c" : "C",
+                  cord->id, known->plan->n_cords > 1 ? "" : " is tightened when all is threaded");
 
   bool from_start = true, from_end = true,
-       known = evaluation->present && evaluation->cord[c].known &&
-               evaluation->cord[c].pull != THR_PULL_NONE;
+       evaluated = evaluation->present && evaluation->cord[c].known &&
+                   evaluation->cord[c].pull != THR_PULL_NONE;
+
+  if (evaluated) {
+    put_label(panel, 0, 10, "first grip");
+    put_arrow(panel, -1, 7.5, -1, 3.5);
+  }
 
   /* A schedule replaces everything below. */
-  if (known && evaluation->schedule.n > 0) {
-    put_schedule(sheets, c, words);
-    put_label(panel, panel->x, panel->y + 10, "first grip");
-    put_arrow(panel, panel->x - 1, panel->y + 7.5, panel->x - 1, panel->y + 3.5);
+  if (evaluated && evaluation->schedule.n > 0) {
+    put_schedule(known, c, words);
     put_pull(panel, 1, end);
     return;
   }
 
   /* Without a schedule the cord is drawn from its slackest pass towards the ends that were
    * evaluated. */
-  if (known) {
+  if (evaluated) {
     int pull = evaluation->cord[c].pull, half = cord->half[evaluation->cord[c].slackest];
     from_start = pull != THR_PULL_END;
     from_end = pull != THR_PULL_START;
     thr_text_printf(words,
                     "Its slackest pass is %d, %s to %s: grip the pieces on both sides of it, draw, "
                     "then grip by grip to ",
-                    evaluation->cord[c].slackest + 1,
-                    sheets->guide.label[thr_tail(sheets->f, half)],
-                    sheets->guide.label[thr_head(sheets->f, half)]);
-    put_label(panel, panel->x, panel->y + 10, "first grip");
-    put_arrow(panel, panel->x - 1, panel->y + 7.5, panel->x - 1, panel->y + 3.5);
+                    evaluation->cord[c].slackest + 1, known->guide.label[thr_tail(known->f, half)],
+                    known->guide.label[thr_head(known->f, half)]);
   } else
     thr_text_append(words, "Draw the slack from its middle pass, grip by grip, to ");
 
@@ -683,7 +589,7 @@ static void put_tighten(instruction_panel *panel, thr_text *words)
     thr_text_printf(words, "its %s, at %s", from_start ? "start" : "end", from_start ? start : end);
 
   /* How hard: the larger pull of both ends. */
-  if (known) {
+  if (evaluated) {
     char force[32];
     double pull = fmax(evaluation->cord[c].force, evaluation->cord[c].other_force);
     thr_svg_force(pull, force);
@@ -702,21 +608,19 @@ static void put_tighten(instruction_panel *panel, thr_text *words)
 static void put_knot(instruction_panel *panel, thr_text *words)
 {
   segment_list segments = {0};
-  static const thr_piece_state state[1] = {THR_PIECE_HELD};
-
   /* The picture: a piece, and the knot on the cord that comes out of it. */
-  put_row(panel, panel->x - 32, panel->y + 4, 1, 0, state);
+  put_row(panel, -32, 4, "h", 0);
   add_overhand(&segments, panel->x, panel->y - 4.58, 2.6);
   put_strands(panel, &segments);
-  put_label(panel, panel->x + 14, panel->y + 9, "tail");
-  put_arrow(panel, panel->x - 4, panel->y + 8, panel->x - 14, panel->y + 8);
+  put_label(panel, 14, 9, "tail");
+  put_arrow(panel, -4, 8, -14, 8);
 
   thr_text_append(words, "When all cords are tight, an overhand knot at each end");
 
   /* How much cord it takes, if the cord's diameter is known. */
-  if (panel->sheets->supplies.mm > 0)
+  if (panel->known->supplies.mm > 0)
     thr_text_printf(words, " (it takes %.0f mm of this cord)",
-                    ceil(THR_SUPPLIES_KNOT * panel->sheets->supplies.cord));
+                    ceil(THR_SUPPLIES_KNOT * panel->known->supplies.cord));
 
   thr_text_append(words,
                   ", drawn up to its piece with the needle's tip in the loop. Two ends that come "
@@ -726,50 +630,38 @@ static void put_knot(instruction_panel *panel, thr_text *words)
 
 /* ---- the page ---- */
 
-/* Draws a panel: frame, title, picture and text. number: from 0, row by row; height in mm. */
-static void put_panel(thr_sheets *sheets, int number, const panel_subject *about, double height)
+/* Draws a panel of a width and height in mm with its upper left corner at (left, top): frame,
+ * title, picture and text. number: from 0, row by row. */
+static void put_panel(thr_flow *flow, const thr_known *known, int number,
+                      const panel_subject *about, double left, double top, double width,
+                      double height)
 {
-  double width = (thr_sheets_width(sheets) - AIR) / COLUMNS;
-  instruction_panel panel = {
-      .sheets = sheets, .out = thr_sheets_out(sheets), .width = width, .height = height};
-
-  /* Panels fill the page row by row. */
-  panel.left = THR_SHEET_MARGIN + number % COLUMNS * (width + AIR);
-  panel.top = sheets->y + number / COLUMNS * (height + AIR);
-
-  /* The picture's middle is halfway between title and text. */
-  double words_height = LINES * 1.45 * THR_SHEET_SMALL, head = 7;
-  panel.x = panel.left + width / 2;
-  panel.y = panel.top + head + (height - head - words_height) / 2;
-
+  const double size = THR_SHEET_SMALL, high = 1.45 * size, head = 7, room = width - 2 * INDENT;
   char title[96];
   thr_text words = {0};
 
-  /* The frame and the numbered title. */
-  thr_text_printf(panel.out,
-                  "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" rx=\"2\" "
-                  "fill=\"#fcfcf9\" stroke=\"#bbb\" "
-                  "stroke-width=\"0.3\"/>\n",
-                  panel.left, panel.top, width, height);
+  /* The picture's middle is halfway between title and text. */
+  instruction_panel panel = {known, thr_sheets_out(flow), left + width / 2,
+                             top + head + (height - head - LINES * high) / 2};
 
+  /* The frame and the numbered title. */
+  thr_sheets_frame(panel.out, left, top, width, height,
+                   "rx=\"2\" fill=\"#fcfcf9\" stroke=\"#bbb\" stroke-width=\"0.3\"");
   snprintf(title, sizeof title, "%d  %s", number + 1, about->title);
-  thr_svg_text(panel.out, panel.left + INDENT, panel.top + 5.2, 3.4, " font-weight=\"bold\"",
-               title);
+  thr_svg_text(panel.out, left + INDENT, top + 5.2, 3.4, " font-weight=\"bold\"", title);
 
   /* The picture is drawn at once; the text comes back and is set from the panel's foot upwards. */
   about->put(&panel, &words);
   if (words.failed)
-    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
-  else {
-    double size = THR_SHEET_SMALL, room = width - 2 * INDENT;
-    int lines = thr_sheets_lines(words.data, room, size);
-    thr_sheets_text(sheets, panel.left + INDENT, panel.top + height - 2 - (lines - 1) * 1.45 * size,
-                    size, room, "", words.data);
-  }
+    thr_nomem(&flow->why);
+  else
+    thr_sheets_text(flow, left + INDENT,
+                    top + height - 2 - (thr_sheets_lines(words.data, room, size) - 1) * high, size,
+                    room, "", words.data);
   thr_text_destroy(&words);
 }
 
-void thr_sheets_making(thr_sheets *sheets)
+void thr_sheets_making(thr_flow *flow, const thr_known *known)
 {
   /* In reading order, row by row. */
   static const panel_subject subjects[COLUMNS * ROWS] = {
@@ -778,11 +670,13 @@ void thr_sheets_making(thr_sheets *sheets)
       {"When a row went wrong", put_wrong}, {"Joining a new length", put_join},
       {"Tightening", put_tighten},          {"Knots", put_knot}};
 
-  thr_sheets_page(sheets, "Before you begin", "Before you begin (continued)");
-  if (sheets->st) return;
+  thr_sheets_page(flow, "Before you begin", "Before you begin (continued)");
+  if (flow->why.code) return;
 
-  /* All panels are equally high, and together as high as the page. */
-  double height = (thr_sheets_bottom(sheets) - sheets->y - (ROWS - 1) * AIR) / ROWS;
-  for (int i = 0; i < COLUMNS * ROWS && !sheets->st; i++)
-    put_panel(sheets, i, &subjects[i], height);
+  /* All panels are equally large, and together as large as the page, which they fill row by row. */
+  double height = (thr_sheets_bottom(flow) - flow->y - (ROWS - 1) * AIR) / ROWS,
+         width = (thr_sheets_width(flow) - AIR) / COLUMNS;
+  for (int i = 0; i < COLUMNS * ROWS && !flow->why.code; i++)
+    put_panel(flow, known, i, &subjects[i], THR_SHEET_MARGIN + i % COLUMNS * (width + AIR),
+              flow->y + i / COLUMNS * (height + AIR), width, height);
 }

@@ -4,37 +4,36 @@
  *
  * Text is measured without the font, by a table of widths that is rather too wide than too narrow,
  * so that no line runs over the margin whatever font replaces DejaVu Sans. Coordinates are mm from
- * the page's upper left corner; sheets->y is where the next line goes. */
+ * the page's upper left corner; flow->y is where the next line goes. */
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 
 #include <ctype.h>
 #include <math.h>
-#include <stdlib.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 static const double HEADING = 5, BOX = 2.8; /* mm */
 
-void thr_sheets_fail(thr_sheets *sheets, thr_status st, const thr_err *why)
+void thr_sheets_fail(thr_flow *flow, thr_status st)
 {
-  if (sheets->st) return;
-  sheets->st = st;
-  if (why) sheets->why = *why;
+  if (st) thr_fail(&flow->why, st, "out of memory");
 }
 
-thr_text *thr_sheets_out(thr_sheets *sheets)
+thr_text *thr_sheets_out(thr_flow *flow)
 {
-  return &sheets->page[sheets->n_pages - 1];
+  return &flow->page[flow->n_pages - 1];
 }
 
-double thr_sheets_width(const thr_sheets *sheets)
+double thr_sheets_width(const thr_flow *flow)
 {
-  return sheets->size[0] - 2 * THR_SHEET_MARGIN;
+  return flow->size[0] - 2 * THR_SHEET_MARGIN;
 }
 
-double thr_sheets_bottom(const thr_sheets *sheets)
+double thr_sheets_bottom(const thr_flow *flow)
 {
-  return sheets->size[1] - THR_SHEET_MARGIN - THR_SHEET_FOOT;
+  return flow->size[1] - THR_SHEET_MARGIN - THR_SHEET_FOOT;
 }
 
 /* ---- lines ---- */
@@ -71,18 +70,20 @@ size_t thr_sheets_fit(const char *words, double width, double size)
   return n;
 }
 
-/* Returns where the next line of a text begins. */
-static const char *next_line(const char *words, double width, double size)
+void thr_sheets_next_line(const char **words, double width, double size, char line[512])
 {
-  words += thr_sheets_fit(words, width, size);
-  return words + strspn(words, " ");
+  snprintf(line, 512, "%.*s", (int)thr_sheets_fit(*words, width, size), *words);
+  *words += strlen(line);
+  *words += strspn(*words, " ");
 }
 
 int thr_sheets_lines(const char *words, double width, double size)
 {
+  char line[512];
   int n = 0;
+
   for (; *words; n++)
-    words = next_line(words, width, size);
+    thr_sheets_next_line(&words, width, size, line);
   return n;
 }
 
@@ -92,136 +93,153 @@ static double line_height(double size)
   return size == THR_SHEET_TEXT ? THR_SHEET_LINE : 1.45 * size;
 }
 
-double thr_sheets_text(thr_sheets *sheets, double x, double y, double size, double width,
+double thr_sheets_text(thr_flow *flow, double x, double y, double size, double width,
                        const char *attributes, const char *words)
 {
-  while (*words && !sheets->st) {
-    size_t n = thr_sheets_fit(words, width, size);
+  char line[512];
 
-    /* A line is cut to the buffer's size at worst. */
-    char line[512];
-    n = n < sizeof line ? n : sizeof line - 1;
-    memcpy(line, words, n);
-    line[n] = '\0';
-
-    /* Blanks at the break are dropped. */
-    thr_svg_text(thr_sheets_out(sheets), x, y, size, attributes, line);
-    words += n;
-    words += strspn(words, " ");
-    y += line_height(size);
+  for (; *words && !flow->why.code; y += line_height(size)) {
+    thr_sheets_next_line(&words, width, size, line);
+    thr_svg_text(thr_sheets_out(flow), x, y, size, attributes, line);
   }
   return y;
 }
 
 /* ---- pages ---- */
 
-void thr_sheets_page(thr_sheets *sheets, const char *heading, const char *running)
+void thr_sheets_page(thr_flow *flow, const char *heading, const char *running)
 {
   /* The page before is finished now. */
-  thr_sheets_send(sheets);
-  if (sheets->st) return;
-
-  thr_status st = thr_grow(&sheets->page, sheets->n_pages, &sheets->pages_capacity,
-                           sizeof *sheets->page, &sheets->why);
-  if (st) {
-    thr_sheets_fail(sheets, st, NULL);
-    return;
-  }
+  thr_sheets_send(flow);
+  if (!flow->why.code)
+    thr_sheets_fail(flow, thr_grow(&flow->page, flow->n_pages, &flow->pages_capacity,
+                                   sizeof *flow->page, &flow->why));
+  if (flow->why.code) return;
 
   /* An empty page, with its heading at the top. */
-  sheets->page[sheets->n_pages++] = (thr_text){0};
+  flow->page[flow->n_pages++] = (thr_text){0};
+  flow->y = 1 + thr_sheets_text(flow, THR_SHEET_MARGIN, THR_SHEET_MARGIN + HEADING, HEADING,
+                                thr_sheets_width(flow), " font-weight=\"bold\"", heading);
 
-  /* The running heading is copied before it is overwritten: the heading itself may be the old
-   * one. */
-  thr_text copy = {0}; /* heading may be sheets->running */
-  thr_text_append(&copy, running);
-
-  sheets->y = THR_SHEET_MARGIN + HEADING;
-  sheets->y = thr_sheets_text(sheets, THR_SHEET_MARGIN, sheets->y, HEADING,
-                              thr_sheets_width(sheets), " font-weight=\"bold\"", heading) +
-              1;
-
-  if (copy.failed) thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
-  size_t n = copy.length < sizeof sheets->running ? copy.length : sizeof sheets->running - 1;
-  if (n) memcpy(sheets->running, copy.data, n);
-  sheets->running[n] = '\0';
-
-  thr_text_destroy(&copy);
+  /* A page that goes on with the text keeps the running heading. */
+  if (running != flow->running) snprintf(flow->running, sizeof flow->running, "%s", running);
 }
 
-bool thr_sheets_room(thr_sheets *sheets, double height)
+bool thr_sheets_room(thr_flow *flow, double height)
 {
-  if (sheets->st || sheets->y + height <= thr_sheets_bottom(sheets)) return false;
-  thr_sheets_page(sheets, sheets->running, sheets->running);
+  if (flow->why.code || flow->y + height <= thr_sheets_bottom(flow)) return false;
+  thr_sheets_page(flow, flow->running, flow->running);
   return true;
+}
+
+void thr_sheets_whole(thr_sheets *sheets, bool in_space, const unsigned char *state,
+                      const unsigned char *piece, double bottom, double *pitch)
+{
+  thr_flow *flow = &sheets->flow;
+  const thr_box paper = {THR_SHEET_MARGIN, flow->y, flow->size[0] - THR_SHEET_MARGIN, bottom};
+
+  if (flow->why.code) return;
+  thr_sheets_fail(
+      flow, in_space
+                ? thr_space_whole(&sheets->space, piece, paper, thr_sheets_out(flow), &flow->why)
+                : thr_crop_whole(sheets->known.plan, &sheets->known.guide.layout, state, piece,
+                                 paper, pitch, flow->limits, thr_sheets_out(flow), &flow->why));
 }
 
 /* ---- flowing text ---- */
 
-void thr_sheets_title(thr_sheets *sheets, const char *words)
+void thr_sheets_frame(thr_text *text, double x, double y, double width, double height,
+                      const char *attributes)
 {
-  if (!thr_sheets_room(sheets, 5 * THR_SHEET_LINE))
-    sheets->y += 3; /* with some of what it is the title of */
-  sheets->y = thr_sheets_text(sheets, THR_SHEET_MARGIN, sheets->y, 3.6, thr_sheets_width(sheets),
-                              " font-weight=\"bold\"", words) +
-              0.5;
-}
-
-/* Writes text from x to the right margin, line by line, over as many pages as needed. */
-static void flow(thr_sheets *sheets, double x, const char *words)
-{
-  double width = thr_sheets_width(sheets) + THR_SHEET_MARGIN - x;
-  while (*words && !sheets->st) {
-    size_t n = thr_sheets_fit(words, width, THR_SHEET_TEXT);
-    char line[512];
-
-    n = n < sizeof line ? n : sizeof line - 1;
-    memcpy(line, words, n);
-    line[n] = '\0';
-
-    /* A line is written on the next page if this one is full. Its width is measured already, hence
-     * the doubled one. */
-    thr_sheets_room(sheets, 0);
-    sheets->y = thr_sheets_text(sheets, x, sheets->y, THR_SHEET_TEXT, 2 * width, "", line);
-
-    /* Then the rest, from the next word on. */
-    words += n;
-    words += strspn(words, " ");
-  }
-}
-
-void thr_sheets_paragraph(thr_sheets *sheets, double indent, const char *words)
-{
-  flow(sheets, THR_SHEET_MARGIN + indent, words);
+  thr_text_printf(text, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" %s/>\n", x, y,
+                  width, height, attributes);
 }
 
 void thr_sheets_box(thr_text *text, double x, double y)
 {
-  thr_text_printf(text,
-                  "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"#fff\" "
-                  "stroke=\"#222\" stroke-width=\"0.25\"/>\n",
-                  x, y - 0.9 * BOX, BOX, BOX);
+  thr_sheets_frame(text, x, y - 0.9 * BOX, BOX, BOX,
+                   "fill=\"#fff\" stroke=\"#222\" stroke-width=\"0.25\"");
 }
 
-void thr_sheets_tick(thr_sheets *sheets, const char *words)
+/* How a block of text is set: size of the letters, mm; how many lines of flowing text must fit on
+ * the page from the block's beginning on; mm before and after the block, and from the margin to its
+ * lines; how much of the width lines take, as bold letters are wider than they are measured. */
+typedef struct {
+  double size, lines, before, after, indent, share;
+  const char *attributes;
+} block_look;
+
+static const block_look looks[] = {
+    [THR_BLOCK_TITLE] = {3.6, 5, 3, 0.5, 0, 1, " font-weight=\"bold\""},
+    [THR_BLOCK_PARAGRAPH] = {3, 0, 0, 0, 0, 1, ""},
+    [THR_BLOCK_TICK] = {3, 2, 0, 0, 5, 1, ""},
+    [THR_BLOCK_WARNING] = {3, 0, 1, 0, 0, 0.92, " font-weight=\"bold\""},
+};
+
+/* Writes a block line by line, over as many pages as needed. */
+static void put_block(thr_flow *flow, thr_block block, const char *words)
 {
-  thr_sheets_room(sheets, 2 * THR_SHEET_LINE);
-  if (!sheets->st) thr_sheets_box(thr_sheets_out(sheets), THR_SHEET_MARGIN, sheets->y);
-  flow(sheets, THR_SHEET_MARGIN + 5, words);
+  const block_look *look = &looks[block];
+  const double width = look->share * (thr_sheets_width(flow) - look->indent);
+  char line[512];
+
+  /* No air above a block that begins a page. */
+  if (!thr_sheets_room(flow, look->lines * THR_SHEET_LINE)) flow->y += look->before;
+  if (block == THR_BLOCK_TICK && !flow->why.code)
+    thr_sheets_box(thr_sheets_out(flow), THR_SHEET_MARGIN, flow->y);
+
+  while (*words && !flow->why.code) {
+    thr_sheets_next_line(&words, width, look->size, line);
+    thr_sheets_room(flow, 0);
+    thr_svg_text(thr_sheets_out(flow), THR_SHEET_MARGIN + look->indent, flow->y, look->size,
+                 look->attributes, line);
+    flow->y += line_height(look->size);
+  }
+  flow->y += look->after;
 }
 
-void thr_sheets_cells(thr_sheets *sheets, int n, const double *column, char (*cell)[96], bool bold)
+void thr_sheets_put(thr_flow *flow, thr_block block, const char *format, ...)
 {
+  char words[1024];
+  va_list values;
+
+  va_start(values, format);
+  vsnprintf(words, sizeof words, format, values);
+  va_end(values);
+  put_block(flow, block, words);
+}
+
+void thr_sheets_put_text(thr_flow *flow, thr_block block, thr_text *words)
+{
+  if (words->failed) thr_nomem(&flow->why);
+  put_block(flow, block, words->data && !words->failed ? words->data : "");
+  thr_text_destroy(words);
+}
+
+void thr_sheets_cells(thr_flow *flow, const double *column, bool bold, const char *format, ...)
+{
+  char cells[1024], *cell = cells;
+  va_list values;
+
+  va_start(values, format);
+  vsnprintf(cells, sizeof cells, format, values);
+  va_end(values);
+
   /* A row is never cut by the end of a page. */
-  thr_sheets_room(sheets, 0);
-  for (int i = 0; i < n && !sheets->st; i++) {
+  thr_sheets_room(flow, 0);
+  for (bool more = true; more && !flow->why.code; column++) {
+    char *end = cell + strcspn(cell, "\t");
+    more = *end;
+    *end = '\0';
+
     /* A negative column says where its right edge is. */
     char attributes[64] = "";
-    if (column[i] < 0) strcat(attributes, " text-anchor=\"end\"");
+    if (*column < 0) strcat(attributes, " text-anchor=\"end\"");
     if (bold) strcat(attributes, " font-weight=\"bold\"");
-    thr_svg_text(thr_sheets_out(sheets), THR_SHEET_MARGIN + fabs(column[i]), sheets->y,
-                 THR_SHEET_SMALL, attributes, cell[i]);
+    thr_svg_text(thr_sheets_out(flow), THR_SHEET_MARGIN + fabs(*column), flow->y, THR_SHEET_SMALL,
+                 attributes, cell);
+    cell = end + 1;
   }
 
-  sheets->y += 4.1;
+  flow->y += 4.1;
 }

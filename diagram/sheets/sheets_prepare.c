@@ -19,119 +19,101 @@
 /* ---- cords ---- */
 
 /* Writes a length in units without naming the unit: to a tenth of a mm where the size of a unit is
- * known (1000 mm a unit: 4 decimals), else with five digits. */
-static void put_length(const thr_sheets *sheets, double length, char cell[96])
+ * known (1000 mm a unit: 4 decimals), else with five digits. Returns cell. */
+static const char *length_cell(const thr_known *known, double length, char cell[32])
 {
-  if (sheets->supplies.mm > 0)
-    snprintf(cell, 96, "%.*f", 1 + (int)nearbyint(log10(sheets->supplies.mm)), length);
+  if (known->supplies.mm > 0)
+    snprintf(cell, 32, "%.*f", 1 + (int)nearbyint(log10(known->supplies.mm)), length);
   else
-    snprintf(cell, 96, "%.5g", length);
+    snprintf(cell, 32, "%.5g", length);
+  return cell;
 }
 
 /* Returns whether any cord is threaded from its fold with two needles, which makes two parts of
  * it. */
-static bool some_folded(const thr_sheets *sheets)
+static bool some_folded(const thr_known *known)
 {
-  return sheets->n_parts > sheets->plan->n_cords;
+  return known->n_parts > known->plan->n_cords;
 }
 
 /* Writes the row of cord c in the cut list; column: the columns' places (thr_sheets_cells). */
-static void put_cord(thr_sheets *sheets, int c, const double *column)
+static void put_cord(thr_flow *flow, const thr_known *known, int c, const double *column)
 {
-  const thr_cord *cord = &sheets->plan->cord[c];
-  char cell[9][96] = {""};
-  thr_cut_length cut = thr_supplies_cut(&sheets->supplies, c);
+  const thr_cord *cord = &known->plan->cord[c];
+  const thr_cut_length cut = thr_supplies_cut(&known->supplies, c);
+  const double allowance[4] = {cut.tails, cut.knots, cut.turns, cut.cut};
+  char words[96], length[32], allowed[4][32], folded[32] = "";
   double fold = cut.tails / 2 + cut.knots / 2;
 
-  /* The fold lies between two passes: count tail, knot and all passes before. */
-  for (int k = 0; k < sheets->fold[c]; k++)
-    fold += sheets->f->length[cord->half[k] >> 1];
-
-  thr_sheets_cord_words(sheets, c, cell[0]);
-  snprintf(cell[1], 96, "%d", cord->n_passes);
-  put_length(sheets, cut.length, cell[2]);
-
   /* Allowances are in mm of cord and bore: without a size they stay open. */
-  for (int i = 3; i < 7; i++)
-    snprintf(cell[i], 96, "-");
-  if (sheets->supplies.mm > 0) {
-    put_length(sheets, cut.tails, cell[3]);
-    put_length(sheets, cut.knots, cell[4]);
-    put_length(sheets, cut.turns, cell[5]);
-    put_length(sheets, cut.cut, cell[6]);
-  }
+  for (int i = 0; i < 4; i++)
+    if (known->supplies.mm > 0)
+      length_cell(known, allowance[i], allowed[i]);
+    else
+      snprintf(allowed[i], sizeof allowed[i], "-");
 
-  /* Only cords that are threaded from their middle have a fold to mark. */
-  if (sheets->fold[c]) put_length(sheets, fold, cell[7]);
-  snprintf(cell[8], 96, "%.30s - %.30s", sheets->guide.label[thr_cord_start(sheets->f, cord)],
-           sheets->guide.label[thr_cord_end(sheets->f, cord)]);
+  /* The fold lies between two passes: count tail, knot and all passes before. Only cords that are
+   * threaded from their middle have one to mark. */
+  for (int k = 0; k < known->fold[c]; k++)
+    fold += known->f->length[cord->half[k] >> 1];
+  if (known->fold[c]) length_cell(known, fold, folded);
 
-  thr_sheets_cells(sheets, 9, column, cell, false);
+  thr_sheets_cord_words(known, c, words);
+  thr_sheets_cells(flow, column, false, "%s\t%d\t%s\t%s\t%s\t%s\t%s\t%s\t%.30s - %.30s", words,
+                   cord->n_passes, length_cell(known, cut.length, length), allowed[0], allowed[1],
+                   allowed[2], allowed[3], folded,
+                   known->guide.label[thr_cord_start(known->f, cord)],
+                   known->guide.label[thr_cord_end(known->f, cord)]);
 }
 
 /* Writes the cut list: a heading with the cord's thickness, a row per cord, and what "cut" adds
  * up. */
-static void put_cords(thr_sheets *sheets)
+static void put_cords(thr_flow *flow, const thr_known *known)
 {
   static const double column[9] = {0, -58, -75, -90, -104, -118, -134, -150, 153};
-  char head[9][96] = {"cord",  "passes", "length", "tails",    "knots",
-                      "turns", "cut",    "",       "from - to"},
-       line[320], cord[32] = "";
+  char cord[32] = "";
 
-  if (sheets->supplies.mm > 0)
-    snprintf(cord, sizeof cord, ", %.3g mm thick", sheets->supplies.cord);
-  snprintf(line, sizeof line, "Cut these cords (lengths in %s%s)", sheets->f->units, cord);
-  thr_sheets_title(sheets, line);
+  if (known->supplies.mm > 0) snprintf(cord, sizeof cord, ", %.3g mm thick", known->supplies.cord);
+  thr_sheets_put(flow, THR_BLOCK_TITLE, "Cut these cords (lengths in %s%s)", known->f->units, cord);
 
-  /* The column stays empty where no cord has a fold. */
-  if (some_folded(sheets)) snprintf(head[7], 96, "fold at");
-  thr_sheets_cells(sheets, 9, column, head, true);
-
-  /* In the order of the plan. */
-  for (int c = 0; c < sheets->plan->n_cords; c++)
-    put_cord(sheets, c, column);
-  sheets->y += 1;
+  /* The column of folds stays empty where no cord has one. */
+  thr_sheets_cells(flow, column, true,
+                   "cord\tpasses\tlength\ttails\tknots\tturns\tcut\t%s\tfrom - to",
+                   some_folded(known) ? "fold at" : "");
+  for (int c = 0; c < known->plan->n_cords; c++)
+    put_cord(flow, known, c, column);
+  flow->y += 1;
 
   /* How the cut length comes about, or what is missing in it. */
-  if (sheets->supplies.mm > 0)
-    snprintf(line, sizeof line,
-             "Cut = length through the middles of the pieces + a tail of %.0f mm to hold at each "
-             "end + an overhand knot at each "
-             "end + what turns take at most where the cord lies at the outside of its bores.%s",
-             THR_SUPPLIES_TAIL,
-             some_folded(sheets)
-                 ? " Fold at: from the end that comes out at the first place of the last column."
-                 : "");
+  if (known->supplies.mm > 0)
+    thr_sheets_put(
+        flow, THR_BLOCK_PARAGRAPH,
+        "Cut = length through the middles of the pieces + a tail of %.0f mm to hold at each end + "
+        "an overhand knot at each end + what turns take at most where the cord lies at the outside "
+        "of its bores.%s",
+        THR_SUPPLIES_TAIL,
+        some_folded(known)
+            ? " Fold at: from the end that comes out at the first place of the last column."
+            : "");
   else
-    snprintf(line, sizeof line,
-             "The size of cord and pieces is not known: add tails, knots and what turns take.");
+    thr_sheets_put(
+        flow, THR_BLOCK_PARAGRAPH,
+        "The size of cord and pieces is not known: add tails, knots and what turns take.");
 
-  thr_sheets_paragraph(sheets, 0, line);
-  thr_sheets_lengths(sheets);
+  thr_sheets_lengths(flow, known);
 }
 
 /* ---- pieces ---- */
 
-enum { CELLS = 5 };
-
-/* Writes the width of a bore given in cord diameters: in mm if sizes are known. */
-static void put_bore(const thr_sheets *sheets, double cords, char cell[96])
-{
-  if (sheets->supplies.mm > 0)
-    snprintf(cell, 96, "%.2f mm", thr_supplies_bore_mm(&sheets->supplies, cords));
-  else
-    snprintf(cell, 96, "%.2f cords", cords);
-}
-
 /* Returns the most cords in one arm of a piece, or in a tube. */
-static int most_cords(const thr_sheets *sheets, int piece)
+static int most_cords(const thr_known *known, int piece)
 {
   int most = 0;
-  if (!sheets->pieces.solid) return sheets->supplies.passes[piece];
+  if (!known->pieces.solid) return known->supplies.passes[piece];
 
   /* An arm of a solid piece is half an edge: as many cords as the edge has passes. */
-  for (int i = sheets->f->first[piece]; i < sheets->f->first[piece + 1]; i++) {
-    int n = sheets->supplies.passes[sheets->f->half[i] >> 1];
+  for (int i = known->f->first[piece]; i < known->f->first[piece + 1]; i++) {
+    int n = known->supplies.passes[known->f->half[i] >> 1];
     most = n > most ? n : most;
   }
 
@@ -152,50 +134,50 @@ typedef struct {
  * numbers. */
 enum { MOST_SINGLE = 12 };
 
-/* Fills the five cells of a row of the table of kinds. */
-static void put_kind(const thr_sheets *sheets, const kind_row *kind, char (*row)[96])
+/* Writes the five cells of a row of the table of kinds. */
+static void put_kind(const thr_known *known, const kind_row *kind, char cells[160])
 {
-  snprintf(row[0], 96, "%s", kind->name);
-  snprintf(row[1], 96, "%d", kind->pieces);
+  char measure[32], bore[32];
 
   /* The number of arms describes a solid piece, the length a tube. */
-  if (sheets->pieces.solid)
-    snprintf(row[2], 96, "%d", thr_pieces_arms(&sheets->pieces, kind->model));
+  if (known->pieces.solid)
+    snprintf(measure, sizeof measure, "%d", thr_pieces_arms(&known->pieces, kind->model));
   else
-    put_length(sheets, sheets->f->length[kind->model], row[2]);
-  snprintf(row[3], 96, "%d", kind->cords);
-  put_bore(sheets, kind->bore, row[4]);
+    length_cell(known, known->f->length[kind->model], measure);
+
+  /* A bore is given in mm if sizes are known, else in cord diameters. */
+  if (known->supplies.mm > 0)
+    snprintf(bore, sizeof bore, "%.2f mm", thr_supplies_bore_mm(&known->supplies, kind->bore));
+  else
+    snprintf(bore, sizeof bore, "%.2f cords", kind->bore);
+  snprintf(cells, 160, "%s\t%d\t%s\t%d\t%s", kind->name, kind->pieces, measure, kind->cords, bore);
 }
 
 /* Writes n rows of the table of kinds, two beside each other on a line. */
-static void put_kinds(thr_sheets *sheets, const kind_row *row, int n)
+static void put_kinds(thr_flow *flow, const thr_known *known, const kind_row *row, int n)
 {
-  static const double column[2 * CELLS] = {-14, -28, -48, -64, -86, -109, -123, -143, -159, -181};
-  char cell[2 * CELLS][96];
-  const char *const head[CELLS] = {"kind", "pieces", sheets->pieces.solid ? "arms" : "length",
-                                   "cords", "bore"};
-  int filled = 0;
+  static const double column[] = {-14, -28, -48, -64, -86, -109, -123, -143, -159, -181};
+  char left[160], right[160];
 
   /* The heading, over both halves of the table if both are used. */
-  for (int i = 0; i < 2 * CELLS; i++)
-    snprintf(cell[i], 96, "%s", head[i % CELLS]);
-  thr_sheets_cells(sheets, n > 1 ? 2 * CELLS : CELLS, column, cell, true);
+  snprintf(left, sizeof left, "kind\tpieces\t%s\tcords\tbore",
+           known->pieces.solid ? "arms" : "length");
+  thr_sheets_cells(flow, column, true, "%s%s%s", left, n > 1 ? "\t" : "", n > 1 ? left : "");
 
-  /* A line is written when both halves are filled, or at the end. */
-  for (int k = 0; k < n; k++) {
-    put_kind(sheets, &row[k], cell + filled);
-    filled = (filled + CELLS) % (2 * CELLS);
-    if (!filled || k == n - 1)
-      thr_sheets_cells(sheets, filled ? CELLS : 2 * CELLS, column, cell, false);
+  for (int k = 0; k < n; k += 2) {
+    const bool both = k + 1 < n;
+    put_kind(known, &row[k], left);
+    if (both) put_kind(known, &row[k + 1], right);
+    thr_sheets_cells(flow, column, false, "%s%s%s", left, both ? "\t" : "", both ? right : "");
   }
 }
 
 /* Fills row[k - 1] for every kind k = 1, 2, ..: its pieces, and the most cords and the widest bore
  * that one of them needs, so that all pieces of a kind can be made alike. Returns how many kinds
  * have a single piece. */
-static int find_kinds(const thr_sheets *sheets, kind_row *row)
+static int find_kinds(const thr_known *known, kind_row *row)
 {
-  const thr_pieces *pieces = &sheets->pieces;
+  const thr_pieces *pieces = &known->pieces;
   int single = 0;
 
   /* What a kind is by itself. */
@@ -209,9 +191,9 @@ static int find_kinds(const thr_sheets *sheets, kind_row *row)
   /* What its pieces need: the maximum over all of them. */
   for (int i = 0; i < pieces->n; i++) {
     kind_row *kind = &row[pieces->kind[i] - 1];
-    int cords = most_cords(sheets, i);
-    double bore = pieces->solid ? thr_supplies_node_bore(&sheets->supplies, i)
-                                : thr_supplies_bore(&sheets->supplies, i);
+    int cords = most_cords(known, i);
+    double bore = pieces->solid ? thr_supplies_node_bore(&known->supplies, i)
+                                : thr_supplies_bore(&known->supplies, i);
 
     kind->cords = cords > kind->cords ? cords : kind->cords;
     kind->bore = fmax(kind->bore, bore);
@@ -249,119 +231,102 @@ static int count_together(kind_row *row, int n)
 }
 
 /* Writes the table of the pieces to make, kind by kind. */
-static void put_pieces(thr_sheets *sheets)
+static void put_pieces(thr_flow *flow, const thr_known *known)
 {
-  const thr_pieces *pieces = &sheets->pieces;
-  char line[240];
+  const thr_pieces *pieces = &known->pieces;
+  char unit[64] = "";
   kind_row *row = thr_calloc((size_t)pieces->n_kinds, sizeof *row);
   if (!row) {
-    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
+    thr_nomem(&flow->why);
     return;
   }
 
   /* Tubes have no letter by which they could be counted. */
-  bool together = find_kinds(sheets, row) > MOST_SINGLE && pieces->solid;
+  bool together = find_kinds(known, row) > MOST_SINGLE && pieces->solid;
 
   /* The heading counts pieces and kinds, before any are merged. */
-  int n = snprintf(line, sizeof line, "%d %s in %d kind%s by shape", pieces->n,
-                   thr_pieces_word(sheets->plan, pieces->n), pieces->n_kinds,
-                   pieces->n_kinds == 1 ? "" : "s");
-  if (!pieces->solid)
-    snprintf(line + n, sizeof line - (size_t)n, " (lengths in %s)", sheets->f->units);
-  thr_sheets_title(sheets, line);
+  if (!pieces->solid) snprintf(unit, sizeof unit, " (lengths in %s)", known->f->units);
+  thr_sheets_put(flow, THR_BLOCK_TITLE, "%d %s in %d kind%s by shape%s", pieces->n,
+                 thr_pieces_word(known->plan, pieces->n), pieces->n_kinds,
+                 pieces->n_kinds == 1 ? "" : "s", unit);
 
   /* Merging happens in place, so the number of rows comes from the call. */
-  put_kinds(sheets, row, together ? count_together(row, pieces->n_kinds) : pieces->n_kinds);
+  put_kinds(flow, known, row, together ? count_together(row, pieces->n_kinds) : pieces->n_kinds);
   if (together)
-    thr_sheets_paragraph(sheets, 0,
-                         "Letters without a number: so many pieces, each one of a kind.");
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                   "Letters without a number: so many pieces, each one of a kind.");
 
   free(row);
 }
 
 /* Writes the places of all feet in a line, or "None.". */
-static void put_feet(thr_sheets *sheets)
+static void put_feet(thr_flow *flow, const thr_known *known)
 {
   thr_text words = {0};
-  int n = 0;
 
   /* Two blanks between names. */
-  for (int v = 0; v < sheets->f->n_nodes; v++) {
-    if (!sheets->f->foot[v]) continue;
-    if (n++) thr_text_append(&words, "  ");
-    thr_text_append(&words, sheets->guide.label[v]);
-  }
-  thr_text_append(&words, n ? "." : "None.");
+  for (int v = 0; v < known->f->n_nodes; v++)
+    if (known->f->foot[v])
+      thr_text_printf(&words, "%s%s", words.length ? "  " : "", known->guide.label[v]);
+  thr_text_append(&words, words.length ? "." : "None.");
 
-  /* The heading comes only with a text below. */
-  if (words.failed)
-    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
-  else {
-    thr_sheets_title(sheets, "Feet");
-    thr_sheets_paragraph(sheets, 0, words.data);
-  }
-  thr_text_destroy(&words);
+  thr_sheets_put(flow, THR_BLOCK_TITLE, "Feet");
+  thr_sheets_put_text(flow, THR_BLOCK_PARAGRAPH, &words);
 }
 
 /* ---- how to read ---- */
 
 /* Explains the rows of steps, the names of pieces, the looks in pictures and, if any cord has a
  * fold, the order of the two needles. Solid joints and tubes are read in different ways. */
-static void put_reading(thr_sheets *sheets)
+static void put_reading(thr_flow *flow, const thr_known *known)
 {
-  thr_sheets_title(sheets, "How to read the steps");
+  thr_sheets_put(flow, THR_BLOCK_TITLE, "How to read the steps");
 
   /* What a row says. */
-  thr_sheets_paragraph(sheets, 0,
-                       sheets->pieces.solid
-                           ? "Each row is a piece that the needle comes to. Pick up: a new piece "
-                             "goes on the cord. Through: it is on a cord "
-                             "already. In from A5, out to C5: arms are called by the pieces that "
-                             "they face; all pieces lie with their outer "
-                             "side up and turned as in the picture. The number of a row is that in "
-                             "the picture, on the arm by which the "
-                             "cord comes in. S: the cord starts in this piece."
-                           : "Each row is a tube that the needle comes to. Pick up: a new tube "
-                             "goes on the cord. Through: it is on a cord "
-                             "already, and the needle goes the way that the cord in it went last; "
-                             "back through: against that way. The "
-                             "number of a row is that in the picture.");
+  thr_sheets_put(
+      flow, THR_BLOCK_PARAGRAPH,
+      known->pieces.solid
+          ? "Each row is a piece that the needle comes to. Pick up: a new piece goes on the cord. "
+            "Through: it is on a cord already. In from A5, out to C5: arms are called by the "
+            "pieces that they face; all pieces lie with their outer side up and turned as in the "
+            "picture. The number of a row is that in the picture, on the arm by which the cord "
+            "comes in. S: the cord starts in this piece."
+          : "Each row is a tube that the needle comes to. Pick up: a new tube goes on the cord. "
+            "Through: it is on a cord already, and the needle goes the way that the cord in it "
+            "went last; back through: against that way. The number of a row is that in the "
+            "picture.");
 
   /* What a name says. */
-  thr_sheets_paragraph(sheets, 0,
-                       "A piece has its kind in the box, by letter and number, and its place in "
-                       "the whole: X-10 (B5) is one of kind X-10 "
-                       "that comes to B5. Put its place on it when it goes on the cord: later rows "
-                       "call it by that.");
+  thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                 "A piece has its kind in the box, by letter and number, and its place in the "
+                 "whole: X-10 (B5) is one of kind X-10 that comes to B5. Put its place on it when "
+                 "it goes on the cord: later rows call it by that.");
 
   /* What a picture says. */
-  thr_sheets_paragraph(sheets, 0,
-                       "In the pictures pieces to pick up have a bold outline, those that are on a "
-                       "cord are grey, those that wait are "
-                       "dashed. Grey lines are earlier passes, coloured ones those of the step. "
-                       "The small picture shows where they are. "
-                       "S: a cord starts. E: it ends.");
+  thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                 "In the pictures pieces to pick up have a bold outline, those that are on a cord "
+                 "are grey, those that wait are dashed. Grey lines are earlier passes, coloured "
+                 "ones those of the step. The small picture shows where they are. S: a cord "
+                 "starts. E: it ends.");
 
   /* Two needles, if any cord needs them. */
-  if (some_folded(sheets))
-    thr_sheets_paragraph(sheets, 0,
-                         "Cords that have a fold in the cut list are threaded from there with a "
-                         "needle at each end: first the "
-                         "right needle, to the "
-                         "end of the cord, then the left needle from the fold back to its start, "
-                         "with falling numbers.");
+  if (some_folded(known))
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                   "Cords that have a fold in the cut list are threaded from there with a needle "
+                   "at each end: first the right needle, to the end of the cord, then the left "
+                   "needle from the fold back to its start, with falling numbers.");
 }
 
-void thr_sheets_prepare(thr_sheets *sheets)
+void thr_sheets_prepare(thr_flow *flow, const thr_known *known)
 {
-  thr_sheets_page(sheets, "Prepare first", "Prepare first (continued)");
-  put_reading(sheets);
-  put_cords(sheets);
-  put_feet(sheets);
-  put_pieces(sheets);
-  sheets->y += 1;
-  thr_sheets_paragraph(sheets, 0,
-                       "Cords: the most in one arm of such a piece; the bore holds them side by "
-                       "side. Which piece is of which kind: "
-                       "beads.csv. Which way the cords take through each: channels.csv.");
+  thr_sheets_page(flow, "Prepare first", "Prepare first (continued)");
+  put_reading(flow, known);
+  put_cords(flow, known);
+  put_feet(flow, known);
+  put_pieces(flow, known);
+  flow->y += 1;
+  thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                 "Cords: the most in one arm of such a piece; the bore holds them side by side. "
+                 "Which piece is of which kind: beads.csv. Which way the cords take through each: "
+                 "channels.csv.");
 }

@@ -20,9 +20,9 @@ static const double COUNT = 8;    /* mm for the number of a row, with the blank 
 static const double AFTER = 0.7;  /* mm after a row */
 
 /* Returns the width of one of the two columns of rows, mm. */
-static double column_width(const thr_sheets *sheets)
+static double column_width(const thr_flow *flow)
 {
-  return 0.5 * (thr_sheets_width(sheets) - 4);
+  return 0.5 * (thr_sheets_width(flow) - 4);
 }
 
 /* Returns the distance between two lines of a row, mm. */
@@ -34,44 +34,44 @@ static double line_height(void)
 /* ---- what is said beside the rows ---- */
 
 /* Returns the node at which the needle is before a visit. */
-static int place_before(const thr_sheets *sheets, int i)
+static int place_before(const thr_known *known, int i)
 {
-  const thr_visit *visit = &sheets->visit[i];
-  return visit->number ? thr_tail(sheets->f, visit->in) : visit->piece;
+  const thr_visit *visit = &known->visit[i];
+  return visit->number ? thr_tail(known->f, visit->in) : visit->piece;
 }
 
 /* Appends what is done before the first visit of a needle: where the tail is left, or where the
  * fold lies. Appends nothing in other steps. */
-static void put_beginning(const thr_sheets *sheets, int i, thr_text *text)
+static void put_beginning(const thr_known *known, int i, thr_text *text)
 {
-  thr_needle needle = sheets->move[i].needle;
+  thr_needle needle = known->move[i].needle;
 
   /* Only the first step of a needle has a beginning. */
-  if (!thr_step_begins(sheets, i)) return;
+  if (!thr_step_begins(known, i)) return;
 
   /* Threaded from its end: a tail stays there, to be pulled and knotted. */
   if (needle == THR_NEEDLE_ONLY) {
     thr_text_append(text, "Begin at ");
-    thr_guide_place(&sheets->guide, place_before(sheets, i), text);
+    thr_guide_place(&known->guide, place_before(known, i), text);
     thr_text_printf(text, ": leave a tail of %.0f mm there and a knot's length.",
                     THR_SUPPLIES_TAIL);
   } else {
     thr_text_printf(text, needle == THR_NEEDLE_RIGHT
                               ? "Right needle first: the fold of the cord lies at "
                               : "Now the left needle, from the fold of the cord at ");
-    thr_guide_place(&sheets->guide, place_before(sheets, i), text);
+    thr_guide_place(&known->guide, place_before(known, i), text);
     thr_text_append(text, ".");
   }
 }
 
 /* Appends the sentence by which a maker checks a step: "Check: the needle comes out of F12 and
  * points at E12." With tubes: "Check: the needle comes out at F12; next E12." */
-static void put_check(const thr_sheets *sheets, int last, thr_text *text)
+static void put_check(const thr_known *known, int last, thr_text *text)
 {
-  const thr_visit *visit = &sheets->visit[last];
-  thr_needle needle = sheets->move[last].needle;
-  int at = visit->number ? thr_head(sheets->f, visit->in) : visit->piece;
-  bool solid = sheets->pieces.solid;
+  const thr_visit *visit = &known->visit[last];
+  thr_needle needle = known->move[last].needle;
+  int at = visit->number ? thr_head(known->f, visit->in) : visit->piece;
+  bool solid = known->pieces.solid;
 
   /* Which needle, if there are two, and where it is. */
   thr_text_printf(text, "Check: the %sneedle comes out %s ",
@@ -80,12 +80,12 @@ static void put_check(const thr_sheets *sheets, int last, thr_text *text)
                                               : "",
                   solid ? "of" : "at");
 
-  thr_guide_place(&sheets->guide, at, text);
+  thr_guide_place(&known->guide, at, text);
 
   /* Within a part the next place tells the direction; at its end there is none. */
-  if (!thr_step_ends(sheets, last))
+  if (!thr_step_ends(known, last))
     thr_text_printf(text, solid ? " and points at %s." : "; next %s.",
-                    sheets->guide.label[thr_head(sheets->f, sheets->visit[last + 1].in)]);
+                    known->guide.label[thr_head(known->f, known->visit[last + 1].in)]);
   else if (needle == THR_NEEDLE_RIGHT)
     thr_text_append(text, ": the end of the cord. Leave it there and go on with the left needle.");
   else
@@ -104,9 +104,9 @@ void thr_step_destroy_text(thr_step *step)
 
 /* Returns how many lines words take in a width, 0 for an empty text. Fails the sheets if memory ran
  * out while the text was made. */
-static int count_lines(thr_sheets *sheets, const thr_text *words, double width, double size)
+static int count_lines(thr_flow *flow, const thr_text *words, double width, double size)
 {
-  if (words->failed) thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
+  if (words->failed) thr_nomem(&flow->why);
   return words->data && !words->failed ? thr_sheets_lines(words->data, width, size) : 0;
 }
 
@@ -137,58 +137,55 @@ double thr_step_words_height(double rows_height, int lines_before, int lines_aft
 
 int thr_step_row_lines(thr_sheets *sheets, int visit)
 {
+  const thr_known *known = &sheets->known;
   thr_text row = {0};
-  thr_pieces_say(&sheets->pieces, thr_sheets_labels(sheets), sheets->visit, visit, sheets->step,
-                 &row);
+  thr_pieces_say(&known->pieces, thr_sheets_labels(known), known->visit, visit, sheets->step, &row);
 
-  int lines = count_lines(sheets, &row, column_width(sheets) - BOX - COUNT, THR_SHEET_SMALL);
+  int lines =
+      count_lines(&sheets->flow, &row, column_width(&sheets->flow) - BOX - COUNT, THR_SHEET_SMALL);
   thr_text_destroy(&row);
   return lines;
 }
 
 void thr_step_find_text(thr_sheets *sheets, thr_step *step)
 {
+  const thr_known *known = &sheets->known;
+  thr_flow *flow = &sheets->flow;
   thr_step_destroy_text(step);
 
   /* A row for each visit, with the number of its lines. */
-  for (int i = step->first; i < step->end && !sheets->st; i++) {
+  for (int i = step->first; i < step->end && !flow->why.code; i++) {
     thr_text *row = &step->row[step->n_rows];
     *row = (thr_text){0};
-    thr_pieces_say(&sheets->pieces, thr_sheets_labels(sheets), sheets->visit, i, sheets->step, row);
+    thr_pieces_say(&known->pieces, thr_sheets_labels(known), known->visit, i, sheets->step, row);
     step->lines[step->n_rows++] =
-        count_lines(sheets, row, column_width(sheets) - BOX - COUNT, THR_SHEET_SMALL);
+        count_lines(flow, row, column_width(flow) - BOX - COUNT, THR_SHEET_SMALL);
   }
 
   part_rows(step);
 
   /* Text before and after the rows spans both columns. */
-  put_beginning(sheets, step->first, &step->before);
-  put_check(sheets, step->end - 1, &step->after);
+  put_beginning(known, step->first, &step->before);
+  put_check(known, step->end - 1, &step->after);
 
-  step->lines_before = count_lines(sheets, &step->before, thr_sheets_width(sheets), THR_SHEET_TEXT);
-  step->lines_after = count_lines(sheets, &step->after, thr_sheets_width(sheets), THR_SHEET_TEXT);
+  step->lines_before = count_lines(flow, &step->before, thr_sheets_width(flow), THR_SHEET_TEXT);
+  step->lines_after = count_lines(flow, &step->after, thr_sheets_width(flow), THR_SHEET_TEXT);
 }
 
 /* Appends what a step amounts to: "11 pieces to pick up, 5 on a cord already; 38 of 49 are threaded
  * then; cord used 640.1 mm, left for the way 1773 mm". Lengths are in the framework's units. */
-static void put_tally(const thr_sheets *sheets, const thr_step *step, thr_text *text)
+static void put_tally(const thr_known *known, const thr_step *step, thr_text *text)
 {
   char used[64], left[64];
-  const thr_move *move = &sheets->move[step->end - 1];
-  int picked = 0, before = 0, last = step->end - 1, n = sheets->pieces.n;
-
-  /* Pieces picked up in this step, and in all steps up to its end. */
-  for (int i = 0; i < step->end; i++) {
-    picked += i >= step->first && sheets->visit[i].nth == 1;
-    before += sheets->visit[i].nth == 1;
-  }
+  const thr_move *move = &known->move[step->end - 1];
+  int picked = thr_sheets_count_new(known, step->first, step->end), last = step->end - 1;
 
   /* The way that is left reaches from here to the end of the needle's part. */
-  while (!thr_step_ends(sheets, last))
+  while (!thr_step_ends(known, last))
     last++;
-  thr_svg_length(move->used, sheets->f->units, used);
+  thr_svg_length(move->used, known->f->units, used);
   if (last >= step->end)
-    thr_svg_length(sheets->move[last].used - move->used, sheets->f->units, left);
+    thr_svg_length(known->move[last].used - move->used, known->f->units, left);
   else
     snprintf(left, sizeof left, "none");
 
@@ -196,34 +193,35 @@ static void put_tally(const thr_sheets *sheets, const thr_step *step, thr_text *
   thr_text_printf(text,
                   "%d %s to pick up, %d on a cord already; %d of %d are threaded then; cord used%s "
                   "%s, left for the way %s",
-                  picked, thr_pieces_word(sheets->plan, picked), step->end - step->first - picked,
-                  before, n, move->needle == THR_NEEDLE_ONLY ? "" : " by this needle", used, left);
+                  picked, thr_pieces_word(known->plan, picked), step->end - step->first - picked,
+                  thr_sheets_count_new(known, 0, step->end), known->pieces.n,
+                  move->needle == THR_NEEDLE_ONLY ? "" : " by this needle", used, left);
 }
 
 /* Returns the number of the first pass that a step draws: a visit that only starts a cord (number
  * 0) has none. */
-static int first_number(const thr_sheets *sheets, const thr_step *step)
+static int first_number(const thr_known *known, const thr_step *step)
 {
-  const thr_visit *visit = &sheets->visit[step->first];
+  const thr_visit *visit = &known->visit[step->first];
   return visit->number || step->first + 1 == step->end ? visit->number : visit[1].number;
 }
 
-const char *thr_step_colour(const thr_sheets *sheets, const thr_step *step)
+const char *thr_step_colour(const thr_known *known, const thr_step *step)
 {
   enum { VERMILLION = 1 };
 
-  int c = sheets->visit[step->first].cord;
-  return thr_palette(sheets->plan->n_cords == 1 ? VERMILLION : sheets->copy[c].path).hex;
+  int c = known->visit[step->first].cord;
+  return thr_palette(known->plan->n_cords == 1 ? VERMILLION : known->copy[c].path).hex;
 }
 
-void thr_step_put_heading(thr_sheets *sheets, const thr_step *step, double top)
+void thr_step_put_heading(thr_flow *flow, const thr_known *known, const thr_step *step, double top)
 {
-  int c = sheets->visit[step->first].cord, low = first_number(sheets, step),
-      high = sheets->visit[step->end - 1].number;
-  thr_needle needle = sheets->move[step->first].needle;
+  int c = known->visit[step->first].cord, low = first_number(known, step),
+      high = known->visit[step->end - 1].number;
+  thr_needle needle = known->move[step->first].needle;
   char cord[96], line[256], colour[64], big[16];
-  const char *own = thr_step_colour(sheets, step);
-  thr_sheets_cord_words(sheets, c, cord);
+  const char *own = thr_step_colour(known, step);
+  thr_sheets_cord_words(known, c, cord);
 
   /* "Cord A (blue), right needle: passes 17-36 of 86". low may exceed high with the left needle. */
   int n = snprintf(line, sizeof line, "%s%s: ", cord,
@@ -233,33 +231,30 @@ void thr_step_put_heading(thr_sheets *sheets, const thr_step *step, double top)
 
   n += snprintf(line + n, sizeof line - (size_t)n, low == high ? "pass %d" : "passes %d-%d", low,
                 high);
-  snprintf(line + n, sizeof line - (size_t)n, " of %d", sheets->plan->cord[c].n_passes);
+  snprintf(line + n, sizeof line - (size_t)n, " of %d", known->plan->cord[c].n_passes);
   snprintf(colour, sizeof colour, " font-weight=\"bold\" style=\"fill:%s\"", own);
 
   snprintf(big, sizeof big, "%d", step->number);
   thr_text tally = {0};
-  put_tally(sheets, step, &tally);
+  put_tally(known, step, &tally);
 
   /* The number stands large on the left; the small picture of the whole takes the right corner. */
-  double x = THR_SHEET_MARGIN, width = thr_sheets_width(sheets) + THR_SHEET_MARGIN - LOCATOR - 3;
-  thr_svg_text(thr_sheets_out(sheets), x, top + 6.5, NUMBER, " font-weight=\"bold\"", big);
+  double x = THR_SHEET_MARGIN, width = thr_sheets_width(flow) + THR_SHEET_MARGIN - LOCATOR - 3;
+  thr_svg_text(thr_sheets_out(flow), x, top + 6.5, NUMBER, " font-weight=\"bold\"", big);
   x += fmax(14, 0.72 * NUMBER * (double)strlen(big) + 3);
 
   /* The line shrinks to fit between both; bold letters are at most 0.66 em wide on average. */
-  thr_svg_text(thr_sheets_out(sheets), x, top + 3.5,
+  thr_svg_text(thr_sheets_out(flow), x, top + 3.5,
                fmin(4.4, (width - x) / (0.66 * (double)strlen(line))), colour, line);
 
   /* The tally below in as many lines as needed. */
-  if (tally.failed)
-    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
-  else
-    thr_sheets_text(sheets, x, top + 9, THR_SHEET_SMALL, width - x, " style=\"fill:#444\"",
-                    tally.data);
-
+  if (tally.failed) thr_nomem(&flow->why);
+  thr_sheets_text(flow, x, top + 9, THR_SHEET_SMALL, width - x, " style=\"fill:#444\"",
+                  tally.data ? tally.data : "");
   thr_text_destroy(&tally);
 }
 
-void thr_step_put_legend(thr_sheets *sheets, double y, const char *what)
+void thr_step_put_legend(thr_flow *flow, double y, const char *what)
 {
   char now[48];
   const char *const words[THR_PIECE_STATES] = {
@@ -271,8 +266,8 @@ void thr_step_put_legend(thr_sheets *sheets, double y, const char *what)
 
   /* From the piece that is picked up now to the one that waits, as the maker needs them. */
   for (int state = THR_PIECE_STATES - 1; state > THR_PIECE_PLAIN; state--) {
-    thr_draw_key(x, y - 2.4, 5, 2.8, (thr_piece_state)state, thr_sheets_out(sheets));
-    thr_svg_text(thr_sheets_out(sheets), x + 6.5, y, THR_SHEET_SMALL, "", words[state]);
+    thr_draw_key(x, y - 2.4, 5, 2.8, (thr_piece_state)state, thr_sheets_out(flow));
+    thr_svg_text(thr_sheets_out(flow), x + 6.5, y, THR_SHEET_SMALL, "", words[state]);
     x += 6.5 + 0.62 * THR_SHEET_SMALL * (double)strlen(words[state]) + 6;
   }
 }
@@ -280,47 +275,49 @@ void thr_step_put_legend(thr_sheets *sheets, double y, const char *what)
 /* ---- rows ---- */
 
 /* Writes flowing text over the whole width at the current height and moves on below. */
-static void put_words(thr_sheets *sheets, const thr_text *words, const char *attributes)
+static void put_words(thr_flow *flow, const thr_text *words, const char *attributes)
 {
   if (words->data)
-    sheets->y = thr_sheets_text(sheets, THR_SHEET_MARGIN, sheets->y, THR_SHEET_TEXT,
-                                thr_sheets_width(sheets), attributes, words->data);
+    flow->y = thr_sheets_text(flow, THR_SHEET_MARGIN, flow->y, THR_SHEET_TEXT,
+                              thr_sheets_width(flow), attributes, words->data);
 }
 
 /* Writes row i of a step at (x, y): a box, the number of the pass ("S" where a cord starts), the
  * words. Rows that pick up a piece are black, rows through a piece that is on a cord already are
  * grey. */
-static void put_row(thr_sheets *sheets, const thr_step *step, int i, double x, double y)
+static void put_row(thr_flow *flow, const thr_known *known, const thr_step *step, int i, double x,
+                    double y)
 {
   char number[16] = "S";
-  const thr_visit *visit = &sheets->visit[step->first + i];
+  const thr_visit *visit = &known->visit[step->first + i];
   if (visit->number) snprintf(number, sizeof number, "%d", visit->number);
 
   /* From left to right: box, number, words. */
-  thr_sheets_box(thr_sheets_out(sheets), x, y);
-  thr_svg_text(thr_sheets_out(sheets), x + BOX + COUNT - 1.5, y, THR_SHEET_SMALL,
+  thr_sheets_box(thr_sheets_out(flow), x, y);
+  thr_svg_text(thr_sheets_out(flow), x + BOX + COUNT - 1.5, y, THR_SHEET_SMALL,
                " text-anchor=\"end\" font-weight=\"bold\"", number);
-  thr_sheets_text(sheets, x + BOX + COUNT, y, THR_SHEET_SMALL, column_width(sheets) - BOX - COUNT,
+  thr_sheets_text(flow, x + BOX + COUNT, y, THR_SHEET_SMALL, column_width(flow) - BOX - COUNT,
                   visit->nth == 1 ? "" : " style=\"fill:#444\"", step->row[i].data);
 }
 
-void thr_step_put_rows(thr_sheets *sheets, const thr_step *step)
+void thr_step_put_rows(thr_flow *flow, const thr_known *known, const thr_step *step)
 {
-  sheets->y += THR_SHEET_LINE;
+  flow->y += THR_SHEET_LINE;
 
   /* What to do first, over the whole width. */
-  put_words(sheets, &step->before, " style=\"fill:#444\"");
-  if (step->lines_before) sheets->y += 1;
+  put_words(flow, &step->before, " style=\"fill:#444\"");
+  if (step->lines_before) flow->y += 1;
 
   /* The second column begins at the height of the first. */
-  double y = sheets->y;
-  for (int i = 0; i < step->n_rows && !sheets->st; i++) {
-    if (i == step->left) y = sheets->y;
-    put_row(sheets, step, i, THR_SHEET_MARGIN + (i < step->left ? 0 : column_width(sheets) + 4), y);
+  double y = flow->y;
+  for (int i = 0; i < step->n_rows && !flow->why.code; i++) {
+    if (i == step->left) y = flow->y;
+    put_row(flow, known, step, i, THR_SHEET_MARGIN + (i < step->left ? 0 : column_width(flow) + 4),
+            y);
     y += step->lines[i] * line_height() + AFTER;
   }
 
   /* Where the needle is then: a step is done only if this is right. */
-  sheets->y += step->rows_height + 1;
-  put_words(sheets, &step->after, " font-weight=\"bold\"");
+  flow->y += step->rows_height + 1;
+  put_words(flow, &step->after, " font-weight=\"bold\"");
 }

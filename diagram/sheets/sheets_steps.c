@@ -11,6 +11,7 @@
  * first two fill a page, and each picture becomes 38 mm higher. */
 #include "diagram/sheets/sheets_parts.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -30,155 +31,149 @@ static double height_beside(const thr_step *step)
 
 /* Returns what the picture of a step shows. now[THR_STEP_VISITS] receives the passes that are drawn
  * now and must live as long as the result. */
-static thr_crop crop_of(const thr_sheets *sheets, const thr_step *step, int *now)
+static thr_crop crop_of(const thr_known *known, const thr_step *step, int *now)
 {
-  thr_crop crop = {.number = step->number, .now = now, .colour = thr_step_colour(sheets, step)};
-  crop.n_now = thr_step_now(sheets, step->first, step->end, now);
-  crop.backward = sheets->move[step->first].needle == THR_NEEDLE_LEFT;
+  thr_crop crop = {.number = step->number, .now = now, .colour = thr_step_colour(known, step)};
+  crop.n_now = thr_step_now(known, step->first, step->end, now);
+  crop.backward = known->move[step->first].needle == THR_NEEDLE_LEFT;
   return crop;
 }
 
 /* Computes the least height of a step's picture, in mm, into step->height. A flat picture also gets
  * its view: scale and window in which every pass is legible. */
-static thr_status find_height(thr_sheets *sheets, thr_step *step, thr_err *err)
+static void find_height(thr_sheets *sheets, thr_step *step)
 {
+  thr_flow *flow = &sheets->flow;
   int now[THR_STEP_VISITS];
-  thr_crop crop = crop_of(sheets, step, now);
+  thr_crop crop = crop_of(&sheets->known, step, now);
 
   /* The most that a page of its own would leave for the picture. */
-  double room[2] = {thr_sheets_width(sheets),
-                    thr_sheets_bottom(sheets) - THR_SHEET_MARGIN - height_beside(step)};
+  double room[2] = {thr_sheets_width(flow),
+                    thr_sheets_bottom(flow) - THR_SHEET_MARGIN - height_beside(step)};
   room[1] = fmax(room[1], THR_STEP_PICTURE[1]);
 
   /* In space any size can be drawn: some mm per visit do. */
   step->height =
       fmin(room[1], fmin(MOST, THR_STEP_PICTURE[1] + IN_SPACE * (step->end - step->first)));
-  if (sheets->in_space) return THR_OK;
+  if (sheets->known.in_space || flow->why.code) return;
 
   /* A flat picture needs the window that its passes take at the largest scale that fits. */
-  thr_status st = thr_crop_fit(&sheets->crops, &crop, room, THR_STEP_PICTURE, &step->view, err);
-  if (step->view.scale >= THR_CROP_SCALES) step->view.scale = THR_CROP_SCALES - 1;
+  thr_sheets_fail(
+      flow, thr_crop_fit(&sheets->crops, &crop, room, THR_STEP_PICTURE, &step->view, &flow->why));
   step->height = step->view.size[1];
-
-  return st;
 }
 
-/* Draws the flat picture of a step in room mm below its heading at height top, with the small
- * picture of the whole in the corner, a hub of many arms if there is one, legend and string of
- * pieces. */
+/* A picture of a step that is drawn. */
+typedef struct {
+  double at[2], size[2];               /* mm: its upper left corner; width and height */
+  double busy[2 * THR_STEP_VISITS][2]; /* mm on the page: the ends of all passes drawn now, which an
+                                          inset must not hide */
+  thr_camera_view view;                /* in space */
+} step_picture;
+
+/* Draws the flat picture of a step, which grows into a room in mm, with its upper edge at
+ * picture->at[1], and the small picture of the whole in the corner. */
 static thr_status put_flat(thr_sheets *sheets, thr_step *step, const thr_crop *crop,
-                           const double room[2], double top, thr_err *err)
+                           const double room[2], thr_box corner, step_picture *picture)
 {
-  thr_box shown, paper = {0, top, sheets->size[0] - THR_SHEET_MARGIN, top + LOCATOR[1]};
-  paper.x0 = paper.x1 - LOCATOR[0];
+  thr_flow *flow = &sheets->flow;
+  thr_box shown;
+  thr_text *text = thr_sheets_out(flow);
 
-  /* The window grows into the height that was left over on the page. */
   thr_crop_fill(&sheets->crops, &step->view, room);
-  double at[2] = {0.5 * (sheets->size[0] - step->view.size[0]), top + THR_STEP_HEAD};
-
+  picture->at[0] = 0.5 * (flow->size[0] - step->view.size[0]);
   thr_status st =
-      thr_crop_draw(&sheets->crops, crop, &step->view, at, &shown, thr_sheets_out(sheets), err);
-  if (!st) thr_crop_locate(&sheets->crops, crop, &step->view, shown, paper, thr_sheets_out(sheets));
-  sheets->y = at[1] + step->view.size[1];
+      thr_crop_draw(&sheets->crops, crop, &step->view, picture->at, &shown, text, &flow->why);
+  if (st) return st;
+  thr_crop_locate(&sheets->crops, crop, &step->view, shown, corner, text);
 
-  /* The ends of all passes drawn now, in mm on the page: an inset must not hide them. */
-  double busy[2 * THR_STEP_VISITS][2];
   const thr_scene *scene = &sheets->crops.scene[step->view.scale];
-
-  for (int i = 0; i < crop->n_now && !st; i++)
-    for (int k = 0; k < 2; k++) {
-      double corner = k ? shown.y0 : shown.x0;
-      busy[2 * i][k] = at[k] + scene->pass[crop->now[i]].from[k] - corner;
-      busy[2 * i + 1][k] = at[k] + scene->pass[crop->now[i]].to[k] - corner;
+  const double origin[2] = {shown.x0, shown.y0};
+  for (int k = 0; k < 2; k++) {
+    picture->size[k] = step->view.size[k];
+    for (int i = 0; i < crop->n_now; i++) {
+      const thr_scene_pass *pass = &scene->pass[crop->now[i]];
+      picture->busy[2 * i][k] = picture->at[k] + pass->from[k] - origin[k];
+      picture->busy[2 * i + 1][k] = picture->at[k] + pass->to[k] - origin[k];
     }
-
-  /* The inset, if there is one, lies on top of the picture. */
-  thr_box picture = {at[0], at[1], at[0] + step->view.size[0], sheets->y};
-  if (!st)
-    thr_step_put_hub(sheets, step, NULL, crop->colour, picture, (const double(*)[2])busy,
-                     2 * crop->n_now);
-
-  if (!st) thr_step_put_legend(sheets, sheets->y + 4, "step");
-  sheets->y += THR_STEP_LEGEND;
-  if (!st) thr_step_put_strip(sheets, step, NULL, crop->colour);
-  return st;
+  }
+  return THR_OK;
 }
 
 /* Draws the picture of a step in space, seen from where its passes are most legible; all else as in
  * put_flat. */
-static thr_status put_in_space(thr_sheets *sheets, const thr_step *step, const thr_crop *crop,
-                               const double room[2], double top, thr_err *err)
+static thr_status put_in_space(thr_sheets *sheets, thr_step *step, const thr_crop *crop,
+                               const double room[2], thr_box corner, step_picture *picture)
 {
-  thr_box paper = {0, top, sheets->size[0] - THR_SHEET_MARGIN, top + LOCATOR[1]};
-  paper.x0 = paper.x1 - LOCATOR[0];
-
+  const thr_known *known = &sheets->known;
+  thr_flow *flow = &sheets->flow;
+  thr_text *text = thr_sheets_out(flow);
   thr_space_step drawn = {.crop = *crop, .colour = crop->colour, .next = -1};
-  thr_camera_view view = thr_space_fit(&sheets->space, crop, room);
-  double at[2] = {THR_SHEET_MARGIN, top + THR_STEP_HEAD};
+  picture->view = thr_space_fit(&sheets->space, crop, room);
+  picture->at[0] = THR_SHEET_MARGIN;
 
   /* The needle points on towards the next piece, unless the needle's part ends here. */
-  if (!thr_step_ends(sheets, step->end - 1)) drawn.next = sheets->visit[step->end].in;
-  thr_status st = thr_space_draw(&sheets->space, &drawn, &view, at, thr_sheets_out(sheets), err);
-  if (!st) st = thr_space_locate(&sheets->space, &drawn, &view, paper, thr_sheets_out(sheets), err);
+  if (!thr_step_ends(known, step->end - 1)) drawn.next = known->visit[step->end].in;
+  thr_status st =
+      thr_space_draw(&sheets->space, &drawn, &picture->view, picture->at, text, &flow->why);
+  if (!st) st = thr_space_locate(&sheets->space, &drawn, &picture->view, corner, text, &flow->why);
 
-  sheets->y = at[1] + view.size[1];
-
-  /* The ends of all passes drawn now, projected on to the page. */
-  double busy[2 * THR_STEP_VISITS][2], seen[3];
   for (int i = 0; i < 2 * crop->n_now; i++) {
+    double seen[3];
     int h = thr_space_half(&sheets->space, crop, crop->now[i / 2]);
-    thr_camera_project(
-        &view, sheets->f->xyz[i % 2 ? thr_head(sheets->f, h) : thr_tail(sheets->f, h)], seen);
-    for (int k = 0; k < 2; k++)
-      busy[i][k] = at[k] + seen[k];
+    thr_camera_project(&picture->view,
+                       known->f->xyz[i % 2 ? thr_head(known->f, h) : thr_tail(known->f, h)], seen);
+    for (int k = 0; k < 2; k++) {
+      picture->busy[i][k] = picture->at[k] + seen[k];
+      picture->size[k] = picture->view.size[k];
+    }
   }
-
-  /* The inset, if there is one, lies on top of the picture. */
-  thr_box picture = {at[0], at[1], at[0] + view.size[0], sheets->y};
-  if (!st)
-    thr_step_put_hub(sheets, step, &view.camera, crop->colour, picture, (const double(*)[2])busy,
-                     2 * crop->n_now);
-
-  if (!st) thr_step_put_legend(sheets, sheets->y + 4, "step");
-  sheets->y += THR_STEP_LEGEND;
-  if (!st) thr_step_put_strip(sheets, step, &view.camera, crop->colour);
   return st;
 }
 
-/* Draws all pictures of a step whose heading begins at height top. extra: mm that the main picture
- * is higher than necessary. */
-static thr_status put_pictures(thr_sheets *sheets, thr_step *step, double top, double extra,
-                               thr_err *err)
+/* Draws all pictures of a step whose heading begins at height top: in space or flat, the same for
+ * all steps of a booklet, with a hub of many arms if there is one, legend and string of pieces.
+ * extra: mm that the main picture is higher than necessary. */
+static void put_pictures(thr_sheets *sheets, thr_step *step, double top, double extra)
 {
+  const thr_known *known = &sheets->known;
+  thr_flow *flow = &sheets->flow;
   int now[THR_STEP_VISITS];
-  unsigned char *state = thr_calloc((size_t)sheets->n_passes, sizeof *state);
-  unsigned char *piece = thr_calloc((size_t)sheets->pieces.n, sizeof *piece);
-  thr_status st = state && piece ? THR_OK : thr_nomem(err);
+  unsigned char *piece = thr_sheets_piece_states(flow, known, step->first, step->end);
+  unsigned char *state = thr_calloc((size_t)known->n_passes, sizeof *state);
+  if (!state) thr_nomem(&flow->why);
 
   /* Passes before the step are grey, later ones are not drawn. */
-  for (int i = 0; i < sheets->n_passes && !st; i++)
-    state[i] = sheets->visited[i] < step->first ? THR_DRAW_EARLIER
-               : sheets->visited[i] < step->end ? THR_DRAW_NOW
-                                                : THR_DRAW_HIDDEN;
+  for (int i = 0; i < known->n_passes && state; i++)
+    state[i] = known->visited[i] < step->first ? THR_DRAW_EARLIER
+               : known->visited[i] < step->end ? THR_DRAW_NOW
+                                               : THR_DRAW_HIDDEN;
 
-  /* Pieces: on a cord already, picked up in this step, or waiting. */
-  for (int i = 0; i < sheets->pieces.n && !st; i++)
-    piece[i] = sheets->threaded[i] < step->first ? THR_PIECE_HELD
-               : sheets->threaded[i] < step->end ? THR_PIECE_NEW
-                                                 : THR_PIECE_LATER;
-
-  thr_crop crop = crop_of(sheets, step, now);
+  thr_crop crop = crop_of(known, step, now);
   crop.state = state;
   crop.piece = piece;
 
-  /* In space or flat, the same for all steps of a booklet. */
-  double room[2] = {thr_sheets_width(sheets), step->height + extra};
-  if (!st && sheets->in_space) st = put_in_space(sheets, step, &crop, room, top, err);
-  if (!st && !sheets->in_space) st = put_flat(sheets, step, &crop, room, top, err);
-
+  const double room[2] = {thr_sheets_width(flow), step->height + extra},
+               right = flow->size[0] - THR_SHEET_MARGIN;
+  const thr_box corner = {right - LOCATOR[0], top, right, top + LOCATOR[1]};
+  step_picture picture = {.at = {0, top + THR_STEP_HEAD}};
+  if (!flow->why.code)
+    thr_sheets_fail(flow, (known->in_space ? put_in_space : put_flat)(sheets, step, &crop, room,
+                                                                      corner, &picture));
   free(state);
   free(piece);
-  return st;
+  if (flow->why.code) return;
+
+  /* The inset, if there is one, lies on top of the picture. */
+  const thr_camera *camera = known->in_space ? &picture.view.camera : NULL;
+  flow->y = picture.at[1] + picture.size[1];
+  const thr_box frame = {picture.at[0], picture.at[1], picture.at[0] + picture.size[0], flow->y};
+  thr_step_put_hub(flow, known, step, camera, crop.colour, frame, (const double(*)[2])picture.busy,
+                   2 * crop.n_now);
+
+  thr_step_put_legend(flow, flow->y + 4, "step");
+  flow->y += THR_STEP_LEGEND;
+  thr_step_put_strip(flow, known, step, camera, crop.colour);
 }
 
 /* ---- pages ---- */
@@ -186,81 +181,72 @@ static thr_status put_pictures(thr_sheets *sheets, thr_step *step, double top, d
 /* Draws a whole step at height top. */
 static void put_step(thr_sheets *sheets, thr_step *step, double top, double extra)
 {
-  thr_step_put_heading(sheets, step, top);
-  thr_status st = sheets->st ? sheets->st : put_pictures(sheets, step, top, extra, &sheets->why);
-  if (st)
-    thr_sheets_fail(sheets, st, NULL);
-  else
-    thr_step_put_rows(sheets, step);
+  thr_flow *flow = &sheets->flow;
+  thr_step_put_heading(flow, &sheets->known, step, top);
+  put_pictures(sheets, step, top, extra);
+  if (!flow->why.code) thr_step_put_rows(flow, &sheets->known, step);
 }
 
 /* Draws a thin line between two steps at height y. */
-static void put_rule(thr_sheets *sheets, double y)
+static void put_rule(thr_flow *flow, double y)
 {
-  thr_text_printf(thr_sheets_out(sheets),
+  thr_text_printf(thr_sheets_out(flow),
                   "<path stroke=\"#999\" stroke-width=\"0.20\" d=\"M%.2f %.2fh%.2f\"/>\n",
-                  THR_SHEET_MARGIN, y, thr_sheets_width(sheets));
+                  THR_SHEET_MARGIN, y, thr_sheets_width(flow));
+}
+
+/* Returns the height of the steps that wait for a page, with BETWEEN after each, mm. */
+static double height_waiting(const thr_sheets *sheets)
+{
+  double high = 0;
+  for (int i = 0; i < sheets->n_waiting; i++)
+    high += height_beside(&sheets->waiting[i]) + sheets->waiting[i].height + BETWEEN;
+  return high;
 }
 
 void thr_sheets_flush(thr_sheets *sheets)
 {
-  double high = -BETWEEN, y = THR_SHEET_MARGIN;
+  thr_flow *flow = &sheets->flow;
+  const double room = thr_sheets_bottom(flow) - THR_SHEET_MARGIN;
+  double y = THR_SHEET_MARGIN;
   int n = sheets->n_waiting;
   if (!n) return;
-  if (!sheets->st) thr_sheets_page(sheets, "", "");
+  if (!flow->why.code) thr_sheets_page(flow, "", "");
 
-  /* The height that all waiting steps need; what the page has beyond is shared equally. */
-  for (int i = 0; i < n; i++)
-    high += BETWEEN + height_beside(&sheets->waiting[i]) + sheets->waiting[i].height;
+  /* What the page has beyond the height that all waiting steps need is shared equally. */
+  double extra = fmax(room - (height_waiting(sheets) - BETWEEN), 0) / n;
 
-  double extra = fmax(thr_sheets_bottom(sheets) - THR_SHEET_MARGIN - high, 0) / n;
-
-  /* One step below the other. */
-  for (int i = 0; i < n && !sheets->st; i++) {
+  /* One step below the other; their texts are released when they are on paper. */
+  for (int i = 0; i < n; i++) {
     thr_step *step = &sheets->waiting[i];
-    if (i) put_rule(sheets, y - 0.5 * BETWEEN);
-    put_step(sheets, step, y, extra);
+    if (i && !flow->why.code) put_rule(flow, y - 0.5 * BETWEEN);
+    if (!flow->why.code) put_step(sheets, step, y, extra);
     y += height_beside(step) + step->height + extra + BETWEEN;
+    thr_step_destroy_text(step);
   }
-
-  /* The steps are on paper now: their texts are released. */
-  for (int i = 0; i < n; i++)
-    thr_step_destroy_text(&sheets->waiting[i]);
   sheets->n_waiting = 0;
-}
-
-/* Returns whether another step fits on the page that is waiting. */
-static bool has_room(const thr_sheets *sheets, const thr_step *step)
-{
-  double high = height_beside(step) + step->height;
-
-  for (int i = 0; i < sheets->n_waiting; i++)
-    high += BETWEEN + height_beside(&sheets->waiting[i]) + sheets->waiting[i].height;
-
-  return high <= thr_sheets_bottom(sheets) - THR_SHEET_MARGIN;
 }
 
 /* Tells the caller how far the work is and stops where the caller asks for it; called before each
  * step. */
-static void poll(thr_sheets *sheets, int first)
+static void poll(thr_flow *flow, const thr_known *known, int first)
 {
-  const thr_limits *limits = sheets->limits;
+  const thr_limits *limits = flow->limits;
 
   /* Progress by visits: pages are not counted before. */
   if (limits->advance)
-    limits->advance(limits->user, "pages of the step sheets", (double)first / sheets->n_visits);
+    limits->advance(limits->user, "pages of the step sheets", (double)first / known->n_visits);
 
   if (thr_limits_stop(limits))
-    thr_sheets_fail(sheets,
-                    thr_fail(&sheets->why, THR_ELIMIT, "interrupted at page %d of the step sheets",
-                             sheets->n_pages + 1),
-                    NULL);
+    thr_fail(&flow->why, THR_ELIMIT, "interrupted at page %d of the step sheets",
+             flow->n_pages + 1);
 }
 
 /* Appends the step of visits first .. end - 1 to the page that is waiting. If there is no room for
  * the step, that page is drawn first. */
-static thr_status wait(thr_sheets *sheets, int first, int end, thr_err *err)
+static void wait(thr_sheets *sheets, int first, int end)
 {
+  thr_flow *flow = &sheets->flow;
   thr_step step = {.number = ++sheets->n_steps, .first = first, .end = end};
 
   /* Rows of later steps refer to this number. */
@@ -268,73 +254,48 @@ static thr_status wait(thr_sheets *sheets, int first, int end, thr_err *err)
     sheets->step[i] = step.number;
 
   thr_step_find_text(sheets, &step);
-  thr_status st = sheets->st ? sheets->st : find_height(sheets, &step, err);
-
-  if (!st && !has_room(sheets, &step)) thr_sheets_flush(sheets);
-  if (!st)
-    st = thr_grow(&sheets->waiting, sheets->n_waiting, &sheets->waiting_capacity,
-                  sizeof *sheets->waiting, err);
+  find_height(sheets, &step);
+  if (height_waiting(sheets) + height_beside(&step) + step.height >
+      thr_sheets_bottom(flow) - THR_SHEET_MARGIN)
+    thr_sheets_flush(sheets);
+  thr_sheets_fail(flow, thr_grow(&sheets->waiting, sheets->n_waiting, &sheets->waiting_capacity,
+                                 sizeof *sheets->waiting, &flow->why));
 
   /* The page takes over the texts. */
-  if (st)
+  if (flow->why.code)
     thr_step_destroy_text(&step);
   else
     sheets->waiting[sheets->n_waiting++] = step;
-
-  return st;
-}
-
-/* Returns how many of n steps belong to the section that begins with step i: up to the first step
- * at whose end at least `share` pieces of the path are on the cord. new: pieces picked up before
- * step i. */
-static int steps_of_section(const thr_sheets *sheets, const int *end, int n, int i, int new,
-                            int share)
-{
-  int first = i ? end[i - 1] : sheets->first_visit[sheets->visit[end[0] - 1].cord], steps = 0;
-
-  for (int k = first; i + steps < n; k++) {
-    new += sheets->visit[k].nth == 1;
-
-    /* Only the end of a step can be the end of a section. */
-    if (k + 1 < end[i + steps]) continue;
-    steps++;
-    if (new >= share) break;
-  }
-
-  return steps;
 }
 
 void thr_sheets_steps(thr_sheets *sheets, int c)
 {
-  int *end = NULL, n = 0, first = sheets->first_visit[c];
-  int next = 0, section = 0; /* the step before which the next section begins; sections so far */
-  int new = 0;               /* pieces picked up so far */
-  thr_status st = sheets->st ? sheets->st : thr_step_divide(sheets, c, &end, &n, &sheets->why);
-  if (st) thr_sheets_fail(sheets, st, NULL);
+  const thr_known *known = &sheets->known;
+  thr_flow *flow = &sheets->flow;
+  int *end = NULL, n = 0;
+  const int begin = known->first_visit[c];
 
-  /* Sections share the pieces that this path picks up equally. */
-  int sections = n ? thr_sheets_sections(sheets, first, end[n - 1]) : 0, all = 0;
-  for (int i = first; n && i < end[n - 1]; i++)
-    all += sheets->visit[i].nth == 1;
+  if (flow->why.code) return;
+  thr_sheets_fail(flow, thr_step_divide(sheets, c, &end, &n, &flow->why));
 
-  for (int i = 0; i < n && !sheets->st; first = end[i++]) {
-    poll(sheets, first);
+  /* Sections share the pieces that this path picks up equally: section s of m ends with the step at
+   * whose end s / m of them are threaded; the last one takes all steps left. */
+  const int sections = n ? thr_sheets_sections(known, begin, end[n - 1]) : 0,
+            all = n ? thr_sheets_count_new(known, begin, end[n - 1]) : 0;
 
-    /* Section s of m ends when s / m of all pieces are threaded; the last one takes all steps
-     * left. */
-    if (!sheets->st && i == next && section < sections) {
-      int steps = section + 1 < sections
-                      ? steps_of_section(sheets, end, n, i, new, all * (section + 1) / sections)
-                      : n - i;
-      thr_sheets_section(sheets, ++section, sections, first, end[i + steps - 1], steps);
-      next = i + steps;
+  /* next: the step before which the next section begins. */
+  for (int i = 0, first = begin, next = 0, section = 0; i < n && !flow->why.code;
+       first = end[i++]) {
+    poll(flow, known, first);
+
+    if (i == next && section < sections && !flow->why.code) {
+      const int share = ++section < sections ? all * section / sections : INT_MAX;
+      for (next = i + 1; next < n; next++)
+        if (thr_sheets_count_new(known, begin, end[next - 1]) >= share) break;
+      thr_sheets_section(sheets, section, sections, first, end[next - 1], next - i);
     }
 
-    /* Passes of this step go to the page that is waiting. */
-    for (int k = first; k < end[i]; k++)
-      new += sheets->visit[k].nth == 1;
-    st = sheets->st ? sheets->st : wait(sheets, first, end[i], &sheets->why);
-    if (st) thr_sheets_fail(sheets, st, NULL);
+    if (!flow->why.code) wait(sheets, first, end[i]);
   }
 
   free(end);

@@ -49,9 +49,9 @@ double thr_step_strip_height(int visits)
 
 /* Computes the direction of half-edge h on paper, y downwards, in any unit: as the camera sees the
  * edge or, if there is no camera, as the layout draws it. */
-static void direction(const thr_sheets *sheets, const thr_camera *camera, int h, double vector[2])
+static void direction(const thr_known *known, const thr_camera *camera, int h, double vector[2])
 {
-  const thr_frame *frame = sheets->f, *paper = thr_layout_paper(&sheets->guide.layout, frame);
+  const thr_frame *frame = known->f, *paper = thr_layout_paper(&known->guide.layout, frame);
 
   /* Coordinates along the camera's axes to the right and up. */
   if (camera) {
@@ -63,23 +63,23 @@ static void direction(const thr_sheets *sheets, const thr_camera *camera, int h,
   }
 
   /* The layout may cut the framework open: its own frame knows where each end is drawn. */
-  const double *tail = sheets->guide.layout.xy[thr_tail(paper, h)],
-               *head = sheets->guide.layout.xy[thr_head(paper, h)];
+  const double *tail = known->guide.layout.xy[thr_tail(paper, h)],
+               *head = known->guide.layout.xy[thr_head(paper, h)];
   vector[0] = head[0] - tail[0];
   vector[1] = tail[1] - head[1];
 }
 
-void thr_step_arms(const thr_sheets *sheets, const thr_camera *camera, int v, double reach,
+void thr_step_arms(const thr_known *known, const thr_camera *camera, int v, double reach,
                    thr_arms *arms, int half_in, int half_out, int *in, int *out)
 {
-  const thr_frame *frame = sheets->f;
+  const thr_frame *frame = known->f;
   double longest = 0;
   *in = *out = -1;
 
   /* All arms at their own lengths; in comes from outside, so the arm is the opposite half-edge. */
   for (int i = frame->first[v]; i < frame->first[v + 1] && arms->n < THR_ARMS; i++) {
     double *vector = arms->end[arms->n];
-    direction(sheets, camera, frame->half[i], vector);
+    direction(known, camera, frame->half[i], vector);
     longest = fmax(longest, hypot(vector[0], vector[1]));
     if (half_in >= 0 && frame->half[i] == (half_in ^ 1)) *in = arms->n;
     if (frame->half[i] == half_out) *out = arms->n;
@@ -94,11 +94,11 @@ void thr_step_arms(const thr_sheets *sheets, const thr_camera *camera, int v, do
 
 /* Fills the arms of a tube that a needle passes along half-edge half: two from its middle, which
  * lie in one line; none if the tube points at the viewer. */
-static void tube_of(const thr_sheets *sheets, const thr_camera *camera, int half, double reach,
+static void tube_of(const thr_known *known, const thr_camera *camera, int half, double reach,
                     thr_arms *arms, int *in, int *out)
 {
   double vector[2];
-  direction(sheets, camera, half, vector);
+  direction(known, camera, half, vector);
 
   /* As long as the reach on both sides, whatever the tube's length is. */
   double length = hypot(vector[0], vector[1]);
@@ -123,18 +123,18 @@ typedef struct {
 } icon_layers;
 
 /* Appends the icon of a visit, with its hub at a point of the page, to the layers of its row. */
-static void add_icon(const thr_sheets *sheets, int visit, const thr_camera *camera,
+static void add_icon(const thr_known *known, int visit, const thr_camera *camera,
                      const double hub[2], double reach, icon_layers *row)
 {
-  const thr_visit *stay = &sheets->visit[visit];
+  const thr_visit *stay = &known->visit[visit];
   bool new = stay->nth == 1;
   int in, out;
   thr_arms arms = {.hub = {hub[0], hub[1]}};
 
-  if (sheets->pieces.solid)
-    thr_step_arms(sheets, camera, stay->piece, reach, &arms, stay->in, stay->out, &in, &out);
+  if (known->pieces.solid)
+    thr_step_arms(known, camera, stay->piece, reach, &arms, stay->in, stay->out, &in, &out);
   else
-    tube_of(sheets, camera, stay->in, reach, &arms, &in, &out);
+    tube_of(known, camera, stay->in, reach, &arms, &in, &out);
 
   /* The fill ends before the outline does, by the width of the outline. */
   for (int k = 0; k < 2; k++)
@@ -148,10 +148,8 @@ static void add_icon(const thr_sheets *sheets, int visit, const thr_camera *came
                     hub[0], hub[1], 1.1 * CORD * reach);
 }
 
-/* Appends path data as an element with a look, nothing if the data are empty, and releases the
- * data. */
-static void put_path(thr_text *data, const char *fill, const char *stroke, double width,
-                     thr_text *text)
+void thr_step_put_path(thr_text *data, const char *fill, const char *stroke, double width,
+                       thr_text *text)
 {
   if (data->data && !data->failed)
     thr_text_printf(text,
@@ -173,54 +171,64 @@ static void put_layers(icon_layers *row, double width, double reach, const char 
   /* Outlines below fills, pieces on a cord below new ones. */
   for (int state = 0; state < 2; state++)
     for (int k = 0; k < 2; k++)
-      put_path(&row->piece[state][k], "none", look[state][k], width + (k ? -1 : 1) * LINE[state],
-               text);
+      thr_step_put_path(&row->piece[state][k], "none", look[state][k],
+                        width + (k ? -1 : 1) * LINE[state], text);
 
   /* The cord over a white casing, then discs and arrows. */
   thr_text casing = {0};
   if (row->way.data) thr_text_append(&casing, row->way.data);
-  put_path(&casing, "none", "#ffffff", 1.8 * CORD * reach, text);
-  put_path(&row->way, "none", colour, CORD * reach, text);
+  thr_step_put_path(&casing, "none", "#ffffff", 1.8 * CORD * reach, text);
+  thr_step_put_path(&row->way, "none", colour, CORD * reach, text);
 
   if (row->end.data) thr_text_append(text, row->end.data);
   text->failed |= row->end.failed;
   thr_text_destroy(&row->end);
 
-  put_path(&row->tip, colour, "#ffffff", 0.2, text);
+  thr_step_put_path(&row->tip, colour, "#ffffff", 0.2, text);
 }
 
 /* Returns the width of an arm in mm, narrower where a piece of the step has many arms. */
-static double arm_width(const thr_sheets *sheets, const thr_step *step, double reach)
+static double arm_width(const thr_known *known, const thr_step *step, double reach)
 {
   int most = 2;
 
   /* n arms at a distance r from the hub have 2 pi r / n of the circle each. */
-  for (int i = step->first; i < step->end && sheets->pieces.solid; i++) {
-    int arms = thr_degree(sheets->f, sheets->visit[i].piece);
+  for (int i = step->first; i < step->end && known->pieces.solid; i++) {
+    int arms = thr_degree(known->f, known->visit[i].piece);
     if (arms > most && arms <= CROWDED) most = arms;
   }
 
   return reach * fmin(ARM, CROWD * 2 * THR_PI / most);
 }
 
+void thr_step_put_icon(const thr_known *known, int visit, const double hub[2], double reach,
+                       const char *colour, thr_text *text)
+{
+  icon_layers row = {0};
+
+  add_icon(known, visit, NULL, hub, reach, &row);
+  put_layers(&row, ARM * reach, reach, colour, text);
+}
+
 /* Writes the name of a visit's piece below its icon, centred at x: in bold "X-10 B5", its kind and
  * place, if the piece is picked up; "F5" if the piece is on a cord already. */
-static void put_name(thr_sheets *sheets, int visit, double x, double y, double width)
+static void put_name(thr_flow *flow, const thr_known *known, int visit, double x, double y,
+                     double width)
 {
-  const thr_visit *stay = &sheets->visit[visit];
-  const thr_pieces *pieces = &sheets->pieces;
+  const thr_visit *stay = &known->visit[visit];
+  const thr_pieces *pieces = &known->pieces;
   bool new = stay->nth == 1;
   char kind[24] = "", words[128], attributes[96];
   thr_text name = {0};
 
-  thr_pieces_name(pieces, thr_sheets_labels(sheets), stay->piece, &name);
+  thr_pieces_name(pieces, thr_sheets_labels(known), stay->piece, &name);
 
   /* A kind with a single piece tells the maker nothing more than the place. */
   if (new && pieces->solid && pieces->members[pieces->kind[stay->piece]] > 1)
     thr_pieces_kind_name(pieces, pieces->kind[stay->piece], kind);
 
   snprintf(words, sizeof words, "%s%s%.90s", kind, *kind ? " " : "", name.data ? name.data : "");
-  if (name.failed) thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
+  if (name.failed) thr_nomem(&flow->why);
 
   /* What does not fit loses first the kind, then everything. */
   if (*kind && thr_scene_text_width(words, THR_SHEET_SMALL) > width)
@@ -231,33 +239,33 @@ static void put_name(thr_sheets *sheets, int visit, double x, double y, double w
   snprintf(attributes, sizeof attributes, " text-anchor=\"middle\"%s",
            new ? " font-weight=\"bold\"" : " style=\"fill:#444\"");
   if (thr_scene_text_width(words, THR_SHEET_SMALL) <= width)
-    thr_svg_text(thr_sheets_out(sheets), x, y, THR_SHEET_SMALL, attributes, words);
+    thr_svg_text(thr_sheets_out(flow), x, y, THR_SHEET_SMALL, attributes, words);
 }
 
 /* Writes the number of the pass by which the needle comes in, "S" where the cord starts, at the
  * upper left of an icon. */
-static void put_number(thr_sheets *sheets, int visit, double x, double y)
+static void put_number(thr_flow *flow, const thr_known *known, int visit, double x, double y)
 {
   char count[16] = "S";
-  if (sheets->visit[visit].number) snprintf(count, sizeof count, "%d", sheets->visit[visit].number);
+  if (known->visit[visit].number) snprintf(count, sizeof count, "%d", known->visit[visit].number);
 
-  thr_svg_text(thr_sheets_out(sheets), x, y, THR_SHEET_SMALL, " font-weight=\"bold\"", count);
+  thr_svg_text(thr_sheets_out(flow), x, y, THR_SHEET_SMALL, " font-weight=\"bold\"", count);
 }
 
-void thr_step_put_strip(thr_sheets *sheets, const thr_step *step, const thr_camera *camera,
-                        const char *colour)
+void thr_step_put_strip(thr_flow *flow, const thr_known *known, const thr_step *step,
+                        const thr_camera *camera, const char *colour)
 {
   int visits = step->end - step->first, columns = columns_of(visits);
   double reach = reach_of(visits), high = 2 * reach + NAME,
-         width = thr_sheets_width(sheets) / columns;
-  const double aside = ASIDE[sheets->n_passes > 999];
+         width = thr_sheets_width(flow) / columns;
+  const double aside = ASIDE[known->n_passes > 999];
 
-  thr_text *text = thr_sheets_out(sheets);
+  thr_text *text = thr_sheets_out(flow);
 
   /* Row by row; y is the height of the hubs. */
   for (int first = 0; first < visits; first += columns) {
     int n = visits - first < columns ? visits - first : columns;
-    double y = sheets->y + AIR + first / columns * high + reach;
+    double y = flow->y + AIR + first / columns * high + reach;
 
     /* The dashed line from icon to icon shows the order. */
     thr_text_printf(text,
@@ -270,20 +278,20 @@ void thr_step_put_strip(thr_sheets *sheets, const thr_step *step, const thr_came
 
     /* Icons gather in layers, names are written at once. */
     icon_layers row = {0};
-    for (int i = 0; i < n && !sheets->st; i++) {
+    for (int i = 0; i < n && !flow->why.code; i++) {
       const double hub[2] = {THR_SHEET_MARGIN + (i + 0.5) * width + aside, y};
-      add_icon(sheets, step->first + first + i, camera, hub, reach, &row);
-      put_name(sheets, step->first + first + i, hub[0], y + reach + 3.2, width - 0.5);
+      add_icon(known, step->first + first + i, camera, hub, reach, &row);
+      put_name(flow, known, step->first + first + i, hub[0], y + reach + 3.2, width - 0.5);
     }
 
-    put_layers(&row, arm_width(sheets, step, reach), reach, colour, text);
+    put_layers(&row, arm_width(known, step, reach), reach, colour, text);
 
     /* Numbers lie above everything. */
     thr_text_printf(text, "<g fill=\"%s\">\n", colour);
     for (int i = 0; i < n; i++)
-      put_number(sheets, step->first + first + i, THR_SHEET_MARGIN + i * width, y - reach + 2);
+      put_number(flow, known, step->first + first + i, THR_SHEET_MARGIN + i * width, y - reach + 2);
     thr_text_append(text, "</g>\n");
   }
 
-  sheets->y += thr_step_strip_height(visits);
+  flow->y += thr_step_strip_height(visits);
 }

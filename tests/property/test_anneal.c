@@ -110,7 +110,7 @@ static bool anneal(asked *a, int steps, double enough)
                                 .enough = enough};
   thr_status st =
       thr_anneal(&a->columns, &task, &limits, a->plan.cord, a->plan.n_cords, &better, &err);
-  ck_assert_msg(st == THR_OK, "%s", err.text);
+  assert_ok(st, &err);
   return better;
 }
 

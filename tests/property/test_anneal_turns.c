@@ -132,8 +132,7 @@ static bool anneal(asked *a, bool again, int steps, uint64_t seed)
 {
   thr_err err = {0};
   bool better;
-  thr_status st = try_anneal(a, again, steps, seed, &better, &err);
-  ck_assert_msg(st == THR_OK, "%s", err.text);
+  assert_ok(try_anneal(a, again, steps, seed, &better, &err), &err);
   return better;
 }
 

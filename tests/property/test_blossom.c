@@ -23,7 +23,7 @@ static void solve_and_prove(const instance *g)
   thr_matching m;
   thr_err err = {0};
   thr_matching_problem p = view(g);
-  ck_assert_msg(thr_matching_solve(&p, &none, &m, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_matching_solve(&p, &none, &m, &err), &err);
   assert_lightest(g, &m);
   thr_matching_destroy(&m);
 }
@@ -138,7 +138,7 @@ static void grow_and_prove(rng *r, instance *g)
     thr_err err = {0};
     g->n_edges = known;
     thr_matching_problem p = view(g);
-    ck_assert_msg(thr_matching_again(&p, &none, &m, &err) == THR_OK, "%s", err.text);
+    assert_ok(thr_matching_again(&p, &none, &m, &err), &err);
     assert_lightest(g, &m);
     if (known == n_edges) break;
     known += rng_between(r, 0, 1 + n_edges / 6);

@@ -289,9 +289,9 @@ START_TEST(too_many_cords_are_refused)
   thr_err err = {0};
   o.request.cords = 2;
   o.most_passes = 3; /* twice there and back needs 4 */
-  ck_assert_int_eq(thr_least_turning(&f, &o, &limits, &l, &err), THR_EINFEASIBLE);
-  assert_one_line(&err, "no plan with 2 closed cords in every component and at most 3 passes of "
-                        "every edge was found");
+  assert_status(thr_least_turning(&f, &o, &limits, &l, &err), THR_EINFEASIBLE, &err,
+                "no plan with 2 closed cords in every component and at most 3 passes of "
+                "every edge was found");
   ck_assert_ptr_null(l.cord);
   thr_frame_destroy(&f);
 }

@@ -215,92 +215,67 @@ done:
   thr_quotient_destroy(&q);
 }
 
+/* An example's framework, with feet only where cords are to end there, its group and classes. */
+static setting setting_of(const example *t, int ends)
+{
+  static const int nowhere = -1;
+  setting s = {.f = frame_from(t->n, t->m, t->edge, ends == THR_ENDS_FEET ? t->feet : &nowhere)};
+  s.g = automorphisms_by_hand(&s.f);
+  ck_assert_int_eq(thr_subgroup_classes_find(&s.g, 1000, &s.classes, NULL), THR_OK);
+  return s;
+}
+
+typedef enum { BY_COVER, BY_CAPACITY, TIED } comparison;
+
+/* Compares the covers of an example under all its groups and kinds of ends: of covers, of
+ * capacities with a need of every edge, or of tube joints with and without a limit on passes. */
+static void compare_all(const example *t, comparison by, tally *n)
+{
+  static const struct {
+    int first, last, step;
+  } of[] = {[BY_COVER] = {1, 2, 1}, [BY_CAPACITY] = {1, 3, 1}, [TIED] = {2, 4, 2}};
+  for (int ends = THR_ENDS_CLOSED; ends <= THR_ENDS_FEET; ends++) {
+    int needed[MOST_ORBITS], capacity[MOST_ORBITS];
+    setting s = setting_of(t, ends);
+    for (int k = 0; k < s.classes.n; k++)
+      for (int most = of[by].first; most <= of[by].last; most += of[by].step) {
+        thr_cover_options o = cover_options((thr_ends)ends, by == BY_COVER ? most : 1);
+        for (int e = 0; e < s.f.n_edges; e++) {
+          needed[e] = 1;
+          capacity[e] = most;
+        }
+        o.tube = by == TIED;
+        if (by == BY_CAPACITY) o.edge_cover = needed;
+        if (by == BY_CAPACITY || (by == TIED && most == 2)) o.edge_capacity = capacity;
+        if (s.classes.subgroup[k].order <= 48)
+          compare_with_exhaustion(t, &s.f, &s.g, &s.classes.subgroup[k], &o, n);
+      }
+    setting_destroy(&s);
+  }
+  ck_assert_int_ge(n->compared, 10);
+}
+
 START_TEST(covers_match_exhaustion)
 {
-  const example *t = &cover_examples[_i];
   tally n = {0};
-  for (int ends = THR_ENDS_CLOSED; ends <= THR_ENDS_FEET; ends++) {
-    static const int nowhere = -1;
-    thr_frame f = frame_from(t->n, t->m, t->edge, ends == THR_ENDS_FEET ? t->feet : &nowhere);
-    thr_group g = automorphisms_by_hand(&f);
-    thr_subgroup_classes classes;
-    ck_assert_int_eq(thr_subgroup_classes_find(&g, 1000, &classes, NULL), THR_OK);
-    for (int k = 0; k < classes.n; k++)
-      for (int cover = 1; cover <= 2; cover++) {
-        thr_cover_options o = cover_options((thr_ends)ends, cover);
-        if (classes.subgroup[k].order <= 48)
-          compare_with_exhaustion(t, &f, &g, &classes.subgroup[k], &o, &n);
-      }
-    thr_subgroup_classes_destroy(&classes);
-    thr_group_destroy(&g);
-    thr_frame_destroy(&f);
-  }
-  ck_assert_int_ge(n.compared, 10);
+  compare_all(&cover_examples[_i], BY_COVER, &n);
   ck_assert_int_le(n.beyond, 40);
   ck_assert_int_ge(2 * n.near, n.bounds); /* of no use otherwise */
   ck_assert_int_ge(4 * n.exact, n.compared - n.repeats);
 }
 END_TEST
 
-/* Tube joints, with and without a limit on passes: the same comparison. */
 START_TEST(tied_covers_match_exhaustion)
 {
-  const example *t = &cover_examples[_i];
   tally n = {0};
-  for (int ends = THR_ENDS_CLOSED; ends <= THR_ENDS_FEET; ends++) {
-    static const int nowhere = -1;
-    int capacity[MOST_ORBITS];
-    thr_frame f = frame_from(t->n, t->m, t->edge, ends == THR_ENDS_FEET ? t->feet : &nowhere);
-    thr_group g = automorphisms_by_hand(&f);
-    thr_subgroup_classes classes;
-    ck_assert_int_eq(thr_subgroup_classes_find(&g, 1000, &classes, NULL), THR_OK);
-    for (int k = 0; k < classes.n; k++)
-      for (int most = 2; most <= 4; most += 2) {
-        thr_cover_options o = cover_options((thr_ends)ends, 1);
-        o.tube = true;
-        if (most == 2) o.edge_capacity = capacity;
-        for (int e = 0; e < f.n_edges; e++)
-          capacity[e] = most;
-        if (classes.subgroup[k].order <= 48)
-          compare_with_exhaustion(t, &f, &g, &classes.subgroup[k], &o, &n);
-      }
-    thr_subgroup_classes_destroy(&classes);
-    thr_group_destroy(&g);
-    thr_frame_destroy(&f);
-  }
-  ck_assert_int_ge(n.compared, 10);
+  compare_all(&cover_examples[_i], TIED, &n);
 }
 END_TEST
 
-/* Capacities, and edges that need more passes than others: the same comparison. */
 START_TEST(capacities_match_exhaustion)
 {
-  const example *t = &cover_examples[_i];
   tally n = {0};
-  for (int ends = THR_ENDS_CLOSED; ends <= THR_ENDS_FEET; ends++) {
-    static const int nowhere = -1;
-    int needed[MOST_ORBITS], capacity[MOST_ORBITS];
-    thr_frame f = frame_from(t->n, t->m, t->edge, ends == THR_ENDS_FEET ? t->feet : &nowhere);
-    thr_group g = automorphisms_by_hand(&f);
-    thr_subgroup_classes classes;
-    ck_assert_int_eq(thr_subgroup_classes_find(&g, 1000, &classes, NULL), THR_OK);
-    for (int k = 0; k < classes.n; k++)
-      for (int most = 1; most <= 3; most++) {
-        thr_cover_options o = cover_options((thr_ends)ends, 1);
-        o.edge_cover = needed;
-        o.edge_capacity = capacity;
-        for (int e = 0; e < f.n_edges; e++) {
-          needed[e] = 1;
-          capacity[e] = most;
-        }
-        if (classes.subgroup[k].order <= 48)
-          compare_with_exhaustion(t, &f, &g, &classes.subgroup[k], &o, &n);
-      }
-    thr_subgroup_classes_destroy(&classes);
-    thr_group_destroy(&g);
-    thr_frame_destroy(&f);
-  }
-  ck_assert_int_ge(n.compared, 10);
+  compare_all(&cover_examples[_i], BY_CAPACITY, &n);
   ck_assert_int_eq(n.beyond, 0);
 }
 END_TEST
@@ -363,23 +338,17 @@ START_TEST(limited_ends_match_exhaustion)
   const example *t = &cover_examples[_i];
   tally n = {0}, cords = {0};
   for (int ends = THR_ENDS_ANY; ends <= THR_ENDS_FEET; ends++) {
-    static const int nowhere = -1;
-    thr_frame f = frame_from(t->n, t->m, t->edge, ends == THR_ENDS_FEET ? t->feet : &nowhere);
-    thr_group g = automorphisms_by_hand(&f);
-    thr_subgroup_classes classes;
-    ck_assert_int_eq(thr_subgroup_classes_find(&g, 1000, &classes, NULL), THR_OK);
-    for (int k = 0; k < classes.n; k++)
+    setting s = setting_of(t, ends);
+    for (int k = 0; k < s.classes.n; k++)
       for (int most = 1; most <= 2; most++) {
         thr_cover_options o = cover_options((thr_ends)ends, 1);
         o.most_ends = 2 * most;
-        if (classes.subgroup[k].order > 48) continue;
-        if (most == 1 && ends == THR_ENDS_ANY)
-          compare_with_exhaustion(t, &f, &g, &classes.subgroup[k], &o, &n);
-        compare_cords(t, &f, &g, &classes.subgroup[k], (thr_ends)ends, most, &cords);
+        const thr_subgroup *h = &s.classes.subgroup[k];
+        if (h->order > 48) continue;
+        if (most == 1 && ends == THR_ENDS_ANY) compare_with_exhaustion(t, &s.f, &s.g, h, &o, &n);
+        compare_cords(t, &s.f, &s.g, h, (thr_ends)ends, most, &cords);
       }
-    thr_subgroup_classes_destroy(&classes);
-    thr_group_destroy(&g);
-    thr_frame_destroy(&f);
+    setting_destroy(&s);
   }
   ck_assert_int_ge(n.compared, 2);
   ck_assert_int_ge(cords.compared, 4);

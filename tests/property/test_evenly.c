@@ -1,228 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cords that turn evenly, tied cords that turn least, and given numbers of ends that differ from
- * piece to piece, of random small frameworks against every choice of passes, ends and pairs. */
+ * piece to piece, of random small frameworks against all walks (tests/walks.h). */
 #include "graph/framework/frame.h"
 #include "graph/plan/turning_proof.h"
 #include "planner/planner.h"
 #include "tests/frameworks.h"
+#include "tests/judging.h"
 #include "tests/plans.h"
 #include "tests/symmetric.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- oracle: every choice of passes, ends and pairs, pass by pass ---- */
-
-enum { MOST_EDGES = 10, MOST_NODES = 8, MOST_POINTS = 64, MOST_CORDS = 8, MOST_STEPS = 40000000 };
-
-/* Points are what is paired: the two sides of every pass (2 p and 2 p + 1, at the nodes where it
- * leaves), then the cord ends. */
-typedef struct {
-  const thr_frame *f;
-  const thr_request *o;
-  bool largest;   /* of the cord that turns most; else of all together */
-  int most_extra; /* passes of an edge */
-  double most_length;
-  int component[MOST_NODES], n_components;
-  int passes[MOST_EDGES], ends[MOST_NODES];
-  int n_points, n_sides, half[MOST_POINTS], node[MOST_POINTS], mate[MOST_POINTS];
-  double best;
-  long steps;
-} oracle;
-
-static double pair_price(const oracle *w, int a, int b)
-{
-  if (a >= w->n_sides && b >= w->n_sides) return INFINITY;
-  if (a >= w->n_sides || b >= w->n_sides) return 0;
-  bool back = w->half[a] == w->half[b];
-  if (back && (thr_degree(w->f, w->node[a]) > 1 || w->o->joint == THR_JOINT_TUBE)) return INFINITY;
-  return thr_turn_price(w->f, w->o->turning.cost, w->half[a] ^ 1, w->half[b]);
-}
-
-/* Do the pairs at the node hang together, edge by edge? */
-static bool node_tied(const oracle *w, int v)
-{
-  unsigned reached = 0, all = 0, first = 0;
-  for (int a = 0; a < w->n_sides; a++)
-    if (w->node[a] == v) {
-      all |= 1u << (w->half[a] >> 1);
-      if (!first) first = 1u << (w->half[a] >> 1);
-    }
-  for (unsigned next = first; next != reached;) {
-    reached = next;
-    for (int a = 0; a < w->n_sides; a++)
-      if (w->node[a] == v && w->mate[a] < w->n_sides && next >> (w->half[a] >> 1) & 1u)
-        next |= 1u << (w->half[w->mate[a]] >> 1);
-  }
-  return reached == all;
-}
-
-/* Follows the cord from an end, or a closed one from a side, and marks what it meets; its price. */
-static double run_along(const oracle *w, int a, bool *met)
-{
-  double price = 0;
-  met[a] = true;
-  for (int b = a, next;; b = next) {
-    int other = b < w->n_sides ? b ^ 1 : b; /* across the pass */
-    next = w->mate[other];
-    met[other] = met[next] = true;
-    price += pair_price(w, other, next);
-    if (next == a || next >= w->n_sides) return price;
-  }
-}
-
-/* As many cords in every component as there must be: what is to be small, or INFINITY. */
-static double judge(const oracle *w)
-{
-  bool met[MOST_POINTS] = {false}, closed = w->o->ends == THR_ENDS_CLOSED;
-  int count[MOST_NODES] = {0};
-  double sum = 0, largest = 0;
-  for (int a = closed ? 0 : w->n_sides; a < w->n_points; a++) {
-    if (met[a]) continue;
-    double price = run_along(w, a, met);
-    sum += price;
-    largest = fmax(largest, price);
-    count[w->component[w->node[a]]]++;
-  }
-  for (int a = 0; a < w->n_points; a++)
-    if (!met[a]) return INFINITY; /* on a circuit without ends */
-  for (int k = 0; k < w->n_components; k++)
-    if (w->o->ends != THR_ENDS_COUNTS && count[k] != w->o->cords) return INFINITY;
-  return w->largest ? largest : sum;
-}
-
-/* Is nothing paired yet of the pass that a side belongs to? */
-static bool fresh(const oracle *w, int side)
-{
-  return w->mate[side] < 0 && w->mate[side ^ 1] < 0;
-}
-
-/* Was the point before b, which is like it, tried as the mate of a? Ends at a node are alike, and
- * so are passes of an edge of which nothing is paired yet. */
-static bool tried(const oracle *w, int a, int b)
-{
-  if (b >= w->n_sides)
-    return b - 1 >= w->n_sides && w->node[b - 1] == w->node[b] && w->mate[b - 1] < 0;
-  return b >= 2 && w->half[b - 2] == w->half[b] && a >> 1 != (b - 2) >> 1 && fresh(w, b) &&
-         fresh(w, b - 2);
-}
-
-/* Pairs what has no mate, node by node. */
-static void pair_points(oracle *w, double price)
-{
-  int cords = w->o->ends == THR_ENDS_CLOSED ? w->o->cords * w->n_components
-                                            : (w->n_points - w->n_sides) / 2,
-      a = -1;
-  if (price / (w->largest ? cords : 1) >= w->best - 1e-9) return;
-  ck_assert_int_lt(++w->steps, MOST_STEPS);
-  for (int v = 0; v < w->f->n_nodes && a < 0; v++) {
-    for (int i = 0; i < w->n_points && a < 0; i++)
-      if (w->node[i] == v && w->mate[i] < 0) a = i;
-    if (a < 0 && w->o->joint == THR_JOINT_TUBE && !node_tied(w, v)) return;
-  }
-  if (a < 0) {
-    w->best = fmin(w->best, judge(w));
-    return;
-  }
-  for (int b = a + 1; b < w->n_points; b++) {
-    double more = w->node[b] != w->node[a] || w->mate[b] >= 0 || tried(w, a, b)
-                      ? (double)INFINITY
-                      : pair_price(w, a, b);
-    if (isinf(more)) continue;
-    w->mate[a] = b;
-    w->mate[b] = a;
-    pair_points(w, price + more);
-    w->mate[a] = w->mate[b] = -1;
-  }
-}
-
-static void add_point(oracle *w, int half, int node)
-{
-  ck_assert_int_lt(w->n_points, MOST_POINTS);
-  w->half[w->n_points] = half;
-  w->node[w->n_points] = node;
-  w->mate[w->n_points++] = -1;
-}
-
-static void pair_all(oracle *w)
-{
-  w->n_points = 0;
-  for (int e = 0; e < w->f->n_edges; e++)
-    for (int i = 0; i < w->passes[e]; i++) {
-      add_point(w, 2 * e, w->f->edge[e][0]);
-      add_point(w, 2 * e + 1, w->f->edge[e][1]);
-    }
-  w->n_sides = w->n_points;
-  for (int v = 0; v < w->f->n_nodes; v++)
-    for (int i = 0; i < w->ends[v]; i++)
-      add_point(w, -1, v);
-  for (int v = 0; v < w->f->n_nodes; v++) {
-    int at = -2 * w->ends[v]; /* passes that turn */
-    for (int i = 0; i < w->n_points; i++)
-      at += w->node[i] == v;
-    if (at % 2 || at < 0 || (w->o->joint == THR_JOINT_TUBE && at < 2 * (thr_degree(w->f, v) - 1)))
-      return;
-  }
-  pair_points(w, 0);
-}
-
-/* Ends at node v and after: left[k] of them in component k. */
-static void choose_ends(oracle *w, int v, int *left)
-{
-  const thr_request *o = w->o;
-  if (v == w->f->n_nodes) {
-    for (int k = 0; k < w->n_components; k++)
-      if (left[k]) return;
-    pair_all(w);
-    return;
-  }
-  int k = w->component[v], most = thr_plan_end_allowed(w->f, o, v) ? left[k] : 0;
-  for (int n = 0; n <= most; n++) {
-    if (o->ends == THR_ENDS_COUNTS && n != o->end_count[v]) continue;
-    w->ends[v] = n;
-    left[k] -= n;
-    choose_ends(w, v + 1, left);
-    left[k] += n;
-  }
-  w->ends[v] = 0;
-}
-
-static void choose_passes(oracle *w, int e, double length)
-{
-  if (length > w->most_length * (1 + 1e-9)) return;
-  if (e == w->f->n_edges) {
-    int left[MOST_NODES] = {0};
-    for (int k = 0;
-         k < w->n_components && w->o->ends != THR_ENDS_CLOSED && w->o->ends != THR_ENDS_COUNTS; k++)
-      left[k] = 2 * w->o->cords;
-    for (int v = 0; v < w->f->n_nodes && w->o->ends == THR_ENDS_COUNTS; v++)
-      left[w->component[v]] += w->o->end_count[v];
-    choose_ends(w, 0, left);
-    return;
-  }
-  int cover = thr_plan_cover(w->f, w->o, e), most = thr_plan_capacity(w->f, w->o, e);
-  for (int m = cover; m <= cover + w->most_extra && m <= most; m++) {
-    w->passes[e] = m;
-    choose_passes(w, e + 1, length + m * w->f->length[e]);
-  }
-}
-
-/* Least price of all turns, or of those of the cord that turns most, below `below`; or below. */
-static double least_by_enumeration(const thr_frame *f, const thr_request *o, bool largest,
-                                   int most_extra, double most_length, double below)
-{
-  oracle w = {.f = f,
-              .o = o,
-              .largest = largest,
-              .most_extra = most_extra,
-              .most_length = most_length,
-              .best = below};
-  ck_assert(f->n_edges <= MOST_EDGES && f->n_nodes <= MOST_NODES);
-  ck_assert_int_eq(thr_frame_components(f, w.component, &w.n_components, NULL), THR_OK);
-  choose_passes(&w, 0, 0);
-  return w.best;
-}
+enum { MOST_EDGES = 10, MOST_NODES = 8, MOST_STATES = 400000, MOST_EXTRA = 2 };
 
 /* ---- what holds for every plan ---- */
 
@@ -230,20 +22,32 @@ typedef struct {
   int asked, found, possible, least, optimal;
 } tally;
 
+/* Tells whether the cords of some plan no longer than longest turn by at_most in all, or, if
+ * largest, by at_most each. */
+static bool is_possible(const judged *j, bool largest, double longest, double at_most)
+{
+  if (largest && at_most < 0) return false;
+  const double least = judged_least_turning(j, longest, largest ? at_most : -1);
+  ck_assert(!isnan(least));
+  return least <= (largest ? 0 : at_most);
+}
+
 /* Never below the least of all, never a bound above it, never a false claim; how often the plan is
  * the least is counted. */
-static void compare(const thr_frame *f, const thr_request *o, int most_extra, tally *t)
+static void compare(const thr_frame *f, const thr_request *o, tally *t)
 {
   const thr_limits none = {0};
   thr_plan p;
   thr_err err = {0};
-  bool largest = thr_wants_largest(o);
+  thr_request few = *o; /* within a length short edges would have too many passes to try */
+  const bool largest = thr_wants_largest(o);
+  few.capacity = o->turning.length_slack < 0 ? 0 : o->cover + MOST_EXTRA;
+  const judged all = judged_of(f, &few, MOST_STATES);
   thr_status st = thr_tortuosity_plan(f, o, &none, &p, &err);
   t->asked++;
   if (st == THR_EINFEASIBLE) {
     assert_one_line(&err, NULL);
-    if (o->turning.length_slack < 0)
-      t->possible += isfinite(least_by_enumeration(f, o, largest, most_extra, INFINITY, INFINITY));
+    if (o->turning.length_slack < 0) t->possible += is_possible(&all, false, INFINITY, DBL_MAX);
     return;
   }
   ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
@@ -254,19 +58,20 @@ static void compare(const thr_frame *f, const thr_request *o, int most_extra, ta
     thr_plan_destroy(&p);
     return;
   }
-  double value = largest ? p.turning.largest : p.turning.price,
-         bound = largest ? p.turning.largest_bound : p.turning.lower_bound;
-  double limit = p.turning.length_limit < 0 ? (double)INFINITY : p.turning.length_limit;
-  double least = least_by_enumeration(f, o, largest, most_extra, limit, value + 1e-3);
-  bool optimal = largest ? p.turning.largest_optimal : p.turning.optimal;
-  if (p.metrics.most_passes <= o->cover + most_extra && !f->cover)
-    ck_assert_double_le(least, value + 1e-6); /* it finds the plan */
-  ck_assert_double_le(bound, least + 1e-6);
-  ck_assert(!optimal || value <= least + 1e-6);
+  const double value = largest ? p.turning.largest : p.turning.price,
+               bound = largest ? p.turning.largest_bound : p.turning.lower_bound,
+               limit = p.turning.length_limit < 0 ? (double)INFINITY
+                                                  : p.turning.length_limit * (1 + 1e-9);
+  const bool optimal = largest ? p.turning.largest_optimal : p.turning.optimal,
+             least = !is_possible(&all, largest, limit, value - 1e-6);
+  if (few.capacity == 0 || p.metrics.most_passes <= few.capacity)
+    ck_assert(is_possible(&all, largest, limit, value + 1e-6)); /* it finds the plan */
+  ck_assert(!is_possible(&all, largest, limit, bound - 1e-6));
+  ck_assert(!optimal || least);
   ck_assert_int_eq(optimal && !p.proof.slack_open, st == THR_OK);
   t->found++;
   t->possible++;
-  t->least += value <= least + 1e-6;
+  t->least += least;
   t->optimal += optimal;
   thr_plan_destroy(&p);
 }
@@ -294,7 +99,7 @@ START_TEST(cords_are_least)
     bool largest = k % 4 > 0;
     thr_request o =
         request(&r, k % 5 ? THR_JOINT_TUBE : THR_JOINT_SOLID, kind[_i % 3], 1 + k % 3, largest);
-    compare(&f, &o, 2, &t);
+    compare(&f, &o, &t);
     thr_frame_destroy(&f);
   }
   ck_assert_int_eq(t.found, t.possible);
@@ -341,7 +146,7 @@ START_TEST(right_angles_are_counted)
   for (int k = 0; k < 24; k++) {
     thr_frame f = lattice_frame(&r, rng_between(&r, 3, 5));
     thr_request o = request(&r, THR_JOINT_SOLID, kind[_i % 3], 1 + k % 3, k % 4 > 0);
-    if (f.n_edges <= 5) compare(&f, &o, 2, &t);
+    if (f.n_edges <= 5) compare(&f, &o, &t);
     thr_frame_destroy(&f);
   }
   ck_assert_int_gt(t.found, 4);
@@ -367,7 +172,7 @@ START_TEST(given_ends_in_every_piece)
     o.end_count = end_count;
     o.cords = cords[0] > cords[1] ? cords[0] : cords[1];
     o.cords_least = cords[0] + cords[1] - o.cords;
-    compare(&f, &o, 2, &t);
+    compare(&f, &o, &t);
     thr_frame_destroy(&a);
     thr_frame_destroy(&b);
     thr_frame_destroy(&f);
@@ -421,8 +226,7 @@ END_TEST
 static void assert_refused(const thr_plan *p, const char *word)
 {
   thr_err err = {0};
-  ck_assert_int_eq(judge_plan(p, &err), THR_EVIOLATED);
-  assert_one_line(&err, word);
+  assert_status(judge_plan(p, &err), THR_EVIOLATED, &err, word);
 }
 
 START_TEST(false_claims_are_refused)

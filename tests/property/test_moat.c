@@ -430,7 +430,7 @@ START_TEST(glpk_confirms_what_is_optimal_and_nothing_else)
       thr_tjoin t = solve(&g, by);
       int said;
       thr_err err = {0};
-      ck_assert_msg(confirm(&p, &t, &said, &err) == THR_OK, "%s", err.text);
+      assert_ok(confirm(&p, &t, &said, &err), &err);
       ck_assert_int_eq(said, 1);
       t.length += 1 + rng_below(&r, 5);
       if (t.n_cuts) ck_assert_int_eq(confirm(&p, &t, &said, &err), THR_ESOLVER);

@@ -59,8 +59,7 @@ static void instance_make(rng *r, instance *x, int kind)
   if (rng_below(r, 3) == 0) x->task.capacity = rng_between(r, 4, 6);
   choose_ends(r, x, kind);
   thr_err err = {0};
-  ck_assert_msg(thr_turning_columns_init(&x->c, &x->frame, &x->task, &err) == THR_OK, "%s",
-                err.text);
+  assert_ok(thr_turning_columns_init(&x->c, &x->frame, &x->task, &err), &err);
 }
 
 static void instance_destroy(instance *x)
@@ -113,8 +112,7 @@ static bool solve_and_compare(thr_pass_matching *passes, int64_t *price)
     for (int j = 0; j < c->n_columns; j++)
       sum += x[j] * ldexp((double)price[j], -THR_TURNING_BITS);
     c->weight = price;
-    ck_assert_msg(thr_turning_dual_bound(c, &dual, NULL, NULL, &bound, &err) == THR_OK, "%s",
-                  err.text);
+    assert_ok(thr_turning_dual_bound(c, &dual, NULL, NULL, &bound, &err), &err);
     c->weight = own;
     double proved = ldexp((double)bound, -THR_TURNING_BITS);
     ck_assert_double_le(proved, sum + 1e-8);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lengths with covers, capacities and ends of every kind against all subsets of edges; what is said
- * of several cords against all ways to share small frameworks out. */
+ * of several cords against all walks (tests/walks.h). */
 #include "graph/check/check.h"
 #include "lp/length/postman.h"
 #include "tests/frameworks.h"
+#include "tests/judging.h"
 #include "tests/oracles.h"
 #include "tests/plans.h"
 #include "tests/support.h"
@@ -125,62 +126,6 @@ END_TEST
 
 /* ---- several cords ---- */
 
-/* Can one cord make these passes? */
-static bool one_cord(const thr_frame *f, const thr_request *o, const int *passes, double *length)
-{
-  int n = f->n_nodes, part[8], sum[8] = {0}, odd = 0;
-  bool any = false;
-  *length = 0;
-  for (int v = 0; v < n; v++)
-    part[v] = v;
-  for (int e = 0; e < f->n_edges; e++) {
-    *length += passes[e] * f->length[e];
-    if (!passes[e]) continue;
-    int a = part[f->edge[e][0]], b = part[f->edge[e][1]];
-    for (int i = 0; i < 2; i++)
-      sum[f->edge[e][i]] += passes[e];
-    for (int v = 0; v < n; v++)
-      if (part[v] == b) part[v] = a;
-  }
-  for (int v = 0, first = -1; v < n; v++) {
-    if (sum[v] == 0) continue;
-    if (first < 0) first = part[v];
-    if (part[v] != first) return false;
-    bool allowed = o->ends == THR_ENDS_ANY || (o->ends == THR_ENDS_FEET && f->foot[v]);
-    any |= allowed || o->ends == THR_ENDS_CLOSED;
-    if (sum[v] % 2 == 0) continue;
-    odd++;
-    if (!allowed) return false;
-  }
-  return any && odd <= 2;
-}
-
-/* The shortest longest cord of exactly k, by trying all ways to give every edge 0 to 2 passes of
- * each. */
-static double least_longest(const thr_frame *f, const thr_request *o, int k)
-{
-  int choice[8] = {0}, choices = k == 1 ? 3 : k == 2 ? 9 : 27, passes[3][8];
-  double best = INFINITY;
-  for (int e = 0; e < f->n_edges;) {
-    double longest = 0, length;
-    bool good = true;
-    for (int i = 0; i < f->n_edges; i++) {
-      int all = 0;
-      for (int c = 0, code = choice[i]; c < k; c++, code /= 3)
-        all += passes[c][i] = code % 3;
-      good &= all > 0;
-    }
-    for (int c = 0; c < k && good; c++) {
-      good = one_cord(f, o, passes[c], &length);
-      longest = fmax(longest, length);
-    }
-    if (good && longest < best) best = longest;
-    for (e = 0; e < f->n_edges && ++choice[e] == choices; e++)
-      choice[e] = 0;
-  }
-  return best;
-}
-
 START_TEST(bounds_on_several_cords_are_true)
 {
   static const thr_ends ends[] = {THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_CLOSED};
@@ -196,11 +141,11 @@ START_TEST(bounds_on_several_cords_are_true)
   p.options.cords = p.n_cords + 1;
   p.options.cords_least = 1;
   for (int k = 1; k <= 3; k++)
-    least[k] = least_longest(&f, &o, k);
+    least[k] = judged_longest(&f, &o, k);
   for (int i = 0; i < p.n_cords; i++)
     p.options.max_length = fmax(p.options.max_length, thr_cord_length(&f, &p.cord[i]));
   thr_status st = thr_check_cords(&f, &p.options, p.cord, p.n_cords, NULL, 0, NULL, &found, &err);
-  ck_assert_msg(st == THR_OK, "%s", err.text);
+  assert_ok(st, &err);
   double by_nothing = found.longest_bound;
   thr_shortest s;
   ck_assert_int_eq(thr_postman_shortest(&f, &p.options, &(thr_limits){0}, &s, NULL), THR_OK);
@@ -210,7 +155,7 @@ START_TEST(bounds_on_several_cords_are_true)
                    THR_OK);
   st = thr_check_cords(&f, &p.options, p.cord, p.n_cords, p.proof.certificate, 1, NULL,
                        &p.cords_claim, &err);
-  ck_assert_msg(st == THR_OK, "%s", err.text);
+  assert_ok(st, &err);
   int fewest = 1;
   double best = INFINITY;
   for (int k = 1; k <= p.options.cords; k++)

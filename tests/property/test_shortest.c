@@ -202,9 +202,7 @@ START_TEST(a_longer_plan_is_bounded_by_the_shortest)
     p.proof = (thr_length_proof){0};
     ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, p.n_cords, &p.metrics, NULL),
                      THR_OK);
-    ck_assert_msg(thr_postman_prove(&p.frame, &p.options, p.cord, p.n_cords, &s, &p.proof, &err) ==
-                      THR_OK,
-                  "%s", err.text);
+    assert_ok(thr_postman_prove(&p.frame, &p.options, p.cord, p.n_cords, &s, &p.proof, &err), &err);
     ck_assert(!p.proof.optimal && s.certificate == NULL);
     ck_assert_double_eq_tol(p.metrics.length, least + 2 * bead, 1e-12 * least);
     ck_assert_double_eq_tol(p.proof.lower_bound, least, 1e-12 * least);

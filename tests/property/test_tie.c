@@ -5,13 +5,80 @@
 #include "graph/plan/turning_proof.h"
 #include "lp/solver/solver.h"
 #include "tests/frameworks.h"
-#include "tests/ties.h"
 #include "tortuosity/proof/relax_parts.h"
 #include "tortuosity/tie/tie.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* ---- what it costs to tie a node, by trying all turns there ---- */
+
+enum { MOST_TIED = 6 }; /* edges of a node */
+
+typedef struct {
+  int d;                              /* edges; point d stands for the cord ends */
+  int left[MOST_TIED + 1];            /* passes of an edge, ends */
+  double price[MOST_TIED][MOST_TIED]; /* of a turn between edges i < j */
+  unsigned link[MOST_TIED + 1];       /* zero between calls */
+  double least;
+} tied_star;
+
+static bool connected(int d, const unsigned *link)
+{
+  unsigned seen = 1, next = 1;
+  while (next) {
+    int i = 0;
+    while (!(next >> i & 1u))
+      i++;
+    next &= ~(1u << i);
+    next |= link[i] & ~seen;
+    seen |= link[i];
+  }
+  return seen == (1u << d) - 1;
+}
+
+/* Numbers of turns between points a and b and all later pairs, of which none is of a point with
+ * itself. */
+static void all_turns(tied_star *k, int a, int b, double price)
+{
+  if (b > k->d) {
+    if (k->left[a] > 0) return;
+    a++;
+    b = a + 1;
+  }
+  if (price >= k->least) return;
+  if (a == k->d) {
+    if (k->left[a] == 0 && connected(k->d, k->link)) k->least = price;
+    return;
+  }
+  bool end = b == k->d;
+  int most = k->left[a] < k->left[b] ? k->left[a] : k->left[b];
+  for (int n = 0; n <= most; n++) {
+    unsigned before[2] = {k->link[a], k->link[b]};
+    if (n > 0 && !end) {
+      k->link[a] |= 1u << b;
+      k->link[b] |= 1u << a;
+    }
+    k->left[a] -= n;
+    k->left[b] -= n;
+    all_turns(k, a, b + 1, price + (end ? 0 : n * k->price[a][b]));
+    k->left[a] += n;
+    k->left[b] += n;
+    k->link[a] = before[0];
+    k->link[b] = before[1];
+  }
+}
+
+/* Least price of turns that take all passes and ends, none back into its own edge, and tie the
+ * edges; INFINITY: there are none.
+ */
+static double least_by_all_turns(tied_star *k)
+{
+  k->least = INFINITY;
+  all_turns(k, 0, 1, 0);
+  return k->least;
+}
 
 /* A framework with its columns; ends: open cords, ends anywhere. */
 typedef struct {
@@ -34,7 +101,7 @@ static void world_make(world *w, thr_frame f, int cover, bool ends, double slack
                                .tube = true,
                                .extra_limit = slack};
   thr_err err = {0};
-  ck_assert_msg(thr_turning_columns_init(&w->c, &w->f, &w->task, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_turning_columns_init(&w->c, &w->f, &w->task, &err), &err);
   w->passes = calloc((size_t)f.n_edges, sizeof *w->passes);
   w->ends = calloc((size_t)f.n_nodes, sizeof *w->ends);
 }
@@ -298,8 +365,8 @@ static double ascent_bound(const thr_turning_columns *c, const thr_limits *limit
   double *mean = calloc((size_t)c->n_columns, sizeof *mean);
   for (int j = 0; j < c->n_columns; j++)
     high[j] = thr_turning_most(c, j);
-  ck_assert_msg(thr_ascent_run(c, INFINITY, limits, &d, mean, &err) == THR_OK, "%s", err.text);
-  ck_assert_msg(thr_turning_dual_bound(c, &d, low, high, &bound, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_ascent_run(c, INFINITY, limits, &d, mean, &err), &err);
+  assert_ok(thr_turning_dual_bound(c, &d, low, high, &bound, &err), &err);
   for (int j = 0; j < c->n_columns; j++)
     ck_assert(mean[j] >= 0 && (j >= c->first_extra || mean[j] == 0));
   thr_turning_dual_destroy(&d);

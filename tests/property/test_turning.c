@@ -496,7 +496,7 @@ static thr_max_turning even_out(const thr_frame *f, thr_least *l)
   thr_err err = {0};
   thr_limits limits = {0};
   double before = largest_price(l, f), sum_bound = l->bound;
-  ck_assert_msg(thr_max_turning_improve(f, 0, &limits, l, &m, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_max_turning_improve(f, 0, &limits, l, &m, &err), &err);
   assert_cords(f, l);
   ck_assert_double_eq_tol(m.largest, largest_price(l, f), 1e-9 * m.largest);
   ck_assert_double_le(m.largest, before * (1 + 1e-9));
@@ -570,14 +570,12 @@ START_TEST(requests_without_a_plan_are_refused)
   bool nowhere[3] = {false};
   o.request.ends = THR_ENDS_NODES;
   o.request.end_node = nowhere;
-  ck_assert_int_eq(thr_least_turning(&f, &o, &limits, &l, &err), THR_EINFEASIBLE);
-  assert_one_line(&err, "no node where a cord may end");
+  assert_status(thr_least_turning(&f, &o, &limits, &l, &err), THR_EINFEASIBLE, &err,
+                "no node where a cord may end");
   ck_assert_ptr_null(l.cord);
   o = thr_least_options_default();
   o.most_passes = 1; /* there and back needs 2 */
-  err = (thr_err){0};
-  ck_assert_int_eq(thr_least_turning(&f, &o, &limits, &l, &err), THR_EINFEASIBLE);
-  assert_one_line(&err, "1 passes");
+  assert_status(thr_least_turning(&f, &o, &limits, &l, &err), THR_EINFEASIBLE, &err, "1 passes");
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -627,8 +625,7 @@ START_TEST(large_frames_have_a_bound_without_time)
   thr_least l, full = solve(&f, &o, true);
   thr_err err = {0};
   thr_limits limits = {.deadline = thr_clock() - 1};
-  ck_assert_int_eq(thr_least_turning(&f, &o, &limits, &l, &err), THR_ELIMIT);
-  assert_one_line(&err, "stopped early");
+  assert_status(thr_least_turning(&f, &o, &limits, &l, &err), THR_ELIMIT, &err, "stopped early");
   assert_cords(&f, &l);
   ck_assert_double_gt(l.bound, full.price / 2);
   ck_assert_double_le(l.bound, full.price + 1e-6);
@@ -697,7 +694,7 @@ static void assert_round_trip(const thr_frame *f, const thr_least *l)
   double bound;
   thr_turning_proof_write(&l->proof, f, &(thr_writer){.out = &text}, NULL);
   ck_assert_int_eq(thr_json_parse(&doc, text.data, text.length, "proof", &err), THR_OK);
-  ck_assert_msg(thr_turning_proof_from_json(&p, f, doc, "proof", &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_turning_proof_from_json(&p, f, doc, "proof", &err), &err);
   thr_turning_proof_write(&p, f, &(thr_writer){.out = &again}, NULL);
   assert_same_text(&text, &again);
   ck_assert_int_eq(thr_turning_proof_check(f, &l->task, &p, &bound, &err), THR_OK);
@@ -747,8 +744,8 @@ static void expect_violation(const thr_frame *f, const thr_least *l, const char 
 {
   thr_err err = {0};
   double bound;
-  ck_assert_int_eq(thr_turning_proof_check(f, &l->task, &l->proof, &bound, &err), THR_EVIOLATED);
-  assert_one_line(&err, word);
+  assert_status(thr_turning_proof_check(f, &l->task, &l->proof, &bound, &err), THR_EVIOLATED, &err,
+                word);
   ck_assert_double_eq(bound, 0);
 }
 
@@ -850,8 +847,8 @@ START_TEST(false_json_is_refused)
   ck_assert_int_eq(thr_json_parse(&doc, false_json[_i], strlen(false_json[_i]), "proof", NULL),
                    THR_OK);
   thr_err err = {0};
-  ck_assert_int_eq(thr_turning_proof_from_json(&p, &f, doc, "proof", &err), THR_EVIOLATED);
-  assert_one_line(&err, "proof");
+  assert_status(thr_turning_proof_from_json(&p, &f, doc, "proof", &err), THR_EVIOLATED, &err,
+                "proof");
   ck_assert_ptr_null(p.node);
   thr_json_destroy(doc);
   thr_frame_destroy(&f);

@@ -179,8 +179,7 @@ static void assert_bound(const model *m, const thr_turning_dual *d, const int *l
 {
   int64_t bound;
   thr_err err = {0};
-  ck_assert_msg(thr_turning_dual_bound(&m->columns, d, low, high, &bound, &err) == THR_OK, "%s",
-                err.text);
+  assert_ok(thr_turning_dual_bound(&m->columns, d, low, high, &bound, &err), &err);
   wide exact = rows_bound(m, d, low, high, -1), one = (wide)1 << THR_LENGTH_BITS, slack = 0;
   for (int j = 0; j < m->columns.n_columns; j++)
     if (m->column[j].kind == EXTRA) slack += high[j];
@@ -316,8 +315,7 @@ START_TEST(trees_prove_their_worst_leaf)
   wide exact = tree_bound(&m, &p, 0, -1) >> THR_LENGTH_BITS;
   double bound, bound_of[2];
   thr_err err = {0};
-  ck_assert_msg(thr_turning_proof_check_columns(&m.columns, &p, &bound, bound_of, &err) == THR_OK,
-                "%s", err.text);
+  assert_ok(thr_turning_proof_check_columns(&m.columns, &p, &bound, bound_of, &err), &err);
   ck_assert_double_eq(bound, exact > 0 ? (double)exact / 17592186044416.0 : 0);
   for (int k = 0; k < m.n_components; k++) {
     exact = tree_bound(&m, &p, 0, k) >> THR_LENGTH_BITS;

@@ -57,8 +57,7 @@ static bool instance_make(rng *r, instance *x)
                                .end_allowed = x->closed ? NULL : x->end_allowed,
                                .cost = x->o.turning.cost,
                                .extra_limit = -1};
-  ck_assert_msg(thr_turning_columns_init(&x->c, &x->frame, &x->task, &err) == THR_OK, "%s",
-                err.text);
+  assert_ok(thr_turning_columns_init(&x->c, &x->frame, &x->task, &err), &err);
   if (small) {
     truth_table table = truth_table_make(&x->frame, &x->o, x->o.cover == 1 ? 3 : 2);
     bool length = x->measure == THR_WALK_LENGTH;
@@ -142,7 +141,7 @@ START_TEST(no_bound_is_above_the_truth)
                         x.largest + near);
     ck_assert_double_ge(length ? thr_cords_longest(&x.frame, p.cord, p.n_cords) : p.turning.largest,
                         x.largest - near);
-    ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s", err.text);
+    assert_ok(thr_check_plan(&p, &err), &err);
   }
   if (st != THR_EINFEASIBLE) thr_plan_destroy(&p);
   instance_destroy(&x);

@@ -17,15 +17,14 @@ static int made(thr_component_cords *make, const thr_frame *f, const thr_request
 {
   thr_plan p = {.frame = *f, .options = *o};
   thr_err err = {0};
-  ck_assert_msg(thr_components_cords(f, o, NULL, make, &p.cord, &p.n_cords, &err) == THR_OK, "%s",
-                err.text);
+  assert_ok(thr_components_cords(f, o, NULL, make, &p.cord, &p.n_cords, &err), &err);
   int n = p.n_cords;
   if (n > 0) {
     for (int i = 0; i < n; i++)
       ck_assert(o->max_length == 0 ||
                 thr_cord_length(f, &p.cord[i]) <= o->max_length * (1 + 1e-12));
     ck_assert(thr_plan_measure(f, o, p.cord, n, &p.metrics, &err) == THR_OK);
-    ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s", err.text);
+    assert_ok(thr_check_plan(&p, &err), &err);
   }
   thr_cords_destroy(p.cord, n);
   return n;

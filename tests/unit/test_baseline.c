@@ -28,10 +28,8 @@ static thr_least tour_make(const thr_frame *f, thr_ends ends, int cover, thr_tou
   thr_least l;
   o.request.ends = ends;
   o.request.cover = cover;
-  ck_assert_msg(thr_postman_shortest(f, &shortest, &(thr_limits){0}, &s, &err) == THR_OK, "%s",
-                err.text);
-  ck_assert_msg(thr_baseline_tour(f, &o, tour, ignore, s.passes, &l, &err) == THR_OK, "%s",
-                err.text);
+  assert_ok(thr_postman_shortest(f, &shortest, &(thr_limits){0}, &s, &err), &err);
+  assert_ok(thr_baseline_tour(f, &o, tour, ignore, s.passes, &l, &err), &err);
   thr_shortest_destroy(&s);
   return l;
 }
@@ -339,12 +337,12 @@ START_TEST(what_is_no_classical_tour_is_refused)
   const int once[] = {1, 1, 1, 1};
   thr_least l;
   thr_err err = {0}, cords = {0};
-  ck_assert_int_eq(thr_baseline_tour(&f, &o, THR_TOUR_LEAST, false, once, &l, &err), THR_EINPUT);
-  assert_one_line(&err, "fleury");
+  assert_status(thr_baseline_tour(&f, &o, THR_TOUR_LEAST, false, once, &l, &err), THR_EINPUT, &err,
+                "fleury");
   o.request.ends = THR_ENDS_ANY;
   o.request.cords = 2;
-  ck_assert_int_eq(thr_baseline_tour(&f, &o, THR_TOUR_FLEURY, false, once, &l, &cords), THR_EINPUT);
-  assert_one_line(&cords, "--cords");
+  assert_status(thr_baseline_tour(&f, &o, THR_TOUR_FLEURY, false, once, &l, &cords), THR_EINPUT,
+                &cords, "--cords");
   ck_assert_ptr_null(l.cord);
   thr_frame_destroy(&f);
 }

@@ -26,7 +26,7 @@ static thr_beads beads_of(const thr_frame *f, const thr_physics *p)
 {
   thr_beads b;
   thr_err err = {0};
-  ck_assert_msg(thr_beads_make(f, p, &b, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_beads_make(f, p, &b, &err), &err);
   return b;
 }
 
@@ -260,8 +260,7 @@ START_TEST(nonsense_is_refused)
     p.density = wrong[i].density;
     thr_beads b;
     thr_err err = {0};
-    ck_assert_int_eq(thr_beads_make(&f, &p, &b, &err), THR_EINPUT);
-    assert_one_line(&err, wrong[i].word);
+    assert_status(thr_beads_make(&f, &p, &b, &err), THR_EINPUT, &err, wrong[i].word);
     ck_assert(b.n_beads == 0 && b.centre == NULL);
     thr_frame_destroy(&f);
   }

@@ -19,7 +19,7 @@ static void assert_weight(const instance *g, int64_t weight)
 {
   thr_matching m;
   thr_err err;
-  ck_assert_msg(solve(g, &m, &err) == THR_OK, "%s", err.text);
+  assert_ok(solve(g, &m, &err), &err);
   ck_assert_int_eq(m.weight, weight);
   assert_lightest(g, &m);
   thr_matching_destroy(&m);
@@ -190,8 +190,7 @@ START_TEST(interrupt_stops)
   thr_matching_problem p = view(&g);
   thr_matching m, empty = {0};
   thr_err err = {0};
-  ck_assert_int_eq(thr_matching_solve(&p, &limits, &m, &err), THR_ELIMIT);
-  assert_one_line(&err, "stopped");
+  assert_status(thr_matching_solve(&p, &limits, &m, &err), THR_ELIMIT, &err, "stopped");
   ck_assert(memcmp(&m, &empty, sizeof m) == 0);
 }
 END_TEST
@@ -210,8 +209,7 @@ START_TEST(going_on_checks_what_it_gets)
   p.n_edges--;
   for (int k = 0; k < 2; k++) {
     ck_assert_int_eq(solve(&g, &m, &err), THR_OK);
-    ck_assert_int_eq(thr_matching_again(&p, &none, &m, &err), THR_EINPUT);
-    assert_one_line(&err, "same nodes");
+    assert_status(thr_matching_again(&p, &none, &m, &err), THR_EINPUT, &err, "same nodes");
     ck_assert(memcmp(&m, &empty, sizeof m) == 0);
     p = view(&g);
     p.n_nodes += 2;
@@ -247,8 +245,7 @@ START_TEST(every_allocation_fails_once)
     if (!st) st = thr_matching_again(&p, &none, &m, &err);
     thr_alloc_fail_at(0);
     if (st) {
-      ck_assert_int_eq(st, THR_ENOMEM);
-      assert_one_line(&err, "memory");
+      assert_status(st, THR_ENOMEM, &err, "memory");
       ck_assert(!m.mate && !m.dual && !m.state);
     } else {
       assert_lightest(&g, &m);

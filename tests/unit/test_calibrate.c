@@ -17,7 +17,7 @@ START_TEST(capstan_law_is_undone)
                             {5, 5 * exp(mu * angle), 5 * exp(-mu * angle)}};
   thr_fitted_friction found;
   thr_err err = {0};
-  ck_assert_msg(thr_calibrate(w, 2, angle, 0, &found, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_calibrate(w, 2, angle, 0, &found, &err), &err);
   ck_assert_double_eq_tol(found.mu, mu, 1e-12);
   ck_assert_double_eq_tol(found.low, mu, 1e-12);
   ck_assert_double_eq_tol(found.high, mu, 1e-12);
@@ -47,8 +47,7 @@ START_TEST(nonsense_is_refused)
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
     thr_fitted_friction found;
     thr_err err = {0};
-    ck_assert_int_eq(thr_calibrate(&bad[i], 1, 1, 0, &found, &err), THR_EINPUT);
-    assert_one_line(&err, "weighing 1");
+    assert_status(thr_calibrate(&bad[i], 1, 1, 0, &found, &err), THR_EINPUT, &err, "weighing 1");
   }
 }
 END_TEST
@@ -70,8 +69,7 @@ START_TEST(a_tilted_board_tells_friction)
   ck_assert_double_eq_tol(found.high, tan(atan(2 * mu) + degree), 1e-12);
   const double bad[] = {0, -0.1, 1.5, NAN};
   for (int i = 0; i < 4; i++) {
-    ck_assert_int_eq(thr_calibrate_tilt(&bad[i], 1, 0, &found, &err), THR_EINPUT);
-    assert_one_line(&err, "slide 1");
+    assert_status(thr_calibrate_tilt(&bad[i], 1, 0, &found, &err), THR_EINPUT, &err, "slide 1");
   }
 }
 END_TEST

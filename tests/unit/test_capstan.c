@@ -31,8 +31,7 @@ static thr_evaluation eval_with(const thr_frame *f, const thr_cord *cord, int n,
   thr_eval e;
   thr_err err = {0};
   thr_limits none = {0};
-  ck_assert_msg(thr_eval_plan(f, cord, n, THR_CAPSTAN, o, &none, &e, &err) == THR_OK, "%s",
-                err.text);
+  assert_ok(thr_eval_plan(f, cord, n, THR_CAPSTAN, o, &none, &e, &err), &err);
   ck_assert(e.complete && e.error == 0 && e.refused == 0);
   return e.record;
 }
@@ -148,9 +147,7 @@ START_TEST(profile_is_filled_from_its_exponents_alone)
     const thr_cord cord = {.id = "A", .n_passes = 5, .half = half};
     thr_eval_cord c = {.n_passes = -1, .pull = THR_PULL_BOTH};
     thr_err err = {0};
-    ck_assert_msg(thr_profile_cord(&c, &cord, exponent, table[i].pull, 4, &amontons, &err) ==
-                      THR_OK,
-                  "%s", err.text);
+    assert_ok(thr_profile_cord(&c, &cord, exponent, table[i].pull, 4, &amontons, &err), &err);
     ck_assert(c.n_passes == 5 && c.pull == table[i].pull && c.slackest == table[i].slackest);
     for (int k = 0; k < 5; k++)
       ck_assert_double_eq_tol(c.tension[k],
@@ -414,9 +411,8 @@ START_TEST(interrupt_leaves_what_is_complete)
   thr_limits limits = {.interrupted = &interrupted};
   thr_eval e;
   thr_err err = {0};
-  ck_assert_int_eq(thr_eval_plan(&f, p.cord, p.n_cords, THR_CAPSTAN, &o, &limits, &e, &err),
-                   THR_ELIMIT);
-  assert_one_line(&err, "0 of 3");
+  assert_status(thr_eval_plan(&f, p.cord, p.n_cords, THR_CAPSTAN, &o, &limits, &e, &err),
+                THR_ELIMIT, &err, "0 of 3");
   ck_assert(!e.complete && !e.record.cord[0].known);
   thr_eval_destroy(&e);
   thr_plan_destroy(&p);
@@ -436,8 +432,8 @@ START_TEST(too_large_a_pull_is_refused)
   thr_limits none = {0};
   thr_eval e;
   thr_err err = {0};
-  ck_assert_int_eq(thr_eval_plan(&f, &cord, 1, THR_CAPSTAN, &o, &none, &e, &err), THR_EINPUT);
-  assert_one_line(&err, "more cords");
+  assert_status(thr_eval_plan(&f, &cord, 1, THR_CAPSTAN, &o, &none, &e, &err), THR_EINPUT, &err,
+                "more cords");
   thr_frame_destroy(&f);
 }
 END_TEST

@@ -489,16 +489,13 @@ START_TEST(passes_without_cords)
   o.cords = 2;
   ck_assert_int_eq(thr_postman_shortest(&f, &o, &(thr_limits){0}, &s, NULL), THR_OK);
   s.passes[3]++;
-  ck_assert_int_eq(
+  assert_status(
       thr_check_length_of_passes(&f, &o, s.passes, s.certificate, 1, &optimal, &bound, &err),
-      THR_EVIOLATED);
-  assert_one_line(&err, "no cord can end there");
+      THR_EVIOLATED, &err, "no cord can end there");
   s.passes[3] = 0;
-  err = (thr_err){0};
-  ck_assert_int_eq(
+  assert_status(
       thr_check_length_of_passes(&f, &o, s.passes, s.certificate, 1, &optimal, &bound, &err),
-      THR_EVIOLATED);
-  assert_one_line(&err, "0 of 1 passes");
+      THR_EVIOLATED, &err, "0 of 1 passes");
   thr_shortest_destroy(&s);
   thr_frame_destroy(&f);
 }

@@ -58,8 +58,7 @@ START_TEST(the_longest_cord_has_its_detour)
   thr_err err = {0};
   thr_status st = length_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err);
   if (st == THR_OK || st == THR_ELIMIT) {
-    ck_assert_msg(thr_check_cords(&f, &o, p.cord, p.n_cords, NULL, 0, NULL, &found, &err) == THR_OK,
-                  "%s", err.text);
+    assert_ok(thr_check_cords(&f, &o, p.cord, p.n_cords, NULL, 0, NULL, &found, &err), &err);
     double longest = 0, base = 0;
     for (int i = 0; i < p.n_cords; i++)
       longest = fmax(longest, thr_cord_length(&f, &p.cord[i]));
@@ -202,8 +201,7 @@ START_TEST(the_fewest_cords_have_room)
     thr_cords_claim found;
     thr_err err = {0};
     o.max_length = cases[i].most;
-    ck_assert_msg(thr_check_cords(&f, &o, cord, 2, &c, 1, NULL, &found, &err) == THR_OK, "%s",
-                  err.text);
+    assert_ok(thr_check_cords(&f, &o, cord, 2, &c, 1, NULL, &found, &err), &err);
     ck_assert_int_eq(found.fewest, cases[i].fewest);
     ck_assert_int_eq(found.fewest_optimal, cases[i].fewest == 2);
   }
@@ -231,9 +229,7 @@ START_TEST(ends_pay_for_extra_passes)
   thr_cords_claim found;
   thr_err err = {0};
   ck_assert_double_eq_tol(p.metrics.length, 12, 1e-9);
-  ck_assert_msg(thr_check_cords(&f, &o, p.cord, 4, p.proof.certificate, 1, NULL, &found, &err) ==
-                    THR_OK,
-                "%s", err.text);
+  assert_ok(thr_check_cords(&f, &o, p.cord, 4, p.proof.certificate, 1, NULL, &found, &err), &err);
   ck_assert_double_eq_tol(found.longest_bound, 3, 1e-9);
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
@@ -261,8 +257,7 @@ START_TEST(given_ends_are_those_of_half_as_many_cords)
   o.cords = o.cords_least = 2;
   thr_cords_claim found;
   thr_err err = {0};
-  ck_assert_msg(thr_check_cords(&f, &o, cord, 2, NULL, 0, NULL, &found, &err) == THR_OK, "%s",
-                err.text);
+  assert_ok(thr_check_cords(&f, &o, cord, 2, NULL, 0, NULL, &found, &err), &err);
   ck_assert_double_eq_tol(found.longest_bound, 3 * f.length[0], 1e-9);
   ck_assert(found.longest_optimal);
   thr_frame_destroy(&f);
@@ -348,8 +343,7 @@ START_TEST(fewer_cords_have_fewer_ends)
     thr_cords_claim found;
     thr_err err = {0};
     o.max_length = cases[i].most;
-    ck_assert_msg(thr_check_cords(&f, &o, cord, 3, &c, 1, NULL, &found, &err) == THR_OK, "%s",
-                  err.text);
+    assert_ok(thr_check_cords(&f, &o, cord, 3, &c, 1, NULL, &found, &err), &err);
     ck_assert_int_eq(found.fewest, cases[i].fewest);
     ck_assert_double_eq_tol(found.longest_bound, 2, 1e-9);
     ck_assert(found.longest_optimal);
@@ -416,6 +410,20 @@ START_TEST(bounds_beyond_the_plan_are_refused)
 }
 END_TEST
 
+/* Makes three cords round two triangles, the third one round that of number twice. */
+static void go_round(const thr_frame *f, int twice, int half[3][3], thr_cord cord[3])
+{
+  for (int i = 0; i < 3; i++) {
+    const int component = i < 2 ? i : twice;
+    for (int k = 0; k < 3; k++)
+      half[i][k] = 6 * component + 2 * k;
+    for (int k = 0; k < 3; k++) /* each edge the way round */
+      if (thr_head(f, half[i][k]) != thr_tail(f, half[i][(k + 1) % 3])) half[i][k] ^= 1;
+    cord[i] = (thr_cord){.closed = true, .component = component, .n_passes = 3, .half = half[i]};
+    thr_cord_id(i, cord[i].id);
+  }
+}
+
 /* Of a symmetric plan the component with most cords has as many as asked for, whichever it is. */
 START_TEST(symmetric_cords_are_counted_where_most_are)
 {
@@ -423,15 +431,7 @@ START_TEST(symmetric_cords_are_counted_where_most_are)
   for (int most = 0; most < 2; most++) {
     int half[3][3];
     thr_cord cord[3];
-    for (int i = 0; i < 3; i++) {
-      int component = i < 2 ? i : most;
-      for (int k = 0; k < 3; k++)
-        half[i][k] = 6 * component + 2 * k;
-      for (int k = 0; k < 3; k++) /* each edge the way round */
-        if (thr_head(&f, half[i][k]) != thr_tail(&f, half[i][(k + 1) % 3])) half[i][k] ^= 1;
-      cord[i] = (thr_cord){.closed = true, .component = component, .n_passes = 3, .half = half[i]};
-      thr_cord_id(i, cord[i].id);
-    }
+    go_round(&f, most, half, cord);
     thr_certificate c[2] = {{.scale = 1, .denominator = 1},
                             {.component = 1, .scale = 1, .denominator = 1}};
     c[most].join = 3;
@@ -463,15 +463,7 @@ START_TEST(cords_are_counted_in_every_component)
   for (int twice = -1; twice < 2; twice++) {
     int half[3][3];
     thr_cord cord[3];
-    for (int i = 0; i < 3; i++) {
-      int component = i < 2 ? i : twice;
-      for (int k = 0; k < 3 && component >= 0; k++)
-        half[i][k] = 6 * component + 2 * k;
-      for (int k = 0; k < 3 && component >= 0; k++) /* each edge the way round */
-        if (thr_head(&f, half[i][k]) != thr_tail(&f, half[i][(k + 1) % 3])) half[i][k] ^= 1;
-      cord[i] = (thr_cord){.closed = true, .component = component, .n_passes = 3, .half = half[i]};
-      thr_cord_id(i, cord[i].id);
-    }
+    go_round(&f, twice < 0 ? 0 : twice, half, cord);
     thr_cords_claim found;
     thr_err err = {0};
     thr_status st = thr_check_cords(&f, &o, cord, twice < 0 ? 2 : 3, NULL, 0, NULL, &found, &err);

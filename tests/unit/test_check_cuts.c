@@ -161,8 +161,7 @@ START_TEST(cuts_add_up_at_prices)
       o.capacity = 1 + room;
       c.join = 10 * (room - 1), c.n_prices = 1, c.place_price = &price;
       thr_status st = thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err);
-      ck_assert_msg(st == (value > 3 ? THR_EVIOLATED : THR_OK), "%s", err.text);
-      if (st) assert_one_line(&err, "the cuts over edge 0 add up");
+      assert_status(st, value > 3 ? THR_EVIOLATED : THR_OK, &err, "the cuts over edge 0 add up");
       /* 2 places, what the passes of edge 0 cost less their places, and the cut */
       double extra = (2 * 13 + (room * (10 - 13) - 13) + (double)value) / 10;
       if (!st) ck_assert_double_eq_tol(bound, room - 1 + extra, 1e-12);
@@ -194,9 +193,8 @@ START_TEST(nodes_of_cuts_ascend)
     bool optimal;
     double bound;
     thr_err err = {0};
-    thr_status st = thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err);
-    ck_assert_msg(st == (cases[i].said ? THR_EVIOLATED : THR_OK), "%s", err.text);
-    if (st) assert_one_line(&err, cases[i].said);
+    assert_status(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err),
+                  cases[i].said ? THR_EVIOLATED : THR_OK, &err, cases[i].said);
   }
   thr_frame_destroy(&f);
 }
@@ -287,9 +285,9 @@ START_TEST(bounds_above_the_passes_are_refused)
     double bound;
     thr_err err = {0};
     o.cords = o.cords_least = cords;
-    thr_status st = thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err);
-    ck_assert_msg(st == (cords > 1 ? THR_EVIOLATED : THR_OK), "%s", err.text);
-    if (st) assert_one_line(&err, "its bound is above the weight of the plan's own extra passes");
+    assert_status(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err),
+                  cords > 1 ? THR_EVIOLATED : THR_OK, &err,
+                  "its bound is above the weight of the plan's own extra passes");
   }
   thr_frame_destroy(&f);
 }
@@ -321,8 +319,7 @@ START_TEST(certificates_weigh_their_own_component)
                                .cut = &cut[i]};
     }
     thr_status st = thr_check_length_of_passes(&f, &o, passes, c, 3, &optimal, &bound, &err);
-    ck_assert_msg(st == (wrong < 0 ? THR_OK : THR_EVIOLATED), "%s", err.text);
-    if (st) assert_one_line(&err, "the extra passes do not weigh");
+    assert_status(st, wrong < 0 ? THR_OK : THR_EVIOLATED, &err, "the extra passes do not weigh");
     if (!st) ck_assert(optimal);
   }
   thr_frame_destroy(&f);
@@ -355,9 +352,8 @@ START_TEST(certificates_have_a_scale)
       bool optimal;
       double bound;
       thr_err err = {0};
-      thr_status st = thr_check_length_proof(&f, &o, cord, 1, &c, 1, NULL, &optimal, &bound, &err);
-      ck_assert_msg(st == (cases[i].said ? THR_EVIOLATED : THR_OK), "%s", err.text);
-      if (st) assert_one_line(&err, cases[i].said);
+      assert_status(thr_check_length_proof(&f, &o, cord, 1, &c, 1, NULL, &optimal, &bound, &err),
+                    cases[i].said ? THR_EVIOLATED : THR_OK, &err, cases[i].said);
     }
   }
   thr_cords_destroy(cord, 1);
@@ -381,10 +377,10 @@ START_TEST(proofs_are_those_of_the_joint)
   p.proof = (thr_length_proof){
       .present = true, .optimal = true, .lower_bound = 2, .n_certificates = 1, .certificate = &c};
   thr_err err = {0};
-  ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_check_plan(&p, &err), &err);
   p.proof.tied.n_nodes = 1;
-  ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
-  assert_one_line(&err, "has a proof, but the plan's joints are solid");
+  assert_status(thr_check_plan(&p, &err), THR_EVIOLATED, &err,
+                "has a proof, but the plan's joints are solid");
   p.proof = (thr_length_proof){0};
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
@@ -406,13 +402,11 @@ START_TEST(weightless_edges_passed_once_cost_nothing)
   bool optimal;
   double bound;
   thr_err err = {0};
-  ck_assert_msg(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err) == THR_OK,
-                "%s", err.text);
+  assert_ok(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err), &err);
   ck_assert(optimal);
   ck_assert_double_eq_tol(bound, 4.3, 1e-12);
   passes[1] = 3; /* more of it than is needed, which no weight shows */
-  ck_assert_msg(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err) == THR_OK,
-                "%s", err.text);
+  assert_ok(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err), &err);
   ck_assert(!optimal);
   ck_assert_double_eq_tol(bound, 4.3, 1e-12);
   thr_frame_destroy(&f);

@@ -263,9 +263,8 @@ START_TEST(optimal_is_within_a_billionth)
     ck_assert_double_eq_tol(bound, k ? 2 * length[0] : length[0] + 1, 1e-15 + 1e-12);
     thr_err err = {0};
     c.scale = 2e18;
-    ck_assert_int_eq(thr_check_length_proof(&f, &o, &cord, 1, &c, 1, NULL, &optimal, &bound, &err),
-                     THR_EVIOLATED);
-    assert_one_line(&err, "scale is too large");
+    assert_status(thr_check_length_proof(&f, &o, &cord, 1, &c, 1, NULL, &optimal, &bound, &err),
+                  THR_EVIOLATED, &err, "scale is too large");
     thr_frame_destroy(&f);
   }
 }

@@ -90,11 +90,11 @@ START_TEST(cords_end_where_they_may_and_are_no_longer)
       for (int v = 0; v < 3; v++)
         f.foot[v] = v == foot + 1; /* node 2 */
       o.max_length = foot < 0 ? 0.7 : 0.75;
-      ck_assert_int_eq(thr_check_cords(&f, &o, &cord, 1, NULL, 0, NULL, &found, &err),
-                       THR_EVIOLATED);
-      assert_one_line(&err, foot < 0 ? "0.75 long; the plan's options allow 0.7"
-                            : back   ? "ends at node 0"
-                                     : "starts at node 0");
+      assert_status(thr_check_cords(&f, &o, &cord, 1, NULL, 0, NULL, &found, &err), THR_EVIOLATED,
+                    &err,
+                    foot < 0 ? "0.75 long; the plan's options allow 0.7"
+                    : back   ? "ends at node 0"
+                             : "starts at node 0");
     }
   const thr_cord cord = {.id = "A", .n_passes = 2, .half = half[0]};
   thr_request o = options_for(THR_ENDS_ANY, 1);
@@ -148,9 +148,8 @@ START_TEST(every_odd_node_has_an_end)
     double bound;
     thr_err err = {0};
     f.foot[foot] = true, f.foot[!foot] = false;
-    ck_assert_int_eq(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err),
-                     THR_EVIOLATED);
-    assert_one_line(&err, foot ? "node 0: 1 passes" : "node 1: 1 passes");
+    assert_status(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err),
+                  THR_EVIOLATED, &err, foot ? "node 0: 1 passes" : "node 1: 1 passes");
   }
   thr_frame_destroy(&f);
 }

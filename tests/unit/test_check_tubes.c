@@ -264,8 +264,7 @@ START_TEST(the_fewest_cords_of_tube_joints)
   for (int most = 3; most <= 5; most++)
     for (int least = 1; least <= 3; least++) {
       o.cords = most, o.cords_least = least;
-      ck_assert_msg(thr_check_tied_cords(&f, &o, cord, 3, &proof, &found, &err) == THR_OK, "%s",
-                    err.text);
+      assert_ok(thr_check_tied_cords(&f, &o, cord, 3, &proof, &found, &err), &err);
       ck_assert_double_eq_tol(found.longest, 2.0018, 1e-12);
       double two =
           most == 3 ? 2.0003 : 0; /* three cords: one has two edges; this all sets of edges show */
@@ -283,8 +282,8 @@ START_TEST(the_fewest_cords_of_tube_joints)
   ck_assert_int_eq(thr_check_tied_cords(&f, &o, cord, 3, &proof, &found, &err), THR_OK);
   ck_assert_int_eq(found.fewest, 3);
   o.cords = 2;
-  ck_assert_int_eq(thr_check_tied_cords(&f, &o, cord, 3, &proof, &found, &err), THR_EVIOLATED);
-  assert_one_line(&err, "has 3 cords; the plan's options say 1 to 2");
+  assert_status(thr_check_tied_cords(&f, &o, cord, 3, &proof, &found, &err), THR_EVIOLATED, &err,
+                "has 3 cords; the plan's options say 1 to 2");
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -324,8 +323,7 @@ START_TEST(cords_have_too_few_ends_for_the_tips)
     o.joint = THR_JOINT_TUBE;
     o.cords = 3, o.cords_least = 1;
     o.max_length = 3 * size[k];
-    ck_assert_msg(thr_check_tied_cords(&f, &o, cord, 3, &proof, &found, &err) == THR_OK, "%s",
-                  err.text);
+    assert_ok(thr_check_tied_cords(&f, &o, cord, 3, &proof, &found, &err), &err);
     ck_assert_int_eq(found.fewest, 3);
     ck_assert_double_eq_tol(found.longest_bound, 2 * size[k], 1e-9);
     thr_frame_destroy(&f);
@@ -384,8 +382,7 @@ START_TEST(the_fewest_cords_of_two_components)
     thr_err err = {0};
     o.cords_least = cases[i].least;
     o.max_length = cases[i].most;
-    ck_assert_msg(thr_check_tied_cords(&f, &o, cord, 6, &proof, &found, &err) == THR_OK, "%s",
-                  err.text);
+    assert_ok(thr_check_tied_cords(&f, &o, cord, 6, &proof, &found, &err), &err);
     ck_assert_int_eq(found.fewest, cases[i].fewest);
   }
   thr_frame_destroy(&f);

@@ -84,7 +84,7 @@ static thr_turning_claim found_of(const thr_plan *p)
 {
   thr_turning_claim found;
   thr_err err;
-  ck_assert_msg(find(p, &found, &err) == THR_OK, "%s", err.text);
+  assert_ok(find(p, &found, &err), &err);
   return found;
 }
 
@@ -92,8 +92,7 @@ static void assert_not_found(const thr_plan *p, const char *word)
 {
   thr_turning_claim found;
   thr_err err;
-  ck_assert_int_eq(find(p, &found, &err), THR_EVIOLATED);
-  assert_one_line(&err, word);
+  assert_status(find(p, &found, &err), THR_EVIOLATED, &err, word);
 }
 
 /* States what the checker finds; the plan then holds. */
@@ -711,16 +710,13 @@ START_TEST(limits_let_in_what_the_options_allow)
   }
   thr_err err = {0};
   p.turning.length_limit = 0; /* lets in all plans of length 0, but not the cords */
-  ck_assert_int_eq(thr_check_turning_claim(&p, 0, &err), THR_EVIOLATED);
-  assert_one_line(&err, "2 long");
+  assert_status(thr_check_turning_claim(&p, 0, &err), THR_EVIOLATED, &err, "2 long");
   thr_certificate c = {.scale = 1, .denominator = 1}; /* every edge once: 2 */
   p.proof = (thr_length_proof){
       .present = true, .optimal = true, .lower_bound = 2, .n_certificates = 1, .certificate = &c};
   for (p.turning.length_limit = 2; p.turning.length_limit <= 3; p.turning.length_limit++) {
-    err = (thr_err){0};
-    thr_status st = thr_check_plan(&p, &err);
-    ck_assert_msg(st == (p.turning.length_limit < 3 ? THR_EVIOLATED : THR_OK), "%s", err.text);
-    if (st) assert_one_line(&err, "shuts out");
+    assert_status(thr_check_plan(&p, &err), p.turning.length_limit < 3 ? THR_EVIOLATED : THR_OK,
+                  &err, "shuts out");
   }
   p.proof = (thr_length_proof){0};
   thr_plan_destroy(&p);

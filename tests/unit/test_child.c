@@ -124,8 +124,7 @@ START_TEST(half_an_answer_does_not_count)
 {
   thr_text answer = {0};
   thr_err err = {0};
-  ck_assert_int_eq(run_harm(BREAK_OFF, &answer, &err), THR_ESOLVER);
-  assert_one_line(&err, "died of signal 14");
+  assert_status(run_harm(BREAK_OFF, &answer, &err), THR_ESOLVER, &err, "died of signal 14");
   ck_assert(answer.length == 11 || answer.length == 50000001);
   thr_text_destroy(&answer);
 }
@@ -160,8 +159,7 @@ START_TEST(without_pipes_it_says_so)
   allow_files(3);
   thr_status st = thr_child_run(&c, &(thr_limits){0}, &answer, &err);
   allow_files(64);
-  ck_assert_int_eq(st, THR_ESOLVER);
-  assert_one_line(&err, "bytes: cannot start a worker");
+  assert_status(st, THR_ESOLVER, &err, "bytes: cannot start a worker");
 }
 END_TEST
 

@@ -26,9 +26,8 @@ static void solve(int n_bodies, const double (*mass)[2], int n_contacts, thr_con
   thr_contacts *cones;
   thr_err err = {0};
   ck_assert_int_eq(thr_contacts_create(&cones, &err), THR_OK);
-  ck_assert_msg(thr_contacts_solve(cones, n_bodies, mass, n_contacts, contact, 1e-12, 1000, &err) ==
-                    THR_OK,
-                "%s", err.text);
+  assert_ok(thr_contacts_solve(cones, n_bodies, mass, n_contacts, contact, 1e-12, 1000, &err),
+            &err);
   thr_contacts_destroy(cones);
 }
 

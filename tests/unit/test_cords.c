@@ -224,8 +224,8 @@ static thr_plan whole_group_plan(thr_frame frame, thr_ends ends, int cover)
   thr_symmetry_record r;
   ck_assert_int_eq(thr_quotient_init(&q, &s.f, &s.g, &s.classes.subgroup[0], MOST_TYPES, NULL),
                    THR_OK);
-  ck_assert_msg(thr_cover_find(&q, &o, &none, &c, &err) == THR_OK, "%s", err.text);
-  ck_assert_msg(thr_cover_cords(&q, &o, &c, &cord, &n, &r, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_cover_find(&q, &o, &none, &c, &err), &err);
+  assert_ok(thr_cover_cords(&q, &o, &c, &cord, &n, &r, &err), &err);
   thr_plan p = plan_of(&s.f, &o, cord, n, &r);
   thr_cover_destroy(&c);
   thr_quotient_destroy(&q);
@@ -281,9 +281,8 @@ START_TEST(wrong_covers_are_refused)
                    : i < q.n_copies + q.n_pairs ? &c.pairs[i - q.n_copies]
                                                 : &c.ends[i - q.n_copies - q.n_pairs];
       if (count) ++*count;
-      ck_assert_int_eq(thr_cover_cords(&q, count ? &closed : &feet, &c, &cord, &n, &r, &err),
-                       THR_ESOLVER);
-      assert_one_line(&err, count ? "cover" : "would be closed");
+      assert_status(thr_cover_cords(&q, count ? &closed : &feet, &c, &cord, &n, &r, &err),
+                    THR_ESOLVER, &err, count ? "cover" : "would be closed");
       ck_assert(!cord && n == 0 && !r.unique && !r.image);
       if (count) --*count;
     }

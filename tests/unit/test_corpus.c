@@ -21,7 +21,7 @@ START_TEST(seeds_of_plans_pass_the_check)
     thr_err err = {0};
     if (entry->d_name[0] == '.') continue;
     snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
-    ck_assert_msg(thr_plan_read(&p, path, &err) == THR_OK, "%s", err.text);
+    assert_ok(thr_plan_read(&p, path, &err), &err);
     ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s: %s", path, err.text);
     assert_plan_sound(&p);
     n++;

@@ -33,7 +33,7 @@ static thr_text coloured_picture(const thr_plan *p, thr_overview_colour colour)
   thr_err err = {0};
   thr_overview_options o = thr_overview_options_default();
   o.colour = colour;
-  ck_assert_msg(thr_overview_svg(p, &o, &svg, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_overview_svg(p, &o, &svg, &err), &err);
   return svg;
 }
 
@@ -593,16 +593,14 @@ START_TEST(broken_plans_are_refused)
   for (int i = 0; i < 3; i++) {
     thr_err err = {0};
     p.cord[0].half[3] = wrong[i];
-    ck_assert_int_eq(thr_overview_svg(&p, &o, &svg, &err), THR_EINPUT);
-    assert_one_line(&err, "cord A: pass");
+    assert_status(thr_overview_svg(&p, &o, &svg, &err), THR_EINPUT, &err, "cord A: pass");
   }
   p.cord[0].half[3] = keep;
   const double pitch[] = {1, 500, NAN, -3};
   for (int i = 0; i < 4; i++) {
     thr_err err = {0};
     o.pitch_mm = pitch[i];
-    ck_assert_int_eq(thr_overview_svg(&p, &o, &svg, &err), THR_EINPUT);
-    assert_one_line(&err, "pitch");
+    assert_status(thr_overview_svg(&p, &o, &svg, &err), THR_EINPUT, &err, "pitch");
   }
   ck_assert_int_eq((int)svg.length, 0);
   thr_plan_destroy(&p);

@@ -28,7 +28,7 @@ static thr_drag_result measure(const thr_drag *d)
 {
   thr_drag_result r;
   thr_err err = {0};
-  ck_assert_msg(thr_drag_measure(d, NULL, &r, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_drag_measure(d, NULL, &r, &err), &err);
   return r;
 }
 
@@ -248,8 +248,7 @@ START_TEST(tells_how_far_it_is_and_stops)
   ck_assert_int_eq(thr_drag_measure(&d, &limits, &r, &err), THR_OK);
   ck_assert(h.calls >= 3 && h.last > 0.5);
   interrupted = 1;
-  ck_assert_int_eq(thr_drag_measure(&d, &limits, &r, &err), THR_ELIMIT);
-  assert_one_line(&err, "stopped");
+  assert_status(thr_drag_measure(&d, &limits, &r, &err), THR_ELIMIT, &err, "stopped");
   ck_assert(r.ratio == 0 && r.steps == 0);
 }
 END_TEST

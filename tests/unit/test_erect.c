@@ -38,7 +38,7 @@ static column column_of(const double direction[3])
   memcpy(c.frame.units, "m", 2);
   c.physics.bead_diameter = 120;
   c.physics.bore = 10;
-  ck_assert_msg(thr_beads_make(&c.frame, &c.physics, &c.beads, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_beads_make(&c.frame, &c.physics, &c.beads, &err), &err);
   thr_beads_clamp(&c.beads, (const bool[]){true, false, false, false});
   return c;
 }
@@ -60,7 +60,7 @@ static thr_erect erect_of(const column *c, double pull)
 {
   thr_erect e;
   thr_err err = {0};
-  ck_assert_msg(run(c, pull, &e, &err) == THR_OK, "%s", err.text);
+  assert_ok(run(c, pull, &e, &err), &err);
   ck_assert(e.present && e.pose && e.n_beads == 4 && e.n_gaps == 3);
   return e;
 }
@@ -119,8 +119,7 @@ START_TEST(nonsense_is_refused)
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
     thr_erect e;
     thr_err err = {0};
-    ck_assert_int_eq(run(&c, wrong[i], &e, &err), THR_EINPUT);
-    assert_one_line(&err, "pull");
+    assert_status(run(&c, wrong[i], &e, &err), THR_EINPUT, &err, "pull");
     ck_assert(!e.present && !e.pose);
   }
   thr_erect_destroy(NULL);

@@ -337,8 +337,8 @@ START_TEST(absurd_options_are_refused)
     thr_eval e;
     thr_err err = {0};
     wrong[i].spoil(&o);
-    ck_assert_int_eq(thr_eval_plan(&f, p.cord, 1, (thr_method)_i, &o, &none, &e, &err), THR_EINPUT);
-    assert_one_line(&err, wrong[i].word);
+    assert_status(thr_eval_plan(&f, p.cord, 1, (thr_method)_i, &o, &none, &e, &err), THR_EINPUT,
+                  &err, wrong[i].word);
     ck_assert(!e.record.present && e.record.cord == NULL && e.record.n_cords == 0);
     thr_eval_destroy(&e);
   }
@@ -419,8 +419,8 @@ START_TEST(a_stop_is_a_stop_whatever_the_sum)
             e.refused == e.refused_sharp);
   thr_eval_destroy(&e);
   err = (thr_err){0};
-  ck_assert_int_eq(thr_eval_plan(&f, cord, 2, THR_CAPSTAN, &o, &none, &e, &err), THR_EINPUT);
-  assert_one_line(&err, "all pulls together");
+  assert_status(thr_eval_plan(&f, cord, 2, THR_CAPSTAN, &o, &none, &e, &err), THR_EINPUT, &err,
+                "all pulls together");
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -435,8 +435,8 @@ START_TEST(unsettled_joints_are_not_a_simulation)
   o.time_step = 10;
   thr_eval e;
   thr_err err = {0};
-  ck_assert_int_eq(thr_eval_plan(&f, p.cord, 1, THR_JOINT, &o, &none, &e, &err), THR_EINPUT);
-  assert_one_line(&err, "1 where the cord does not slide steadily; use a finer --tune time-step");
+  assert_status(thr_eval_plan(&f, p.cord, 1, THR_JOINT, &o, &none, &e, &err), THR_EINPUT, &err,
+                "1 where the cord does not slide steadily; use a finer --tune time-step");
   ck_assert(e.record.cord == NULL && !e.record.present);
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);

@@ -120,8 +120,7 @@ static thr_plan evaluated_plan(const thr_frame *f, thr_ends ends, thr_pull pull,
   o.law = law;
   o.seed = UINT64_C(1) << 53;
   o.physics.seating = 2.5;
-  ck_assert_msg(thr_eval_plan(f, p.cord, p.n_cords, THR_CAPSTAN, &o, &none, &e, &err) == THR_OK,
-                "%s", err.text);
+  assert_ok(thr_eval_plan(f, p.cord, p.n_cords, THR_CAPSTAN, &o, &none, &e, &err), &err);
   p.evaluation = e.record;
   return p;
 }
@@ -247,7 +246,7 @@ START_TEST(the_checker_sees_every_alteration)
   thr_frame f = solid_make(DODECAHEDRON);
   thr_plan p = evaluated_plan(&f, THR_ENDS_CLOSED, THR_PULL_BOTH, THR_LAW_CAPSTAN);
   thr_err err = {0};
-  ck_assert_msg(judge_plan(&p, &err) == THR_OK, "%s", err.text);
+  assert_ok(judge_plan(&p, &err), &err);
   alterations[_i].alter(&p.evaluation);
   assert_violated(&p, alterations[_i].word);
   thr_plan_destroy(&p);

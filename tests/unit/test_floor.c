@@ -381,15 +381,10 @@ START_TEST(files_are_replaced_whole)
   ck_assert(memcmp(back.data, "one\0two three", 13) == 0);
   thr_text_destroy(&back);
   unlink(path);
-  ck_assert_int_eq(thr_text_write(&t, folder, &err), THR_EIO);
-  assert_one_line(&err, folder);
-  err = (thr_err){0};
+  assert_status(thr_text_write(&t, folder, &err), THR_EIO, &err, folder);
   ck_assert_int_eq(rmdir(folder), 0); /* nothing temporary was left */
-  ck_assert_int_eq(thr_text_write(&t, path, &err), THR_EIO);
-  assert_one_line(&err, path);
-  err = (thr_err){0};
-  ck_assert_int_eq(thr_text_read(&back, path, &err), THR_EIO);
-  assert_one_line(&err, path);
+  assert_status(thr_text_write(&t, path, &err), THR_EIO, &err, path);
+  assert_status(thr_text_read(&back, path, &err), THR_EIO, &err, path);
   ck_assert(back.data == NULL);
   thr_text_destroy(&t);
 }
@@ -401,7 +396,7 @@ static thr_json *parse(const char *text)
 {
   thr_json *doc;
   thr_err err = {0};
-  ck_assert_msg(thr_json_parse(&doc, text, strlen(text), "file", &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_json_parse(&doc, text, strlen(text), "file", &err), &err);
   return doc;
 }
 
@@ -659,9 +654,8 @@ START_TEST(json_errors_name_the_place)
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
     thr_json *doc;
     thr_err err = {0};
-    ck_assert_int_eq(thr_json_parse(&doc, wrong[i], strlen(wrong[i]), "file.json", &err),
-                     THR_EINPUT);
-    assert_one_line(&err, i < 2 ? "file.json:2:" : "file.json:1:");
+    assert_status(thr_json_parse(&doc, wrong[i], strlen(wrong[i]), "file.json", &err), THR_EINPUT,
+                  &err, i < 2 ? "file.json:2:" : "file.json:1:");
     ck_assert(doc == NULL);
   }
   char *deep = calloc(10001, 1);

@@ -25,7 +25,7 @@ static thr_frame build(thr_draft *d, double tolerance, thr_read_report *r)
 {
   thr_frame f;
   thr_err err = {0};
-  ck_assert_msg(thr_draft_build(d, tolerance, &f, r, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_draft_build(d, tolerance, &f, r, &err), &err);
   thr_draft_destroy(d);
   return f;
 }
@@ -457,27 +457,21 @@ END_TEST
 
 int main(void)
 {
-  Suite *suite = suite_create("frame");
-  TCase *t = tcase_create("frame");
-  tcase_add_test(t, welds_the_lowest_index);
-  tcase_add_test(t, welds_chains_and_respects_the_tolerance);
-  tcase_add_test(t, zero_tolerance_welds_equal_points_only);
-  tcase_add_loop_test(t, welds_what_all_pairs_weld, 0, 24);
-  tcase_add_test(t, two_nodes_of_one_name_are_found);
-  tcase_add_loop_test(t, of_parallel_edges_the_shortest_or_all_are_kept, 0, 40);
-  tcase_add_test(t, keeps_own_lengths);
-  tcase_add_test(t, refuses_bad_drafts);
-  tcase_add_test(t, half_edges_leave_and_arrive);
-  tcase_add_test(t, finds_the_lowest_feet);
-  tcase_add_test(t, hash_tells_frames_apart);
-  tcase_add_test(t, components_and_bridges);
-  tcase_add_test(t, bridges_agree_with_deletion);
-  tcase_add_test(t, a_long_path_does_not_exhaust_the_stack);
-  tcase_add_test(t, every_allocation_may_fail);
-  suite_add_tcase(suite, t);
-  SRunner *runner = srunner_create(suite);
-  srunner_run_all(runner, CK_NORMAL);
-  int failed = srunner_ntests_failed(runner);
-  srunner_free(runner);
-  return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+  Suite *s = suite_create("frame");
+  ADD_TEST(s, 4, welds_the_lowest_index);
+  ADD_TEST(s, 4, welds_chains_and_respects_the_tolerance);
+  ADD_TEST(s, 4, zero_tolerance_welds_equal_points_only);
+  ADD_LOOP(s, 4, welds_what_all_pairs_weld, 0, 24);
+  ADD_TEST(s, 4, two_nodes_of_one_name_are_found);
+  ADD_LOOP(s, 4, of_parallel_edges_the_shortest_or_all_are_kept, 0, 40);
+  ADD_TEST(s, 4, keeps_own_lengths);
+  ADD_TEST(s, 4, refuses_bad_drafts);
+  ADD_TEST(s, 4, half_edges_leave_and_arrive);
+  ADD_TEST(s, 4, finds_the_lowest_feet);
+  ADD_TEST(s, 4, hash_tells_frames_apart);
+  ADD_TEST(s, 4, components_and_bridges);
+  ADD_TEST(s, 4, bridges_agree_with_deletion);
+  ADD_TEST(s, 4, a_long_path_does_not_exhaust_the_stack);
+  ADD_TEST(s, 4, every_allocation_may_fail);
+  return run_suite(s);
 }

@@ -61,8 +61,7 @@ static thr_eval evaluate(const zigzag *z, const thr_eval_options *o)
   thr_eval e;
   thr_err err = {0};
   const thr_limits none = {0};
-  ck_assert_msg(thr_eval_plan(&z->f, &z->cord, 1, THR_CAPSTAN, o, &none, &e, &err) == THR_OK, "%s",
-                err.text);
+  assert_ok(thr_eval_plan(&z->f, &z->cord, 1, THR_CAPSTAN, o, &none, &e, &err), &err);
   return e;
 }
 
@@ -325,7 +324,7 @@ START_TEST(a_knot_gives_back_its_slip)
     lost += (a.record.cord[0].tension[k] - b.record.cord[0].tension[k]) * z.f.length[k] / stiffness;
     ck_assert_double_le(b.record.cord[0].tension[k], a.record.cord[0].tension[k] * (1 + 1e-12));
   }
-  ck_assert_msg(st == THR_OK, "%s", err.text);
+  assert_ok(st, &err);
   ck_assert_double_eq_tol(lost, fmin(step[1].slip, whole), 1e-6);
   thr_eval_destroy(&b);
   thr_eval_destroy(&a);
@@ -442,11 +441,11 @@ START_TEST(text_becomes_steps)
   thr_plan plan = plan_number(0);
   thr_schedule s;
   thr_err err = {0};
-  ck_assert_msg(parse(&plan,
-                      "# first\nall: pull both 40; A: release end 5\nA: grip 3 20 from start\nA : "
-                      "knot both 0.5;;\n",
-                      &s, &err) == THR_OK,
-                "%s", err.text);
+  assert_ok(parse(&plan,
+                  "# first\nall: pull both 40; A: release end 5\nA: grip 3 20 from start\nA : "
+                  "knot both 0.5;;\n",
+                  &s, &err),
+            &err);
   ck_assert_int_eq(s.n, 3 + plan.n_cords);
   const thr_schedule_step *last = &s.step[s.n - 1], *grip = &s.step[s.n - 2];
   ck_assert(last->deed == THR_DEED_KNOT && last->slip == 0.5 && last->end == THR_PULL_BOTH);
@@ -481,8 +480,7 @@ START_TEST(what_is_no_step_is_refused_by_name)
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
     thr_schedule s;
     thr_err err = {0};
-    ck_assert_int_eq(parse(&plan, wrong[i].text, &s, &err), THR_EINPUT);
-    assert_one_line(&err, wrong[i].why);
+    assert_status(parse(&plan, wrong[i].text, &s, &err), THR_EINPUT, &err, wrong[i].why);
   }
   thr_plan_destroy(&plan);
 }
@@ -511,11 +509,10 @@ START_TEST(other_tensions_are_refused)
                          &schedule, &err),
                    THR_OK);
   o.schedule = &schedule;
-  ck_assert_msg(thr_eval_plan(&plan.frame, plan.cord, plan.n_cords, THR_CAPSTAN, &o, &none, &e,
-                              &err) == THR_OK,
-                "%s", err.text);
+  assert_ok(thr_eval_plan(&plan.frame, plan.cord, plan.n_cords, THR_CAPSTAN, &o, &none, &e, &err),
+            &err);
   plan.evaluation = e.record;
-  ck_assert_msg(verdict(&plan, &err) == THR_OK, "%s", err.text);
+  assert_ok(verdict(&plan, &err), &err);
   for (int k = 0; k < plan.cord[0].n_passes; k++) {
     double *tension = &plan.evaluation.cord[0].tension[k];
     *tension *= 1.001;

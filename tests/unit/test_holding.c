@@ -70,7 +70,7 @@ static model model_make(thr_frame frame, thr_physics physics, const bool *fixed,
 {
   model m = {.frame = frame, .physics = physics};
   thr_err err = {0};
-  ck_assert_msg(thr_beads_make(&m.frame, &physics, &m.beads, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_beads_make(&m.frame, &physics, &m.beads, &err), &err);
   if (fixed) thr_beads_clamp(&m.beads, fixed);
   double one[256];
   const double **tension = calloc((size_t)n_cords, sizeof *tension);
@@ -103,7 +103,7 @@ static thr_holding hold(const model *m)
   thr_err err = {0};
   thr_status st =
       thr_holding_pull(&m->beads, &m->frame, &m->physics, m->press, true, &no_limit, &h, &err);
-  ck_assert_msg(st == THR_OK, "%s", err.text);
+  assert_ok(st, &err);
   ck_assert(h.present);
   return h;
 }
@@ -214,7 +214,7 @@ START_TEST(knotted_cords_stretch_by_what_they_lack)
                         err.text, m.beads.strength, most);
           ck_assert(h.velocity != NULL);
         } else {
-          ck_assert_msg(st == THR_OK, "%s", err.text);
+          assert_ok(st, &err);
           ck_assert_double_eq_tol(h.lower, exact, 1e-6 * exact + 1e-9);
           ck_assert_double_eq_tol(h.upper, exact, 1e-6 * exact + 1e-9);
         }
@@ -315,10 +315,9 @@ static void assert_hopeless(model *m, const char *node)
   thr_holding h;
   char word[40];
   snprintf(word, sizeof word, "node %s ", node);
-  ck_assert_int_eq(
+  assert_status(
       thr_holding_pull(&m->beads, &m->frame, &m->physics, m->press, true, &no_limit, &h, &err),
-      THR_EINFEASIBLE);
-  assert_one_line(&err, word);
+      THR_EINFEASIBLE, &err, word);
   ck_assert(!h.present && h.velocity == NULL);
   model_destroy(m);
 }
@@ -351,10 +350,8 @@ START_TEST(stops_when_told)
   model m = cantilever(5, 20, 8, 1, 0);
   thr_err err = {0};
   thr_holding h;
-  ck_assert_int_eq(
-      thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &limits, &h, &err),
-      THR_ELIMIT);
-  assert_one_line(&err, "stopped");
+  assert_status(thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &limits, &h, &err),
+                THR_ELIMIT, &err, "stopped");
   ck_assert(!h.present && h.velocity == NULL);
   model_destroy(&m);
 }
@@ -581,10 +578,10 @@ static double by_simplex(const model *m, bool round, const double (*load)[3], do
   thr_lp *lp;
   thr_lp_outcome outcome;
   thr_err err = {0};
-  ck_assert_msg(thr_lp_create_equations(&lp, 6 * b->n_beads, p->rhs, p->n, p->cost, NULL, p->start,
-                                        p->row, p->value, &err) == THR_OK,
-                "%s", err.text);
-  ck_assert_msg(thr_lp_solve(lp, &no_limit, &outcome, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_lp_create_equations(&lp, 6 * b->n_beads, p->rhs, p->n, p->cost, NULL, p->start,
+                                    p->row, p->value, &err),
+            &err);
+  assert_ok(thr_lp_solve(lp, &no_limit, &outcome, &err), &err);
   double found = outcome == THR_LP_OPTIMAL ? thr_lp_objective(lp) : INFINITY;
   if (load)
     found = outcome == THR_LP_OPTIMAL      ? -found
@@ -630,7 +627,7 @@ START_TEST(loads_equal_a_plain_programme_by_simplex)
     if (isinf(beyond)) {
       ck_assert_int_eq(st, THR_ESOLVER);
     } else {
-      ck_assert_msg(st == THR_OK, "%s", err.text);
+      assert_ok(st, &err);
       ck_assert_double_eq_tol(carry.beyond, beyond, 2e-6 * beyond + 1e-7);
       if (isfinite(carried)) ck_assert_double_eq_tol(carry.carried, carried, 2e-6 * carried + 1e-7);
       ck_assert(carry.first_bead >= 0 && carry.carried <= carry.beyond * (1 + 1e-6) + 1e-9);
@@ -696,7 +693,7 @@ static void assert_equals_simplex(model *m)
   if (isinf(lower)) {
     ck_assert_msg(st == THR_EINFEASIBLE, "lower %g N", h.lower);
   } else {
-    ck_assert_msg(st == THR_OK, "%s", err.text);
+    assert_ok(st, &err);
     ck_assert_double_eq_tol(h.lower, lower, 1e-6 * lower + 1e-8);
     if (isfinite(upper)) ck_assert_double_eq_tol(h.upper, upper, 1e-6 * upper + 1e-8);
     thr_holding_destroy(&h);
@@ -808,7 +805,7 @@ START_TEST(turned_plans_pull_alike)
 {
   thr_plan p;
   thr_err err = {0};
-  ck_assert_msg(thr_plan_read(&p, "data/dome7-lines.json", &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_plan_read(&p, "data/dome7-lines.json", &err), &err);
   model m = turned_part(&p, 0);
   thr_holding as_drawn = hold(&m);
   for (double angle = 0.3; angle < 6; angle += 1.1) {
@@ -832,7 +829,7 @@ START_TEST(mirrored_plans_pull_alike)
   for (int i = 0; i < 3; i++) {
     thr_plan p;
     thr_err err = {0};
-    ck_assert_msg(thr_plan_read(&p, plans[i], &err) == THR_OK, "%s", err.text);
+    assert_ok(thr_plan_read(&p, plans[i], &err), &err);
     model m = dome_part(&p, 1), mirrored = dome_part(&p, -1);
     thr_holding a = hold(&m), b = hold(&mirrored);
     ck_assert(a.lower > 0);

@@ -625,9 +625,9 @@ static void assert_geometric_part(const thr_frame *f, double tolerance)
   int *found, count, kept = 0;
   thr_err err = {0};
   named_group n = name_elements(f, tolerance);
-  ck_assert_msg(thr_isometries_find(f, NULL, tolerance, THR_GROUP_CAP, &no_limits, &found, &count,
-                                    &err) == THR_OK,
-                "%s", err.text);
+  assert_ok(
+      thr_isometries_find(f, NULL, tolerance, THR_GROUP_CAP, &no_limits, &found, &count, &err),
+      &err);
   for (int k = 0; k < n.g.order; k++) {
     const int *image = &n.g.image[k * f->n_nodes];
     if (n.element[k].kind == THR_ISO_NONE) continue;
@@ -801,9 +801,8 @@ START_TEST(more_isometries_than_the_cap)
   thr_frame f = no_feet(solid_make(CUBE));
   int *found, count;
   thr_err err = {0};
-  ck_assert_int_eq(thr_isometries_find(&f, NULL, 1e-6, 47, &no_limits, &found, &count, &err),
-                   THR_ELIMIT);
-  assert_one_line(&err, "47");
+  assert_status(thr_isometries_find(&f, NULL, 1e-6, 47, &no_limits, &found, &count, &err),
+                THR_ELIMIT, &err, "47");
   ck_assert(!found && count == 0);
   ck_assert_int_eq(thr_isometries_find(&f, NULL, 1e-6, 48, &no_limits, &found, &count, NULL),
                    THR_OK);

@@ -768,11 +768,9 @@ START_TEST(a_damaged_folder_is_an_empty_one)
   ck_assert_int_eq(mkfifo(path, 0600),
                    0); /* neither reading nor writing may wait for somebody at the other end */
   ck_assert(!thr_cache_load(folder, &d, &back));
-  ck_assert_int_eq(thr_cache_store(folder, &d, &r, &err), THR_EIO);
-  assert_one_line(&err, "not a file");
+  assert_status(thr_cache_store(folder, &d, &r, &err), THR_EIO, &err, "not a file");
   unlink(path);
   r.drift = NAN;
-  err = (thr_err){0};
   ck_assert_int_eq(thr_cache_store(folder, &d, &r, &err), THR_EINPUT);
   ck_assert(!thr_cache_load(folder, &d, &back));
   ck_assert_int_eq(rmdir(folder), 0);

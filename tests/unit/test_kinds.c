@@ -22,7 +22,7 @@ static kinds kinds_of(const thr_frame *f)
   kinds k = {calloc((size_t)f->n_edges, sizeof(int)), calloc((size_t)f->n_nodes, sizeof(int))};
   thr_err err = {0};
   ck_assert(k.edge && k.node);
-  ck_assert_msg(thr_kinds_find(f, 0, k.edge, k.node, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_kinds_find(f, 0, k.edge, k.node, &err), &err);
   return k;
 }
 

@@ -79,10 +79,8 @@ static void draw(picture *p, int n_cords)
     p->cord[c].half = p->half[c];
     thr_cord_id(c, p->cord[c].id);
   }
-  ck_assert_msg(thr_layout_make(&p->layout, &p->plan.frame, THR_LAYOUT_PLAN, &err) == THR_OK, "%s",
-                err.text);
-  ck_assert_msg(thr_scene_build(&p->scene, &p->plan, &p->layout, 0, false, &err) == THR_OK, "%s",
-                err.text);
+  assert_ok(thr_layout_make(&p->layout, &p->plan.frame, THR_LAYOUT_PLAN, &err), &err);
+  assert_ok(thr_scene_build(&p->scene, &p->plan, &p->layout, 0, false, &err), &err);
 }
 
 static void picture_destroy(picture *p)

@@ -44,7 +44,7 @@ static void assert_outcome(thr_lp *lp, bool exact, thr_lp_outcome expected)
   thr_err err = {0};
   thr_status st = exact ? thr_lp_solve_exact(lp, &no_limit, &outcome, &err)
                         : thr_lp_solve(lp, &no_limit, &outcome, &err);
-  ck_assert_msg(st == THR_OK, "%s", err.text);
+  assert_ok(st, &err);
   ck_assert_int_eq(outcome, expected);
 }
 
@@ -193,8 +193,7 @@ START_TEST(abort_becomes_a_status)
     thr_lp_outcome outcome;
     thr_err err = {0}, after = {0};
     thr_lp *lp = tiny(), *bystander = tiny();
-    ck_assert_int_eq(thr_lp_add_row(lp, 2, wrong[i], NULL, 1, &err), THR_ESOLVER);
-    assert_one_line(&err, "GLPK");
+    assert_status(thr_lp_add_row(lp, 2, wrong[i], NULL, 1, &err), THR_ESOLVER, &err, "GLPK");
     ck_assert_int_eq(thr_lp_solve(bystander, &no_limit, &outcome, &after),
                      THR_ESOLVER); /* the environment is gone for all */
     ck_assert_int_eq(thr_lp_set_costs(lp, (const double[]){1, 1, 1}, NULL), THR_ESOLVER);
@@ -299,10 +298,9 @@ START_TEST(equations_with_a_free_column)
   static const int start[] = {0, 1, 3, 5, 7}, row[] = {0, 0, 1, 1, 2, 1, 2};
   thr_lp *lp;
   thr_err err = {0};
-  ck_assert_msg(thr_lp_create_equations(&lp, 3, rhs, 4, cost,
-                                        (const bool[]){false, false, false, true}, start, row,
-                                        value, &err) == THR_OK,
-                "%s", err.text);
+  assert_ok(thr_lp_create_equations(&lp, 3, rhs, 4, cost, (const bool[]){false, false, false, true},
+                                    start, row, value, &err),
+            &err);
   ck_assert_int_eq(thr_lp_rows(lp), 3);
   for (int exact = 0; exact < 2; exact++) {
     double dual[3], sum = 0;
@@ -333,10 +331,9 @@ START_TEST(equations_without_a_solution)
   assert_outcome(lp, false, THR_LP_INFEASIBLE);
   thr_lp_destroy(lp);
   thr_err err = {0}; /* one row twice in a column */
-  ck_assert_int_eq(thr_lp_create_equations(&lp, 2, rhs, 1, cost, NULL, (const int[]){0, 2},
-                                           (const int[]){1, 1}, value, &err),
-                   THR_ESOLVER);
-  assert_one_line(&err, "GLPK");
+  assert_status(thr_lp_create_equations(&lp, 2, rhs, 1, cost, NULL, (const int[]){0, 2},
+                                        (const int[]){1, 1}, value, &err),
+                THR_ESOLVER, &err, "GLPK");
   ck_assert(lp == NULL);
 }
 END_TEST
@@ -354,7 +351,7 @@ static thr_interior interior(programme *p, const thr_limits *limits)
       .a = {p->m, p->n, p->start, p->row, p->value}, .rhs = p->rhs, .cost = p->cost};
   thr_interior found = {.x = p->x, .dual = p->dual};
   thr_err err = {0};
-  ck_assert_msg(thr_interior_solve(&e, limits, &found, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_interior_solve(&e, limits, &found, &err), &err);
   return found;
 }
 
@@ -885,10 +882,9 @@ START_TEST(cut_tree_of_nonsense_is_a_status)
   thr_err err = {0};
   int tree[2][2];
   double flow[2];
-  ck_assert_int_eq(
+  assert_status(
       thr_cut_tree(3, 1, (const int[1][2]){{0, -1}}, (const double[]){1}, tree, flow, &err),
-      THR_ESOLVER);
-  assert_one_line(&err, "igraph");
+      THR_ESOLVER, &err, "igraph");
 }
 END_TEST
 

@@ -5,8 +5,8 @@
 #include "graph/io/read.h"
 #include "graph/status.h"
 #include "graph/text.h"
+#include "tests/support.h"
 
-#include <check.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,8 +18,8 @@ static thr_frame make(thr_shape shape, int size, int rings, double pitch, double
   thr_frame f;
   thr_read_report r = {0};
   thr_err err = {0};
-  ck_assert_msg(thr_make(&d, &o, &err) == THR_OK, "%s", err.text);
-  ck_assert_msg(thr_draft_build(&d, -1, &f, &r, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_make(&d, &o, &err), &err);
+  assert_ok(thr_draft_build(&d, -1, &f, &r, &err), &err);
   ck_assert_int_eq(r.welded_nodes + r.isolated_nodes + r.duplicate_edges + r.zero_length_edges, 0);
   thr_draft_destroy(&d);
 
@@ -291,22 +291,16 @@ END_TEST
 
 int main(void)
 {
-  Suite *suite = suite_create("make");
-  TCase *t = tcase_create("make");
-  tcase_add_test(t, dome);
-  tcase_add_test(t, dome_rises_and_has_names);
-  tcase_add_test(t, sphere);
-  tcase_add_test(t, sphere_is_triangulated);
-  tcase_add_test(t, geodesic);
-  tcase_add_test(t, tube);
-  tcase_add_test(t, honeycomb);
-  tcase_add_test(t, refuses_sizes);
-  tcase_add_test(t, data_dome_is_the_default);
-  tcase_add_test(t, every_allocation_may_fail);
-  suite_add_tcase(suite, t);
-  SRunner *runner = srunner_create(suite);
-  srunner_run_all(runner, CK_NORMAL);
-  int failed = srunner_ntests_failed(runner);
-  srunner_free(runner);
-  return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+  Suite *s = suite_create("make");
+  ADD_TEST(s, 4, dome);
+  ADD_TEST(s, 4, dome_rises_and_has_names);
+  ADD_TEST(s, 4, sphere);
+  ADD_TEST(s, 4, sphere_is_triangulated);
+  ADD_TEST(s, 4, geodesic);
+  ADD_TEST(s, 4, tube);
+  ADD_TEST(s, 4, honeycomb);
+  ADD_TEST(s, 4, refuses_sizes);
+  ADD_TEST(s, 4, data_dome_is_the_default);
+  ADD_TEST(s, 4, every_allocation_may_fail);
+  return run_suite(s);
 }

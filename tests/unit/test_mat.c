@@ -22,7 +22,7 @@ static thr_mat *mat_of(const thr_plan *p, thr_page_size page)
 {
   thr_err err = {0};
   thr_mat *mat;
-  ck_assert_msg(thr_mat_make(&mat, p, page, 0, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_mat_make(&mat, p, page, 0, &err), &err);
   return mat;
 }
 

@@ -134,9 +134,8 @@ static thr_frame read_as(const thr_text *t, const char *name, double flat, thr_r
   thr_frame f = {0};
   thr_err err = {0};
   *r = (thr_read_report){0};
-  ck_assert_msg(thr_draft_parse(&d, r, t->data, t->length, name, NULL, &err) == THR_OK, "%s",
-                err.text);
-  ck_assert_msg(thr_draft_build(&d, -1, &f, r, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_draft_parse(&d, r, t->data, t->length, name, NULL, &err), &err);
+  assert_ok(thr_draft_build(&d, -1, &f, r, &err), &err);
   thr_draft_destroy(&d);
   return f;
 }
@@ -685,8 +684,7 @@ static void check_accepted(const char *text, const char *name)
   thr_draft d = {0};
   thr_read_report r = {0};
   thr_err err = {0};
-  ck_assert_msg(thr_draft_parse(&d, &r, text, strlen(text), name, NULL, &err) == THR_OK, "%s",
-                err.text);
+  assert_ok(thr_draft_parse(&d, &r, text, strlen(text), name, NULL, &err), &err);
   thr_draft_destroy(&d);
 }
 
@@ -797,7 +795,7 @@ static thr_frame read_file(const char *text, const char *name, const thr_read_op
   thr_err err = {0};
   thr_text_append(&t, text);
   ck_assert_int_eq(thr_text_write(&t, name, &err), THR_OK);
-  ck_assert_msg(thr_frame_read(&f, r, name, options, NULL, 0, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_frame_read(&f, r, name, options, NULL, 0, &err), &err);
   thr_text_destroy(&t);
   unlink(name);
   return f;
@@ -850,8 +848,7 @@ START_TEST(ply_round_trip)
   thr_err err = {0};
   thr_text t = {0};
   thr_read_options options = thr_read_options_default();
-  ck_assert_msg(thr_frame_read(&before, &r, files[_i], &options, NULL, 0, &err) == THR_OK, "%s",
-                err.text);
+  assert_ok(thr_frame_read(&before, &r, files[_i], &options, NULL, 0, &err), &err);
   thr_frame_write(&before, thr_format_named("ply"), &t);
   after = read_as(&t, "stdin", 0, &r);
   ck_assert_int_eq(after.n_nodes, before.n_nodes);
@@ -877,9 +874,7 @@ START_TEST(drawing)
   const double quarter =
       5 * THR_PI; /* of a circle of radius 10, which is also half of one of radius 5 */
   int quarters = 0, splines = 0, ellipses = 0;
-  ck_assert_msg(thr_frame_read(&f, &r, "tests/formats/ezdxf-all.dxf", &options, NULL, 0, &err) ==
-                    THR_OK,
-                "%s", err.text);
+  assert_ok(thr_frame_read(&f, &r, "tests/formats/ezdxf-all.dxf", &options, NULL, 0, &err), &err);
   ck_assert_int_eq(f.n_nodes, 62);
   ck_assert_int_eq(f.n_edges, 68);
   ck_assert_str_eq(f.units, "mm");

@@ -30,9 +30,9 @@ static view view_of(thr_plan p, double pitch)
   thr_text svg = {0};
   thr_err err = {0};
   thr_overview_options o = thr_overview_options_default();
-  ck_assert_msg(thr_layout_choose(&v.l, &v.p.frame, NULL, 0, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_layout_choose(&v.l, &v.p.frame, NULL, 0, &err), &err);
   o.pitch_mm = pitch;
-  ck_assert_msg(thr_overview_svg(&v.p, &o, &svg, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_overview_svg(&v.p, &o, &svg, &err), &err);
   v.svg = svg.data;
   v.t = svg_parse(v.svg);
   return v;

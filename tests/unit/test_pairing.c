@@ -148,8 +148,7 @@ START_TEST(odd_numbers_are_refused)
   double price[9] = {0};
   int mate[3];
   thr_err err = {0};
-  ck_assert_int_eq(thr_pairing_best(3, price, mate, &err), THR_EINPUT);
-  assert_one_line(&err, "3");
+  assert_status(thr_pairing_best(3, price, mate, &err), THR_EINPUT, &err, "3");
 }
 END_TEST
 

@@ -14,7 +14,7 @@ static thr_layout layout_of(const thr_frame *f, thr_layout_kind kind)
 {
   thr_layout l;
   thr_err err = {0};
-  ck_assert_msg(thr_layout_make(&l, f, kind, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_layout_make(&l, f, kind, &err), &err);
   return l;
 }
 
@@ -184,8 +184,7 @@ START_TEST(panels_are_for_closed_shells)
     thr_frame f = shape_make(open[i], 5, 0);
     thr_layout l = {0};
     thr_err err = {0};
-    ck_assert_int_eq(thr_layout_make(&l, &f, THR_LAYOUT_PANELS, &err), THR_EINPUT);
-    assert_one_line(&err, NULL);
+    assert_status(thr_layout_make(&l, &f, THR_LAYOUT_PANELS, &err), THR_EINPUT, &err, NULL);
     ck_assert_ptr_null(l.xy);
     thr_frame_destroy(&f);
   }

@@ -23,7 +23,7 @@ static const thr_physics_field *field(const char *key)
 static void set(thr_physics *p, const char *key, double value)
 {
   thr_err err = {0};
-  ck_assert_msg(thr_physics_set(p, field(key), value, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_physics_set(p, field(key), value, &err), &err);
 }
 
 static thr_status parse(thr_physics *p, const char *text, thr_err *err)
@@ -94,10 +94,10 @@ START_TEST(presets_are_usable)
     const thr_physics_preset *preset = &thr_physics_presets[i];
     thr_physics p = thr_physics_default(), r;
     thr_err err = {0};
-    ck_assert_msg(thr_physics_set_preset(&p, preset->name, &err) == THR_OK, "%s", err.text);
+    assert_ok(thr_physics_set_preset(&p, preset->name, &err), &err);
     ck_assert_str_eq(p.preset, preset->name);
     ck_assert(strstr(preset->source, "estimate") != NULL);
-    ck_assert_msg(thr_physics_resolve(&p, &f, &r, &err) == THR_OK, "%s", err.text);
+    assert_ok(thr_physics_resolve(&p, &f, &r, &err), &err);
     ck_assert(r.mu_low < r.mu && r.mu < r.mu_high && r.seating > 0 && r.gravity > 9.7);
   }
   thr_physics p = thr_physics_default(), before = p;
@@ -136,7 +136,7 @@ START_TEST(band_of_mu)
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     thr_physics p = thr_physics_default(), r;
     thr_err err = {0};
-    ck_assert_msg(parse(&p, cases[i].text, &err) == THR_OK, "%s", err.text);
+    assert_ok(parse(&p, cases[i].text, &err), &err);
     ck_assert_msg(thr_physics_resolve(&p, &f, &r, &err) == THR_OK, "%s: %s", cases[i].text,
                   err.text);
     ck_assert_msg(r.mu_low == cases[i].low && r.mu_high == cases[i].high, "%s: %.17g .. %.17g",
@@ -166,7 +166,7 @@ START_TEST(json_there_and_back)
   thr_err err = {0};
   thr_physics_write(&p, &(thr_writer){.out = &t}, NULL);
   ck_assert(!t.failed && strchr(t.data, '\n') == NULL);
-  ck_assert_msg(parse(&q, t.data, &err) == THR_OK, "%s", err.text);
+  assert_ok(parse(&q, t.data, &err), &err);
   assert_same(&p, &q);
   thr_text_destroy(&t);
 }
@@ -213,12 +213,11 @@ START_TEST(files_are_read)
   thr_err err = {0};
   thr_status st = thr_physics_read(&p, path, &err);
   remove(path);
-  ck_assert_msg(st == THR_OK, "%s", err.text);
+  assert_ok(st, &err);
   set(&expected, "mu", 0.35);
   set(&expected, "cord_diameter", 1.5);
   assert_same(&p, &expected);
-  ck_assert_int_eq(thr_physics_read(&p, path, &err), THR_EIO);
-  assert_one_line(&err, path);
+  assert_status(thr_physics_read(&p, path, &err), THR_EIO, &err, path);
   assert_same(&p, &expected);
 }
 END_TEST
@@ -241,8 +240,7 @@ START_TEST(units)
                                         "m\n", "millimeterss"};
   for (size_t i = 0; i < sizeof unknown / sizeof *unknown; i++) {
     thr_err err = {0};
-    ck_assert_int_eq(thr_units_in_mm(unknown[i], &mm, &err), THR_EINPUT);
-    assert_one_line(&err, "--units");
+    assert_status(thr_units_in_mm(unknown[i], &mm, &err), THR_EINPUT, &err, "--units");
   }
 }
 END_TEST
@@ -262,7 +260,7 @@ START_TEST(sizes_come_from_the_framework)
   memcpy(f.units, "cm", 3);
   thr_physics p = thr_physics_default(), r, again;
   thr_err err = {0};
-  ck_assert_msg(thr_physics_resolve(&p, &f, &r, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_physics_resolve(&p, &f, &r, &err), &err);
   ck_assert_double_eq_tol(r.cord_diameter, 2, 1e-12); /* 40 mm / 20 */
   ck_assert_double_eq_tol(r.bore, 4, 1e-12);
   ck_assert_double_eq_tol(r.bead_diameter, 14, 1e-12);
@@ -277,8 +275,7 @@ START_TEST(sizes_come_from_the_framework)
   ck_assert_int_eq(thr_physics_resolve(&p, &f, &r, &err), THR_OK);
   ck_assert_double_eq_tol(r.bore / r.cord_diameter, 2, 1e-12);
   set(&p, "bore", 0.5);
-  ck_assert_int_eq(thr_physics_resolve(&p, &f, &r, &err), THR_EINPUT);
-  assert_one_line(&err, "span");
+  assert_status(thr_physics_resolve(&p, &f, &r, &err), THR_EINPUT, &err, "span");
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -289,7 +286,7 @@ START_TEST(sizes_that_are_left_open_always_fit)
   thr_frame f = random_frame(&r, 12, 8, LENGTHS_EUCLID);
   thr_physics p = thr_physics_default(), out;
   thr_err err = {0};
-  ck_assert_msg(thr_physics_resolve(&p, &f, &out, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_physics_resolve(&p, &f, &out, &err), &err);
   for (int e = 0; e < f.n_edges; e++) {
     const double *a = f.xyz[f.edge[e][0]], *b = f.xyz[f.edge[e][1]];
     ck_assert_double_lt(out.bore,
@@ -342,8 +339,7 @@ START_TEST(what_does_not_fit_is_refused)
     for (int k = 0; k < 3; k++)
       f.xyz[v][k] *= 1e9;
   thr_err err = {0};
-  ck_assert_int_eq(thr_physics_resolve(&p, &f, &out, &err), THR_EINPUT);
-  assert_one_line(&err, "--units");
+  assert_status(thr_physics_resolve(&p, &f, &out, &err), THR_EINPUT, &err, "--units");
   thr_frame_destroy(&f);
 }
 END_TEST

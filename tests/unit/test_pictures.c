@@ -60,7 +60,7 @@ static thr_text plot(const thr_plan *p)
   thr_text svg = {0};
   thr_err err = {0};
   thr_tension_options o = thr_tension_options_default();
-  ck_assert_msg(thr_tension_svg(p, &o, &svg, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_tension_svg(p, &o, &svg, &err), &err);
   return svg;
 }
 
@@ -540,7 +540,7 @@ static thr_text overview(const thr_plan *p, thr_overview_colour colour)
   thr_err err = {0};
   thr_overview_options o = thr_overview_options_default();
   o.colour = colour;
-  ck_assert_msg(thr_overview_svg(p, &o, &svg, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_overview_svg(p, &o, &svg, &err), &err);
   return svg;
 }
 
@@ -700,7 +700,7 @@ static thr_text still_of(const thr_frame *f, const double (*pose)[7], int first)
                                    {"after", "After: open", pose}};
   const thr_still s = {
       .width = 0.3, .ground = -0.15, .n_panels = 2, .panel = panel, .first_bead = first};
-  ck_assert_msg(thr_still_svg(f, &s, &svg, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_still_svg(f, &s, &svg, &err), &err);
   return svg;
 }
 
@@ -835,8 +835,7 @@ START_TEST(still_refuses_nonsense)
     if (i == 1) bad.width = NAN;
     if (i == 2) bad.first_bead = 3;
     if (i == 3) pose[1][4] = INFINITY;
-    ck_assert_int_eq(thr_still_svg(&f, &bad, &svg, &err), THR_EINPUT);
-    assert_one_line(&err, i < 2 ? "wide" : "bead");
+    assert_status(thr_still_svg(&f, &bad, &svg, &err), THR_EINPUT, &err, i < 2 ? "wide" : "bead");
   }
   ck_assert_int_eq((int)svg.length, 0);
   thr_frame_destroy(&f);
@@ -865,8 +864,7 @@ START_TEST(allocations_may_fail)
                    : thr_tension_svg(&p, &o, &svg, &err);
       thr_alloc_fail_at(0);
       if (st) {
-        ck_assert_int_eq(st, THR_ENOMEM);
-        assert_one_line(&err, "memory");
+        assert_status(st, THR_ENOMEM, &err, "memory");
       }
       thr_text_destroy(&svg);
     }

@@ -266,8 +266,7 @@ START_TEST(every_cut_short_text_is_refused)
   thr_text t = plan_text(&p);
   for (size_t n = 0; n + 2 < t.length; n++) {
     thr_err err = {0};
-    ck_assert_int_eq(judge_text(t.data, n, &err), THR_EINPUT);
-    assert_one_line(&err, "plan:");
+    assert_status(judge_text(t.data, n, &err), THR_EINPUT, &err, "plan:");
   }
   thr_text_destroy(&t);
   thr_plan_destroy(&p);
@@ -292,8 +291,8 @@ START_TEST(missing_file_is_named)
 {
   thr_plan p;
   thr_err err = {0};
-  ck_assert_int_eq(thr_plan_read(&p, "tests/no-such-plan.json", &err), THR_EIO);
-  assert_one_line(&err, "no-such-plan.json");
+  assert_status(thr_plan_read(&p, "tests/no-such-plan.json", &err), THR_EIO, &err,
+                "no-such-plan.json");
   thr_plan_destroy(&p); /* {0} */
 }
 END_TEST

@@ -32,15 +32,13 @@ START_TEST(plans_for_every_objective_are_written_and_read)
   thr_plan made = {0}, again;
   thr_text text = {0};
   thr_request o = thr_request_default();
-  ck_assert_msg(thr_frame_read(&f, &read, "data/dome7.json", &how, NULL, 0, &e) == THR_OK, "%s",
-                e.text);
+  assert_ok(thr_frame_read(&f, &read, "data/dome7.json", &how, NULL, 0, &e), &e);
   want(&o, aims[_i]);
   const thr_status st = thr_plan_make(&f, &o, &limits, &made, NULL, &e);
   ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", e.text);
   thr_plan_write(&made, &text);
-  ck_assert_msg(thr_plan_parse(&again, text.data, text.length, "again", &e) == THR_OK, "%s",
-                e.text);
-  ck_assert_msg(thr_check_plan(&again, &e) == THR_OK, "%s", e.text);
+  assert_ok(thr_plan_parse(&again, text.data, text.length, "again", &e), &e);
+  assert_ok(thr_check_plan(&again, &e), &e);
   ck_assert_int_eq((int)thr_aims_objective(&again.options), _i);
   ck_assert(again.proof.present && again.proof.lower_bound > 0);
   thr_text_destroy(&text);
@@ -67,7 +65,7 @@ START_TEST(every_plan_comes_with_proofs)
   ck_assert_ptr_nonnull(p.generator);
   ck_assert_ptr_nonnull(strstr(p.generator, "GLPK"));
   e = (thr_err){0};
-  ck_assert_msg(thr_check_plan(&p, &e) == THR_OK, "%s", e.text);
+  assert_ok(thr_check_plan(&p, &e), &e);
   ck_assert(p.proof.present);
   ck_assert_double_ge(p.proof.lower_bound, thr_frame_total_length(&f) * (1 - 1e-9));
   ck_assert(p.symmetry.present == (thr_wants_symmetry(&o)));
@@ -86,7 +84,7 @@ static thr_text tour_text(const thr_frame *f, const thr_request *o, double deadl
   thr_text text = {0};
   thr_plan p;
   thr_err e = {0};
-  ck_assert_msg(thr_plan_make(f, o, &limits, &p, NULL, &e) == THR_OK, "%s", e.text);
+  assert_ok(thr_plan_make(f, o, &limits, &p, NULL, &e), &e);
   ck_assert_msg(p.proof.optimal && thr_check_plan(&p, &e) == THR_OK, "%s", e.text);
   thr_plan_write(&p, &text);
   ck_assert(!text.failed);
@@ -140,7 +138,7 @@ static double turning_of(const thr_frame *f, const thr_request *o, const thr_lim
   thr_status st = thr_plan_make(f, o, limits, &p, NULL, &e);
   double turning = p.metrics.turning;
   if (st && st != THR_ELIMIT) return INFINITY;
-  ck_assert_msg(thr_check_plan(&p, &e) == THR_OK, "%s", e.text);
+  assert_ok(thr_check_plan(&p, &e), &e);
   if (o->cords > 1 && turns_back(f, &p)) turning = INFINITY;
   thr_plan_destroy(&p);
   return turning;
@@ -207,8 +205,7 @@ START_TEST(turning_of_data_begins_so)
   thr_read_report report;
   thr_frame f;
   thr_err e = {0};
-  ck_assert_msg(thr_frame_read(&f, &report, paths[_i], &options, NULL, 0, &e) == THR_OK, "%s",
-                e.text);
+  assert_ok(thr_frame_read(&f, &report, paths[_i], &options, NULL, 0, &e), &e);
   assert_begins(&f, paths[_i]);
   thr_frame_destroy(&f);
 }
@@ -287,8 +284,7 @@ static void make_proved(thr_plan *plan, const char *aims_of_plan)
   const thr_limits limits = {.deadline = thr_clock() + 20};
   thr_err err = {0};
   want(&request, aims_of_plan);
-  ck_assert_msg(thr_plan_make(&frame, &request, &limits, plan, NULL, &err) == THR_OK, "%s",
-                err.text);
+  assert_ok(thr_plan_make(&frame, &request, &limits, plan, NULL, &err), &err);
   thr_frame_destroy(&frame);
 }
 
@@ -301,7 +297,7 @@ static int dropped_of(thr_plan *plan)
   thr_err err = {0};
   int dropped = -1;
   thr_plan_write(plan, &text);
-  ck_assert_msg(thr_plan_confirm(plan, &text, "plan", &dropped, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_plan_confirm(plan, &text, "plan", &dropped, &err), &err);
   ck_assert_int_eq(thr_check_plan(plan, NULL), THR_OK);
   ck_assert_int_eq(thr_plan_parse(&again, text.data, text.length, "again", NULL), THR_OK);
   ck_assert_int_eq(thr_check_plan(&again, NULL), THR_OK);

@@ -23,7 +23,7 @@ static thr_text text_of(const thr_plan *p, writer *write)
 {
   thr_text t = {0}, again = {0};
   thr_err err = {0};
-  ck_assert_msg(write(p, &plain, &t, &err) == THR_OK, "%s", err.text);
+  assert_ok(write(p, &plain, &t, &err), &err);
   ck_assert_int_eq(write(p, &plain, &again, &err), THR_OK);
   assert_same_text(&t, &again);
   thr_text_destroy(&again);
@@ -40,8 +40,7 @@ START_TEST(obj_is_read_back)
   thr_read_report report = {0};
   thr_frame f = {0};
   thr_err err = {0};
-  ck_assert_msg(thr_draft_parse(&d, &report, t.data, t.length, "cords.obj", NULL, &err) == THR_OK,
-                "%s", err.text);
+  assert_ok(thr_draft_parse(&d, &report, t.data, t.length, "cords.obj", NULL, &err), &err);
   ck_assert_int_eq(thr_draft_build(&d, 0, &f, &report, &err), THR_OK);
   ck_assert_int_eq(report.edges_read, p.metrics.passes);
   ck_assert_int_eq(f.n_nodes, p.frame.n_nodes);
@@ -433,17 +432,13 @@ START_TEST(broken_plans_are_refused)
     thr_err err = {0};
     int half = p.cord[0].half[2], n = p.n_cords;
     p.cord[0].half[2] = 1000;
-    ck_assert_int_eq(writers[w](&p, &plain, &t, &err), THR_EINPUT);
-    assert_one_line(&err, "edge 500");
+    assert_status(writers[w](&p, &plain, &t, &err), THR_EINPUT, &err, "edge 500");
     p.cord[0].half[2] = half;
     p.n_cords = 0;
-    err = (thr_err){0};
-    ck_assert_int_eq(writers[w](&p, &plain, &t, &err), THR_EINPUT);
-    assert_one_line(&err, "no cord");
+    assert_status(writers[w](&p, &plain, &t, &err), THR_EINPUT, &err, "no cord");
     p.n_cords = n;
     for (int v = 0; v < p.frame.n_nodes; v++)
       p.frame.xyz[v][2] += 1e50;
-    err = (thr_err){0};
     const bool gltf = writers[w] == thr_polylines_gltf;
     ck_assert_int_eq(writers[w](&p, &plain, &t, &err), gltf ? THR_EINPUT : THR_OK);
     if (gltf) assert_one_line(&err, "too far");

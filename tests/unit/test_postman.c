@@ -146,8 +146,8 @@ START_TEST(no_end_allowed_is_infeasible)
   thr_plan p;
   thr_limits none = {0};
   thr_err err = {0};
-  ck_assert_int_eq(thr_postman_plan(&f, &o, &none, &p, &err), THR_EINFEASIBLE);
-  assert_one_line(&err, "the component with node");
+  assert_status(thr_postman_plan(&f, &o, &none, &p, &err), THR_EINFEASIBLE, &err,
+                "the component with node");
   ck_assert(p.cord == NULL && p.frame.xyz == NULL);
   thr_frame_destroy(&f);
 }
@@ -160,8 +160,8 @@ START_TEST(a_plan_for_the_length_has_one_cord_a_piece)
   thr_plan p;
   thr_err err = {0};
   o.cords = 2;
-  ck_assert_int_eq(thr_postman_plan(&f, &o, &(thr_limits){0}, &p, &err), THR_EINPUT);
-  assert_one_line(&err, "--objective tortuosity");
+  assert_status(thr_postman_plan(&f, &o, &(thr_limits){0}, &p, &err), THR_EINPUT, &err,
+                "--objective tortuosity");
   ck_assert(p.cord == NULL && p.frame.xyz == NULL);
   thr_frame_destroy(&f);
 }
@@ -359,7 +359,7 @@ START_TEST(joins_match_all_subsets)
   thr_tjoin t;
   thr_err err = {0};
   thr_limits none = {0};
-  ck_assert_msg(thr_tjoin_solve(&p, &none, &t, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_tjoin_solve(&p, &none, &t, &err), &err);
   int64_t length = 0, sum = 0, load[16] = {0};
   uint32_t side[64] = {0};
   for (int e = 0; e < m; e++)
@@ -409,8 +409,7 @@ START_TEST(ends_anywhere_in_a_large_framework)
     thr_err err = {0};
     o.confirm = THR_CONFIRM_NEVER;
     o.cords = o.cords_least = cords ? cords : 1;
-    ck_assert_msg(thr_postman_shortest(&f, &o, &(thr_limits){0}, &s, &err) == THR_OK, "%s",
-                  err.text);
+    assert_ok(thr_postman_shortest(&f, &o, &(thr_limits){0}, &s, &err), &err);
     ck_assert(s.optimal);
     ck_assert_double_lt(s.length, closed);
     ck_assert(s.confirmed.confirmed == 0 && s.confirmed.skipped == 0);

@@ -76,7 +76,7 @@ static thr_plan plan_with(const thr_frame *f, thr_ends ends, int cords, int *end
   thr_err err = {0};
   o.cords = o.cords_least = cords;
   o.end_count = end_count;
-  ck_assert_msg(length_plan(f, &o, &(thr_limits){0}, &p, NULL, &err) == THR_OK, "%s", err.text);
+  assert_ok(length_plan(f, &o, &(thr_limits){0}, &p, NULL, &err), &err);
   ck_assert(p.proof.optimal);
   assert_plan_sound(&p);
   return p;

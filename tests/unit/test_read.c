@@ -44,9 +44,8 @@ static thr_frame read_text(const char *text, const thr_format *format, thr_read_
   thr_frame f = {0};
   thr_err err = {0};
   *r = (thr_read_report){0};
-  ck_assert_msg(thr_draft_parse(&d, r, text, strlen(text), "text", format, &err) == THR_OK, "%s",
-                err.text);
-  ck_assert_msg(thr_draft_build(&d, -1, &f, r, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_draft_parse(&d, r, text, strlen(text), "text", format, &err), &err);
+  assert_ok(thr_draft_build(&d, -1, &f, r, &err), &err);
   thr_draft_destroy(&d);
   return f;
 }
@@ -816,7 +815,7 @@ static thr_frame read_file(const char *path)
   thr_read_report r;
   thr_err err = {0};
   thr_read_options o = thr_read_options_default();
-  ck_assert_msg(thr_frame_read(&f, &r, path, &o, NULL, 0, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_frame_read(&f, &r, path, &o, NULL, 0, &err), &err);
   ck_assert_int_eq(r.welded_nodes + r.duplicate_edges + r.zero_length_edges + r.isolated_nodes +
                        r.skipped_records,
                    0);
@@ -1269,60 +1268,49 @@ START_TEST(every_allocation_may_fail)
 }
 END_TEST
 
-static void add_tests(TCase *t)
-{
-  tcase_add_test(t, passes_of_edges);
-  tcase_add_test(t, graphml_defaults);
-  tcase_add_test(t, graphml_sections);
-  tcase_add_test(t, csv_shapes);
-  tcase_add_loop_test(t, numbers_are_what_strtod_takes_them_for, 0, 5);
-  tcase_add_test(t, csv_first_edge_is_not_taken_for_a_header);
-  tcase_add_test(t, csv_errors);
-  tcase_add_test(t, csv_columns_by_their_words);
-  tcase_add_test(t, csv_of_other_programs);
-  tcase_add_test(t, csv_units_and_empty_z);
-  tcase_add_test(t, csv_points_with_normals);
-  tcase_add_test(t, csv_dots_that_may_part_thousands);
-  tcase_add_test(t, csv_tells_the_columns_it_saw);
-  tcase_add_test(t, csv_nul_byte);
-  tcase_add_test(t, csv_pairs);
-  tcase_add_test(t, obj_records);
-  tcase_add_test(t, obj_rhino_curves);
-  tcase_add_test(t, obj_shared_sides_are_no_duplicates);
-  tcase_add_test(t, obj_errors);
-  tcase_add_test(t, json_dialects);
-  tcase_add_test(t, json_units_and_grounded_nodes);
-  tcase_add_test(t, json_takes_a_list_whole_and_else_the_first);
-  tcase_add_test(t, json_of_other_programs);
-  tcase_add_test(t, json_errors);
-  tcase_add_test(t, json_syntax_and_depth);
-  tcase_add_test(t, formats_by_name_and_content);
-  tcase_add_loop_test(t, stored_frameworks, 0, sizeof stored / sizeof *stored);
-  tcase_add_loop_test(t, round_trips, 0, sizeof stored / sizeof *stored);
-  tcase_add_test(t, numeric_keys_are_indices);
-  tcase_add_test(t, pairs_find_each_other);
-  tcase_add_test(t, options_override);
-  tcase_add_test(t, file_errors);
-  tcase_add_test(t, long_inputs);
-  tcase_add_test(t, units_are_units);
-  tcase_add_test(t, comments_name_units_or_are_refused);
-  tcase_add_test(t, comments_name_units_in_many_ways);
-  tcase_add_test(t, units_that_contradict_are_refused);
-  tcase_add_test(t, names_are_cleaned_where_they_are_read);
-  tcase_add_test(t, two_nodes_of_one_name_are_refused);
-  tcase_add_test(t, an_apostrophe_is_no_part_of_a_name);
-  tcase_add_loop_test(t, every_allocation_may_fail, 0, sizeof small_files / sizeof *small_files);
-}
-
 int main(void)
 {
-  Suite *suite = suite_create("read");
-  TCase *t = tcase_create("read");
-  add_tests(t);
-  suite_add_tcase(suite, t);
-  SRunner *runner = srunner_create(suite);
-  srunner_run_all(runner, CK_NORMAL);
-  int failed = srunner_ntests_failed(runner);
-  srunner_free(runner);
-  return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+  Suite *s = suite_create("read");
+  ADD_TEST(s, 4, passes_of_edges);
+  ADD_TEST(s, 4, graphml_defaults);
+  ADD_TEST(s, 4, graphml_sections);
+  ADD_TEST(s, 4, csv_shapes);
+  ADD_LOOP(s, 4, numbers_are_what_strtod_takes_them_for, 0, 5);
+  ADD_TEST(s, 4, csv_first_edge_is_not_taken_for_a_header);
+  ADD_TEST(s, 4, csv_errors);
+  ADD_TEST(s, 4, csv_columns_by_their_words);
+  ADD_TEST(s, 4, csv_of_other_programs);
+  ADD_TEST(s, 4, csv_units_and_empty_z);
+  ADD_TEST(s, 4, csv_points_with_normals);
+  ADD_TEST(s, 4, csv_dots_that_may_part_thousands);
+  ADD_TEST(s, 4, csv_tells_the_columns_it_saw);
+  ADD_TEST(s, 4, csv_nul_byte);
+  ADD_TEST(s, 4, csv_pairs);
+  ADD_TEST(s, 4, obj_records);
+  ADD_TEST(s, 4, obj_rhino_curves);
+  ADD_TEST(s, 4, obj_shared_sides_are_no_duplicates);
+  ADD_TEST(s, 4, obj_errors);
+  ADD_TEST(s, 4, json_dialects);
+  ADD_TEST(s, 4, json_units_and_grounded_nodes);
+  ADD_TEST(s, 4, json_takes_a_list_whole_and_else_the_first);
+  ADD_TEST(s, 4, json_of_other_programs);
+  ADD_TEST(s, 4, json_errors);
+  ADD_TEST(s, 4, json_syntax_and_depth);
+  ADD_TEST(s, 4, formats_by_name_and_content);
+  ADD_LOOP(s, 4, stored_frameworks, 0, sizeof stored / sizeof *stored);
+  ADD_LOOP(s, 4, round_trips, 0, sizeof stored / sizeof *stored);
+  ADD_TEST(s, 4, numeric_keys_are_indices);
+  ADD_TEST(s, 4, pairs_find_each_other);
+  ADD_TEST(s, 4, options_override);
+  ADD_TEST(s, 4, file_errors);
+  ADD_TEST(s, 4, long_inputs);
+  ADD_TEST(s, 4, units_are_units);
+  ADD_TEST(s, 4, comments_name_units_or_are_refused);
+  ADD_TEST(s, 4, comments_name_units_in_many_ways);
+  ADD_TEST(s, 4, units_that_contradict_are_refused);
+  ADD_TEST(s, 4, names_are_cleaned_where_they_are_read);
+  ADD_TEST(s, 4, two_nodes_of_one_name_are_refused);
+  ADD_TEST(s, 4, an_apostrophe_is_no_part_of_a_name);
+  ADD_LOOP(s, 4, every_allocation_may_fail, 0, sizeof small_files / sizeof *small_files);
+  return run_suite(s);
 }

@@ -279,9 +279,9 @@ static thr_plan two_squares(int n_cords)
   o.cords = n_cords;
   thr_plan p = plan_of_cords(&f, &o);
   thr_err err = {0};
-  thr_status st = thr_check_cords(&p.frame, &p.options, p.cord, p.n_cords, p.proof.certificate, 1,
-                                  NULL, &p.cords_claim, &err);
-  ck_assert_msg(st == THR_OK, "%s", err.text);
+  assert_ok(thr_check_cords(&p.frame, &p.options, p.cord, p.n_cords, p.proof.certificate, 1, NULL,
+                            &p.cords_claim, &err),
+            &err);
   thr_frame_destroy(&f);
   return p;
 }
@@ -456,7 +456,7 @@ START_TEST(aims_are_read_and_written)
     return;
   }
   thr_text t = {0};
-  ck_assert_msg(st == THR_OK, "%s", err.text);
+  assert_ok(st, &err);
   thr_aims_write(&o, &t);
   ck_assert_str_eq(t.data, lists[_i].settled);
   ck_assert_int_eq(thr_aims_parse(t.data, &again, &err), THR_OK);

@@ -11,7 +11,7 @@ static thr_rigidity rigidity_of(const thr_frame *f)
 {
   thr_rigidity r;
   thr_err err = {0};
-  ck_assert_msg(thr_rigidity_find(f, &r, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_rigidity_find(f, &r, &err), &err);
   ck_assert_int_eq(3 * f->n_nodes - r.rank - r.rigid_motions, r.motions);
   ck_assert_int_eq(f->n_edges - r.rank, r.self_stresses);
   return r;

@@ -22,8 +22,7 @@ static thr_evaluation evaluated(const thr_frame *f, const thr_plan *p, thr_pull 
   thr_err err = {0};
   o.pull = pull;
   o.schedule = schedule;
-  ck_assert_msg(thr_eval_plan(f, p->cord, p->n_cords, THR_CAPSTAN, &o, &none, &e, &err) == THR_OK,
-                "%s", err.text);
+  assert_ok(thr_eval_plan(f, p->cord, p->n_cords, THR_CAPSTAN, &o, &none, &e, &err), &err);
   return e.record;
 }
 

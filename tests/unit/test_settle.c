@@ -45,7 +45,7 @@ static row row_of(int n, double length, double width, const double direction[3],
   memcpy(r.frame.units, "m", 2);
   r.physics.bead_diameter = 1000 * width * scale;
   r.physics.bore = 100 * width * scale;
-  ck_assert_msg(thr_beads_make(&r.frame, &r.physics, &r.beads, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_beads_make(&r.frame, &r.physics, &r.beads, &err), &err);
   fixed[0] = true;
   thr_beads_clamp(&r.beads, fixed);
   free(xyz);
@@ -104,9 +104,9 @@ static thr_settle run(const row *r, const thr_settle_options *o)
   const double *tension[1] = {r->tension};
   thr_settle s;
   thr_err err = {0};
-  ck_assert_msg(thr_settle_run(&r->beads, &r->frame, &r->cord, 1, tension, NULL, &r->physics, o,
-                               NULL, &s, &err) == THR_OK,
-                "%s", err.text);
+  assert_ok(thr_settle_run(&r->beads, &r->frame, &r->cord, 1, tension, NULL, &r->physics, o, NULL,
+                           &s, &err),
+            &err);
   ck_assert(s.present && s.n_beads == r->beads.n_beads);
   return s;
 }
@@ -172,9 +172,9 @@ START_TEST(a_cord_that_is_let_down_keeps_what_it_had)
   o.start = 1.6 * needed;
   thr_settle s;
   thr_err err = {0};
-  ck_assert_msg(thr_settle_run(&r.beads, &r.frame, &r.cord, 1, tension, most, &r.physics, &o, NULL,
-                               &s, &err) == THR_OK,
-                "%s", err.text);
+  assert_ok(
+      thr_settle_run(&r.beads, &r.frame, &r.cord, 1, tension, most, &r.physics, &o, NULL, &s, &err),
+      &err);
   ck_assert_int_eq(s.status, THR_SETTLE_FELL);
   ck_assert_double_eq_tol(s.fall, needed / 2, 0.015 * needed);
   thr_settle_destroy(&s);
@@ -286,7 +286,7 @@ START_TEST(friction_of_the_ground_counts)
     r.physics.mu_ground = i ? 5 : 0.05;
     r.cord = (thr_cord){.id = "A", .n_passes = 4, .half = (int[]){0, 2, 4, 6}};
     r.tension = (double[]){1, 1, 1, 1};
-    ck_assert_msg(thr_beads_make(&r.frame, &r.physics, &r.beads, &err) == THR_OK, "%s", err.text);
+    assert_ok(thr_beads_make(&r.frame, &r.physics, &r.beads, &err), &err);
     thr_settle_options o = open_options(300 * r.beads.mass[1]);
     thr_settle s = run(&r, &o);
     ck_assert_int_eq(s.status, i ? THR_SETTLE_HELD : THR_SETTLE_FELL);
@@ -383,10 +383,9 @@ START_TEST(interrupt_stops_and_leaves_nothing)
   thr_settle s;
   thr_err err = {0};
   interrupted = 0;
-  ck_assert_int_eq(thr_settle_run(&r.beads, &r.frame, &r.cord, 1, tension, NULL, &r.physics, &o,
-                                  &limits, &s, &err),
-                   THR_ELIMIT);
-  assert_one_line(&err, "stopped");
+  assert_status(thr_settle_run(&r.beads, &r.frame, &r.cord, 1, tension, NULL, &r.physics, &o,
+                               &limits, &s, &err),
+                THR_ELIMIT, &err, "stopped");
   ck_assert(!s.present && s.before == NULL && s.after == NULL);
   ck_assert_int_eq(w.calls, 5);
   interrupted = 0;

@@ -5,12 +5,15 @@
 #define _POSIX_C_SOURCE 200809L
 #include "diagram/export/paper.h"
 #include "diagram/overview/overview_parts.h"
+#include "diagram/scene/scene.h"
 #include "diagram/sheets/sheets.h"
 #include "graph/limits.h"
+#include "graph/number.h"
 #include "tests/frameworks.h"
 #include "tests/sample_plans.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,23 +24,37 @@ static const thr_limits none;
 
 /* ---- making them ---- */
 
+static thr_sheets_options options_of(thr_page_size page, bool middle)
+{
+  thr_sheets_options o = thr_sheets_options_default();
+  o.page = page;
+  o.needles = middle ? 2 : 1;
+  return o;
+}
+
 static thr_sheets *sheets_of(const thr_plan *p, thr_page_size page, bool middle)
 {
   thr_err err = {0};
   thr_sheets *s;
-  thr_sheets_options o = thr_sheets_options_default();
-  o.page = page;
-  o.needles = middle ? 2 : 1;
+  const thr_sheets_options o = options_of(page, middle);
   ck_assert_msg(thr_sheets_make(&s, p, &o, &none, &err) == THR_OK, "%s", err.text);
   return s;
 }
 
-static thr_text pdf_of(const thr_sheets *s)
+static thr_text pdf_in_threads(const thr_plan *p, thr_page_size page, bool middle, int threads)
 {
   thr_text t = {0};
   thr_err err = {0};
-  ck_assert_msg(thr_sheets_pdf(s, &none, &t, &err) == THR_OK, "%s", err.text);
+  int n;
+  const thr_sheets_options o = options_of(page, middle);
+  const thr_limits limits = {.threads = threads};
+  ck_assert_msg(thr_sheets_write(p, &o, &limits, &n, &t, &err) == THR_OK, "%s", err.text);
   return t;
+}
+
+static thr_text pdf_of(const thr_plan *p, thr_page_size page, bool middle)
+{
+  return pdf_in_threads(p, page, middle, 0);
 }
 
 /* What a poppler tool says of a PDF. */
@@ -563,7 +580,7 @@ static void judge(thr_plan p, bool middle, thr_page_size page)
 {
   double size[2];
   thr_sheets *s = sheets_of(&p, page, middle);
-  thr_text pdf = pdf_of(s);
+  thr_text pdf = pdf_of(&p, page, middle);
   int n = thr_sheets_pages(s), steps = 0;
   thr_page_mm(page, size);
   assert_pages(&pdf, n, size[0], size[1]);
@@ -638,7 +655,7 @@ START_TEST(a_large_plan_is_read_back)
 {
   thr_plan p = plan_of(frame_load("data/jax_fdm/liew_dome.json", NULL), THR_ENDS_FEET, 1);
   thr_sheets *s = sheets_of(&p, THR_PAGE_A4, false);
-  thr_text pdf = pdf_of(s);
+  thr_text pdf = pdf_of(&p, THR_PAGE_A4, false);
   assert_reads_back(&p, &pdf);
   assert_pages(&pdf, thr_sheets_pages(s), 210, 297);
   assert_sections(&pdf, p.frame.n_nodes);
@@ -662,15 +679,13 @@ START_TEST(making_is_told)
                                      "starts at foot A1",
                                      "(feet: A1, A4, D1, D4)"};
   thr_plan p = plan_of(shape_make(THR_MAKE_DOME, 4, 0), THR_ENDS_FEET, 1);
-  thr_sheets *s = sheets_of(&p, THR_PAGE_A4, false);
-  thr_text pdf = pdf_of(s), told = told_by("pdftotext", &pdf);
+  thr_text pdf = pdf_of(&p, THR_PAGE_A4, false), told = told_by("pdftotext", &pdf);
   for (char *c = told.data; *c; c++)
     if (*c == '\n') *c = ' ';
   for (size_t i = 0; i < sizeof said / sizeof *said; i++)
     ck_assert_msg(strstr(told.data, said[i]), "\"%s\" is not said", said[i]);
   thr_text_destroy(&told);
   thr_text_destroy(&pdf);
-  thr_sheets_destroy(s);
   thr_plan_destroy(&p);
 }
 END_TEST
@@ -678,8 +693,7 @@ END_TEST
 START_TEST(a_pdf_tells_no_time_and_no_place)
 {
   thr_plan p = plan_of(ring_make(5), THR_ENDS_CLOSED, 1);
-  thr_sheets *s = sheets_of(&p, THR_PAGE_A4, false);
-  thr_text pdf = pdf_of(s);
+  thr_text pdf = pdf_of(&p, THR_PAGE_A4, false);
   thr_text info = {0};
   thr_text_append_bytes(&info, pdf.data, pdf.length);
   for (size_t i = 0; i < info.length; i++)
@@ -689,23 +703,6 @@ START_TEST(a_pdf_tells_no_time_and_no_place)
   ck_assert(strstr(info.data, "%PDF-") == info.data && !strstr(info.data, "/tmp"));
   thr_text_destroy(&info);
   thr_text_destroy(&pdf);
-  thr_sheets_destroy(s);
-  thr_plan_destroy(&p);
-}
-END_TEST
-
-START_TEST(an_interrupt_stops_it)
-{
-  volatile sig_atomic_t stop = 1;
-  thr_limits limits = {.interrupted = &stop};
-  thr_err err = {0};
-  thr_text pdf = {0};
-  thr_plan p = plan_of(ring_make(5), THR_ENDS_CLOSED, 1);
-  thr_sheets *s = sheets_of(&p, THR_PAGE_A4, false);
-  ck_assert_int_eq(thr_sheets_pdf(s, &limits, &pdf, &err), THR_ELIMIT);
-  assert_one_line(&err, "page 1");
-  ck_assert_uint_eq(pdf.length, 0);
-  thr_sheets_destroy(s);
   thr_plan_destroy(&p);
 }
 END_TEST
@@ -718,9 +715,13 @@ START_TEST(an_interrupt_stops_the_layout)
   thr_plan p = plan_of(ring_make(5), THR_ENDS_CLOSED, 1);
   thr_sheets_options o = thr_sheets_options_default();
   thr_sheets *s;
+  thr_text pdf = {0};
+  int n;
   ck_assert_int_eq(thr_sheets_make(&s, &p, &o, &limits, &err), THR_ELIMIT);
   assert_one_line(&err, "interrupted at page 3 of the step sheets");
   ck_assert_ptr_null(s);
+  ck_assert_int_eq(thr_sheets_write(&p, &o, &limits, &n, &pdf, NULL), THR_ELIMIT);
+  ck_assert_uint_eq(pdf.length, 0);
   thr_plan_destroy(&p);
 }
 END_TEST
@@ -762,8 +763,7 @@ END_TEST
 START_TEST(steps_end_where_the_cord_turns)
 {
   thr_plan p = plan_number(0);
-  thr_sheets *s = sheets_of(&p, THR_PAGE_A4, false);
-  thr_text pdf = pdf_of(s), told = told_by("pdftotext -raw", &pdf);
+  thr_text pdf = pdf_of(&p, THR_PAGE_A4, false), told = told_by("pdftotext -raw", &pdf);
   int ends = 0;
   char *text = told.data;
   for (char *line = strtok_r(text, "\n\f", &text); line; line = strtok_r(NULL, "\n\f", &text)) {
@@ -780,8 +780,29 @@ START_TEST(steps_end_where_the_cord_turns)
   ck_assert_int_gt(ends, 2);
   thr_text_destroy(&told);
   thr_text_destroy(&pdf);
-  thr_sheets_destroy(s);
   thr_plan_destroy(&p);
+}
+END_TEST
+
+/* Of a pentagon and a path with a bend of 40 degrees, each closed, the path turns more only with
+ * the U-turn into its start: 440 degrees against 360, and it is pulled first. */
+START_TEST(cords_are_pulled_in_the_order_of_the_turning_shown)
+{
+  const double bend[3][3] = {{0}, {1, 0, 0}, {1 + cos(THR_PI / 4.5), sin(THR_PI / 4.5), 0}};
+  const int edge[2][2] = {{0, 1}, {1, 2}}, foot[2] = {0, -1};
+  thr_frame ring = ring_make(5), path = frame_make(3, bend, 2, edge, NULL, foot);
+  thr_plan p = plan_of(side_by_side(&ring, &path), THR_ENDS_CLOSED, 1);
+  thr_text pdf = pdf_of(&p, THR_PAGE_A4, false), told = told_by("pdftotext -layout", &pdf);
+  const char *table = strstr(told.data, "Pull the cords tight"), *first, *second;
+  ck_assert_ptr_nonnull(table);
+  first = strstr(table, " 440\n");
+  second = strstr(table, " 360\n");
+  ck_assert(first && second && first < second);
+  thr_text_destroy(&told);
+  thr_text_destroy(&pdf);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&ring);
+  thr_frame_destroy(&path);
 }
 END_TEST
 
@@ -828,49 +849,66 @@ START_TEST(every_failing_allocation_is_reported)
 }
 END_TEST
 
-/* Of the file alone, whose pages are laid out; and of both at once, now and then. Each finds fonts
- * in a child process. */
+/* Every 41st but for the first ones: each finds fonts in a child process. */
 START_TEST(every_failing_allocation_of_the_pdf_is_reported)
 {
-  enum { BOTH = 97 };
   thr_plan p = plan_of(path_make(2), THR_ENDS_ANY, 1);
   thr_sheets_options o = thr_sheets_options_default();
-  thr_sheets *s = sheets_of(&p, THR_PAGE_A4, false);
   thr_status st = THR_ENOMEM;
   int n = 0;
-  for (long k = 1; st; k = _i ? k + BOTH : k < 40 ? k + 1 : k + 17) {
+  for (long k = 1; st; k = k < 40 ? k + 1 : k + 41) {
     thr_text pdf = {0};
     thr_alloc_fail_at(k);
-    st =
-        _i ? thr_sheets_write(&p, &o, &none, &n, &pdf, NULL) : thr_sheets_pdf(s, &none, &pdf, NULL);
+    st = thr_sheets_write(&p, &o, &none, &n, &pdf, NULL);
     thr_alloc_fail_at(0);
     ck_assert(st == THR_OK || (st == THR_ENOMEM && !pdf.length));
     thr_text_destroy(&pdf);
   }
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* In any number of threads the same bytes, and as many pages as are laid out without a file. */
+START_TEST(threads_give_the_same_bytes)
+{
+  thr_plan p = plan_of(shape_make(THR_MAKE_DOME, 12, 0), THR_ENDS_FEET, 1);
+  thr_sheets *s = sheets_of(&p, THR_PAGE_A4, false);
+  thr_text pdf = pdf_of(&p, THR_PAGE_A4, false),
+           other = pdf_in_threads(&p, THR_PAGE_A4, false, 2 + _i);
+  assert_pages(&pdf, thr_sheets_pages(s), 210, 297);
+  ck_assert(pdf.length == other.length && memcmp(pdf.data, other.data, pdf.length) == 0);
+  thr_text_destroy(&pdf);
+  thr_text_destroy(&other);
   thr_sheets_destroy(s);
   thr_plan_destroy(&p);
 }
 END_TEST
 
-/* In any number of threads, and while pages are laid out: the same bytes. */
-START_TEST(threads_give_the_same_bytes)
+START_TEST(what_fits_no_room_is_drawn_at_the_smallest_scale)
 {
-  const thr_limits two = {.threads = 2}, three = {.threads = 3};
-  thr_plan p = plan_of(shape_make(THR_MAKE_DOME, 12, 0), THR_ENDS_FEET, 1);
-  thr_sheets_options o = thr_sheets_options_default();
-  o.needles = 1;
-  thr_sheets *s = sheets_of(&p, THR_PAGE_A4, false);
-  thr_text pdf = pdf_of(s), other = {0}, written = {0};
-  int n = 0;
-  ck_assert_int_eq(thr_sheets_pdf(s, &two, &other, NULL), THR_OK);
-  ck_assert_int_eq(thr_sheets_write(&p, &o, &three, &n, &written, NULL), THR_OK);
-  ck_assert_int_eq(n, thr_sheets_pages(s));
-  ck_assert(pdf.length == other.length && memcmp(pdf.data, other.data, pdf.length) == 0);
-  ck_assert(pdf.length == written.length && memcmp(pdf.data, written.data, pdf.length) == 0);
-  thr_text_destroy(&pdf);
-  thr_text_destroy(&other);
-  thr_text_destroy(&written);
-  thr_sheets_destroy(s);
+  const int now = 0;
+  const double room[2] = {1, 1}, page[2] = {100, 100}, corner[2] = {0, 0};
+  thr_plan p = plan_of(shape_make(THR_MAKE_DOME, 4, 0), THR_ENDS_FEET, 1);
+  thr_guide guide;
+  thr_crops crops;
+  thr_crop_view view;
+  thr_box shown;
+  thr_text picture = {0};
+  unsigned char *state = calloc((size_t)p.cord[0].n_passes, 1);
+  const thr_crop crop = {.state = state, .now = &now, .n_now = 1};
+
+  ck_assert_ptr_nonnull(state);
+  ck_assert_int_eq(thr_guide_make(&guide, &p.frame, NULL, NULL), THR_OK);
+  thr_crops_make(&crops, &p, &guide.layout);
+  ck_assert_int_eq(thr_crop_fit(&crops, &crop, room, room, &view, NULL), THR_OK);
+  ck_assert_int_eq(view.scale, THR_CROP_SCALES - 1);
+  thr_crop_fill(&crops, &view, page);
+  ck_assert(view.size[0] > 1 && view.size[0] < 20 && view.size[1] > 1 && view.size[1] < 20);
+  ck_assert_int_eq(thr_crop_draw(&crops, &crop, &view, corner, &shown, &picture, NULL), THR_OK);
+  thr_text_destroy(&picture);
+  thr_crops_destroy(&crops);
+  thr_guide_destroy(&guide);
+  free(state);
   thr_plan_destroy(&p);
 }
 END_TEST
@@ -883,14 +921,15 @@ int main(void)
   ADD_EXAMPLES(s, 60, odd_plans_are_read_back, 10);
   ADD_LARGE(s, 120, a_large_plan_is_read_back, 0, 1);
   ADD_TEST(s, 20, making_is_told);
+  ADD_TEST(s, 20, what_fits_no_room_is_drawn_at_the_smallest_scale);
   ADD_TEST(s, 20, a_pdf_tells_no_time_and_no_place);
-  ADD_TEST(s, 20, an_interrupt_stops_it);
   ADD_TEST(s, 20, an_interrupt_stops_the_layout);
   ADD_TEST(s, 20, a_shell_is_seen_in_space);
   ADD_TEST(s, 20, steps_end_where_the_cord_turns);
+  ADD_TEST(s, 20, cords_are_pulled_in_the_order_of_the_turning_shown);
   ADD_TEST(s, 20, plans_that_cannot_be_drawn_are_refused);
-  ADD_TEST(s, 20, threads_give_the_same_bytes);
+  ADD_EXAMPLES(s, 20, threads_give_the_same_bytes, 2);
   ADD_EXAMPLES(s, 60, every_failing_allocation_is_reported, 2);
-  ADD_EXAMPLES(s, 60, every_failing_allocation_of_the_pdf_is_reported, 2);
+  ADD_TEST(s, 60, every_failing_allocation_of_the_pdf_is_reported);
   return run_suite(s);
 }

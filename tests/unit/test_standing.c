@@ -54,8 +54,7 @@ static void claim(thr_plan *plan, double pull)
   physics.bore = 2;
   physics.cord_diameter = 1;
   physics.bead_mass = 10;
-  ck_assert_msg(thr_physics_resolve(&physics, &plan->frame, &e->physics, &err) == THR_OK, "%s",
-                err.text);
+  assert_ok(thr_physics_resolve(&physics, &plan->frame, &e->physics, &err), &err);
   e->cord = calloc(1, sizeof *e->cord);
   e->cord[0] = (thr_eval_cord){.known = true,
                                .pull = THR_PULL_BOTH,
@@ -172,7 +171,7 @@ START_TEST(proofs_hold_in_every_unit)
   thr_plan plan = plan_simple(&frame, THR_ENDS_ANY, 1);
   thr_err err = {0};
   claim(&plan, GRAVITY * 0.025);
-  ck_assert_msg(thr_check_plan(&plan, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_check_plan(&plan, &err), &err);
   plan.evaluation.standing.answer[0].velocity[1][0] -= 1e-12;
   assert_violated(&plan, "beads go into each other");
   thr_plan_destroy(&plan);
@@ -208,9 +207,9 @@ static thr_plan evaluated_plan(bool scheduled)
                      THR_OK);
     options.schedule = &schedule;
   }
-  ck_assert_msg(thr_eval_plan(&plan.frame, plan.cord, plan.n_cords, THR_STRUCTURE, &options, &none,
-                              &eval, &err) == THR_OK,
-                "%s", err.text);
+  assert_ok(thr_eval_plan(&plan.frame, plan.cord, plan.n_cords, THR_STRUCTURE, &options, &none,
+                          &eval, &err),
+            &err);
   (void)thr_plan_take_evaluation(&plan, &eval.record);
   thr_eval_destroy(&eval);
   thr_schedule_destroy(&schedule);
@@ -224,7 +223,7 @@ START_TEST(every_answer_is_believed_and_no_better_one)
   thr_err err = {0};
   thr_standing *s = &plan.evaluation.standing;
   int proved = 0;
-  ck_assert_msg(thr_check_plan(&plan, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_check_plan(&plan, &err), &err);
   for (int i = 0; i < s->n_answers; i++) {
     thr_answer *a = &s->answer[i];
     if (a->n_beads == 0) continue;
@@ -233,8 +232,7 @@ START_TEST(every_answer_is_believed_and_no_better_one)
     a->found = INFINITY; /* none was found */
     a->proved =
         was / better; /* less is claimed: but for the first, whose tensions follow from it */
-    if (a->asked != THR_ASKED_HOLDING)
-      ck_assert_msg(thr_check_plan(&plan, &err) == THR_OK, "%s", err.text);
+    if (a->asked != THR_ASKED_HOLDING) assert_ok(thr_check_plan(&plan, &err), &err);
     a->proved = was * better;
     assert_violated(&plan, a->asked == THR_ASKED_HOLDING && _i == 0 ? "" : "the powers");
     a->proved = was;
@@ -310,9 +308,9 @@ START_TEST(tight_turns_are_those_of_the_tight_path)
   ck_assert_int_eq(thr_plan_read(&plan, "data/dome7-stairs.json", NULL), THR_OK);
   options.taut = true;
   options.dynamics = false;
-  ck_assert_msg(thr_eval_plan(&plan.frame, plan.cord, plan.n_cords, THR_STRUCTURE, &options, &none,
-                              &eval, &err) == THR_OK,
-                "%s", err.text);
+  assert_ok(thr_eval_plan(&plan.frame, plan.cord, plan.n_cords, THR_STRUCTURE, &options, &none,
+                          &eval, &err),
+            &err);
   const thr_physics *physics = &eval.record.physics;
   for (int i = 0; i < plan.n_cords; i++) {
     double turn[32], sum = 0;
@@ -329,7 +327,7 @@ START_TEST(tight_turns_are_those_of_the_tight_path)
   }
   (void)thr_plan_take_evaluation(&plan, &eval.record);
   thr_eval_destroy(&eval);
-  ck_assert_msg(thr_check_plan(&plan, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_check_plan(&plan, &err), &err);
   plan.evaluation.cord[1].exponent[2] += 1e-6;
   assert_violated(&plan, "");
   thr_plan_destroy(&plan);

@@ -38,7 +38,7 @@ static thr_text steps_of(const thr_plan *p, const char *const *motion)
 {
   thr_text t = {0};
   thr_err err = {0};
-  ck_assert_msg(thr_steps_text(p, motion, 0, 1, NULL, &t, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_steps_text(p, motion, 0, 1, NULL, &t, &err), &err);
   return t;
 }
 
@@ -569,18 +569,13 @@ START_TEST(broken_plans_are_refused)
   thr_err err = {0};
   int half = p.cord[0].half[2];
   p.cord[0].half[2] = half ^ 1;
-  ck_assert_int_eq(thr_steps_text(&p, NULL, 0, 1, NULL, &t, &err), THR_EINPUT);
-  assert_one_line(&err, "pass 3");
+  assert_status(thr_steps_text(&p, NULL, 0, 1, NULL, &t, &err), THR_EINPUT, &err, "pass 3");
   p.cord[0].half[2] = 1000;
-  err = (thr_err){0};
-  ck_assert_int_eq(thr_steps_text(&p, NULL, 0, 1, NULL, &t, &err), THR_EINPUT);
-  assert_one_line(&err, "edge 500");
+  assert_status(thr_steps_text(&p, NULL, 0, 1, NULL, &t, &err), THR_EINPUT, &err, "edge 500");
   p.cord[0].half[2] = half;
   int n = p.n_cords;
   p.n_cords = 0;
-  err = (thr_err){0};
-  ck_assert_int_eq(thr_steps_text(&p, NULL, 0, 1, NULL, &t, &err), THR_EINPUT);
-  assert_one_line(&err, "no cord");
+  assert_status(thr_steps_text(&p, NULL, 0, 1, NULL, &t, &err), THR_EINPUT, &err, "no cord");
   ck_assert_uint_eq(t.length, 0);
   p.n_cords = n;
   thr_plan_destroy(&p);

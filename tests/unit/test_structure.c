@@ -28,10 +28,9 @@ static thr_eval eval_file(const char *path, double mu, double density)
   o.dynamics = false;
   o.physics.mu = mu;
   o.physics.density = density;
-  ck_assert_msg(thr_plan_read(&p, path, &err) == THR_OK, "%s", err.text);
-  ck_assert_msg(
-      thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e, &err) == THR_OK,
-      "%s", err.text);
+  assert_ok(thr_plan_read(&p, path, &err), &err);
+  assert_ok(thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e, &err),
+            &err);
   for (int i = 0; i < p.n_cords;
        i++) { /* the capstan law between neighbouring passes, the pull at the harder end */
     const thr_eval_cord *c = &e.record.cord[i];
@@ -97,14 +96,13 @@ static void eval_twice(const char *path, int rays, bool turned, thr_eval e[2])
   thr_eval_options o = thr_eval_options_default();
   o.dynamics = false;
   make_tight(&o);
-  ck_assert_msg(thr_plan_read(&p, path, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_plan_read(&p, path, &err), &err);
   for (int k = 0; k < 2; k++) {
     for (int i = 1; i < p.n_cords && turned && k == 1; i += 2)
       thr_walk_reverse(p.cord[i].half, p.cord[i].n_passes);
     o.rays = k ? rays : 0;
-    ck_assert_msg(thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e[k],
-                                &err) == THR_OK,
-                  "%s", err.text);
+    assert_ok(thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e[k], &err),
+              &err);
   }
   thr_plan_destroy(&p);
 }
@@ -159,7 +157,7 @@ START_TEST(rough_cords_are_never_hopeless)
                                       "data/dome7-snake.json"};
   thr_plan p;
   thr_err err = {0};
-  ck_assert_msg(thr_plan_read(&p, plans[_i], &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_plan_read(&p, plans[_i], &err), &err);
   double before = 0;
   for (double mu = 0.3; mu < 1.3; mu += 0.3) {
     thr_eval e;
@@ -195,9 +193,8 @@ START_TEST(cones_lie_between_pyramids)
   make_tight(&o);
   for (int k = 0; k < 2; k++) {
     o.rays = k ? 16 : 0;
-    ck_assert_msg(thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e[k],
-                                &err) == THR_OK,
-                  "%s", err.text);
+    assert_ok(thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e[k], &err),
+              &err);
   }
   const thr_holding *cones[] = {&e[0].holding, &e[0].loosest},
                     *pyramids[] = {&e[1].holding, &e[1].loosest};
@@ -238,7 +235,7 @@ START_TEST(large_domes_are_decided)
   thr_plan p = dome_plan(SIDE, (threading_kind)_i);
   thr_eval e;
   thr_err err;
-  ck_assert_msg(eval_at(&p, 0.2, 0.2, &e, &err) == THR_OK, "%s", err.text);
+  assert_ok(eval_at(&p, 0.2, 0.2, &e, &err), &err);
   ck_assert(e.holding.lower > 0 && e.holding.residual < 1e-12);
   ck_assert(e.holding.upper > e.holding.lower && e.holding.upper < 1.3 * e.holding.lower);
   thr_eval_destroy(&e);
@@ -260,7 +257,7 @@ START_TEST(too_rough_is_unknown)
   thr_plan p = {.frame = f, .cord = &cord, .n_cords = 1};
   thr_eval e;
   thr_err err;
-  ck_assert_msg(eval_at(&p, 0.2, 3, &e, &err) == THR_OK, "%s", err.text);
+  assert_ok(eval_at(&p, 0.2, 3, &e, &err), &err);
   ck_assert(e.complete && e.record.largest == 0 && e.holding.upper == 0);
   ck_assert(e.band[0] == 0 && isnan(e.band[1]));
   thr_eval_destroy(&e);
@@ -277,9 +274,7 @@ START_TEST(what_stands_has_no_forces)
   thr_eval_options o = thr_eval_options_default();
   thr_eval e;
   thr_err err = {0};
-  ck_assert_msg(thr_eval_plan(&f, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e, &err) ==
-                    THR_OK,
-                "%s", err.text);
+  assert_ok(thr_eval_plan(&f, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e, &err), &err);
   ck_assert(e.record.largest == 0 && e.record.total == 0 && e.record.cord[0].loss == 0 &&
             e.record.cord[0].tension[1] == 0);
   ck_assert(e.holding.first_bead == -1 && !e.settle.present);

@@ -281,8 +281,7 @@ START_TEST(what_is_not_known_is_refused)
   thr_paper *paper;
   thr_text_printf(&svg, "%s%s</svg>", HEAD, refused[_i][0]);
   ck_assert_int_eq(thr_paper_open(&paper, size, no_fonts, &err), THR_OK);
-  ck_assert_int_eq(thr_svg_page(paper, &svg, &err), THR_ESOLVER);
-  assert_one_line(&err, refused[_i][1]);
+  assert_status(thr_svg_page(paper, &svg, &err), THR_ESOLVER, &err, refused[_i][1]);
   thr_paper_destroy(paper);
   thr_text_destroy(&svg);
 }

@@ -194,7 +194,7 @@ START_TEST(plans_pass_the_checker)
           check_choice(&t);
           ck_assert(p.symmetry.present && p.symmetry.order == t.row[t.chosen].order);
           thr_err found = {0};
-          ck_assert_msg(thr_check_plan(&p, &found) == THR_OK, "%s", found.text);
+          assert_ok(thr_check_plan(&p, &found), &found);
           thr_plan_destroy(&p);
           thr_symmetries_destroy(&t);
         }
@@ -219,8 +219,8 @@ START_TEST(groups_by_number_and_name)
   ck_assert(t.chosen == 1 && t.row[2].n_cords == 8);
   thr_symmetries_destroy(&t);
   snprintf(o.symmetry.group, sizeof o.symmetry.group, "9");
-  ck_assert_int_eq(thr_symmetries_find(&f, &o, false, &no_limits, &t, &err), THR_EINPUT);
-  assert_one_line(&err, "1 to 8");
+  assert_status(thr_symmetries_find(&f, &o, false, &no_limits, &t, &err), THR_EINPUT, &err,
+                "1 to 8");
   ck_assert(t.n == 0 && t.row == NULL);
   thr_frame_destroy(&f);
 }
@@ -329,9 +329,8 @@ START_TEST(huge_groups)
                 memcmp(t.row[i].elements.element, t.row[k].elements.element,
                        (size_t)t.row[i].order * sizeof(int)) != 0);
   }
-  ck_assert_msg(thr_symmetries_plan(&t, t.chosen, &f, &o, &no_limits, &p, &err) == THR_OK, "%s",
-                err.text);
-  ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_symmetries_plan(&t, t.chosen, &f, &o, &no_limits, &p, &err), &err);
+  assert_ok(thr_check_plan(&p, &err), &err);
   thr_plan_destroy(&p);
   thr_symmetries_destroy(&t);
   o.symmetry.geometric =
@@ -414,8 +413,8 @@ START_TEST(no_time)
   thr_symmetries t;
   thr_plan p;
   thr_err err = {0};
-  ck_assert_int_eq(thr_symmetries_find(&f, &o, false, &over, &t, &err), THR_ELIMIT);
-  assert_one_line(&err, "the time was too short");
+  assert_status(thr_symmetries_find(&f, &o, false, &over, &t, &err), THR_ELIMIT, &err,
+                "the time was too short");
   ck_assert_int_eq(t.n, 8);
   for (int i = 0; i < t.n; i++)
     ck_assert_int_eq(t.row[i].why.code, THR_ELIMIT);
@@ -434,8 +433,8 @@ START_TEST(no_node_for_an_end)
   thr_symmetries t;
   thr_plan p;
   thr_err err = {0};
-  ck_assert_int_eq(thr_symmetries_find(&f, &o, false, &no_limits, &t, &err), THR_EINFEASIBLE);
-  assert_one_line(&err, "no node");
+  assert_status(thr_symmetries_find(&f, &o, false, &no_limits, &t, &err), THR_EINFEASIBLE, &err,
+                "no node");
   ck_assert_int_eq(thr_symmetry_plan(&f, &o, &no_limits, &t, &p, NULL), THR_EINFEASIBLE);
   ck_assert(p.n_cords == 0 && t.n == 0);
   thr_frame_destroy(&f);
@@ -460,10 +459,9 @@ START_TEST(seeds_for_the_largest_turning)
   ck_assert_int_eq(thr_symmetries_even(&t, 8), -1); /* its cords are taken */
   want(&turning, "max-turning");
   turning.cords = 8;
-  ck_assert_msg(thr_tortuosity_plan_from(&f, &turning, &seed, &no_limits, &p, &err) == THR_OK, "%s",
-                err.text);
+  assert_ok(thr_tortuosity_plan_from(&f, &turning, &seed, &no_limits, &p, &err), &err);
   ck_assert(p.turning.largest_optimal && p.metrics.max_turning <= seed.metrics.max_turning + 1e-9);
-  ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_check_plan(&p, &err), &err);
   thr_plan_destroy(&p);
   turning.cords = 2;
   thr_plan alone;

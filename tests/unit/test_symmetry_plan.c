@@ -729,11 +729,9 @@ START_TEST(length_proof_bounds_the_plan)
   thr_limits none = {0};
   thr_shortest shortest;
   thr_err err = {0};
-  ck_assert_msg(thr_postman_shortest(&p.frame, &p.options, &none, &shortest, &err) == THR_OK, "%s",
-                err.text);
-  ck_assert_msg(thr_postman_prove(&p.frame, &p.options, p.cord, p.n_cords, &shortest, &p.proof,
-                                  &err) == THR_OK,
-                "%s", err.text);
+  assert_ok(thr_postman_shortest(&p.frame, &p.options, &none, &shortest, &err), &err);
+  assert_ok(thr_postman_prove(&p.frame, &p.options, p.cord, p.n_cords, &shortest, &p.proof, &err),
+            &err);
   thr_shortest_destroy(&shortest);
   assert_plan_sound(&p);
   ck_assert(p.proof.present && p.proof.lower_bound <= p.metrics.length);
@@ -830,8 +828,7 @@ START_TEST(record_goes_with_its_objective)
   thr_text t = plan_text(&p);
   thr_err err = {0};
   char *text = replaced(t.data, "\"metrics\"", "\"metrics\"", "\"symmetry\": {}, \"metrics\"");
-  ck_assert_int_eq(judge_text(text, strlen(text), &err), THR_EVIOLATED);
-  assert_one_line(&err, "symmetry");
+  assert_status(judge_text(text, strlen(text), &err), THR_EVIOLATED, &err, "symmetry");
   free(text);
   thr_text_destroy(&t);
   thr_plan_destroy(&p);

@@ -103,7 +103,7 @@ static csv table_of(const thr_plan *p, kind k, const char *const *motion)
 {
   thr_text t = {0}, again = {0};
   thr_err err = {0};
-  ck_assert_msg(make(p, k, motion, &t, &err) == THR_OK, "%s", err.text);
+  assert_ok(make(p, k, motion, &t, &err), &err);
   ck_assert_int_eq(make(p, k, motion, &again, &err), THR_OK);
   assert_same_text(&t, &again);
   csv c = csv_read(&t);
@@ -741,17 +741,13 @@ START_TEST(broken_plans_are_refused)
     thr_err err = {0};
     int half = p.cord[0].half[2], n = p.n_cords;
     p.cord[0].half[2] = 1000;
-    ck_assert_int_eq(make(&p, (kind)k, NULL, &t, &err), THR_EINPUT);
-    assert_one_line(&err, "edge 500");
+    assert_status(make(&p, (kind)k, NULL, &t, &err), THR_EINPUT, &err, "edge 500");
     p.cord[0].half[2] = half;
     p.n_cords = 0;
-    err = (thr_err){0};
-    ck_assert_int_eq(make(&p, (kind)k, NULL, &t, &err), THR_EINPUT);
-    assert_one_line(&err, "no cord");
+    assert_status(make(&p, (kind)k, NULL, &t, &err), THR_EINPUT, &err, "no cord");
     p.n_cords = n;
     p.options.physics.cord_diameter = 3;
     p.options.physics.bore = 2;
-    err = (thr_err){0};
     ck_assert_uint_eq(t.length, 0);
     bool sizes = k == CORDS || k == BEADS;
     ck_assert_int_eq(make(&p, (kind)k, NULL, &t, &err), sizes ? THR_EINPUT : THR_OK);

@@ -447,13 +447,10 @@ START_TEST(nonsense_is_refused)
   double turn[1], length;
   for (int i = 0; i < 3; i++) {
     thr_err err = {0};
-    ck_assert_int_eq(thr_taut_path(&s.frame, &s.cord, 0, wrong[i], turn, NULL, &length, &err),
-                     THR_EINPUT);
-    assert_one_line(&err, "clearance");
-    err = (thr_err){0};
-    ck_assert_int_eq(thr_taut_path(&s.frame, &s.cord, wrong[i], 0.1, turn, NULL, &length, &err),
-                     THR_EINPUT);
-    assert_one_line(&err, "radius");
+    assert_status(thr_taut_path(&s.frame, &s.cord, 0, wrong[i], turn, NULL, &length, &err),
+                  THR_EINPUT, &err, "clearance");
+    assert_status(thr_taut_path(&s.frame, &s.cord, wrong[i], 0.1, turn, NULL, &length, &err),
+                  THR_EINPUT, &err, "radius");
   }
   for (long k = 1;; k++) {
     thr_err err = {0};

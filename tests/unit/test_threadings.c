@@ -20,7 +20,7 @@ START_TEST(file_is_what_is_made)
   thr_text wanted = plan_text(&made), found = {0};
   thr_err err = {0};
   if (getenv("UPDATE")) ck_assert_int_eq(thr_text_write(&wanted, path, &err), THR_OK);
-  ck_assert_msg(thr_text_read(&found, path, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_text_read(&found, path, &err), &err);
   assert_same_text(&wanted, &found);
   assert_plan_sound(&made);
   thr_text_destroy(&wanted);

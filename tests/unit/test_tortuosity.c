@@ -130,7 +130,7 @@ START_TEST(several_cords_through_few_edges_are_proved)
   thr_frame f = tee_make();
   thr_plan p;
   thr_err err = {0};
-  ck_assert_msg(make_plan(&f, 2, -1, &p, &err) == THR_OK, "%s", err.text);
+  assert_ok(make_plan(&f, 2, -1, &p, &err), &err);
   ck_assert_double_eq_tol(p.metrics.turning, 5 * THR_PI, 1e-6);
   ck_assert_double_eq_tol(p.metrics.length, 8, 1e-9);
   ck_assert_double_eq_tol(p.turning.lower_bound, 5 * THR_PI, 1e-6);
@@ -156,8 +156,8 @@ START_TEST(the_reason_why_it_is_not_proved)
   thr_frame f = frame_make(N, (const double(*)[3])xyz, N - 1, (const int(*)[2])edge, NULL, NULL);
   thr_plan p;
   thr_err err = {0};
-  ck_assert_int_eq(make_plan(&f, 2, -1, &p, &err), THR_ELIMIT);
-  assert_one_line(&err, "what it costs to have no fewer cords is not part of the bound");
+  assert_status(make_plan(&f, 2, -1, &p, &err), THR_ELIMIT, &err,
+                "what it costs to have no fewer cords is not part of the bound");
   ck_assert_double_eq_tol(p.metrics.turning, 5 * THR_PI, 1e-6);
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
@@ -172,8 +172,8 @@ START_TEST(more_cords_than_the_shortest_passes_hold)
   thr_frame f = ring_make(3);
   thr_plan p;
   thr_err err = {0};
-  ck_assert_int_eq(make_plan(&f, 2, 0, &p, &err), THR_ELIMIT);
-  assert_one_line(&err, "nothing is proved of the turning");
+  assert_status(make_plan(&f, 2, 0, &p, &err), THR_ELIMIT, &err,
+                "nothing is proved of the turning");
   ck_assert_double_eq_tol(p.metrics.length, 5, 1e-9);
   ck_assert_double_eq_tol(p.metrics.turning, 4 * THR_PI, 1e-6);
   ck_assert(p.proof.optimal && !p.proof.slack_open && !p.turning.present);
@@ -200,8 +200,7 @@ START_TEST(trade_off_begins_at_the_shortest_plan)
   thr_frame f = tee_make();
   thr_frontier out;
   thr_err err = {0};
-  ck_assert_int_eq(sweep(&f, 2, &out, &err), THR_ELIMIT);
-  assert_one_line(&err, "no fewer cords");
+  assert_status(sweep(&f, 2, &out, &err), THR_ELIMIT, &err, "no fewer cords");
   ck_assert_int_eq(out.n, 1); /* the shortest turns least */
   ck_assert_double_eq_tol(out.point[0].length, 8, 1e-9);
   ck_assert_ptr_nonnull(out.point[0].open);
@@ -297,8 +296,7 @@ START_TEST(fewest_u_turns)
     thr_plan p;
     thr_err err = {0};
     ck_assert_int_eq(thr_aims_parse("turning:uturn", &o, &err), THR_OK);
-    ck_assert_msg(thr_tortuosity_plan(&f, &o, &(thr_limits){0}, &p, &err) == THR_OK, "%s",
-                  err.text);
+    assert_ok(thr_tortuosity_plan(&f, &o, &(thr_limits){0}, &p, &err), &err);
     ck_assert(p.turning.optimal);
     ck_assert_double_eq(p.turning.price,
                         k < 3 ? leaves * ((k + 2) / 2) : leaves - (leaves < 2 ? leaves : 2));

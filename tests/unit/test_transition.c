@@ -34,7 +34,7 @@ static tour_of_all thread_make(const thr_frame *f, const int *passes, const int 
   thr_err err = {0};
   ck_assert_int_eq(thr_multigraph_init(&t.g, f, 0, passes, end, n_ends, &err), THR_OK);
   t.mate = constant(t.g.n_darts, -1);
-  ck_assert_msg(thr_transition_pair(f, &t.g, t.mate, NULL, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_transition_pair(f, &t.g, t.mate, NULL, &err), &err);
   return t;
 }
 
@@ -189,8 +189,7 @@ START_TEST(multigraph_refuses_too_many_passes)
   int *passes = constant(3, 1 << 30);
   thr_multigraph g;
   thr_err err = {0};
-  ck_assert_int_eq(thr_multigraph_init(&g, &f, 0, passes, NULL, 0, &err), THR_EINPUT);
-  assert_one_line(&err, "--cover");
+  assert_status(thr_multigraph_init(&g, &f, 0, passes, NULL, 0, &err), THR_EINPUT, &err, "--cover");
   ck_assert(g.half == NULL);
   free(passes);
   thr_frame_destroy(&f);
@@ -224,8 +223,7 @@ START_TEST(odd_nodes_are_refused)
   thr_multigraph g;
   thr_err err = {0};
   ck_assert_int_eq(thr_multigraph_init(&g, &f, 0, passes, NULL, 0, NULL), THR_OK);
-  ck_assert_int_eq(thr_transition_pair(&f, &g, mate, NULL, &err), THR_EINPUT);
-  assert_one_line(&err, "node 0");
+  assert_status(thr_transition_pair(&f, &g, mate, NULL, &err), THR_EINPUT, &err, "node 0");
   thr_multigraph_destroy(&g);
   free(passes);
   thr_frame_destroy(&f);

@@ -59,7 +59,7 @@ static void assert_small(const small *s, const char *word)
   thr_err err;
   thr_status st = small_check(s, &err);
   if (!word) {
-    ck_assert_msg(st == THR_OK, "%s", err.text);
+    assert_ok(st, &err);
     return;
   }
   ck_assert_msg(st == THR_EVIOLATED, "%s: %s", word, err.text);
@@ -385,9 +385,8 @@ START_TEST(proofs_of_another_shape)
                            .n_ends = shape[i].n_ends,
                            .node = s.node,
                            .dual = &dual};
-    ck_assert_int_eq(thr_turning_proof_check(&s.frame, &s.task, &p, &bound, &err), THR_EVIOLATED);
-    assert_one_line(&err, shape[i].word);
-    err = (thr_err){0};
+    assert_status(thr_turning_proof_check(&s.frame, &s.task, &p, &bound, &err), THR_EVIOLATED, &err,
+                  shape[i].word);
   }
   thr_turning_set bad = {0, NULL, 1}; /* an empty set, in multipliers that no leaf has */
   thr_turning_dual dual[2] = {s.dual, s.dual};
@@ -432,8 +431,7 @@ START_TEST(tasks_out_of_range)
   bad[11].price_per_length = 1e4;
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
     thr_err err = {0};
-    ck_assert_int_eq(thr_turning_columns_init(&c, &s.frame, &bad[i], &err), THR_EINPUT);
-    assert_one_line(&err, NULL);
+    assert_status(thr_turning_columns_init(&c, &s.frame, &bad[i], &err), THR_EINPUT, &err, NULL);
     ck_assert_ptr_null(c.weight);
   }
   thr_turning_task dear = good; /* one edge, at a price of 10000 */
@@ -455,8 +453,8 @@ START_TEST(tasks_out_of_range)
   thr_frame_destroy(&s.frame);
   thr_err err = {0};
   thr_frame hub = star_make(50000); /* 1.2e9 turns */
-  ck_assert_int_eq(thr_turning_columns_init(&c, &hub, &good, &err), THR_EINPUT);
-  assert_one_line(&err, "possible turns at the nodes");
+  assert_status(thr_turning_columns_init(&c, &hub, &good, &err), THR_EINPUT, &err,
+                "possible turns at the nodes");
   thr_frame_destroy(&hub);
 }
 END_TEST

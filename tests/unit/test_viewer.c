@@ -28,7 +28,7 @@ static thr_text page_of(const thr_plan *p, const char *const *motion)
 {
   thr_text t = {0};
   thr_err err = {0};
-  ck_assert_msg(thr_viewer_html(p, motion, 0, 0, NULL, &t, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_viewer_html(p, motion, 0, 0, NULL, &t, &err), &err);
   return t;
 }
 
@@ -44,9 +44,8 @@ static thr_json *plan_in(const thr_text *page)
   ck_assert_uint_gt(page->length, before + after);
   ck_assert_mem_eq(page->data, thr_viewer_page, before);
   ck_assert_mem_eq(page->data + page->length - after, mark + strlen(THR_VIEWER_MARK), after);
-  ck_assert_msg(thr_json_parse(&doc, page->data + before, page->length - before - after, "page",
-                               &err) == THR_OK,
-                "%s", err.text);
+  assert_ok(thr_json_parse(&doc, page->data + before, page->length - before - after, "page", &err),
+            &err);
   return doc;
 }
 
@@ -145,7 +144,7 @@ START_TEST(copies_are_named)
   thr_frame f = shape_make(THR_MAKE_DOME, 6, 0);
   thr_request o = options_for(THR_ENDS_FEET, 1);
   want(&o, "overlap,steps");
-  ck_assert_msg(thr_symmetry_plan(&f, &o, &none, NULL, &p, &err) == THR_OK, "%s", err.text);
+  assert_ok(thr_symmetry_plan(&f, &o, &none, NULL, &p, &err), &err);
   const char **motion = calloc((size_t)p.n_cords, sizeof *motion);
   ck_assert_ptr_nonnull(motion);
   for (int c = 0; c < p.n_cords; c++)
@@ -246,8 +245,7 @@ static void assert_refused(const thr_plan *p, const char *word)
   thr_text t = {0};
   thr_err err = {0};
   thr_text_append(&t, "kept");
-  ck_assert_int_eq(thr_viewer_html(p, NULL, 0, 0, NULL, &t, &err), THR_EINPUT);
-  assert_one_line(&err, word);
+  assert_status(thr_viewer_html(p, NULL, 0, 0, NULL, &t, &err), THR_EINPUT, &err, word);
   ck_assert_str_eq(t.data, "kept");
   thr_text_destroy(&t);
 }

@@ -185,8 +185,8 @@ START_TEST(a_crash_is_a_failure_of_its_own)
   assert_one_line(&err, "(it said: no room left)");
   assert_one_line(&err, "; take a walk");
   err = (thr_err){0};
-  ck_assert_int_eq(run_harm((harm){LEAVE, 0}, _i, finished, &err), THR_ESOLVER);
-  assert_one_line(&err, "job 1 ended without a result");
+  assert_status(run_harm((harm){LEAVE, 0}, _i, finished, &err), THR_ESOLVER, &err,
+                "job 1 ended without a result");
 }
 END_TEST
 

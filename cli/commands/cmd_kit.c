@@ -1,0 +1,229 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* thread kit: makes the pieces of a plan as solids to print, with channels where the cords go
+ * (kit/kit.h).
+ *
+ * All files go into one folder: kit.3mf with every piece on the plates of a printer, kit.csv with
+ * what they measure, and what else was asked for.
+ *
+ * Example: `thread kit plan.json -o kit/ --stl` also writes one file for each kind of piece. */
+#include "cli/cli.h"
+#include "cli/commands/commands.h"
+#include "graph/os.h"
+#include "graph/plan/plan.h"
+#include "graph/text.h"
+#include "kit/files.h"
+#include "kit/kit.h"
+#include "kit/picture.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const char intro[] =
+    "thread kit PLAN [options]: the pieces themselves, to print\n\n"
+    "Examples:\n"
+    "  thread kit plan.json                          kit/kit.3mf, kit.csv and kit.png\n"
+    "  thread kit plan.json --names none             pieces that are alike are one print\n"
+    "  thread kit plan.json --stl -o parts/          one STL file for each kind, too\n"
+    "  thread kit plan.json --width 12 --key cone    thicker arms, which centre each other\n";
+static const char outro[] =
+    "Exit codes: 0 made, 2 usage, 3 pieces that cannot be made, or not a plan, 5 not done in the "
+    "time or memory";
+
+/* What was asked. */
+typedef struct {
+  thr_kit_options kit;
+  guard_limits guard;
+  double key_angle; /* degrees */
+  int jobs;
+  bool stl, scad, no_picture;
+  const char *output;
+} kit_arguments;
+
+#define AT(member) .offset = offsetof(kit_arguments, member)
+
+/* Takes "220x220". */
+static bool take_bed(void *into, const cli_option *option, const char *value)
+{
+  double *bed = ((kit_arguments *)into)->kit.bed;
+  int end = 0;
+  (void)option;
+  if (sscanf(value, "%lfx%lf%n", &bed[0], &bed[1], &end) == 2 && !value[end] && bed[0] >= 20 &&
+      bed[1] >= 20 && bed[0] <= 10000 && bed[1] <= 10000)
+    return true;
+  cli_usage("kit", "--bed %s: expected width x depth in mm, 20 to 10000, as 220x220", value);
+  return false;
+}
+
+static const cli_option own_options[] = {
+    {"output", 'o', "DIR", "folder of the files (default: kit)", .kind = CLI_OUTPUT, AT(output)},
+    {"stl", .kind = CLI_FLAG, AT(stl), .help = "also one STL file for each kind of piece"},
+    {"scad", .kind = CLI_FLAG, AT(scad),
+     .help = "also kit.scad, the pieces in OpenSCAD's language, to be changed"},
+    {"no-picture", .kind = CLI_FLAG, AT(no_picture), .help = "without kit.png"},
+    {"processes", 'j', "N",
+     "so many things at a time (default: one per processor); changes no result", .kind = CLI_COUNT,
+     AT(jobs), .low = 1, .high = 1024},
+    {0}};
+
+static const cli_option shape_options[] = {
+    {"width", .value = "MM", .kind = CLI_AMOUNT, AT(kit.width), .low = CLI_ABOVE_0, .high = 1e6,
+     .help = "of arms and tubes (default: the plan's bead diameter)"},
+    {"profile", .kind = CLI_WORD, AT(kit.profile), .word = thr_kit_profile_name,
+     .n_words = THR_KIT_N_PROFILES, .help = "section of arms (default: round)"},
+    {"taper", .value = "X", .kind = CLI_AMOUNT, AT(kit.taper), .low = 0.3, .high = 2,
+     .help = "width at the node as a part of that at the face (default: 1)"},
+    {"fillet", .value = "MM", .kind = CLI_AMOUNT, AT(kit.fillet), .low = CLI_ABOVE_0, .high = 1e6,
+     .help = "radius between arms (default: 0.15 of the width)"},
+    {"gap", .value = "MM", .kind = CLI_AMOUNT, AT(kit.gap), .high = 1e6,
+     .help = "between the faces of neighbours (default: 0)"},
+    {"wall", .value = "MM", .kind = CLI_AMOUNT, AT(kit.wall), .low = CLI_ABOVE_0, .high = 1e6,
+     .help = "least thickness beside a channel (default: 1.2, or what there is room for)"},
+    {"channels", .kind = CLI_WORD, AT(kit.channels), .word = thr_kit_channels_name,
+     .n_words = THR_KIT_N_CHANNELS,
+     .help = "one bore for all passes of an interface (default), or a lane for each: two lanes "
+             "keep faces from turning on each other"},
+    {"key", .kind = CLI_WORD, AT(kit.key), .word = thr_kit_key_name, .n_words = THR_KIT_N_KEYS,
+     .help = "what faces have to centre each other (default: none)"},
+    {"key-angle", .value = "DEG", .kind = CLI_AMOUNT, AT(key_angle), .low = 2, .high = 75,
+     .help = "between a key's flank and its axis: small ones hold firmly and are hard to fit "
+             "(default: 45; pin: 5)"},
+    {"knot-pockets", .kind = CLI_FLAG, AT(kit.knot_pockets),
+     .help = "a hollow for the knot where a cord ends"},
+    {"names", .kind = CLI_WORD, AT(kit.names), .word = thr_kit_names_name,
+     .n_words = THR_KIT_N_NAMES,
+     .help = "engraved: each piece's own and, on every arm, the neighbour's (default), those of "
+             "kinds, or none: then pieces that are alike are one print"},
+    {"letters", .value = "MM", .kind = CLI_AMOUNT, AT(kit.letters), .low = 1, .high = 100,
+     .help = "height of engraved letters (default: 4; smaller where there is no room)"},
+    {"tube-ends", .kind = CLI_WORD, AT(kit.tube_ends), .word = thr_kit_tube_ends_name,
+     .n_words = THR_KIT_N_TUBE_ENDS, .help = "of plans with --joint tube (default: mitred)"},
+    {0}};
+
+static const cli_option print_options[] = {
+    {"bed", .value = "WxD", .kind = CLI_OTHER, .take = take_bed,
+     .help = "size of the printer's bed in mm (default: 220x220)"},
+    {"density", .value = "G", .kind = CLI_AMOUNT, AT(kit.density), .low = CLI_ABOVE_0, .high = 100,
+     .help = "of the material in g/cm3 (default: as the plan says)"},
+    {"kind-tolerance", .value = "X", .kind = CLI_AMOUNT, AT(kit.kind_tolerance), .low = 1e-9,
+     .high = 1e9,
+     .help = "pieces whose points differ by no more are of one kind, in units of the framework "
+             "(default: a hundredth of the median edge)"},
+    {0}};
+
+/* Writes a text into the folder under a name, or the reason why there is none. */
+static int write_file(thr_status st, thr_text *text, const char *folder, const char *name,
+                      const thr_err *err)
+{
+  char path[1200];
+  if (!st) {
+    int code = cli_in_folder(folder, name, path, sizeof path);
+    if (code) {
+      thr_text_destroy(text);
+      return code;
+    }
+  }
+  return cli_write_drawn(st, text, path, err);
+}
+
+/* Prints what the kit is: pieces, kinds, volume, what a maker should know. */
+static void say(const thr_kit *kit, const thr_kit_plates *plates, const char *folder)
+{
+  cli_note("%d %s, %d %s, %.3g cm3, %.3g g at %.3g g/cm3, on %d %s", kit->n_pieces,
+           thr_pieces_word(kit->plan, kit->n_pieces), kit->n_kinds,
+           cli_plural(kit->n_kinds, "kind", "kinds"), kit->volume / 1000, kit->mass,
+           kit->options.density, plates->n_plates, cli_plural(plates->n_plates, "plate", "plates"));
+  cli_note("arms %.3g mm wide, cord %.3g mm, walls %.3g mm or more", kit->options.width, kit->cord,
+           kit->options.wall);
+
+  /* Notes are lines. */
+  const char *line = kit->notes.data ? kit->notes.data : "";
+  while (*line) {
+    int n = (int)strcspn(line, "\n");
+    cli_note("%.*s", n, line);
+    line += n + (line[n] != '\0');
+  }
+  cli_note("written to %s", folder);
+}
+
+/* Writes everything that was asked for. Returns an exit code. */
+static int write_all(const thr_kit *kit, const kit_arguments *args, const char *folder)
+{
+  thr_err err = {0};
+  thr_text text = {0};
+  thr_kit_plates plates;
+  thr_status st = thr_kit_plates_make(&plates, kit, &err);
+  if (st) return cli_fail(&err);
+
+  st = thr_kit_3mf(&plates, &text, &err);
+  int code = write_file(st, &text, folder, "kit.3mf", &err);
+  if (!code) {
+    st = thr_kit_table(&plates, NULL, &text, &err);
+    code = write_file(st, &text, folder, "kit.csv", &err);
+  }
+  if (!code && kit->plan->options.joint != THR_JOINT_SOLID) {
+    st = thr_kit_tubes_table(kit, &text, &err);
+    code = write_file(st, &text, folder, "tubes.csv", &err);
+  }
+  if (!code && args->scad) {
+    thr_kit_scad(kit, &text);
+    code = write_file(THR_OK, &text, folder, "kit.scad", &err);
+  }
+  for (int p = 0; p < kit->n_pieces && !code && args->stl; p++) {
+    char name[32];
+    if (kit->piece[p].like != p) continue;
+    thr_kit_stl_name(kit, p, name);
+    thr_kit_stl(kit, p, &text);
+    code = write_file(THR_OK, &text, folder, name, &err);
+  }
+  if (!code && !args->no_picture) {
+    thr_kit_view view = thr_kit_view_default();
+    st = thr_kit_picture(kit, &view, &text, &err);
+    code = write_file(st, &text, folder, "kit.png", &err);
+  }
+  if (!code) say(kit, &plates, folder);
+  thr_kit_plates_destroy(&plates);
+
+  return code;
+}
+
+/* Runs `thread kit` and returns the exit code. */
+int cmd_kit(int argc, char **argv)
+{
+  static const cli_syntax syntax = {"kit", intro, outro};
+  kit_arguments asked = {.guard = guard_limits_default()};
+  guard_end end;
+  const cli_group groups[] = {{"Options", own_options, &asked},
+                              {"Shape", shape_options, &asked},
+                              {"Printing", print_options, &asked},
+                              {NULL, guard_options, &asked.guard},
+                              {NULL}};
+  int code = cli_options(argc, argv, &syntax, groups);
+  if (code >= 0) return code;
+  asked.kit.key_angle = asked.key_angle * THR_PI / 180;
+  const char *folder = asked.output ? asked.output : "kit";
+  if (optind + 1 != argc)
+    return cli_usage("kit", optind == argc ? "which plan?" : "one plan at a time");
+  if (cli_given("key-angle") && asked.kit.key == THR_KIT_NO_KEY)
+    return cli_usage("kit", "--key-angle: of which key? --key cone or pin");
+  if (cli_given("letters") && asked.kit.names == THR_KIT_NO_NAMES)
+    return cli_usage("kit", "--letters goes not with --names none");
+
+  /* The child does all of the work. */
+  if (guard_fork(&asked.guard, &end)) return guard_conclude(&end, "no kit is made");
+
+  thr_plan plan;
+  code = cli_read_plan(argv[optind], &plan);
+  if (code) return code;
+
+  thr_err err = {0};
+  thr_kit kit;
+  thr_limits limits = cli_limits(0);
+  limits.threads = asked.jobs ? asked.jobs : thr_os_processors();
+  thr_status st = thr_kit_make(&kit, &plan, &asked.kit, NULL, true, &limits, &err);
+  cli_progress_end();
+  code = st ? cli_fail(&err) : write_all(&kit, &asked, folder);
+  thr_kit_destroy(&kit);
+  thr_plan_destroy(&plan);
+
+  return code;
+}

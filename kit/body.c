@@ -1,0 +1,293 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A piece as a distance: how far a point is from its surface, and on which side.
+ *
+ * Arms are prisms with a profile, the node is a ball, a foot is a disc; where two of them meet, the
+ * corner is filled by a fillet. Channels, pockets and letters are taken away. Faces are planes that
+ * cut: they belong to the arm that is nearest. */
+#include "kit/kit.h"
+
+#include "graph/number.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Signed distance from the outline of a profile, whose inner circle has the radius; corners are
+ * rounded by a quarter of it. u, v: across the arm. */
+static double profile_distance(thr_kit_profile profile, double radius, double u, double v)
+{
+  if (profile == THR_KIT_ROUND) return hypot(u, v) - radius;
+
+  double rounding = 0.25 * radius, inner = radius - rounding;
+  double x = fabs(u), y = fabs(v);
+  if (profile == THR_KIT_SQUARE) {
+    double over_x = x - inner, over_y = y - inner;
+    return hypot(fmax(over_x, 0), fmax(over_y, 0)) + fmin(fmax(over_x, over_y), 0) - rounding;
+  }
+
+  /* A hexagon with a flat side up: by symmetry the nearest side is one of two. */
+  const double normal[2] = {0.86602540378443864676, 0.5};
+  double side = fmax(y, normal[0] * x + normal[1] * y);
+  if (side <= inner) return side - radius;
+
+  /* Beyond a side: the distance to the segment of that side. */
+  const double half = inner / sqrt(3);
+  double along, off;
+  if (y >= normal[0] * x + normal[1] * y) {
+    along = x;
+    off = y - inner;
+  } else {
+    along = fabs(-normal[1] * x + normal[0] * y);
+    off = normal[0] * x + normal[1] * y - inner;
+  }
+  return hypot(off, fmax(along - half, 0)) - rounding;
+}
+
+/* Distance to an arm, infinite beyond its face, round before its beginning. */
+static double arm_distance(const thr_kit_piece *piece, const thr_kit_arm *arm, const double at[3])
+{
+  double s = thr_dot(at, arm->along), u = thr_dot(at, arm->up), v = thr_dot(at, arm->side);
+  double part = fmin(fmax(s / arm->length, 0), 1);
+  double radius = 0.5 * arm->width * (piece->taper + (1 - piece->taper) * part);
+
+  /* A rounded tube ends in a half ball before its length. */
+  if (piece->rounded) {
+    double over = s - (arm->length - radius);
+    if (over > 0) return sqrt(u * u + v * v + over * over) - radius;
+  }
+  double across = profile_distance(piece->profile, radius, v, u);
+  if (s >= 0) return across;
+  return piece->tube ? hypot(fmax(across, 0), s) : hypot(across + radius, s) - radius;
+}
+
+/* Joins two distances, a <= b, with a fillet of about a radius between them. */
+static double join(double a, double b, double radius)
+{
+  double reach = 2 * radius;
+  if (b - a >= reach || reach <= 0) return a;
+  double part = 1 - (b - a) / reach;
+  return a - 0.25 * reach * part * part;
+}
+
+/* Distance to the surface without what is hollow. *corner: how much farther the second nearest part
+ * is than the nearest: 0 where they meet. */
+static double body_distance(const thr_kit_piece *piece, const double at[3], int *arm,
+                            double *corner)
+{
+  double least = INFINITY, second = INFINITY;
+  int nearest = -1;
+
+  for (int i = 0; i < piece->n_arms; i++) {
+    double here = arm_distance(piece, &piece->arm[i], at);
+    if (here < least) {
+      second = least;
+      least = here;
+      nearest = i;
+    } else if (here < second)
+      second = here;
+  }
+
+  /* The ball of the node, and the foot's disc. Halves of a tube need no fillet between them. */
+  if (!piece->tube) {
+    double ball = sqrt(thr_dot(at, at)) - piece->node_radius;
+    if (ball < least) {
+      second = least;
+      least = ball;
+      nearest = -1;
+    } else if (ball < second)
+      second = ball;
+  }
+  if (piece->foot) {
+    /* A disc with a round rim; its lower half is cut off at the base. */
+    double rim = 0.4 * piece->base;
+    double off = hypot(at[0], at[1]) - piece->pad + rim, over = fabs(at[2] + piece->base) - rim;
+    double disc = hypot(fmax(off, 0), fmax(over, 0)) + fmin(fmax(off, over), 0) - rim;
+    if (disc < least) {
+      second = least;
+      least = disc;
+      nearest = -2;
+    } else if (disc < second)
+      second = disc;
+  }
+  *arm = nearest;
+  *corner = second - least;
+
+  return piece->tube ? least : join(least, second, piece->fillet);
+}
+
+double thr_kit_body(const thr_kit_piece *piece, const double at[3], int *arm)
+{
+  int nearest;
+  double corner, distance = body_distance(piece, at, &nearest, &corner);
+  if (arm) *arm = nearest;
+  return distance;
+}
+
+/* Distance from a segment. */
+static double segment_distance(const double at[3], const double a[3], const double b[3],
+                               double *part)
+{
+  double d[3], e[3];
+  for (int k = 0; k < 3; k++) {
+    d[k] = b[k] - a[k];
+    e[k] = at[k] - a[k];
+  }
+  double length2 = thr_dot(d, d);
+  *part = length2 > 0 ? fmin(fmax(thr_dot(e, d) / length2, 0), 1) : 0;
+  for (int k = 0; k < 3; k++)
+    e[k] -= *part * d[k];
+  return sqrt(thr_dot(e, e));
+}
+
+/* How much wider a channel is at a depth below its mouth: a quarter of a circle. */
+static double flare(double mouth, double depth)
+{
+  if (depth >= mouth || mouth <= 0) return 0;
+  double rest = mouth - fmax(depth, 0.02 * mouth);
+  return mouth - sqrt(fmax(mouth * mouth - rest * rest, 0));
+}
+
+/* Distance from the hollow of a channel, if it is less than `best`: below 0 inside. */
+static double channel_distance(const thr_kit_piece *piece, const thr_kit_channel *channel,
+                               const double at[3], double best)
+{
+  double to_ball[3] = {at[0] - channel->middle[0], at[1] - channel->middle[1],
+                       at[2] - channel->middle[2]};
+  double widest = fmax(channel->radii[0], channel->radii[1]) + piece->mouth;
+  if (sqrt(thr_dot(to_ball, to_ball)) - channel->reach - widest > best) return best;
+
+  for (int i = 0; i + 1 < channel->n; i++) {
+    double part;
+    double away = segment_distance(at, channel->point[i], channel->point[i + 1], &part);
+    double along = (i + part) / (channel->n - 1);
+    double radius = channel->radii[0] + along * (channel->radii[1] - channel->radii[0]);
+    best = fmin(best, away - radius);
+  }
+
+  /* Mouths are wider near their faces. */
+  for (int end = 0; end < 2; end++) {
+    int number = end ? channel->out : channel->in;
+    if (!channel->mouth[end] || number < 0) continue;
+    const thr_kit_arm *arm = &piece->arm[number];
+    double depth = arm->length - thr_dot(at, arm->along);
+    if (depth > piece->mouth) continue;
+    const double *mouth = channel->point[end ? channel->n - 1 : 0];
+    double off[3] = {at[0] - mouth[0], at[1] - mouth[1], at[2] - mouth[2]};
+    double along = thr_dot(off, arm->along);
+    double across = sqrt(fmax(thr_dot(off, off) - along * along, 0));
+    best = fmin(best, across - channel->radii[end] - flare(piece->mouth, depth));
+  }
+
+  return best;
+}
+
+/* Distance from the letters' strokes, at the depth of a point below the surface: below 0 in the
+ * groove. Only letters on the nearest arm count. */
+static double letters_distance(const thr_kit_piece *piece, const double at[3], int arm, double body)
+{
+  double best = INFINITY;
+  for (int i = 0; i < piece->n_strokes; i++) {
+    const thr_kit_stroke *stroke = &piece->stroke[i];
+    if (stroke->arm != arm) continue;
+    const thr_kit_arm *on = &piece->arm[arm];
+    const double side = stroke->below ? -1 : 1;
+    double u = side * thr_dot(at, on->up), v = side * thr_dot(at, on->side),
+           s = thr_dot(at, on->along);
+    if (u <= 0) continue;
+    double across = piece->profile == THR_KIT_ROUND ? atan2(v, u) * 0.5 * on->width : v;
+    const double here[3] = {s, across, 0};
+    const double from[3] = {stroke->from[0], stroke->from[1], 0};
+    const double to[3] = {stroke->to[0], stroke->to[1], 0};
+    double part;
+    best = fmin(best, segment_distance(here, from, to, &part));
+  }
+  return fmax(best - 0.5 * piece->letter_width, -body - piece->letter_depth);
+}
+
+/* Height of a key at a distance from the axis of its face; of a hollow one below 0, with play. Both
+ * rims of the flank are rounded. */
+static double key_height(const thr_kit_piece *piece, bool out, double off)
+{
+  if (piece->key == THR_KIT_NO_KEY) return 0;
+  double radius = piece->key_radius + (out ? 0 : piece->key_play);
+  double most = piece->key_height + (out ? 0 : piece->key_play);
+  double round = 0.2 * most, flank = (radius - off) * piece->key_slope;
+  double height = flank < -round         ? 0
+                  : flank < round        ? (flank + round) * (flank + round) / (4 * round)
+                  : flank < most - round ? flank
+                  : flank < most + round
+                      ? most - (most + round - flank) * (most + round - flank) / (4 * round)
+                      : most;
+  return out ? height : -height;
+}
+
+void thr_kit_sample(const void *user, const double at[3], thr_solid_sample *out)
+{
+  const thr_kit_piece *piece = user;
+  int nearest;
+  double corner, body = body_distance(piece, at, &nearest, &corner);
+
+  /* What is hollow. */
+  double hollow = INFINITY, radius = INFINITY;
+  for (int i = 0; i < piece->n_channels; i++) {
+    double here = channel_distance(piece, &piece->channel[i], at, hollow);
+    if (here < hollow) radius = piece->channel[i].radius;
+    hollow = here;
+  }
+  for (int i = 0; i < piece->n_pockets; i++) {
+    const double *p = piece->pocket[i];
+    double part;
+    hollow = fmin(hollow, segment_distance(at, p, p + 3, &part) - p[6]);
+  }
+
+  /* Sizes: a third of an arm, finer at channels and letters. */
+  double thinnest = INFINITY;
+  for (int i = 0; i < piece->n_arms; i++)
+    thinnest = fmin(thinnest, piece->arm[i].width);
+  double size = 0.38 * thinnest;
+  if (!piece->tube) size = fmin(size, 1.2 * piece->fillet + 0.15 * thinnest + 0.5 * corner);
+  size = fmin(size, 1.2 * radius + 0.7 * fabs(hollow));
+  /* Thin walls are not to fall between the corners of tetrahedra. */
+  size = fmin(size, fmax(0.8 * (fabs(body) + fabs(hollow)), 0.7 * piece->wall));
+  if (piece->n_strokes && body > -2 * piece->letter_depth && body < size) {
+    double letters = letters_distance(piece, at, nearest, body);
+    hollow = fmin(hollow, letters);
+    size = fmin(size, 0.8 * piece->letter_width + 0.5 * fabs(letters));
+  }
+  out->distance = fmax(body, -hollow);
+  out->size = size;
+
+  /* The cut of the nearest arm, or of the base. */
+  out->cut = -1e3 * thinnest;
+  memset(out->across, 0, sizeof out->across);
+  for (int i = 0; nearest == -1 && i < piece->n_arms; i++) {
+    /* The ball of a node may reach beyond the faces of short arms. */
+    double here = thr_dot(at, piece->arm[i].along) - piece->arm[i].length;
+    if (here <= out->cut) continue;
+    out->cut = here;
+    memcpy(out->across, piece->arm[i].along, sizeof out->across);
+  }
+  if (nearest >= 0 && !piece->rounded) {
+    const thr_kit_arm *arm = &piece->arm[nearest];
+    double s = thr_dot(at, arm->along);
+    if (arm->n_mitres == 0) {
+      double off = sqrt(fmax(thr_dot(at, at) - s * s, 0));
+      out->cut = s - arm->length - key_height(piece, arm->key_out, off);
+      memcpy(out->across, arm->along, sizeof out->across);
+      /* Flanks of keys are no planes. */
+      if (piece->key != THR_KIT_NO_KEY && off < piece->key_radius + size &&
+          fabs(s - arm->length) < size + piece->key_height)
+        out->size = fmin(out->size, 0.16 * arm->width);
+    }
+    if (arm->n_mitres > 0) out->cut = s - arm->length - arm->tip; /* whatever its mitres leave */
+    for (int i = 0; i < arm->n_mitres; i++) {
+      double here = thr_dot(at, arm->mitre[i]) - arm->mitre[i][3];
+      if (here <= out->cut) continue;
+      out->cut = here;
+      memcpy(out->across, arm->mitre[i], sizeof out->across);
+    }
+  }
+  if (piece->foot && -at[2] - piece->base > out->cut) {
+    out->cut = -at[2] - piece->base;
+    memcpy(out->across, (double[]){0, 0, -1}, sizeof out->across);
+  }
+}

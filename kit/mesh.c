@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Measures a mesh and examines whether it can be printed: closed, oriented, two triangles at every
+ * edge, no triangle through another one.
+ *
+ * Volume and centre are sums over the tetrahedra between the origin and each triangle (D. Eberly,
+ * "Polyhedral mass properties", 2002). Triangles are compared with those whose boxes share a cell
+ * of a grid. */
+#include "kit/mesh.h"
+
+#include "graph/arrays.h"
+#include "graph/number.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void thr_mesh_destroy(thr_mesh *mesh)
+{
+  free(mesh->point);
+  free(mesh->triangle);
+  *mesh = (thr_mesh){0};
+}
+
+/* An edge of a triangle, with the direction in which it is run through. */
+typedef struct {
+  int low, high;
+  int sense; /* 1 from low to high, else -1 */
+} side;
+
+static int by_ends(const void *a, const void *b)
+{
+  const side *first = a, *second = b;
+  if (first->low != second->low) return first->low < second->low ? -1 : 1;
+  if (first->high != second->high) return first->high < second->high ? -1 : 1;
+  return first->sense - second->sense;
+}
+
+/* Counts edges that have not just one triangle on either side. */
+static int count_open(side *sides, int n)
+{
+  int open = 0;
+  qsort(sides, (size_t)n, sizeof *sides, by_ends);
+  for (int i = 0; i < n;) {
+    int end = i, sum = 0;
+    while (end < n && sides[end].low == sides[i].low && sides[end].high == sides[i].high)
+      sum += sides[end++].sense;
+    open += end - i != 2 || sum != 0;
+    i = end;
+  }
+  return open;
+}
+
+/* ---- triangles that meet ---- */
+
+/* Returns whether the segment a b goes through the inside of a triangle. Touching does not count.
+ */
+static bool pierces(const double a[3], const double b[3], const double t[3][3])
+{
+  double e[3], f[3], d[3], to[3], p[3], q[3];
+  for (int k = 0; k < 3; k++) {
+    e[k] = t[1][k] - t[0][k];
+    f[k] = t[2][k] - t[0][k];
+    d[k] = b[k] - a[k];
+    to[k] = a[k] - t[0][k];
+  }
+
+  /* T. Moeller and B. Trumbore, "Fast, minimum storage ray/triangle intersection", 1997. */
+  thr_cross(d, f, p);
+  double det = thr_dot(e, p);
+  double scale = sqrt(thr_dot(e, e) * thr_dot(f, f) * thr_dot(d, d));
+  if (fabs(det) <= 1e-12 * scale) return false;
+  double u = thr_dot(to, p) / det;
+  thr_cross(to, e, q);
+  double v = thr_dot(d, q) / det, s = thr_dot(f, q) / det;
+  const double little = 1e-9;
+  return u > little && v > little && u + v < 1 - little && s > little && s < 1 - little;
+}
+
+/* Returns whether two triangles cross each other, apart from corners that they share. */
+static bool cross_each_other(const thr_mesh *mesh, int a, int b)
+{
+  double t[2][3][3];
+  const int *corner[2] = {mesh->triangle[a], mesh->triangle[b]};
+  for (int i = 0; i < 2; i++)
+    for (int k = 0; k < 3; k++)
+      memcpy(t[i][k], mesh->point[corner[i][k]], sizeof t[i][k]);
+
+  for (int i = 0; i < 2; i++)
+    for (int k = 0; k < 3; k++) {
+      int from = corner[i][k], to = corner[i][(k + 1) % 3];
+      bool shared = false;
+      for (int l = 0; l < 3; l++)
+        shared |= corner[!i][l] == from || corner[!i][l] == to;
+      if (!shared && pierces(mesh->point[from], mesh->point[to], (const double(*)[3])t[!i]))
+        return true;
+    }
+  return false;
+}
+
+/* The box of a triangle, in cells of a grid. */
+typedef struct {
+  double low[3], high[3];
+} triangle_box;
+
+/* Counts pairs of triangles that cross. Each is put into all cells that its box touches; a pair
+ * counts in the lowest cell that both are in. */
+static thr_status count_crossings(const thr_mesh *mesh, const double low[3], const double high[3],
+                                  double area, int *count, thr_err *err)
+{
+  double cell = 1.5 * sqrt(area / mesh->n_triangles);
+  int n[3];
+  double many = 1;
+  for (int k = 0; k < 3; k++)
+    many *= floor((high[k] - low[k]) / cell) + 1;
+  if (many > 4e6) cell *= cbrt(many / 4e6);
+  for (int k = 0; k < 3; k++)
+    n[k] = (int)floor((high[k] - low[k]) / cell) + 1;
+
+  thr_scratch work = {0};
+  size_t cells = (size_t)n[0] * (size_t)n[1] * (size_t)n[2];
+  int *first = thr_scratch_array(&work, cells + 2, sizeof *first);
+  triangle_box *box = thr_scratch_array(&work, (size_t)mesh->n_triangles, sizeof *box);
+  thr_status st = thr_scratch_check(&work, err);
+  int *member = NULL;
+  for (int t = 0; t < mesh->n_triangles && !st; t++)
+    for (int k = 0; k < 3; k++) {
+      const int *corner = mesh->triangle[t];
+      double a = mesh->point[corner[0]][k], b = mesh->point[corner[1]][k],
+             c = mesh->point[corner[2]][k];
+      box[t].low[k] = (fmin(a, fmin(b, c)) - low[k]) / cell;
+      box[t].high[k] = (fmax(a, fmax(b, c)) - low[k]) / cell;
+    }
+
+  /* Twice over all triangles: count, then place. */
+  for (int round = 0; round < 2 && !st; round++) {
+    for (int t = 0; t < mesh->n_triangles; t++)
+      for (int z = (int)box[t].low[2]; z <= (int)box[t].high[2]; z++)
+        for (int y = (int)box[t].low[1]; y <= (int)box[t].high[1]; y++)
+          for (int x = (int)box[t].low[0]; x <= (int)box[t].high[0]; x++) {
+            size_t at = ((size_t)z * (size_t)n[1] + (size_t)y) * (size_t)n[0] + (size_t)x;
+            if (round == 0)
+              first[at + 2]++;
+            else
+              member[first[at + 1]++] = t;
+          }
+    if (round == 1) break;
+    for (size_t i = 2; i < cells + 2; i++)
+      first[i] += first[i - 1];
+    member = thr_scratch_array(&work, (size_t)first[cells + 1] + 1, sizeof *member);
+    st = thr_scratch_check(&work, err);
+  }
+
+  *count = 0;
+  for (size_t c = 0; c < cells && !st; c++)
+    for (int i = first[c]; i < first[c + 1]; i++)
+      for (int j = first[c]; j < i; j++) {
+        const triangle_box *a = &box[member[i]], *b = &box[member[j]];
+        if (a->low[0] > b->high[0] || b->low[0] > a->high[0] || a->low[1] > b->high[1] ||
+            b->low[1] > a->high[1] || a->low[2] > b->high[2] || b->low[2] > a->high[2])
+          continue;
+        size_t lowest = 0;
+        for (int k = 2; k >= 0; k--)
+          lowest = lowest * (size_t)n[k] + (size_t)fmax(a->low[k], b->low[k]);
+        if (lowest == c && cross_each_other(mesh, member[i], member[j])) ++*count;
+      }
+
+  thr_scratch_free(&work);
+  return st;
+}
+
+thr_status thr_mesh_examine(const thr_mesh *mesh, bool crossings, thr_mesh_report *out,
+                            thr_err *err)
+{
+  thr_scratch work = {0};
+  int n = 3 * mesh->n_triangles;
+  side *sides = thr_scratch_array(&work, (size_t)n, sizeof *sides);
+  int *set = thr_scratch_array(&work, (size_t)mesh->n_points, sizeof *set);
+  thr_status st = thr_scratch_check(&work, err);
+  *out = (thr_mesh_report){.low = {INFINITY, INFINITY, INFINITY},
+                           .high = {-INFINITY, -INFINITY, -INFINITY}};
+  if (st) goto done;
+
+  for (int v = 0; v < mesh->n_points; v++) {
+    set[v] = v;
+    for (int k = 0; k < 3; k++) {
+      out->low[k] = fmin(out->low[k], mesh->point[v][k]);
+      out->high[k] = fmax(out->high[k], mesh->point[v][k]);
+    }
+  }
+  out->parts = mesh->n_points;
+  for (int t = 0; t < mesh->n_triangles; t++) {
+    const int *corner = mesh->triangle[t];
+    const double *a = mesh->point[corner[0]], *b = mesh->point[corner[1]],
+                 *c = mesh->point[corner[2]];
+    double e[3], f[3], normal[3];
+    for (int k = 0; k < 3; k++) {
+      e[k] = b[k] - a[k];
+      f[k] = c[k] - a[k];
+      int from = corner[k], to = corner[(k + 1) % 3];
+      sides[3 * t + k] = (side){from < to ? from : to, from < to ? to : from, from < to ? 1 : -1};
+      out->parts -= thr_disjoint_join(set, from, to);
+    }
+    thr_cross(e, f, normal);
+    out->area += 0.5 * sqrt(thr_dot(normal, normal));
+    double volume = thr_dot(a, normal) / 6;
+    out->volume += volume;
+    for (int k = 0; k < 3; k++)
+      out->centre[k] += volume * (a[k] + b[k] + c[k]) / 4;
+  }
+  for (int k = 0; k < 3 && out->volume != 0; k++)
+    out->centre[k] /= out->volume;
+  out->open_edges = count_open(sides, n);
+  if (crossings && mesh->n_triangles)
+    st = count_crossings(mesh, out->low, out->high, out->area, &out->crossings, err);
+
+done:
+  thr_scratch_free(&work);
+  return st;
+}
+
+thr_status thr_mesh_drop_crumbs(thr_mesh *mesh, double crumb, thr_err *err)
+{
+  thr_scratch work = {0};
+  int *set = thr_scratch_array(&work, (size_t)mesh->n_points, sizeof *set);
+  double *volume = thr_scratch_array(&work, (size_t)mesh->n_points, sizeof *volume);
+  thr_status st = thr_scratch_check(&work, err);
+  if (st) goto done;
+
+  for (int v = 0; v < mesh->n_points; v++)
+    set[v] = v;
+  for (int t = 0; t < mesh->n_triangles; t++)
+    for (int k = 1; k < 3; k++)
+      thr_disjoint_join(set, mesh->triangle[t][0], mesh->triangle[t][k]);
+  for (int t = 0; t < mesh->n_triangles; t++) {
+    const int *corner = mesh->triangle[t];
+    double normal[3];
+    thr_cross(mesh->point[corner[1]], mesh->point[corner[2]], normal);
+    volume[thr_disjoint_find(set, corner[0])] += thr_dot(mesh->point[corner[0]], normal) / 6;
+  }
+
+  /* Triangles and points of crumbs go; the others move up. */
+  int *number = thr_scratch_array(&work, (size_t)mesh->n_points, sizeof *number);
+  st = thr_scratch_check(&work, err);
+  if (st) goto done;
+  int points = 0, triangles = 0;
+  for (int v = 0; v < mesh->n_points; v++) {
+    bool kept = fabs(volume[thr_disjoint_find(set, v)]) >= crumb;
+    number[v] = kept ? points : -1;
+    if (kept) memmove(mesh->point[points++], mesh->point[v], sizeof *mesh->point);
+  }
+  for (int t = 0; t < mesh->n_triangles; t++) {
+    if (number[mesh->triangle[t][0]] < 0) continue;
+    for (int k = 0; k < 3; k++)
+      mesh->triangle[triangles][k] = number[mesh->triangle[t][k]];
+    triangles++;
+  }
+  mesh->n_points = points;
+  mesh->n_triangles = triangles;
+
+done:
+  thr_scratch_free(&work);
+  return st;
+}
