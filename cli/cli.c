@@ -299,17 +299,19 @@ bool cli_output_format(const char *command, const char *output, const char *type
 {
   const bool ends = *thr_path_ending(output) != '\0';
   const thr_format *named = thr_format_of_path(output);
+  char list[160];
 
   /* -T names the format of an output without an ending; an ending must agree with -T. */
   *format = named;
   if (type && !(*format = thr_format_written(type))) {
-    cli_usage(command, "-T %s: expected json, obj, csv, ply, dxf or graphml", type);
+    thr_formats_written(list, sizeof list, "", ", ", " or ");
+    cli_usage(command, "-T %s: expected %s", type, list);
     return false;
   }
 
   if (ends && (!named || (type && named != *format))) {
-    cli_usage(command, "%s: the ending must be %s%s", output,
-              type ? "." : ".json, .obj, .csv, .ply, .dxf or .graphml", type ? type : "");
+    thr_formats_written(list, sizeof list, ".", ", ", " or ");
+    cli_usage(command, "%s: the ending must be %s%s", output, type ? "." : "", type ? type : list);
     return false;
   }
 

@@ -28,12 +28,14 @@ typedef struct {
   const char *output, *type;
 } convert_arguments;
 
+/* What help says of the formats that are written, once cmd_convert has listed them. */
+static char output_help[160], types[80];
+
 static const cli_option own_options[] = {
-    {"output", 'o', "FILE", ".json, .obj, .csv, .ply, .dxf or .graphml (default: stdout)",
-     .kind = CLI_TEXT, .offset = offsetof(convert_arguments, output)},
-    {"type", 'T', "json|obj|csv|ply|dxf|graphml",
-     "the format, if the file's name does not say (default: json)", .kind = CLI_TEXT,
-     .offset = offsetof(convert_arguments, type)},
+    {"output", 'o', "FILE", output_help, .kind = CLI_TEXT,
+     .offset = offsetof(convert_arguments, output)},
+    {"type", 'T', types, "the format, if the file's name does not say (default: json)",
+     .kind = CLI_TEXT, .offset = offsetof(convert_arguments, type)},
     {0}};
 
 /* Reads and writes. Returns an exit code. */
@@ -63,6 +65,13 @@ int cmd_convert(int argc, char **argv)
                               {NULL, guard_options, &args.guard},
                               {"Framework", cli_frame_options, &args.frame},
                               {NULL}};
+
+  /* The formats, for help. */
+  char list[120];
+  thr_formats_written(list, sizeof list, ".", ", ", " or ");
+  snprintf(output_help, sizeof output_help, "%s (default: stdout)", list);
+  thr_formats_written(types, sizeof types, "", "|", "|");
+
   const int code = cli_options(argc, argv, &syntax, groups);
   if (code >= 0) return code;
 

@@ -10,6 +10,7 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static const char intro[] =
@@ -51,6 +52,9 @@ typedef struct {
 
 #define AT(member) .offset = offsetof(make_arguments, member)
 
+/* What help says of the formats that are written, once cmd_make has listed them. */
+static char output_help[160];
+
 static const cli_option own_options[] = {
     {"size", .value = "N", .kind = CLI_COUNT, AT(wanted.size), .low = 1, .high = 1000000,
      .help = "see above"},
@@ -60,8 +64,7 @@ static const cli_option own_options[] = {
      .help = "distance between neighbours in mm"},
     {"rise", .value = "R", .kind = CLI_AMOUNT, AT(wanted.rise), .high = 100,
      .help = "dome, honeycomb: height over half span"},
-    {"output", 'o', "FILE", ".json, .obj, .csv, .ply, .dxf or .graphml (default: JSON on stdout)",
-     .kind = CLI_TEXT, AT(output)},
+    {"output", 'o', "FILE", output_help, .kind = CLI_TEXT, AT(output)},
     {0}};
 
 /* The usual values of a shape, and over them what was said. */
@@ -112,6 +115,12 @@ int cmd_make(int argc, char **argv)
   static const cli_syntax syntax = {"make", intro, NULL};
   make_arguments args = {.output = "-"};
   const cli_group groups[] = {{"Options", own_options, &args}, {NULL}};
+
+  /* The formats, for help. */
+  char list[120];
+  thr_formats_written(list, sizeof list, ".", ", ", " or ");
+  snprintf(output_help, sizeof output_help, "%s (default: JSON on stdout)", list);
+
   const int code = cli_options(argc, argv, &syntax, groups);
   if (code >= 0) return code;
 

@@ -11,6 +11,7 @@
 #include "graph/io/read_parts.h"
 #include "graph/os.h"
 
+#include <stdio.h>
 #include <string.h>
 
 extern const thr_format thr_json_format, thr_obj_format, thr_csv_format, thr_ply_format,
@@ -41,6 +42,25 @@ const thr_format *thr_format_written(const char *name)
 {
   const thr_format *format = thr_format_named(name);
   return format && format->write ? format : NULL;
+}
+
+void thr_formats_written(char *list, size_t size, const char *before, const char *between,
+                         const char *last)
+{
+  const thr_format *const *format = formats;
+  int left = 0;
+  for (int i = 0; formats[i]; i++)
+    left += formats[i]->write != NULL;
+
+  /* The word between two names depends on how many are left. */
+  for (size_t n = 0; *format && n < size; format++) {
+    if (!(*format)->write) continue;
+    left--;
+    n += (size_t)snprintf(list + n, size - n, "%s%s%s", before, (*format)->name,
+                          left > 1 ? between
+                          : left   ? last
+                                   : "");
+  }
 }
 
 const char *thr_path_ending(const char *path)

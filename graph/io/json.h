@@ -93,6 +93,7 @@ void thr_write_null(thr_writer *writer, const char *key);
 void thr_write_string(thr_writer *writer, const char *key, const char *value);
 void thr_write_hash(thr_writer *writer, const char *key,
                     uint64_t value); /* 16 hexadecimal digits, as a string */
+void thr_write_numbers(thr_writer *writer, const char *key, const double *value, int n);
 void thr_write_ints(thr_writer *writer, const char *key, const int *value, int n);
 
 /* A string that was put together in a text of its own, which it destroys. */

@@ -44,6 +44,10 @@ typedef struct thr_format thr_format; /* graph/io/formats.c */
 const thr_format *thr_format_named(const char *name);
 const thr_format *thr_format_written(const char *name); /* of those that are written */
 
+/* Lists the formats that are written: with ".", ", " and " or " as ".json, .obj or .csv". */
+void thr_formats_written(char *list, size_t size, const char *before, const char *between,
+                         const char *last);
+
 typedef struct {
   const char *edges_path; /* second file of a CSV nodes + edges pair, or NULL */
   double weld;            /* weld tolerance in units, < 0 = 1e-6 of the bounding box's diagonal */

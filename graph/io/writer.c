@@ -107,6 +107,14 @@ void thr_write_hash(thr_writer *writer, const char *key, uint64_t value)
   thr_write_printf(writer, key, "\"%016" PRIx64 "\"", value);
 }
 
+void thr_write_numbers(thr_writer *writer, const char *key, const double *value, int n)
+{
+  thr_write_row(writer, key);
+  for (int i = 0; i < n; i++)
+    thr_write_number(writer, NULL, value[i]);
+  thr_write_close(writer);
+}
+
 void thr_write_ints(thr_writer *writer, const char *key, const int *value, int n)
 {
   thr_write_row(writer, key);

@@ -10,9 +10,8 @@
  *     {"id": "A", "known": true, "pull": "end", .., "tension": [1, 1.37], "colours": ["#f3d350",
  * "#4b023a"]} */
 
-#include "graph/plan/plan.h"
+#include "graph/plan/plan_fields.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -116,16 +115,59 @@ void thr_tension_colour(const double range[2], double tension, char hex[8])
            (unsigned)rgb[2] & 255);
 }
 
+/* ---- members that are numbers, as they are written and read ---- */
+
+/* Of a cord that is known; its tensions, which say how many passes it has, are read before. */
+static const thr_field cord_fields[] = {
+    {.key = "id"},
+    {.key = "known"},
+    {.key = "pull"},
+    {"turning", THR_FIELD_NUMBER, .offset = offsetof(thr_eval_cord, turning)},
+    {"taut_turning", THR_FIELD_NUMBER, .offset = offsetof(thr_eval_cord, taut_turning)},
+    {"force", THR_FIELD_NUMBER, .offset = offsetof(thr_eval_cord, force), .line = 5},
+    {"other_force", THR_FIELD_NUMBER, .offset = offsetof(thr_eval_cord, other_force)},
+    {"loss", THR_FIELD_NUMBER, .offset = offsetof(thr_eval_cord, loss)},
+    {"work", THR_FIELD_NUMBER, .offset = offsetof(thr_eval_cord, work)},
+    {"error", THR_FIELD_NUMBER, .offset = offsetof(thr_eval_cord, error)},
+    {"slackest", THR_FIELD_COUNT, .offset = offsetof(thr_eval_cord, slackest),
+     .below = offsetof(thr_eval_cord, n_passes)},
+    {"refused", THR_FIELD_COUNT, .offset = offsetof(thr_eval_cord, refused),
+     .below = offsetof(thr_eval_cord, n_passes)},
+    {.key = "tension"},
+    {.key = "tension_most"},
+    {.key = "colours"},
+    {.key = "exponents"},
+    {0}};
+
+/* Of the whole evaluation. */
+static bool knows_seated(const void *evaluation)
+{
+  return ((const thr_evaluation *)evaluation)->seated_known;
+}
+
+static const thr_field own_fields[] = {
+    {.key = "method"},
+    {.key = "law"},
+    {.key = "physics"},
+    {"seed", THR_FIELD_WHOLE, .offset = offsetof(thr_evaluation, seed), .high = INT64_C(1) << 53},
+    {"time_step", THR_FIELD_NUMBER, .offset = offsetof(thr_evaluation, time_step)},
+    {"iterations", THR_FIELD_NUMBER, .offset = offsetof(thr_evaluation, iterations)},
+    {"largest", THR_FIELD_NUMBER, .offset = offsetof(thr_evaluation, largest)},
+    {"total", THR_FIELD_NUMBER, .offset = offsetof(thr_evaluation, total)},
+    {"seated", THR_FIELD_NUMBER, .offset = offsetof(thr_evaluation, seated), .when = knows_seated},
+    {.key = "scale"},
+    {.key = "schedule"},
+    {.key = "structure"},
+    {.key = "cords"},
+    {0}};
+
 /* ---- writing ---- */
 
 /* Writes a list of numbers on a line of its own. */
 static void put_numbers(thr_writer *writer, const char *key, const double *number, int n)
 {
   thr_write_line(writer, 5);
-  thr_write_row(writer, key);
-  for (int k = 0; k < n; k++)
-    thr_write_number(writer, NULL, number[k]);
-  thr_write_close(writer);
+  thr_write_numbers(writer, key, number, n);
 }
 
 /* Writes the tensions of a cord's passes, and their colours. */
@@ -162,17 +204,7 @@ static void put_cord(thr_writer *writer, const thr_eval_cord *cord, int i, const
 
   /* Of a cord that is not known nothing else is written. */
   if (cord->known) {
-    thr_write_number(writer, "turning", cord->turning);
-    thr_write_number(writer, "taut_turning", cord->taut_turning);
-    thr_write_line(writer, 5);
-    thr_write_number(writer, "force", cord->force);
-    thr_write_number(writer, "other_force", cord->other_force);
-    thr_write_number(writer, "loss", cord->loss);
-    thr_write_number(writer, "work", cord->work);
-    thr_write_number(writer, "error", cord->error);
-    thr_write_int(writer, "slackest", cord->slackest);
-    thr_write_int(writer, "refused", cord->refused);
-
+    thr_fields_write(writer, cord_fields, cord);
     if (exponents) put_numbers(writer, "exponents", cord->exponent, cord->n_passes - 1);
     put_tension(writer, cord, range);
   }
@@ -197,14 +229,7 @@ void thr_evaluation_write(const thr_evaluation *evaluation, thr_writer *writer, 
   thr_write_line(writer, 2);
   thr_physics_write(&evaluation->physics, writer, "physics");
   thr_write_line(writer, 2);
-  thr_write_printf(writer, "seed", "%" PRIu64, evaluation->seed);
-  thr_write_number(writer, "time_step", evaluation->time_step);
-  thr_write_number(writer, "iterations", evaluation->iterations);
-
-  /* What all cords come to. */
-  thr_write_number(writer, "largest", evaluation->largest);
-  thr_write_number(writer, "total", evaluation->total);
-  if (evaluation->seated_known) thr_write_number(writer, "seated", evaluation->seated);
+  thr_fields_write(writer, own_fields, evaluation);
 
   /* The scale of the colours. */
   thr_write_line(writer, 2);
@@ -235,55 +260,17 @@ void thr_evaluation_write(const thr_evaluation *evaluation, thr_writer *writer, 
   thr_write_close(writer);
 }
 
-/* ---- reading: every failure is "place.member: what" ---- */
-
-/* Where an object is, for messages "place.member: what". */
-typedef struct {
-  const char *place;
-  thr_err *err;
-} place_reader;
-
-/* Records THR_EVIOLATED about a member. */
-static thr_status bad(const place_reader *reader, const char *key, const char *what)
-{
-  return thr_fail(reader->err, THR_EVIOLATED, "%s.%s: %s", reader->place, key, what);
-}
-
-/* Checks that an object has no members but those known; the list ends with NULL. */
-static thr_status only_members(const place_reader *reader, const thr_json *object,
-                               const char *const *known)
-{
-  const char *key = thr_json_unknown(object, known);
-  return key ? bad(reader, key, "this version does not know it and cannot check it") : THR_OK;
-}
-
-/* Reads a member as a finite number. */
-static thr_status get_double(const place_reader *reader, const thr_json *object, const char *key,
-                             double *out)
-{
-  return thr_json_number(thr_json_get(object, key), out)
-             ? THR_OK
-             : bad(reader, key, "missing or not a finite number");
-}
-
-/* Reads a member as an integer from 0 to high. */
-static thr_status get_int(const place_reader *reader, const thr_json *object, const char *key,
-                          int64_t high, int64_t *out)
-{
-  if (thr_json_int(thr_json_get(object, key), out) && *out >= 0 && *out <= high) return THR_OK;
-  return thr_fail(reader->err, THR_EVIOLATED, "%s.%s: missing or not an integer from 0 to %" PRId64,
-                  reader->place, key, high);
-}
+/* ---- reading ---- */
 
 /* Reads a member as one of n words; *out becomes its index. */
-static thr_status get_word(const place_reader *reader, const thr_json *object, const char *key,
+static thr_status get_word(const thr_field_reader *reader, const thr_json *object, const char *key,
                            const char *const *word, int n, int *out)
 {
   const char *value = thr_json_string(thr_json_get(object, key));
   for (*out = 0; value && *out < n; ++*out)
     if (strcmp(value, word[*out]) == 0) return THR_OK;
   *out = 0;
-  return bad(reader, key, value ? "an unknown word" : "missing or not text");
+  return thr_field_bad(reader, key, value ? "an unknown word" : "missing or not text");
 }
 
 /* Returns whether two colours "#rrggbb" differ by at most one step of 255 in each part, because the
@@ -305,7 +292,7 @@ static bool same_colour(const char *a, const char *b)
 }
 
 /* Reads the tensions of a cord's passes, as many as there are. Colours are only counted here. */
-static thr_status read_tension(const place_reader *reader, const thr_json *object,
+static thr_status read_tension(const thr_field_reader *reader, const thr_json *object,
                                thr_eval_cord *cord)
 {
   const thr_json *list = thr_json_get(object, "tension"),
@@ -314,9 +301,9 @@ static thr_status read_tension(const place_reader *reader, const thr_json *objec
 
   /* One tension for each pass, and one colour for each tension. */
   if (thr_json_typeof(list) != THR_JSON_ARRAY || n < 1)
-    return bad(reader, "tension", "missing or empty");
+    return thr_field_bad(reader, "tension", "missing or empty");
   if (thr_json_typeof(colours) != THR_JSON_ARRAY || thr_json_size(colours) != n)
-    return bad(reader, "colours", "not one per tension");
+    return thr_field_bad(reader, "colours", "not one per tension");
 
   if (!(cord->tension = thr_calloc((size_t)n, sizeof *cord->tension)))
     return thr_nomem(reader->err);
@@ -326,20 +313,19 @@ static thr_status read_tension(const place_reader *reader, const thr_json *objec
   for (int k = 0; k < n; k++)
     if (!thr_json_number(thr_json_at(list, k), &cord->tension[k]) || !(cord->tension[k] >= 0))
       return thr_fail(reader->err, THR_EVIOLATED, "%s.tension[%d]: not a number from 0 on",
-                      reader->place, k);
+                      reader->name, k);
 
   return THR_OK;
 }
 
 /* Reads a list of n numbers from 0 on into *number, or leaves NULL if there is no such member. */
-static thr_status read_numbers(const place_reader *reader, const thr_json *object, const char *key,
-                               int n, double **number)
+static thr_status read_numbers(const thr_field_reader *reader, const thr_json *object,
+                               const char *key, int n, double **number)
 {
   const thr_json *list = thr_json_get(object, key);
-
   if (!list) return THR_OK;
   if (thr_json_typeof(list) != THR_JSON_ARRAY || thr_json_size(list) != n)
-    return bad(reader, key, "not one per pass or turn");
+    return thr_field_bad(reader, key, "not one per pass or turn");
 
   /* One more, so that n = 0 is no failure. */
   if (!(*number = thr_calloc((size_t)n + 1, sizeof **number))) return thr_nomem(reader->err);
@@ -347,20 +333,16 @@ static thr_status read_numbers(const place_reader *reader, const thr_json *objec
   /* Neither exponents nor tensions can be negative. */
   for (int k = 0; k < n; k++)
     if (!thr_json_number(thr_json_at(list, k), &(*number)[k]) || !((*number)[k] >= 0))
-      return thr_fail(reader->err, THR_EVIOLATED, "%s.%s[%d]: not a number from 0 on",
-                      reader->place, key, k);
+      return thr_fail(reader->err, THR_EVIOLATED, "%s.%s[%d]: not a number from 0 on", reader->name,
+                      key, k);
 
   return THR_OK;
 }
 
 /* Reads the record of cord i. */
-static thr_status read_cord(const place_reader *reader, const thr_json *object, int i,
+static thr_status read_cord(const thr_field_reader *reader, const thr_json *object, int i,
                             thr_eval_cord *cord)
 {
-  static const char *const all[] = {
-      "id",      "known",     "pull",  "turning",  "taut_turning", "force",   "other_force",
-      "loss",    "work",      "error", "slackest", "refused",      "tension", "tension_most",
-      "colours", "exponents", NULL};
   static const char *const unknown[] = {"id", "known", "pull", NULL};
 
   char name[12];
@@ -370,49 +352,32 @@ static thr_status read_cord(const place_reader *reader, const thr_json *object, 
   const char *id = thr_json_string(thr_json_get(object, "id"));
   const thr_json *known = thr_json_get(object, "known");
   const int pull = thr_pull_named(thr_json_string(thr_json_get(object, "pull")));
-  int64_t slackest = 0, refused = 0;
 
   /* Records are in the order of the cords. */
   if (!id || strcmp(id, name) != 0)
-    return bad(reader, "id", "not the plan's cord with this number");
+    return thr_field_bad(reader, "id", "not the plan's cord with this number");
   if (thr_json_typeof(known) != THR_JSON_BOOL)
-    return bad(reader, "known", "missing; expected true or false");
+    return thr_field_bad(reader, "known", "missing; expected true or false");
 
   cord->known = thr_json_true(known);
 
   /* A cord that is not known has no numbers. */
-  thr_status st = only_members(reader, object, cord->known ? all : unknown);
-  if (!st && pull < 0) st = bad(reader, "pull", "missing or an unknown word");
+  thr_status st = cord->known ? THR_OK : thr_field_only(reader, object, NULL, unknown);
+  if (!st && pull < 0) st = thr_field_bad(reader, "pull", "missing or an unknown word");
   if (st) return st;
   cord->pull = (thr_pull)pull;
   if (!cord->known) return THR_OK;
 
-  /* Numbers first, then lists, whose lengths follow from the first one. */
-  const struct {
-    const char *key;
-    double *to;
-  } number[] = {{"turning", &cord->turning}, {"taut_turning", &cord->taut_turning},
-                {"force", &cord->force},     {"other_force", &cord->other_force},
-                {"loss", &cord->loss},       {"work", &cord->work},
-                {"error", &cord->error}};
-
-  for (size_t k = 0; k < sizeof number / sizeof *number && !st; k++)
-    st = get_double(reader, object, number[k].key, number[k].to);
-
-  /* The tensions tell how many passes and turns the other lists must have. */
-  if (!st) st = read_tension(reader, object, cord);
+  /* The tensions tell how many passes and turns there are. */
+  st = read_tension(reader, object, cord);
   if (!st) st = read_numbers(reader, object, "exponents", cord->n_passes - 1, &cord->exponent);
   if (!st) st = read_numbers(reader, object, "tension_most", cord->n_passes, &cord->most);
-  if (!st) st = get_int(reader, object, "slackest", cord->n_passes - 1, &slackest);
-  if (!st) st = get_int(reader, object, "refused", cord->n_passes - 1, &refused);
 
-  cord->slackest = (int)slackest;
-  cord->refused = (int)refused;
-  return st;
+  return st ? st : thr_fields_read(reader, object, NULL, cord_fields, cord);
 }
 
 /* Reads the records of all cords. */
-static thr_status read_cords(const place_reader *reader, const thr_json *object,
+static thr_status read_cords(const thr_field_reader *reader, const thr_json *object,
                              thr_evaluation *evaluation)
 {
   const thr_json *list = thr_json_get(object, "cords");
@@ -420,7 +385,7 @@ static thr_status read_cords(const place_reader *reader, const thr_json *object,
 
   /* There is at least one cord. */
   if (thr_json_typeof(list) != THR_JSON_ARRAY || n < 1)
-    return bad(reader, "cords", "missing or empty");
+    return thr_field_bad(reader, "cords", "missing or empty");
   if (!(evaluation->cord = thr_calloc((size_t)n, sizeof *evaluation->cord)))
     return thr_nomem(reader->err);
 
@@ -429,9 +394,9 @@ static thr_status read_cords(const place_reader *reader, const thr_json *object,
   /* Each record's place is part of the messages. */
   for (int i = 0; i < n; i++) {
     char place[256];
-    snprintf(place, sizeof place, "%.200s.cords[%d]", reader->place, i);
-    thr_status st = read_cord(&(place_reader){place, reader->err}, thr_json_at(list, i), i,
-                              &evaluation->cord[i]);
+    snprintf(place, sizeof place, "%.200s.cords[%d]", reader->name, i);
+    const thr_field_reader inner = thr_field_reader_in(place, reader->err);
+    thr_status st = read_cord(&inner, thr_json_at(list, i), i, &evaluation->cord[i]);
     if (st) return st;
   }
 
@@ -440,23 +405,23 @@ static thr_status read_cords(const place_reader *reader, const thr_json *object,
 
 /* Checks the scale and the colours, which are no members of the record in memory, because they
  * follow from the tensions. */
-static thr_status check_colours(const place_reader *reader, const thr_json *object,
+static thr_status check_colours(const thr_field_reader *reader, const thr_json *object,
                                 const thr_evaluation *evaluation)
 {
   static const char *const known[] = {"low", "high", NULL};
   double range[2], stated[2];
   const thr_json *scale = thr_json_get(object, "scale"), *cords = thr_json_get(object, "cords");
-  thr_status st = only_members(reader, scale, known);
+  thr_status st = thr_field_only(reader, scale, NULL, known);
 
   /* Stated, and as it follows from the tensions. */
-  if (!st) st = get_double(reader, scale, "low", &stated[0]);
-  if (!st) st = get_double(reader, scale, "high", &stated[1]);
+  if (!st) st = thr_field_double(reader, scale, "low", &stated[0]);
+  if (!st) st = thr_field_double(reader, scale, "high", &stated[1]);
   if (st) return st;
   thr_evaluation_range(evaluation, range);
 
   /* The scale is that of the tensions. */
   if (stated[0] != range[0] || stated[1] != range[1])
-    return bad(reader, "scale", "not the least and largest tension");
+    return thr_field_bad(reader, "scale", "not the least and largest tension");
 
   /* The colour of every tension. */
   for (int i = 0; i < evaluation->n_cords; i++) {
@@ -466,7 +431,7 @@ static thr_status check_colours(const place_reader *reader, const thr_json *obje
       thr_tension_colour(range, evaluation->cord[i].tension[k], hex);
       if (!same_colour(thr_json_string(thr_json_at(colours, k)), hex))
         return thr_fail(reader->err, THR_EVIOLATED,
-                        "%s.cords[%d].colours[%d]: expected %s for this tension", reader->place, i,
+                        "%s.cords[%d].colours[%d]: expected %s for this tension", reader->name, i,
                         k, hex);
     }
   }
@@ -475,7 +440,7 @@ static thr_status check_colours(const place_reader *reader, const thr_json *obje
 }
 
 /* Reads what the limit analysis found, of method structure only. */
-static thr_status read_standing(const place_reader *reader, const thr_json *object,
+static thr_status read_standing(const thr_field_reader *reader, const thr_json *object,
                                 thr_evaluation *evaluation)
 {
   const thr_json *value = thr_json_get(object, "structure");
@@ -484,21 +449,21 @@ static thr_status read_standing(const place_reader *reader, const thr_json *obje
   /* An older version wrote none. */
   if (!value) return THR_OK;
   if (evaluation->method != THR_STRUCTURE)
-    return bad(reader, "structure", "only the method structure finds it");
+    return thr_field_bad(reader, "structure", "only the method structure finds it");
 
-  snprintf(place, sizeof place, "%.200s.structure", reader->place);
+  snprintf(place, sizeof place, "%.200s.structure", reader->name);
   return thr_standing_from_json(&evaluation->standing, value, evaluation->n_cords, place,
                                 reader->err);
 }
 
 /* Reads the schedule, and checks that the lists which belong to it are there with it. */
-static thr_status read_schedule(const place_reader *reader, const thr_json *object,
+static thr_status read_schedule(const thr_field_reader *reader, const thr_json *object,
                                 thr_evaluation *evaluation)
 {
   const thr_json *list = thr_json_get(object, "schedule");
   char place[256];
 
-  snprintf(place, sizeof place, "%.200s.schedule", reader->place);
+  snprintf(place, sizeof place, "%.200s.schedule", reader->name);
   thr_status st = list ? thr_schedule_from_json(&evaluation->schedule, list, evaluation->n_cords,
                                                 place, reader->err)
                        : THR_OK;
@@ -507,39 +472,34 @@ static thr_status read_schedule(const place_reader *reader, const thr_json *obje
   for (int i = 0; i < evaluation->n_cords && !st; i++)
     if (evaluation->cord[i].known &&
         thr_evaluation_exponents(evaluation) != (evaluation->cord[i].exponent != NULL))
-      st = bad(reader, "cords",
-               "exponents come with a schedule, or with turns of the tight cord, of all cords that "
-               "are known");
+      st = thr_field_bad(
+          reader, "cords",
+          "exponents come with a schedule, or with turns of the tight cord, of all cords that "
+          "are known");
 
   /* The most that may be in a pass is left open only by a schedule. */
   for (int i = 0; i < evaluation->n_cords && !st && !list; i++)
-    if (evaluation->cord[i].most) st = bad(reader, "cords", "tension_most comes with a schedule");
+    if (evaluation->cord[i].most)
+      st = thr_field_bad(reader, "cords", "tension_most comes with a schedule");
 
   return st;
 }
 
 /* Reads all members of an evaluation. */
-static thr_status read_members(const place_reader *reader, const thr_json *object,
+static thr_status read_members(const thr_field_reader *reader, const thr_json *object,
                                thr_evaluation *evaluation)
 {
-  static const char *const known[] = {"method",     "law",      "physics",   "seed",   "time_step",
-                                      "iterations", "largest",  "total",     "seated", "scale",
-                                      "cords",      "schedule", "structure", NULL};
   char place[256];
   int method = 0, law = 0;
-
-  int64_t seed = 0;
   thr_err found = {0};
-  thr_status st = only_members(reader, object, known);
-
-  if (!st) st = get_word(reader, object, "method", method_name, THR_N_METHODS, &method);
+  thr_status st = get_word(reader, object, "method", method_name, THR_N_METHODS, &method);
   if (st) return st;
 
   /* Only the method capstan has a choice of laws. */
   if (method == THR_CAPSTAN)
     st = get_word(reader, object, "law", law_name, THR_N_LAWS, &law);
   else if (thr_json_get(object, "law"))
-    st = bad(reader, "law", "only the method capstan goes by a law");
+    st = thr_field_bad(reader, "law", "only the method capstan goes by a law");
 
   if (st) return st;
   *evaluation = (thr_evaluation){.present = true,
@@ -548,21 +508,13 @@ static thr_status read_members(const place_reader *reader, const thr_json *objec
                                  .physics = thr_physics_default()};
 
   /* The messages of others become ours: what is wrong is the plan. */
-  snprintf(place, sizeof place, "%.200s.physics", reader->place);
+  snprintf(place, sizeof place, "%.200s.physics", reader->name);
   if (thr_physics_from_json(&evaluation->physics, thr_json_get(object, "physics"), place, &found))
     return thr_fail(reader->err, THR_EVIOLATED, "%s", found.text);
 
   /* Numbers of the whole evaluation. */
-  if ((st = get_int(reader, object, "seed", INT64_C(1) << 53, &seed))) return st;
-  evaluation->seed = (uint64_t)seed;
-  if ((st = get_double(reader, object, "time_step", &evaluation->time_step))) return st;
-  if ((st = get_double(reader, object, "iterations", &evaluation->iterations))) return st;
-  if ((st = get_double(reader, object, "largest", &evaluation->largest))) return st;
-
-  if ((st = get_double(reader, object, "total", &evaluation->total))) return st;
   evaluation->seated_known = thr_json_get(object, "seated") != NULL;
-  if (evaluation->seated_known && (st = get_double(reader, object, "seated", &evaluation->seated)))
-    return st;
+  if ((st = thr_fields_read(reader, object, NULL, own_fields, evaluation))) return st;
 
   /* Cords first, because the others refer to them. */
   if ((st = read_cords(reader, object, evaluation))) return st;
@@ -577,7 +529,7 @@ thr_status thr_evaluation_from_json(thr_evaluation *evaluation, const thr_json *
                                     const char *place, thr_err *err)
 {
   thr_evaluation read = {0};
-  const place_reader reader = {place, err};
+  const thr_field_reader reader = thr_field_reader_in(place, err);
   thr_status st = thr_json_typeof(object) == THR_JSON_OBJECT
                       ? read_members(&reader, object, &read)
                       : thr_fail(err, THR_EVIOLATED, "%s: not an object", place);

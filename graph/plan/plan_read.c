@@ -419,50 +419,6 @@ static thr_status read_symmetry(const thr_field_reader *field_reader, const thr_
   return st;
 }
 
-/* Reads the sums over the cords that the plan states. The checker computes them again. */
-static thr_status read_metrics(const thr_field_reader *field_reader, const thr_json *doc,
-                               thr_plan *plan)
-{
-  thr_metrics *metrics = &plan->metrics;
-  const thr_json *value;
-  static const char *const known[] = {"length",      "base_length", "overlap",   "passes",
-                                      "most_passes", "distinct",    "crossings", "turning",
-                                      "max_turning", "worst_turn",  "u_turns",   NULL};
-  thr_status st = thr_field_need(field_reader, doc, "metrics", THR_JSON_OBJECT, &value);
-  if (!st) st = thr_field_only(field_reader, value, "metrics", known);
-  if (st) return st;
-
-  /* Length and passes. */
-  if ((st = thr_field_double(field_reader, value, "length", &metrics->length))) return st;
-  if ((st = thr_field_double(field_reader, value, "base_length", &metrics->base_length))) return st;
-  if ((st = thr_field_double(field_reader, value, "overlap", &metrics->overlap))) return st;
-  if ((st = thr_field_int(field_reader, value, "passes", 0, INT32_MAX, &metrics->passes)))
-    return st;
-  if ((st = thr_field_int(field_reader, value, "most_passes", 0, INT32_MAX, &metrics->most_passes)))
-    return st;
-
-  /* Two metrics are there if and only if the options ask about them. */
-  if ((plan->options.distinct > 0) != (thr_json_get(value, "distinct") != NULL))
-    return thr_field_bad(field_reader, "metrics.distinct", "goes with options.distinct");
-  if (plan->options.distinct > 0 &&
-      (st = thr_field_int(field_reader, value, "distinct", 0, INT32_MAX, &metrics->distinct)))
-    return st;
-
-  if ((plan->options.crossings != THR_CROSSINGS_ALLOW) !=
-      (thr_json_get(value, "crossings") != NULL))
-    return thr_field_bad(field_reader, "metrics.crossings", "goes with options.crossings");
-  if (plan->options.crossings != THR_CROSSINGS_ALLOW &&
-      (st = thr_field_int(field_reader, value, "crossings", 0, INT32_MAX, &metrics->crossings)))
-    return st;
-
-  /* Turning. */
-  if ((st = thr_field_double(field_reader, value, "turning", &metrics->turning))) return st;
-  if ((st = thr_field_double(field_reader, value, "max_turning", &metrics->max_turning))) return st;
-  if ((st = thr_field_double(field_reader, value, "worst_turn", &metrics->worst_turn))) return st;
-
-  return thr_field_int(field_reader, value, "u_turns", 0, INT32_MAX, &metrics->u_turns);
-}
-
 /* Reads the evaluation, if there is one, and checks that it has one record per cord and one tension
  * per pass, so that later code needs no further check. */
 static thr_status read_evaluation(const thr_field_reader *field_reader, const thr_json *doc,
@@ -526,7 +482,12 @@ static thr_status read_document(thr_field_reader *field_reader, const thr_json *
   field_reader->code = THR_EVIOLATED;
   if ((st = read_cords(field_reader, doc, plan))) return st;
   if ((st = read_symmetry(field_reader, doc, plan, &plan->symmetry))) return st;
-  if ((st = read_metrics(field_reader, doc, plan))) return st;
+
+  /* The sums over the cords, which the checker computes again. */
+  const thr_json *metrics;
+  st = thr_field_need(field_reader, doc, "metrics", THR_JSON_OBJECT, &metrics);
+  if (!st) st = thr_fields_read(field_reader, metrics, "metrics", thr_metrics_fields, plan);
+  if (st) return st;
   if ((st = read_evaluation(field_reader, doc, plan))) return st;
 
   return thr_plan_read_proofs(field_reader, doc, plan);
@@ -538,8 +499,8 @@ static thr_status read_document(thr_field_reader *field_reader, const thr_json *
 static thr_status take_document(thr_json *doc, const char *name, thr_frame *known, int without,
                                 thr_plan *plan, thr_err *err)
 {
-  thr_status st =
-      read_document(&(thr_field_reader){name, THR_EINPUT, err, without}, doc, known, plan);
+  thr_field_reader reader = {.name = name, .code = THR_EINPUT, .err = err, .without = without};
+  thr_status st = read_document(&reader, doc, known, plan);
   thr_json_destroy(doc);
   if (st) thr_plan_destroy(plan);
   return st;

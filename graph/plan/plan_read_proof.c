@@ -16,12 +16,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Returns what plans call a bound that is not attained (0), or one that is (1). */
-static const char *status_name(int i)
-{
-  return i ? "optimal" : "bound";
-}
-
 /* Reads cut i of a certificate of n_cuts. A parent comes later in the list, so that the cuts are a
  * forest. */
 static thr_status read_cut(const thr_field_reader *field_reader, const thr_json *value, int i,
@@ -37,19 +31,15 @@ static thr_status read_cut(const thr_field_reader *field_reader, const thr_json 
   cut->parent = -1;
   if (!st && thr_json_get(value, "parent"))
     st = thr_field_int(field_reader, value, "parent", i + 1, n_cuts - 1, &cut->parent);
-  if (!st) st = thr_field_need(field_reader, value, "nodes", THR_JSON_ARRAY, &nodes);
-  if (st) return st;
 
   /* The nodes of the cut that are in none of its children. */
-  int n = thr_json_size(nodes);
-  if (!(cut->node = thr_calloc((size_t)n, sizeof *cut->node))) return thr_nomem(field_reader->err);
-  cut->n_nodes = n;
-  for (int j = 0; j < n; j++)
-    if ((st = thr_field_index(field_reader, nodes, j, frame->n_nodes,
-                              "proof.length.certificate: cuts: nodes", &cut->node[j])))
-      return st;
+  if (!st)
+    cut->node =
+        thr_field_list(field_reader, value, "nodes", sizeof *cut->node, &cut->n_nodes, &nodes, &st);
 
-  return THR_OK;
+  return st ? st
+            : thr_field_indices(field_reader, nodes, cut->n_nodes, frame->n_nodes,
+                                "proof.length.certificate: cuts: nodes", cut->node);
 }
 
 /* Reads the prices of places into a new array, which the certificate owns. */
@@ -57,62 +47,43 @@ static thr_status read_prices(const thr_field_reader *field_reader, const thr_js
                               thr_certificate *certificate)
 {
   const thr_json *list;
-  thr_status st = thr_field_need(field_reader, value, "place_prices", THR_JSON_ARRAY, &list);
-  if (st) return st;
+  thr_status st;
+  certificate->place_price =
+      thr_field_list(field_reader, value, "place_prices", sizeof *certificate->place_price,
+                     &certificate->n_prices, &list, &st);
 
-  int n = thr_json_size(list);
-  if (!(certificate->place_price = thr_calloc((size_t)n, sizeof *certificate->place_price)))
-    return thr_nomem(field_reader->err);
-  certificate->n_prices = n;
-
-  for (int i = 0; i < n; i++)
+  for (int i = 0; i < certificate->n_prices; i++)
     if (!thr_json_int(
             thr_json_at(list, i),
             &certificate->place_price[i])) /* the checker says what a negative one means */
       return thr_field_bad(field_reader, "proof.length.certificate: place_prices",
                            "not all are integers");
 
-  return THR_OK;
+  return st;
 }
 
 /* Reads the proof of length of one component. */
 static thr_status read_certificate(const thr_field_reader *field_reader, const thr_json *value,
                                    const thr_frame *frame, thr_certificate *certificate)
 {
-  static const char *const known[] = {"component", "scale", "denominator",  "end_price", "join",
-                                      "sum",       "cuts",  "place_prices", NULL};
   const thr_json *cuts;
-  thr_status st = thr_field_only(field_reader, value, "proof.length.certificate", known);
+  thr_status st = thr_fields_read(field_reader, value, "proof.length.certificate",
+                                  thr_certificate_fields, certificate);
   if (!st)
     st = thr_field_int(field_reader, value, "component", 0, frame->n_nodes - 1,
                        &certificate->component);
-
-  /* Scale, prices and sums. */
-  if (!st) st = thr_field_double(field_reader, value, "scale", &certificate->scale);
-  if (!st)
-    st = thr_field_int64(field_reader, value, "denominator", 1, INT64_C(1) << 40,
-                         &certificate->denominator);
-  if (!st)
-    st = thr_field_int64(field_reader, value, "end_price", 0, INT64_MAX, &certificate->end_price);
-  if (!st)
-    st = thr_field_int64(field_reader, value, "join", 0, INT64_C(1) << 60, &certificate->join);
-  if (!st) st = thr_field_int64(field_reader, value, "sum", 0, INT64_MAX, &certificate->sum);
-
   if (!st && thr_json_get(value, "place_prices"))
     st = read_prices(field_reader, value, certificate);
-  if (!st) st = thr_field_need(field_reader, value, "cuts", THR_JSON_ARRAY, &cuts);
-  if (st) return st;
 
   /* The packing of odd cuts. */
-  int n = thr_json_size(cuts);
-  if (!(certificate->cut = thr_calloc((size_t)n, sizeof *certificate->cut)))
-    return thr_nomem(field_reader->err);
-  certificate->n_cuts = n;
-  for (int i = 0; i < n; i++)
-    if ((st = read_cut(field_reader, thr_json_at(cuts, i), i, n, frame, &certificate->cut[i])))
-      return st;
+  if (!st)
+    certificate->cut = thr_field_list(field_reader, value, "cuts", sizeof *certificate->cut,
+                                      &certificate->n_cuts, &cuts, &st);
+  for (int i = 0; i < certificate->n_cuts && !st; i++)
+    st = read_cut(field_reader, thr_json_at(cuts, i), i, certificate->n_cuts, frame,
+                  &certificate->cut[i]);
 
-  return THR_OK;
+  return st;
 }
 
 /* Reads whether a bound is claimed to be attained. */
@@ -120,7 +91,7 @@ static thr_status get_status(const thr_field_reader *field_reader, const thr_jso
                              const char *place, bool *optimal)
 {
   int status;
-  thr_status st = thr_field_name(field_reader, value, place, "status", 2, status_name, &status);
+  thr_status st = thr_field_name(field_reader, value, place, "status", 2, thr_status_name, &status);
   *optimal = status == 1;
   return st;
 }
@@ -165,15 +136,13 @@ static thr_status read_length_proof(const thr_field_reader *field_reader, const 
   }
 
   /* With solid joints there is a certificate for each component. */
-  if (!st) st = thr_field_need(field_reader, value, "certificate", THR_JSON_ARRAY, &list);
+  if (!st)
+    proof->certificate =
+        thr_field_list(field_reader, value, "certificate", sizeof *proof->certificate,
+                       &proof->n_certificates, &list, &st);
+  for (int i = 0; i < proof->n_certificates && !st; i++)
+    st = read_certificate(field_reader, thr_json_at(list, i), frame, &proof->certificate[i]);
   if (st) return st;
-  int n = thr_json_size(list);
-  if (!(proof->certificate = thr_calloc((size_t)n, sizeof *proof->certificate)))
-    return thr_nomem(field_reader->err);
-  proof->n_certificates = n;
-  for (int i = 0; i < n; i++)
-    if ((st = read_certificate(field_reader, thr_json_at(list, i), frame, &proof->certificate[i])))
-      return st;
 
   /* Where the pull is limited, prices of walks may prove the bound. */
   snprintf(place, sizeof place, "%.200s: proof.length.walks", field_reader->name);
@@ -196,91 +165,44 @@ static thr_status read_free_turn(const thr_field_reader *field_reader, const thr
   return THR_OK;
 }
 
-/* Reads the claim about the cord that turns most, or that is hardest to pull. */
-static thr_status read_largest(const thr_field_reader *field_reader, const thr_json *object,
-                               thr_turning_claim *claim)
-{
-  static const char *const known[] = {"status", "price", "lower_bound", "cut", NULL};
-  const thr_json *value;
-  thr_status st = thr_field_need(field_reader, object, "largest", THR_JSON_OBJECT, &value);
-  if (!st) st = thr_field_only(field_reader, value, "proof.turning.largest", known);
-  if (!st) st = get_status(field_reader, value, "proof.turning.largest", &claim->largest_optimal);
-  if (!st) st = thr_field_amount(field_reader, value, "price", &claim->largest);
-  if (!st) st = thr_field_amount(field_reader, value, "lower_bound", &claim->largest_bound);
-
-  return st ? st : read_free_turn(field_reader, value, "proof.turning.largest.cut", &claim->cut);
-}
-
 /* Reads the claim of least turning, with the tree of multipliers that proves it. */
 static thr_status read_turning_claim(const thr_field_reader *field_reader, const thr_json *value,
-                                     const thr_frame *frame, thr_turning_claim *claim)
+                                     thr_plan *plan)
 {
-  static const char *const known[] = {"status",        "price",   "lower_bound", "gap",
-                                      "pairing_bound", "largest", "most_passes", "length_limit",
-                                      "method",        "proof",   NULL};
   char place[256];
-
-  /* The claim about all cords together. Only older plans state pairing_bound. */
-  thr_status st = thr_field_only(field_reader, value, "proof.turning", known);
-  if (!st) st = get_status(field_reader, value, "proof.turning", &claim->optimal);
-  if (!st) st = thr_field_amount(field_reader, value, "price", &claim->price);
-  if (!st) st = thr_field_amount(field_reader, value, "lower_bound", &claim->lower_bound);
-  if (!st) st = thr_field_amount(field_reader, value, "gap", &claim->gap);
-  if (!st && thr_json_get(value, "pairing_bound"))
-    st = thr_field_amount(field_reader, value, "pairing_bound", &claim->pairing_bound);
-
-  /* The claim about one cord, and among which plans both claims hold. */
-  if (!st) st = read_largest(field_reader, value, claim);
-  if (!st)
-    st = thr_field_int(field_reader, value, "most_passes", 1, INT32_MAX, &claim->most_passes);
-  if (!st) st = thr_field_or_null(field_reader, value, "length_limit", &claim->length_limit);
+  thr_status st =
+      thr_fields_read(field_reader, value, "proof.turning", thr_turning_claim_fields, plan);
   if (st) return st;
 
-  /* The tree that proves them. */
   snprintf(place, sizeof place, "%.200s: proof.turning.proof", field_reader->name);
-  claim->present = true;
+  plan->turning.present = true;
 
-  return thr_turning_proof_from_json(&claim->tree, frame, thr_json_get(value, "proof"), place,
-                                     field_reader->err);
+  return thr_turning_proof_from_json(&plan->turning.tree, &plan->frame,
+                                     thr_json_get(value, "proof"), place, field_reader->err);
 }
 
 /* Reads the claims about the longest cord and the number of cords, with the prices of walks that
  * prove them. */
 static thr_status read_cords_claim(const thr_field_reader *field_reader, const thr_json *object,
-                                   const thr_frame *frame, thr_cords_claim *claim,
-                                   thr_walk_proof *walks)
+                                   thr_plan *plan)
 {
-  static const char *const known[] = {"longest", "fewest", "walks", "sets", NULL},
-                           *const of_longest[] = {"status", "length", "lower_bound", NULL},
-                           *const of_fewest[] = {"status", "lower_bound", NULL};
-  const thr_json *longest, *fewest = thr_json_get(object, "fewest");
-
-  /* The longest cord. */
-  thr_status st = thr_field_only(field_reader, object, "proof.cords", known);
-  if (!st) st = thr_field_need(field_reader, object, "longest", THR_JSON_OBJECT, &longest);
-  if (!st) st = thr_field_only(field_reader, longest, "proof.cords.longest", of_longest);
-  if (!st) st = get_status(field_reader, longest, "proof.cords.longest", &claim->longest_optimal);
-  if (!st) st = thr_field_amount(field_reader, longest, "length", &claim->longest);
-  if (!st) st = thr_field_amount(field_reader, longest, "lower_bound", &claim->longest_bound);
-  if (!st) claim->present = true;
+  thr_walk_proof *walks = &plan->proof.walks;
+  thr_status st =
+      thr_fields_read(field_reader, object, "proof.cords", thr_cords_claim_fields, plan);
+  plan->cords_claim.present = !st;
 
   /* Prices of walks by length; `sets` says that all sets of edges were tried as well. */
   char place[256];
   snprintf(place, sizeof place, "%.200s: proof.cords.walks", field_reader->name);
   if (!st)
-    st = thr_walk_proof_from_json(walks, frame, "length", thr_json_get(object, "walks"), place,
-                                  field_reader->err);
+    st = thr_walk_proof_from_json(walks, &plan->frame, "length", thr_json_get(object, "walks"),
+                                  place, field_reader->err);
   const thr_json *sets = thr_json_get(object, "sets");
   if (!st && sets && (thr_json_typeof(sets) != THR_JSON_BOOL || !thr_json_true(sets)))
     st = thr_field_bad(field_reader, "proof.cords.sets", "true, or left out");
   walks->sets = sets;
 
-  /* The number of cords, if few were asked for. */
-  if (st || !fewest) return st;
-  st = thr_field_only(field_reader, fewest, "proof.cords.fewest", of_fewest);
-  if (!st) st = get_status(field_reader, fewest, "proof.cords.fewest", &claim->fewest_optimal);
-
-  return st ? st : thr_field_int(field_reader, fewest, "lower_bound", 1, INT32_MAX, &claim->fewest);
+  return st;
 }
 
 /* Reads the members that every claim of the number of cords has, of the whole framework or of a
@@ -432,12 +354,11 @@ thr_status thr_plan_read_proofs(const thr_field_reader *field_reader, const thr_
   if (!st && length && !(without & THR_CLAIM_LENGTH))
     st = read_length_proof(field_reader, length, &plan->frame, &plan->proof);
   if (!st && cords && !(without & THR_CLAIM_CORDS))
-    st =
-        read_cords_claim(field_reader, cords, &plan->frame, &plan->cords_claim, &plan->proof.walks);
+    st = read_cords_claim(field_reader, cords, plan);
   if (!st && pull && !(without & THR_CLAIM_PULL))
     st = read_whole_pull_claim(field_reader, pull, plan);
   if (!st && turning && !(without & THR_CLAIM_TURNING))
-    st = read_turning_claim(field_reader, turning, &plan->frame, &plan->turning);
+    st = read_turning_claim(field_reader, turning, plan);
 
   if (!st && plan->options.old_pull) leave_out_older_pull(plan);
 

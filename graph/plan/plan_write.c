@@ -10,15 +10,6 @@
  * "edges": [0, 1, 2]} is a cord round a triangle. */
 #include "graph/plan/plan_fields.h"
 
-/* Writes a number, or null for a number below 0, which means that nothing is said. */
-static void put_or_null(thr_writer *writer, const char *key, double value)
-{
-  if (value < 0)
-    thr_write_null(writer, key);
-  else
-    thr_write_number(writer, key, value);
-}
-
 /* Begins a new line for the next member of the plan. */
 static void put_line(thr_writer *writer)
 {
@@ -80,18 +71,6 @@ static void put_edges(thr_writer *writer, const thr_frame *frame)
   thr_write_close(writer);
 }
 
-/* Writes the lengths of the edges, which a framework states if they are not the distances of their
- * nodes. */
-static void put_lengths(thr_writer *writer, const thr_frame *frame)
-{
-  thr_write_line(writer, 2);
-  thr_write_row(writer, "lengths");
-
-  for (int e = 0; e < frame->n_edges; e++)
-    thr_write_number(writer, NULL, frame->length[e]);
-  thr_write_close(writer);
-}
-
 /* Writes the names of the nodes. */
 static void put_names(thr_writer *writer, const thr_frame *frame)
 {
@@ -120,7 +99,8 @@ static void put_frame(thr_writer *writer, const thr_frame *frame)
   put_edges(writer, frame);
 
   /* What only some frameworks state. */
-  if (frame->own_lengths) put_lengths(writer, frame);
+  if (frame->own_lengths) thr_write_line(writer, 2);
+  if (frame->own_lengths) thr_write_numbers(writer, "lengths", frame->length, frame->n_edges);
   if (frame->cover) put_passes(writer, "covers", frame->cover, frame->n_edges);
   if (frame->capacity) put_passes(writer, "capacities", frame->capacity, frame->n_edges);
   if (!thr_frame_names_are_indices(frame)) put_names(writer, frame);
@@ -216,35 +196,6 @@ static void put_symmetry(thr_writer *writer, const thr_plan *plan)
   thr_write_close(writer);
 }
 
-/* Writes the sums over all cords. */
-static void put_metrics(thr_writer *writer, const thr_plan *plan)
-{
-  const thr_metrics *metrics = &plan->metrics;
-  put_line(writer);
-  thr_write_object(writer, "metrics");
-
-  /* Length and passes. */
-  thr_write_number(writer, "length", metrics->length);
-  thr_write_number(writer, "base_length", metrics->base_length);
-  thr_write_number(writer, "overlap", metrics->overlap);
-  thr_write_int(writer, "passes", metrics->passes);
-  thr_write_int(writer, "most_passes", metrics->most_passes);
-
-  /* Metrics that only some options ask for. */
-  if (plan->options.distinct > 0) thr_write_int(writer, "distinct", metrics->distinct);
-
-  thr_write_line(writer, 2);
-  if (plan->options.crossings != THR_CROSSINGS_ALLOW)
-    thr_write_int(writer, "crossings", metrics->crossings);
-
-  /* Turning. */
-  thr_write_number(writer, "turning", metrics->turning);
-  thr_write_number(writer, "max_turning", metrics->max_turning);
-  thr_write_number(writer, "worst_turn", metrics->worst_turn);
-  thr_write_int(writer, "u_turns", metrics->u_turns);
-  thr_write_close(writer);
-}
-
 /* ---- proofs ---- */
 
 /* Writes the proof of length of one component: a packing of odd cuts. */
@@ -252,13 +203,8 @@ static void put_certificate(thr_writer *writer, const thr_certificate *certifica
 {
   thr_write_object(writer, NULL);
 
-  /* Scale and sums, in the units of the certificate. */
   thr_write_int(writer, "component", certificate->component);
-  thr_write_number(writer, "scale", certificate->scale);
-  thr_write_int(writer, "denominator", certificate->denominator);
-  thr_write_int(writer, "end_price", certificate->end_price);
-  thr_write_int(writer, "join", certificate->join);
-  thr_write_int(writer, "sum", certificate->sum);
+  thr_fields_write(writer, thr_certificate_fields, certificate);
 
   /* Prices of places, which are there where as many cords as asked for may need more passes than a
    * join has. */
@@ -285,12 +231,6 @@ static void put_certificate(thr_writer *writer, const thr_certificate *certifica
   thr_write_close(writer);
 }
 
-/* Returns what plans call a bound that is attained, or one that is not. */
-static const char *status_name(bool optimal)
-{
-  return optimal ? "optimal" : "bound";
-}
-
 /* Writes the proof of least length: by odd cuts with solid joints, by a tree of multipliers with
  * tube joints. */
 static void put_length_proof(thr_writer *writer, const thr_plan *plan)
@@ -300,7 +240,7 @@ static void put_length_proof(thr_writer *writer, const thr_plan *plan)
   thr_write_object(writer, "length");
 
   /* What is claimed. */
-  thr_write_string(writer, "status", status_name(proof->optimal));
+  thr_write_string(writer, "status", thr_status_name(proof->optimal));
   thr_write_number(writer, "lower_bound", proof->lower_bound);
   if (proof->slack_open) thr_write_string(writer, "slack", "open");
   thr_write_number(writer, "gap", proof->gap);
@@ -331,35 +271,15 @@ static void put_length_proof(thr_writer *writer, const thr_plan *plan)
 /* Writes the claim of least turning and its proof. */
 static void put_turning_proof(thr_writer *writer, const thr_plan *plan)
 {
-  const thr_turning_claim *claim = &plan->turning;
   thr_write_object(writer, "turning");
-
-  /* The claim about all cords together. */
-  thr_write_string(writer, "status", status_name(claim->optimal));
-  thr_write_number(writer, "price", claim->price);
-  thr_write_number(writer, "lower_bound", claim->lower_bound);
-  thr_write_number(writer, "gap", claim->gap);
-
-  /* The claim about the cord that turns most, or is hardest to pull. */
-  thr_write_line(writer, 2);
-  thr_write_object(writer, "largest");
-  thr_write_string(writer, "status", status_name(claim->largest_optimal));
-  thr_write_number(writer, "price", claim->largest);
-  thr_write_number(writer, "lower_bound", claim->largest_bound);
-  if (claim->cut > 0) thr_write_int(writer, "cut", claim->cut);
-  thr_write_close(writer);
-
-  /* Among which plans the claim holds. */
-  thr_write_line(writer, 2);
-  thr_write_int(writer, "most_passes", claim->most_passes);
-  put_or_null(writer, "length_limit", claim->length_limit);
+  thr_fields_write(writer, thr_turning_claim_fields, plan);
 
   /* The proof. */
   thr_write_line(writer, 2);
   thr_write_string(writer, "method",
                    "multipliers of odd sets, groups and partitions over a tree of branchings");
   thr_write_line(writer, 2);
-  thr_turning_proof_write(&claim->tree, &plan->frame, writer, "proof");
+  thr_turning_proof_write(&plan->turning.tree, &plan->frame, writer, "proof");
   thr_write_close(writer);
 }
 
@@ -367,25 +287,8 @@ static void put_turning_proof(thr_writer *writer, const thr_plan *plan)
  * prove them. */
 static void put_cords_claim(thr_writer *writer, const thr_plan *plan)
 {
-  const thr_cords_claim *claim = &plan->cords_claim;
   thr_write_object(writer, "cords");
-
-  /* The longest cord. */
-  thr_write_object(writer, "longest");
-  thr_write_string(writer, "status", status_name(claim->longest_optimal));
-  thr_write_number(writer, "length", claim->longest);
-  thr_write_number(writer, "lower_bound", claim->longest_bound);
-  thr_write_close(writer);
-
-  /* The number of cords, if few were asked for. */
-  if (claim->fewest > 0) {
-    thr_write_object(writer, "fewest");
-    thr_write_string(writer, "status", status_name(claim->fewest_optimal));
-    thr_write_int(writer, "lower_bound", claim->fewest);
-    thr_write_close(writer);
-  }
-
-  /* The proof. */
+  thr_fields_write(writer, thr_cords_claim_fields, plan);
   thr_walk_proof_write(&plan->proof.walks, &plan->frame, "length", writer);
   if (plan->proof.walks.sets) thr_write_bool(writer, "sets", true);
   thr_write_close(writer);
@@ -398,7 +301,7 @@ static void put_pull_claim(thr_writer *writer, const char *name, const thr_pull_
 {
   thr_write_line(writer, 2);
   thr_write_object(writer, name);
-  thr_write_string(writer, "status", status_name(claim->optimal));
+  thr_write_string(writer, "status", thr_status_name(claim->optimal));
   thr_write_int(writer, "lower_bound", claim->fewest);
 
   /* The proof: prices of walks, or a tree of multipliers. */
@@ -459,7 +362,10 @@ void thr_plan_write(const thr_plan *plan, thr_text *text)
   /* What was found. */
   put_cords(&writer, plan);
   if (plan->symmetry.present) put_symmetry(&writer, plan);
-  put_metrics(&writer, plan);
+  put_line(&writer);
+  thr_write_object(&writer, "metrics");
+  thr_fields_write(&writer, thr_metrics_fields, plan);
+  thr_write_close(&writer);
 
   /* What is claimed of the cords. */
   put_line(&writer);

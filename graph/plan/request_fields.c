@@ -436,30 +436,19 @@ static bool same_place(const char *a, const char *b)
   return a == b || (a && b && strcmp(a, b) == 0);
 }
 
-/* Writes a number or a word, unless the value is the default and may be left out. */
-static void write_value(thr_writer *writer, const thr_request_field *field, thr_request *request,
-                        thr_request *usual)
+/* Returns the row of plan.json that a row of the request is, if the row has no functions of its
+ * own. */
+static thr_field field_of(const thr_request_field *row)
 {
-  const void *value = thr_request_value(request, field), *other = thr_request_value(usual, field);
-  const bool is_integer = field->kind == THR_ASKS_COUNT || field->kind == THR_ASKS_WORD;
-  const int count = is_integer ? *(const int *)value : 0;
-  const double amount = is_integer ? 0 : *(const double *)value;
+  thr_field field = {row->key, (thr_field_kind)row->kind, .offset = row->offset, .name = row->name};
+  field.n_names = row->n_names;
 
-  /* Compare with the default as an integer or as a double. */
-  const bool is_default =
-      is_integer ? count == *(const int *)other : amount == *(const double *)other;
-  if (is_default && !field->always) return;
-
-  /* Write the value by its kind. */
-  if (field->kind == THR_ASKS_COUNT) {
-    thr_write_int(writer, field->key, count);
-  } else if (field->kind == THR_ASKS_WORD) {
-    thr_write_string(writer, field->key, field->name(count));
-  } else if (field->kind == THR_ASKS_AMOUNT_OR_NULL && amount < 0) {
-    thr_write_null(writer, field->key);
-  } else {
-    thr_write_number(writer, field->key, amount);
+  /* Ranges of amounts are checked after they are read. */
+  if (row->kind == THR_ASKS_COUNT) {
+    field.low = (int64_t)row->low;
+    field.high = (int64_t)row->high;
   }
+  return field;
 }
 
 /* Writes the rows of `options` (in = NULL), or of one of its objects. */
@@ -476,10 +465,11 @@ static void write_rows(thr_writer *writer, const thr_plan *plan, const char *in)
   for (int i = 0; i < thr_request_n_fields; i++) {
     const thr_request_field *field = &thr_request_fields[i];
     if (!same_place(field->in, in)) continue;
-    if (field->kind != THR_ASKS_OTHER) {
-      write_value(writer, field, &request, &usual);
-    } else if (field->write) {
+    const thr_field row[] = {field_of(field), {0}};
+    if (field->write) {
       field->write(writer, plan);
+    } else if (field->always || thr_field_number(row, &request) != thr_field_number(row, &usual)) {
+      thr_fields_write(writer, row, &request);
     }
   }
 }
@@ -522,35 +512,22 @@ void thr_request_write(thr_writer *writer, const thr_plan *plan)
 static thr_status read_value(thr_request_reader *reader, const thr_json *object, const char *place,
                              const thr_request_field *field)
 {
-  void *value = thr_request_value(reader->request, field);
-  double *amount = value;
+  const thr_field row = field_of(field);
+  const bool is_integer = field->kind == THR_ASKS_COUNT || field->kind == THR_ASKS_WORD;
   char member[80];
-  thr_status st = THR_OK;
-
-  /* Counts and words have readers that check the range. */
-  if (field->kind == THR_ASKS_COUNT)
-    return thr_field_int(reader->fields, object, field->key, (int)field->low, (int)field->high,
-                         value);
-  if (field->kind == THR_ASKS_WORD)
-    return thr_field_name(reader->fields, object, place, field->key, field->n_names, field->name,
-                          value);
 
   /* Amounts are compared with the range here. A null, which is read as -1, is in any range. */
-  if (field->kind == THR_ASKS_AMOUNT_OR_NULL) {
-    st = thr_field_or_null(reader->fields, object, field->key, amount);
-  } else {
-    st = thr_field_amount(reader->fields, object, field->key, amount);
-  }
-
-  const bool is_null = field->kind == THR_ASKS_AMOUNT_OR_NULL && *amount < 0;
-  if (st || is_null || (*amount >= field->low && *amount <= field->high)) return st;
+  const thr_status st = thr_field_read(reader->fields, object, place, &row, reader->request);
+  const double amount = thr_field_number(&row, reader->request);
+  const bool is_null = field->kind == THR_ASKS_AMOUNT_OR_NULL && amount < 0;
+  if (st || is_integer || is_null || (amount >= field->low && amount <= field->high)) return st;
 
   snprintf(member, sizeof member, "%s.%s", place, field->key);
 
   return thr_field_bad(reader->fields, member,
-                       *amount > field->high ? "too large"
-                       : *amount == 0        ? "not above 0"
-                                             : "too small");
+                       amount > field->high ? "too large"
+                       : amount == 0        ? "not above 0"
+                                            : "too small");
 }
 
 /* Reads the rows of `options` (in = NULL), or of one of its objects. Refuses a member that the

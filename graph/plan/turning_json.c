@@ -9,9 +9,8 @@
  *
  * Example: a tree of one branch has three nodes,
  * {"low": 1, "high": 2, "a": 4, "b": 9, "value": 0}, {"multipliers": 0}, {"multipliers": 1}. */
-#include "graph/plan/turning_proof.h"
+#include "graph/plan/plan_fields.h"
 
-#include <inttypes.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -83,6 +82,18 @@ static void put_junctions(thr_writer *writer, const thr_turning_dual *dual, cons
   thr_write_close(writer);
 }
 
+/* Members of a leaf's multipliers; that of the limit on length is a number. */
+static const thr_field dual_fields[] = {
+    {.key = "potentials"},
+    {.key = "ends"},
+    {"length", THR_FIELD_WHOLE, .offset = offsetof(thr_turning_dual, length)},
+    {.key = "odd_sets"},
+    {.key = "groups"},
+    {.key = "partitions"},
+    {.key = "ranks", .optional = true},
+    {.key = "junctions", .optional = true},
+    {0}};
+
 /* Writes the multipliers of one leaf. Ranks and junctions are left out if there are none. */
 static void put_dual(thr_writer *writer, const thr_turning_dual *dual, const thr_frame *frame,
                      int n_ends)
@@ -94,7 +105,7 @@ static void put_dual(thr_writer *writer, const thr_turning_dual *dual, const thr
 
   thr_write_line(writer, 5);
   put_multipliers(writer, "ends", dual->ends, n_ends);
-  thr_write_int(writer, "length", dual->length);
+  thr_fields_write(writer, dual_fields, dual);
 
   /* Multipliers of inequalities. */
   put_sets(writer, "odd_sets", dual->odd, dual->n_odd);
@@ -105,6 +116,18 @@ static void put_dual(thr_writer *writer, const thr_turning_dual *dual, const thr
   thr_write_close(writer);
 }
 
+/* Members of a node of the tree. Member b may be -1: columns of ends have one half-edge only. */
+static const thr_field branch_fields[] = {
+    {"low", THR_FIELD_COUNT, .offset = offsetof(thr_turning_node, low)},
+    {"high", THR_FIELD_COUNT, .offset = offsetof(thr_turning_node, high)},
+    {"a", THR_FIELD_COUNT, .offset = offsetof(thr_turning_node, a)},
+    {"b", THR_FIELD_COUNT, .offset = offsetof(thr_turning_node, b), .low = -1},
+    {"value", THR_FIELD_COUNT, .offset = offsetof(thr_turning_node, value)},
+    {.key = "orbit", .optional = true},
+    {0}};
+static const thr_field leaf_fields[] = {
+    {"multipliers", THR_FIELD_COUNT, .offset = offsetof(thr_turning_node, dual)}, {0}};
+
 /* Writes a node of the tree: a branch with its two children, or a leaf with the number of its
  * multipliers. */
 static void put_node(thr_writer *writer, const thr_turning_node *node)
@@ -113,14 +136,10 @@ static void put_node(thr_writer *writer, const thr_turning_node *node)
 
   /* No child is node 0, the root, so that low = 0 marks a leaf. */
   if (node->low) {
-    thr_write_int(writer, "low", node->low);
-    thr_write_int(writer, "high", node->high);
-    thr_write_int(writer, "a", node->a);
-    thr_write_int(writer, "b", node->b);
-    thr_write_int(writer, "value", node->value);
+    thr_fields_write(writer, branch_fields, node);
     if (node->n_orbit) thr_write_ints(writer, "orbit", node->orbit, node->n_orbit);
   } else {
-    thr_write_int(writer, "multipliers", node->dual);
+    thr_fields_write(writer, leaf_fields, node);
   }
   thr_write_close(writer);
 }
@@ -215,19 +234,27 @@ void thr_turning_proof_write(const thr_turning_proof *proof, const thr_frame *fr
 
 /* ---- reading ---- */
 
-/* What is being read: place of the proof for messages, its framework, and the sizes that later
- * lists are checked against. */
+/* What is being read: members of the proof, its framework, and the sizes that later lists are
+ * checked against. */
 typedef struct {
-  const char *place;
+  thr_field_reader fields;
   const thr_frame *frame;
   int n_ends, n_symmetries;
   thr_err *err;
 } proof_reader;
 
+/* Returns a reader of a proof, whose members may not be left out. */
+static proof_reader reader_of(const char *place, const thr_frame *frame, thr_err *err)
+{
+  proof_reader reader = {.fields = thr_field_reader_in(place, err), .frame = frame, .err = err};
+  reader.fields.all_there = true;
+  return reader;
+}
+
 /* Records THR_EVIOLATED for a member, and what is wrong with it. */
 static thr_status bad(const proof_reader *reader, const char *key, const char *what)
 {
-  return thr_fail(reader->err, THR_EVIOLATED, "%s.%s: %s", reader->place, key, what);
+  return thr_field_bad(&reader->fields, key, what);
 }
 
 /* Checks that an object has exactly the members named. known ends with NULL. */
@@ -235,33 +262,20 @@ static thr_status only_members(const proof_reader *reader, const thr_json *objec
                                const char *const *known)
 {
   if (thr_json_typeof(object) != THR_JSON_OBJECT)
-    return thr_fail(reader->err, THR_EVIOLATED, "%s: expected an object", reader->place);
+    return thr_fail(reader->err, THR_EVIOLATED, "%s: expected an object", reader->fields.name);
 
   /* All of them must be there. */
   for (int i = 0; known[i]; i++)
     if (!thr_json_get(object, known[i])) return bad(reader, known[i], "missing");
 
-  /* A member that this version does not know might be a claim. */
-  const char *key = thr_json_unknown(object, known);
-
-  return key ? bad(reader, key, "this version does not know it and cannot check it") : THR_OK;
+  return thr_field_only(&reader->fields, object, NULL, known);
 }
 
 /* Reads an integer from low to high. key names it in messages. */
 static thr_status get_int(const proof_reader *reader, const thr_json *value, const char *key,
                           int64_t low, int64_t high, int64_t *out)
 {
-  if (thr_json_int(value, out) && *out >= low && *out <= high) return THR_OK;
-  return thr_fail(reader->err, THR_EVIOLATED, "%s.%s: not an integer from %" PRId64 " to %" PRId64,
-                  reader->place, key, low, high);
-}
-
-/* Finds a member that is a list. */
-static thr_status get_array(const proof_reader *reader, const thr_json *object, const char *key,
-                            const thr_json **list)
-{
-  *list = thr_json_get(object, key);
-  return thr_json_typeof(*list) == THR_JSON_ARRAY ? THR_OK : bad(reader, key, "not a list");
+  return thr_field_int64_of(&reader->fields, value, key, low, high, out);
 }
 
 /* Reads a list of n integers into a new array, which the proof owns. */
@@ -269,12 +283,12 @@ static thr_status read_multipliers(const proof_reader *reader, const thr_json *o
                                    const char *key, int n, int64_t **out)
 {
   const thr_json *list;
-  thr_status st = get_array(reader, object, key, &list);
+  thr_status st = thr_field_need(&reader->fields, object, key, THR_JSON_ARRAY, &list);
   if (st) return st;
 
   if (thr_json_size(list) != n)
-    return thr_fail(reader->err, THR_EVIOLATED, "%s.%s: expected %d numbers", reader->place, key,
-                    n);
+    return thr_fail(reader->err, THR_EVIOLATED, "%s.%s: expected %d numbers", reader->fields.name,
+                    key, n);
 
   if (!(*out = thr_calloc((size_t)n, sizeof **out))) return thr_nomem(reader->err);
 
@@ -306,15 +320,11 @@ static thr_status read_set(const proof_reader *reader, const thr_json *value, co
   const thr_json *list;
   thr_status st = only_members(reader, value, known);
   if (!st) st = get_int(reader, thr_json_get(value, "value"), key, 0, INT64_MAX, &set->value);
-  if (!st) st = get_array(reader, value, "members", &list);
-  if (st) return st;
+  if (!st)
+    set->member =
+        thr_field_list(&reader->fields, value, "members", sizeof *set->member, &set->n, &list, &st);
 
-  /* The proof owns the array, also if a member is bad. */
-  int n = thr_json_size(list);
-  if (!(set->member = thr_calloc((size_t)n, sizeof *set->member))) return thr_nomem(reader->err);
-  set->n = n;
-
-  return read_ints(reader, list, key, limit, set->member);
+  return st ? st : read_ints(reader, list, key, limit, set->member);
 }
 
 /* Reads a list of odd sets or groups. *count is set before the items, so that a failure releases
@@ -323,14 +333,10 @@ static thr_status read_sets(const proof_reader *reader, const thr_json *object, 
                             int limit, int *count, thr_turning_set **out)
 {
   const thr_json *list;
-  thr_status st = get_array(reader, object, key, &list);
-  if (st) return st;
+  thr_status st;
 
-  int n = thr_json_size(list);
-  if (!(*out = thr_calloc((size_t)n, sizeof **out))) return thr_nomem(reader->err);
-
-  *count = n;
-  for (int i = 0; i < n && !st; i++)
+  *out = thr_field_list(&reader->fields, object, key, sizeof **out, count, &list, &st);
+  for (int i = 0; i < *count && !st; i++)
     st = read_set(reader, thr_json_at(list, i), key, limit, &(*out)[i]);
 
   return st;
@@ -347,7 +353,7 @@ static thr_status read_partition(const proof_reader *reader, const thr_json *val
   thr_status st = only_members(reader, value, known);
   if (!st)
     st = get_int(reader, thr_json_get(value, "value"), "value", 0, INT64_MAX, &partition->value);
-  if (!st) st = get_array(reader, value, "blocks", &list);
+  if (!st) st = thr_field_need(&reader->fields, value, "blocks", THR_JSON_ARRAY, &list);
   if (!st && thr_json_size(list) != n_edges) st = bad(reader, "blocks", "not one per edge");
 
   /* Blocks are numbered below the number of edges. */
@@ -362,14 +368,10 @@ static thr_status read_partitions(const proof_reader *reader, const thr_json *ob
                                   const char *key, int *count, thr_turning_partition **out)
 {
   const thr_json *list;
-  thr_status st = get_array(reader, object, key, &list);
-  if (st) return st;
+  thr_status st;
 
-  int n = thr_json_size(list);
-  if (!(*out = thr_calloc((size_t)n, sizeof **out))) return thr_nomem(reader->err);
-
-  *count = n;
-  for (int i = 0; i < n && !st; i++)
+  *out = thr_field_list(&reader->fields, object, key, sizeof **out, count, &list, &st);
+  for (int i = 0; i < *count && !st; i++)
     st = read_partition(reader, thr_json_at(list, i), &(*out)[i]);
 
   return st;
@@ -389,7 +391,7 @@ static thr_status read_junction(const proof_reader *reader, const thr_json *valu
                  &turning_junction->value);
   if (!st)
     st = get_int(reader, thr_json_get(value, "node"), "node", 0, reader->frame->n_nodes - 1, &node);
-  if (!st) st = get_array(reader, value, "blocks", &list);
+  if (!st) st = thr_field_need(&reader->fields, value, "blocks", THR_JSON_ARRAY, &list);
   if (st) return st;
 
   /* The list has one block for each half-edge that leaves the node. */
@@ -407,19 +409,13 @@ static thr_status read_junctions(const proof_reader *reader, const thr_json *obj
                                  thr_turning_dual *dual)
 {
   const thr_json *list;
+  thr_status st;
   if (!thr_json_get(object, "junctions")) return THR_OK;
 
-  thr_status st = get_array(reader, object, "junctions", &list);
-  if (st) return st;
-
-  int n = thr_json_size(list);
-  if (!(dual->junction = thr_calloc((size_t)n, sizeof *dual->junction)))
-    return thr_nomem(reader->err);
-
-  dual->n_junctions = n;
-
   /* Each junction has its own array. */
-  for (int i = 0; i < n && !st; i++)
+  dual->junction = thr_field_list(&reader->fields, object, "junctions", sizeof *dual->junction,
+                                  &dual->n_junctions, &list, &st);
+  for (int i = 0; i < dual->n_junctions && !st; i++)
     st = read_junction(reader, thr_json_at(list, i), &dual->junction[i]);
 
   return st;
@@ -429,21 +425,12 @@ static thr_status read_junctions(const proof_reader *reader, const thr_json *obj
 static thr_status read_dual(const proof_reader *reader, const thr_json *value,
                             thr_turning_dual *dual)
 {
-  static const char *const optional[] = {"ranks", "junctions"};
-  const char *known[9] = {"potentials", "ends", "length", "odd_sets", "groups", "partitions"};
+  const int n_edges = reader->frame->n_edges;
+  thr_status st = thr_fields_read(&reader->fields, value, NULL, dual_fields, dual);
 
-  /* Ranks and junctions may be left out. */
-  for (int i = 0, n = 6; i < 2; i++)
-    if (thr_json_get(value, optional[i])) known[n++] = optional[i];
-
-  int n_edges = reader->frame->n_edges;
-  thr_status st = only_members(reader, value, known);
-
-  /* Multipliers of equations and of the limit on length. */
+  /* Multipliers of equations. */
   if (!st) st = read_multipliers(reader, value, "potentials", 2 * n_edges, &dual->potential);
   if (!st) st = read_multipliers(reader, value, "ends", reader->n_ends, &dual->ends);
-  if (!st)
-    st = get_int(reader, thr_json_get(value, "length"), "length", 0, INT64_MAX, &dual->length);
 
   /* Multipliers of inequalities. Members of odd sets are half-edges, then equations of ends. */
   if (!st)
@@ -463,50 +450,28 @@ static thr_status read_orbit(const proof_reader *reader, const thr_json *value,
                              thr_turning_node *node)
 {
   const thr_json *list;
+  thr_status st;
   if (!thr_json_get(value, "orbit")) return THR_OK;
 
-  thr_status st = get_array(reader, value, "orbit", &list);
-  if (st) return st;
-
-  int n = thr_json_size(list);
-  if (!(node->orbit = thr_calloc((size_t)n, sizeof *node->orbit))) return thr_nomem(reader->err);
-  node->n_orbit = n;
-
-  return read_ints(reader, list, "orbit", reader->n_symmetries, node->orbit);
+  node->orbit = thr_field_list(&reader->fields, value, "orbit", sizeof *node->orbit, &node->n_orbit,
+                               &list, &st);
+  return st ? st : read_ints(reader, list, "orbit", reader->n_symmetries, node->orbit);
 }
 
 /* Reads a node of the tree, a branch or a leaf. */
 static thr_status read_node(const proof_reader *reader, const thr_json *value,
                             thr_turning_node *node)
 {
-  static const char *const inner[] = {"low", "high", "a", "b", "value", NULL}, *const leaf[] = {
-                                                                                   "multipliers",
-                                                                                   NULL};
-  static const char *const at_once[] = {"low", "high", "a", "b", "value", "orbit", NULL};
-  int64_t number[5] = {0};
-
-  /* A leaf has its own member; a branch may have an orbit. */
-  bool is_leaf = thr_json_get(value, "multipliers") != NULL;
-  const char *const *key = is_leaf ? leaf : inner;
-  thr_status st =
-      only_members(reader, value, thr_json_get(value, "orbit") && !is_leaf ? at_once : key);
-
-  /* Member b may be -1: columns of ends have one half-edge only. */
-  for (int i = 0; key[i] && !st; i++)
-    st = get_int(reader, thr_json_get(value, key[i]), key[i], i == 3 ? -1 : 0, INT_MAX, &number[i]);
-
-  /* Node 0 is the root, and so no child. */
-  if (!st && !is_leaf && (number[0] == 0 || number[1] == 0))
-    return bad(reader, "low", "a branch needs two nodes below it");
-
+  const bool is_leaf = thr_json_get(value, "multipliers") != NULL;
   *node = (thr_turning_node){.dual = -1};
 
-  /* The numbers are in the order of the keys. */
-  if (is_leaf)
-    node->dual = (int)number[0];
-  else
-    node->low = (int)number[0], node->high = (int)number[1], node->a = (int)number[2],
-    node->b = (int)number[3], node->value = (int)number[4];
+  /* A leaf has its own member; a branch may have an orbit. */
+  thr_status st =
+      thr_fields_read(&reader->fields, value, NULL, is_leaf ? leaf_fields : branch_fields, node);
+
+  /* Node 0 is the root, and so no child. */
+  if (!st && !is_leaf && (node->low == 0 || node->high == 0))
+    return bad(reader, "low", "a branch needs two nodes below it");
 
   return st || is_leaf ? st : read_orbit(reader, value, node);
 }
@@ -519,16 +484,13 @@ static thr_status read_symmetries(proof_reader *reader, const thr_json *value,
   const int n_edges = reader->frame->n_edges;
   if (!thr_json_get(value, "symmetries")) return THR_OK;
 
-  thr_status st = get_array(reader, value, "symmetries", &list);
-  if (st) return st;
+  thr_status st;
+  proof->symmetry =
+      thr_field_list(&reader->fields, value, "symmetries",
+                     (size_t)n_edges * sizeof *proof->symmetry, &proof->n_symmetries, &list, &st);
+  reader->n_symmetries = proof->n_symmetries;
 
-  int n = thr_json_size(list);
-  if (!(proof->symmetry = thr_calloc((size_t)n * (size_t)n_edges, sizeof *proof->symmetry)))
-    return thr_nomem(reader->err);
-
-  proof->n_symmetries = reader->n_symmetries = n;
-
-  for (int i = 0; i < n && !st; i++) {
+  for (int i = 0; i < proof->n_symmetries && !st; i++) {
     /* One image for each edge, which is a half-edge. */
     const thr_json *image = thr_json_at(list, i);
     if (thr_json_typeof(image) != THR_JSON_ARRAY || thr_json_size(image) != n_edges)
@@ -548,18 +510,13 @@ static thr_status read_memory(const proof_reader *reader, const thr_json *value,
   const int most = 2 * reader->frame->n_edges > reader->frame->n_nodes ? 2 * reader->frame->n_edges
                                                                        : reader->frame->n_nodes;
   const thr_json *list, *places = NULL;
+  thr_status st;
   if (!thr_json_get(value, "memory")) return THR_OK;
 
-  thr_status st = get_array(reader, value, "memory", &list);
-  if (st) return st;
-
-  const int n = thr_json_size(list);
-  if (!(walks->memory = thr_calloc((size_t)n, sizeof *walks->memory)))
-    return thr_nomem(reader->err);
-  walks->n_memories = n;
-
   /* Places are half-edges or nodes, by the kind of the proof: both ranges are allowed here. */
-  for (int i = 0; i < n && !st; i++) {
+  walks->memory = thr_field_list(&reader->fields, value, "memory", sizeof *walks->memory,
+                                 &walks->n_memories, &list, &st);
+  for (int i = 0; i < walks->n_memories && !st; i++) {
     thr_walk_memory *memory = &walks->memory[i];
     const thr_json *entry = thr_json_at(list, i);
     int64_t edge = 0;
@@ -568,16 +525,11 @@ static thr_status read_memory(const proof_reader *reader, const thr_json *value,
     if (!st)
       st = get_int(reader, thr_json_get(entry, "edge"), "edge", 0, reader->frame->n_edges - 1,
                    &edge);
-    if (!st) st = get_array(reader, entry, "places", &places);
-
-    if (st) break;
-
-    /* The array belongs to the proof from here on, also if a place is bad. */
+    if (!st)
+      memory->place = thr_field_list(&reader->fields, entry, "places", sizeof *memory->place,
+                                     &memory->n, &places, &st);
+    if (!st) st = read_ints(reader, places, "places", most, memory->place);
     memory->edge = (int)edge;
-    memory->n = thr_json_size(places);
-    memory->place = thr_calloc((size_t)memory->n, sizeof *memory->place);
-    st = memory->place ? read_ints(reader, places, "places", most, memory->place)
-                       : thr_nomem(reader->err);
   }
 
   return st;
@@ -589,7 +541,7 @@ thr_status thr_walk_proof_from_json(thr_walk_proof *walks, const thr_frame *fram
   const bool remembers = value && thr_json_get(value, "memory");
   const char *known[] = {
       "unit", "units", all ? all : "bits", "edges", "nodes", remembers ? "memory" : NULL, NULL};
-  const proof_reader reader = {.place = place, .frame = frame, .err = err};
+  const proof_reader reader = reader_of(place, frame, err);
   int64_t units = 0, bits = 0;
 
   /* A plan may have no such proof. */
@@ -619,39 +571,35 @@ thr_status thr_walk_proof_from_json(thr_walk_proof *walks, const thr_frame *fram
 thr_status thr_turning_proof_from_json(thr_turning_proof *proof, const thr_frame *frame,
                                        const thr_json *value, const char *place, thr_err *err)
 {
-  static const char *const optional[] = {"symmetries", "walks"};
-  const char *known[5] = {"tree", "multipliers"};
-  proof_reader reader = {.place = place, .frame = frame, .err = err};
+  static const thr_field known[] = {{.key = "tree"},
+                                    {.key = "multipliers"},
+                                    {.key = "symmetries", .optional = true},
+                                    {.key = "walks", .optional = true},
+                                    {0}};
+  proof_reader reader = reader_of(place, frame, err);
   const thr_json *tree, *duals, *walks = thr_json_get(value, "walks");
   const char *all = walks && thr_json_get(walks, "bits") ? NULL : "turning";
   *proof = (thr_turning_proof){0};
 
-  /* Check the members; symmetries and walks may be left out. */
-  for (int i = 0, n = 2; i < 2; i++)
-    if (thr_json_get(value, optional[i])) known[n++] = optional[i];
-  thr_status st = only_members(&reader, value, known);
-  if (!st) st = get_array(&reader, value, "tree", &tree);
-  if (!st) st = get_array(&reader, value, "multipliers", &duals);
-  if (st) return st;
+  thr_status st = thr_fields_read(&reader.fields, value, NULL, known, proof);
+  if (!st)
+    proof->node = thr_field_list(&reader.fields, value, "tree", sizeof *proof->node,
+                                 &proof->n_nodes, &tree, &st);
+  if (!st)
+    proof->dual = thr_field_list(&reader.fields, value, "multipliers", sizeof *proof->dual,
+                                 &proof->n_duals, &duals, &st);
 
-  /* The first leaf says how many equations of ends there are. */
-  int n_nodes = thr_json_size(tree), n_duals = thr_json_size(duals);
-  proof->n_ends = reader.n_ends = thr_json_size(thr_json_get(thr_json_at(duals, 0), "ends"));
-  proof->node = thr_calloc((size_t)n_nodes, sizeof *proof->node);
-  proof->dual = thr_calloc((size_t)n_duals, sizeof *proof->dual);
-
-  /* Symmetries come before the tree, whose orbits name them. */
-  st = proof->node && proof->dual ? THR_OK : thr_nomem(err);
+  /* The first leaf says how many equations of ends there are. Symmetries come before the tree,
+   * whose orbits name them. */
   if (!st) {
-    proof->n_nodes = n_nodes;
-    proof->n_duals = n_duals;
+    proof->n_ends = reader.n_ends = thr_json_size(thr_json_get(thr_json_at(duals, 0), "ends"));
     st = read_symmetries(&reader, value, proof);
   }
 
   /* The tree, then the multipliers of its leaves. */
-  for (int i = 0; i < n_nodes && !st; i++)
+  for (int i = 0; i < proof->n_nodes && !st; i++)
     st = read_node(&reader, thr_json_at(tree, i), &proof->node[i]);
-  for (int i = 0; i < n_duals && !st; i++)
+  for (int i = 0; i < proof->n_duals && !st; i++)
     st = read_dual(&reader, thr_json_at(duals, i), &proof->dual[i]);
 
   if (!st) st = thr_walk_proof_from_json(&proof->walks, frame, all, walks, place, err);
