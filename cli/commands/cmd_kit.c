@@ -176,7 +176,7 @@ static int write_all(const thr_kit *kit, const kit_arguments *args, const char *
     code = write_file(THR_OK, &text, folder, name, &err);
   }
   if (!code && !args->no_picture) {
-    thr_kit_view view = thr_kit_view_default();
+    const thr_kit_view view = {0};
     st = thr_kit_picture(kit, &view, &text, &err);
     code = write_file(st, &text, folder, "kit.png", &err);
   }
