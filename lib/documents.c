@@ -10,6 +10,8 @@
 #include "diagram/mat/mat.h"
 #include "diagram/sheets/sheets.h"
 #include "diagram/tables/tables.h"
+#include "kit/files.h"
+#include "kit/kit.h"
 
 #include <string.h>
 
@@ -30,6 +32,7 @@ typedef enum {
   COMPAS,
   PAGES,
   POSTER,
+  KIT,
   N_DOCUMENTS
 } document;
 
@@ -63,6 +66,7 @@ static const struct {
     [POSTER] =
         {"poster", "poster.pdf",
          "poster.pdf: the overview over several sheets, to glue together; --pitch says how large"},
+    [KIT] = {"kit", "kit.3mf", "kit.3mf: the pieces to print, with names; thread kit has options"},
 };
 
 /* Returns the number of documents. */
@@ -254,6 +258,23 @@ static thr_status describe(const thr_plan *plan, document which, const thr_docum
   return st;
 }
 
+/* Makes the usual kit. */
+static thr_status kit_3mf(const thr_plan *plan, const thr_document_options *asked,
+                          const thr_limits *limits, thr_text *out, thr_err *err)
+{
+  const thr_kit_options options = {.kind_tolerance = asked->kind_tolerance};
+  thr_kit kit;
+  thr_kit_plates plates = {0};
+
+  thr_status st = thr_kit_make(&kit, plan, &options, asked->layout, true, limits, err);
+  if (!st) st = thr_kit_plates_make(&plates, &kit, err);
+  if (!st) st = thr_kit_3mf(&plates, out, err);
+  thr_kit_plates_destroy(&plates);
+  thr_kit_destroy(&kit);
+
+  return st;
+}
+
 /* Makes a document; see documents.h. Documents that do not speak of copies need no motions. */
 thr_status thr_document_make(const thr_plan *plan, int i, const thr_document_options *options,
                              const thr_limits *limits, thr_text *out, thr_err *err)
@@ -270,6 +291,9 @@ thr_status thr_document_make(const thr_plan *plan, int i, const thr_document_opt
 
   /* What pieces are called and where they lie. */
   case MAT: return mat(plan, options, limits, out, err);
+
+  /* Pieces to print. */
+  case KIT: return kit_3mf(plan, options, limits, out, err);
 
   /* Lines for CAD. */
   case OBJ: return thr_polylines_obj(plan, &options->lines, out, err);
