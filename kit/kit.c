@@ -370,7 +370,7 @@ static void set_common(const maker *work, thr_kit_piece *piece, double narrowest
   const thr_kit_options *options = &work->kit->options;
   piece->profile = options->profile;
   piece->taper = options->taper;
-  piece->fillet = fmax(options->fillet, 0);
+  piece->fillet = fmin(fmax(options->fillet, 0), 0.5 * narrowest);
   piece->mouth = fmin(MOUTH * narrowest, 0.5 * work->kit->cord);
   piece->key = options->key;
   piece->wall = work->sizes.wall;

@@ -23,6 +23,9 @@ enum { MOST_CORNERS = 20000000 };
 /* Points on edges stay this part of the edge away from the ends. */
 static const double MARGIN = 0.03;
 
+/* Points on the cut too, but by less than what moving corners off it leaves: faces stay flat. */
+static const double LEAST = 0.001;
+
 /* Numbers pairs of numbers: a table with open addresses. */
 typedef struct {
   uint64_t *key; /* [size] the pair + 1; 0 = free */
@@ -357,6 +360,9 @@ static thr_status section_of(mesher *work, int a, int b, int *number, thr_err *e
   int low = a < b ? a : b, high = a < b ? b : a; /* the same point whoever asks */
   const corner *p = &work->corner[low], *q = &work->corner[high];
   double part = p->cut / (p->cut - q->cut), at[3];
+
+  /* Where the cut leaps, the corner itself would be the point, and tetrahedra have no volume. */
+  part = fmin(fmax(part, LEAST), 1 - LEAST);
   for (int i = 0; i < 3; i++)
     at[i] = p->at[i] + part * (q->at[i] - p->at[i]);
 
