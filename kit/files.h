@@ -13,6 +13,7 @@
 #include "kit/kit.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 /* ---- plates.c: pieces on the bed of a printer. */
 
@@ -52,6 +53,10 @@ thr_status thr_kit_3mf(const thr_kit_plates *plates, thr_text *out, thr_err *err
 
 /* Fills normal with the unit normal of a triangle, outwards; returns its area in mm2. */
 double thr_kit_normal(const thr_mesh *mesh, int triangle, double normal[3]);
+
+/* Returns the cyclic redundancy check (ISO 3309) of bytes that follow those of `sum`; 0: of none.
+ */
+uint32_t thr_kit_checksum(uint32_t sum, const char *bytes, size_t n);
 
 /* Appends the mesh of a piece as binary STL. */
 void thr_kit_stl(const thr_kit *kit, int piece, thr_text *out);

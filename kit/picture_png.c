@@ -4,6 +4,7 @@
 #include "kit/picture.h"
 
 #include "diagram/export/export_parts.h"
+#include "kit/files.h"
 
 #include <stdlib.h>
 
@@ -14,22 +15,6 @@ static void put_number(uint32_t number, char bytes[4])
     bytes[i] = (char)(number >> (24 - 8 * i) & 0xff);
 }
 
-/* Returns the cyclic redundancy check of bytes that follow those of `sum` (ISO 3309). */
-static uint32_t check_sum(uint32_t sum, const char *bytes, size_t n)
-{
-  uint32_t table[256];
-  for (uint32_t i = 0; i < 256; i++) {
-    table[i] = i;
-    for (int bit = 0; bit < 8; bit++)
-      table[i] = table[i] & 1 ? UINT32_C(0xedb88320) ^ table[i] >> 1 : table[i] >> 1;
-  }
-
-  sum = ~sum;
-  for (size_t i = 0; i < n; i++)
-    sum = table[(sum ^ (unsigned char)bytes[i]) & 0xff] ^ sum >> 8;
-  return ~sum;
-}
-
 /* Appends a chunk with a name of four letters. */
 static void put_chunk(thr_text *png, const char *name, const char *bytes, size_t n)
 {
@@ -38,7 +23,7 @@ static void put_chunk(thr_text *png, const char *name, const char *bytes, size_t
   thr_text_append_bytes(png, number, sizeof number);
   thr_text_append_bytes(png, name, 4);
   thr_text_append_bytes(png, bytes, n);
-  put_number(check_sum(check_sum(0, name, 4), bytes, n), number);
+  put_number(thr_kit_checksum(thr_kit_checksum(0, name, 4), bytes, n), number);
   thr_text_append_bytes(png, number, sizeof number);
 }
 

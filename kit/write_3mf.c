@@ -29,10 +29,9 @@ typedef struct {
   int n_members;
 } package;
 
-/* CRC-32 of ISO 3309, by tables of a byte. */
-static uint32_t checksum(const char *bytes, size_t n)
+uint32_t thr_kit_checksum(uint32_t sum, const char *bytes, size_t n)
 {
-  uint32_t table[256], crc = UINT32_MAX;
+  uint32_t table[256], crc = ~sum;
   for (uint32_t i = 0; i < 256; i++) {
     table[i] = i;
     for (int bit = 0; bit < 8; bit++)
@@ -56,11 +55,9 @@ static thr_status add_member(package *zip, const char *name, const thr_text *byt
   /* A stream of zlib is two bytes of heading, what ZIP calls deflated, and four bytes of checksum.
    */
   thr_text small = {0};
-  bool deflated = !thr_deflate_load(NULL);
-  thr_status st = bytes->failed ? thr_nomem(err) : THR_OK;
-  if (!st && deflated) st = thr_deflate(bytes->data, bytes->length, &small, err);
-  const char *stored = deflated && !st ? small.data + 2 : bytes->data;
-  size_t length = deflated && !st ? small.length - 6 : bytes->length;
+  thr_status st = bytes->failed ? thr_nomem(err) : thr_deflate_load(err);
+  if (!st) st = thr_deflate(bytes->data, bytes->length, &small, err);
+  size_t length = st ? 0 : small.length - 6;
   size_t at = zip->out->length;
   if (!st && at + bytes->length + length > UINT32_MAX / 2)
     st = thr_fail(err, THR_EINPUT, "kit.3mf would have more than 2 GB: write STL instead");
@@ -70,10 +67,10 @@ static thr_status add_member(package *zip, const char *name, const thr_text *byt
     thr_text entry = {0};
     put(&entry, 20, 2);
     put(&entry, 0, 2);
-    put(&entry, deflated ? 8 : 0, 2);
+    put(&entry, 8, 2);
     put(&entry, 0, 2);
     put(&entry, 1 << 5 | 1, 2); /* the first of January of 1980 */
-    put(&entry, checksum(bytes->data, bytes->length), 4);
+    put(&entry, thr_kit_checksum(0, bytes->data, bytes->length), 4);
     put(&entry, length, 4);
     put(&entry, bytes->length, 4);
     put(&entry, strlen(name), 2);
@@ -82,7 +79,7 @@ static thr_status add_member(package *zip, const char *name, const thr_text *byt
     thr_text_append_bytes(zip->out, "PK\3\4", 4);
     thr_text_append_bytes(zip->out, entry.data, entry.failed ? 0 : entry.length);
     thr_text_append(zip->out, name);
-    thr_text_append_bytes(zip->out, stored, length);
+    thr_text_append_bytes(zip->out, small.data + 2, length);
 
     /* In the directory also: no comment, first disk, no attributes, where the member is. */
     thr_text *directory = &zip->directory;
