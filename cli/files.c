@@ -205,11 +205,13 @@ int files_try_folder(const char *folder)
   return code || thr_os_can_write(inside) ? code : cannot_write(folder);
 }
 
-/* Tries whether an output can be written. Only `thread draw -o` takes a folder as well. Returns an
- * exit code. */
+/* Tries whether an output can be written. `thread draw -o` takes a folder as well, `thread kit -o`
+ * nothing else. Returns an exit code. */
 static int try_output(const known_file *entry)
 {
   if (entry->kind == INPUT || is_standard(entry->path)) return EXIT_OK;
+
+  if (strcmp(known.command, "kit") == 0) return files_try_folder(entry->path);
 
   /* Only a file can be an output of most commands. */
   if (entry->kind == OUTPUT && cli_is_folder(entry->path) && strcmp(known.command, "draw") != 0) {
