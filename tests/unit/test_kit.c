@@ -36,6 +36,7 @@ static const struct {
     {"pins", THR_MAKE_DOME, 3, false, {.names = THR_KIT_NO_NAMES, .key = THR_KIT_PIN}},
     {"names", THR_MAKE_DOME, 3, false, {.letters = 3}},
     {"pockets", THR_MAKE_DOME, 3, false, {.names = THR_KIT_NO_NAMES, .knot_pockets = true}},
+    {"wide fillets", THR_MAKE_DOME, 3, false, {.names = THR_KIT_NO_NAMES, .fillet = 200}},
     {"gap", THR_MAKE_DOME, 3, false, {.names = THR_KIT_NO_NAMES, .gap = 0.4}},
     {"mitred tubes", THR_MAKE_TUBE, 5, true, {.names = THR_KIT_NO_NAMES}},
     {"rounded tubes",
