@@ -247,7 +247,8 @@ void thr_kit_sample(const void *user, const double at[3], thr_solid_sample *out)
   if (!piece->tube) size = fmin(size, 1.2 * piece->fillet + 0.15 * thinnest + 0.5 * corner);
   size = fmin(size, 1.2 * radius + 0.7 * fabs(hollow));
   /* Thin walls are not to fall between the corners of tetrahedra. */
-  size = fmin(size, fmax(0.8 * (fabs(body) + fabs(hollow)), 0.7 * piece->wall));
+  size = fmin(size, fmax(0.8 * (fabs(body) + fabs(hollow)),
+                         fmax(0.7 * piece->wall, isfinite(radius) ? 0.2 * radius : 0)));
   if (piece->n_strokes && body > -2 * piece->letter_depth && body < size) {
     double letters = letters_distance(piece, at, nearest, body);
     hollow = fmin(hollow, letters);

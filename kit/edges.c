@@ -10,6 +10,7 @@
 #include "graph/number.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Unit vector from the tail of a half-edge to its head. */
@@ -200,12 +201,14 @@ static thr_status check_widths(const thr_plan *plan, const thr_kit_options *opti
                       a, b, lanes, lanes == 1 ? "" : "s", edge[e].bore, sizes->wall,
                       lanes == 1 ? "needs" : "need", needed, edge[e].width,
                       ceil(100 * needed) / 100);
+    char thinner[40] = "";
+    if (0.45 * room >= 0.005) snprintf(thinner, sizeof thinner, ", or --wall %.2g", 0.45 * room);
     return thr_fail(err, THR_EINPUT,
                     "%s-%s: there is room for a piece %.3g mm wide beside its neighbours; %d "
                     "channel%s of %.3g mm with walls of %.3g mm need%s %.3g: a larger framework "
-                    "(plan --scale), a thinner cord, or --wall %.2g",
+                    "(plan --scale), a thinner cord%s",
                     a, b, edge[e].width, lanes, lanes == 1 ? "" : "s", edge[e].bore, sizes->wall,
-                    lanes == 1 ? "s" : "", needed, fmax(0.45 * room, 0.0));
+                    lanes == 1 ? "s" : "", needed, thinner);
   }
   return THR_OK;
 }

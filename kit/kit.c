@@ -13,6 +13,7 @@
 #include "graph/number.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -588,10 +589,17 @@ static thr_status give_names(maker *work, thr_err *err)
 
 /* ---- meshes ---- */
 
+/* Pieces whose meshes are made in threads. */
+typedef struct {
+  thr_kit *kit;
+  atomic_int done; /* meshes so far */
+} meshing;
+
 /* Makes the mesh of a piece, unless it shares one. */
 static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_err *err)
 {
-  thr_kit *kit = user;
+  meshing *work = user;
+  thr_kit *kit = work->kit;
   const thr_kit_piece *piece = &kit->piece[job];
   if (piece->like != job) return THR_OK;
 
@@ -627,6 +635,9 @@ static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_
   if (!st)
     st = thr_mesh_drop_crumbs(&kit->mesh[job], 2e-3 * narrowest * narrowest * narrowest, &why);
   if (!st) st = thr_mesh_examine(&kit->mesh[job], true, &kit->report[job], &why);
+  int done = atomic_fetch_add(&work->done, 1) + 1;
+  if (limits->advance) limits->advance(limits->user, "pieces", (double)done / kit->n_meshes);
+
   return st ? thr_fail(err, st, "piece %s: %s", kit->name[job], why.text) : THR_OK;
 }
 
@@ -713,7 +724,8 @@ thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_option
   if (!st) st = find_alike(&work, err);
   if (!st) st = give_names(&work, err);
   if (!st) note_channels(&work);
-  if (!st && meshes) st = thr_threads_run(kit->n_pieces, mesh_piece, kit, limits, err);
+  meshing meshed = {.kit = kit};
+  if (!st && meshes) st = thr_threads_run(kit->n_pieces, mesh_piece, &meshed, limits, err);
   if (!st && meshes) sum_up(kit);
   if (!st && kit->notes.failed) st = thr_nomem(err);
 

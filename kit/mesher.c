@@ -17,8 +17,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* More corners than this are refused: a mesh of some hundred MB. */
-enum { MOST_CORNERS = 20000000 };
+/* More corners than this are refused: a mesh of some hundred MB, and seconds. */
+enum { MOST_CORNERS = 3000000 };
 
 /* Points on edges stay this part of the edge away from the ends. */
 static const double MARGIN = 0.03;
