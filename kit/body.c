@@ -180,19 +180,18 @@ static double channel_distance(const thr_kit_piece *piece, const thr_kit_channel
   return best;
 }
 
-/* Distance from the letters' strokes, at the depth of a point below the surface: below 0 in the
- * groove. Only letters on the nearest arm count. */
-static double letters_distance(const thr_kit_piece *piece, const double at[3], int arm, double body)
+/* Distance from the strokes of letters on an arm, along its surface; INFINITY if there are none. */
+static double letters_distance(const thr_kit_piece *piece, const double at[3], int arm)
 {
+  if (arm < 0) return INFINITY;
+  const thr_kit_arm *on = &piece->arm[arm];
+  double up = thr_dot(at, on->up), side = thr_dot(at, on->side), s = thr_dot(at, on->along);
   double best = INFINITY;
+
   for (int i = 0; i < piece->n_strokes; i++) {
     const thr_kit_stroke *stroke = &piece->stroke[i];
-    if (stroke->arm != arm) continue;
-    const thr_kit_arm *on = &piece->arm[arm];
-    const double side = stroke->below ? -1 : 1;
-    double u = side * thr_dot(at, on->up), v = side * thr_dot(at, on->side),
-           s = thr_dot(at, on->along);
-    if (u <= 0) continue;
+    double u = stroke->below ? -up : up, v = stroke->below ? -side : side;
+    if (stroke->arm != arm || u <= 0) continue;
     double across = piece->profile == THR_KIT_ROUND ? atan2(v, u) * 0.5 * on->width : v;
     const double here[3] = {s, across, 0};
     const double from[3] = {stroke->from[0], stroke->from[1], 0};
@@ -200,7 +199,16 @@ static double letters_distance(const thr_kit_piece *piece, const double at[3], i
     double part;
     best = fmin(best, segment_distance(here, from, to, &part));
   }
-  return fmax(best - 0.5 * piece->letter_width, -body - piece->letter_depth);
+
+  return best;
+}
+
+/* Depth of the groove at a distance from its middle: round at the bottom and at its rims, which a
+ * mesh shows better than an edge. */
+static double groove(const thr_kit_piece *piece, double off)
+{
+  double part = off / (0.7 * piece->letter_width);
+  return part < 1 ? piece->letter_depth * (1 - part * part) * (1 - part * part) : 0;
 }
 
 /* Height of a key at a distance from the axis of its face; of a hollow one below 0, with play. Both
@@ -250,9 +258,9 @@ void thr_kit_sample(const void *user, const double at[3], thr_solid_sample *out)
   size = fmin(size, fmax(0.8 * (fabs(body) + fabs(hollow)),
                          fmax(0.7 * piece->wall, isfinite(radius) ? 0.2 * radius : 0)));
   if (piece->n_strokes && body > -2 * piece->letter_depth && body < size) {
-    double letters = letters_distance(piece, at, nearest, body);
-    hollow = fmin(hollow, letters);
-    size = fmin(size, 0.8 * piece->letter_width + 0.5 * fabs(letters));
+    double letters = letters_distance(piece, at, nearest);
+    body += groove(piece, letters);
+    size = fmin(size, 0.8 * piece->letter_width + 0.6 * fmax(letters - piece->letter_width, 0));
   }
   out->distance = fmax(body, -hollow);
   out->size = size;
