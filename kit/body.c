@@ -263,7 +263,7 @@ void thr_kit_sample(const void *user, const double at[3], thr_solid_sample *out)
     size = fmin(size, 0.8 * piece->letter_width + 0.6 * fmax(letters - piece->letter_width, 0));
   }
   out->distance = fmax(body, -hollow);
-  out->size = size;
+  out->size = size * piece->coarse;
 
   /* The cut of the nearest arm, or of the base. */
   out->cut = -1e3 * thinnest;

@@ -65,6 +65,11 @@ void thr_kit_stl(const thr_kit *kit, int piece, thr_text *out);
  * allow in names. */
 void thr_kit_stl_name(const thr_kit *kit, int piece, char name[32]);
 
+/* ---- write_viewer.c: what the viewer's page needs to show the pieces themselves. */
+
+/* Appends one JSON object, for thr_viewer_html. The kit has meshes. */
+void thr_kit_viewer(const thr_kit *kit, thr_text *out);
+
 /* ---- kit_tables.c: CSV, in the manner of diagram/tables/tables.h, which says what layout is. */
 
 /* Appends kit.csv: a row per piece: what it weighs, how it is printed. */

@@ -375,6 +375,7 @@ static void set_common(const maker *work, thr_kit_piece *piece, double narrowest
   piece->mouth = fmin(MOUTH * narrowest, 0.5 * work->kit->cord);
   piece->key = options->key;
   piece->wall = work->sizes.wall;
+  piece->coarse = options->coarse > 0 ? options->coarse : 1;
   piece->key_radius = 0.4 * narrowest;
   piece->key_slope = 1 / tan(options->key_angle);
   piece->key_height = options->key == THR_KIT_PIN ? 0.2 * narrowest : 0.25 * narrowest;

@@ -53,6 +53,7 @@ typedef struct {
   thr_kit_channels channels;
   thr_kit_names names;
   thr_kit_tube_ends tube_ends;
+  double coarse;     /* factor on the sizes of triangles, for pictures; 0 = 1 */
   bool knot_pockets; /* where cords end, a hollow for the knot */
 } thr_kit_options;
 
@@ -148,6 +149,7 @@ typedef struct {
   thr_kit_channel *channel;
   thr_kit_stroke *stroke;
   double node_radius, fillet, taper, mouth; /* mouth: radius of the rounding */
+  double coarse;                            /* factor on sizes of triangles */
   double wall;                              /* that there is at least */
   thr_kit_profile profile;
   thr_kit_key key;

@@ -247,7 +247,7 @@ static thr_status describe(const thr_plan *plan, document which, const thr_docum
     break;
   case VIEWER:
     st = thr_viewer_html(plan, copies.motion, asked->kind_tolerance, needles_of(plan, asked),
-                         asked->layout, out, err);
+                         asked->layout, asked->kit, out, err);
     break;
 
   /* The table of cords names the motion of each copy. */

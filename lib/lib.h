@@ -127,6 +127,7 @@ typedef struct {
   int needles; /* that cords are threaded with in the step sheets: 1, 2 = from their middle; 0 = as
                   the plan says */
   thr_line_options lines;   /* of cords for CAD */
+  const thr_text *kit;      /* of the viewer: the pieces' meshes (kit/files.h); NULL = none */
   const thr_layout *layout; /* of the plan's framework, by thr_layout_choose: what several documents
                                share; NULL: each lays out anew */
   void (*pages)(const char *file, int n); /* hears how many a file of pages has; NULL = nobody */

@@ -66,7 +66,8 @@ export class Stage {
     this.parts = []; // meshes of many like parts, and of each part its piece and where it is
     this.partsOf = plan.pieces.map(() => []);
     this.tips = plan.pieces.map(() => []); // ends of its arms, from its middle
-    if (plan.solid) this.addSolid();
+    if (plan.kit) this.addKit();
+    else if (plan.solid) this.addSolid();
     else this.addTubes();
     this.place = plan.pieces.map((_, i) => (plan.solid ? this.nodePlace(i) : this.edgePlace(i)));
   }
@@ -126,6 +127,33 @@ export class Stage {
     const sides = [16, 10, 6][detail];
     this.addTranslucent(new CylinderGeometry(1, 1, 1, sides), material, arms);
     this.addTranslucent(new SphereGeometry(1, sides, Math.max(sides >> 1, 4)), material, hubs);
+    this.addHand();
+  }
+
+  // The pieces as they are made: a mesh for each kind, turned and put in its places; and what is seen through what.
+  addKit() {
+    const {plan} = this, {mm, meshes, pieces} = plan.kit, unit = 1 / mm;
+    const material = new MeshLambertMaterial({transparent: true, opacity: 0.5});
+    const bytes = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer;
+    pieces.forEach(([mesh, ...numbers], piece) => {
+      const ends = plan.solid ? plan.edges.filter((edge) => edge.includes(piece)).map((edge) => [piece, edge[0] + edge[1] - piece]) : [plan.edges[piece]];
+      for (const [a, b] of ends) this.tips[piece].push(this.nodes[b].clone().sub(this.nodes[a]).multiplyScalar(0.5));
+      const [a, b, c, d, e, f, g, h, i, ...middle] = numbers, turn = new Quaternion();
+      turn.setFromRotationMatrix(new Matrix4().set(a, b, c, 0, d, e, f, 0, g, h, i, 0, 0, 0, 0, 1));
+      const place = {piece, middle: new Vector3(...middle).multiplyScalar(unit), turn, scale: new Vector3(unit, unit, unit)};
+      (meshes[mesh].places ??= []).push(place);
+    });
+    meshes.forEach(({low, step, points, triangles, places}) => {
+      const shape = new BufferGeometry(), whole = new Uint16Array(bytes(points));
+      shape.setAttribute('position', new BufferAttribute(Float32Array.from(whole, (x, k) => low[k % 3] + step * x), 3));
+      shape.setIndex(new BufferAttribute(new Uint32Array(bytes(triangles)), 1));
+      shape.computeVertexNormals();
+      this.addTranslucent(shape, material, places);
+    });
+    this.addHand();
+  }
+
+  addHand() {
     this.hand = new Group();
     this.handMaterial = new MeshLambertMaterial({transparent: true, opacity: 0.5, depthTest: false, fog: false});
     this.scene.add(this.hand);
@@ -166,7 +194,7 @@ export class Stage {
 
   addFeet() {
     const {plan, sizes} = this;
-    if (!plan.feet.length) return;
+    if (!plan.feet.length || (plan.kit && plan.solid)) return; // a kit's feet have their bases
     const pad = new CylinderGeometry(1.5 * sizes.radius, 2.1 * sizes.radius, 1.2 * sizes.radius, 20).rotateX(Math.PI / 2);
     this.feet = new InstancedMesh(pad, new MeshLambertMaterial(), plan.feet.length);
     this.uncover(-1);
@@ -274,7 +302,7 @@ export class Stage {
     const at = new Matrix4(), set = (piece, factor) => {
       for (const [p, i] of this.partsOf[piece]) {
         const {mesh, matrix} = this.parts[p], {middle, turn, scale} = matrix[i];
-        mesh.setMatrixAt(i, at.compose(middle, turn, new Vector3(scale.x * factor, scale.y, scale.z * factor)));
+        mesh.setMatrixAt(i, at.compose(middle, turn, new Vector3(scale.x * factor, this.plan.kit ? scale.y * factor : scale.y, scale.z * factor)));
       }
     };
     if (this.swollen >= 0) set(this.swollen, 1);

@@ -14,6 +14,7 @@
 #include "kit/files.h"
 #include "kit/kit.h"
 #include "kit/picture.h"
+#include "lib/lib.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -21,7 +22,7 @@
 static const char intro[] =
     "thread kit PLAN [options]: the pieces themselves, to print\n\n"
     "Examples:\n"
-    "  thread kit plan.json                          kit/kit.3mf, kit.csv and kit.png\n"
+    "  thread kit plan.json                          kit/kit.3mf, kit.csv, kit.png, kit.html\n"
     "  thread kit plan.json --names none             pieces that are alike are one print\n"
     "  thread kit plan.json --stl -o parts/          one STL file for each kind, too\n"
     "  thread kit plan.json --width 12 --key cone    thicker arms, which centre each other\n";
@@ -41,6 +42,9 @@ typedef struct {
 
 #define AT(member) .offset = offsetof(kit_arguments, member)
 
+/* Triangles of the viewer are larger by this factor than those to print. */
+static const double COARSE = 2.2;
+
 /* Takes "220x220". */
 static bool take_bed(void *into, const cli_option *option, const char *value)
 {
@@ -59,7 +63,7 @@ static const cli_option own_options[] = {
     {"stl", .kind = CLI_FLAG, AT(stl), .help = "also one STL file for each kind of piece"},
     {"scad", .kind = CLI_FLAG, AT(scad),
      .help = "also kit.scad, the pieces in OpenSCAD's language, to be changed"},
-    {"no-picture", .kind = CLI_FLAG, AT(no_picture), .help = "without kit.png"},
+    {"no-picture", .kind = CLI_FLAG, AT(no_picture), .help = "without kit.png and kit.html"},
     {"processes", 'j', "N",
      "so many things at a time (default: one per processor); changes no result", .kind = CLI_COUNT,
      AT(jobs), .low = 1, .high = 1024},
@@ -145,6 +149,30 @@ static void say(const thr_kit *kit, const thr_kit_plates *plates, const char *fo
   cli_note("written to %s", folder);
 }
 
+/* Writes the viewer with the pieces as they are, but coarser and without names. */
+static int write_viewer(const thr_kit *kit, const kit_arguments *args, const char *folder)
+{
+  thr_err err = {0};
+  thr_text meshes = {0}, page = {0};
+  thr_kit shown;
+  thr_kit_options options = args->kit;
+  options.names = THR_KIT_NO_NAMES;
+  options.coarse = COARSE;
+  thr_limits limits = cli_limits(0);
+  limits.threads = args->jobs ? args->jobs : thr_os_processors();
+
+  thr_status st = thr_kit_make(&shown, kit->plan, &options, NULL, true, &limits, &err);
+  if (!st) thr_kit_viewer(&shown, &meshes);
+  const thr_document_options how = {.kit = &meshes, .kind_tolerance = options.kind_tolerance};
+  if (!st && meshes.failed) st = thr_fail(&err, THR_ENOMEM, "out of memory");
+  if (!st) st = thr_document_make(kit->plan, thr_document_find("html"), &how, &limits, &page, &err);
+  cli_progress_end();
+  thr_kit_destroy(&shown);
+  thr_text_destroy(&meshes);
+
+  return write_file(st, &page, folder, "kit.html", &err);
+}
+
 /* Writes everything that was asked for. Returns an exit code. */
 static int write_all(const thr_kit *kit, const kit_arguments *args, const char *folder)
 {
@@ -183,6 +211,7 @@ static int write_all(const thr_kit *kit, const kit_arguments *args, const char *
     st = thr_kit_picture(kit, &view, &text, &err);
     code = write_file(st, &text, folder, "kit.png", &err);
   }
+  if (!code && !args->no_picture) code = write_viewer(kit, args, folder);
   if (!code) say(kit, &plates, folder);
   thr_kit_plates_destroy(&plates);
 

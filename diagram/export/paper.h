@@ -197,10 +197,11 @@ void thr_test_piece_stl(double bore, thr_text *stl);
  * thr_cord_folded; layout: as in thr_guide_make. The same plan gives the same bytes; beside the
  * page (about 0.6 MB) some 70 bytes per pass. THR_EINPUT for a plan without cords, for cords that
  * do not fit the framework and for an evaluation that does not fit the cords. O(n log n). html is
- * unchanged on failure. */
+ * unchanged on failure. kit: the pieces' meshes as JSON (kit/files.h), shown instead of plain arms
+ * and tubes; NULL: none. */
 thr_status thr_viewer_html(const thr_plan *plan, const char *const *motion, double tolerance,
-                           int needles, const thr_layout *layout, thr_text *html,
-                           thr_err *err) THR_MUST_CHECK;
+                           int needles, const thr_layout *layout, const thr_text *kit,
+                           thr_text *html, thr_err *err) THR_MUST_CHECK;
 
 /* The bytes of the viewer's page, with THR_VIEWER_MARK where the plan belongs; NUL-terminated
  * (viewer_page.S). */

@@ -36,6 +36,7 @@ typedef struct {
   const thr_plan *plan;
   const thr_frame *frame;
   const char *const *motion; /* as in thr_overview_options */
+  const thr_text *kit;       /* JSON of the pieces' meshes, or NULL */
   thr_guide guide;
   thr_copy *copy;  /* [n_cords] which cord repeats which */
   bool tension;    /* does the plan say a tension of any cord? */
@@ -326,6 +327,9 @@ static void put_plan(plan_viewer *viewer)
   put_edges(viewer);
   put_pieces(viewer);
 
+  /* The pieces themselves, as they are. */
+  if (viewer->kit) thr_write_json(next_line(viewer), "kit", viewer->kit);
+
   /* No scale without tensions. */
   if (viewer->tension) put_scale(viewer);
 
@@ -392,13 +396,15 @@ static thr_status prepare(plan_viewer *viewer, double tolerance, const thr_layou
 }
 
 thr_status thr_viewer_html(const thr_plan *plan, const char *const *motion, double tolerance,
-                           int needles, const thr_layout *layout, thr_text *html, thr_err *err)
+                           int needles, const thr_layout *layout, const thr_text *kit,
+                           thr_text *html, thr_err *err)
 {
   thr_text json = {0}, page = {0};
   plan_viewer viewer = {.plan = plan,
                         .frame = &plan->frame,
                         .motion = motion,
                         .needles = needles,
+                        .kit = kit,
                         .out = {.out = &json, .compact = true}};
 
   /* The page was built with the mark in it. */

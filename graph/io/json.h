@@ -99,6 +99,9 @@ void thr_write_ints(thr_writer *writer, const char *key, const int *value, int n
 /* A string that was put together in a text of its own, which it destroys. */
 void thr_write_words(thr_writer *writer, const char *key, thr_text *words);
 
+/* A value that is JSON already, as it is. */
+void thr_write_json(thr_writer *writer, const char *key, const thr_text *json);
+
 /* A number in a format of the caller's. */
 void thr_write_printf(thr_writer *writer, const char *key, const char *format, ...)
     THR_PRINTF(3, 4);

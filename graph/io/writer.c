@@ -102,6 +102,13 @@ void thr_write_string(thr_writer *writer, const char *key, const char *value)
   thr_text_json_string(writer->out, value);
 }
 
+void thr_write_json(thr_writer *writer, const char *key, const thr_text *json)
+{
+  begin(writer, key);
+  thr_text_append_bytes(writer->out, json->data ? json->data : "null",
+                        json->data ? json->length : 4);
+}
+
 void thr_write_hash(thr_writer *writer, const char *key, uint64_t value)
 {
   thr_write_printf(writer, key, "\"%016" PRIx64 "\"", value);

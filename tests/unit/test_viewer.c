@@ -28,7 +28,7 @@ static thr_text page_of(const thr_plan *p, const char *const *motion)
 {
   thr_text t = {0};
   thr_err err = {0};
-  assert_ok(thr_viewer_html(p, motion, 0, 0, NULL, &t, &err), &err);
+  assert_ok(thr_viewer_html(p, motion, 0, 0, NULL, NULL, &t, &err), &err);
   return t;
 }
 
@@ -245,7 +245,7 @@ static void assert_refused(const thr_plan *p, const char *word)
   thr_text t = {0};
   thr_err err = {0};
   thr_text_append(&t, "kept");
-  assert_status(thr_viewer_html(p, NULL, 0, 0, NULL, &t, &err), THR_EINPUT, &err, word);
+  assert_status(thr_viewer_html(p, NULL, 0, 0, NULL, NULL, &t, &err), THR_EINPUT, &err, word);
   ck_assert_str_eq(t.data, "kept");
   thr_text_destroy(&t);
 }
@@ -276,7 +276,7 @@ START_TEST(every_allocation_fails_once)
     thr_text t = {0};
     thr_err err = {0};
     thr_alloc_fail_at(++k);
-    st = thr_viewer_html(&p, NULL, 0, 0, NULL, &t, &err);
+    st = thr_viewer_html(&p, NULL, 0, 0, NULL, NULL, &t, &err);
     thr_alloc_fail_at(0);
     if (st) {
       ck_assert_msg(st == THR_ENOMEM, "allocation %ld: status %d, %s", k, (int)st, err.text);
