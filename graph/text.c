@@ -41,7 +41,7 @@ static inline bool reserve(thr_text *text, size_t extra)
 void thr_text_append_bytes(thr_text *text, const char *s, size_t n)
 {
   if (!reserve(text, n)) return;
-  memcpy(text->data + text->length, s, n);
+  if (n) memcpy(text->data + text->length, s, n); /* s may be NULL where n is 0 */
   text->length += n;
   text->data[text->length] = '\0';
 }
