@@ -272,7 +272,10 @@ static thr_status pack(thr_kit_plates *plates, thr_err *err)
   shelf *shelves = thr_scratch_array(&own, n, sizeof *shelves);
   double *used = thr_scratch_array(&own, n, sizeof *used); /* of the depth of a plate */
   thr_status st = thr_scratch_check(&own, err);
-  if (st) return st;
+  if (st) {
+    thr_scratch_free(&own);
+    return st;
+  }
   for (int p = 0; p < kit->n_pieces; p++)
     order[p] = (thr_ranked){.key = -plates->stand[kit->piece[p].like].size[1], .index = p};
   thr_sort_ranked(order, n);
