@@ -46,6 +46,14 @@ void thr_text_append_bytes(thr_text *text, const char *s, size_t n)
   text->data[text->length] = '\0';
 }
 
+void thr_text_base64(thr_text *text, const unsigned char three[3])
+{
+  static const char letter[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const unsigned bits = (unsigned)three[0] << 16 | (unsigned)three[1] << 8 | three[2];
+  for (int shift = 18; shift >= 0; shift -= 6)
+    thr_text_byte(text, letter[bits >> shift & 63]);
+}
+
 void thr_text_append(thr_text *text, const char *s)
 {
   thr_text_append_bytes(text, s, strlen(s));

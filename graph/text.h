@@ -36,6 +36,9 @@ void thr_text_double(thr_text *text, double value);
 
 void thr_text_int(thr_text *text, int64_t value);
 
+/* Three bytes as four letters of base64 (RFC 4648). */
+void thr_text_base64(thr_text *text, const unsigned char three[3]);
+
 /* The same as JSON, which has no word for what is not finite: null. */
 void thr_text_json_number(thr_text *text, double value);
 

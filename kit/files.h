@@ -58,6 +58,9 @@ double thr_kit_normal(const thr_mesh *mesh, int triangle, double normal[3]);
  */
 uint32_t thr_kit_checksum(uint32_t sum, const char *bytes, size_t n);
 
+/* Appends a number of so many bytes, the lowest first. */
+void thr_kit_number(thr_text *out, uint64_t value, int bytes);
+
 /* Appends the mesh of a piece as binary STL. */
 void thr_kit_stl(const thr_kit *kit, int piece, thr_text *out);
 

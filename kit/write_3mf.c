@@ -42,8 +42,7 @@ uint32_t thr_kit_checksum(uint32_t sum, const char *bytes, size_t n)
   return ~crc;
 }
 
-/* Appends a number of so many bytes, the lowest first. */
-static void put(thr_text *out, uint64_t value, int bytes)
+void thr_kit_number(thr_text *out, uint64_t value, int bytes)
 {
   for (int i = 0; i < bytes; i++, value >>= 8)
     thr_text_byte(out, (char)(value & 0xff));
@@ -65,16 +64,16 @@ static thr_status add_member(package *zip, const char *name, const thr_text *byt
   if (!st) {
     /* What both entries say: version, flags, method, time and date, checksum, sizes, names. */
     thr_text entry = {0};
-    put(&entry, 20, 2);
-    put(&entry, 0, 2);
-    put(&entry, 8, 2);
-    put(&entry, 0, 2);
-    put(&entry, 1 << 5 | 1, 2); /* the first of January of 1980 */
-    put(&entry, thr_kit_checksum(0, bytes->data, bytes->length), 4);
-    put(&entry, length, 4);
-    put(&entry, bytes->length, 4);
-    put(&entry, strlen(name), 2);
-    put(&entry, 0, 2);
+    thr_kit_number(&entry, 20, 2);
+    thr_kit_number(&entry, 0, 2);
+    thr_kit_number(&entry, 8, 2);
+    thr_kit_number(&entry, 0, 2);
+    thr_kit_number(&entry, 1 << 5 | 1, 2); /* the first of January of 1980 */
+    thr_kit_number(&entry, thr_kit_checksum(0, bytes->data, bytes->length), 4);
+    thr_kit_number(&entry, length, 4);
+    thr_kit_number(&entry, bytes->length, 4);
+    thr_kit_number(&entry, strlen(name), 2);
+    thr_kit_number(&entry, 0, 2);
 
     thr_text_append_bytes(zip->out, "PK\3\4", 4);
     thr_text_append_bytes(zip->out, entry.data, entry.failed ? 0 : entry.length);
@@ -84,10 +83,10 @@ static thr_status add_member(package *zip, const char *name, const thr_text *byt
     /* In the directory also: no comment, first disk, no attributes, where the member is. */
     thr_text *directory = &zip->directory;
     thr_text_append_bytes(directory, "PK\1\2", 4);
-    put(directory, 20, 2);
+    thr_kit_number(directory, 20, 2);
     thr_text_append_bytes(directory, entry.data, entry.failed ? 0 : entry.length);
-    put(directory, 0, 10);
-    put(directory, at, 4);
+    thr_kit_number(directory, 0, 10);
+    thr_kit_number(directory, at, 4);
     thr_text_append(directory, name);
     zip->n_members++;
     if (entry.failed) st = thr_nomem(err);
@@ -103,12 +102,12 @@ static void end_package(package *zip)
   size_t at = zip->out->length, length = zip->directory.length;
   thr_text_append_bytes(zip->out, zip->directory.data, length);
   thr_text_append_bytes(zip->out, "PK\5\6", 4);
-  put(zip->out, 0, 4);
-  put(zip->out, (uint64_t)zip->n_members, 2);
-  put(zip->out, (uint64_t)zip->n_members, 2);
-  put(zip->out, length, 4);
-  put(zip->out, at, 4);
-  put(zip->out, 0, 2);
+  thr_kit_number(zip->out, 0, 4);
+  thr_kit_number(zip->out, (uint64_t)zip->n_members, 2);
+  thr_kit_number(zip->out, (uint64_t)zip->n_members, 2);
+  thr_kit_number(zip->out, length, 4);
+  thr_kit_number(zip->out, at, 4);
+  thr_kit_number(zip->out, 0, 2);
 }
 
 /* ---- the model ---- */

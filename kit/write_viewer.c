@@ -11,23 +11,11 @@
 
 enum { STEPS = 65535 };
 
-/* Appends bytes as base64 (RFC 4648): a multiple of three, which needs no padding. */
+/* Appends bytes as base64: a multiple of three, which needs no padding. */
 static void put_base64(const thr_text *bytes, thr_text *out)
 {
-  static const char letter[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const unsigned char *from = (const unsigned char *)bytes->data;
-  for (size_t i = 0; i + 2 < bytes->length; i += 3) {
-    unsigned group = (unsigned)from[i] << 16 | (unsigned)from[i + 1] << 8 | from[i + 2];
-    for (int shift = 18; shift >= 0; shift -= 6)
-      thr_text_byte(out, letter[group >> shift & 63]);
-  }
-}
-
-/* Appends a number of so many bytes, the lowest first. */
-static void put_bytes(thr_text *out, unsigned long value, int bytes)
-{
-  for (int i = 0; i < bytes; i++, value >>= 8)
-    thr_text_byte(out, (char)(value & 0xff));
+  for (size_t i = 0; i + 2 < bytes->length; i += 3)
+    thr_text_base64(out, (const unsigned char *)bytes->data + i);
 }
 
 /* Writes a mesh: its box's corner, the step, points and triangles. */
@@ -47,7 +35,7 @@ static void put_mesh(const thr_mesh *mesh, const thr_mesh_report *report, thr_wr
 
   for (int v = 0; v < mesh->n_points; v++)
     for (int k = 0; k < 3; k++)
-      put_bytes(&bytes, (unsigned long)lround((mesh->point[v][k] - report->low[k]) / step), 2);
+      thr_kit_number(&bytes, (uint64_t)lround((mesh->point[v][k] - report->low[k]) / step), 2);
   put_base64(&bytes, &words);
   thr_write_words(writer, "points", &words);
 
@@ -55,7 +43,7 @@ static void put_mesh(const thr_mesh *mesh, const thr_mesh_report *report, thr_wr
   words = (thr_text){0};
   for (int t = 0; t < mesh->n_triangles; t++)
     for (int k = 0; k < 3; k++)
-      put_bytes(&bytes, (unsigned long)mesh->triangle[t][k], 4);
+      thr_kit_number(&bytes, (uint64_t)mesh->triangle[t][k], 4);
   put_base64(&bytes, &words);
   thr_write_words(writer, "triangles", &words);
   thr_text_destroy(&bytes);

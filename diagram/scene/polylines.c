@@ -327,20 +327,12 @@ typedef struct {
   int n;
 } base64;
 
-/* Appends a byte; a full group of three becomes four letters (RFC 4648). */
+/* Appends a byte; a full group of three becomes four letters. */
 static void put_byte(base64 *buffer, unsigned char byte)
 {
-  static const char letter[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   buffer->waiting[buffer->n++] = byte;
   if (buffer->n < 3) return;
-
-  /* Three bytes are four letters of six bits. */
-  unsigned bits =
-      (unsigned)buffer->waiting[0] << 16 | (unsigned)buffer->waiting[1] << 8 | buffer->waiting[2];
-  const char four[4] = {letter[bits >> 18], letter[bits >> 12 & 63], letter[bits >> 6 & 63],
-                        letter[bits & 63]};
-  thr_text_append_bytes(buffer->out, four, 4);
-
+  thr_text_base64(buffer->out, buffer->waiting);
   buffer->n = 0;
 }
 
