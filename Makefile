@@ -264,7 +264,7 @@ test-deps: ## install the packages that building, testing and linting need
 	+@tools/install-packages.sh $(BUILD_PACKAGES) $(TEST_PACKAGES) $(LINT_PACKAGES)
 
 # What `make install` installs where: source and place below DESTDIR.
-COMMANDS := plan advise symmetries check eval compare draw kit info convert make
+COMMANDS := plan advise symmetries check eval compare draw kit rise info convert make
 MAN_PAGES := $(COMMANDS:%=$(DIR)/man/thread-%.1)
 BIN = $(DESTDIR)$(PREFIX)/bin
 SHARE = $(DESTDIR)$(PREFIX)/share

@@ -50,6 +50,7 @@ int cmd_eval(int argc, char **argv);
 int cmd_compare(int argc, char **argv);
 int cmd_draw(int argc, char **argv);
 int cmd_kit(int argc, char **argv);
+int cmd_rise(int argc, char **argv);
 int cmd_info(int argc, char **argv);
 int cmd_convert(int argc, char **argv);
 int cmd_make(int argc, char **argv);

@@ -24,6 +24,7 @@ const cli_command cli_commands[] = {
     {"compare", "plans side by side, ranked by pull", cmd_compare},
     {"draw", "diagrams for the hand", cmd_draw},
     {"kit", "the pieces themselves, to print", cmd_kit},
+    {"rise", "watch it rise: loose pieces, pulled cords, in simulation", cmd_rise},
     {"info", "what a framework is made of", cmd_info},
     {"convert", "a framework in another format", cmd_convert},
     {"make", "example frameworks", cmd_make},

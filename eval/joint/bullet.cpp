@@ -97,6 +97,58 @@ private:
   double rest;
 };
 
+/* A cord from a point of one body to a point of another: two rows of the solver along the line
+ * between them. The first pulls, with a largest force, at no more than a speed; the second holds,
+ * with a largest force, against being drawn longer. */
+class Cord final : public btTypedConstraint
+{
+public:
+  Cord(btRigidBody &a, btRigidBody &b, const btVector3 &from, const btVector3 &to)
+      : btTypedConstraint(D6_CONSTRAINT_TYPE, a, b), start(from), end(to)
+  {
+  }
+
+  double force = 0, speed = 0, hold = 0;
+
+  void getInfo1(btConstraintInfo1 *info) override
+  {
+    info->m_numConstraintRows = 2;
+    info->nub = 4;
+  }
+
+  void getInfo2(btConstraintInfo2 *info) override
+  {
+    const btVector3 arm_a = m_rbA.getCenterOfMassTransform().getBasis() * start,
+                    arm_b = m_rbB.getCenterOfMassTransform().getBasis() * end;
+    btVector3 n =
+        m_rbB.getCenterOfMassPosition() + arm_b - m_rbA.getCenterOfMassPosition() - arm_a;
+    const double length = n.length();
+    n = length > 0 ? n / length : btVector3(1, 0, 0);
+    const btVector3 turn_a = arm_a.cross(n), turn_b = -arm_b.cross(n);
+
+    for (int row = 0; row < 2; row++) {
+      const int first = row * info->rowskip;
+      for (int k = 0; k < 3; k++) {
+        info->m_J1linearAxis[first + k] = n[k];
+        info->m_J2linearAxis[first + k] = -n[k];
+        info->m_J1angularAxis[first + k] = turn_a[k];
+        info->m_J2angularAxis[first + k] = turn_b[k];
+      }
+
+      /* Limits are impulses. */
+      info->m_constraintError[first] = row == 0 ? speed : 0;
+      info->m_lowerLimit[first] = 0;
+      info->m_upperLimit[first] = (row == 0 ? force : hold) / info->fps;
+    }
+  }
+
+  void setParam(int, btScalar, int) override {}
+  btScalar getParam(int, int) const override { return 0; }
+
+private:
+  btVector3 start, end; /* in the bodies' frames */
+};
+
 /* Solves contacts as the limit analysis has them (contacts.h).
  *
  * Bullet's own rows have a pyramid round the cone, begin every step without lateral impulses, and
@@ -382,6 +434,8 @@ struct thr_world {
   int n_bodies, bodies_capacity;
   Link **link;
   int n_links, links_capacity;
+  Cord **cord;
+  int n_cords, cords_capacity;
   btCollisionShape **shape;
   int n_shapes, shapes_capacity;
 };
@@ -400,6 +454,8 @@ static void configure(btContactSolverInfo &info, const thr_world_options &option
   info.m_splitImpulse = options.split_impulse;
   info.m_solverMode = SOLVER_SIMD;
   if (options.warm_start || options.cones) info.m_solverMode |= SOLVER_USE_WARMSTARTING;
+  if (options.faces)
+    info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_ENABLE_FRICTION_DIRECTION_CACHING;
 
   /* With cones all contacts are solved in one call: keep lateral impulses and their directions. */
   if (!options.cones) return;
@@ -446,8 +502,10 @@ thr_status thr_world_create(thr_world **out, const thr_world_options *options, t
   }
 
   /* Boxes meet boxes by Ends; all other pairs by Bullet's own detectors. */
-  world->dispatcher->registerCollisionCreateFunc(BOX_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE,
-                                                 &make_ends);
+  if (!options->faces)
+    world->dispatcher->registerCollisionCreateFunc(BOX_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE,
+                                                   &make_ends);
+  world->dynamics->getDispatchInfo().m_enableSatConvex = options->faces;
   world->dynamics->setGravity(vector_of(options->gravity));
   world->dynamics->setForceUpdateAllAabbs(false);
   configure(world->dynamics->getSolverInfo(), *options);
@@ -464,6 +522,10 @@ void thr_world_destroy(thr_world *world)
   for (int i = 0; i < world->n_links; i++) {
     world->dynamics->removeConstraint(world->link[i]);
     unmake(world->link[i]);
+  }
+  for (int i = 0; i < world->n_cords; i++) {
+    world->dynamics->removeConstraint(world->cord[i]);
+    unmake(world->cord[i]);
   }
 
   for (int i = 0; i < world->n_bodies; i++) {
@@ -482,6 +544,7 @@ void thr_world_destroy(thr_world *world)
     unmake(world->shape[i]);
 
   free(world->link);
+  free(world->cord);
   free(world->body);
   free(world->shape);
   free(world);
@@ -536,6 +599,7 @@ static thr_status hull_of(thr_world *world, const double (*points)[3], int n, th
   for (int i = 0; i < n; i++)
     hull->addPoint(vector_of(points[i]), false);
   hull->recalcLocalAabb();
+  if (world->options.faces && !hull->initializePolyhedralFeatures()) return thr_nomem(err);
   return THR_OK;
 }
 
@@ -553,7 +617,7 @@ static thr_status shape_of(thr_world *world, const thr_world_hulls *hulls, thr_e
   }
 
   /* Several hulls become a compound with the body's frame. */
-  if (st != THR_OK || hulls->n_hulls == 1) return st;
+  if (st != THR_OK || (hulls->n_hulls == 1 && !world->options.faces)) return st;
   btCompoundShape *compound = make<btCompoundShape>(true, hulls->n_hulls);
   st = keep_shape(world, compound, 0, err);
   for (int i = 0; st == THR_OK && i < hulls->n_hulls; i++)
@@ -575,7 +639,10 @@ thr_status thr_world_add_hulls(thr_world *world, const thr_world_hulls *hulls, i
   /* The last shape of the world is the body's. */
   btCollisionShape *shape = world->shape[world->n_shapes - 1];
   btVector3 inertia(0, 0, 0);
-  if (hulls->mass > 0) shape->calculateLocalInertia(hulls->mass, inertia);
+  if (hulls->mass > 0 && hulls->moment > 0)
+    inertia.setValue(hulls->moment, hulls->moment, hulls->moment);
+  else if (hulls->mass > 0)
+    shape->calculateLocalInertia(hulls->mass, inertia);
   btRigidBody::btRigidBodyConstructionInfo info(hulls->mass, nullptr, shape, inertia);
 
   info.m_startWorldTransform =
@@ -642,6 +709,18 @@ thr_status thr_world_add_boxes(thr_world *world, const thr_world_boxes *boxes, i
   return add_body(world, info, 1, 1, body, err);
 }
 
+thr_status thr_world_add_ground(thr_world *world, double friction, int *body, thr_err *err)
+{
+  *body = -1;
+  btCollisionShape *shape = make<btStaticPlaneShape>(btVector3(0, 0, 1), 0);
+  thr_status st = keep_shape(world, shape, 0, err);
+  if (st != THR_OK) return st;
+
+  btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, shape);
+  info.m_friction = friction;
+  return add_body(world, info, 1, 1, body, err);
+}
+
 thr_status thr_world_add_sphere(thr_world *world, double radius, double mass, const double at[3],
                                 double friction, int group, int mask, int *body, thr_err *err)
 {
@@ -689,6 +768,37 @@ thr_status thr_world_add_link(thr_world *world, int a, int b, double length, int
   world->link[world->n_links] = made;
   *link = world->n_links++;
   return THR_OK;
+}
+
+thr_status thr_world_add_cord(thr_world *world, int a, const double from[3], int b,
+                              const double to[3], int *cord, thr_err *err)
+{
+  *cord = -1;
+  thr_status st =
+      thr_grow(&world->cord, world->n_cords, &world->cords_capacity, sizeof *world->cord, err);
+  if (st != THR_OK) return st;
+
+  Cord *made = make<Cord>(*world->body[a], *world->body[b], vector_of(from), vector_of(to));
+  if (!made) return thr_nomem(err);
+
+  /* The bodies still touch each other. */
+  world->dynamics->addConstraint(made, false);
+  world->cord[world->n_cords] = made;
+  *cord = world->n_cords++;
+  return THR_OK;
+}
+
+void thr_world_pull(thr_world *world, int cord, double force, double speed, double hold)
+{
+  world->cord[cord]->force = force;
+  world->cord[cord]->speed = speed;
+  world->cord[cord]->hold = hold;
+}
+
+double thr_world_cord_held(const thr_world *world, int cord)
+{
+  /* Bullet keeps the impulse of the last row. */
+  return world->cord[cord]->getAppliedImpulse() / world->options.time_step;
 }
 
 double thr_world_link_force(const thr_world *world, int link)

@@ -25,6 +25,8 @@ typedef struct {
   bool cones;   /* contacts have friction cones and start from all of the last step's impulses; for
                    worlds without links */
   double still; /* with cones: a step is solved when no velocity is wrong by so much, m/s */
+  bool faces;   /* without cones: parts of bodies meet in whole faces (thr_world_add_hulls), and
+                   friction acts in two directions */
 } thr_world_options;
 
 thr_status thr_world_create(thr_world **out, const thr_world_options *options,
@@ -32,14 +34,14 @@ thr_status thr_world_create(thr_world **out, const thr_world_options *options,
 void thr_world_destroy(thr_world *world);
 
 /* Adds a body of one or more convex hulls. points: all hulls' corners one after the other in the
- * body's own frame (origin = mass centre), n_points[h] of each. mass 0 = static; moments of inertia
- * from the hulls' bounding boxes; no collision margin. pose: position and quaternion (x y z w).
- * group/mask: collision filter bits. *body receives its index. */
+ * body's own frame (origin = mass centre), n_points[h] of each. mass 0 = static; moment: about any
+ * axis, or 0: moments of inertia from the hulls' bounding boxes; no collision margin. pose: position
+ * and quaternion (x y z w). group/mask: collision filter bits. *body receives its index. */
 typedef struct {
   int n_hulls;
   const int *n_points;
   const double (*points)[3];
-  double mass;
+  double mass, moment;
   double pose[7];
   double friction; /* combined friction is the product of the two bodies' */
   int group, mask;
@@ -64,6 +66,21 @@ typedef struct {
 } thr_world_boxes;
 thr_status thr_world_add_boxes(thr_world *world, const thr_world_boxes *boxes, int *body,
                                thr_err *err) THR_MUST_CHECK;
+
+/* Adds the ground: all of z <= 0, which does not move. */
+thr_status thr_world_add_ground(thr_world *world, double friction, int *body,
+                                thr_err *err) THR_MUST_CHECK;
+
+/* Adds a cord that pulls two bodies together from point to point, given in the bodies' frames. It
+ * does nothing until thr_world_pull. *cord receives its index. */
+thr_status thr_world_add_cord(thr_world *world, int a, const double from[3], int b,
+                              const double to[3], int *cord, thr_err *err) THR_MUST_CHECK;
+
+/* For the next step: the cord pulls with up to `force` to close at `speed`, and with up to `hold`
+ * more against being drawn longer. thr_world_cord_held then tells how much of
+ * `hold` it took. N and m/s, or what the world's units are. */
+void thr_world_pull(thr_world *world, int cord, double force, double speed, double hold);
+double thr_world_cord_held(const thr_world *world, int cord);
 
 /* Adds a sphere that does not rotate (angular factor 0). */
 thr_status thr_world_add_sphere(thr_world *world, double radius, double mass, const double at[3],

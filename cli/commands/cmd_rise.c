@@ -1,0 +1,415 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* thread rise: lets the pieces of a plan rise in simulation, as their cords are pulled
+ * (eval/rise/rise.h), and says whether they come up, at what pull, and where they jam.
+ *
+ * Pieces are those of `thread kit`. Several seeds are several runs: one run is no fact.
+ *
+ * Example: `thread rise data/dome7-lines.json` lays 49 pieces flat on the ground, pulls 28 ends,
+ * and the dome stands at some 1.3 N. */
+#include "cli/args/args.h"
+#include "cli/cli.h"
+#include "cli/commands/commands.h"
+#include "eval/rise/rise.h"
+#include "graph/io/json.h"
+#include "graph/number.h"
+#include "graph/plan/plan.h"
+#include "graph/text.h"
+#include "kit/kit.h"
+#include "lib/rise_pieces.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char intro[] =
+    "thread rise PLAN [options]: loose pieces, pulled cords: does it rise, and at what pull?\n\n"
+    "Examples:\n"
+    "  thread rise plan.json                         from flat on the ground\n"
+    "  thread rise plan.json --start heap --seeds 5  dropped in a heap, five times\n"
+    "  thread rise plan.json --raise D4              a hand carries piece D4 to its height\n"
+    "  thread rise plan.json --let-down              and down again, until it falls\n";
+static const char outro[] =
+    "Exit codes: 0 it comes up in most runs, 1 it does not, 2 usage, 3 not a plan or nothing that "
+    "can be simulated, 5 not done in the time or memory (what was seen is printed)";
+
+enum { MOST_SEEDS = 1000, EXIT_STAYS_DOWN = 1 };
+static const double HAND = 50;   /* N, the most that a hand pulls once */
+static const double LIFTING = 2; /* of the structure's weight, that a hand carries at most */
+
+/* What was asked. */
+typedef struct {
+  thr_rise_options rise;
+  thr_kit_options kit;
+  guard_limits guard;
+  const char *lift, *raise, *output;
+  int seeds, first_seed, start;
+  double time_step, iterations;
+  bool json, let_down;
+} rise_arguments;
+
+#define AT(member) .offset = offsetof(rise_arguments, member)
+
+static const cli_option own_options[] = {
+    {"start", .kind = CLI_WORD, AT(start), .word = thr_rise_start_name,
+     .n_words = THR_RISE_N_STARTS,
+     .help = "where pieces begin: flat on the ground, slack (default), in a heap, or closed in "
+             "their shape"},
+    {"pull", .value = "N", .kind = CLI_AMOUNT, AT(rise.pull), .low = CLI_ABOVE_0, .high = 1e6,
+     .help = "hands pull every end with more and more, up to so much (default: 50, the most of a "
+             "hand)"},
+    {"slower", .value = "X", .kind = CLI_AMOUNT, AT(rise.slower), .low = 0.01, .high = 1000,
+     .help = "hands take X times as long"},
+    {"let-down", .kind = CLI_FLAG, AT(rise.let_down),
+     .help = "and let the cords go again, until it falls"},
+    {"lift", .value = "NODE=N", .kind = CLI_TEXT, AT(lift),
+     .help = "a counterweight lifts this piece with so many newtons"},
+    {"raise", .value = "NODE", .kind = CLI_TEXT, AT(raise),
+     .help = "a hand carries this piece to its height, and no higher"},
+    {"seeds", .value = "N", .kind = CLI_COUNT, AT(seeds), .low = 1, .high = MOST_SEEDS,
+     .help = "so many runs, each from another disorder: median and range (default: 1)"},
+    {"seed", .value = "N", .kind = CLI_COUNT, AT(first_seed), .low = 0, .high = 1e9,
+     .help = "of the first run (default: 1)"},
+    {"output", 'o', .value = "FILE", .kind = CLI_OUTPUT, AT(output),
+     .help = "write what was seen, with the place of every piece, as JSON"},
+    {"json", .kind = CLI_FLAG, AT(json), .help = "print the answers as JSON"},
+    {0}};
+
+static const cli_option shape_options[] = {
+    {"width", .value = "MM", .kind = CLI_AMOUNT, AT(kit.width), .low = CLI_ABOVE_0, .high = 1e6,
+     .help = "of the pieces' arms, as for thread kit (default: the bead diameter of the plan)"},
+    {"profile", .kind = CLI_WORD, AT(kit.profile), .word = thr_kit_profile_name,
+     .n_words = THR_KIT_N_PROFILES, .help = "cross-section of arms, as for thread kit"},
+    {"density", .value = "G", .kind = CLI_AMOUNT, AT(kit.density), .low = CLI_ABOVE_0, .high = 100,
+     .help = "of the material in g/cm3 (default: as the plan says)"},
+    {0}};
+
+static const cli_option tuned_options[] = {
+    {"time-step", .kind = CLI_AMOUNT, AT(rise.time_step), .low = 0.01, .high = 4},
+    {"iterations", .kind = CLI_AMOUNT, AT(iterations), .low = 1, .high = 10000},
+    {0}};
+
+/* All that a run needs. */
+typedef struct {
+  const rise_arguments *args;
+  const thr_kit *kit;
+  thr_rise_kit made;
+  int n_runs;
+  thr_rise_record *record; /* [seeds] of which n_runs are done */
+} rise_runs;
+
+/* The piece with this name, as documents call it or as the framework does; -1. */
+static int piece_named(const thr_kit *kit, const char *name)
+{
+  for (int p = 0; p < kit->n_pieces; p++)
+    if (strcmp(kit->name[p], name) == 0) return p;
+  return thr_frame_find(&kit->plan->frame, name);
+}
+
+/* Reads which piece a hand lifts, and how. Returns -1, or an exit code. */
+static int take_lift(const rise_arguments *args, const thr_kit *kit, double weight,
+                     thr_rise_options *options)
+{
+  char name[64];
+  const char *words = args->raise ? args->raise : args->lift;
+  if (!words) return -1;
+  const char *equals = args->raise ? words + strlen(words) : strrchr(words, '=');
+  if (!equals)
+    return cli_usage("rise", "--lift %s: expected a piece and newtons, as D4=2", words);
+  snprintf(name, sizeof name, "%.*s", (int)(equals - words), words);
+  options->lifted = piece_named(kit, name);
+  options->carried = args->raise != NULL;
+  options->lift = LIFTING * weight;
+  if (options->lifted < 0) return cli_usage("rise", "%s: the plan has no such piece", name);
+  if (args->raise) return -1;
+
+  size_t n = strlen(equals + 1);
+  if (n > 1 && equals[n] == 'N') n--;
+  if (!thr_number_parse(equals + 1, n, &options->lift) || !(options->lift > 0))
+    return cli_usage("rise", "--lift %s: expected newtons above 0 after the =, as D4=2", words);
+  return -1;
+}
+
+/* ---- what is said ---- */
+
+/* The pull at which a run came up, N; infinite if it did not. */
+static double pull_up(const thr_rise_record *record)
+{
+  return record->came_up >= 0 ? record->moment[record->came_up].pull : INFINITY;
+}
+
+static double pull_down(const thr_rise_record *record)
+{
+  return record->fell >= 0 ? record->moment[record->fell].pull : 0;
+}
+
+static int ascending(const void *a, const void *b)
+{
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+/* The least, the middle and the largest of what is read off all runs. */
+static void spread_of(const rise_runs *runs, double (*of)(const thr_rise_record *), double out[3])
+{
+  double value[MOST_SEEDS];
+  for (int i = 0; i < runs->n_runs; i++)
+    value[i] = of(&runs->record[i]);
+  qsort(value, (size_t)runs->n_runs, sizeof *value, ascending);
+  out[0] = value[0];
+  out[1] = value[(runs->n_runs - 1) / 2];
+  out[2] = value[runs->n_runs - 1];
+}
+
+static double off_of(const thr_rise_record *record)
+{
+  return record->off;
+}
+
+/* How many runs came up. */
+static int count_up(const rise_runs *runs)
+{
+  int n = 0;
+  for (int i = 0; i < runs->n_runs; i++)
+    n += runs->record[i].came_up >= 0;
+  return n;
+}
+
+/* Appends "1.3 N", or "1.1 to 1.5 N, half of the runs within 1.3" for several runs. */
+static void put_spread(const rise_runs *runs, double (*of)(const thr_rise_record *),
+                       const char *unit, thr_text *text)
+{
+  double value[3];
+  spread_of(runs, of, value);
+  if (runs->n_runs == 1)
+    thr_text_printf(text, "%.3g %s", value[0], unit);
+  else
+    thr_text_printf(text, "%.3g %s (%.3g to %.3g)", value[1], unit, value[0], value[2]);
+}
+
+/* The names of the two pieces of a pass, counted over all cords. */
+static void pieces_of(const rise_runs *runs, int pass, const char *name[2])
+{
+  for (int c = 0; c < runs->made.structure.n_cords; c++) {
+    const thr_rise_cord *cord = &runs->made.structure.cord[c];
+    if (pass >= cord->n_passes) {
+      pass -= cord->n_passes;
+      continue;
+    }
+    name[0] = runs->kit->name[cord->piece[pass]];
+    name[1] = runs->kit->name[cord->piece[pass + 1]];
+    return;
+  }
+}
+
+/* Appends the lines for people. */
+static void put_text(const rise_runs *runs, thr_text *text)
+{
+  const thr_rise_structure *structure = &runs->made.structure;
+  const thr_rise_record *record = &runs->record[0];
+  const thr_rise_options *options = &runs->args->rise;
+  int ends = 0;
+  for (int c = 0; c < structure->n_cords; c++)
+    ends += structure->cord[c].pulled[0] + structure->cord[c].pulled[1];
+  thr_text_printf(text, "%d pieces, %.3g N in all, %d %s pulled at %d %s, %s\n",
+                  structure->n_pieces, record->weight, structure->n_cords,
+                  cli_plural(structure->n_cords, "cord", "cords"), ends,
+                  cli_plural(ends, "end", "ends"),
+                  options->start == THR_RISE_FLAT   ? "from flat on the ground"
+                  : options->start == THR_RISE_HEAP ? "from a heap"
+                                                    : "from its shape");
+
+  const int up = count_up(runs);
+  const thr_rise_moment *last = &record->moment[record->held ? record->held - 1 : 0];
+  if (runs->n_runs > 1) thr_text_printf(text, "comes up in %d of %d runs", up, runs->n_runs);
+  else thr_text_append(text, up ? "comes up" : "does not come up");
+  if (2 * up > runs->n_runs) {
+    thr_text_append(text, options->start == THR_RISE_SHAPE ? ": it stands at " : " at ");
+    put_spread(runs, pull_up, "N", text);
+    thr_text_append(text, " at every end");
+  }
+  thr_text_printf(text, "\n%d of %d faces closed, highest node at %.3g mm, %.3g mm of cord drawn in\n",
+                  record->most_closed, record->n_passes, last->height, last->drawn);
+  if (record->most_closed < record->n_passes) {
+    const char *name[2] = {"", ""};
+    pieces_of(runs, record->loosest, name);
+    thr_text_printf(text, "the widest gap stays between %s and %s\n", name[0], name[1]);
+  }
+  thr_text_append(text, "differs from the drawn shape by ");
+  put_spread(runs, off_of, "mm at most", text);
+  thr_text_append(text, "\n");
+  if (options->let_down) {
+    if (record->fell >= 0) {
+      thr_text_append(text, "let down, it falls below ");
+      put_spread(runs, pull_down, "N", text);
+      thr_text_append(text, "\n");
+    } else
+      thr_text_append(text, "let down, it does not fall\n");
+  }
+}
+
+/* Writes the moments of a run, and with `motion` the place of every piece. */
+static void write_run(thr_writer *writer, const rise_runs *runs, int i, bool motion)
+{
+  const thr_rise_record *record = &runs->record[i];
+  thr_write_object(writer, NULL);
+  thr_write_int(writer, "seed", runs->args->first_seed + i);
+  thr_write_bool(writer, "came_up", record->came_up >= 0);
+  if (record->came_up >= 0) thr_write_number(writer, "pull_up", pull_up(record));
+  if (record->fell >= 0) thr_write_number(writer, "pull_down", pull_down(record));
+  thr_write_int(writer, "most_closed", record->most_closed);
+  thr_write_number(writer, "off", record->off);
+
+  thr_write_array(writer, "moments");
+  for (int f = 0; f < record->n_frames; f++) {
+    const thr_rise_moment *moment = &record->moment[f];
+    thr_write_row(writer, NULL);
+    thr_write_number(writer, NULL, moment->time);
+    thr_write_number(writer, NULL, moment->pull);
+    thr_write_number(writer, NULL, moment->drawn);
+    thr_write_int(writer, NULL, moment->closed);
+    thr_write_number(writer, NULL, moment->height);
+    thr_write_number(writer, NULL, moment->lift);
+    thr_write_close(writer);
+  }
+  thr_write_close(writer);
+
+  if (motion) {
+    thr_write_array(writer, "frames");
+    for (int f = 0; f < record->n_frames; f++)
+      thr_write_numbers(writer, NULL, record->pose[(size_t)f * (size_t)record->n_pieces],
+                        7 * record->n_pieces);
+    thr_write_close(writer);
+  }
+  thr_write_close(writer);
+}
+
+/* Appends everything as JSON. */
+static void put_json(const rise_runs *runs, bool motion, thr_text *text)
+{
+  const thr_rise_record *record = &runs->record[0];
+  thr_writer writer = {.out = text};
+  thr_write_object(&writer, NULL);
+  thr_write_string(&writer, "start", thr_rise_start_name(runs->args->start));
+  thr_write_int(&writer, "pieces", record->n_pieces);
+  thr_write_int(&writer, "faces", record->n_passes);
+  thr_write_number(&writer, "weight", record->weight);
+  thr_write_number(&writer, "seconds_a_frame", record->between);
+  thr_write_array(&writer, "runs");
+  for (int i = 0; i < runs->n_runs; i++)
+    write_run(&writer, runs, i, motion);
+  thr_write_close(&writer);
+  thr_write_close(&writer);
+  thr_text_append(text, "\n");
+}
+
+/* Prints and writes what was seen. Returns an exit code. */
+static int tell(const rise_runs *runs)
+{
+  thr_err err = {0};
+  thr_text text = {0};
+  int code = EXIT_SUCCESS;
+  if (runs->args->output) {
+    put_json(runs, true, &text);
+    code = cli_write_drawn(THR_OK, &text, runs->args->output, &err);
+    if (code) return code;
+  }
+  text = (thr_text){0};
+  if (runs->args->json) put_json(runs, false, &text);
+  else put_text(runs, &text);
+  code = cli_write(&text, "-");
+  if (code) return code;
+  return 2 * count_up(runs) > runs->n_runs ? EXIT_SUCCESS : EXIT_STAYS_DOWN;
+}
+
+/* ---- the runs ---- */
+
+/* Runs all seeds, and tells what was seen. Returns an exit code. */
+static int run_all(rise_runs *runs)
+{
+  const rise_arguments *args = runs->args;
+  thr_rise_options options = args->rise;
+  thr_err err = {0};
+  thr_limits limits = cli_limits(0);
+  double weight = 0;
+  for (int p = 0; p < runs->made.structure.n_pieces; p++)
+    weight += 1e-3 * runs->made.structure.piece[p].mass * runs->made.structure.physics.gravity;
+  int code = take_lift(args, runs->kit, weight, &options);
+  if (code >= 0) return code;
+
+  thr_status st = THR_OK;
+  for (int i = 0; i < args->seeds && !st; i++) {
+    options.seed = (uint64_t)(args->first_seed + i);
+    st = thr_rise_simulate(&runs->made.structure, &options, &limits, &runs->record[i], &err);
+    if (!st || (st == THR_ELIMIT && i == 0 && runs->record[i].held)) runs->n_runs++;
+    else thr_rise_record_destroy(&runs->record[i]);
+  }
+  cli_progress_end();
+  if (runs->n_runs == 0) return cli_fail(&err);
+  code = tell(runs);
+  if (!st) return code;
+  const int failed = cli_fail(&err);
+  return code > EXIT_STAYS_DOWN ? code : failed;
+}
+
+/* Makes the kit of a plan, and what rises from it. Returns an exit code. */
+static int make_and_run(const rise_arguments *args, const thr_plan *plan)
+{
+  thr_err err = {0};
+  thr_kit kit;
+  rise_runs runs = {.args = args, .kit = &kit};
+  thr_physics physics;
+  thr_limits limits = cli_limits(0);
+  thr_pull *pull = thr_calloc((size_t)plan->n_cords, sizeof *pull);
+  runs.record = thr_calloc((size_t)args->seeds, sizeof *runs.record);
+  for (int c = 0; c < plan->n_cords && pull; c++)
+    pull[c] = THR_PULL_BOTH;
+
+  thr_status st = thr_kit_make(&kit, plan, &args->kit, NULL, false, &limits, &err);
+  if (!st && (!pull || !runs.record)) st = thr_nomem(&err);
+  if (!st) st = thr_physics_resolve(&plan->options.physics, &plan->frame, &physics, &err);
+  if (!st) st = thr_rise_kit_make(&runs.made, &kit, pull, &physics, &err);
+  const int code = st ? cli_fail(&err) : run_all(&runs);
+
+  for (int i = 0; i < args->seeds && runs.record; i++)
+    thr_rise_record_destroy(&runs.record[i]);
+  free(runs.record);
+  free(pull);
+  thr_rise_kit_destroy(&runs.made);
+  thr_kit_destroy(&kit);
+  return code;
+}
+
+/* Runs `thread rise` and returns the exit code. */
+int cmd_rise(int argc, char **argv)
+{
+  static const cli_syntax syntax = {"rise", intro, outro};
+  rise_arguments asked = {.guard = guard_limits_default(),
+                          .rise = {.pull = HAND},
+                          .kit = {.names = THR_KIT_NO_NAMES},
+                          .seeds = 1,
+                          .first_seed = 1};
+  guard_end end;
+  const cli_group groups[] = {{"Options", own_options, &asked},
+                              {"Shape", shape_options, &asked},
+                              {NULL, guard_options, &asked.guard},
+                              {cli_tuned, tuned_options, &asked},
+                              {NULL}};
+  int code = cli_options(argc, argv, &syntax, groups);
+  if (code >= 0) return code;
+  if (optind + 1 != argc)
+    return cli_usage("rise", optind == argc ? "which plan?" : "one plan at a time");
+  if (asked.lift && asked.raise) return cli_usage("rise", "--lift or --raise, not both");
+  asked.rise.start = (thr_rise_start)asked.start;
+  asked.rise.iterations = (int)asked.iterations;
+
+  /* The child does all of the work. */
+  if (guard_fork(&asked.guard, &end)) return guard_conclude(&end, "nothing was seen");
+
+  thr_plan plan;
+  code = cli_read_plan(argv[optind], &plan);
+  if (code) return code;
+  code = make_and_run(&asked, &plan);
+  thr_plan_destroy(&plan);
+  return code;
+}

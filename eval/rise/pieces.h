@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The pieces of a rising structure as bodies in Bullet. Only rise.c uses this.
+ *
+ * Units in the world: UNIT_EDGE units are a mean distance of neighbouring nodes, since Bullet's
+ * tolerances are meant for bodies of that size; the mean piece weighs 1; seconds are seconds. */
+#ifndef THR_RISE_PIECES_H
+#define THR_RISE_PIECES_H
+
+#include "eval/joint/world.h"
+#include "eval/rise/rise.h"
+#include "graph/arrays.h"
+
+typedef struct {
+  const thr_rise_structure *structure;
+  double edge;       /* mm, mean distance of pieces that follow each other on cords */
+  double length;     /* mm in a unit */
+  double mass;       /* g in a unit */
+  double force;      /* N in a unit */
+  thr_world *world;
+  int *body;         /* [n_pieces] */
+  double (*pose)[7]; /* [n_pieces] of mass centres, in the world's units, as they are now */
+  double (*turn)[9]; /* [n_pieces] the rotation matrices of these, by rows */
+  thr_scratch own;
+} thr_rise_bodies;
+
+/* The mean distance of pieces that follow each other on cords, mm; 0 without a pass. */
+double thr_rise_edge(const thr_rise_structure *structure);
+
+/* Makes ground and pieces, where options->start has them. Release with thr_rise_bodies_destroy,
+ * after a failure too. O(pieces^2) for heaps, else O(pieces). */
+thr_status thr_rise_bodies_make(thr_rise_bodies *bodies, const thr_rise_structure *structure,
+                                const thr_rise_options *options, double time_step,
+                                thr_err *err) THR_MUST_CHECK;
+void thr_rise_bodies_destroy(thr_rise_bodies *bodies);
+
+/* Reads where all pieces are now. */
+void thr_rise_look(thr_rise_bodies *bodies);
+
+/* Where a point of a piece is now, in the world's units; at: mm from the piece's node, as drawn. */
+void thr_rise_carried(const thr_rise_bodies *bodies, int piece, const double at[3], double out[3]);
+
+/* Turns a direction with a piece. */
+void thr_rise_turned(const thr_rise_bodies *bodies, int piece, const double v[3], double out[3]);
+
+#endif

@@ -1,0 +1,180 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Makes of a kit what can rise (rise_pieces.h). */
+#include "lib/rise_pieces.h"
+#include "eval/cord/profile.h"
+#include "graph/number.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { ROUND = 8, MOST_SIDES = ROUND }; /* corners of what stands for a circle */
+
+/* Fills the corners of a prism with n sides round an axis, from one end to the other. Corners are
+ * `radius` from the axis, the first at `first` rad from `up`. Returns their number. */
+static int prism(const double along[3], const double up[3], const double side[3], double from,
+                 double to, double radius, int n, double first, double (*corner)[3])
+{
+  for (int end = 0; end < 2; end++)
+    for (int i = 0; i < n; i++) {
+      const double angle = first + 2 * THR_PI * i / n;
+      for (int k = 0; k < 3; k++)
+        corner[end * n + i][k] = (end ? to : from) * along[k] +
+                                 radius * (cos(angle) * up[k] + sin(angle) * side[k]);
+    }
+  return 2 * n;
+}
+
+/* The cross-section of arms: sides, radius of its corners as a part of the width, and where the
+ * first one is. */
+static int section_of(thr_kit_profile profile, double *radius, double *first)
+{
+  *first = 0;
+  switch (profile) {
+  case THR_KIT_SQUARE:
+    *radius = sqrt(0.5);
+    *first = THR_PI / 4;
+    return 4;
+  case THR_KIT_HEX:
+    *radius = 1 / sqrt(3);
+    return 6;
+  default:
+    *radius = 0.5;
+    return ROUND;
+  }
+}
+
+/* Fills a piece from that of a kit. */
+static void make_piece(const thr_kit *kit, int p, int *n_corners, double (*corner)[3],
+                       thr_rise_piece *out)
+{
+  const thr_kit_piece *piece = &kit->piece[p];
+  double radius, first, volume = 0, moment = 0, centre[3] = {0, 0, 0};
+  const int sides = section_of(piece->profile, &radius, &first);
+  int n = 0;
+  *out = (thr_rise_piece){.n_corners = n_corners, .corner = (const double(*)[3])corner};
+  memcpy(out->centre, piece->centre, sizeof out->centre);
+
+  for (int i = 0; i < piece->n_arms; i++) {
+    const thr_kit_arm *arm = &piece->arm[i];
+    n_corners[out->n_parts++] = 2 * sides;
+    n += prism(arm->along, arm->up, arm->side, 0, arm->length, radius * arm->width, sides, first,
+               corner + n);
+
+    /* An arm of length a and width w has, for its mass, a^2 / 3 + w^2 / 6 about the node. */
+    const double length = arm->length, share = length * arm->width * arm->width;
+    volume += share;
+    moment += share * (length * length / 3 + arm->width * arm->width / 6);
+    for (int k = 0; k < 3; k++)
+      centre[k] += share * 0.5 * length * arm->along[k];
+  }
+  if (piece->foot) {
+    const double down[3] = {0, 0, -1}, x[3] = {1, 0, 0}, y[3] = {0, 1, 0};
+    n_corners[out->n_parts++] = 2 * ROUND;
+    prism(down, x, y, 0, piece->base, piece->pad, ROUND, THR_PI / ROUND, corner + n);
+  }
+  for (int k = 0; k < 3; k++)
+    out->mass_centre[k] = centre[k] / volume;
+
+  /* What is printed, if that is known. */
+  const thr_mesh_report *report = &kit->report[piece->like];
+  const double around = piece->profile == THR_KIT_ROUND ? THR_PI / 4 : 1;
+  double solid = around * volume;
+  if (report->volume > 0) {
+    double place[3];
+    solid = report->volume;
+    thr_kit_place(piece, report->centre, place);
+    for (int k = 0; k < 3; k++)
+      out->mass_centre[k] = place[k] - piece->centre[k];
+  }
+  out->mass = solid * kit->options.density / 1000;
+  const double off = thr_dot(out->mass_centre, out->mass_centre);
+  double least = INFINITY;
+  for (int i = 0; i < piece->n_arms; i++)
+    least = fmin(least, piece->arm[i].width);
+  out->moment = out->mass * 2. / 3 * fmax(moment / volume - off, least * least / 6);
+}
+
+/* Fills a cord. */
+static void make_cord(const thr_kit *kit, int c, thr_pull pull, const thr_physics *physics,
+                      int *piece, double (*mouth)[3], double (*along)[3], double *wobble,
+                      thr_rise_cord *out)
+{
+  const thr_frame *frame = &kit->plan->frame;
+  const thr_cord *cord = &kit->plan->cord[c];
+  *out = (thr_rise_cord){.n_passes = cord->n_passes,
+                         .piece = piece,
+                         .mouth = (const double(*)[3])mouth,
+                         .along = (const double(*)[3])along,
+                         .wobble = wobble,
+                         .pulled = {pull == THR_PULL_START || pull == THR_PULL_BOTH,
+                                    pull == THR_PULL_END || pull == THR_PULL_BOTH}};
+
+  for (int k = 0; k < cord->n_passes; k++) {
+    const int half = cord->half[k];
+    const thr_kit_edge *edge = &kit->edges.edge[half >> 1];
+    const int lane = edge->n_lanes > 1 ? kit->edges.lane[kit->edges.first_pass[c] + k] : 0;
+    piece[k] = thr_tail(frame, half);
+    piece[k + 1] = thr_head(frame, half);
+    const double *node = kit->piece[frame->edge[half >> 1][0]].centre;
+    for (int i = 0; i < 3; i++) {
+      mouth[k][i] = node[i] + 0.5 * edge->length * edge->along[i] +
+                    edge->lane[lane][0] * edge->up[i] + edge->lane[lane][1] * edge->side[i];
+      along[k][i] = half & 1 ? -edge->along[i] : edge->along[i];
+    }
+    if (k) wobble[k - 1] = thr_profile_wobble(frame, physics, cord, k - 1, physics->mu);
+  }
+}
+
+thr_status thr_rise_kit_make(thr_rise_kit *made, const thr_kit *kit, const thr_pull *pull,
+                             const thr_physics *physics, thr_err *err)
+{
+  const thr_plan *plan = kit->plan;
+  *made = (thr_rise_kit){0};
+  if (plan->options.joint != THR_JOINT_SOLID)
+    return thr_fail(err, THR_EINPUT, "rise: pieces that are tubes cannot be simulated: solid "
+                                     "joints only (plan --joint solid)");
+
+  /* All arrays, one after the other. */
+  size_t parts = 0, passes = 0, next = 0, pass = 0;
+  for (int p = 0; p < kit->n_pieces; p++)
+    parts += (size_t)kit->piece[p].n_arms + 1;
+  for (int c = 0; c < plan->n_cords; c++)
+    passes += (size_t)plan->cord[c].n_passes;
+  thr_rise_piece *piece =
+      thr_scratch_array(&made->own, (size_t)kit->n_pieces, sizeof *piece);
+  thr_rise_cord *cord = thr_scratch_array(&made->own, (size_t)plan->n_cords, sizeof *cord);
+  int *n_corners = thr_scratch_array(&made->own, parts, sizeof *n_corners);
+  double(*corner)[3] = thr_scratch_array(&made->own, parts * 2 * MOST_SIDES, sizeof *corner);
+  int *visited =
+      thr_scratch_array(&made->own, passes + (size_t)plan->n_cords, sizeof *visited);
+  double(*mouth)[3] = thr_scratch_array(&made->own, passes, sizeof *mouth);
+  double(*along)[3] = thr_scratch_array(&made->own, passes, sizeof *along);
+  double *wobble = thr_scratch_array(&made->own, passes, sizeof *wobble);
+  thr_status st = thr_scratch_check(&made->own, err);
+  if (st) return st;
+
+  for (int p = 0; p < kit->n_pieces; p++) {
+    make_piece(kit, p, n_corners + next, corner + next * 2 * MOST_SIDES, &piece[p]);
+    next += (size_t)kit->piece[p].n_arms + 1;
+  }
+  for (int c = 0; c < plan->n_cords; c++) {
+    make_cord(kit, c, pull[c], physics, visited + pass + (size_t)c, mouth + pass, along + pass,
+              wobble + pass, &cord[c]);
+    pass += (size_t)plan->cord[c].n_passes;
+  }
+
+  made->structure = (thr_rise_structure){.n_pieces = kit->n_pieces,
+                                         .n_cords = plan->n_cords,
+                                         .piece = piece,
+                                         .cord = cord,
+                                         .width = kit->options.width,
+                                         .mouth_depth = kit->cord,
+                                         .physics = *physics};
+  return THR_OK;
+}
+
+void thr_rise_kit_destroy(thr_rise_kit *made)
+{
+  thr_scratch_free(&made->own);
+  *made = (thr_rise_kit){0};
+}

@@ -1,0 +1,345 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cords that pull pieces that move, against closed forms: the capstan law over fixed pulleys, a
+ * pendulum, momentum, the best fit of two sets of points. */
+#include "eval/joint/world.h"
+#include "eval/rise/cable.h"
+#include "eval/rise/rise.h"
+#include "graph/arrays.h"
+#include "graph/number.h"
+#include "tests/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double G = 9.81;
+
+/* Tensions after pulling at the end, and after letting down: 2 4 8, then 2 2 1. */
+START_TEST(cord_pulled_and_let_down)
+{
+  double exponent[2] = {log(2), log(2)}, tension[3] = {0}, low[3], high[3], sum[3];
+  thr_cable cable = {.n = 3,
+                     .pulled = {false, true},
+                     .exponent = exponent,
+                     .tension = tension,
+                     .low = low,
+                     .high = high,
+                     .sum = sum};
+  const thr_friction friction = {.power = 1};
+  thr_cable_pull(&cable, (const double[2]){0, 8}, &friction);
+  const double up[3] = {2, 4, 8}, down[3] = {2, 2, 1};
+  for (int k = 0; k < 3; k++)
+    ck_assert_double_eq_tol(tension[k], up[k], 1e-12);
+  thr_cable_pull(&cable, (const double[2]){0, 1}, &friction);
+  for (int k = 0; k < 3; k++)
+    ck_assert_double_eq_tol(tension[k], down[k], 1e-12);
+
+  /* What holds is at most what the neighbours' friction leaves. */
+  thr_cable_felt(&cable, 1, 100, false);
+  ck_assert_double_eq_tol(tension[1], 2, 1e-12);
+}
+END_TEST
+
+/* Whatever the turns and pulls, neighbours differ by no more than friction holds. */
+START_TEST(cord_obeys_friction)
+{
+  enum { N = 12 };
+  double exponent[N - 1], tension[N] = {0}, low[N], high[N], sum[N];
+  thr_cable cable = {.n = N,
+                     .pulled = {true, true},
+                     .exponent = exponent,
+                     .tension = tension,
+                     .low = low,
+                     .high = high,
+                     .sum = sum};
+  const thr_friction friction = {.power = 1};
+  uint64_t state = 5;
+  for (int step = 0; step < 2000; step++) {
+    for (int k = 0; k < N - 1; k++)
+      exponent[k] = thr_random_unit(&state);
+    const double force[2] = {10 * thr_random_unit(&state), 10 * thr_random_unit(&state)};
+    thr_cable_pull(&cable, force, &friction);
+    ck_assert_double_le(tension[0], force[0] * (1 + 1e-12));
+    for (int k = 0; k < N - 1; k++)
+      ck_assert_double_le(fabs(log(tension[k + 1] / tension[k])), exponent[k] + 1e-9);
+    for (int k = 0; k < N; k++) {
+      ck_assert_double_le(low[k], tension[k]);
+      ck_assert_double_le(tension[k], high[k]);
+    }
+    thr_cable_felt(&cable, step % N, thr_random_unit(&state), step % 3 == 0);
+  }
+}
+END_TEST
+
+/* ---- pulleys: pieces that are held, a cord that turns over them, and a weight ---- */
+
+enum { PULLEYS = 5, CORNERS = 8 };
+static const double EDGE = 40, HALF = 5;
+
+/* Runs a weight that hangs from a cord over PULLEYS held pieces, each of which turns it by `turn`,
+ * pulled at the other end. Returns the pull, N, at which it begins to rise from the ground, or, if
+ * it is let down, at which it begins to sink. */
+static double hang_weight(double turn, double mu, bool let_down, double *weight)
+{
+  enum { N = PULLEYS + 2, LINKS = N - 1 };
+  thr_rise_piece piece[N + 1];
+  double corner[CORNERS][3], mouth[LINKS][3], along[LINKS][3], at[3] = {0, 0, 500}, sum = 0;
+  int visited[N], eight = CORNERS;
+  for (int i = 0; i < CORNERS; i++)
+    for (int k = 0; k < 3; k++)
+      corner[i][k] = (i >> k & 1 ? 1 : -1) * HALF;
+
+  /* From the weight upwards, whose mouth touches the first pulley from below, then over pulleys. */
+  for (int i = 0; i < N; i++) {
+    const double angle = i * turn, step = i == 0 ? 2 * HALF : EDGE;
+    piece[i] = (thr_rise_piece){.mass = 20,
+                                .moment = 20 * 2. / 3 * HALF * HALF,
+                                .n_parts = 1,
+                                .n_corners = &eight,
+                                .corner = (const double(*)[3])corner,
+                                .held = i > 0};
+    memcpy(piece[i].centre, at, sizeof at);
+    sum += at[0];
+    visited[i] = i;
+    if (i == LINKS) break;
+    const double direction[3] = {sin(angle), 0, cos(angle)};
+    memcpy(along[i], direction, sizeof direction);
+    for (int k = 0; k < 3; k++) {
+      mouth[i][k] = at[k] + 0.5 * step * direction[k];
+      at[k] += step * direction[k];
+    }
+  }
+
+  /* A piece that no cord knows stands on the ground, where it makes the weight the middle of all. */
+  piece[N] = piece[N - 1];
+  memcpy(piece[N].centre, (const double[3]){-sum, 0, 400}, sizeof piece[N].centre);
+
+  const thr_rise_cord cord = {.n_passes = LINKS,
+                              .piece = visited,
+                              .mouth = (const double(*)[3])mouth,
+                              .along = (const double(*)[3])along,
+                              .pulled = {false, true}};
+  const thr_rise_structure structure = {.n_pieces = N + 1,
+                                        .n_cords = 1,
+                                        .piece = piece,
+                                        .cord = &cord,
+                                        .width = 2 * HALF,
+                                        .mouth_depth = 1,
+                                        .physics = {.mu = mu,
+                                                    .mu_bead = 0.3,
+                                                    .mu_ground = 0.3,
+                                                    .gravity = G,
+                                                    .mu_power = 1}};
+  const thr_rise_options options = {.start = let_down ? THR_RISE_SHAPE : THR_RISE_FLAT,
+                                    .pull = 1,
+                                    .slower = let_down ? 4 : 12,
+                                    .hold = 0.3,
+                                    .let_down = let_down,
+                                    .seed = 1};
+  thr_err err = {0};
+  thr_rise_record record;
+  assert_ok(thr_rise_simulate(&structure, &options, NULL, &record, &err), &err);
+
+  /* Where it is while it hangs or lies, and the first frame in which it is not there. */
+  const int from = let_down ? record.held - 1 : 12;
+  const double rest = record.pose[(size_t)from * (N + 1)][2];
+  double found = NAN;
+  for (int i = from; i < record.n_frames && isnan(found); i++)
+    if (fabs(record.pose[(size_t)i * (N + 1)][2] - rest) > 0.5) found = record.moment[i].pull;
+  *weight = 20e-3 * G;
+  thr_rise_record_destroy(&record);
+  return found;
+}
+
+/* The weight rises where the pull is weight exp(mu angle), and sinks at weight exp(-mu angle). It
+ * is seen a little later: pulls change by 1 % and by 1.3 % from frame to frame. */
+START_TEST(capstan_over_pulleys)
+{
+  const double turn = 0.3, mu = 0.1 * (_i / 2 + 1), angle = turn * PULLEYS;
+  double weight;
+  const double found = hang_weight(turn, mu, _i % 2, &weight),
+               expected = weight * exp((_i % 2 ? -1 : 1) * mu * angle);
+  const double late = _i % 2 ? expected / found : found / expected;
+  ck_assert_msg(late > 0.99 && late < 1.06, "mu %g: moves at %g N, not %g", mu, found, expected);
+}
+END_TEST
+
+/* ---- a pendulum, and two bodies in empty space ---- */
+
+static const double cube[8][3] = {{-0.1, -0.1, -0.1}, {0.1, -0.1, -0.1}, {-0.1, 0.1, -0.1},
+                                  {0.1, 0.1, -0.1},   {-0.1, -0.1, 0.1}, {0.1, -0.1, 0.1},
+                                  {-0.1, 0.1, 0.1},   {0.1, 0.1, 0.1}};
+
+static thr_world *world_of(double gravity, double dt)
+{
+  const thr_world_options options = {.time_step = dt,
+                                     .iterations = 60,
+                                     .gravity = {0, 0, -gravity},
+                                     .erp = -1,
+                                     .erp2 = -1,
+                                     .cfm = -1,
+                                     .split_impulse = true,
+                                     .warm_start = true,
+                                     .faces = true};
+  thr_err err = {0};
+  thr_world *world;
+  ck_assert_int_eq(thr_world_create(&world, &options, &err), THR_OK);
+  return world;
+}
+
+static int add_cube(thr_world *world, double mass, const double at[3])
+{
+  static const int eight = 8;
+  thr_err err = {0};
+  int body;
+  const thr_world_hulls hulls = {.n_hulls = 1,
+                                 .n_points = &eight,
+                                 .points = cube,
+                                 .mass = mass,
+                                 .moment = 0.01 * mass,
+                                 .pose = {at[0], at[1], at[2], 0, 0, 0, 1},
+                                 .friction = 0.5,
+                                 .group = 1,
+                                 .mask = 1};
+  ck_assert_int_eq(thr_world_add_hulls(world, &hulls, &body, &err), THR_OK);
+  return body;
+}
+
+/* A cord that holds is as good as a rod: the time of swing is 2 pi root(l / g), and nobody gives
+ * energy. */
+START_TEST(pendulum)
+{
+  const double dt = 1e-3, length = 2, angle = 0.1;
+  thr_err err = {0};
+  thr_world *world = world_of(G, dt);
+  const double middle[3] = {0, 0, 0},
+               start[3] = {length * sin(angle), 0, -length * cos(angle)};
+  int hook = add_cube(world, 0, middle), bob = add_cube(world, 1, start), cord;
+  ck_assert_int_eq(thr_world_add_cord(world, hook, middle, bob, middle, &cord, &err), THR_OK);
+
+  double before = start[0], crossed[2] = {0, 0}, most = -G * length * cos(angle);
+  int n = 0;
+  for (int step = 1; step < 8000 && n < 2; step++) {
+    thr_world_pull(world, cord, 0, 0, 1e6);
+    ck_assert_int_eq(thr_world_step(world, &err), THR_OK);
+    double pose[7], linear[3], angular[3];
+    thr_world_pose(world, bob, pose);
+    thr_world_velocity(world, bob, linear, angular);
+    ck_assert_double_le(0.5 * thr_dot(linear, linear) + G * pose[2], most + 1e-2);
+    if (before > 0 && pose[0] <= 0)
+      crossed[n++] = dt * (step - pose[0] / (pose[0] - before));
+    before = pose[0];
+  }
+  const double period = 2 * THR_PI * sqrt(length / G) * (1 + angle * angle / 16);
+  ck_assert_int_eq(n, 2);
+  ck_assert_double_eq_tol(crossed[1] - crossed[0], period, 0.01 * period);
+  thr_world_destroy(world);
+}
+END_TEST
+
+/* Two bodies that a cord pulls together keep their momentum, linear and about any point. */
+START_TEST(momentum)
+{
+  thr_err err = {0};
+  thr_world *world = world_of(0, 1e-3);
+  int one = add_cube(world, 1, (const double[3]){0, 0, 0}),
+      other = add_cube(world, 3, (const double[3]){2, 0.5, -0.3}), cord;
+  const double from[3] = {0.1, 0.05, 0}, to[3] = {-0.1, 0, 0.08};
+  ck_assert_int_eq(thr_world_add_cord(world, one, from, other, to, &cord, &err), THR_OK);
+
+  for (int step = 0; step < 1000; step++) {
+    thr_world_pull(world, cord, 2, 1.5, 0);
+    ck_assert_int_eq(thr_world_step(world, &err), THR_OK);
+  }
+  double sum[3] = {0, 0, 0}, about[3] = {0, 0, 0};
+  const int body[2] = {one, other};
+  const double mass[2] = {1, 3};
+  for (int i = 0; i < 2; i++) {
+    double pose[7], linear[3], angular[3], turn[3];
+    thr_world_pose(world, body[i], pose);
+    thr_world_velocity(world, body[i], linear, angular);
+    thr_cross(pose, linear, turn);
+    for (int k = 0; k < 3; k++) {
+      sum[k] += mass[i] * linear[k];
+      about[k] += mass[i] * (turn[k] + 0.01 * angular[k]);
+    }
+  }
+  for (int k = 0; k < 3; k++) {
+    ck_assert_double_eq_tol(sum[k], 0, 1e-9);
+    ck_assert_double_eq_tol(about[k], 0, 0.02);
+  }
+  thr_world_destroy(world);
+}
+END_TEST
+
+/* ---- the best fit ---- */
+
+/* A rotated, shifted set fits exactly; with one point moved by d, the largest distance is below d.
+ */
+START_TEST(best_fit)
+{
+  enum { N = 20 };
+  double from[N][3], to[N][3], q[4], shift[3];
+  uint64_t state = 3;
+  for (int run = 0; run < 50; run++) {
+    double axis[3], norm = 0;
+    for (int k = 0; k < 3; k++)
+      axis[k] = thr_random_disorder(&state);
+    norm = thr_normalize(axis);
+    const double angle = 3 * norm, c = cos(angle), s = sin(angle);
+    for (int i = 0; i < N; i++) {
+      double side[3];
+      for (int k = 0; k < 3; k++)
+        from[i][k] = 100 * thr_random_disorder(&state);
+      thr_cross(axis, from[i], side);
+      const double part = thr_dot(axis, from[i]);
+      for (int k = 0; k < 3; k++)
+        to[i][k] = c * from[i][k] + s * side[k] + (1 - c) * part * axis[k] + 7 * (k + 1);
+    }
+    ck_assert_double_le(
+        thr_fit_points((const double(*)[3])from, (const double(*)[3])to, N, q, shift), 1e-9);
+    ck_assert_double_eq_tol(fabs(q[3]), fabs(cos(angle / 2)), 1e-9);
+    to[0][0] += 5;
+    const double off = thr_fit_points((const double(*)[3])from, (const double(*)[3])to, N, q, shift);
+    ck_assert_double_lt(off, 5);
+    ck_assert_double_gt(off, 4);
+  }
+}
+END_TEST
+
+/* What cannot be simulated is refused in one line. */
+START_TEST(refusals)
+{
+  thr_rise_record record;
+  thr_err err = {0};
+  const thr_rise_structure none = {.physics = {.gravity = G}};
+  const thr_rise_options gentle = {.pull = 1}, nothing = {.pull = 0};
+  const thr_rise_structure space = {.physics = {.gravity = 0}};
+  const struct {
+    const thr_rise_structure *structure;
+    const thr_rise_options *options;
+    const char *word;
+  } refused[] = {{&none, &nothing, "more than 0 N"},
+                 {&none, &gentle, "no cord has an end that is pulled"},
+                 {&space, &gentle, "gravity"}};
+  for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+    const thr_status st =
+        thr_rise_simulate(refused[i].structure, refused[i].options, NULL, &record, &err);
+    assert_status(st, THR_EINPUT, &err, refused[i].word);
+    thr_rise_record_destroy(&record);
+  }
+}
+END_TEST
+
+int main(void)
+{
+  Suite *s = suite_create("rise");
+  ADD_TEST(s, 10, cord_pulled_and_let_down);
+  ADD_TEST(s, 10, cord_obeys_friction);
+  ADD_LOOP(s, 60, capstan_over_pulleys, 0, 6);
+  ADD_TEST(s, 20, pendulum);
+  ADD_TEST(s, 20, momentum);
+  ADD_TEST(s, 20, best_fit);
+  ADD_TEST(s, 20, refusals);
+  return run_suite(s);
+}
