@@ -18,8 +18,8 @@ static int prism(const double along[3], const double up[3], const double side[3]
     for (int i = 0; i < n; i++) {
       const double angle = first + 2 * THR_PI * i / n;
       for (int k = 0; k < 3; k++)
-        corner[end * n + i][k] = (end ? to : from) * along[k] +
-                                 radius * (cos(angle) * up[k] + sin(angle) * side[k]);
+        corner[end * n + i][k] =
+            (end ? to : from) * along[k] + radius * (cos(angle) * up[k] + sin(angle) * side[k]);
     }
   return 2 * n;
 }
@@ -34,12 +34,8 @@ static int section_of(thr_kit_profile profile, double *radius, double *first)
     *radius = sqrt(0.5);
     *first = THR_PI / 4;
     return 4;
-  case THR_KIT_HEX:
-    *radius = 1 / sqrt(3);
-    return 6;
-  default:
-    *radius = 0.5;
-    return ROUND;
+  case THR_KIT_HEX: *radius = 1 / sqrt(3); return 6;
+  default: *radius = 0.5; return ROUND;
   }
 }
 
@@ -131,8 +127,9 @@ thr_status thr_rise_kit_make(thr_rise_kit *made, const thr_kit *kit, const thr_p
   const thr_plan *plan = kit->plan;
   *made = (thr_rise_kit){0};
   if (plan->options.joint != THR_JOINT_SOLID)
-    return thr_fail(err, THR_EINPUT, "rise: pieces that are tubes cannot be simulated: solid "
-                                     "joints only (plan --joint solid)");
+    return thr_fail(err, THR_EINPUT,
+                    "rise: pieces that are tubes cannot be simulated: solid "
+                    "joints only (plan --joint solid)");
 
   /* All arrays, one after the other. */
   size_t parts = 0, passes = 0, next = 0, pass = 0;
@@ -140,13 +137,11 @@ thr_status thr_rise_kit_make(thr_rise_kit *made, const thr_kit *kit, const thr_p
     parts += (size_t)kit->piece[p].n_arms + 1;
   for (int c = 0; c < plan->n_cords; c++)
     passes += (size_t)plan->cord[c].n_passes;
-  thr_rise_piece *piece =
-      thr_scratch_array(&made->own, (size_t)kit->n_pieces, sizeof *piece);
+  thr_rise_piece *piece = thr_scratch_array(&made->own, (size_t)kit->n_pieces, sizeof *piece);
   thr_rise_cord *cord = thr_scratch_array(&made->own, (size_t)plan->n_cords, sizeof *cord);
   int *n_corners = thr_scratch_array(&made->own, parts, sizeof *n_corners);
   double(*corner)[3] = thr_scratch_array(&made->own, parts * 2 * MOST_SIDES, sizeof *corner);
-  int *visited =
-      thr_scratch_array(&made->own, passes + (size_t)plan->n_cords, sizeof *visited);
+  int *visited = thr_scratch_array(&made->own, passes + (size_t)plan->n_cords, sizeof *visited);
   double(*mouth)[3] = thr_scratch_array(&made->own, passes, sizeof *mouth);
   double(*along)[3] = thr_scratch_array(&made->own, passes, sizeof *along);
   double *wobble = thr_scratch_array(&made->own, passes, sizeof *wobble);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The pieces and cords of a kit as what can rise (eval/rise/rise.h): convex parts, masses, mouths. */
+/* The pieces and cords of a kit as what can rise (eval/rise/rise.h): convex parts, masses, mouths.
+ */
 #ifndef THR_RISE_PIECES_OF_KIT_H
 #define THR_RISE_PIECES_OF_KIT_H
 

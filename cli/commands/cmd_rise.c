@@ -9,10 +9,14 @@
 #include "cli/args/args.h"
 #include "cli/cli.h"
 #include "cli/commands/commands.h"
+#include "diagram/overview/charts.h"
+#include "eval/eval.h"
 #include "eval/rise/rise.h"
+#include "graph/arrays.h"
 #include "graph/io/json.h"
 #include "graph/number.h"
 #include "graph/plan/plan.h"
+#include "graph/process/process.h"
 #include "graph/text.h"
 #include "kit/kit.h"
 #include "lib/rise_pieces.h"
@@ -33,7 +37,7 @@ static const char outro[] =
     "Exit codes: 0 it comes up in most runs, 1 it does not, 2 usage, 3 not a plan or nothing that "
     "can be simulated, 5 not done in the time or memory (what was seen is printed)";
 
-enum { MOST_SEEDS = 1000, EXIT_STAYS_DOWN = 1 };
+enum { MOST_SEEDS = 1000, MOST_MOMENTS = 4000, EXIT_STAYS_DOWN = 1 };
 static const double HAND = 50;   /* N, the most that a hand pulls once */
 static const double LIFTING = 2; /* of the structure's weight, that a hand carries at most */
 
@@ -42,7 +46,8 @@ typedef struct {
   thr_rise_options rise;
   thr_kit_options kit;
   guard_limits guard;
-  const char *lift, *raise, *output;
+  const char *lift, *raise, *output, *plot;
+  const char *path;
   int seeds, first_seed, start;
   double time_step, iterations;
   bool json, let_down;
@@ -72,6 +77,8 @@ static const cli_option own_options[] = {
      .help = "of the first run (default: 1)"},
     {"output", 'o', .value = "FILE", .kind = CLI_OUTPUT, AT(output),
      .help = "write what was seen, with the place of every piece, as JSON"},
+    {"plot", .value = "FILE.svg", .kind = CLI_OUTPUT, AT(plot),
+     .help = "draw pull and closed faces against the cord that is drawn in"},
     {"json", .kind = CLI_FLAG, AT(json), .help = "print the answers as JSON"},
     {0}};
 
@@ -94,9 +101,17 @@ typedef struct {
   const rise_arguments *args;
   const thr_kit *kit;
   thr_rise_kit made;
+  thr_rise_options options; /* of the first run */
   int n_runs;
-  thr_rise_record *record; /* [seeds] of which n_runs are done */
+  thr_rise_record *record; /* [seeds] of which n_runs are done; only the first has poses */
+  double seated, stands;   /* N, by the closed form and by limit analysis; NAN: not known */
 } rise_runs;
+
+/* What a process returns of a run. */
+typedef struct {
+  thr_rise_record record; /* without its arrays */
+  thr_rise_moment moment[MOST_MOMENTS];
+} rise_result;
 
 /* The piece with this name, as documents call it or as the framework does; -1. */
 static int piece_named(const thr_kit *kit, const char *name)
@@ -114,8 +129,7 @@ static int take_lift(const rise_arguments *args, const thr_kit *kit, double weig
   const char *words = args->raise ? args->raise : args->lift;
   if (!words) return -1;
   const char *equals = args->raise ? words + strlen(words) : strrchr(words, '=');
-  if (!equals)
-    return cli_usage("rise", "--lift %s: expected a piece and newtons, as D4=2", words);
+  if (!equals) return cli_usage("rise", "--lift %s: expected a piece and newtons, as D4=2", words);
   snprintf(name, sizeof name, "%.*s", (int)(equals - words), words);
   options->lifted = piece_named(kit, name);
   options->carried = args->raise != NULL;
@@ -221,20 +235,28 @@ static void put_text(const rise_runs *runs, thr_text *text)
 
   const int up = count_up(runs);
   const thr_rise_moment *last = &record->moment[record->held ? record->held - 1 : 0];
-  if (runs->n_runs > 1) thr_text_printf(text, "comes up in %d of %d runs", up, runs->n_runs);
-  else thr_text_append(text, up ? "comes up" : "does not come up");
+  if (runs->n_runs > 1)
+    thr_text_printf(text, "comes up in %d of %d runs", up, runs->n_runs);
+  else
+    thr_text_append(text, up ? "comes up" : "does not come up");
   if (2 * up > runs->n_runs) {
     thr_text_append(text, options->start == THR_RISE_SHAPE ? ": it stands at " : " at ");
     put_spread(runs, pull_up, "N", text);
     thr_text_append(text, " at every end");
   }
-  thr_text_printf(text, "\n%d of %d faces closed, highest node at %.3g mm, %.3g mm of cord drawn in\n",
+  thr_text_printf(text,
+                  "\n%d of %d faces closed, highest node at %.3g mm, %.3g mm of cord drawn in\n",
                   record->most_closed, record->n_passes, last->height, last->drawn);
   if (record->most_closed < record->n_passes) {
     const char *name[2] = {"", ""};
     pieces_of(runs, record->loosest, name);
     thr_text_printf(text, "the widest gap stays between %s and %s\n", name[0], name[1]);
   }
+  if (runs->seated > 0 && isfinite(runs->seated))
+    thr_text_printf(text, "by the closed form %.3g N seat every pass", runs->seated);
+  if (runs->stands > 0 && isfinite(runs->stands))
+    thr_text_printf(text, "; by limit analysis it stands from %.3g N on", runs->stands);
+  if (runs->seated > 0) thr_text_append(text, "\n");
   thr_text_append(text, "differs from the drawn shape by ");
   put_spread(runs, off_of, "mm at most", text);
   thr_text_append(text, "\n");
@@ -274,7 +296,7 @@ static void write_run(thr_writer *writer, const rise_runs *runs, int i, bool mot
   }
   thr_write_close(writer);
 
-  if (motion) {
+  if (motion && record->pose) {
     thr_write_array(writer, "frames");
     for (int f = 0; f < record->n_frames; f++)
       thr_write_numbers(writer, NULL, record->pose[(size_t)f * (size_t)record->n_pieces],
@@ -295,12 +317,42 @@ static void put_json(const rise_runs *runs, bool motion, thr_text *text)
   thr_write_int(&writer, "faces", record->n_passes);
   thr_write_number(&writer, "weight", record->weight);
   thr_write_number(&writer, "seconds_a_frame", record->between);
+  thr_write_number(&writer, "closed_form", runs->seated);
+  thr_write_number(&writer, "limit_analysis", runs->stands);
   thr_write_array(&writer, "runs");
   for (int i = 0; i < runs->n_runs; i++)
     write_run(&writer, runs, i, motion);
   thr_write_close(&writer);
   thr_write_close(&writer);
   thr_text_append(text, "\n");
+}
+
+/* Draws the plot. */
+static int write_plot(const rise_runs *runs, const char *name)
+{
+  thr_err err = {0};
+  thr_text svg = {0};
+  thr_scratch own = {0};
+  thr_rise_line *line = thr_scratch_array(&own, (size_t)runs->n_runs, sizeof *line);
+  thr_status st = thr_scratch_check(&own, &err);
+  for (int r = 0; r < runs->n_runs && !st; r++) {
+    const thr_rise_record *record = &runs->record[r];
+    const size_t n = (size_t)record->n_frames;
+    double *value = thr_scratch_array(&own, 3 * n, sizeof *value);
+    st = thr_scratch_check(&own, &err);
+    if (st) break;
+    line[r] = (thr_rise_line){record->held, value, value + n, value + 2 * n};
+    for (size_t i = 0; i < n; i++) {
+      value[i] = record->moment[i].drawn;
+      value[n + i] = record->moment[i].pull;
+      value[2 * n + i] = (double)record->moment[i].closed / record->n_passes;
+    }
+  }
+  const thr_rise_chart chart = {
+      name, &runs->made.structure.physics, runs->seated, runs->stands, runs->n_runs, line};
+  if (!st) st = thr_rise_svg(&chart, &svg, &err);
+  thr_scratch_free(&own);
+  return cli_write_drawn(st, &svg, runs->args->plot, &err);
 }
 
 /* Prints and writes what was seen. Returns an exit code. */
@@ -314,9 +366,15 @@ static int tell(const rise_runs *runs)
     code = cli_write_drawn(THR_OK, &text, runs->args->output, &err);
     if (code) return code;
   }
+  if (runs->args->plot) {
+    code = write_plot(runs, runs->args->path);
+    if (code) return code;
+  }
   text = (thr_text){0};
-  if (runs->args->json) put_json(runs, false, &text);
-  else put_text(runs, &text);
+  if (runs->args->json)
+    put_json(runs, false, &text);
+  else
+    put_text(runs, &text);
   code = cli_write(&text, "-");
   if (code) return code;
   return 2 * count_up(runs) > runs->n_runs ? EXIT_SUCCESS : EXIT_STAYS_DOWN;
@@ -324,26 +382,103 @@ static int tell(const rise_runs *runs)
 
 /* ---- the runs ---- */
 
+/* Runs seed first_seed + 1 + job in a process of its own. Signature of thr_work.run. */
+static thr_status run_job(void *user, int job, void *result, thr_err *err)
+{
+  const rise_runs *runs = user;
+  rise_result *out = result;
+  thr_rise_options options = runs->options;
+  thr_rise_record record;
+  options.seed += (uint64_t)job + 1;
+  thr_status st = thr_rise_simulate(&runs->made.structure, &options, NULL, &record, err);
+  if (!st) {
+    out->record = record;
+    if (record.n_frames > MOST_MOMENTS) out->record.n_frames = MOST_MOMENTS;
+    memcpy(out->moment, record.moment, (size_t)out->record.n_frames * sizeof *out->moment);
+    out->record.moment = NULL;
+    out->record.pose = NULL;
+    out->record.tension = NULL;
+  }
+  thr_rise_record_destroy(&record);
+  return st;
+}
+
+/* Runs all seeds but the first in parallel processes. Those that are finished follow each other. */
+static thr_status run_others(rise_runs *runs, const thr_limits *limits, thr_err *err)
+{
+  const int n = runs->args->seeds - 1;
+  const thr_work work = {.n_jobs = n,
+                         .result_size = sizeof(rise_result),
+                         .run = run_job,
+                         .user = runs,
+                         .what = "simulating",
+                         .advice = "fewer --seeds"};
+  rise_result *result = thr_calloc((size_t)n, sizeof *result);
+  bool *finished = thr_calloc((size_t)n, sizeof *finished);
+  thr_status st = result && finished
+                      ? thr_workers_run(&work, cli_processes(), limits, result, finished, err)
+                      : thr_nomem(err);
+  for (int i = 0; i < n && result && finished; i++) {
+    thr_rise_record *record = &runs->record[runs->n_runs];
+    if (!finished[i]) continue;
+    *record = result[i].record;
+    record->moment = thr_calloc((size_t)record->n_frames, sizeof *record->moment);
+    if (!record->moment) {
+      *record = (thr_rise_record){0};
+      st = thr_nomem(err);
+      break;
+    }
+    memcpy(record->moment, result[i].moment, (size_t)record->n_frames * sizeof *record->moment);
+    runs->n_runs++;
+  }
+  free(result);
+  free(finished);
+  return st;
+}
+
+/* What the closed form and the limit analysis say of the closed shape, N at every end. */
+static void foretell(rise_runs *runs, const thr_plan *plan, const thr_limits *limits)
+{
+  thr_err err = {0};
+  runs->seated = runs->stands = NAN;
+  for (int method = 0; method < 2; method++) {
+    thr_eval eval;
+    thr_eval_options options = thr_eval_options_default();
+    options.physics = plan->options.physics;
+    options.pull = THR_PULL_BOTH;
+    options.dynamics = false;
+    if (method == 1 && plan->frame.n_nodes > THR_HOLDS_LARGEST) break;
+    if (!thr_eval_plan(&plan->frame, plan->cord, plan->n_cords,
+                       method ? THR_STRUCTURE : THR_CAPSTAN, &options, limits, &eval, &err)) {
+      if (method)
+        runs->stands = eval.equal.present ? eval.equal.lower : eval.holding.lower;
+      else
+        runs->seated = eval.record.largest;
+    }
+    thr_eval_destroy(&eval);
+    err = (thr_err){0};
+  }
+}
+
 /* Runs all seeds, and tells what was seen. Returns an exit code. */
-static int run_all(rise_runs *runs)
+static int run_all(rise_runs *runs, const thr_plan *plan)
 {
   const rise_arguments *args = runs->args;
-  thr_rise_options options = args->rise;
   thr_err err = {0};
   thr_limits limits = cli_limits(0);
   double weight = 0;
   for (int p = 0; p < runs->made.structure.n_pieces; p++)
     weight += 1e-3 * runs->made.structure.piece[p].mass * runs->made.structure.physics.gravity;
-  int code = take_lift(args, runs->kit, weight, &options);
+  runs->options = args->rise;
+  runs->options.seed = (uint64_t)args->first_seed;
+  int code = take_lift(args, runs->kit, weight, &runs->options);
   if (code >= 0) return code;
 
-  thr_status st = THR_OK;
-  for (int i = 0; i < args->seeds && !st; i++) {
-    options.seed = (uint64_t)(args->first_seed + i);
-    st = thr_rise_simulate(&runs->made.structure, &options, &limits, &runs->record[i], &err);
-    if (!st || (st == THR_ELIMIT && i == 0 && runs->record[i].held)) runs->n_runs++;
-    else thr_rise_record_destroy(&runs->record[i]);
-  }
+  foretell(runs, plan, &limits);
+  thr_status st =
+      thr_rise_simulate(&runs->made.structure, &runs->options, &limits, &runs->record[0], &err);
+  if (!st || (st == THR_ELIMIT && runs->record[0].held)) runs->n_runs = 1;
+  if (!st && args->seeds > 1) st = run_others(runs, &limits, &err);
   cli_progress_end();
   if (runs->n_runs == 0) return cli_fail(&err);
   code = tell(runs);
@@ -369,7 +504,7 @@ static int make_and_run(const rise_arguments *args, const thr_plan *plan)
   if (!st && (!pull || !runs.record)) st = thr_nomem(&err);
   if (!st) st = thr_physics_resolve(&plan->options.physics, &plan->frame, &physics, &err);
   if (!st) st = thr_rise_kit_make(&runs.made, &kit, pull, &physics, &err);
-  const int code = st ? cli_fail(&err) : run_all(&runs);
+  const int code = st ? cli_fail(&err) : run_all(&runs, plan);
 
   for (int i = 0; i < args->seeds && runs.record; i++)
     thr_rise_record_destroy(&runs.record[i]);
@@ -390,16 +525,16 @@ int cmd_rise(int argc, char **argv)
                           .seeds = 1,
                           .first_seed = 1};
   guard_end end;
-  const cli_group groups[] = {{"Options", own_options, &asked},
-                              {"Shape", shape_options, &asked},
-                              {NULL, guard_options, &asked.guard},
-                              {cli_tuned, tuned_options, &asked},
-                              {NULL}};
+  const cli_group groups[] = {
+      {"Options", own_options, &asked},    {"Shape", shape_options, &asked},
+      {NULL, guard_options, &asked.guard}, {NULL, cli_processes_options, NULL},
+      {cli_tuned, tuned_options, &asked},  {NULL}};
   int code = cli_options(argc, argv, &syntax, groups);
   if (code >= 0) return code;
   if (optind + 1 != argc)
     return cli_usage("rise", optind == argc ? "which plan?" : "one plan at a time");
   if (asked.lift && asked.raise) return cli_usage("rise", "--lift or --raise, not both");
+  asked.path = argv[optind];
   asked.rise.start = (thr_rise_start)asked.start;
   asked.rise.iterations = (int)asked.iterations;
 

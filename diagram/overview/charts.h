@@ -107,4 +107,28 @@ typedef struct {
  * failure. O(n). */
 thr_status thr_load_svg(const thr_load_chart *chart, thr_text *svg, thr_err *err) THR_MUST_CHECK;
 
+/* ---- rise_chart.c: The picture of a structure that rises: pull and closed faces against the cord
+ * that is drawn in. */
+
+/* A run. */
+typedef struct {
+  int n;
+  const double *drawn;  /* [n] mm, of all ends together */
+  const double *pull;   /* [n] N at every end */
+  const double *closed; /* [n] of all faces, 0 to 1 */
+} thr_rise_line;
+
+typedef struct {
+  const char *name;           /* of the plan; borrowed */
+  const thr_physics *physics; /* resolved */
+  double seated; /* N at every end, by the closed form, that seats every pass; NAN: not known */
+  double stands; /* N, below which no equilibrium of the closed shape exists; NAN: not known */
+  int n;
+  const thr_rise_line *run; /* [n] borrowed */
+} thr_rise_chart;
+
+/* Appends the picture to svg. Sizes are physical (mm); no text is under 7 pt. The same runs give
+ * the same bytes. THR_EINPUT where no cord was drawn in. svg is unchanged on failure. O(n). */
+thr_status thr_rise_svg(const thr_rise_chart *chart, thr_text *svg, thr_err *err) THR_MUST_CHECK;
+
 #endif

@@ -120,8 +120,7 @@ public:
   {
     const btVector3 arm_a = m_rbA.getCenterOfMassTransform().getBasis() * start,
                     arm_b = m_rbB.getCenterOfMassTransform().getBasis() * end;
-    btVector3 n =
-        m_rbB.getCenterOfMassPosition() + arm_b - m_rbA.getCenterOfMassPosition() - arm_a;
+    btVector3 n = m_rbB.getCenterOfMassPosition() + arm_b - m_rbA.getCenterOfMassPosition() - arm_a;
     const double length = n.length();
     n = length > 0 ? n / length : btVector3(1, 0, 0);
     const btVector3 turn_a = arm_a.cross(n), turn_b = -arm_b.cross(n);
@@ -455,7 +454,8 @@ static void configure(btContactSolverInfo &info, const thr_world_options &option
   info.m_solverMode = SOLVER_SIMD;
   if (options.warm_start || options.cones) info.m_solverMode |= SOLVER_USE_WARMSTARTING;
   if (options.faces)
-    info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_ENABLE_FRICTION_DIRECTION_CACHING;
+    info.m_solverMode |=
+        SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_ENABLE_FRICTION_DIRECTION_CACHING;
 
   /* With cones all contacts are solved in one call: keep lateral impulses and their directions. */
   if (!options.cones) return;

@@ -35,8 +35,9 @@ void thr_world_destroy(thr_world *world);
 
 /* Adds a body of one or more convex hulls. points: all hulls' corners one after the other in the
  * body's own frame (origin = mass centre), n_points[h] of each. mass 0 = static; moment: about any
- * axis, or 0: moments of inertia from the hulls' bounding boxes; no collision margin. pose: position
- * and quaternion (x y z w). group/mask: collision filter bits. *body receives its index. */
+ * axis, or 0: moments of inertia from the hulls' bounding boxes; no collision margin. pose:
+ * position and quaternion (x y z w). group/mask: collision filter bits. *body receives its index.
+ */
 typedef struct {
   int n_hulls;
   const int *n_points;

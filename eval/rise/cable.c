@@ -29,12 +29,11 @@ void thr_cable_pull(thr_cable *cable, const double force[2], const thr_friction 
 
   /* Turns may be smaller than a step ago: the tighter pass slides over. */
   for (int k = 1; k < n; k++)
-    cable->tension[k] =
-        fmin(cable->tension[k],
-             thr_friction_more(friction, cable->tension[k - 1], cable->exponent[k - 1]));
+    cable->tension[k] = fmin(cable->tension[k], thr_friction_more(friction, cable->tension[k - 1],
+                                                                  cable->exponent[k - 1]));
   for (int k = n - 2; k >= 0; k--)
-    cable->tension[k] = fmin(cable->tension[k], thr_friction_more(friction, cable->tension[k + 1],
-                                                                  cable->exponent[k]));
+    cable->tension[k] = fmin(
+        cable->tension[k], thr_friction_more(friction, cable->tension[k + 1], cable->exponent[k]));
 
   /* What the neighbours leave open in this step. */
   for (int k = 0; k < n; k++)

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A massless cord through the mouths of pieces that move. Only rise.c and its tests use this.
  *
- * Between two mouths the cord is straight, and pulls both with its tension T. Over a piece it turns,
- * from the direction in which it comes to that in which it goes on, by the angle that both have at
- * the moment, and friction lets the tensions on the two sides differ by a factor exp(mu angle) at
- * most (the capstan law of Euler and Eytelwein). So a hand that pulls with P at an end leaves every
- * pass between two bounds, with E = mu times the angles between it and the end:
+ * Between two mouths the cord is straight, and pulls both with its tension T. Over a piece it
+ * turns, from the direction in which it comes to that in which it goes on, by the angle that both
+ * have at the moment, and friction lets the tensions on the two sides differ by a factor exp(mu
+ * angle) at most (the capstan law of Euler and Eytelwein). So a hand that pulls with P at an end
+ * leaves every pass between two bounds, with E = mu times the angles between it and the end:
  *
  *   low = P exp(-E)    cord slides towards the hand: the gap closes
  *   high = P exp(E)    cord slides away from it: the gap opens
@@ -23,11 +23,11 @@
 /* [n] passes. Arrays are owned by who made the cable. */
 typedef struct {
   int n;
-  bool pulled[2];      /* at the start, at the end */
-  double *exponent;    /* [n - 1] mu times the angle of each turn, as it is now */
-  double *tension;     /* [n] N */
-  double *low, *high;  /* [n] N that friction allows in this step */
-  double *sum;         /* [n] exponents before each pass */
+  bool pulled[2];     /* at the start, at the end */
+  double *exponent;   /* [n - 1] mu times the angle of each turn, as it is now */
+  double *tension;    /* [n] N */
+  double *low, *high; /* [n] N that friction allows in this step */
+  double *sum;        /* [n] exponents before each pass */
 } thr_cable;
 
 /* Brings tensions and bounds up to date for pulls of force[2] N at the ends, the exponents being

@@ -14,8 +14,8 @@
 static void rotate(double matrix[4][4], double vector[4][4], int p, int q)
 {
   if (matrix[p][q] == 0) return;
-  const double theta = 0.5 * atan2(2 * matrix[p][q], matrix[q][q] - matrix[p][p]),
-               c = cos(theta), s = sin(theta);
+  const double theta = 0.5 * atan2(2 * matrix[p][q], matrix[q][q] - matrix[p][p]), c = cos(theta),
+               s = sin(theta);
   for (int k = 0; k < 4; k++) {
     const double a = matrix[k][p], b = matrix[k][q];
     matrix[k][p] = c * a - s * b;

@@ -36,9 +36,10 @@ static void turn_by_chance(uint64_t *state, double most, double q[4])
 static void matrix_of(const double q[4], double matrix[9])
 {
   const double x = q[0], y = q[1], z = q[2], w = q[3];
-  const double rotation[9] = {1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w),
-                              2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
-                              2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)};
+  const double rotation[9] = {
+      1 - 2 * (y * y + z * z), 2 * (x * y - z * w),     2 * (x * z + y * w),
+      2 * (x * y + z * w),     1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
+      2 * (x * z - y * w),     2 * (y * z + x * w),     1 - 2 * (x * x + y * y)};
   memcpy(matrix, rotation, sizeof rotation);
 }
 
@@ -198,15 +199,15 @@ static thr_status add_piece(thr_rise_bodies *bodies, int p, double (*points)[3],
     for (int k = 0; k < 3; k++)
       points[i][k] = (piece->corner[i][k] - piece->mass_centre[k]) / bodies->length;
 
-  thr_world_hulls hulls = {
-      .n_hulls = piece->n_parts,
-      .n_points = piece->n_corners,
-      .points = (const double(*)[3])points,
-      .mass = piece->held ? 0 : piece->mass / bodies->mass,
-      .moment = piece->moment / (bodies->mass * bodies->length * bodies->length),
-      .friction = sqrt(fmax(bodies->structure->physics.mu_bead, 1e-9)),
-      .group = 1,
-      .mask = 1};
+  thr_world_hulls hulls = {.n_hulls = piece->n_parts,
+                           .n_points = piece->n_corners,
+                           .points = (const double(*)[3])points,
+                           .mass = piece->held ? 0 : piece->mass / bodies->mass,
+                           .moment =
+                               piece->moment / (bodies->mass * bodies->length * bodies->length),
+                           .friction = sqrt(fmax(bodies->structure->physics.mu_bead, 1e-9)),
+                           .group = 1,
+                           .mask = 1};
   memcpy(hulls.pose, bodies->pose[p], sizeof hulls.pose);
 
   thr_status st = thr_world_add_hulls(bodies->world, &hulls, &bodies->body[p], err);
@@ -252,8 +253,8 @@ thr_status thr_rise_bodies_make(thr_rise_bodies *bodies, const thr_rise_structur
   int ignored;
   if (!st) st = thr_world_create(&bodies->world, &world_options, err);
   if (!st)
-    st = thr_world_add_ground(bodies->world, physics->mu_ground / sqrt(fmax(physics->mu_bead, 1e-9)),
-                              &ignored, err);
+    st = thr_world_add_ground(
+        bodies->world, physics->mu_ground / sqrt(fmax(physics->mu_bead, 1e-9)), &ignored, err);
   for (int p = 0; p < structure->n_pieces && !st; p++)
     st = add_piece(bodies, p, points, err);
 

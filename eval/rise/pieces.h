@@ -12,10 +12,10 @@
 
 typedef struct {
   const thr_rise_structure *structure;
-  double edge;       /* mm, mean distance of pieces that follow each other on cords */
-  double length;     /* mm in a unit */
-  double mass;       /* g in a unit */
-  double force;      /* N in a unit */
+  double edge;   /* mm, mean distance of pieces that follow each other on cords */
+  double length; /* mm in a unit */
+  double mass;   /* g in a unit */
+  double force;  /* N in a unit */
   thr_world *world;
   int *body;         /* [n_pieces] */
   double (*pose)[7]; /* [n_pieces] of mass centres, in the world's units, as they are now */

@@ -2,15 +2,16 @@
 /* Lets time pass over pieces and cords, and writes down what is seen (rise.h).
  *
  * In every step the cords are looked at first: where their passes lead, by what angles they turn,
- * and so what tension friction leaves them (cable.h); then Bullet moves the pieces. A pass pulls its
- * two mouths together with its tension, but closes its gap no faster than in CLOSING s, as a hand
- * would; and it holds against being opened with what friction adds. */
+ * and so what tension friction leaves them (cable.h); then Bullet moves the pieces. A pass pulls
+ * its two mouths together with its tension, but closes its gap no faster than in CLOSING s, as a
+ * hand would; and it holds against being opened with what friction adds. */
 #include "eval/rise/cable.h"
 #include "eval/rise/pieces.h"
 #include "eval/rise/rise.h"
 #include "graph/number.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,18 +20,18 @@ static const double TIME_EDGE = 40;   /* .. so many mm */
 static const double CLOSING = 0.02;   /* s that a gap takes to close at least, in such steps */
 static const double FASTEST = 2.5;    /* edges in such a second, of a gap that closes */
 static const double SLOWEST = 2.5e-3; /* .. of one that is closed: so that the cord still pulls */
-static const double GENTLE = 0.02;     /* of the weight, that hands begin to pull with */
-static const double UP = 0.36;         /* s in which hands pull e times as much */
-static const double DOWN = 1;          /* s in which they let down by a factor e .. */
-static const double NOTHING = 1e-3;    /* .. to so much of the pull */
-static const double FRAME = 0.05;      /* s between frames */
-static const double HOLD = 1;          /* s */
-enum { FRAMES_AFTER = 20 };            /* that are seen of a fall */
-static const double SETTLING = 0.5;    /* s before hands pull, so that what is dropped lies */
-static const double CLOSED = 0.02;     /* of an edge: a gap that is no gap */
-static const double STRAIGHT = 0.1;    /* rad between the axes of closed faces */
-static const double FALLEN = 0.9;      /* of the height: what is lower has fallen */
-static const double QUIET = 0.5;       /* s that all faces are closed before hands stop pulling more */
+static const double GENTLE = 0.02;    /* of the weight, that hands begin to pull with */
+static const double UP = 0.36;        /* s in which hands pull e times as much */
+static const double DOWN = 1;         /* s in which they let down by a factor e .. */
+static const double NOTHING = 1e-3;   /* .. to so much of the pull */
+static const double FRAME = 0.05;     /* s between frames */
+static const double HOLD = 1;         /* s */
+enum { FRAMES_AFTER = 20 };           /* that are seen of a fall */
+static const double SETTLING = 0.5;   /* s before hands pull, so that what is dropped lies */
+static const double CLOSED = 0.02;    /* of an edge: a gap that is no gap */
+static const double STRAIGHT = 0.1;   /* rad between the axes of closed faces */
+static const double FALLEN = 0.9;     /* of the height: what is lower has fallen */
+static const double QUIET = 0.5; /* s that all faces are closed before hands stop pulling more */
 
 static const char *const start_names[] = {"flat", "heap", "shape"};
 
@@ -41,10 +42,10 @@ const char *thr_rise_start_name(int start)
 
 /* A pass of a cord as it is now. */
 typedef struct {
-  int cord;         /* in the world */
+  int cord; /* in the world */
   double direction[3];
-  double gap;       /* between the mouths along the cord, in the world's units */
-  double first_gap; /* at the start */
+  double gap;                     /* between the mouths along the cord, in the world's units */
+  double first_gap;               /* at the start */
   double in_axis[3], out_axis[3]; /* of the mouth that it leaves and the one that it enters */
 } rise_pass;
 
@@ -52,11 +53,11 @@ typedef struct {
   const thr_rise_structure *structure;
   const thr_rise_options *options;
   thr_rise_bodies bodies;
-  thr_cable *cable;  /* [n_cords] */
-  rise_pass *pass;   /* [n_passes] cord after cord */
+  thr_cable *cable; /* [n_cords] */
+  rise_pass *pass;  /* [n_passes] cord after cord */
   int n_passes;
   thr_friction friction;
-  double dt, scale;  /* s; and how much slower than with edges of TIME_EDGE everything is */
+  double dt, scale; /* s; and how much slower than with edges of TIME_EDGE everything is */
   double mu;
   thr_scratch own;
 } rise_run;
@@ -89,9 +90,9 @@ static thr_status make_cords(rise_run *run, thr_err *err)
       double start[3], end[3];
       for (int i = 0; i < 3; i++) {
         const thr_rise_piece *one = &structure->piece[from], *other = &structure->piece[to];
-        start[i] = (cord->mouth[k][i] - depth * cord->along[k][i] - one->centre[i] -
-                    one->mass_centre[i]) /
-                   run->bodies.length;
+        start[i] =
+            (cord->mouth[k][i] - depth * cord->along[k][i] - one->centre[i] - one->mass_centre[i]) /
+            run->bodies.length;
         end[i] = (cord->mouth[k][i] + depth * cord->along[k][i] - other->centre[i] -
                   other->mass_centre[i]) /
                  run->bodies.length;
@@ -139,16 +140,15 @@ static void look_at_cords(rise_run *run)
       const double before = pass->gap;
       look_at(run, cord, k, pass);
       thr_cable_felt(&run->cable[c], k, 0,
-                     before - pass->gap > SLOWEST * run->bodies.edge / run->bodies.length *
-                                              run->dt / run->scale);
+                     before - pass->gap >
+                         SLOWEST * run->bodies.edge / run->bodies.length * run->dt / run->scale);
       if (k == 0) continue;
 
       /* Into the channel, through it, and out of it. */
       const double angle = thr_angle_between(pass[-1].direction, pass[-1].out_axis) +
                            thr_angle_between(cord->along[k - 1], cord->along[k]) +
                            thr_angle_between(pass->in_axis, pass->direction);
-      run->cable[c].exponent[k - 1] =
-          run->mu * angle + (cord->wobble ? cord->wobble[k - 1] : 0);
+      run->cable[c].exponent[k - 1] = run->mu * angle + (cord->wobble ? cord->wobble[k - 1] : 0);
     }
   }
 }
@@ -164,8 +164,9 @@ static void pull_cords(rise_run *run, double pull)
     thr_cable *cable = &run->cable[c];
     thr_cable_pull(cable, force, &run->friction);
     for (int k = 0; k < cable->n; k++, pass++) {
-      const double speed = fmin(fmax(pass->gap / (CLOSING * run->scale), SLOWEST * edge / run->scale),
-                                FASTEST * edge / run->scale);
+      const double speed =
+          fmin(fmax(pass->gap / (CLOSING * run->scale), SLOWEST * edge / run->scale),
+               FASTEST * edge / run->scale);
       thr_world_pull(run->bodies.world, pass->cord, cable->tension[k] / run->bodies.force, speed,
                      fmin(cable->high[k] - cable->tension[k], 1e6) / run->bodies.force);
     }
@@ -263,8 +264,7 @@ static thr_status measure_off(const rise_run *run, double *off, thr_err *err)
     memcpy(drawn[p], run->structure->piece[p].centre, sizeof *drawn);
     node_of(run, p, now[p]);
   }
-  if (!st)
-    *off = thr_fit_points((const double(*)[3])drawn, (const double(*)[3])now, n, NULL, NULL);
+  if (!st) *off = thr_fit_points((const double(*)[3])drawn, (const double(*)[3])now, n, NULL, NULL);
   thr_scratch_free(&work);
   return st;
 }
@@ -283,7 +283,8 @@ static double lift_now(const rise_run *run)
     low = fmin(low, run->structure->piece[p].centre[2]);
 
   /* A hand that only carries lets go of what is high enough, over a tenth of an edge. */
-  const double above = run->structure->piece[options->lifted].centre[2] - low + run->structure->width / 2;
+  const double above =
+      run->structure->piece[options->lifted].centre[2] - low + run->structure->width / 2;
   const double missing = (above - at[2]) / (0.1 * run->bodies.edge);
   return options->carried ? options->lift * fmin(fmax(missing, 0), 1) : options->lift;
 }
@@ -364,8 +365,12 @@ static thr_status report(const rise_run *run, double time, double pull, double l
   }
   if (!st && limits && thr_limits_stop(limits))
     st = thr_fail(err, THR_ELIMIT, "rise: stopped before all was seen");
-  if (!st && limits && limits->advance)
-    limits->advance(limits->user, "rise", fmin(time / all, 1));
+  if (!st && limits && limits->advance) {
+    char words[64];
+    snprintf(words, sizeof words, "%d of %d faces closed",
+             record->moment[record->n_frames - 1].closed, run->n_passes);
+    limits->advance(limits->user, words, fmin(time / all, 1));
+  }
   return st;
 }
 
@@ -435,7 +440,7 @@ static thr_status check(const thr_rise_structure *structure, const thr_rise_opti
 }
 
 thr_status thr_rise_simulate(const thr_rise_structure *structure, const thr_rise_options *options,
-                    const thr_limits *limits, thr_rise_record *record, thr_err *err)
+                             const thr_limits *limits, thr_rise_record *record, thr_err *err)
 {
   *record = (thr_rise_record){.n_pieces = structure->n_pieces, .came_up = -1, .fell = -1};
   thr_status st = check(structure, options, err);

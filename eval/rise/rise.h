@@ -37,19 +37,19 @@ typedef struct {
 /* A cord: pass k leads from piece[k] through the mouth mouth[k] to piece[k + 1]. */
 typedef struct {
   int n_passes;
-  const int *piece;          /* [n_passes + 1] */
-  const double (*mouth)[3];  /* [n_passes] where the closed faces' mouths are */
-  const double (*along)[3];  /* [n_passes] unit: the way the cord takes there */
-  const double *wobble;      /* [n_passes - 1] exponents beside those of turns; NULL: none */
-  bool pulled[2];            /* at its start, at its end; an end that is not is tied to its piece */
+  const int *piece;         /* [n_passes + 1] */
+  const double (*mouth)[3]; /* [n_passes] where the closed faces' mouths are */
+  const double (*along)[3]; /* [n_passes] unit: the way the cord takes there */
+  const double *wobble;     /* [n_passes - 1] exponents beside those of turns; NULL: none */
+  bool pulled[2];           /* at its start, at its end; an end that is not is tied to its piece */
 } thr_rise_cord;
 
 typedef struct {
   int n_pieces, n_cords;
   const thr_rise_piece *piece;
   const thr_rise_cord *cord;
-  double width;       /* of a typical face */
-  double mouth_depth; /* how far inside the mouth the cord first touches its channel */
+  double width;        /* of a typical face */
+  double mouth_depth;  /* how far inside the mouth the cord first touches its channel */
   thr_physics physics; /* resolved: mu, mu_bead, mu_ground, gravity and the law of friction count */
 } thr_rise_structure;
 
@@ -68,10 +68,10 @@ const char *thr_rise_start_name(int start);
  * hand may also lift a piece. */
 typedef struct {
   thr_rise_start start;
-  uint64_t seed;    /* of heaps, and of the small disorder of the others */
-  double pull;      /* N, > 0 */
-  double slower;    /* factor on the time that hands take; 0 = 1 */
-  double hold;      /* s before they let down; 0 = 1 */
+  uint64_t seed; /* of heaps, and of the small disorder of the others */
+  double pull;   /* N, > 0 */
+  double slower; /* factor on the time that hands take; 0 = 1 */
+  double hold;   /* s before they let down; 0 = 1 */
   bool let_down;
   double time_step; /* factor on the usual one; 0 = 1 */
   int iterations;   /* of Bullet's solver, in every step; 0 = 60 */
@@ -95,11 +95,11 @@ typedef struct {
 
 typedef struct {
   int n_pieces, n_passes, n_frames, room;
-  double between;            /* s between frames */
-  thr_rise_moment *moment;   /* [n_frames] */
-  double (*pose)[7];         /* [n_frames][n_pieces] where the node is, and the piece's rotation from
-                                where it was drawn, x y z w */
-  double *tension;           /* [n_frames][n_passes] N, cord after cord */
+  double between;          /* s between frames */
+  thr_rise_moment *moment; /* [n_frames] */
+  double (*pose)[7];       /* [n_frames][n_pieces] where the node is, and the piece's rotation from
+                              where it was drawn, x y z w */
+  double *tension;         /* [n_frames][n_passes] N, cord after cord */
 
   double weight;       /* N, of all pieces that are not held */
   double drawn_height; /* of the highest node over the lowest */
@@ -107,10 +107,10 @@ typedef struct {
                           closed; -1: they never are */
   int most_closed;     /* the largest number of passes with closed faces */
   int loosest;         /* pass, counted over all cords, with the widest gap when most were closed */
-  double off;          /* largest distance of a node from the drawn shape, after the best fit, at the
-                          end of holding */
-  int held;            /* frames until hands let down */
-  int fell;            /* first frame after these that is lower by a tenth of the height; -1 */
+  double off; /* largest distance of a node from the drawn shape, after the best fit, at the
+                 end of holding */
+  int held;   /* frames until hands let down */
+  int fell;   /* first frame after these that is lower by a tenth of the height; -1 */
 } thr_rise_record;
 
 /* Lets a structure rise. progress and time limits come by limits; what was seen until then is kept
@@ -118,14 +118,15 @@ typedef struct {
  * THR_ESOLVER: the simulation diverged. Release with thr_rise_record_destroy, after a failure too.
  * O(steps (pieces + contacts) iterations). */
 thr_status thr_rise_simulate(const thr_rise_structure *structure, const thr_rise_options *options,
-                    const thr_limits *limits, thr_rise_record *record, thr_err *err) THR_MUST_CHECK;
+                             const thr_limits *limits, thr_rise_record *record,
+                             thr_err *err) THR_MUST_CHECK;
 void thr_rise_record_destroy(thr_rise_record *record);
 
 /* ---- fit.c */
 
 /* Returns the largest distance between the points to[n] and the points from[n] after the rotation
- * and translation that make the sum of squares least (Horn 1987). rotation: x y z w, and shift: what
- * was done to from; either may be NULL. O(n). */
+ * and translation that make the sum of squares least (Horn 1987). rotation: x y z w, and shift:
+ * what was done to from; either may be NULL. O(n). */
 double thr_fit_points(const double (*from)[3], const double (*to)[3], int n, double rotation[4],
                       double shift[3]);
 

@@ -110,7 +110,8 @@ static double hang_weight(double turn, double mu, bool let_down, double *weight)
     }
   }
 
-  /* A piece that no cord knows stands on the ground, where it makes the weight the middle of all. */
+  /* A piece that no cord knows stands on the ground, where it makes the weight the middle of all.
+   */
   piece[N] = piece[N - 1];
   memcpy(piece[N].centre, (const double[3]){-sum, 0, 400}, sizeof piece[N].centre);
 
@@ -119,17 +120,14 @@ static double hang_weight(double turn, double mu, bool let_down, double *weight)
                               .mouth = (const double(*)[3])mouth,
                               .along = (const double(*)[3])along,
                               .pulled = {false, true}};
-  const thr_rise_structure structure = {.n_pieces = N + 1,
-                                        .n_cords = 1,
-                                        .piece = piece,
-                                        .cord = &cord,
-                                        .width = 2 * HALF,
-                                        .mouth_depth = 1,
-                                        .physics = {.mu = mu,
-                                                    .mu_bead = 0.3,
-                                                    .mu_ground = 0.3,
-                                                    .gravity = G,
-                                                    .mu_power = 1}};
+  const thr_rise_structure structure = {
+      .n_pieces = N + 1,
+      .n_cords = 1,
+      .piece = piece,
+      .cord = &cord,
+      .width = 2 * HALF,
+      .mouth_depth = 1,
+      .physics = {.mu = mu, .mu_bead = 0.3, .mu_ground = 0.3, .gravity = G, .mu_power = 1}};
   const thr_rise_options options = {.start = let_down ? THR_RISE_SHAPE : THR_RISE_FLAT,
                                     .pull = 1,
                                     .slower = let_down ? 4 : 12,
@@ -212,8 +210,7 @@ START_TEST(pendulum)
   const double dt = 1e-3, length = 2, angle = 0.1;
   thr_err err = {0};
   thr_world *world = world_of(G, dt);
-  const double middle[3] = {0, 0, 0},
-               start[3] = {length * sin(angle), 0, -length * cos(angle)};
+  const double middle[3] = {0, 0, 0}, start[3] = {length * sin(angle), 0, -length * cos(angle)};
   int hook = add_cube(world, 0, middle), bob = add_cube(world, 1, start), cord;
   ck_assert_int_eq(thr_world_add_cord(world, hook, middle, bob, middle, &cord, &err), THR_OK);
 
@@ -226,8 +223,7 @@ START_TEST(pendulum)
     thr_world_pose(world, bob, pose);
     thr_world_velocity(world, bob, linear, angular);
     ck_assert_double_le(0.5 * thr_dot(linear, linear) + G * pose[2], most + 1e-2);
-    if (before > 0 && pose[0] <= 0)
-      crossed[n++] = dt * (step - pose[0] / (pose[0] - before));
+    if (before > 0 && pose[0] <= 0) crossed[n++] = dt * (step - pose[0] / (pose[0] - before));
     before = pose[0];
   }
   const double period = 2 * THR_PI * sqrt(length / G) * (1 + angle * angle / 16);
@@ -300,7 +296,8 @@ START_TEST(best_fit)
         thr_fit_points((const double(*)[3])from, (const double(*)[3])to, N, q, shift), 1e-9);
     ck_assert_double_eq_tol(fabs(q[3]), fabs(cos(angle / 2)), 1e-9);
     to[0][0] += 5;
-    const double off = thr_fit_points((const double(*)[3])from, (const double(*)[3])to, N, q, shift);
+    const double off =
+        thr_fit_points((const double(*)[3])from, (const double(*)[3])to, N, q, shift);
     ck_assert_double_lt(off, 5);
     ck_assert_double_gt(off, 4);
   }
