@@ -140,4 +140,35 @@ void thr_look_at(const thr_look *look, const thr_band *band, int x, int y, doubl
 thr_status thr_png_write(const unsigned char *pixel, const int size[2], thr_text *png,
                          thr_err *err) THR_MUST_CHECK;
 
+/* 256 colours, red, green and blue; number 0 is kept for pixels that an animation leaves as they
+ * are. */
+typedef struct {
+  unsigned char colour[256][3];
+} thr_png_palette;
+
+/* The same of index[width * height], numbers of colours. */
+thr_status thr_png_write_indexed(const unsigned char *index, const int size[2],
+                                 const thr_png_palette *palette, thr_text *png,
+                                 thr_err *err) THR_MUST_CHECK;
+
+/* A PNG that moves (APNG, in PNG's third edition): programs that do not know of that show the first
+ * picture. Each further picture is the box of what changed. */
+typedef struct {
+  int size[2];
+  uint32_t written;    /* chunks that are numbered */
+  unsigned char *last; /* [width * height] the picture before; owned */
+  thr_text *png;       /* borrowed */
+} thr_apng;
+
+/* Begins an animation of so many pictures, each of which is then added in turn, with the seconds,
+ * below 65, for which it is shown; pictures are numbers of colours, 1 to 255. It is played for
+ * ever. THR_ENOMEM: png is not whole then. Release with thr_apng_destroy, after a failure too. */
+thr_status thr_apng_begin(thr_apng *apng, const int size[2], int n_pictures,
+                          const thr_png_palette *palette, thr_text *png,
+                          thr_err *err) THR_MUST_CHECK;
+thr_status thr_apng_add(thr_apng *apng, const unsigned char *index, double seconds,
+                        thr_err *err) THR_MUST_CHECK;
+thr_status thr_apng_end(thr_apng *apng, thr_err *err) THR_MUST_CHECK;
+void thr_apng_destroy(thr_apng *apng);
+
 #endif
