@@ -767,3 +767,35 @@ void thr_kit_place(const thr_kit_piece *piece, const double at[3], double place[
   for (int i = 0; i < 3; i++)
     place[i] = piece->centre[i] + thr_dot(&piece->place[3 * i], at);
 }
+
+thr_status thr_kit_share_bores(const thr_kit *kit, double (*off)[3], thr_err *err)
+{
+  const thr_kit_edges *edges = &kit->edges;
+  int passes = edges->first_pass[kit->plan->n_cords];
+  size_t bores = (size_t)kit->plan->frame.n_edges * THR_KIT_MOST_LANES;
+  thr_scratch own = {0};
+  int *count = thr_scratch_array(&own, bores, sizeof *count);
+  int *bore_of = thr_scratch_array(&own, (size_t)passes + 1, sizeof *bore_of);
+  int *ordinal = thr_scratch_array(&own, (size_t)passes + 1, sizeof *ordinal);
+  thr_status st = thr_scratch_check(&own, err);
+
+  for (int c = 0; c < kit->plan->n_cords && !st; c++)
+    for (int k = 0; k < kit->plan->cord[c].n_passes; k++) {
+      int pass = edges->first_pass[c] + k, e = kit->plan->cord[c].half[k] >> 1;
+      int lane = edges->edge[e].n_lanes > 1 ? edges->lane[pass] : 0;
+      bore_of[pass] = e * THR_KIT_MOST_LANES + lane;
+      ordinal[pass] = count[bore_of[pass]]++;
+    }
+
+  /* In a circle, as far out as the bore allows. */
+  for (int pass = 0; pass < passes && !st; pass++) {
+    const thr_kit_edge *edge = &edges->edge[bore_of[pass] / THR_KIT_MOST_LANES];
+    int n = count[bore_of[pass]];
+    double room = n > 1 ? fmax(0.5 * (edge->bore - kit->cord), 0) : 0;
+    double angle = 2 * THR_PI * ordinal[pass] / n;
+    for (int i = 0; i < 3; i++)
+      off[pass][i] = room * (cos(angle) * edge->up[i] + sin(angle) * edge->side[i]);
+  }
+  thr_scratch_free(&own);
+  return st;
+}

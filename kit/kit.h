@@ -222,6 +222,10 @@ thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_option
                         thr_err *err) THR_MUST_CHECK;
 void thr_kit_destroy(thr_kit *kit);
 
+/* Fills off[passes of all cords] with where each pass is from the middle of its lane, mm: beside
+ * the others in the same bore. THR_ENOMEM. O(edges + passes). */
+thr_status thr_kit_share_bores(const thr_kit *kit, double (*off)[3], thr_err *err) THR_MUST_CHECK;
+
 /* Fills place with a point of a piece's mesh in the assembled framework, mm. */
 void thr_kit_place(const thr_kit_piece *piece, const double at[3], double place[3]);
 

@@ -18,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROWS = 64, SIDES = 16, SHADOW = 320, JOIN = 10, MOST = 10000 };
+enum { ROWS = 64, SIDES = 16, SHADOW = 320, JOIN = 10, STEP = 24, MOST = 10000 };
 
 static const double SMOOTH = 0.766;              /* cosine of 40 degrees */
 static const double SLENDER = 0.15;              /* height of a triangle by its longest edge */
@@ -39,12 +39,15 @@ typedef struct {
   const thr_kit_view *asked;
   double explode, middle[3]; /* of all pieces */
   double out;                /* how far cords stick out of faces, in widths of arms */
+  double cord;               /* diameter that cords are drawn with, mm */
+  double (*place)[12];       /* [n_pieces] as in thr_kit_scene */
   thr_camera_view view;      /* mm become samples */
   double ground;             /* height of the lowest point, mm */
+  double height;             /* of all pieces above it: what is higher darkens less */
   bool shaded;               /* is there a ground to draw a shadow on? */
   float *shadow;             /* [SHADOW * SHADOW] 0 to 1 */
   double corner[2], cell;    /* of the shadow's first cell, and the size of one, mm */
-  int *ordinal, *shared;     /* [passes] number in its bore; how many there are */
+  double (*in_bore)[3];      /* [passes] as thr_kit_share_bores says */
   double (*point)[3];
   strand *line;
   int n_points, points_capacity, n_lines, lines_capacity;
@@ -94,34 +97,10 @@ static thr_status add_point(drawing *work, const double at[3], thr_err *err)
   return THR_OK;
 }
 
-/* Numbers the passes that share a bore. */
-static void share_bores(drawing *work, int *count)
-{
-  const thr_kit *kit = work->kit;
-  const thr_kit_edges *edges = &kit->edges;
-  for (int round = 0; round < 2; round++)
-    for (int c = 0; c < kit->plan->n_cords; c++)
-      for (int k = 0; k < kit->plan->cord[c].n_passes; k++) {
-        int pass = edges->first_pass[c] + k, e = kit->plan->cord[c].half[k] >> 1;
-        int lane = edges->edge[e].n_lanes > 1 ? edges->lane[pass] : 0;
-        int *here = &count[e * THR_KIT_MOST_LANES + lane];
-        if (round == 0)
-          work->ordinal[pass] = (*here)++;
-        else
-          work->shared[pass] = *here;
-      }
-}
-
 /* Fills off with where a pass is in its bore: beside the others. */
 static void place_in_bore(const drawing *work, int c, int k, double off[3])
 {
-  const thr_kit_edges *edges = &work->kit->edges;
-  int pass = edges->first_pass[c] + k, n = work->shared[pass];
-  const thr_kit_edge *edge = &edges->edge[work->kit->plan->cord[c].half[k] >> 1];
-  double room = n > 1 ? fmax(0.5 * (edge->bore - work->kit->cord), 0) : 0;
-  double angle = 2 * THR_PI * work->ordinal[pass] / n;
-  for (int i = 0; i < 3; i++)
-    off[i] = room * (cos(angle) * edge->up[i] + sin(angle) * edge->side[i]);
+  memcpy(off, work->in_bore[work->kit->edges.first_pass[c] + k], sizeof *work->in_bore);
 }
 
 /* Adds a strand along a channel, shifted at its ends by off[0] and off[1]. */
@@ -278,18 +257,14 @@ static thr_status lay_cords(drawing *work, thr_err *err)
   thr_scratch own = {0};
   size_t passes = (size_t)kit->edges.first_pass[kit->plan->n_cords];
   thr_copy *copy = thr_scratch_array(&own, (size_t)kit->plan->n_cords, sizeof *copy);
-  int *count =
-      thr_scratch_array(&own, (size_t)kit->plan->frame.n_edges * THR_KIT_MOST_LANES, sizeof *count);
-  work->ordinal = thr_scratch_array(&work->own, passes + 1, sizeof *work->ordinal);
-  work->shared = thr_scratch_array(&work->own, passes + 1, sizeof *work->shared);
+  work->in_bore = thr_scratch_array(&work->own, passes + 1, sizeof *work->in_bore);
   thr_status st = thr_scratch_check(&own, err);
   if (!st) st = thr_scratch_check(&work->own, err);
   if (!st) st = thr_copies_find(kit->plan, copy, err);
-  if (!st) {
-    share_bores(work, count);
+  if (!st) st = thr_kit_share_bores(kit, work->in_bore, err);
+  if (!st)
     st = kit->piece[0].tube ? lay_through_tubes(work, copy, err)
                             : lay_through_nodes(work, copy, err);
-  }
   thr_scratch_free(&own);
   return st;
 }
@@ -319,45 +294,56 @@ static thr_camera choose_camera(const drawing *work)
   return thr_camera_at(azimuth - 0.55, fmin(fmax(asin(widest->along[2]) + 0.45, 0.35), 1.1));
 }
 
+/* Fills at with a point of a piece's mesh in the world, mm. */
+static void place_point(const drawing *work, int piece, const double point[3], double at[3])
+{
+  const double *place = work->place[piece];
+  for (int k = 0; k < 3; k++)
+    at[k] = thr_dot(place + 3 * k, point) + place[9 + k];
+}
+
 /* Turns a mesh's point into the picture's directions, mm. */
-static void look_at(const drawing *work, const thr_kit_piece *piece, const double shift[3],
-                    const double point[3], double at[3])
+static void look_at(const drawing *work, int piece, const double point[3], double at[3])
 {
   double place[3];
   const thr_camera *camera = &work->view.camera;
-  thr_kit_place(piece, point, place);
-  for (int k = 0; k < 3; k++)
-    place[k] += shift[k];
+  place_point(work, piece, point, place);
   at[0] = thr_dot(place, camera->right);
   at[1] = thr_dot(place, camera->up);
   at[2] = thr_dot(place, camera->eye);
 }
 
-/* Finds the boxes of all pieces, and the scale at which all is seen. */
-static void fit(drawing *work, const int size[2])
+/* Finds the boxes of all pieces in the picture. */
+static void find_boxes(drawing *work)
 {
   const thr_kit *kit = work->kit;
-  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
   for (int p = 0; p < kit->n_pieces; p++) {
     const thr_mesh *mesh = &kit->mesh[kit->piece[p].like];
-    double shift[3], at[3];
-    shift_of(work, p, shift);
+    double at[3];
     for (int k = 0; k < 3; k++) {
       work->low[p][k] = HUGE_VAL;
       work->high[p][k] = -HUGE_VAL;
     }
     for (int i = 0; i < mesh->n_points && is_drawn(work, p); i++) {
-      look_at(work, &kit->piece[p], shift, mesh->point[i], at);
+      look_at(work, p, mesh->point[i], at);
       for (int k = 0; k < 3; k++) {
         work->low[p][k] = fmin(work->low[p][k], at[k]);
         work->high[p][k] = fmax(work->high[p][k], at[k]);
       }
     }
+  }
+}
+
+/* Finds the scale at which all is seen. */
+static void fit(drawing *work, const int size[2])
+{
+  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+  find_boxes(work);
+  for (int p = 0; p < work->kit->n_pieces; p++)
     for (int k = 0; k < 2; k++) {
       low[k] = fmin(low[k], work->low[p][k]);
       high[k] = fmax(high[k], work->high[p][k]);
     }
-  }
 
   /* Cords stick out. */
   for (int i = 0; i < work->n_points; i++) {
@@ -398,41 +384,48 @@ static void blur(float *shadow, int radius, bool columns, float *line)
   }
 }
 
+/* Finds the ground below all pieces where they are: a rim of a fifth is left for the blur. */
+static void find_ground(drawing *work)
+{
+  const thr_kit *kit = work->kit;
+  double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (int p = 0; p < kit->n_pieces; p++) {
+    const thr_mesh *mesh = &kit->mesh[kit->piece[p].like];
+    double at[3];
+    for (int i = 0; i < mesh->n_points && is_drawn(work, p); i++) {
+      place_point(work, p, mesh->point[i], at);
+      for (int k = 0; k < 3; k++) {
+        low[k] = fmin(low[k], at[k]);
+        high[k] = fmax(high[k], at[k]);
+      }
+    }
+  }
+  double wide = fmax(high[0] - low[0], high[1] - low[1]);
+  work->cell = 1.4 * wide / SHADOW;
+  for (int k = 0; k < 2; k++)
+    work->corner[k] = 0.5 * (low[k] + high[k]) - 0.7 * wide;
+  work->ground = low[2];
+  work->height = high[2] - low[2];
+}
+
 /* Darkens the ground below all pieces: what is higher darkens less. */
 static void cast_shadow(drawing *work)
 {
   const thr_kit *kit = work->kit;
-  double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   float line[SHADOW];
-
-  for (int pass = 0; pass < 2; pass++) {
-    for (int p = 0; p < kit->n_pieces; p++) {
-      const thr_mesh *mesh = &kit->mesh[kit->piece[p].like];
-      double shift[3], at[3];
-      shift_of(work, p, shift);
-      for (int i = 0; i < mesh->n_points && is_drawn(work, p); i++) {
-        thr_kit_place(&kit->piece[p], mesh->point[i], at);
-        for (int k = 0; k < 3; k++) {
-          at[k] += shift[k];
-          low[k] = pass ? low[k] : fmin(low[k], at[k]);
-          high[k] = pass ? high[k] : fmax(high[k], at[k]);
-        }
-        if (pass == 0) continue;
-        int x = (int)((at[0] - work->corner[0]) / work->cell);
-        int y = (int)((at[1] - work->corner[1]) / work->cell);
-        float *here = &work->shadow[y * SHADOW + x];
-        double part = exp(-(at[2] - low[2]) / (0.45 * (high[2] - low[2]) + kit->options.width));
-        *here = fmaxf(*here, (float)part);
-      }
+  memset(work->shadow, 0, sizeof *work->shadow * SHADOW * SHADOW);
+  for (int p = 0; p < kit->n_pieces; p++) {
+    const thr_mesh *mesh = &kit->mesh[kit->piece[p].like];
+    double at[3];
+    for (int i = 0; i < mesh->n_points && is_drawn(work, p); i++) {
+      place_point(work, p, mesh->point[i], at);
+      int x = (int)((at[0] - work->corner[0]) / work->cell);
+      int y = (int)((at[1] - work->corner[1]) / work->cell);
+      if (x < 0 || x >= SHADOW || y < 0 || y >= SHADOW) continue;
+      float *here = &work->shadow[y * SHADOW + x];
+      double part = exp(-(at[2] - work->ground) / (0.45 * work->height + kit->options.width));
+      *here = fmaxf(*here, (float)part);
     }
-
-    /* A rim of a fifth is left for the blur. */
-    if (pass == 1) break;
-    double wide = fmax(high[0] - low[0], high[1] - low[1]);
-    work->cell = 1.4 * wide / SHADOW;
-    for (int k = 0; k < 2; k++)
-      work->corner[k] = 0.5 * (low[k] + high[k]) - 0.7 * wide;
-    work->ground = low[2];
   }
   for (int i = 0; i < 6; i++)
     blur(work->shadow, SHADOW / 64, i & 1, line);
@@ -581,11 +574,12 @@ static bool in_band(const drawing *work, double low, double high)
 /* Draws a piece into the band. */
 static void draw_piece(drawing *work, int p)
 {
-  const thr_kit_piece *piece = &work->kit->piece[p];
-  const thr_mesh *mesh = &work->kit->mesh[piece->like];
-  const float *normal = work->normal[piece->like];
+  int like = work->kit->piece[p].like;
+  const thr_mesh *mesh = &work->kit->mesh[like];
+  const float *normal = work->normal[like];
+  const double *place = work->place[p];
   const thr_camera *camera = &work->view.camera;
-  double shift[3], middle[3], turn[3][3];
+  double middle[3], turn[3][3];
   int begin = THR_SAMPLE_PARTS * (work->band.begin - 1);
   int end = THR_SAMPLE_PARTS * (work->band.end + 1);
 
@@ -593,10 +587,8 @@ static void draw_piece(drawing *work, int p)
   const double *axis[3] = {camera->right, camera->up, camera->eye};
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
-      turn[i][j] = axis[i][0] * piece->place[j] + axis[i][1] * piece->place[3 + j] +
-                   axis[i][2] * piece->place[6 + j];
-  shift_of(work, p, shift);
-  look_at(work, piece, shift, (const double[]){0, 0, 0}, middle);
+      turn[i][j] = axis[i][0] * place[j] + axis[i][1] * place[3 + j] + axis[i][2] * place[6 + j];
+  look_at(work, p, (const double[]){0, 0, 0}, middle);
   for (int i = 0; i < mesh->n_points; i++) {
     double at[3];
     for (int k = 0; k < 3; k++)
@@ -613,6 +605,7 @@ static void draw_piece(drawing *work, int p)
       below += spot[i].at[1] > end;
     }
     if (above == 3 || below == 3) continue;
+    if (work->look.opaque && !thr_is_front(spot)) continue;
     for (int i = 0; i < 3; i++) {
       const float *from = &normal[9 * (size_t)t + 3 * (size_t)i];
       const double of_mesh[3] = {from[0], from[1], from[2]};
@@ -643,7 +636,7 @@ static void draw_strand(drawing *work, const strand *line)
 {
   const thr_camera *camera = &work->view.camera;
   const double(*point)[3] = (const double(*)[3])work->point + line->first;
-  double radius = 0.5 * work->kit->cord, up[3] = {0.31, 0.17, 0.93};
+  double radius = 0.5 * work->cord, up[3] = {0.31, 0.17, 0.93};
   thr_spot ring[2][SIDES];
 
   for (int i = 0; i < line->n; i++) {
@@ -686,6 +679,19 @@ static void draw_strand(drawing *work, const strand *line)
   }
 }
 
+/* Returns whether a pixel and the samples around it see nothing but the ground. */
+static bool is_empty(const thr_band *band, int x, int row)
+{
+  int left = THR_SAMPLES * x - (x > 0), right = THR_SAMPLES * (x + 1);
+  if (right == band->width) right--;
+  for (int y = THR_SAMPLES * row - 1; y <= THR_SAMPLES * (row + 1); y++) {
+    const thr_sample *samples = band->sample + (size_t)(y - band->begin) * (size_t)band->width;
+    for (int i = left; i <= right; i++)
+      if (samples[i].piece >= 0 || samples[i].colour >= 0) return false;
+  }
+  return true;
+}
+
 /* Draws rows y .. y + ROWS - 1 of pixels. */
 static void draw_rows(drawing *work, int y, const int size[2], unsigned char *pixel)
 {
@@ -702,8 +708,8 @@ static void draw_rows(drawing *work, int y, const int size[2], unsigned char *pi
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (int k = 0; k < work->line[i].n; k++) {
       double up = thr_dot(work->point[work->line[i].first + k], work->view.camera.up);
-      low = fmin(low, up - work->kit->cord);
-      high = fmax(high, up + work->kit->cord);
+      low = fmin(low, up - work->cord);
+      high = fmax(high, up + work->cord);
     }
     if (in_band(work, low, high)) draw_strand(work, &work->line[i]);
   }
@@ -714,9 +720,14 @@ static void draw_rows(drawing *work, int y, const int size[2], unsigned char *pi
     for (int x = 0; x < size[0]; x++) {
       double sum[3] = {0, 0, 0}, n = THR_SAMPLES * THR_SAMPLES;
       double ground = ground_at(work, THR_SAMPLES * (x + 0.5), THR_SAMPLES * (row + 0.5));
+      bool empty = is_empty(band, x, row);
       for (int i = 0; i < THR_SAMPLES * THR_SAMPLES; i++)
-        thr_look_at(&work->look, band, THR_SAMPLES * x + i % THR_SAMPLES,
-                    THR_SAMPLES * row + i / THR_SAMPLES, ground, sum);
+        if (empty)
+          for (int k = 0; k < 3; k++)
+            sum[k] += ground;
+        else
+          thr_look_at(&work->look, band, THR_SAMPLES * x + i % THR_SAMPLES,
+                      THR_SAMPLES * row + i / THR_SAMPLES, ground, sum);
       size_t at = (size_t)row * (size_t)size[0] + (size_t)x;
       for (size_t k = 0; k < 3; k++)
         pixel[3 * at + k] = (unsigned char)(255 * sum[k] / n + 0.5);
@@ -766,18 +777,16 @@ static void darken_hollows(const drawing *work, const int size[2], unsigned char
     }
 }
 
-/* Prepares everything that all bands need. */
-static thr_status prepare(drawing *work, const int size[2], thr_err *err)
+/* Takes memory for pictures of a size. */
+static thr_status make_room(drawing *work, const int size[2], thr_err *err)
 {
   const thr_kit *kit = work->kit;
   size_t n = (size_t)kit->n_pieces, most = 1;
-  for (int p = 0; p < kit->n_pieces; p++) {
-    for (int k = 0; k < 3; k++)
-      work->middle[k] += kit->piece[p].centre[k] / kit->n_pieces;
+  for (int p = 0; p < kit->n_pieces; p++)
     if ((size_t)kit->mesh[p].n_points > most) most = (size_t)kit->mesh[p].n_points;
-  }
   work->low = thr_scratch_array(&work->own, n, sizeof *work->low);
   work->high = thr_scratch_array(&work->own, n, sizeof *work->high);
+  work->place = thr_scratch_array(&work->own, n, sizeof *work->place);
   work->normal = thr_scratch_array(&work->own, n, sizeof *work->normal);
   work->spot = thr_scratch_array(&work->own, most, sizeof *work->spot);
   work->shadow = thr_scratch_array(&work->own, SHADOW * SHADOW, sizeof *work->shadow);
@@ -786,15 +795,14 @@ static thr_status prepare(drawing *work, const int size[2], thr_err *err)
       &work->own, (size_t)work->band.width * (THR_SAMPLES * ROWS + 2), sizeof *work->band.sample);
   work->middle_of =
       thr_scratch_array(&work->own, (size_t)size[0] * (size_t)size[1], sizeof *work->middle_of);
-  thr_status st = thr_scratch_check(&work->own, err);
-  if (!st) st = lay_cords(work, err);
-  if (st) return st;
+  return thr_scratch_check(&work->own, err);
+}
 
-  work->view.camera = choose_camera(work);
-  fit(work, size);
-  work->shaded = !work->asked->alone && work->view.camera.eye[2] > 0.1;
-  if (work->shaded) cast_shadow(work);
-
+/* Fills the normals of the meshes that are drawn. */
+static thr_status find_normals(drawing *work, thr_err *err)
+{
+  const thr_kit *kit = work->kit;
+  thr_status st = THR_OK;
   for (int p = 0; p < kit->n_pieces && !st; p++) {
     int like = kit->piece[p].like;
     if (!is_drawn(work, p) || work->normal[like]) continue;
@@ -804,6 +812,45 @@ static thr_status prepare(drawing *work, const int size[2], thr_err *err)
     if (!st) st = smooth(&kit->mesh[like], work->normal[like], err);
   }
   return st;
+}
+
+/* Prepares everything that all bands need. */
+static thr_status prepare(drawing *work, const int size[2], thr_err *err)
+{
+  const thr_kit *kit = work->kit;
+  thr_status st = make_room(work, size, err);
+  if (st) return st;
+
+  for (int p = 0; p < kit->n_pieces; p++)
+    for (int k = 0; k < 3; k++)
+      work->middle[k] += kit->piece[p].centre[k] / kit->n_pieces;
+  for (int p = 0; p < kit->n_pieces; p++) {
+    double shift[3];
+    shift_of(work, p, shift);
+    memcpy(work->place[p], kit->piece[p].place, sizeof kit->piece[p].place);
+    for (int k = 0; k < 3; k++)
+      work->place[p][9 + k] = kit->piece[p].centre[k] + shift[k];
+  }
+  work->cord = kit->cord;
+  st = lay_cords(work, err);
+  if (st) return st;
+
+  work->view.camera = choose_camera(work);
+  fit(work, size);
+  work->shaded = !work->asked->alone && work->view.camera.eye[2] > 0.1;
+  if (work->shaded) {
+    find_ground(work);
+    cast_shadow(work);
+  }
+  return find_normals(work, err);
+}
+
+/* Draws all rows. pixel: as for thr_kit_pixels. */
+static void draw(drawing *work, const int size[2], unsigned char *pixel)
+{
+  for (int y = 0; y < size[1]; y += ROWS)
+    draw_rows(work, y, size, pixel);
+  darken_hollows(work, size, pixel);
 }
 
 thr_status thr_kit_pixels(const thr_kit *kit, const thr_kit_view *view, unsigned char **pixel,
@@ -837,9 +884,7 @@ thr_status thr_kit_pixels(const thr_kit *kit, const thr_kit_view *view, unsigned
     work.look.opaque = view->opaque;
     work.look.width = kit->options.width;
     thr_look_make(&work.look, (const double[]){0, work.view.camera.up[2], work.view.camera.eye[2]});
-    for (int y = 0; y < size[1]; y += ROWS)
-      draw_rows(&work, y, size, *pixel);
-    darken_hollows(&work, size, *pixel);
+    draw(&work, size, *pixel);
   }
 
   free(work.point);
@@ -857,4 +902,96 @@ thr_status thr_kit_picture(const thr_kit *kit, const thr_kit_view *view, thr_tex
   if (!st) st = thr_png_write(pixel, size, png, err);
   free(pixel);
   return st;
+}
+
+/* ---- stages ---- */
+
+struct thr_kit_stage {
+  thr_kit_view asked; /* {0}: all pieces */
+  drawing work;
+  int size[2]; /* px */
+};
+
+void thr_kit_stage_close(thr_kit_stage *stage)
+{
+  if (!stage) return;
+  free(stage->work.point);
+  free(stage->work.line);
+  thr_scratch_free(&stage->work.own);
+  free(stage);
+}
+
+thr_status thr_kit_stage_open(thr_kit_stage **stage, const thr_kit *kit,
+                              const thr_kit_stage_options *options, thr_err *err)
+{
+  thr_kit_stage *made = thr_calloc(1, sizeof *made);
+  *stage = NULL;
+  if (!made) return thr_nomem(err);
+  drawing *work = &made->work;
+  work->kit = kit;
+  work->asked = &made->asked;
+  work->explode = 1;
+  work->cord = options->cord;
+  work->view = options->view;
+  work->view.scale *= THR_SAMPLES;
+  for (int k = 0; k < 2; k++) {
+    made->size[k] = (int)options->view.size[k];
+    work->view.size[k] *= THR_SAMPLES;
+    work->corner[k] = options->corner[k];
+  }
+  work->shaded = work->view.camera.eye[2] > 0.1;
+  work->ground = options->floor;
+  work->height = options->height;
+  work->cell = options->wide / SHADOW;
+  thr_status st = make_room(work, made->size, err);
+  if (!st) st = find_normals(work, err);
+  if (st) {
+    thr_kit_stage_close(made);
+    return st;
+  }
+
+  work->look.colour = options->colour;
+  work->look.opaque = options->opaque;
+  work->look.marked = options->marked;
+  work->look.width = kit->options.width;
+  thr_look_make(&work->look,
+                (const double[]){0, work->view.camera.up[2], work->view.camera.eye[2]});
+  *stage = made;
+  return THR_OK;
+}
+
+/* Lays a straight part of a cord as a strand of short steps, since what is filled of a triangle is
+ * searched for in its box. */
+static thr_status lay_line(drawing *work, const double line[2][3], int colour, thr_err *err)
+{
+  thr_status st =
+      thr_grow(&work->line, work->n_lines, &work->lines_capacity, sizeof *work->line, err);
+  if (st) return st;
+  work->line[work->n_lines++] = (strand){.first = work->n_points, .colour = colour};
+  int n = (int)ceil(fmax(thr_distance(line[0], line[1]) * work->view.scale / STEP, 1));
+  for (int i = 0; i <= n && !st; i++) {
+    double at[3];
+    for (int k = 0; k < 3; k++)
+      at[k] = line[0][k] + i * (line[1][k] - line[0][k]) / n;
+    st = add_point(work, at, err);
+  }
+  return st;
+}
+
+thr_status thr_kit_stage_draw(thr_kit_stage *stage, const thr_kit_scene *scene,
+                              unsigned char *pixel, thr_err *err)
+{
+  drawing *work = &stage->work;
+  memcpy(work->place, scene->place, (size_t)work->kit->n_pieces * sizeof *work->place);
+
+  work->n_points = work->n_lines = 0;
+  for (int i = 0; i < scene->n_lines; i++) {
+    thr_status st = lay_line(work, scene->line[i], scene->colour[i], err);
+    if (st) return st;
+  }
+
+  find_boxes(work);
+  if (work->shaded) cast_shadow(work);
+  draw(work, stage->size, pixel);
+  return THR_OK;
 }

@@ -210,17 +210,21 @@ void thr_look_at(const thr_look *look, const thr_band *band, int x, int y, doubl
     through = fmax(through, 0) / look->width;
     if (!look->opaque) clear = here->colour >= 0 ? exp(-0.9 * through) : 0.5 * exp(-1.6 * through);
     const float *clay = look->clay[place(here->normal[0])][place(here->normal[1])];
+    bool marked = here->piece + 1 == look->marked;
     for (int k = 0; k < 3; k++)
-      colour[k] = (1 - clear) * clay[k] + clear * colour[k];
+      colour[k] = (1 - clear) * clay[k] * (marked ? THR_MARKED[k] : 1) + clear * colour[k];
   }
 
   /* Lines are as wide as a sample on either side. */
   double line = 1;
   for (int i = -1; i <= 1; i += 2) {
-    if (x + i >= 0 && x + i < band->width) line = fmin(line, line_between(look, here, here + i));
+    double beside = 1, above = 1;
+    if (x + i >= 0 && x + i < band->width) beside = line_between(look, here, here + i);
     if (y + i >= band->begin && y + i < band->end)
-      line = fmin(line, line_between(look, here, here + i * band->width));
+      above = line_between(look, here, here + i * band->width);
+    line = beside < line ? beside : line;
+    line = above < line ? above : line;
   }
   for (int k = 0; k < 3; k++)
-    sum[k] += fmin(colour[k], 1) * line;
+    sum[k] += (colour[k] < 1 ? colour[k] : 1) * line;
 }

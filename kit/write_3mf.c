@@ -55,7 +55,7 @@ static thr_status add_member(package *zip, const char *name, const thr_text *byt
    */
   thr_text small = {0};
   thr_status st = bytes->failed ? thr_nomem(err) : thr_deflate_load(err);
-  if (!st) st = thr_deflate(bytes->data, bytes->length, &small, err);
+  if (!st) st = thr_deflate(bytes->data, bytes->length, THR_DEFLATE_FAST, &small, err);
   size_t length = st ? 0 : small.length - 6;
   size_t at = zip->out->length;
   if (!st && at + bytes->length + length > UINT32_MAX / 2)

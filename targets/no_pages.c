@@ -53,9 +53,12 @@ thr_status thr_deflate_load(thr_err *err)
   return THR_OK;
 }
 
-/* Appends a zlib stream (RFC 1950) of bytes as they are, in blocks (RFC 1951, 3.2.4). */
-thr_status thr_deflate(const char *bytes, size_t n, thr_text *out, thr_err *err)
+/* Appends a zlib stream (RFC 1950) of bytes as they are, in blocks (RFC 1951, 3.2.4), at any level.
+ */
+thr_status thr_deflate(const char *bytes, size_t n, thr_deflate_level level, thr_text *out,
+                       thr_err *err)
 {
+  (void)level;
   enum { BLOCK = 65535, MODULUS = 65521 };
   unsigned long low = 1, high = 0;
   thr_text_append_bytes(out, "\x78\x01", 2);

@@ -109,6 +109,7 @@ run() { # NAME LOG: runs the job; its exit code, 77 = skipped
   library/install) tests/library/run.sh "$OUT/release" "$OUT/library-test" ;;
   formats/mutants) tests/formats/mutants.py "$OUT/release/thread" --each "$MUTANTS" ;;
   slicers) tests/kit/run.sh "$OUT/release/thread" ;;
+  film) tests/film.py "$OUT/release/tests/unit/test_film" "$OUT/film-test" ;;
   readme) tests/readme/run.sh "$OUT/release/thread" ;;
   examples) tests/examples/run.sh "$OUT/release/thread" ;;
   web) tests/web.sh "$OUT/release/thread" "$OUT/web" "$OUT/web-test" ;;
@@ -126,7 +127,7 @@ job() { # NAME
   : >"$log"
   spent=$( { time run "$name" "$log" 7>&-; } 2>&1) || code=$?
   case $name in
-  */golden/* | */memory | */watchdog | second/* | schema | viewer/browser | library/* | readme | slicers | examples | exchange | web | static | windows | formats/*) counts=$(count_lines "$log" "$code") ;;
+  */golden/* | */memory | */watchdog | second/* | schema | viewer/browser | library/* | readme | slicers | film | examples | exchange | web | static | windows | formats/*) counts=$(count_lines "$log" "$code") ;;
   asan/* | release/*) counts=$(count_check "$log" "$code") ;;
   *) if [ "$code" -eq 0 ]; then counts='1 0 0'; else counts='0 1 0'; fi ;;
   esac
@@ -166,8 +167,8 @@ rest='release/memory release/watchdog release/golden/figures.case release/proper
 case $TIER in
 test) left=$rest ;;
 fast) tree='layers documents format' programs='' ;;
-rest) builds=asan tree='' programs='' fuzz=yes whole="$rest slicers $(sweeps)" MEMORY_SAMPLES=16 ;;
-all) builds='release asan' slow=asan/figures.case whole='release/watchdog release/memory slicers exchange web static windows' fuzz=yes MUTANTS=2000 FUZZ_RUNS=1000000 ;;
+rest) builds=asan tree='' programs='' fuzz=yes whole="$rest slicers film $(sweeps)" MEMORY_SAMPLES=16 ;;
+all) builds='release asan' slow=asan/figures.case whole='release/watchdog release/memory slicers film exchange web static windows' fuzz=yes MUTANTS=2000 FUZZ_RUNS=1000000 ;;
 fuzz) builds='' tree='' programs='' fuzz=yes FUZZ_RUNS=0 ;;
 *) echo "tests/run.sh: $TIER is none of test, fast, rest, all and fuzz" >&2 && exit 2 ;;
 esac

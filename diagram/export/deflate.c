@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Compresses bytes for a PDF (FlateDecode) with zlib, which is loaded when it is first used.
- *
- * Level 1 of 9 is set here: higher levels take two to four times as long for a tenth less. */
+/* Compresses bytes for a PDF (FlateDecode) with zlib, which is loaded when it is first used. */
 #include "diagram/export/export_parts.h"
 
 #include "graph/process/process.h"
@@ -22,14 +20,14 @@ thr_status thr_deflate_load(thr_err *err)
   return thr_lazy_load(&lib.loaded, THR_LIBRARY_Z, symbol, sizeof symbol / sizeof *symbol, err);
 }
 
-thr_status thr_deflate(const char *bytes, size_t n, thr_text *out, thr_err *err)
+thr_status thr_deflate(const char *bytes, size_t n, thr_deflate_level level, thr_text *out,
+                       thr_err *err)
 {
-  enum { LEVEL = 1 }; /* of 9: higher ones take two to four times as long for a tenth less */
   uLongf size = lib.compressBound((uLong)n);
 
   /* zlib says beforehand how long the result may get. */
   Bytef *to = thr_realloc(NULL, size, 1);
-  bool done = to && lib.compress2(to, &size, (const Bytef *)bytes, (uLong)n, LEVEL) == Z_OK;
+  bool done = to && lib.compress2(to, &size, (const Bytef *)bytes, (uLong)n, (int)level) == Z_OK;
 
   if (done) thr_text_append_bytes(out, (const char *)to, size);
   free(to);

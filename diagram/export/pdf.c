@@ -126,7 +126,8 @@ static int put_stream(thr_pdf *pdf, const thr_text *small, const char *more)
 static int put_bytes(thr_pdf *pdf, thr_text *bytes, const char *more, thr_err *err, thr_status *st)
 {
   thr_text small = {0};
-  *st = bytes->failed ? thr_nomem(err) : thr_deflate(bytes->data, bytes->length, &small, err);
+  *st = bytes->failed ? thr_nomem(err)
+                      : thr_deflate(bytes->data, bytes->length, THR_DEFLATE_FAST, &small, err);
   int object = *st ? 0 : put_stream(pdf, &small, more);
 
   thr_text_destroy(bytes);
@@ -146,7 +147,7 @@ thr_status thr_leaf_squeeze(thr_leaf *leaf, thr_err *err)
 {
   const thr_text *content;
   thr_status st = thr_paper_content(leaf->paper, &content, err);
-  return st ? st : thr_deflate(content->data, content->length, &leaf->small, err);
+  return st ? st : thr_deflate(content->data, content->length, THR_DEFLATE_FAST, &leaf->small, err);
 }
 
 void thr_leaf_destroy(thr_leaf *leaf)
