@@ -2,7 +2,12 @@
 /* Makes of a kit what can rise (rise_pieces.h). */
 #include "lib/rise_pieces.h"
 #include "eval/cord/profile.h"
+#include "graph/framework/frame.h"
 #include "graph/number.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
+#include "kit/film.h"
 
 #include <math.h>
 #include <string.h>
@@ -172,4 +177,39 @@ void thr_rise_kit_destroy(thr_rise_kit *made)
 {
   thr_scratch_free(&made->own);
   *made = (thr_rise_kit){0};
+}
+
+thr_status thr_rise_movement(thr_movement *movement, const thr_kit *kit,
+                             const thr_rise_record *record, thr_err *err)
+{
+  const thr_plan *plan = kit->plan;
+  thr_status st = thr_film_movement(movement, kit, record->n_frames, err);
+  if (st) return st;
+  movement->seconds = record->between;
+  movement->floor = 0;
+  movement->n_faces = record->n_passes;
+  memcpy(movement->pose, record->pose,
+         (size_t)record->n_frames * (size_t)record->n_pieces * sizeof *movement->pose);
+
+  for (int f = 0; f < record->n_frames; f++) {
+    const thr_rise_moment *moment = &record->moment[f];
+    movement->state[f] =
+        (thr_movement_state){moment->time, moment->pull, moment->drawn, moment->closed};
+    const double *from = record->tension + (size_t)f * (size_t)record->n_passes;
+    double *to = movement->tension + (size_t)f * (size_t)movement->first[plan->n_cords];
+
+    /* Between the mouths of a pass its tension; inside a piece that of the pass before; in a tail,
+     * the pull. */
+    for (int c = 0; c < plan->n_cords; c++) {
+      double *piece = to + movement->first[c];
+      const int open = plan->cord[c].closed ? 0 : 1;
+      if (open) piece[0] = from[0];
+      for (int k = 0; k < plan->cord[c].n_passes; k++) {
+        piece[open + 2 * k] = from[k];
+        piece[open + 2 * k + 1] = from[k];
+      }
+      from += plan->cord[c].n_passes;
+    }
+  }
+  return THR_OK;
 }

@@ -10,14 +10,18 @@
 #include "cli/cli.h"
 #include "cli/commands/commands.h"
 #include "diagram/overview/charts.h"
+#include "diagram/scene/movement.h"
 #include "eval/eval.h"
 #include "eval/rise/rise.h"
 #include "graph/arrays.h"
+#include "graph/framework/frame.h"
 #include "graph/io/json.h"
 #include "graph/number.h"
+#include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/process/process.h"
 #include "graph/text.h"
+#include "kit/film.h"
 #include "kit/kit.h"
 #include "lib/rise_pieces.h"
 
@@ -38,15 +42,16 @@ static const char outro[] =
     "can be simulated, 5 not done in the time or memory (what was seen is printed)";
 
 enum { MOST_SEEDS = 1000, MOST_MOMENTS = 4000, EXIT_STAYS_DOWN = 1 };
-static const double HAND = 50;   /* N, the most that a hand pulls once */
-static const double LIFTING = 2; /* of the structure's weight, that a hand carries at most */
+static const double HAND = 50;    /* N, the most that a hand pulls once */
+static const double COARSE = 2.2; /* factor on the triangles of pieces in films */
+static const double LIFTING = 2;  /* of the structure's weight, that a hand carries at most */
 
 /* What was asked. */
 typedef struct {
   thr_rise_options rise;
   thr_kit_options kit;
   guard_limits guard;
-  const char *lift, *raise, *output, *plot;
+  const char *lift, *raise, *output, *plot, *film, *frames;
   const char *path;
   int seeds, first_seed, start;
   double time_step, iterations;
@@ -79,6 +84,10 @@ static const cli_option own_options[] = {
      .help = "write what was seen, with the place of every piece, as JSON"},
     {"plot", .value = "FILE.svg", .kind = CLI_OUTPUT, AT(plot),
      .help = "draw pull and closed faces against the cord that is drawn in"},
+    {"film", .value = "FILE.png", .kind = CLI_OUTPUT, AT(film),
+     .help = "a picture that moves (APNG), which every browser plays"},
+    {"frames", .value = "FOLDER", .kind = CLI_TEXT, AT(frames),
+     .help = "the same as numbered pictures, frame-0001.png and so on"},
     {"json", .kind = CLI_FLAG, AT(json), .help = "print the answers as JSON"},
     {0}};
 
@@ -355,6 +364,29 @@ static int write_plot(const rise_runs *runs, const char *name)
   return cli_write_drawn(st, &svg, runs->args->plot, &err);
 }
 
+/* Writes the first run as a film. Returns an exit code. */
+static int write_film(const rise_runs *runs)
+{
+  const rise_arguments *args = runs->args;
+  const thr_limits limits = cli_limits(0);
+  const thr_film_options options = {0};
+  thr_err err = {0};
+  thr_movement movement;
+  thr_film *film = NULL;
+  thr_text png = {0};
+  const int code = args->frames ? cli_make_folder(args->frames) : EXIT_SUCCESS;
+  if (code) return code;
+
+  thr_status st = thr_rise_movement(&movement, runs->kit, &runs->record[0], &err);
+  if (!st) st = thr_film_open(&film, runs->kit, &movement, &options, &err);
+  if (!st) st = thr_film_write(film, args->frames, args->film ? &png : NULL, &limits, &err);
+  cli_progress_end();
+  thr_film_close(film);
+  thr_movement_destroy(&movement);
+  if (args->film) return cli_write_drawn(st, &png, args->film, &err);
+  return st ? cli_fail(&err) : EXIT_SUCCESS;
+}
+
 /* Prints and writes what was seen. Returns an exit code. */
 static int tell(const rise_runs *runs)
 {
@@ -368,6 +400,10 @@ static int tell(const rise_runs *runs)
   }
   if (runs->args->plot) {
     code = write_plot(runs, runs->args->path);
+    if (code) return code;
+  }
+  if (runs->args->film || runs->args->frames) {
+    code = write_film(runs);
     if (code) return code;
   }
   text = (thr_text){0};
@@ -500,7 +536,7 @@ static int make_and_run(const rise_arguments *args, const thr_plan *plan)
   for (int c = 0; c < plan->n_cords && pull; c++)
     pull[c] = THR_PULL_BOTH;
 
-  thr_status st = thr_kit_make(&kit, plan, &args->kit, NULL, false, &limits, &err);
+  thr_status st = thr_kit_make(&kit, plan, &args->kit, NULL, true, &limits, &err);
   if (!st && (!pull || !runs.record)) st = thr_nomem(&err);
   if (!st) st = thr_physics_resolve(&plan->options.physics, &plan->frame, &physics, &err);
   if (!st) st = thr_rise_kit_make(&runs.made, &kit, pull, &physics, &err);
@@ -521,7 +557,7 @@ int cmd_rise(int argc, char **argv)
   static const cli_syntax syntax = {"rise", intro, outro};
   rise_arguments asked = {.guard = guard_limits_default(),
                           .rise = {.pull = HAND},
-                          .kit = {.names = THR_KIT_NO_NAMES},
+                          .kit = {.names = THR_KIT_NO_NAMES, .coarse = COARSE},
                           .seeds = 1,
                           .first_seed = 1};
   guard_end end;

@@ -6,6 +6,7 @@
 #include "eval/rise/rise.h"
 #include "graph/arrays.h"
 #include "graph/number.h"
+#include "graph/plan/physics.h"
 #include "tests/support.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Makes pieces bodies, and lays them out where they begin (pieces.h). */
-#include "eval/rise/pieces.h"
+/* Makes pieces bodies, and lays them out where they begin (bodies.h). */
+#include "eval/rise/bodies.h"
 #include "graph/number.h"
 
 #include <math.h>
