@@ -423,7 +423,8 @@ static void cast_shadow(drawing *work)
       int y = (int)((at[1] - work->corner[1]) / work->cell);
       if (x < 0 || x >= SHADOW || y < 0 || y >= SHADOW) continue;
       float *here = &work->shadow[y * SHADOW + x];
-      double part = exp(-(at[2] - work->ground) / (0.45 * work->height + kit->options.width));
+      double up = fmax(at[2] - work->ground, 0); /* a moving piece may sink in a little */
+      double part = exp(-up / (0.45 * work->height + kit->options.width));
       *here = fmaxf(*here, (float)part);
     }
   }

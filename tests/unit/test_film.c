@@ -341,6 +341,16 @@ START_TEST(what_cannot_be_filmed_is_refused)
     const char *word[] = {"pieces", "60 s", "nowhere", "frame 2"};
     assert_one_line(&err, word[i]);
   }
+
+  /* A folder that is not there; and a piece that sank into the ground is drawn. */
+  pose_of(&of, 1, 1)[2] = -500;
+  thr_err err = {0};
+  film = open_film(&of, &(thr_film_options){.size = {WIDE, HIGH}});
+  ck_assert_int_eq(thr_film_write(film, "/tmp/no-such-folder/thread", NULL, NULL, &err), THR_EIO);
+  assert_one_line(&err, "frame-0001.png");
+  unsigned char index[WIDE * HIGH];
+  ck_assert_int_eq(thr_film_frame(film, 1, index, &err), THR_OK);
+  thr_film_close(film);
   close_theatre(&of);
 }
 END_TEST
