@@ -4,14 +4,15 @@
  * frame says in numbers. The camera stands still and sees all frames. As numbered PNG files, and as
  * one PNG that moves (APNG), which browsers and viewers of pictures play.
  *
- *   thr_movement movement;                           diagram/scene/movement.h
- *   thr_film_movement(&movement, kit, 100, err);     everything assembled and at rest
- *   movement.pose[frame * n_pieces + piece] = ..   what moves
+ *   thr_movement movement;                          diagram/scene/movement.h
+ *   thr_film_movement(&movement, kit, 100, err);    everything assembled and at rest
+ *   movement.pose[frame * n_pieces + piece] = ..    what moves
  *   thr_film_open(&film, kit, &movement, &(thr_film_options){0}, err);
  *   thr_film_write(film, "rise", &animation, limits, err);
  *
  * film.c draws, film_marks.c has the colours and the words, picture.c the pieces, picture_png.c the
- * files. A kit of coarse meshes without names (thr_kit_options) is much faster to draw. */
+ * files. A kit whose meshes are 2.5 times as coarse and without names (thr_kit_options) is seen as
+ * well and takes a part of the time. */
 #ifndef THR_FILM_H
 #define THR_FILM_H
 
@@ -41,7 +42,7 @@ typedef struct {
  * needle goes, its other end; a closed cord's are the mouths, and the first one again. So pass k is
  * between points 2 k + 1 and 2 k + 2 of an open cord, 2 k and 2 k + 1 of a closed one: the gap
  * between two solids, or the inside of a tube. The kit has meshes. THR_ENOMEM. Release with
- * thr_movement_destroy, after a failure too. O(passes of an edge squared). */
+ * thr_movement_destroy, after a failure too. O(frames (pieces + passes)). */
 thr_status thr_film_movement(thr_movement *movement, const thr_kit *kit, int n_frames,
                              thr_err *err) THR_MUST_CHECK;
 

@@ -2,8 +2,8 @@
 /* Chooses the colours of films and writes words into their pictures.
  *
  * All pictures of a film share one palette, so that equal pixels are equal numbers from picture to
- * picture: shades of the pieces' clay, greys of shadow and words, and of each colour of tension
- * shades towards the dark and tints towards the clay, as they come about at the rims of cords.
+ * picture: shades of the pieces' clay, and of each colour of tension shades towards the dark and
+ * tints towards white, as they come about at the rims of cords.
  * Words are of the strokes that name the pieces of a kit, so that they need no font and are the
  * same everywhere.
  *
@@ -16,9 +16,9 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { CLAYS = 32, GREYS = 32, TONES = 8, MARKS = 15, STROKES = 1024, WORDS = 128 };
+enum { CLAYS = 36, TONES = 6, MARKS = 15, STROKES = 1024, WORDS = 128 };
 
-static const double DARK[3] = {0.40, 0.44, 0.52}, LIGHT[3] = {1.0, 0.985, 0.955}; /* as clay is */
+static const double DARK[3] = {0.40, 0.44, 0.52}, WHITE[3] = {1, 1, 1}; /* of clay */
 static const double INK[3] = {0.15, 0.17, 0.2};
 
 /* ---- colours ---- */
@@ -57,38 +57,35 @@ static void mix(const double a[3], const double b[3], double part, double out[3]
 
 void thr_film_colours(thr_png_palette *palette)
 {
-  /* Light that is left at each tone of a colour, then the part of clay in it. */
-  static const double tone[TONES][2] = {{0.45, 0}, {0.65, 0}, {0.85, 0}, {1.05, 0},
-                                        {1, 0.2},  {1, 0.4},  {1, 0.6},  {1, 0.8}};
-  static const double black[3] = {0}, white[3] = {1, 1, 1};
-  double colour[3], tension[THR_FILM_TENSIONS][3], marked[3];
+  /* Light that is left at each tone of a colour, then the part of white in it. */
+  static const double tone[TONES][2] = {{0.5, 0},  {0.75, 0}, {1, 0},
+                                        {1, 0.25}, {1, 0.5},  {1, 0.75}};
+  static const double black[3] = {0};
+  double colour[3], tension[THR_FILM_TENSIONS][3];
   int n = 1;
 
+  /* Clay, of which shadows and words are seen, too: with greys beside it of the same lightness
+   * neighbours would be now of the one and now of the other, and files a tenth larger. */
   *palette = (thr_png_palette){0};
   for (int i = 0; i < CLAYS; i++, n++) {
     double part = (double)i / (CLAYS - 1);
-    if (part < 0.3)
-      mix(black, DARK, 0.25 + 0.75 * part / 0.3, colour);
+    if (part < 0.4)
+      mix(black, DARK, 0.25 + 0.75 * part / 0.4, colour);
     else
-      mix(DARK, LIGHT, (part - 0.3) / 0.7, colour);
+      mix(DARK, WHITE, (part - 0.4) / 0.6, colour);
     put_colour(colour, palette->colour[n]);
   }
-  for (int i = 0; i < GREYS; i++, n++) {
-    double part = 1 - (double)i / (GREYS - 1); /* shadows are light: their steps are finer */
-    mix(INK, white, 1 - part * part, colour);
-    put_colour(colour, palette->colour[n]);
-  }
+
   thr_film_tensions(tension);
-  for (int i = 0; i < THR_FILM_TENSIONS; i++)
+  for (int i = 0; i < THR_FILM_TENSIONS - 1; i++)
     for (int j = 0; j < TONES; j++, n++) {
-      mix(tension[i], LIGHT, tone[j][1], colour);
+      mix(tension[i], WHITE, tone[j][1], colour);
       mix(black, colour, tone[j][0], colour);
       put_colour(colour, palette->colour[n]);
     }
-  for (int k = 0; k < 3; k++)
-    marked[k] = THR_MARKED[k] * LIGHT[k];
   for (int i = 0; i < MARKS; i++, n++) {
-    mix(black, marked, 0.25 + 0.85 * i / (MARKS - 1), colour);
+    for (int k = 0; k < 3; k++)
+      colour[k] = THR_MARKED[k] * (0.25 + 0.85 * i / (MARKS - 1));
     put_colour(colour, palette->colour[n]);
   }
 }

@@ -423,7 +423,8 @@ static void cast_shadow(drawing *work)
       int y = (int)((at[1] - work->corner[1]) / work->cell);
       if (x < 0 || x >= SHADOW || y < 0 || y >= SHADOW) continue;
       float *here = &work->shadow[y * SHADOW + x];
-      double part = exp(-(at[2] - work->ground) / (0.45 * work->height + kit->options.width));
+      double up = fmax(at[2] - work->ground, 0); /* a moving piece may sink in a little */
+      double part = exp(-up / (0.45 * work->height + kit->options.width));
       *here = fmaxf(*here, (float)part);
     }
   }
@@ -720,17 +721,13 @@ static void draw_rows(drawing *work, int y, const int size[2], unsigned char *pi
     for (int x = 0; x < size[0]; x++) {
       double sum[3] = {0, 0, 0}, n = THR_SAMPLES * THR_SAMPLES;
       double ground = ground_at(work, THR_SAMPLES * (x + 0.5), THR_SAMPLES * (row + 0.5));
-      bool empty = is_empty(band, x, row);
-      for (int i = 0; i < THR_SAMPLES * THR_SAMPLES; i++)
-        if (empty)
-          for (int k = 0; k < 3; k++)
-            sum[k] += ground;
-        else
-          thr_look_at(&work->look, band, THR_SAMPLES * x + i % THR_SAMPLES,
-                      THR_SAMPLES * row + i / THR_SAMPLES, ground, sum);
+      bool bright = ground >= 1 && is_empty(band, x, row); /* white, as most often */
+      for (int i = 0; i < THR_SAMPLES * THR_SAMPLES && !bright; i++)
+        thr_look_at(&work->look, band, THR_SAMPLES * x + i % THR_SAMPLES,
+                    THR_SAMPLES * row + i / THR_SAMPLES, ground, sum);
       size_t at = (size_t)row * (size_t)size[0] + (size_t)x;
       for (size_t k = 0; k < 3; k++)
-        pixel[3 * at + k] = (unsigned char)(255 * sum[k] / n + 0.5);
+        pixel[3 * at + k] = (unsigned char)(bright ? 255 : 255 * sum[k] / n + 0.5);
       work->middle_of[at] =
           band->sample[(THR_SAMPLES * (row - y) + 2) * band->width + THR_SAMPLES * x + 1];
     }
