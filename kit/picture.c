@@ -156,18 +156,18 @@ static thr_status follow(drawing *work, const thr_kit_piece *piece, const thr_ki
   return THR_OK;
 }
 
-/* Returns the channel by which pass k of cord c goes on with the next one, NULL if there is none.
- * *back receives whether its curve runs the other way. */
-static const thr_kit_channel *find_channel(const thr_kit_piece *piece, const thr_cord *cord, int c,
-                                           int k, bool *back)
+/* Returns the channel between the arms that two half-edges leave by, -1 = outside, and of several
+ * that by which pass k of cord c goes on; NULL if there is none. *back receives whether its curve
+ * runs from the second to the first. */
+static const thr_kit_channel *find_channel(const thr_kit_piece *piece, int c, int k,
+                                           const int half[2], bool *back)
 {
-  int in = cord->half[k] ^ 1, out = cord->half[(k + 1) % cord->n_passes];
   const thr_kit_channel *found = NULL;
   for (int i = 0; i < piece->n_channels; i++) {
     const thr_kit_channel *channel = &piece->channel[i];
-    if (channel->in < 0 || channel->out < 0) continue;
-    int ends[2] = {piece->arm[channel->in].half, piece->arm[channel->out].half};
-    bool same = ends[0] == in && ends[1] == out, turned = ends[0] == out && ends[1] == in;
+    int from = channel->in < 0 ? -1 : piece->arm[channel->in].half;
+    int to = channel->out < 0 ? -1 : piece->arm[channel->out].half;
+    bool same = from == half[0] && to == half[1], turned = from == half[1] && to == half[0];
     if (!same && !turned) continue;
     *back = !same;
     found = channel;
@@ -176,40 +176,28 @@ static const thr_kit_channel *find_channel(const thr_kit_piece *piece, const thr
   return found;
 }
 
-/* Lays the cords through solid pieces. */
+/* Lays the cords through solid pieces: out of each pass into the next, at both ends from and to
+ * outside, also where a closed cord is knotted. */
 static thr_status lay_through_nodes(drawing *work, const thr_copy *copy, thr_err *err)
 {
   const thr_kit *kit = work->kit;
   for (int c = 0; c < kit->plan->n_cords; c++) {
     const thr_cord *cord = &kit->plan->cord[c];
-    for (int k = 0; k < cord->n_passes - 1 + cord->closed; k++) {
-      int next = (k + 1) % cord->n_passes;
-      const thr_kit_piece *piece = &kit->piece[thr_head(&kit->plan->frame, cord->half[k])];
-      bool back;
-      const thr_kit_channel *channel = find_channel(piece, cord, c, k, &back);
-      if (!channel || !is_drawn(work, piece->piece)) continue;
+    for (int k = -1; k < cord->n_passes; k++) {
+      bool begins = k < 0, ends = k == cord->n_passes - 1, back;
+      const int half[2] = {begins ? -1 : cord->half[k] ^ 1, ends ? -1 : cord->half[k + 1]};
+      const int node = thr_head(&kit->plan->frame, begins ? half[1] ^ 1 : cord->half[k]);
+      const thr_kit_piece *piece = &kit->piece[node];
+      const thr_kit_channel *channel = find_channel(piece, c, k, half, &back);
+      if (!channel || !is_drawn(work, node)) continue;
       double off[2][3];
-      place_in_bore(work, c, k, off[back]);
-      place_in_bore(work, c, next, off[!back]);
-      thr_status st = begin_strand(work, copy, c, k, err);
+      place_in_bore(work, c, begins ? 0 : k, off[back]);
+      place_in_bore(work, c, ends ? k : k + 1, off[!back]);
+      thr_status st = begin_strand(work, copy, c, begins ? 0 : k, err);
       if (!st) st = follow(work, piece, channel, off, err);
       if (st) return st;
     }
   }
-
-  /* Where cords end. */
-  for (int p = 0; p < kit->n_pieces; p++)
-    for (int i = 0; i < kit->piece[p].n_channels && is_drawn(work, p); i++) {
-      const thr_kit_channel *channel = &kit->piece[p].channel[i];
-      if (channel->in >= 0 && channel->out >= 0) continue;
-      const thr_cord *cord = &kit->plan->cord[channel->cord];
-      int k = channel->in < 0 ? (channel->pass + 1) % cord->n_passes : channel->pass;
-      double off[2][3] = {{0}, {0}};
-      place_in_bore(work, channel->cord, k, off[channel->in < 0]);
-      thr_status st = begin_strand(work, copy, channel->cord, k, err);
-      if (!st) st = follow(work, &kit->piece[p], channel, off, err);
-      if (st) return st;
-    }
   return THR_OK;
 }
 
