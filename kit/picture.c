@@ -325,6 +325,7 @@ static void look_at(const drawing *work, const thr_kit_piece *piece, const doubl
 static void fit(drawing *work, const int size[2])
 {
   const thr_kit *kit = work->kit;
+  const thr_camera *camera = &work->view.camera;
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
   for (int p = 0; p < kit->n_pieces; p++) {
     const thr_mesh *mesh = &kit->mesh[kit->piece[p].like];
@@ -340,6 +341,10 @@ static void fit(drawing *work, const int size[2])
         work->low[p][k] = fmin(work->low[p][k], at[k]);
         work->high[p][k] = fmax(work->high[p][k], at[k]);
       }
+
+      /* Its shadow lies straight below. */
+      double above = at[1] * camera->up[2] + at[2] * camera->eye[2] - work->ground;
+      if (work->shaded) low[1] = fmin(low[1], at[1] - above * camera->up[2]);
     }
     for (int k = 0; k < 2; k++) {
       low[k] = fmin(low[k], work->low[p][k]);
@@ -349,8 +354,8 @@ static void fit(drawing *work, const int size[2])
 
   /* Cords stick out. */
   for (int i = 0; i < work->n_points; i++) {
-    const double at[2] = {thr_dot(work->point[i], work->view.camera.right),
-                          thr_dot(work->point[i], work->view.camera.up)};
+    const double at[2] = {thr_dot(work->point[i], camera->right),
+                          thr_dot(work->point[i], camera->up)};
     for (int k = 0; k < 2; k++) {
       low[k] = fmin(low[k], at[k]);
       high[k] = fmax(high[k], at[k]);
@@ -779,9 +784,9 @@ static thr_status prepare(drawing *work, const int size[2], thr_err *err)
   if (st) return st;
 
   work->view.camera = choose_camera(work);
-  fit(work, size);
   work->shaded = !work->asked->alone && work->view.camera.eye[2] > 0.1;
   if (work->shaded) cast_shadow(work);
+  fit(work, size);
 
   for (int p = 0; p < kit->n_pieces && !st; p++) {
     int like = kit->piece[p].like;
