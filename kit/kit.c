@@ -588,6 +588,16 @@ static thr_status give_names(maker *work, thr_err *err)
   return st;
 }
 
+/* Finds the only piece that is wanted by its name. */
+static thr_status find_only(thr_kit *kit, const char *name, thr_err *err)
+{
+  for (int p = 0; p < kit->n_pieces && name; p++)
+    if (strcmp(kit->name[p], name) == 0) kit->only = p + 1;
+  return name && !kit->only ? thr_fail(err, THR_EINPUT, "there is no piece %s, but %s to %s", name,
+                                       kit->name[0], kit->name[kit->n_pieces - 1])
+                            : THR_OK;
+}
+
 /* ---- meshes ---- */
 
 /* Pieces whose meshes are made in threads. */
@@ -596,13 +606,14 @@ typedef struct {
   atomic_int done; /* meshes so far */
 } meshing;
 
-/* Makes the mesh of a piece, unless it shares one. */
+/* Makes the mesh of a piece, unless it shares one, or the only one that is wanted does not share
+ * it. */
 static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_err *err)
 {
   meshing *work = user;
   thr_kit *kit = work->kit;
   const thr_kit_piece *piece = &kit->piece[job];
-  if (piece->like != job) return THR_OK;
+  if (piece->like != job || (kit->only && kit->piece[kit->only - 1].like != job)) return THR_OK;
 
   thr_solid solid = {.sample = thr_kit_sample, .user = piece};
   double thickest = piece->node_radius, narrowest = INFINITY;
@@ -724,6 +735,7 @@ thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_option
   }
   if (!st) st = find_alike(&work, err);
   if (!st) st = give_names(&work, err);
+  if (!st) st = find_only(kit, options->only, err);
   if (!st) note_channels(&work);
   meshing meshed = {.kit = kit};
   if (!st && meshes) st = thr_threads_run(kit->n_pieces, mesh_piece, &meshed, limits, err);

@@ -55,6 +55,7 @@ typedef struct {
   thr_kit_tube_ends tube_ends;
   double coarse;     /* factor on the sizes of triangles, for pictures; 0 = 1 */
   bool knot_pockets; /* where cords end, a hollow for the knot */
+  const char *only;  /* name of the piece that alone gets its mesh, for pictures; NULL = all */
 } thr_kit_options;
 
 /* Return the words of these options, in the order of the enumerations. */
@@ -205,6 +206,7 @@ typedef struct {
   double cord;             /* diameter */
   thr_kit_edges edges;
   int n_pieces, n_meshes, n_kinds;
+  int only;                /* the piece of this name in the options, from 1; 0 = all */
   thr_kit_piece *piece;    /* [n_pieces] */
   thr_mesh *mesh;          /* [n_pieces] empty where another piece's is shared */
   thr_mesh_report *report; /* [n_pieces] of those that have one */
@@ -215,8 +217,8 @@ typedef struct {
 } thr_kit;
 
 /* Makes the pieces of a plan: shapes, and the meshes too if asked for, in limits->threads threads.
- * THR_EINPUT says which piece does not fit and the number that would do. THR_ELIMIT when stopped.
- * Release with thr_kit_destroy, after a failure too. O(pieces). */
+ * THR_EINPUT says which piece does not fit and the number that would do, or that none is called so.
+ * THR_ELIMIT when stopped. Release with thr_kit_destroy, after a failure too. O(pieces). */
 thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_options *options,
                         const thr_layout *layout, bool meshes, const thr_limits *limits,
                         thr_err *err) THR_MUST_CHECK;

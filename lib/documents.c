@@ -278,11 +278,7 @@ static thr_status picture(const thr_kit *kit, const thr_document_options *asked,
                           thr_err *err)
 {
   thr_kit_view view = asked->view;
-  for (int p = 0; p < kit->n_pieces && asked->piece; p++)
-    if (strcmp(kit->name[p], asked->piece) == 0) view.alone = p + 1;
-  if (asked->piece && !view.alone)
-    return thr_fail(err, THR_EINPUT, "there is no piece %s: beads.csv has the names of all",
-                    asked->piece);
+  view.alone = kit->only;
   return thr_kit_picture(kit, &view, out, err);
 }
 
@@ -290,9 +286,11 @@ static thr_status picture(const thr_kit *kit, const thr_document_options *asked,
 static thr_status of_kit(const thr_plan *plan, document which, const thr_document_options *asked,
                          const thr_limits *limits, thr_text *out, thr_err *err)
 {
-  const thr_kit_options options = {.kind_tolerance = asked->kind_tolerance,
-                                   .names =
-                                       which == PICTURE ? THR_KIT_NO_NAMES : THR_KIT_OF_PIECES};
+  thr_kit_options options = {.kind_tolerance = asked->kind_tolerance};
+  if (which == PICTURE) {
+    options.names = THR_KIT_NO_NAMES;
+    options.only = asked->piece;
+  }
   thr_kit kit;
 
   thr_status st = thr_kit_make(&kit, plan, &options, asked->layout, true, limits, err);
