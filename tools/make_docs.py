@@ -186,6 +186,8 @@ def tutorial_pictures(run, pictures):
     """Of the dome that the tutorial has planned by then."""
     for name in ("advice", "first/overview", "first/tension"):
         svg_to_png(run.path(name + ".svg"), os.path.join(pictures, "first-%s.png" % os.path.basename(name)), 620)
+    kit_to_png(run, "first/plan.json", os.path.join(pictures, "first-kit.png"), "560x380")
+    kit_to_png(run, "first/plan.json", os.path.join(pictures, "first-piece.png"), "300x240", "--piece", "A2")
     pages = int(re.search(r"Pages: *(\d+)", subprocess.run(["pdfinfo", run.path("first/sheets.pdf")], stdout=subprocess.PIPE, text=True,
                                                            check=True).stdout).group(1))
     for page in range(1, pages + 1):
