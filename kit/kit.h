@@ -102,6 +102,12 @@ thr_status thr_kit_edges_make(thr_kit_edges *edges, const thr_plan *plan,
                               const char (*label)[THR_LABEL], thr_text *notes,
                               thr_err *err) THR_MUST_CHECK;
 
+/* Fills off[passes of all cords] with how far each pass lies from the axis of its bore, mm: passes
+ * that share one lie around it, so that cords of a diameter are told apart. O(passes + edges).
+ * THR_ENOMEM. */
+thr_status thr_kit_edges_share(const thr_kit_edges *edges, const thr_plan *plan, double cord,
+                               double (*off)[3], thr_err *err) THR_MUST_CHECK;
+
 /* ---- a piece ---- */
 
 /* An arm of a piece, or one half of a tube. */

@@ -44,7 +44,7 @@ typedef struct {
   bool shaded;               /* is there a ground to draw a shadow on? */
   float *shadow;             /* [SHADOW * SHADOW] 0 to 1 */
   double corner[2], cell;    /* of the shadow's first cell, and the size of one, mm */
-  int *ordinal, *shared;     /* [passes] number in its bore; how many there are */
+  double (*off)[3];          /* [passes] from the axis of its bore */
   double (*point)[3];
   strand *line;
   int n_points, points_capacity, n_lines, lines_capacity;
@@ -94,39 +94,9 @@ static thr_status add_point(drawing *work, const double at[3], thr_err *err)
   return THR_OK;
 }
 
-/* Numbers the passes that share a bore. */
-static void share_bores(drawing *work, int *count)
-{
-  const thr_kit *kit = work->kit;
-  const thr_kit_edges *edges = &kit->edges;
-  for (int round = 0; round < 2; round++)
-    for (int c = 0; c < kit->plan->n_cords; c++)
-      for (int k = 0; k < kit->plan->cord[c].n_passes; k++) {
-        int pass = edges->first_pass[c] + k, e = kit->plan->cord[c].half[k] >> 1;
-        int lane = edges->edge[e].n_lanes > 1 ? edges->lane[pass] : 0;
-        int *here = &count[e * THR_KIT_MOST_LANES + lane];
-        if (round == 0)
-          work->ordinal[pass] = (*here)++;
-        else
-          work->shared[pass] = *here;
-      }
-}
-
-/* Fills off with where a pass is in its bore: beside the others. */
-static void place_in_bore(const drawing *work, int c, int k, double off[3])
-{
-  const thr_kit_edges *edges = &work->kit->edges;
-  int pass = edges->first_pass[c] + k, n = work->shared[pass];
-  const thr_kit_edge *edge = &edges->edge[work->kit->plan->cord[c].half[k] >> 1];
-  double room = n > 1 ? fmax(0.5 * (edge->bore - work->kit->cord), 0) : 0;
-  double angle = 2 * THR_PI * work->ordinal[pass] / n;
-  for (int i = 0; i < 3; i++)
-    off[i] = room * (cos(angle) * edge->up[i] + sin(angle) * edge->side[i]);
-}
-
 /* Adds a strand along a channel, shifted at its ends by off[0] and off[1]. */
 static thr_status follow(drawing *work, const thr_kit_piece *piece, const thr_kit_channel *channel,
-                         double off[2][3], thr_err *err)
+                         const double *off[2], thr_err *err)
 {
   double shift[3];
   shift_of(work, piece->piece, shift);
@@ -190,9 +160,9 @@ static thr_status lay_through_nodes(drawing *work, const thr_copy *copy, thr_err
       const thr_kit_piece *piece = &kit->piece[node];
       const thr_kit_channel *channel = find_channel(piece, c, k, half, &back);
       if (!channel || !is_drawn(work, node)) continue;
-      double off[2][3];
-      place_in_bore(work, c, begins ? 0 : k, off[back]);
-      place_in_bore(work, c, ends ? k : k + 1, off[!back]);
+      const double(*off_of)[3] = (const double(*)[3])work->off + kit->edges.first_pass[c];
+      const double *in = off_of[begins ? 0 : k], *out = off_of[ends ? k : k + 1];
+      const double *off[2] = {back ? out : in, back ? in : out};
       thr_status st = begin_strand(work, copy, c, begins ? 0 : k, err);
       if (!st) st = follow(work, piece, channel, off, err);
       if (st) return st;
@@ -214,15 +184,14 @@ static void find_ends(const drawing *work, int c, int k, tube_end end[2])
   const thr_kit_piece *piece = &kit->piece[half >> 1];
   const thr_kit_edge *edge = &kit->edges.edge[half >> 1];
   const double *lane = edge->lane[edge->n_lanes > 1 ? kit->edges.lane[pass] : 0];
-  double off[3], shift[3], sign = half & 1 ? -1 : 1;
-  place_in_bore(work, c, k, off);
+  double shift[3], sign = half & 1 ? -1 : 1;
   shift_of(work, piece->piece, shift);
   for (int i = 0; i < 2; i++) {
     const thr_kit_arm *arm = &piece->arm[(half & 1) ^ !i];
     double reach = fmax(arm->length - (piece->rounded ? 0 : 0.75 * arm->width), 0.5 * arm->length);
     for (int j = 0; j < 3; j++) {
       end[i].along[j] = sign * edge->along[j];
-      end[i].at[j] = piece->centre[j] + shift[j] + off[j] + reach * arm->along[j] +
+      end[i].at[j] = piece->centre[j] + shift[j] + work->off[pass][j] + reach * arm->along[j] +
                      lane[0] * edge->up[j] + lane[1] * edge->side[j];
     }
   }
@@ -263,22 +232,15 @@ static thr_status lay_through_tubes(drawing *work, const thr_copy *copy, thr_err
 static thr_status lay_cords(drawing *work, thr_err *err)
 {
   const thr_kit *kit = work->kit;
-  thr_scratch own = {0};
   size_t passes = (size_t)kit->edges.first_pass[kit->plan->n_cords];
-  thr_copy *copy = thr_scratch_array(&own, (size_t)kit->plan->n_cords, sizeof *copy);
-  int *count =
-      thr_scratch_array(&own, (size_t)kit->plan->frame.n_edges * THR_KIT_MOST_LANES, sizeof *count);
-  work->ordinal = thr_scratch_array(&work->own, passes + 1, sizeof *work->ordinal);
-  work->shared = thr_scratch_array(&work->own, passes + 1, sizeof *work->shared);
-  thr_status st = thr_scratch_check(&own, err);
-  if (!st) st = thr_scratch_check(&work->own, err);
+  thr_copy *copy = thr_scratch_array(&work->own, (size_t)kit->plan->n_cords, sizeof *copy);
+  work->off = thr_scratch_array(&work->own, passes + 1, sizeof *work->off);
+  thr_status st = thr_scratch_check(&work->own, err);
   if (!st) st = thr_copies_find(kit->plan, copy, err);
-  if (!st) {
-    share_bores(work, count);
+  if (!st) st = thr_kit_edges_share(&kit->edges, kit->plan, kit->cord, work->off, err);
+  if (!st)
     st = kit->piece[0].tube ? lay_through_tubes(work, copy, err)
                             : lay_through_nodes(work, copy, err);
-  }
-  thr_scratch_free(&own);
   return st;
 }
 

@@ -145,6 +145,14 @@ START_TEST(cords_that_end_side_by_side_are_both_seen)
   const thr_kit_options options = {.names = THR_KIT_NO_NAMES};
   ck_assert_int_eq(thr_kit_make(&kit, &plan, &options, NULL, true, &limits, &err), THR_OK);
 
+  /* In their bore they lie at its sides. */
+  double off[2][3];
+  ck_assert_int_eq(thr_kit_edges_share(&kit.edges, &plan, kit.cord, off, &err), THR_OK);
+  double apart = thr_distance(off[0], off[1]);
+  ck_assert_double_eq_tol(apart, kit.edges.edge[0].bore - kit.cord, 1e-9);
+  for (int k = 0; k < 3; k++)
+    ck_assert_double_eq_tol(off[0][k], -off[1][k], 1e-9);
+
   /* Left of the node, where they come out: blue and vermilion. */
   const thr_kit_view view = {.size = {240, 180}, .from = true, .azimuth = -THR_PI / 2};
   unsigned char *pixel;
