@@ -286,3 +286,33 @@ done:
   thr_scratch_free(&work);
   return st;
 }
+
+thr_status thr_kit_edges_share(const thr_kit_edges *edges, const thr_plan *plan, double cord,
+                               double (*off)[3], thr_err *err)
+{
+  thr_scratch own = {0};
+  size_t bores = (size_t)plan->frame.n_edges * THR_KIT_MOST_LANES;
+  int *count = thr_scratch_array(&own, bores, sizeof *count);
+  int *placed = thr_scratch_array(&own, bores, sizeof *placed);
+  thr_status st = thr_scratch_check(&own, err);
+
+  /* Count, then place. */
+  for (int round = 0; round < 2 && !st; round++)
+    for (int c = 0; c < plan->n_cords; c++)
+      for (int k = 0; k < plan->cord[c].n_passes; k++) {
+        int pass = edges->first_pass[c] + k, e = plan->cord[c].half[k] >> 1;
+        const thr_kit_edge *edge = &edges->edge[e];
+        int bore = e * THR_KIT_MOST_LANES + (edge->n_lanes > 1 ? edges->lane[pass] : 0);
+        if (round == 0) {
+          count[bore]++;
+          continue;
+        }
+        int n = count[bore];
+        double room = n > 1 ? fmax(0.5 * (edge->bore - cord), 0) : 0;
+        double angle = 2 * THR_PI * placed[bore]++ / n;
+        for (int i = 0; i < 3; i++)
+          off[pass][i] = room * (cos(angle) * edge->up[i] + sin(angle) * edge->side[i]);
+      }
+  thr_scratch_free(&own);
+  return st;
+}

@@ -156,7 +156,7 @@ thr_status thr_film_movement(thr_movement *movement, const thr_kit *kit, int n_f
   thr_status st = thr_scratch_check(&own, err);
   for (int c = 0; c < n_cords && !st; c++)
     n_points[c] = 2 * kit->plan->cord[c].n_passes + (kit->plan->cord[c].closed ? 1 : 2);
-  if (!st) st = thr_kit_share_bores(kit, off, err);
+  if (!st) st = thr_kit_edges_share(&kit->edges, kit->plan, kit->cord, off, err);
   if (!st) st = thr_movement_make(movement, kit->n_pieces, n_frames, n_cords, n_points, err);
   if (!st) {
     add_cords(movement, kit, (const double(*)[3])off);

@@ -588,6 +588,16 @@ static thr_status give_names(maker *work, thr_err *err)
   return st;
 }
 
+/* Finds the only piece that is wanted by its name. */
+static thr_status find_only(thr_kit *kit, const char *name, thr_err *err)
+{
+  for (int p = 0; p < kit->n_pieces && name; p++)
+    if (strcmp(kit->name[p], name) == 0) kit->only = p + 1;
+  return name && !kit->only ? thr_fail(err, THR_EINPUT, "there is no piece %s, but %s to %s", name,
+                                       kit->name[0], kit->name[kit->n_pieces - 1])
+                            : THR_OK;
+}
+
 /* ---- meshes ---- */
 
 /* Pieces whose meshes are made in threads. */
@@ -596,13 +606,14 @@ typedef struct {
   atomic_int done; /* meshes so far */
 } meshing;
 
-/* Makes the mesh of a piece, unless it shares one. */
+/* Makes the mesh of a piece, unless it shares one, or the only one that is wanted does not share
+ * it. */
 static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_err *err)
 {
   meshing *work = user;
   thr_kit *kit = work->kit;
   const thr_kit_piece *piece = &kit->piece[job];
-  if (piece->like != job) return THR_OK;
+  if (piece->like != job || (kit->only && kit->piece[kit->only - 1].like != job)) return THR_OK;
 
   thr_solid solid = {.sample = thr_kit_sample, .user = piece};
   double thickest = piece->node_radius, narrowest = INFINITY;
@@ -724,6 +735,7 @@ thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_option
   }
   if (!st) st = find_alike(&work, err);
   if (!st) st = give_names(&work, err);
+  if (!st) st = find_only(kit, options->only, err);
   if (!st) note_channels(&work);
   meshing meshed = {.kit = kit};
   if (!st && meshes) st = thr_threads_run(kit->n_pieces, mesh_piece, &meshed, limits, err);
@@ -766,36 +778,4 @@ void thr_kit_place(const thr_kit_piece *piece, const double at[3], double place[
 {
   for (int i = 0; i < 3; i++)
     place[i] = piece->centre[i] + thr_dot(&piece->place[3 * i], at);
-}
-
-thr_status thr_kit_share_bores(const thr_kit *kit, double (*off)[3], thr_err *err)
-{
-  const thr_kit_edges *edges = &kit->edges;
-  int passes = edges->first_pass[kit->plan->n_cords];
-  size_t bores = (size_t)kit->plan->frame.n_edges * THR_KIT_MOST_LANES;
-  thr_scratch own = {0};
-  int *count = thr_scratch_array(&own, bores, sizeof *count);
-  int *bore_of = thr_scratch_array(&own, (size_t)passes + 1, sizeof *bore_of);
-  int *ordinal = thr_scratch_array(&own, (size_t)passes + 1, sizeof *ordinal);
-  thr_status st = thr_scratch_check(&own, err);
-
-  for (int c = 0; c < kit->plan->n_cords && !st; c++)
-    for (int k = 0; k < kit->plan->cord[c].n_passes; k++) {
-      int pass = edges->first_pass[c] + k, e = kit->plan->cord[c].half[k] >> 1;
-      int lane = edges->edge[e].n_lanes > 1 ? edges->lane[pass] : 0;
-      bore_of[pass] = e * THR_KIT_MOST_LANES + lane;
-      ordinal[pass] = count[bore_of[pass]]++;
-    }
-
-  /* In a circle, as far out as the bore allows. */
-  for (int pass = 0; pass < passes && !st; pass++) {
-    const thr_kit_edge *edge = &edges->edge[bore_of[pass] / THR_KIT_MOST_LANES];
-    int n = count[bore_of[pass]];
-    double room = n > 1 ? fmax(0.5 * (edge->bore - kit->cord), 0) : 0;
-    double angle = 2 * THR_PI * ordinal[pass] / n;
-    for (int i = 0; i < 3; i++)
-      off[pass][i] = room * (cos(angle) * edge->up[i] + sin(angle) * edge->side[i]);
-  }
-  thr_scratch_free(&own);
-  return st;
 }

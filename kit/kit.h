@@ -55,6 +55,7 @@ typedef struct {
   thr_kit_tube_ends tube_ends;
   double coarse;     /* factor on the sizes of triangles, for pictures; 0 = 1 */
   bool knot_pockets; /* where cords end, a hollow for the knot */
+  const char *only;  /* name of the piece that alone gets its mesh, for pictures; NULL = all */
 } thr_kit_options;
 
 /* Return the words of these options, in the order of the enumerations. */
@@ -100,6 +101,12 @@ thr_status thr_kit_edges_make(thr_kit_edges *edges, const thr_plan *plan,
                               const thr_kit_options *options, thr_kit_sizes *sizes,
                               const char (*label)[THR_LABEL], thr_text *notes,
                               thr_err *err) THR_MUST_CHECK;
+
+/* Fills off[passes of all cords] with how far each pass lies from the axis of its bore, mm: passes
+ * that share one lie around it, so that cords of a diameter are told apart. O(passes + edges).
+ * THR_ENOMEM. */
+thr_status thr_kit_edges_share(const thr_kit_edges *edges, const thr_plan *plan, double cord,
+                               double (*off)[3], thr_err *err) THR_MUST_CHECK;
 
 /* ---- a piece ---- */
 
@@ -205,6 +212,7 @@ typedef struct {
   double cord;             /* diameter */
   thr_kit_edges edges;
   int n_pieces, n_meshes, n_kinds;
+  int only;                /* the piece of this name in the options, from 1; 0 = all */
   thr_kit_piece *piece;    /* [n_pieces] */
   thr_mesh *mesh;          /* [n_pieces] empty where another piece's is shared */
   thr_mesh_report *report; /* [n_pieces] of those that have one */
@@ -215,16 +223,12 @@ typedef struct {
 } thr_kit;
 
 /* Makes the pieces of a plan: shapes, and the meshes too if asked for, in limits->threads threads.
- * THR_EINPUT says which piece does not fit and the number that would do. THR_ELIMIT when stopped.
- * Release with thr_kit_destroy, after a failure too. O(pieces). */
+ * THR_EINPUT says which piece does not fit and the number that would do, or that none is called so.
+ * THR_ELIMIT when stopped. Release with thr_kit_destroy, after a failure too. O(pieces). */
 thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_options *options,
                         const thr_layout *layout, bool meshes, const thr_limits *limits,
                         thr_err *err) THR_MUST_CHECK;
 void thr_kit_destroy(thr_kit *kit);
-
-/* Fills off[passes of all cords] with where each pass is from the middle of its lane, mm: beside
- * the others in the same bore. THR_ENOMEM. O(edges + passes). */
-thr_status thr_kit_share_bores(const thr_kit *kit, double (*off)[3], thr_err *err) THR_MUST_CHECK;
 
 /* Fills place with a point of a piece's mesh in the assembled framework, mm. */
 void thr_kit_place(const thr_kit_piece *piece, const double at[3], double place[3]);

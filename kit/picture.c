@@ -47,7 +47,7 @@ typedef struct {
   bool shaded;               /* is there a ground to draw a shadow on? */
   float *shadow;             /* [SHADOW * SHADOW] 0 to 1 */
   double corner[2], cell;    /* of the shadow's first cell, and the size of one, mm */
-  double (*in_bore)[3];      /* [passes] as thr_kit_share_bores says */
+  double (*off)[3];          /* [passes] from the axis of its bore */
   double (*point)[3];
   strand *line;
   int n_points, points_capacity, n_lines, lines_capacity;
@@ -97,15 +97,9 @@ static thr_status add_point(drawing *work, const double at[3], thr_err *err)
   return THR_OK;
 }
 
-/* Fills off with where a pass is in its bore: beside the others. */
-static void place_in_bore(const drawing *work, int c, int k, double off[3])
-{
-  memcpy(off, work->in_bore[work->kit->edges.first_pass[c] + k], sizeof *work->in_bore);
-}
-
 /* Adds a strand along a channel, shifted at its ends by off[0] and off[1]. */
 static thr_status follow(drawing *work, const thr_kit_piece *piece, const thr_kit_channel *channel,
-                         double off[2][3], thr_err *err)
+                         const double *off[2], thr_err *err)
 {
   double shift[3];
   shift_of(work, piece->piece, shift);
@@ -135,18 +129,18 @@ static thr_status follow(drawing *work, const thr_kit_piece *piece, const thr_ki
   return THR_OK;
 }
 
-/* Returns the channel by which pass k of cord c goes on with the next one, NULL if there is none.
- * *back receives whether its curve runs the other way. */
-static const thr_kit_channel *find_channel(const thr_kit_piece *piece, const thr_cord *cord, int c,
-                                           int k, bool *back)
+/* Returns the channel between the arms that two half-edges leave by, -1 = outside, and of several
+ * that by which pass k of cord c goes on; NULL if there is none. *back receives whether its curve
+ * runs from the second to the first. */
+static const thr_kit_channel *find_channel(const thr_kit_piece *piece, int c, int k,
+                                           const int half[2], bool *back)
 {
-  int in = cord->half[k] ^ 1, out = cord->half[(k + 1) % cord->n_passes];
   const thr_kit_channel *found = NULL;
   for (int i = 0; i < piece->n_channels; i++) {
     const thr_kit_channel *channel = &piece->channel[i];
-    if (channel->in < 0 || channel->out < 0) continue;
-    int ends[2] = {piece->arm[channel->in].half, piece->arm[channel->out].half};
-    bool same = ends[0] == in && ends[1] == out, turned = ends[0] == out && ends[1] == in;
+    int from = channel->in < 0 ? -1 : piece->arm[channel->in].half;
+    int to = channel->out < 0 ? -1 : piece->arm[channel->out].half;
+    bool same = from == half[0] && to == half[1], turned = from == half[1] && to == half[0];
     if (!same && !turned) continue;
     *back = !same;
     found = channel;
@@ -155,40 +149,28 @@ static const thr_kit_channel *find_channel(const thr_kit_piece *piece, const thr
   return found;
 }
 
-/* Lays the cords through solid pieces. */
+/* Lays the cords through solid pieces: out of each pass into the next, at both ends from and to
+ * outside, also where a closed cord is knotted. */
 static thr_status lay_through_nodes(drawing *work, const thr_copy *copy, thr_err *err)
 {
   const thr_kit *kit = work->kit;
   for (int c = 0; c < kit->plan->n_cords; c++) {
     const thr_cord *cord = &kit->plan->cord[c];
-    for (int k = 0; k < cord->n_passes - 1 + cord->closed; k++) {
-      int next = (k + 1) % cord->n_passes;
-      const thr_kit_piece *piece = &kit->piece[thr_head(&kit->plan->frame, cord->half[k])];
-      bool back;
-      const thr_kit_channel *channel = find_channel(piece, cord, c, k, &back);
-      if (!channel || !is_drawn(work, piece->piece)) continue;
-      double off[2][3];
-      place_in_bore(work, c, k, off[back]);
-      place_in_bore(work, c, next, off[!back]);
-      thr_status st = begin_strand(work, copy, c, k, err);
+    for (int k = -1; k < cord->n_passes; k++) {
+      bool begins = k < 0, ends = k == cord->n_passes - 1, back;
+      const int half[2] = {begins ? -1 : cord->half[k] ^ 1, ends ? -1 : cord->half[k + 1]};
+      const int node = thr_head(&kit->plan->frame, begins ? half[1] ^ 1 : cord->half[k]);
+      const thr_kit_piece *piece = &kit->piece[node];
+      const thr_kit_channel *channel = find_channel(piece, c, k, half, &back);
+      if (!channel || !is_drawn(work, node)) continue;
+      const double(*off_of)[3] = (const double(*)[3])work->off + kit->edges.first_pass[c];
+      const double *in = off_of[begins ? 0 : k], *out = off_of[ends ? k : k + 1];
+      const double *off[2] = {back ? out : in, back ? in : out};
+      thr_status st = begin_strand(work, copy, c, begins ? 0 : k, err);
       if (!st) st = follow(work, piece, channel, off, err);
       if (st) return st;
     }
   }
-
-  /* Where cords end. */
-  for (int p = 0; p < kit->n_pieces; p++)
-    for (int i = 0; i < kit->piece[p].n_channels && is_drawn(work, p); i++) {
-      const thr_kit_channel *channel = &kit->piece[p].channel[i];
-      if (channel->in >= 0 && channel->out >= 0) continue;
-      const thr_cord *cord = &kit->plan->cord[channel->cord];
-      int k = channel->in < 0 ? (channel->pass + 1) % cord->n_passes : channel->pass;
-      double off[2][3] = {{0}, {0}};
-      place_in_bore(work, channel->cord, k, off[channel->in < 0]);
-      thr_status st = begin_strand(work, copy, channel->cord, k, err);
-      if (!st) st = follow(work, &kit->piece[p], channel, off, err);
-      if (st) return st;
-    }
   return THR_OK;
 }
 
@@ -205,15 +187,14 @@ static void find_ends(const drawing *work, int c, int k, tube_end end[2])
   const thr_kit_piece *piece = &kit->piece[half >> 1];
   const thr_kit_edge *edge = &kit->edges.edge[half >> 1];
   const double *lane = edge->lane[edge->n_lanes > 1 ? kit->edges.lane[pass] : 0];
-  double off[3], shift[3], sign = half & 1 ? -1 : 1;
-  place_in_bore(work, c, k, off);
+  double shift[3], sign = half & 1 ? -1 : 1;
   shift_of(work, piece->piece, shift);
   for (int i = 0; i < 2; i++) {
     const thr_kit_arm *arm = &piece->arm[(half & 1) ^ !i];
     double reach = fmax(arm->length - (piece->rounded ? 0 : 0.75 * arm->width), 0.5 * arm->length);
     for (int j = 0; j < 3; j++) {
       end[i].along[j] = sign * edge->along[j];
-      end[i].at[j] = piece->centre[j] + shift[j] + off[j] + reach * arm->along[j] +
+      end[i].at[j] = piece->centre[j] + shift[j] + work->off[pass][j] + reach * arm->along[j] +
                      lane[0] * edge->up[j] + lane[1] * edge->side[j];
     }
   }
@@ -254,18 +235,15 @@ static thr_status lay_through_tubes(drawing *work, const thr_copy *copy, thr_err
 static thr_status lay_cords(drawing *work, thr_err *err)
 {
   const thr_kit *kit = work->kit;
-  thr_scratch own = {0};
   size_t passes = (size_t)kit->edges.first_pass[kit->plan->n_cords];
-  thr_copy *copy = thr_scratch_array(&own, (size_t)kit->plan->n_cords, sizeof *copy);
-  work->in_bore = thr_scratch_array(&work->own, passes + 1, sizeof *work->in_bore);
-  thr_status st = thr_scratch_check(&own, err);
-  if (!st) st = thr_scratch_check(&work->own, err);
+  thr_copy *copy = thr_scratch_array(&work->own, (size_t)kit->plan->n_cords, sizeof *copy);
+  work->off = thr_scratch_array(&work->own, passes + 1, sizeof *work->off);
+  thr_status st = thr_scratch_check(&work->own, err);
   if (!st) st = thr_copies_find(kit->plan, copy, err);
-  if (!st) st = thr_kit_share_bores(kit, work->in_bore, err);
+  if (!st) st = thr_kit_edges_share(&kit->edges, kit->plan, kit->cord, work->off, err);
   if (!st)
     st = kit->piece[0].tube ? lay_through_tubes(work, copy, err)
                             : lay_through_nodes(work, copy, err);
-  thr_scratch_free(&own);
   return st;
 }
 
@@ -337,18 +315,26 @@ static void find_boxes(drawing *work)
 /* Finds the scale at which all is seen. */
 static void fit(drawing *work, const int size[2])
 {
+  const thr_camera *camera = &work->view.camera;
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
   find_boxes(work);
-  for (int p = 0; p < work->kit->n_pieces; p++)
+  for (int p = 0; p < work->kit->n_pieces; p++) {
+    if (!is_drawn(work, p)) continue;
     for (int k = 0; k < 2; k++) {
       low[k] = fmin(low[k], work->low[p][k]);
       high[k] = fmax(high[k], work->high[p][k]);
     }
 
+    /* Its shadow lies straight below: no lower than that of the box's far lower corner. */
+    const double *box = work->low[p];
+    const double above = box[1] * camera->up[2] + work->high[p][2] * camera->eye[2] - work->ground;
+    if (work->shaded) low[1] = fmin(low[1], box[1] - above * camera->up[2]);
+  }
+
   /* Cords stick out. */
   for (int i = 0; i < work->n_points; i++) {
-    const double at[2] = {thr_dot(work->point[i], work->view.camera.right),
-                          thr_dot(work->point[i], work->view.camera.up)};
+    const double at[2] = {thr_dot(work->point[i], camera->right),
+                          thr_dot(work->point[i], camera->up)};
     for (int k = 0; k < 2; k++) {
       low[k] = fmin(low[k], at[k]);
       high[k] = fmax(high[k], at[k]);
@@ -833,12 +819,12 @@ static thr_status prepare(drawing *work, const int size[2], thr_err *err)
   if (st) return st;
 
   work->view.camera = choose_camera(work);
-  fit(work, size);
   work->shaded = !work->asked->alone && work->view.camera.eye[2] > 0.1;
   if (work->shaded) {
     find_ground(work);
     cast_shadow(work);
   }
+  fit(work, size);
   return find_normals(work, err);
 }
 

@@ -8,6 +8,7 @@
 #include "graph/io/json.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 enum { STEPS = 65535 };
 
@@ -50,11 +51,42 @@ static void put_mesh(const thr_mesh *mesh, const thr_mesh_report *report, thr_wr
   thr_write_close(writer);
 }
 
+/* Writes where the passes of each cord lie beside the axes of their edges, mm. */
+static void put_lanes(const thr_kit *kit, thr_writer *writer)
+{
+  const thr_kit_edges *edges = &kit->edges;
+  const thr_plan *plan = kit->plan;
+  thr_err err = {0};
+  double(*off)[3] = thr_calloc((size_t)edges->first_pass[plan->n_cords] + 1, sizeof *off);
+  bool known = off && !thr_kit_edges_share(edges, plan, kit->cord, off, &err);
+  writer->out->failed |= !known;
+
+  thr_write_array(writer, "lanes");
+  for (int c = 0; c < plan->n_cords && known; c++) {
+    thr_write_array(writer, NULL);
+    for (int k = 0; k < plan->cord[c].n_passes; k++) {
+      int pass = edges->first_pass[c] + k;
+      const thr_kit_edge *edge = &edges->edge[plan->cord[c].half[k] >> 1];
+      const double *lane = edge->lane[edge->n_lanes > 1 ? edges->lane[pass] : 0];
+      thr_write_array(writer, NULL);
+      for (int i = 0; i < 3; i++)
+        thr_write_printf(writer, NULL, "%.4g",
+                         off[pass][i] + lane[0] * edge->up[i] + lane[1] * edge->side[i]);
+      thr_write_close(writer);
+    }
+    thr_write_close(writer);
+  }
+  thr_write_close(writer);
+  free(off);
+}
+
 void thr_kit_viewer(const thr_kit *kit, thr_text *out)
 {
   thr_writer writer = {.out = out, .compact = true};
   thr_write_object(&writer, NULL);
   thr_write_printf(&writer, "mm", "%.9g", kit->mm);
+  thr_write_printf(&writer, "cord", "%.5g", kit->cord);
+  put_lanes(kit, &writer);
   thr_write_array(&writer, "meshes");
   for (int p = 0; p < kit->n_pieces; p++)
     if (kit->piece[p].like == p) put_mesh(&kit->mesh[p], &kit->report[p], &writer);

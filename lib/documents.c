@@ -12,6 +12,7 @@
 #include "diagram/tables/tables.h"
 #include "kit/files.h"
 #include "kit/kit.h"
+#include "kit/picture.h"
 
 #include <string.h>
 
@@ -33,6 +34,7 @@ typedef enum {
   PAGES,
   POSTER,
   KIT,
+  PICTURE,
   N_DOCUMENTS
 } document;
 
@@ -67,6 +69,9 @@ static const struct {
         {"poster", "poster.pdf",
          "poster.pdf: the overview over several sheets, to glue together; --pitch says how large"},
     [KIT] = {"kit", "kit.3mf", "kit.3mf: the pieces to print, with names; thread kit has options"},
+    [PICTURE] = {"picture", "picture.png",
+                 "picture.png: the pieces to print in their places, translucent, with the cords in "
+                 "them"},
 };
 
 /* Returns the number of documents. */
@@ -258,18 +263,38 @@ static thr_status describe(const thr_plan *plan, document which, const thr_docum
   return st;
 }
 
-/* Makes the usual kit. */
-static thr_status kit_3mf(const thr_plan *plan, const thr_document_options *asked,
-                          const thr_limits *limits, thr_text *out, thr_err *err)
+/* Writes the pieces of a kit on the plates of a printer. */
+static thr_status plates_3mf(const thr_kit *kit, thr_text *out, thr_err *err)
 {
-  const thr_kit_options options = {.kind_tolerance = asked->kind_tolerance};
-  thr_kit kit;
   thr_kit_plates plates = {0};
-
-  thr_status st = thr_kit_make(&kit, plan, &options, asked->layout, true, limits, err);
-  if (!st) st = thr_kit_plates_make(&plates, &kit, err);
+  thr_status st = thr_kit_plates_make(&plates, kit, err);
   if (!st) st = thr_kit_3mf(&plates, out, err);
   thr_kit_plates_destroy(&plates);
+  return st;
+}
+
+/* Draws a kit, or the piece of it that is named. */
+static thr_status picture(const thr_kit *kit, const thr_document_options *asked, thr_text *out,
+                          thr_err *err)
+{
+  thr_kit_view view = asked->view;
+  view.alone = kit->only;
+  return thr_kit_picture(kit, &view, out, err);
+}
+
+/* Makes the usual kit, and of it a file to print or a picture, on which names would be specks. */
+static thr_status of_kit(const thr_plan *plan, document which, const thr_document_options *asked,
+                         const thr_limits *limits, thr_text *out, thr_err *err)
+{
+  thr_kit_options options = {.kind_tolerance = asked->kind_tolerance};
+  if (which == PICTURE) {
+    options.names = THR_KIT_NO_NAMES;
+    options.only = asked->piece;
+  }
+  thr_kit kit;
+
+  thr_status st = thr_kit_make(&kit, plan, &options, asked->layout, true, limits, err);
+  if (!st) st = which == PICTURE ? picture(&kit, asked, out, err) : plates_3mf(&kit, out, err);
   thr_kit_destroy(&kit);
 
   return st;
@@ -293,7 +318,8 @@ thr_status thr_document_make(const thr_plan *plan, int i, const thr_document_opt
   case MAT: return mat(plan, options, limits, out, err);
 
   /* Pieces to print. */
-  case KIT: return kit_3mf(plan, options, limits, out, err);
+  case KIT:
+  case PICTURE: return of_kit(plan, (document)i, options, limits, out, err);
 
   /* Lines for CAD. */
   case OBJ: return thr_polylines_obj(plan, &options->lines, out, err);

@@ -14,6 +14,7 @@
 #include "graph/status.h"
 #include "graph/text.h"
 #include "include/thread.h"
+#include "kit/picture.h"
 
 /* ---- libthread, the library that other programs link (include/thread.h), and what its users and
  * the commands both need: the table of documents, the notes on reading, the names of motions.
@@ -127,6 +128,8 @@ typedef struct {
   int needles; /* that cords are threaded with in the step sheets: 1, 2 = from their middle; 0 = as
                   the plan says */
   thr_line_options lines;   /* of cords for CAD */
+  thr_kit_view view;        /* of the picture */
+  const char *piece;        /* the only one in the picture, by its name; NULL = all */
   const thr_text *kit;      /* of the viewer: the pieces' meshes (kit/files.h); NULL = none */
   const thr_layout *layout; /* of the plan's framework, by thr_layout_choose: what several documents
                                share; NULL: each lays out anew */

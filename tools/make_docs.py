@@ -5,8 +5,9 @@ tools/make_docs.py THREAD           rewrites the pictures, the gallery and the o
 tools/make_docs.py THREAD --check   compares the outputs in the tutorial only: prints what differs, exit code 1
 
 docs/tutorial.md holds fenced blocks whose lines `$ thread ..` are commands, run one after another in one empty folder; what they
-print follows each of them. docs/gallery.md holds one row of numbers for each framework of GALLERY. Pictures are PNG files in
-docs/pictures, made by rsvg-convert and pdftoppm from the drawings of the program.
+print follows each of them. docs/gallery.md holds one row of numbers for each framework of GALLERY, and one for each kit of KITS.
+Pictures are PNG files in docs/pictures, made by rsvg-convert and pdftoppm from the drawings of the program; the first one of README.md
+is put together from several.
 """
 import difflib
 import json
@@ -20,6 +21,7 @@ import tempfile
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PICTURES = os.path.join("docs", "pictures")
 BEGIN, END = "<!-- the table that make docs writes -->", "<!-- end -->"
+KITS_BEGIN = "<!-- the kits that make docs writes -->"
 
 # What each row of the gallery is: its name, where the framework is from (a shape to make, or a file of data/), and the options
 # of the plan.
@@ -35,6 +37,26 @@ GALLERY = [
     ("tree", "assembly-instances/robarch_tree_S.json", ["--cords", "6", "--ends", "feet"]),
     ("tower", "conmech/tower_3D.json", ["--cords", "3", "--ends", "feet"]),
 ]
+
+# Kits: of a plan of the gallery, or of a framework and the options of a plan; and the piece that is shown alone.
+KITS = [
+    ("dome", None, None, "B2"),
+    ("tube", None, None, "C2"),
+    ("sphere", None, None, "B3"),
+    ("honeycomb-3", ["honeycomb", "--size", "3"], ["--cords", "8", "--ends", "any"], "C2"),
+    ("voronoi", "assembly-instances/voronoi_S1_03-14-2019_w_layer.json", ["--cords", "6", "--ends", "any", "--objective", "length"], "13"),
+]
+
+# The first picture of README.md: three pieces, a page of the booklet, the dome; px.
+FIRST = """<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" width="1200" height="450">
+<image x="0" y="0" width="200" height="150" xlink:href="B1.png"/>
+<image x="0" y="145" width="200" height="150" xlink:href="B2.png"/>
+<image x="0" y="290" width="200" height="150" xlink:href="A1.png"/>
+<image x="215" y="16" width="296" height="418" xlink:href="page.png"/>
+<rect x="215.5" y="16.5" width="295" height="417" fill="none" stroke="#b0b0b4"/>
+<image x="520" y="30" width="680" height="400" xlink:href="whole.png"/>
+</svg>
+"""
 
 
 class Run:
@@ -77,36 +99,75 @@ def page_to_png(pdf, page, png, dots):
     subprocess.run(["pdftoppm", "-png", "-singlefile", "-r", str(dots), "-f", str(page), "-l", str(page), pdf, png[: -len(".png")]], check=True)
 
 
+def kit_to_png(run, plan, png, size, *options):
+    run.thread("draw", plan, "-T", "picture", "--size", size, *options, "-o", os.path.abspath(png))
+
+
 def newtons(value):
     return "%.3g N" % value
 
 
-def gallery_row(run, entry, pictures):
-    """The framework planned and drawn; its row of the table."""
-    name, source, options = entry
+def planned(run, name, source, options):
+    """The framework planned and drawn: the commands, and what the plan says."""
     options = options if "--objective" in options else [*options, "--objective", "tortuosity"]
     made = isinstance(source, list)
     frame = name + ".json" if made else os.path.join("data", source)
     if made:
         run.thread("make", *source, "-o", frame)
+    first = "`thread make %s -o %s`<br>" % (" ".join(source), frame) if made else ""
     said = json.loads(run.thread("plan", frame, *options, "--json", "-o", name + "-plan.json", "--draw", name))
+    return first + "`thread plan %s`" % " ".join([frame, *options]), said
+
+
+def gallery_row(run, entry, pictures):
+    """The framework planned and drawn; its row of the table."""
+    name, source, options = entry
+    command, said = planned(run, name, source, options)
     svg_to_png(run.path(os.path.join(name, "overview.svg")), os.path.join(pictures, name + ".png"), 400)
     booklet = run.path(os.path.join(name, "sheets.pdf"))
     page_to_png(booklet, step_page(booklet), os.path.join(pictures, name + "-step.png"), 50)
-    first = "`thread make %s -o %s`<br>" % (" ".join(source), frame) if made else ""
-    command = first + "`thread plan %s`" % " ".join([frame, *options])
     show = "<img src=\"pictures/%s.png\" width=\"%d\" alt=\"%s\">"
     return "| %s | %s | %s<br><br>%d pieces, %d interfaces; %d cord%s, %.2f m in all; the hardest pull %s |" % (
         show % (name, 300, "the %s from above" % name), show % (name + "-step", 240, "a step of the %s" % name), command, said["nodes"],
         said["edges"], said["cords"], "" if said["cords"] == 1 else "s", said["length"] / 1000, newtons(said["pull_factor"]))
 
 
+def kit_row(run, entry, pictures):
+    """The kit and one of its pieces drawn; its row of the table."""
+    name, source, options, piece = entry
+    command, plan = "", name + "-plan.json"
+    if source:
+        command = planned(run, name, source, options)[0] + "<br>"
+    kit_to_png(run, plan, os.path.join(pictures, name + "-kit.png"), "600x420")
+    kit_to_png(run, plan, os.path.join(pictures, name + "-piece.png"), "300x240", "--piece", piece)
+    show = "<img src=\"pictures/%s-%s.png\" width=\"%d\" alt=\"%s\">"
+    return "| %s | %s | %s`thread draw %s/plan.json -T picture`<br>`thread draw %s/plan.json -T picture --piece %s` |" % (
+        show % (name, "kit", 420, "the pieces of the %s with the cords in them" % name),
+        show % (name, "piece", 210, "piece %s of the %s" % (piece, name)), command, name, name, piece)
+
+
+def with_table(page, begin, head, rows):
+    """The page with the table behind a mark made anew."""
+    before, rest = page.split(begin)
+    return before + begin + "\n".join(["", "| %s |" % head, "|---|---|---|", *rows, ""]) + END + rest.split(END, 1)[1]
+
+
 def gallery(run, page, pictures):
-    """The page with its table made anew."""
-    head, rest = page.split(BEGIN)
-    rows = [gallery_row(run, entry, pictures) for entry in GALLERY]
-    table = ["", "| seen from outside | a page of the booklet | made by |", "|---|---|---|", *rows, ""]
-    return head + BEGIN + "\n".join(table) + END + rest.split(END, 1)[1]
+    """The page with its tables made anew."""
+    page = with_table(page, BEGIN, "seen from outside | a page of the booklet | made by", [gallery_row(run, entry, pictures) for entry in GALLERY])
+    return with_table(page, KITS_BEGIN, "whole | a piece, by a mouth | made by", [kit_row(run, entry, pictures) for entry in KITS])
+
+
+def first_picture(run, pictures):
+    """What becomes of the gallery's dome: pieces, paper, the dome itself."""
+    for piece in ("B1", "B2", "A1"):
+        kit_to_png(run, "dome-plan.json", run.path(piece + ".png"), "400x300", "--piece", piece)
+    kit_to_png(run, "dome-plan.json", run.path("whole.png"), "1360x800")
+    booklet = run.path(os.path.join("dome", "sheets.pdf"))
+    page_to_png(booklet, step_page(booklet), run.path("page.png"), 75)
+    with open(run.path("first.svg"), "w", encoding="utf-8") as f:
+        f.write(FIRST)
+    svg_to_png(run.path("first.svg"), os.path.join(pictures, "first.png"), 1200)
 
 
 def with_outputs(run, page):
@@ -125,6 +186,8 @@ def tutorial_pictures(run, pictures):
     """Of the dome that the tutorial has planned by then."""
     for name in ("advice", "first/overview", "first/tension"):
         svg_to_png(run.path(name + ".svg"), os.path.join(pictures, "first-%s.png" % os.path.basename(name)), 620)
+    kit_to_png(run, "first/plan.json", os.path.join(pictures, "first-kit.png"), "560x380")
+    kit_to_png(run, "first/plan.json", os.path.join(pictures, "first-piece.png"), "300x240", "--piece", "A2")
     pages = int(re.search(r"Pages: *(\d+)", subprocess.run(["pdfinfo", run.path("first/sheets.pdf")], stdout=subprocess.PIPE, text=True,
                                                            check=True).stdout).group(1))
     for page in range(1, pages + 1):
@@ -167,9 +230,11 @@ def main():
         if not check:
             tutorial_pictures(run, PICTURES)
             put(pages["gallery.md"], gallery(run, text["gallery.md"], PICTURES), check)
+            first_picture(run, PICTURES)
     finally:
         shutil.rmtree(run.folder)
     sys.exit(0 if same or not check else 1)
 
 
-main()
+if __name__ == "__main__":
+    main()

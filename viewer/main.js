@@ -100,6 +100,22 @@ function tag(name, node, text, taken) {
   span.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
 }
 
+// Names of all pieces if they are wanted, the nearest first, as many as there is room for.
+function placeNames(taken) {
+  const box = $('labels'), free = [...box.children];
+  const all = $('names').checked ? plan.pieces.map((name, p) => ({name, ...stage.project(stage.place[p].middle)})) : [];
+  for (const {name, x, y, depth} of all.sort((a, b) => a.depth - b.depth)) {
+    const wide = 8 * name.length + 2, left = x - wide / 2, top = y - 7;
+    if (depth > 1 || left < 0 || top < 0 || left + wide > box.clientWidth || top + 14 > box.clientHeight) continue;
+    if (taken.some((other) => Math.abs(other.y - top) < 16 && left < other.x + other.wide && other.x < left + wide)) continue;
+    taken.push({x: left, y: top, wide});
+    const span = free.shift() ?? box.appendChild(document.createElement('span'));
+    setText(span, name);
+    span.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
+  }
+  for (const span of free) span.remove();
+}
+
 function placeTags() {
   const step = plan.steps[done - 1], ahead = plan.steps[done];
   const here = step ? plan.head(step.half) : plan.tail(ahead.half);
@@ -109,6 +125,7 @@ function placeTags() {
   tag('now', here, plan.places[here], taken);
   tag('start', start === here ? -1 : start, start < 0 ? '' : `start ${plan.labels[start]}`, taken);
   tag('to', to, to < 0 ? '' : `next ${plan.labels[to]}`, taken);
+  placeNames(taken);
 }
 
 // ---- steps ----
@@ -315,6 +332,7 @@ const keys = {
   S: () => stage?.move(0, -1),
   r: () => stage?.reset(),
   f: () => $('follow').click(),
+  n: () => $('names').click(),
   t: switchTheme,
 };
 
@@ -365,6 +383,7 @@ function listen() {
   $('play').addEventListener('click', () => (timer ? pause() : play()));
   $('speed').addEventListener('change', () => timer && play());
   $('follow').addEventListener('change', () => goTo(done));
+  $('names').addEventListener('change', () => stage && placeTags());
   $('reset').addEventListener('click', () => stage?.reset());
   $('theme').addEventListener('click', switchTheme);
   $('jump').addEventListener('submit', jump);

@@ -27,6 +27,7 @@ export function readPlan(text) {
   const plan = JSON.parse(text);
   const held = new Int32Array(plan.edges.length);
   const steps = [];
+  plan.inside = plan.solid || Boolean(plan.kit); // cords run inside pieces, which one sees through
   plan.order = orderOf(plan.cords);
   plan.tail = (h) => plan.edges[h >> 1][h & 1];
   plan.head = (h) => plan.edges[h >> 1][1 - (h & 1)];

@@ -133,7 +133,7 @@ export class Stage {
   // The pieces as they are made: a mesh for each kind, turned and put in its places; and what is seen through what.
   addKit() {
     const {plan} = this, {mm, meshes, pieces} = plan.kit, unit = 1 / mm;
-    const material = new MeshLambertMaterial({transparent: true, opacity: 0.5});
+    const material = new MeshLambertMaterial({transparent: true, opacity: 0.4});
     const bytes = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer;
     pieces.forEach(([mesh, ...numbers], piece) => {
       const ends = plan.solid ? plan.edges.filter((edge) => edge.includes(piece)).map((edge) => [piece, edge[0] + edge[1] - piece]) : [plan.edges[piece]];
@@ -236,10 +236,10 @@ export class Stage {
     this.current = new Mesh(new BufferGeometry(), this.needleMaterial);
     this.arrow = new Mesh(new ConeGeometry(3.4 * this.sizes.cord, 9 * this.sizes.cord, 18), this.needleMaterial);
     this.ball = new Mesh(new SphereGeometry(2.1 * this.sizes.cord, 18, 12), this.needleMaterial);
-    if (this.plan.solid) Object.assign(this.needleMaterial, {transparent: true, depthTest: false}); // seen through all pieces
+    if (this.plan.inside) Object.assign(this.needleMaterial, {transparent: true, depthTest: false}); // seen through all pieces
     for (const mesh of [this.current, this.arrow, this.ball]) {
       lined(mesh, this.rim).frustumCulled = false;
-      if (this.plan.solid) mesh.renderOrder = 3;
+      if (this.plan.inside) mesh.renderOrder = 3;
       this.scene.add(mesh);
     }
   }
@@ -247,6 +247,7 @@ export class Stage {
   // Colours of the page: bare, held, now, next, foot, rim, paper as CSS colours.
   setTheme(colours) {
     this.theme = Object.fromEntries(Object.entries(colours).map(([name, css]) => [name, new Color(css)]));
+    if (this.plan.kit) this.theme.bare.lerp(this.theme.next, 0.4); // else empty pieces fade into the page
     this.renderer.setClearColor(this.theme.paper);
     this.scene.fog.color.copy(this.theme.paper);
     this.rim.color.copy(this.theme.rim);

@@ -12,7 +12,7 @@ export function sizesOf(plan, nodes) {
   const pitch = sorted[sorted.length >> 1] || 1;
   const radius = (plan.solid ? 0.14 : 0.095) * pitch;
   const room = plan.solid ? 2.4 * BORE * radius : 0.8 * radius * LANES;
-  const cord = Math.min(0.03 * pitch, room / (2 * plan.most));
+  const cord = plan.kit ? plan.kit.cord / (2 * plan.kit.mm) : Math.min(0.03 * pitch, room / (2 * plan.most));
   return {pitch, radius, cord, lengths, gap: lengths.map((l) => Math.min(0.22 * pitch, 0.3 * l))};
 }
 
@@ -40,11 +40,12 @@ export function frames(plan, nodes) {
 export function lanes(plan, nodes, sizes, frame) {
   const total = new Int32Array(plan.edges.length);
   for (const step of plan.steps) total[step.edge]++;
-  return plan.steps.map(({edge, half, visit}) => {
+  return plan.steps.map(({cord, k, edge, half, visit}) => {
     const {axis, out} = frame[edge], side = new Vector3().crossVectors(axis, out);
     const n = total[edge], part = n > 1 ? (visit - 0.5) / n - 0.5 : 0, angle = part * (plan.solid ? 2 * Math.PI : LANES);
     const off = side.clone().multiplyScalar(Math.sin(angle)).addScaledVector(out, Math.cos(angle));
-    if (plan.solid) off.multiplyScalar(n > 1 ? BORE * Math.min(sizes.radius, 0.28 * sizes.lengths[edge]) : 0);
+    if (plan.kit) off.set(...plan.kit.lanes[cord][k]).divideScalar(plan.kit.mm); // in its bore
+    else if (plan.solid) off.multiplyScalar(n > 1 ? BORE * Math.min(sizes.radius, 0.28 * sizes.lengths[edge]) : 0);
     else off.multiplyScalar(sizes.radius + 0.8 * sizes.cord);
     const [a, b] = plan.edges[edge], gap = sizes.gap[edge];
     const low = nodes[a].clone().addScaledVector(axis, gap).add(off);

@@ -14,8 +14,10 @@
  * and more into diagrams/. */
 #include "cli/commands/commands.h"
 #include "graph/io/read.h"
+#include "graph/number.h"
 #include "lib/lib.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -29,7 +31,8 @@ static const char intro[] =
     "pictures\n"
     "  thread draw plan.json -T steps                steps.txt: row by row, to be ticked off\n"
     "  thread draw plan.json --color tension         after `thread eval plan.json -o plan.json`\n"
-    "  thread draw plan.json --color turning         the sharper a turn the darker\n";
+    "  thread draw plan.json --color turning         the sharper a turn the darker\n"
+    "  thread draw plan.json -T picture -o dome.png  the pieces to print, with the cords in them\n";
 static const char outro[] =
     "Exit codes: 0 drawn, 2 usage, 3 not a plan, 5 not all drawn in the time or memory";
 
@@ -60,6 +63,35 @@ typedef struct {
   const char *output;
 } draw_arguments;
 
+/* Takes "1200x900". */
+static bool take_size(void *into, const cli_option *option, const char *value)
+{
+  int *size = ((draw_arguments *)into)->drawings.view.size, end = 0;
+  (void)option;
+  if (sscanf(value, "%5dx%5d%n", &size[0], &size[1], &end) == 2 && !value[end] && size[0] >= 16 &&
+      size[1] >= 16 && size[0] <= 10000 && size[1] <= 10000)
+    return true;
+  cli_usage("draw", "--size %s: expected width x height in px, 16 to 10000, as 1200x900", value);
+  return false;
+}
+
+/* Takes "-60,23", degrees. */
+static bool take_view(void *into, const cli_option *option, const char *value)
+{
+  thr_kit_view *view = &((draw_arguments *)into)->drawings.view;
+  int end = 0;
+  (void)option;
+  view->from = true;
+  if (sscanf(value, "%lf,%lf%n", &view->azimuth, &view->elevation, &end) == 2 && !value[end] &&
+      fabs(view->azimuth) <= 360 && fabs(view->elevation) <= 90) {
+    view->azimuth *= THR_PI / 180;
+    view->elevation *= THR_PI / 180;
+    return true;
+  }
+  cli_usage("draw", "--view %s: expected two angles, around and up, as -60,23", value);
+  return false;
+}
+
 #define AT(member) .offset = offsetof(draw_arguments, member)
 
 static const cli_option own_options[] = {
@@ -77,6 +109,15 @@ static const cli_option own_options[] = {
              "how sharply the cord turns"},
     {"pitch", .value = "MM", .kind = CLI_AMOUNT, AT(drawings.pitch_mm), .low = 2, .high = 200,
      .help = "millimetres on paper per edge (default: 24, less for large frameworks)"},
+    {"size", .value = "WxH", .kind = CLI_OTHER, .take = take_size,
+     .help = "of the picture in pixels (default: 1200x900)"},
+    {"view", .value = "AZ,EL", .kind = CLI_OTHER, .take = take_view,
+     .help = "picture: from where it is seen, degrees from x towards y and above the ground "
+             "(default: -60,23; of one piece: into its mouth)"},
+    {"piece", .value = "NAME", .kind = CLI_TEXT, AT(drawings.piece),
+     .help = "picture: this piece alone"},
+    {"explode", .value = "X", .kind = CLI_AMOUNT, AT(drawings.view.explode), .low = 1, .high = 10,
+     .help = "picture: pieces this many times as far from their middle (default: 1)"},
     {0}};
 
 /* Writes one document to output: a file, a folder or NULL, the current folder. Returns an exit

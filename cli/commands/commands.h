@@ -15,6 +15,7 @@
 #include "graph/plan/plan.h"
 #include "graph/status.h"
 #include "graph/text.h"
+#include "kit/picture.h"
 
 #include <stdbool.h>
 
@@ -61,7 +62,9 @@ typedef struct {
   int needles; /* that cords are threaded with in the step sheets: 1, 2 = from their middle; 0 = not
                   said */
   thr_line_options lines; /* of cords for CAD */
-  bool quick;             /* all documents means all but the step sheets of too many pieces */
+  thr_kit_view view;      /* of the picture, and the only piece in it by its name; NULL = all */
+  const char *piece;
+  bool quick; /* all documents means all but the step sheets of too many pieces */
 } drawings_args;
 
 /* With more pieces step sheets are hundreds of pages, which nobody prints unasked. */

@@ -92,6 +92,8 @@ static int write_one(const thr_plan *plan, int i, const thr_layout *layout, cons
                                         .colour = args->colour,
                                         .kind_tolerance = args->kind_tolerance,
                                         .page = args->page,
+                                        .view = args->view,
+                                        .piece = args->piece,
                                         .needles = args->needles,
                                         .working_mm = args->working_mm,
                                         .pages = note_pages};

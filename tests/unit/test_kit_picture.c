@@ -127,6 +127,54 @@ START_TEST(cord_is_seen_where_it_runs)
 }
 END_TEST
 
+START_TEST(cords_that_end_side_by_side_are_both_seen)
+{
+  thr_kit kit;
+  thr_plan plan;
+  thr_err err = {0};
+  make_kit(&kit, &plan, 1, THR_JOINT_SOLID);
+  thr_kit_destroy(&kit);
+
+  /* Two cords over the same edge: their ends share a hollow. */
+  int half[2] = {0, 0};
+  thr_cord cord[2] = {plan.cord[0], plan.cord[0]}, *own = plan.cord;
+  cord[1].half = &half[1];
+  plan.cord = cord;
+  plan.n_cords = 2;
+  static const thr_limits limits = {.threads = 1};
+  const thr_kit_options options = {.names = THR_KIT_NO_NAMES};
+  ck_assert_int_eq(thr_kit_make(&kit, &plan, &options, NULL, true, &limits, &err), THR_OK);
+
+  /* In their bore they lie at its sides. */
+  double off[2][3];
+  ck_assert_int_eq(thr_kit_edges_share(&kit.edges, &plan, kit.cord, off, &err), THR_OK);
+  double apart = thr_distance(off[0], off[1]);
+  ck_assert_double_eq_tol(apart, kit.edges.edge[0].bore - kit.cord, 1e-9);
+  for (int k = 0; k < 3; k++)
+    ck_assert_double_eq_tol(off[0][k], -off[1][k], 1e-9);
+
+  /* Left of the node, where they come out: blue and vermilion. */
+  const thr_kit_view view = {.size = {240, 180}, .from = true, .azimuth = -THR_PI / 2};
+  unsigned char *pixel;
+  int size[2], seen[2] = {0, 0};
+  ck_assert_int_eq(thr_kit_pixels(&kit, &view, &pixel, size, &err), THR_OK);
+  for (int y = 0; y < 180; y++)
+    for (int x = 0; x < 30; x++) {
+      const unsigned char *here = &pixel[3 * (240 * y + x)];
+      seen[0] += here[2] - here[0] > 50;
+      seen[1] += here[0] - here[2] > 50;
+    }
+  ck_assert_int_gt(seen[0], 10);
+  ck_assert_int_gt(seen[1], 10);
+
+  free(pixel);
+  thr_kit_destroy(&kit);
+  plan.cord = own;
+  plan.n_cords = 1;
+  thr_plan_destroy(&plan);
+}
+END_TEST
+
 START_TEST(pieces_of_nodes_are_drawn_alone_and_apart)
 {
   thr_kit kit;
@@ -171,6 +219,7 @@ int main(void)
   Suite *s = suite_create("kit picture");
   ADD_TEST(s, 20, png_is_whole_and_the_same_twice);
   ADD_TEST(s, 20, cord_is_seen_where_it_runs);
+  ADD_TEST(s, 20, cords_that_end_side_by_side_are_both_seen);
   ADD_TEST(s, 20, pieces_of_nodes_are_drawn_alone_and_apart);
   ADD_TEST(s, 20, what_cannot_be_drawn_is_refused);
   return run_suite(s);

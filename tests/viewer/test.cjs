@@ -234,6 +234,25 @@ const tests = {
     await close();
   },
 
+  async 'names of all pieces, the nearest where there is room'({dome}) {
+    const {page, close} = await open(dome), names = namesOf(dome);
+    const shown = () => page.evaluate(() => [...document.querySelectorAll('#labels span')].map((span) => {
+      const {left, right, top, bottom} = span.getBoundingClientRect();
+      return {text: span.textContent, left, right, top, bottom};
+    }));
+    assert.deepEqual(await shown(), []);
+    await page.keyboard.press('n');
+    const labels = await shown();
+    assert.ok(labels.length > names.length / 2, `${labels.length} of ${names.length}`);
+    assert.equal(new Set(labels.map(({text}) => text)).size, labels.length);
+    for (const one of labels) assert.ok(names.includes(one.text), one.text);
+    const meet = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+    labels.forEach((a, i) => labels.slice(0, i).forEach((b) => assert.ok(!meet(a, b), `${a.text} meets ${b.text}`)));
+    await page.keyboard.press('n');
+    assert.deepEqual(await shown(), []);
+    await close();
+  },
+
   async 'everything can be reached with the Tab key and has a name'({dome}) {
     const {page, close} = await open(dome), reached = new Set();
     for (let i = 0; i < 40; i++) {
