@@ -387,8 +387,8 @@ void kit_put(thr_text *text, const thr_kit_estimate *kit)
   if (kit->kinds > kit->shapes)
     thr_text_printf(text, " (%d with their %s)", kit->kinds, kit->solid ? "channels" : "ends");
   if (kit->volume > 0)
-    thr_text_printf(text, ", about %g cm3 with %s %.3g mm wide", round_volume(kit->volume / 1000),
-                    kit->solid ? "arms" : "tubes", kit->width);
+    thr_text_printf(text, ", about %g cm3%s %.3g mm wide", round_volume(kit->volume / 1000),
+                    kit->solid ? " with arms" : ",", kit->width);
   if (kit->refused.code)
     thr_text_printf(text, "; none can be printed with the usual sizes: %s", kit->refused.text);
   thr_text_append(text, "\n");
