@@ -405,9 +405,8 @@ static thr_status shape_node(maker *work, int v, thr_kit_piece *piece, thr_err *
   piece->foot = work->foot[v];
   piece->base = 0.75 * widest;
   piece->pad = 0.9 * widest;
-  thr_status st = add_channels(work, piece, v, err);
 
-  return st ? st : add_names(work, piece, err);
+  return add_channels(work, piece, v, err);
 }
 
 /* Adds the planes that part a tube from those that it meets at one end. */
@@ -506,14 +505,14 @@ static thr_status shape_tube(maker *work, int e, thr_kit_piece *piece, thr_err *
     if (st) return st;
     channel->mouth[0] = channel->mouth[1] = false;
   }
-  return add_names(work, piece, err);
+  return THR_OK;
 }
 
 /* ---- kinds ---- */
 
 /* Finds for each piece the first one like it, and numbers the kinds. Only pieces of one kind in
  * all other documents are compared. */
-static thr_status find_alike(maker *work, thr_err *err)
+static void find_alike(const maker *work)
 {
   thr_kit *kit = work->kit;
   double tolerance = kit->options.kind_tolerance * kit->mm;
@@ -524,9 +523,7 @@ static thr_status find_alike(maker *work, thr_err *err)
     tolerance = THR_KINDS_TOLERANCE * sum;
   }
 
-  int *of_kind = thr_scratch_array(&work->own, (size_t)kit->n_pieces + 1, sizeof *of_kind);
-  thr_status st = thr_scratch_check(&work->own, err);
-  if (st) return st;
+  kit->n_kinds = kit->n_meshes = 0;
   for (int p = 0; p < kit->n_pieces; p++) {
     thr_kit_piece *piece = &kit->piece[p];
     static const double unit[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -546,9 +543,7 @@ static thr_status find_alike(maker *work, thr_err *err)
     memcpy(piece->place, unit, sizeof unit);
     piece->kind = ++kit->n_kinds;
     kit->n_meshes++;
-    of_kind[work->pieces.kind[p]]++;
   }
-  return THR_OK;
 }
 
 /* Names pieces and kinds as in all documents. Pieces of one kind that differ in their channels have
@@ -733,7 +728,11 @@ thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_option
     st = solid ? shape_node(&work, p, &kit->piece[p], err)
                : shape_tube(&work, p, &kit->piece[p], err);
   }
-  if (!st) st = find_alike(&work, err);
+  if (!st) find_alike(&work);
+  kit->n_unnamed_kinds = kit->n_kinds;
+  for (int p = 0; p < kit->n_pieces && !st; p++)
+    st = add_names(&work, &kit->piece[p], err);
+  if (!st) find_alike(&work);
   if (!st) st = give_names(&work, err);
   if (!st) st = find_only(kit, options->only, err);
   if (!st) note_channels(&work);

@@ -5,9 +5,10 @@
  *
  * The folder kit/ makes them. Reading order: kit.c (a kit from a plan: edges, then pieces, then
  * meshes), edges.c (width, bore and lanes of every edge), channels.c (curves through a piece),
- * body.c (the solid as a distance), strokes.c (letters), mesh.h with mesher.c and mesh.c (the
- * surface of a solid), plates.c (pieces on the bed of a printer), write_3mf.c, write_scad.c,
- * kit_tables.c (files). Lengths are in mm, angles in rad, masses in g. */
+ * body.c (the solid as a distance), strokes.c (letters), estimate.c (the kit without meshes),
+ * mesh.h with mesher.c and mesh.c (the surface of a solid), plates.c (pieces on the bed of a
+ * printer), write_3mf.c, write_scad.c, kit_tables.c (files). Lengths are in mm, angles in rad,
+ * masses in g. */
 #ifndef THR_KIT_H
 #define THR_KIT_H
 
@@ -213,6 +214,7 @@ typedef struct {
   thr_kit_edges edges;
   int n_pieces, n_meshes, n_kinds;
   int only;                /* the piece of this name in the options, from 1; 0 = all */
+  int n_unnamed_kinds;     /* kinds if the pieces had no letters */
   thr_kit_piece *piece;    /* [n_pieces] */
   thr_mesh *mesh;          /* [n_pieces] empty where another piece's is shared */
   thr_mesh_report *report; /* [n_pieces] of those that have one */
@@ -232,5 +234,27 @@ void thr_kit_destroy(thr_kit *kit);
 
 /* Fills place with a point of a piece's mesh in the assembled framework, mm. */
 void thr_kit_place(const thr_kit_piece *piece, const double at[3], double place[3]);
+
+/* ---- estimate.c: what a kit will be, without meshes. */
+
+/* What is known of the kit without options. 0: not known, as for frameworks of more than 1000
+ * pieces, and where the framework's unit has no length. */
+typedef struct {
+  bool solid;         /* else pieces are tubes */
+  int pieces, shapes; /* shapes: kinds of pieces without channels, as in all other documents */
+  int kinds;          /* with their channels, but without names */
+  double width;       /* of arms or tubes, mm */
+  double volume;      /* of all pieces, mm3, within 1 % */
+  thr_err refused;    /* why no kit can be made with the usual sizes; code 0: it can */
+} thr_kit_estimate;
+
+/* Estimates the kit of a plan. THR_ENOMEM, and THR_EINPUT for a plan without cords. Takes some
+ * tenths of a second at most. */
+thr_status thr_kit_estimate_make(thr_kit_estimate *estimate, const thr_plan *plan,
+                                 thr_err *err) THR_MUST_CHECK;
+
+/* Returns the volume of all pieces in mm3, sampled within 1 % from their shapes. The kit needs no
+ * meshes. */
+double thr_kit_sampled_volume(const thr_kit *kit);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* thread info: computes what a framework is made of: degrees, odd nodes, components, bridges, feet,
- * lengths, and whether it is rigid; of a plan also which joints its cords do not tie, and which
- * channels cross inside a piece.
+ * lengths, and whether it is rigid; of a plan also which joints its cords do not tie, which
+ * channels cross inside a piece, and what a kit of its pieces will be.
  *
  * Odd nodes and bridges tell what threading costs: a closed cord passes some edges twice between
  * odd nodes, in pairs, and every bridge twice.
@@ -32,7 +32,8 @@ static const char intro[] =
     "  thread info nodes.csv --edges edges.csv --json\n"
     "  thread info plan.json      the framework inside a plan, the joints that its cords do not "
     "tie,\n"
-    "                             and the channels that cross inside a piece\n\n"
+    "                             the channels that cross inside a piece, and the pieces to "
+    "make\n\n"
     "The line `hinged` takes every node for a ball joint: can nodes move without an edge getting\n"
     "longer? What can move must be held by joints that lock. A joint is tied if the cord alone "
     "holds\n"
@@ -125,6 +126,7 @@ static thr_status find_untied(const char *path, frame_facts *info, thr_err *err)
 
   info->planned = !st;
   if (!st && plan.options.joint == THR_JOINT_SOLID) st = count_crossings(&plan, info, err);
+  if (!st) st = thr_kit_estimate_make(&info->kit, &plan, err);
   thr_plan_destroy(&plan);
 
   return st;

@@ -51,6 +51,8 @@ static void put_rigidity(thr_text *text, const thr_frame *frame, const frame_fac
   if (info->channels)
     thr_text_printf(text, "crossings   %" PRId64 " of two channels, inside %d of %d pieces\n",
                     info->crossings, info->crossed, frame->n_nodes);
+  thr_text_append(text, "kit         ");
+  kit_put(text, &info->kit);
 }
 
 /* Appends the range of covers or capacities of edges; 0 = none. */
@@ -182,6 +184,7 @@ void facts_put_json(thr_text *text, const thr_frame *frame, const frame_facts *i
     thr_write_int(&writer, "crossings", info->crossings);
     thr_write_int(&writer, "crossed_pieces", info->crossed);
   }
+  if (info->planned) kit_put_json(&writer, &info->kit);
 
   /* What the file was read as. */
   thr_write_hash(&writer, "hash", thr_frame_hash(frame));

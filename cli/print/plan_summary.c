@@ -7,8 +7,8 @@
  * exp(mu x reach), where the reach is the turning from that end to the slackest pass, rad.
  *
  * Order of the lines: what was asked for; a line per cord; length with its proof; longest cord and
- * number of cords with theirs; what hangs on one cord alone; pull; for plans of least turning the
- * comparison with other plans (turning_summary.c). */
+ * number of cords with theirs; what hangs on one cord alone; pull; the pieces to make; for plans of
+ * least turning the comparison with other plans (turning_summary.c). */
 #include "cli/print/print.h"
 #include "graph/number.h"
 
@@ -369,6 +369,55 @@ static void put_distinct(thr_text *text, const thr_plan *plan)
                     asked);
 }
 
+/* ---- the kit ---- */
+
+/* Rounds a volume to the two digits that are sure (kit/estimate.c). */
+static double round_volume(double volume)
+{
+  double power = floor(log10(volume)) - 1, unit = pow(10, fabs(power));
+  return power < 0 ? round(volume * unit) / unit : round(volume / unit) * unit;
+}
+
+void kit_put(thr_text *text, const thr_kit_estimate *kit)
+{
+  const char *piece = kit->solid ? "piece" : "tube";
+
+  thr_text_printf(text, "%d %s%s, %d %s", kit->pieces, piece, kit->pieces == 1 ? "" : "s",
+                  kit->shapes, cli_plural(kit->shapes, "kind", "kinds"));
+  if (kit->kinds > kit->shapes)
+    thr_text_printf(text, " (%d with their %s)", kit->kinds, kit->solid ? "channels" : "ends");
+  if (kit->volume > 0)
+    thr_text_printf(text, ", about %g cm3%s %.3g mm wide", round_volume(kit->volume / 1000),
+                    kit->solid ? " with arms" : ",", kit->width);
+  if (kit->refused.code)
+    thr_text_printf(text, "; none can be printed with the usual sizes: %s", kit->refused.text);
+  thr_text_append(text, "\n");
+}
+
+void kit_put_json(thr_writer *writer, const thr_kit_estimate *kit)
+{
+  thr_write_object(writer, "kit");
+  thr_write_int(writer, "pieces", kit->pieces);
+  thr_write_int(writer, "kinds", kit->shapes);
+  if (kit->kinds > 0) thr_write_int(writer, "kinds_with_channels", kit->kinds);
+  if (kit->volume > 0) {
+    thr_write_number(writer, "volume_cm3", round_volume(kit->volume / 1000));
+    thr_write_number(writer, "width_mm", kit->width);
+  }
+  if (kit->refused.code) thr_write_string(writer, "refused", kit->refused.text);
+  thr_write_close(writer);
+}
+
+/* Estimates the kit of a plan. Returns whether something is known; memory that runs out is kept in
+ * the text. */
+static bool estimate_kit(thr_text *text, const thr_plan *plan, thr_kit_estimate *kit)
+{
+  thr_err err = {0};
+  thr_status st = thr_kit_estimate_make(kit, plan, &err);
+  text->failed |= st == THR_ENOMEM;
+  return st == THR_OK;
+}
+
 /* Appends the whole summary. pull[n_cords] and largest: factors on the seating tension. seated:
  * what pulls in N do, NULL if they are more than a number holds. rivals: what a plan of least
  * turning is compared with, else NULL. */
@@ -415,6 +464,11 @@ static void put_text(thr_text *text, const thr_plan *plan, const double *pull, d
 
   /* Holding, and comparisons. */
   if (seated) seated_put_holding(text, "hold     ", plan, &seated->record);
+  thr_kit_estimate kit;
+  if (estimate_kit(text, plan, &kit)) {
+    thr_text_append(text, "kit      ");
+    kit_put(text, &kit);
+  }
   if (rivals) turning_put_table(text, plan, rivals);
   if (rivals) turning_put_frontier(text, plan, rivals);
 }
@@ -553,4 +607,7 @@ void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *r
   if (plan->n_cords > 1) put_cut_json(writer, plan);
   if (rivals) turning_put_json(writer, plan, rivals);
   if (plan->symmetry.present) symmetry_put_json(writer, plan);
+
+  thr_kit_estimate kit;
+  if (estimate_kit(writer->out, plan, &kit)) kit_put_json(writer, &kit);
 }

@@ -12,6 +12,7 @@
 #include "tests/symmetric.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -377,6 +378,77 @@ START_TEST(what_does_not_fit_is_said_with_the_number_that_would)
 }
 END_TEST
 
+/* What kits are estimated for: also tubes, and so many pieces that few points are in each. */
+static const struct {
+  thr_shape shape;
+  int size;
+  bool tubes;
+} estimated[] = {
+    {THR_MAKE_DOME, 7, false},     {THR_MAKE_SPHERE, 2, false}, {THR_MAKE_HONEYCOMB, 3, false},
+    {THR_MAKE_HONEYCOMB, 2, true}, {THR_MAKE_SPHERE, 1, true},
+};
+enum { ESTIMATED = sizeof estimated / sizeof *estimated };
+
+START_TEST(the_estimate_has_the_volume_of_the_meshes)
+{
+  thr_plan p = plan_of(estimated[_i].shape, estimated[_i].size, estimated[_i].tubes);
+  thr_err err = {0};
+  thr_kit_estimate estimate;
+  ck_assert_int_eq(thr_kit_estimate_make(&estimate, &p, &err), THR_OK);
+  const thr_kit_options usual = {0}, unnamed = {.names = THR_KIT_NO_NAMES};
+  thr_kit kit = kit_of(&p, &usual, 2);
+  ck_assert_int_eq(estimate.pieces, kit.n_pieces);
+  ck_assert_double_eq(estimate.width, kit.options.width);
+  ck_assert_msg(fabs(estimate.volume / kit.volume - 1) < 0.01, "%g mm3, of meshes %g",
+                estimate.volume, kit.volume);
+  thr_kit_destroy(&kit);
+
+  /* Kinds as if no piece had a name. */
+  const thr_limits limits = {.threads = 1};
+  ck_assert_int_eq(thr_kit_make(&kit, &p, &unnamed, NULL, false, &limits, &err), THR_OK);
+  ck_assert_int_eq(estimate.kinds, kit.n_kinds);
+  thr_kit_destroy(&kit);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* Profiles, tapers, keys, feet and pockets are in the boxes that are sampled. */
+START_TEST(every_shape_is_sampled)
+{
+  thr_plan p = plan_of(cases[_i].shape, cases[_i].size, cases[_i].tubes);
+  thr_kit kit = kit_of(&p, &cases[_i].options, 1);
+  double sampled = thr_kit_sampled_volume(&kit);
+  ck_assert_msg(fabs(sampled / kit.volume - 1) < 0.015, "%s: %g mm3, of meshes %g", cases[_i].name,
+                sampled, kit.volume);
+  thr_kit_destroy(&kit);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+START_TEST(what_has_no_kit_has_an_estimate)
+{
+  thr_plan p = plan_of(THR_MAKE_DOME, 3, false);
+  thr_err err = {0};
+  thr_kit_estimate estimate;
+
+  /* No room for the bore. */
+  p.options.physics.bore = 20;
+  p.options.physics.bead_diameter = 21;
+  ck_assert_int_eq(thr_kit_estimate_make(&estimate, &p, &err), THR_OK);
+  ck_assert_int_eq(estimate.pieces, 9);
+  ck_assert_double_eq(estimate.volume, 0);
+  assert_one_line(&estimate.refused, "there is room for a piece");
+
+  /* A unit without a length. */
+  snprintf(p.frame.units, sizeof p.frame.units, "unit");
+  ck_assert_int_eq(thr_kit_estimate_make(&estimate, &p, &err), THR_OK);
+  ck_assert_int_gt(estimate.shapes, 0);
+  ck_assert_double_eq(estimate.volume, 0);
+  ck_assert_int_eq(estimate.refused.code, THR_OK);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 START_TEST(memory_may_run_out_anywhere)
 {
   thr_frame f = ring_make(4);
@@ -395,6 +467,18 @@ START_TEST(memory_may_run_out_anywhere)
     if (failed) ck_assert_msg(st == THR_ENOMEM, "%s", err.text);
     thr_kit_destroy(&kit);
   }
+
+  /* While a kit is estimated, too. */
+  failed = true;
+  for (long k = 1; failed; k++) {
+    thr_kit_estimate estimate;
+    thr_err err = {0};
+    thr_alloc_fail_at(k);
+    thr_status st = thr_kit_estimate_make(&estimate, &p, &err);
+    thr_alloc_fail_at(0);
+    failed = st != THR_OK;
+    if (failed) ck_assert_int_eq(st, THR_ENOMEM);
+  }
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
 }
@@ -411,6 +495,9 @@ int main(void)
   ADD_TEST(s, 120, pieces_that_are_alike_share_a_mesh_that_fits_both);
   ADD_TEST(s, 120, threads_change_nothing);
   ADD_LOOP(s, 30, what_does_not_fit_is_said_with_the_number_that_would, 0, REFUSED);
+  ADD_LOOP(s, 120, the_estimate_has_the_volume_of_the_meshes, 0, ESTIMATED);
+  ADD_LOOP(s, 120, every_shape_is_sampled, 0, CASES);
+  ADD_TEST(s, 30, what_has_no_kit_has_an_estimate);
   ADD_TEST(s, 120, memory_may_run_out_anywhere);
   return run_suite(s);
 }
