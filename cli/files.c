@@ -42,7 +42,7 @@ static struct {
 /* Returns what a value of this option is. */
 static file_kind kind_of(const char *option)
 {
-  static const char *const output[] = {"output", "plot", "still", "stills"};
+  static const char *const output[] = {"output", "plot", "still", "stills", "picture", "play"};
   for (size_t i = 0; option && i < sizeof output / sizeof *output; i++)
     if (strcmp(option, output[i]) == 0) return OUTPUT;
   return option && strcmp(option, "draw") == 0 ? OUTPUT_FOLDER : INPUT;
