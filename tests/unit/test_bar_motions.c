@@ -2,6 +2,7 @@
 /* Motions of frameworks of bars: counts in closed form, laws of the basis, a four-bar linkage
  * against its circles, and cords that may only get shorter, with the proof added up in whole
  * numbers. */
+#include "diagram/overview/overview.h"
 #include "eval/structure/beads.h"
 #include "graph/limits.h"
 #include "graph/number.h"
@@ -11,6 +12,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const thr_limits no_limits = {0};
 
@@ -338,11 +340,53 @@ START_TEST(prism)
 }
 END_TEST
 
+/* All of it with each allocation failing once, and the picture. */
+START_TEST(every_allocation_fails_once)
+{
+  static const bool cable[6] = {[4] = true, [5] = true};
+  int half[2] = {8, 10};
+  const thr_cord cord[2] = {{.n_passes = 1, .half = half}, {.n_passes = 1, .half = half + 1}};
+  thr_frame f = square_make(2, 1);
+  const thr_bars bars = {.frame = &f, .cable = cable};
+  thr_status st = THR_ENOMEM;
+
+  for (long k = 1; st; k++) {
+    thr_bar_motions m = {0};
+    thr_pulling moves = {0}, held = {0};
+    thr_path path = {0};
+    thr_text svg = {0};
+    thr_err err = {0};
+    thr_alloc_fail_at(k);
+    st = thr_bar_motions_find(&bars, NULL, 0, &m, &err);
+    if (!st) st = thr_pulling_find(&bars, cord, 1, &no_limits, &moves, &err);
+    if (!st) st = thr_pulling_find(&bars, cord, 2, &no_limits, &held, &err);
+    const double(*velocity)[3] = (const double(*)[3])moves.velocity;
+    if (!st) st = thr_motion_follow(&bars, cord, 1, velocity, 0.1, 3, &no_limits, &path, &err);
+    const thr_motion_picture picture = {&f, velocity, NULL, cable, "title", "note"};
+    if (!st) st = thr_motion_svg(&picture, &svg, &err);
+    thr_alloc_fail_at(0);
+    ck_assert_msg(st == THR_OK || st == THR_ENOMEM, "allocation %ld: %s", k, err.text);
+    if (!st) {
+      ck_assert_ptr_nonnull(strstr(svg.data, "class=\"head\""));
+      ck_assert_ptr_nonnull(strstr(svg.data, "class=\"cord\""));
+      ck_assert_int_gt(k, 20);
+    }
+    thr_text_destroy(&svg);
+    thr_path_destroy(&path);
+    thr_pulling_destroy(&moves);
+    thr_pulling_destroy(&held);
+    thr_bar_motions_destroy(&m);
+    ck_assert_int_lt(k, 10000);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 START_TEST(refusals)
 {
   thr_frame f = grid_make(32, 32);
   const thr_bars bars = {.frame = &f};
-  const double velocity[1][3] = {{0}};
+  const double velocity[1024][3] = {{0}};
   thr_bar_motions m;
   thr_pulling p;
   thr_path path;
@@ -351,6 +395,12 @@ START_TEST(refusals)
   ck_assert_int_eq(thr_motion_follow(&bars, NULL, 0, velocity, 1, 2, &no_limits, &path, &err),
                    THR_EINPUT);
   ck_assert_int_eq(thr_pulling_find(&bars, NULL, 0, &no_limits, &p, &err), THR_EINPUT);
+
+  /* Nothing moves in the picture. */
+  thr_text svg = {0};
+  const thr_motion_picture picture = {&f, velocity, NULL, NULL, "title", "note"};
+  ck_assert_int_eq(thr_motion_svg(&picture, &svg, &err), THR_EINPUT);
+  ck_assert_uint_eq(svg.length, 0);
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -365,6 +415,7 @@ int main(void)
   ADD_TEST(s, 20, pulled_together);
   ADD_TEST(s, 20, cords_along_diagonals);
   ADD_TEST(s, 20, prism);
+  ADD_TEST(s, 60, every_allocation_fails_once);
   ADD_TEST(s, 20, refusals);
   return run_suite(s);
 }
