@@ -199,9 +199,9 @@ const char *cli_cuts_word(const thr_plan *plan, int n);
 /* ---- files.c: The files that a command reads and writes: no file is asked for twice, and every
  * output is tried before anything is computed. */
 
-/* Takes down an option with its value, or an operand (option NULL). The strings stay the caller's,
- * and where they are. */
-void files_heard(const char *option, const char *value);
+/* Takes down an option with its value, or an operand (option NULL). writes: it is the name of an
+ * output. The strings stay the caller's, and where they are. */
+void files_heard(const char *option, const char *value, bool writes);
 
 /* Compares all that was heard, makes the folders of outputs and tries to write there. Returns
  * EXIT_OK, or prints and returns the code: EXIT_USAGE for a file that is asked for twice,

@@ -39,12 +39,10 @@ static struct {
 
 /* ---- what was heard ---- */
 
-/* Returns what a value of this option is. */
-static file_kind kind_of(const char *option)
+/* Returns what a value of this option is. writes: is it the name of an output? */
+static file_kind kind_of(const char *option, bool writes)
 {
-  static const char *const output[] = {"output", "plot", "still", "stills"};
-  for (size_t i = 0; option && i < sizeof output / sizeof *output; i++)
-    if (strcmp(option, output[i]) == 0) return OUTPUT;
+  if (writes || (option && strcmp(option, "output") == 0)) return OUTPUT;
   return option && strcmp(option, "draw") == 0 ? OUTPUT_FOLDER : INPUT;
 }
 
@@ -56,9 +54,9 @@ static void forget(known_file *entry)
   *entry = (known_file){0};
 }
 
-void files_heard(const char *option, const char *value)
+void files_heard(const char *option, const char *value, bool writes)
 {
-  const file_kind kind = kind_of(option);
+  const file_kind kind = kind_of(option, writes);
 
   if (!value || !*value) return;
 
@@ -257,7 +255,7 @@ int files_settle(const char *command)
 
 int files_also_read(const char *path)
 {
-  files_heard(NULL, path);
+  files_heard(NULL, path, false);
   int code = EXIT_OK;
   for (int i = 0; i < known.n && !code; i++)
     if (known.file[i].kind == OUTPUT)

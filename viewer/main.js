@@ -61,6 +61,12 @@ function tensionWords(step) {
 
 function showWords() {
   const now = $('now'), last = plan.steps.length;
+  setText($('count'), `${done} / ${last}`);
+  if (plan.moves) {
+    setText(now, plan.moves.title);
+    setText($('then'), plan.moves.note);
+    return;
+  }
   if (done) {
     const step = plan.steps[done - 1], cord = plan.cords[step.cord];
     const copy = step.i === 0 && copyOf(step.cord) ? ` (the same as cord ${plan.cords[cord.of].id}${cord.how})` : '';
@@ -71,7 +77,6 @@ function showWords() {
   const next = done < last ? `Next: ${instruction(plan, plan.steps[done])}.` : 'All cords are threaded.';
   const state = done ? `${capital(progress(plan, plan.steps[done - 1]))}${tensionWords(plan.steps[done - 1])}. ` : '';
   setText($('then'), state + next);
-  setText($('count'), `${done} / ${last}`);
 }
 
 // ---- names in the picture ----
@@ -117,6 +122,7 @@ function placeNames(taken) {
 }
 
 function placeTags() {
+  if (plan.moves) return;
   const step = plan.steps[done - 1], ahead = plan.steps[done];
   const here = step ? plan.head(step.half) : plan.tail(ahead.half);
   const start = ahead && ahead.begins && step ? plan.tail(ahead.half) : -1;
@@ -131,6 +137,11 @@ function placeTags() {
 // ---- steps ----
 
 function showPicture() {
+  if (plan.moves) {
+    stage.showFrame(done);
+    document.documentElement.dataset.step = done;
+    return;
+  }
   const at = stage.show(done, coloursOf, hidden, done ? colourOf(plan.steps[done - 1]) : '#000000');
   const {dataset} = document.documentElement;
   [dataset.step, dataset.piece, dataset.next] = [done, at.now, at.next];
@@ -153,10 +164,10 @@ function goTo(step) {
   const slider = $('slider');
   slider.value = String(done);
   showWords();
-  slider.setAttribute('aria-valuetext', `${done} of ${plural(plan.steps.length, 'pass')}`);
+  slider.setAttribute('aria-valuetext', `${done} of ${plural(plan.steps.length, plan.moves ? 'step' : 'pass')}`);
   remember(plan.key, done);
   refresh();
-  if (stage && $('follow').checked) stage.face(plan.steps[Math.max(done - 1, 0)].piece, still.matches);
+  if (stage && !plan.moves && $('follow').checked) stage.face(plan.steps[Math.max(done - 1, 0)].piece, still.matches);
   if (done === plan.steps.length) pause();
 }
 
@@ -251,7 +262,20 @@ function thinTicks() {
   }
 }
 
+// A motion has no cords: the panel only says what moves, and play begins at a speed at which it is seen to move.
+function fillMotionPanel() {
+  $('title').textContent = document.title = plan.moves.title;
+  $('slider').max = String(plan.steps.length);
+  $('speed').value = '20';
+  for (const part of ['jump', 'key', 'cords', 'follow']) ($(part).closest('section, label') ?? $(part)).hidden = true;
+  for (const [button, words] of [['back', 'One step back'], ['on', 'One step on'], ['slider', 'Step of the motion']]) $(button).ariaLabel = words;
+}
+
 function fillPanel() {
+  if (plan.moves) {
+    fillMotionPanel();
+    return;
+  }
   const {cords, steps, pieces, paths} = plan;
   const learn = paths < cords.length ? `, ${plural(paths, 'path')} to learn` : '';
   const title = `${plural(cords.length, 'cord')}${learn}, ${plural(pieces.length, plan.solid ? 'piece' : 'tube')}, ${plural(steps.length, 'pass')}`;

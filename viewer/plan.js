@@ -23,8 +23,19 @@ function orderOfPasses({half, fold}) {
   return [...right, ...left.map(({k, half: h}) => ({k, half: h ^ 1, left: true}))];
 }
 
+// A motion of a framework without cords: its steps are the frames after the first.
+function readMotion(plan) {
+  const {frames} = plan.moves;
+  plan.order = [];
+  plan.most = 1;
+  plan.steps = frames.slice(1).map((_, i) => ({frame: i + 1}));
+  plan.key = `thread-viewer:${plan.frame}:moves:${hash(frames[frames.length - 1].map((x) => Math.round(1e4 * x)))}`;
+  return plan;
+}
+
 export function readPlan(text) {
   const plan = JSON.parse(text);
+  if (plan.moves) return readMotion(plan);
   const held = new Int32Array(plan.edges.length);
   const steps = [];
   plan.inside = plan.solid || Boolean(plan.kit); // cords run inside pieces, which one sees through

@@ -24,6 +24,9 @@ function rimMaterial(width) {
   return material;
 }
 
+// A flat list of coordinates as points.
+const points = (list) => Array.from({length: list.length / 3}, (_, v) => new Vector3(...list.slice(3 * v, 3 * v + 3)));
+
 // Coarser shapes for more pieces or passes, so that the picture moves fluently.
 const detailOf = (count) => (count < 700 ? 0 : count < 6000 ? 1 : 2);
 
@@ -35,7 +38,8 @@ export class Stage {
     this.nodes = plan.nodes.map((p) => new Vector3(...p));
     this.sizes = sizesOf(plan, this.nodes);
     this.frame = frames(plan, this.nodes);
-    this.lane = lanes(plan, this.nodes, this.sizes, this.frame);
+    this.lane = plan.moves ? [] : lanes(plan, this.nodes, this.sizes, this.frame);
+    this.reach = plan.moves ? plan.moves.frames.flatMap(points) : this.nodes; // all places that the picture has room for
     this.renderer = new WebGLRenderer({canvas, antialias: true});
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     this.scene = new Scene();
@@ -174,7 +178,7 @@ export class Stage {
   }
 
   addTubes() {
-    const {plan, sizes} = this, up = new Vector3(0, 1, 0);
+    const {plan, sizes} = this;
     // a barrel of length and radius 1, closed by caps that are half round on a tube of usual length
     const cap = Math.min(0.3, (0.7 * sizes.radius) / (0.56 * sizes.pitch)), outline = [];
     const detail = detailOf(plan.edges.length), rings = [5, 2, 2][detail];
@@ -183,13 +187,39 @@ export class Stage {
       outline.push(new Vector2(Math.sin(angle), -0.5 + cap * (1 - Math.cos(angle))));
     }
     const shape = new LatheGeometry([...outline, ...outline.map((p) => new Vector2(p.x, -p.y)).reverse()], [16, 8, 6][detail]);
-    this.addParts(shape, new MeshLambertMaterial(), plan.edges.map(([a, b], piece) => {
-      const radius = Math.min(sizes.radius, 0.28 * sizes.lengths[piece]), length = sizes.lengths[piece] - 2 * sizes.gap[piece];
-      const turn = new Quaternion().setFromUnitVectors(up, this.frame[piece].axis);
+    this.addParts(shape, new MeshLambertMaterial(), plan.edges.map((_, piece) => this.tubeAt(piece)));
+    plan.edges.forEach(([a, b], piece) => {
       const middle = this.nodes[a].clone().lerp(this.nodes[b], 0.5);
       for (const end of [a, b]) this.tips[piece].push(this.nodes[end].clone().sub(middle));
-      return {piece, middle, turn, scale: new Vector3(radius, Math.max(length, 0.4 * radius), radius)};
-    }));
+    });
+  }
+
+  // Where a tube is between its nodes as they are now. Of a motion, bars nearly meet, and cord without a bead is thin.
+  tubeAt(piece) {
+    const {sizes, nodes, plan} = this, [a, b] = plan.edges[piece], bare = plan.moves?.cables.includes(piece);
+    const axis = nodes[b].clone().sub(nodes[a]), whole = axis.length(), middle = nodes[a].clone().lerp(nodes[b], 0.5);
+    const radius = Math.min(sizes.radius, 0.28 * sizes.lengths[piece]) * (bare ? 0.15 : plan.moves ? 0.5 : 1), length = whole - (bare ? 0 : plan.moves ? radius : 2 * sizes.gap[piece]);
+    const turn = new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), whole > 0 ? axis.normalize() : this.frame[piece].axis);
+    return {piece, middle, turn, scale: new Vector3(radius, Math.max(length, 0.4 * radius), radius)};
+  }
+
+  // Shows a frame of a motion.
+  showFrame(number) {
+    const {plan, nodes} = this, at = new Matrix4();
+    points(plan.moves.frames[number]).forEach((p, v) => nodes[v].copy(p));
+    for (const part of this.parts) {
+      part.matrix = plan.edges.map((_, piece) => this.tubeAt(piece));
+      part.matrix.forEach(({piece, middle, turn, scale}, i) => {
+        part.mesh.setMatrixAt(i, at.compose(middle, turn, scale));
+        part.mesh.setColorAt(i, this.theme[plan.moves.cables.includes(piece) ? 'now' : 'held']);
+      });
+      part.mesh.instanceMatrix.needsUpdate = part.mesh.instanceColor.needsUpdate = true;
+      part.mesh.boundingSphere = null;
+      part.mesh.frustumCulled = false;
+    }
+    if (this.feet) this.uncover(-1);
+    for (const mesh of [this.current, this.arrow, this.ball]) mesh.visible = false;
+    this.request();
   }
 
   addFeet() {
@@ -333,9 +363,9 @@ export class Stage {
   // ---- the camera ----
 
   reset() {
-    const sphere = new Sphere().setFromPoints(this.nodes), size = new Vector3(), low = new Vector3(Infinity, Infinity, Infinity);
+    const sphere = new Sphere().setFromPoints(this.reach), size = new Vector3(), low = new Vector3(Infinity, Infinity, Infinity);
     const high = low.clone().negate();
-    for (const p of this.nodes) low.min(p), high.max(p);
+    for (const p of this.reach) low.min(p), high.max(p);
     size.subVectors(high, low);
     const flat = size.z < 0.1 * Math.hypot(size.x, size.y), view = flat ? new Vector3(0, -0.35, 1) : new Vector3(0.45, -1, 0.75);
     this.middle = sphere.center;
@@ -357,7 +387,7 @@ export class Stage {
     const right = across(view, new Vector3(-view.y, view.x, 0)), up = new Vector3().crossVectors(view, right);
     const high = 0.9 * Math.tan((this.camera.fov * Math.PI) / 360), wide = high * this.camera.aspect;
     const room = 2 * this.sizes.radius;
-    const arms = this.nodes.map((node) => node.clone().sub(this.middle));
+    const arms = this.reach.map((node) => node.clone().sub(this.middle));
     const centre = (axis) => {
       const along = arms.map((arm) => arm.dot(axis));
       return (along.reduce((a, b) => Math.max(a, b)) + along.reduce((a, b) => Math.min(a, b))) / 2;

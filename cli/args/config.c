@@ -153,7 +153,7 @@ int cli_config(int *argc, char ***argv)
 
   /* The file is an input, which no output may overwrite. */
   if (thr_text_read_plain(&file, source, &err)) return cli_fail(&err);
-  files_heard("config", source);
+  files_heard("config", source, false);
 
   int code = join(&file, (*argv)[1], *argc, *argv, &n);
   thr_text_destroy(&file);

@@ -442,7 +442,7 @@ static int settle_operands(int argc, char **argv)
 {
   for (int i = optind; i < argc; i++) {
     if (!*argv[i]) return cli_usage(parser.command, "an empty name is no file");
-    files_heard(NULL, argv[i]);
+    files_heard(NULL, argv[i], false);
   }
 
   const int code = files_settle(parser.command);
@@ -468,7 +468,7 @@ int cli_options(int argc, char **argv, const cli_syntax *syntax, const cli_group
     /* Note a value in case it names a file. */
     const int i = find_row(found);
     const cli_option *option = parser.option[i];
-    if (optarg) files_heard(option->name, optarg);
+    if (optarg) files_heard(option->name, optarg, option->kind == CLI_OUTPUT);
 
     /* Help ends the command; a value goes to its row. */
     if (option == &tune) {

@@ -13,6 +13,7 @@
  *
  * Example: the 7 x 7 dome has 49 nodes, 84 edges, 20 odd nodes and 57 such motions (3 x 49 - 84 -
  * 6). */
+#include "cli/commands/info_parts.h"
 #include "cli/print/print.h"
 #include "eval/structure/beads.h"
 #include "graph/framework/frame.h"
@@ -33,7 +34,9 @@ static const char intro[] =
     "  thread info plan.json      the framework inside a plan, the joints that its cords do not "
     "tie,\n"
     "                             the channels that cross inside a piece, and the pieces to "
-    "make\n\n"
+    "make\n"
+    "  thread info arch.obj --motions --held feet --play arch.html\n"
+    "  thread info prism.obj --cables 1-4,2-5,3-6     can pulling these edges move anything?\n\n"
     "The line `hinged` takes every node for a ball joint: can nodes move without an edge getting\n"
     "longer? What can move must be held by joints that lock. A joint is tied if the cord alone "
     "holds\n"
@@ -132,42 +135,49 @@ static thr_status find_untied(const char *path, frame_facts *info, thr_err *err)
   return st;
 }
 
+/* What was asked. */
+typedef struct {
+  cli_frame_args frame;
+  guard_limits guard;
+  motion_arguments motions;
+  bool json;
+} info_arguments;
+
 /* Reads a framework, finds its facts and prints them. Returns an exit code. */
-static int print_facts(const char *path, const cli_frame_args *args, bool json)
+static int print_facts(const char *path, const info_arguments *args)
 {
   thr_frame frame;
   thr_read_report report;
-  int code = cli_read_frame_report(path, args, &frame, &report);
+  motion_facts motions = {0};
+  int code = cli_read_frame_report(path, &args->frame, &frame, &report);
 
   if (code) return code;
 
   /* What the reader had to assume about units, axes and the like. */
   frame_facts info = {0};
-  info.n_assumptions = thr_read_assumptions(&args->read, &frame, &report, info.assumption);
+  info.n_assumptions = thr_read_assumptions(&args->frame.read, &frame, &report, info.assumption);
+  if (motions_asked(&args->motions)) {
+    code = motions_find(path, &frame, &args->motions, &motions);
+    info.motions = &motions;
+  }
 
   thr_text text = {0};
   thr_err err = {0};
 
   /* A file that is a plan has more to say than a framework. */
-  if (find_facts(&frame, &info, &err) || find_untied(path, &info, &err)) {
+  if (!code && (find_facts(&frame, &info, &err) || find_untied(path, &info, &err))) {
     code = cli_fail(&err);
-  } else {
-    (json ? facts_put_json : facts_put)(&text, &frame, &info);
+  } else if (!code) {
+    (args->json ? facts_put_json : facts_put)(&text, &frame, &info);
     code = cli_write(&text, "-");
   }
 
   free(info.untied);
+  motions_destroy(&motions);
   thr_frame_destroy(&frame);
 
   return code;
 }
-
-/* What was asked. */
-typedef struct {
-  cli_frame_args frame;
-  guard_limits guard;
-  bool json;
-} info_arguments;
 
 static const cli_option own_options[] = {
     {"json", .kind = CLI_FLAG, .offset = offsetof(info_arguments, json), .help = "as JSON"}, {0}};
@@ -180,6 +190,7 @@ int cmd_info(int argc, char **argv)
   guard_end end;
   const cli_group groups[] = {{"Options", own_options, &args},
                               {NULL, guard_options, &args.guard},
+                              {"Motions", motion_options, &args.motions},
                               {"Framework", cli_frame_options, &args.frame},
                               {NULL}};
   const int code = cli_options(argc, argv, &syntax, groups);
@@ -192,5 +203,5 @@ int cmd_info(int argc, char **argv)
   /* The child does all of the work. */
   if (guard_fork(&args.guard, &end)) return guard_conclude(&end, "nothing is known");
 
-  return print_facts(argv[optind], &args.frame, args.json);
+  return print_facts(argv[optind], &args);
 }

@@ -37,6 +37,7 @@ static void put_rigidity(thr_text *text, const thr_frame *frame, const frame_fac
     put_motions(text, info);
   else
     thr_text_append(text, "hinged      not worked out for so many edges\n");
+  if (info->motions) motions_put(text, info->motions);
   if (!info->planned) return;
 
   /* Of a plan. */
@@ -179,6 +180,7 @@ void facts_put_json(thr_text *text, const thr_frame *frame, const frame_facts *i
 
   /* What was analysed. */
   if (info->analysed) put_rigidity_json(&writer, info);
+  if (info->motions) motions_put_json(&writer, info->motions);
   if (info->planned) put_untied_json(&writer, frame, info);
   if (info->channels) {
     thr_write_int(&writer, "crossings", info->crossings);

@@ -11,7 +11,7 @@
  * plan_summary.c with turning_summary.c, symmetry_table.c and seated.c (thread plan); verdict.c and
  * terms.c (thread check); eval_text.c, eval_json.c and load_words.c (thread eval); compare_rows.c
  * and ranking.c, compare_rankings.c and compare_table.c (thread compare); advice_table.c (thread
- * advise). */
+ * advise); facts.c, motion_facts.c (thread info). */
 #ifndef THR_PRINT_H
 #define THR_PRINT_H
 
@@ -150,6 +150,30 @@ void terms_put(thr_text *text, const thr_plan *plan);
 /* Writes the same as members of an open object. */
 void terms_put_json(thr_writer *writer, const thr_plan *plan);
 
+/* ---- motion_facts.c: Prints the motions of a framework of bars (thread info --motions). */
+
+/* What was found out about motions. */
+typedef struct {
+  thr_bars bars;
+  bool *held, *cable; /* [n_nodes], [n_edges]; owned */
+  int n_held;
+  thr_bar_motions basis;
+  bool planned; /* the cords are those of a plan, else edges that are cord alone */
+  int n_cords;  /* 0: none, and nothing was asked about pulling */
+  thr_cord *cord;
+  thr_pulling pulling;
+  int n_left;                /* motions that keep the lengths of all cords, too */
+  int which;                 /* the motion that is drawn and played, from 1; 0: that of pulling */
+  const double (*chosen)[3]; /* its velocities, in basis or pulling; NULL: nothing moves */
+  thr_path path;             /* n_frames 0: not followed */
+} motion_facts;
+
+/* Appends lines: how many motions, what pulling does, how far one was followed. */
+void motions_put(thr_text *text, const motion_facts *facts);
+
+/* Writes the same with all vectors and forces as a member of an open object. */
+void motions_put_json(thr_writer *writer, const motion_facts *facts);
+
 /* ---- facts.c: Prints what `thread info` found out. */
 
 enum { FACTS_DEGREES = 64 };
@@ -170,6 +194,7 @@ typedef struct {
   thr_kit_estimate kit; /* planned */
   int n_assumptions;
   thr_assumption assumption[THR_ASSUMPTIONS];
+  const motion_facts *motions; /* NULL: not asked for; borrowed */
 } frame_facts;
 
 /* Appends all facts, and as what the file was read. */

@@ -15,6 +15,7 @@
 #define THR_PAPER_H
 
 #include "diagram/layout/layout.h"
+#include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
@@ -202,6 +203,19 @@ void thr_test_piece_stl(double bore, thr_text *stl);
 thr_status thr_viewer_html(const thr_plan *plan, const char *const *motion, double tolerance,
                            int needles, const thr_layout *layout, const thr_text *kit,
                            thr_text *html, thr_err *err) THR_MUST_CHECK;
+
+/* A motion of a framework: positions frame by frame. All borrowed. */
+typedef struct {
+  int n_frames;          /* >= 1 */
+  const double (*at)[3]; /* [n_frames * n_nodes] units */
+  const bool *cable;     /* [n_edges] edges that are cord alone; NULL: none */
+  const char *title, *note;
+} thr_viewer_moves;
+
+/* Appends the page with a framework that moves, whose edges are tubes, to play and to step through.
+ * As thr_viewer_html else. */
+thr_status thr_viewer_moves_html(const thr_frame *frame, const thr_viewer_moves *moves,
+                                 thr_text *html, thr_err *err) THR_MUST_CHECK;
 
 /* The bytes of the viewer's page, with THR_VIEWER_MARK where the plan belongs; NUL-terminated
  * (viewer_page.S). */

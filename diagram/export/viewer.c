@@ -35,8 +35,9 @@ enum {
 typedef struct {
   const thr_plan *plan;
   const thr_frame *frame;
-  const char *const *motion; /* as in thr_overview_options */
-  const thr_text *kit;       /* JSON of the pieces' meshes, or NULL */
+  const char *const *motion;     /* as in thr_overview_options */
+  const thr_text *kit;           /* JSON of the pieces' meshes, or NULL */
+  const thr_viewer_moves *moves; /* NULL: cords are threaded */
   thr_guide guide;
   thr_copy *copy;  /* [n_cords] which cord repeats which */
   bool tension;    /* does the plan say a tension of any cord? */
@@ -318,6 +319,34 @@ static void put_head(plan_viewer *viewer)
   thr_write_close(writer);
 }
 
+/* Appends a motion: words, the edges that are cord alone, and the coordinates of each frame in one
+ * list. */
+static void put_moves(plan_viewer *viewer)
+{
+  const thr_viewer_moves *moves = viewer->moves;
+  const int n = viewer->frame->n_nodes;
+  thr_writer *writer = &viewer->out;
+
+  thr_write_object(next_line(viewer), "moves");
+  thr_write_string(writer, "title", moves->title);
+  thr_write_string(writer, "note", moves->note);
+  thr_write_array(writer, "cables");
+  for (int e = 0; e < viewer->frame->n_edges; e++)
+    if (moves->cable && moves->cable[e]) thr_write_int(writer, NULL, e);
+  thr_write_close(writer);
+
+  thr_write_array(writer, "frames");
+  for (int k = 0; k < moves->n_frames; k++) {
+    thr_write_line(writer, 1);
+    thr_write_array(writer, NULL);
+    for (int i = 0; i < 3 * n; i++)
+      thr_write_printf(writer, NULL, "%.7g", moves->at[k * n + i / 3][i % 3]);
+    thr_write_close(writer);
+  }
+  thr_write_close(writer);
+  thr_write_close(writer);
+}
+
 /* Appends the whole plan as one JSON object. */
 static void put_plan(plan_viewer *viewer)
 {
@@ -329,6 +358,8 @@ static void put_plan(plan_viewer *viewer)
 
   /* The pieces themselves, as they are. */
   if (viewer->kit) thr_write_json(next_line(viewer), "kit", viewer->kit);
+
+  if (viewer->moves) put_moves(viewer);
 
   /* No scale without tensions. */
   if (viewer->tension) put_scale(viewer);
@@ -368,7 +399,8 @@ static thr_status prepare(plan_viewer *viewer, double tolerance, const thr_layou
 
   /* Cords must fit the framework, and there must be one. */
   thr_status st = thr_scene_check_cords(plan, &n_passes, err);
-  if (!st && !plan->n_cords) st = thr_fail(err, THR_EINPUT, "the plan has no cord to thread");
+  if (!st && !plan->n_cords && !viewer->moves)
+    st = thr_fail(err, THR_EINPUT, "the plan has no cord to thread");
 
   /* Tensions only if there is a range, and if they fit the cords. */
   viewer->tension =
@@ -395,25 +427,21 @@ static thr_status prepare(plan_viewer *viewer, double tolerance, const thr_layou
   return st;
 }
 
-thr_status thr_viewer_html(const thr_plan *plan, const char *const *motion, double tolerance,
-                           int needles, const thr_layout *layout, const thr_text *kit,
-                           thr_text *html, thr_err *err)
+/* Appends the page with what the viewer is set to show, and releases the viewer. */
+static thr_status make_page(plan_viewer *viewer, double tolerance, const thr_layout *layout,
+                            thr_text *html, thr_err *err)
 {
   thr_text json = {0}, page = {0};
-  plan_viewer viewer = {.plan = plan,
-                        .frame = &plan->frame,
-                        .motion = motion,
-                        .needles = needles,
-                        .kit = kit,
-                        .out = {.out = &json, .compact = true}};
+  viewer->frame = &viewer->plan->frame;
+  viewer->out = (thr_writer){.out = &json, .compact = true};
 
   /* The page was built with the mark in it. */
   const char *mark = strstr(thr_viewer_page, THR_VIEWER_MARK);
   assert(mark);
 
-  thr_status st = prepare(&viewer, tolerance, layout, err);
+  thr_status st = prepare(viewer, tolerance, layout, err);
   if (st) goto done;
-  put_plan(&viewer);
+  put_plan(viewer);
 
   /* The page up to the mark, the plan, and the rest of the page. */
   thr_text_append_bytes(&page, thr_viewer_page, (size_t)(mark - thr_viewer_page));
@@ -426,9 +454,26 @@ thr_status thr_viewer_html(const thr_plan *plan, const char *const *motion, doub
 done:
   thr_text_destroy(&json);
   thr_text_destroy(&page);
-  thr_guide_destroy(&viewer.guide);
-  thr_pieces_destroy(&viewer.pieces);
-  free(viewer.visit);
-  free(viewer.copy);
+  thr_guide_destroy(&viewer->guide);
+  thr_pieces_destroy(&viewer->pieces);
+  free(viewer->visit);
+  free(viewer->copy);
   return st;
+}
+
+thr_status thr_viewer_html(const thr_plan *plan, const char *const *motion, double tolerance,
+                           int needles, const thr_layout *layout, const thr_text *kit,
+                           thr_text *html, thr_err *err)
+{
+  plan_viewer viewer = {.plan = plan, .motion = motion, .needles = needles, .kit = kit};
+  return make_page(&viewer, tolerance, layout, html, err);
+}
+
+thr_status thr_viewer_moves_html(const thr_frame *frame, const thr_viewer_moves *moves,
+                                 thr_text *html, thr_err *err)
+{
+  /* A plan without cords, whose pieces are the edges; the framework stays the caller's. */
+  const thr_plan plan = {.frame = *frame, .options.joint = THR_JOINT_TUBE};
+  plan_viewer viewer = {.plan = &plan, .moves = moves};
+  return make_page(&viewer, 0, NULL, html, err);
 }

@@ -166,6 +166,23 @@ thr_status thr_tension_usable(const thr_plan *plan, thr_err *err) THR_MUST_CHECK
 /* Returns what a method's tensions are: "joints measured in simulation, ..". */
 const char *thr_tension_method_words(const thr_evaluation *evaluation);
 
+/* ---- motion_picture.c: A motion of a framework of bars, as arrows. */
+
+/* Says what is drawn. All borrowed. */
+typedef struct {
+  const thr_frame *frame;
+  const double (*velocity)[3]; /* [n_nodes] of any scale, not all 0 */
+  const bool *held, *cable;    /* [n_nodes], [n_edges]; NULL: none */
+  const char *title, *note;
+} thr_motion_picture;
+
+/* Appends the picture to svg: <g id="motion"> with the edges, the nodes (squares where they are
+ * held) and an arrow for every node that moves. Sizes are physical (mm); no text is under 7 pt. The
+ * same input gives the same bytes. THR_EINPUT if nothing moves. svg is unchanged on failure. O(n
+ * log n). */
+thr_status thr_motion_svg(const thr_motion_picture *what, thr_text *svg,
+                          thr_err *err) THR_MUST_CHECK;
+
 /* ---- svg.c: Small pieces of SVG: numbers, text, paths. */
 
 /* Rounds to the two decimals that are printed; the result is never -0. */

@@ -7,7 +7,8 @@
  * linear programme of their equilibrium), mechanism.c (collapse mechanisms and the balance of
  * powers that proves a bound), holding.c (the bounds) with welds.c, and structure.c (which
  * questions are asked of a plan; record.c lays the answers into the plan). The witness: simulated.c
- * (the world), settle.c (the fall), erect.c (the erection). By themselves: rigidity.c and spqr.c.
+ * (the world), settle.c (the fall), erect.c (the erection). By themselves: rigidity.c and spqr.c;
+ * bar_motions.c, pulling.c.
  *
  * Units are m, kg, N, rad inside; mm and g in the physics that users state. */
 #ifndef THR_BEADS_H
@@ -316,5 +317,81 @@ typedef struct {
  * is said. Own lengths do not matter. Time of a few sparse QR factorizations. */
 thr_status thr_rigidity_find(const thr_frame *frame, thr_rigidity *out,
                              thr_err *err) THR_MUST_CHECK;
+
+/* ---- bar_motions.c: The motions that rigidity.c counts, one by one; and how far one of them goes.
+ */
+
+enum { THR_BARS_NODES = 1000 };
+
+/* A framework of ball joints whose edges are bars, or cord without a bead. Borrowed. */
+typedef struct {
+  const thr_frame *frame;
+  const bool *held;  /* [n_nodes] nodes that stay in place; NULL: none, and then motions are those
+                        besides the ones of rigid pieces */
+  const bool *cable; /* [n_edges] edges that are cord alone; NULL: none */
+} thr_bars;
+
+/* Holds a basis of the motions, to first order, that keep all bars: orthonormal as vectors of
+ * 3 n_nodes numbers. */
+typedef struct {
+  int n_nodes, count;
+  bool unclear;          /* rounding decides how many there are */
+  double (*velocity)[3]; /* [count * n_nodes] one motion after the other; owned */
+} thr_bar_motions;
+
+/* Finds the canonical basis (bar_motions.c says which) of the motions that keep all bars and the
+ * lengths of n_cords cords. THR_EINPUT above THR_BARS_NODES nodes. O(n^3), a minute there.
+ */
+thr_status thr_bar_motions_find(const thr_bars *bars, const thr_cord *cord, int n_cords,
+                                thr_bar_motions *out, thr_err *err) THR_MUST_CHECK;
+void thr_bar_motions_destroy(thr_bar_motions *motions);
+
+/* Returns the lowest node among those that move fastest. */
+int thr_motion_fastest(const double (*velocity)[3], int n_nodes);
+
+/* Says what ended a path: the asked number of frames; lengths that cannot be kept, so that the
+ * motion is infinitesimal only, or at its end; a place where the motion is no longer one; a cord
+ * that would get longer. */
+typedef enum { THR_PATH_WHOLE, THR_PATH_STIFF, THR_PATH_TURNED, THR_PATH_TAUT } thr_path_end;
+
+/* Holds positions along a motion. */
+typedef struct {
+  int n_nodes, n_frames;
+  double (*at)[3]; /* [n_frames * n_nodes] units, the first frame as drawn; owned */
+  double change;   /* largest relative change of a bar's length in any frame, at most 1e-9 */
+  thr_path_end end;
+} thr_path;
+
+/* Follows a motion for n_frames >= 1 frames, in each of which the fastest node first moves by
+ * `step` (units), and no cord of n_cords gets longer. Lengths are those between the nodes as drawn.
+ * O(n^3) a frame. THR_ELIMIT when stopped, THR_EINPUT above THR_BARS_NODES nodes, both with out
+ * empty. */
+thr_status thr_motion_follow(const thr_bars *bars, const thr_cord *cord, int n_cords,
+                             const double (*velocity)[3], double step, int n_frames,
+                             const thr_limits *limits, thr_path *out, thr_err *err) THR_MUST_CHECK;
+void thr_path_destroy(thr_path *path);
+
+/* ---- pulling.c: Can pulling the cords move anything, if friction and beads do not hinder it? */
+
+/* Holds the answer and its proof. */
+typedef struct {
+  int n_cords;
+  bool moves;            /* some motion keeps all bars, shortens a cord and lengthens none */
+  double (*velocity)[3]; /* [n_nodes] that motion, of length 1; NULL if there is none; owned */
+  double *rate;    /* [n_cords] how fast each cord gets longer in it, <= 0; NULL as above; owned */
+  double *tension; /* [n_cords] else the proof: tensions of the cords, at least 1 each, .. */
+  double *force;   /* [n_edges] .. in balance with forces of the bars (> 0: tension; 0 of edges that
+                      are none) at every node that is not held; NULL if it moves; owned */
+  double residual; /* of the proof: largest force that is out of balance, by the largest force; of
+                      the motion: largest rate of a bar, or of a cord that gets longer */
+} thr_pulling;
+
+/* Decides by a linear programme. Every cord slides freely through all that it passes, so that only
+ * its whole length counts. THR_EINPUT above THR_BARS_NODES nodes or without a cord, THR_ELIMIT
+ * when stopped, THR_ESOLVER if it is not decided. */
+thr_status thr_pulling_find(const thr_bars *bars, const thr_cord *cord, int n_cords,
+                            const thr_limits *limits, thr_pulling *out,
+                            thr_err *err) THR_MUST_CHECK;
+void thr_pulling_destroy(thr_pulling *pulling);
 
 #endif

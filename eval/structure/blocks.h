@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the files of eval/structure/ share with each other and with nobody else: rigid blocks and
- * their programme (blocks.c), collapse mechanisms (mechanism.c), welds (welds.c), and the
- * simulation in Bullet (simulated.c). beads.h says in which order to read the files. */
+ * their programme (blocks.c), collapse mechanisms (mechanism.c), welds (welds.c), the
+ * simulation in Bullet (simulated.c), and rows of bars (bar_motions.c). beads.h says in which order
+ * to read the files. */
 #ifndef THR_BLOCKS_H
 #define THR_BLOCKS_H
 
@@ -248,5 +249,16 @@ int thr_simulated_closed(const thr_simulated *simulated, double gap);
 
 /* Fills pose[n_beads]: node in m, rotation from the drawn position as a quaternion (x y z w). */
 void thr_simulated_take_poses(const thr_simulated *simulated, double (*pose)[7]);
+
+/* ---- bar_motions.c: rows of the rigidity matrix, and motions without those of rigid pieces. */
+
+/* Adds to row[3 * n_nodes] how fast the cord gets longer per velocity of each node that is not
+ * held. */
+void thr_bars_cord_row(const thr_bars *bars, const thr_cord *cord, double *row);
+
+/* Takes the motions of rigid pieces out of a motion, unless nodes are held, and scales it to length
+ * 1. */
+thr_status thr_bars_without_rigid(const thr_bars *bars, double (*velocity)[3],
+                                  thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -266,6 +266,43 @@ START_TEST(misfits_are_refused)
 }
 END_TEST
 
+/* A framework that moves: its frames, and no cords. */
+START_TEST(motion_in_the_page)
+{
+  thr_frame f = ring_make(4);
+  static const bool cable[4] = {[2] = true};
+  double at[8][3];
+  thr_status st = THR_ENOMEM;
+  memcpy(at, f.xyz, 4 * sizeof *at);
+  memcpy(at + 4, f.xyz, 4 * sizeof *at);
+  at[7][2] = 0.5;
+  const thr_viewer_moves moves = {2, (const double(*)[3])at, cable, "Motion </script>", "note"};
+
+  for (long k = 1; st; k++) {
+    thr_text t = {0};
+    thr_err err = {0};
+    thr_alloc_fail_at(k);
+    st = thr_viewer_moves_html(&f, &moves, &t, &err);
+    thr_alloc_fail_at(0);
+    ck_assert(st == THR_OK || st == THR_ENOMEM);
+    ck_assert(!st || t.length == 0);
+    if (!st) {
+      thr_json *doc = plan_in(&t);
+      const thr_json *in = thr_json_get(doc, "moves");
+      ck_assert_int_eq(thr_json_size(thr_json_get(doc, "cords")), 0);
+      assert_string(thr_json_get(in, "title"), "Motion </script>");
+      ck_assert(number(thr_json_at(thr_json_get(in, "cables"), 0)) == 2);
+      ck_assert_int_eq(thr_json_size(thr_json_get(in, "frames")), 2);
+      ck_assert(number(thr_json_at(thr_json_at(thr_json_get(in, "frames"), 1), 11)) == 0.5);
+      thr_json_destroy(doc);
+    }
+    thr_text_destroy(&t);
+    ck_assert_int_lt(k, 10000);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 START_TEST(every_allocation_fails_once)
 {
   thr_plan p = dome_plan();
@@ -299,6 +336,7 @@ int main(void)
   ADD_TEST(s, 10, tension_has_colours_and_a_scale);
   ADD_TEST(s, 10, names_cannot_end_the_script);
   ADD_TEST(s, 10, misfits_are_refused);
+  ADD_TEST(s, 60, motion_in_the_page);
   ADD_TEST(s, 60, every_allocation_fails_once);
   return run_suite(s);
 }

@@ -167,6 +167,23 @@ const tests = {
     await close();
   },
 
+  async 'a motion is played through the positions that info found'() {
+    const frame = path.join(__dirname, '../../data/conmech/tower_3D.json'), url = file('motion.html');
+    const {followed} = JSON.parse(thread('info', frame, '--play', url, '--json')).motions;
+    const {page, complaints, close} = await open({url: pathToFileURL(url).href});
+    for (const step of [0, 20, followed.frames.length - 1]) {
+      await setSlider(page, step);
+      assert.equal(await text(page, '#count'), `${step} / ${followed.frames.length - 1}`);
+      const nodes = await page.evaluate(() => window.threadViewer.nodes.map((p) => p.toArray()));
+      nodes.flat().forEach((x, i) => assert.ok(Math.abs(x - followed.frames[step].flat()[i]) < 1e-5));
+    }
+    await page.keyboard.press('Home');
+    await page.locator('#play').click();
+    await page.waitForFunction(() => Number(document.documentElement.dataset.step) > 3);
+    assert.deepEqual(complaints, []);
+    await close();
+  },
+
   async 'slider, words and piece follow the plan'({dome}) {
     const {page, close} = await open(dome), passes = passesOf(dome.plan), names = namesOf(dome);
     assert.equal(Number(await page.locator('#slider').getAttribute('max')), passes.length);

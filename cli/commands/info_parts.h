@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Declares what the files of `thread info` share: the options and the making of --motions. */
+#ifndef THR_INFO_PARTS_H
+#define THR_INFO_PARTS_H
+
+#include "cli/cli.h"
+#include "cli/print/print.h"
+#include "graph/framework/frame.h"
+
+#include <stdbool.h>
+
+/* What was asked of motions. Strings point into argv. */
+typedef struct {
+  bool wanted;
+  const char *held, *cables, *picture, *play;
+  int which; /* from 1; 0: not said */
+} motion_arguments;
+
+extern const cli_option motion_options[];
+
+/* Returns whether any of the options was given. */
+bool motions_asked(const motion_arguments *args);
+
+/* Finds the motions of a framework, which was read from path, writes the picture, and follows the
+ * motion that is to be played. frame and args stay while facts are used. Returns EXIT_OK, or prints
+ * and returns the code. Release with motions_destroy whatever comes back. */
+int motions_find(const char *path, const thr_frame *frame, const motion_arguments *args,
+                 motion_facts *facts);
+void motions_destroy(motion_facts *facts);
+
+#endif
