@@ -34,6 +34,7 @@ void thr_eval_destroy(thr_eval *eval)
 {
   thr_evaluation_destroy(&eval->record);
   thr_holding_destroy(&eval->holding);
+  thr_holding_destroy(&eval->ideal);
   thr_holding_destroy(&eval->equal);
   thr_holding_destroy(&eval->loosest);
   thr_holding_destroy(&eval->after);
@@ -215,8 +216,9 @@ thr_status thr_eval_plan(const thr_frame *frame, const thr_cord *cord, int n_cor
   if (!st && method == THR_STRUCTURE && eval.record.schedule.n > 0)
     st = thr_structure_after(frame, cord, options, limits, &eval, err);
 
-  /* Proofs are recorded even if the time did not suffice for all of them. */
-  if (eval.record.standing.present && (!st || st == THR_ELIMIT)) {
+  /* Proofs are recorded even if the time did not suffice for all of them; not those of pieces that
+   * the record does not know. */
+  if (eval.record.standing.present && !options->bodies && (!st || st == THR_ELIMIT)) {
     const thr_status kept = thr_structure_record(frame->n_nodes, options, &eval, err);
     if (kept) st = kept;
   }

@@ -47,7 +47,10 @@ typedef struct {
                   bounds closer */
   bool taut;   /* method structure: turns are those of the tight cord in its bores, as of method
                   joint; else of their middles */
-  bool clamped;    /* method structure: feet are held in place; else they stand on the ground */
+  bool clamped; /* method structure: feet are held in place; else they stand on the ground */
+  const thr_bodies
+      *bodies; /* method structure: pieces as they are made instead of the ideal ones; they are not
+                  simulated, and the record has no proofs, which do not know them; borrowed */
   double strength; /* N, method structure: that a knotted cord bears; 0 = not known */
   double hand; /* N, methods capstan and joint: 0, or the largest pull of a schedule with the fewest
                   grips, which is made */
@@ -95,6 +98,8 @@ typedef struct {
                            exponent, as seen at measured angles left out; NAN if none could be left
                            out, and without friction */
   thr_holding holding;  /* method structure: the pull while the cords are drawn in */
+  thr_holding ideal;    /* with options.bodies: the same of the ideal pieces; lower INFINITY: none
+                           holds them; not present: not decided */
   thr_holding equal; /* the same with equal pulls at all ends; up to 100 beads, all cords pulled at
                         both ends */
   thr_holding loosest; /* the force at all ends in any friction state, whatever was done to the

@@ -12,12 +12,12 @@
 #include <string.h>
 
 /* Signed distance from the outline of a profile, whose inner circle has the radius; corners are
- * rounded by a quarter of it. u, v: across the arm. */
+ * rounded by a part of it. u, v: across the arm. */
 static double profile_distance(thr_kit_profile profile, double radius, double u, double v)
 {
   if (profile == THR_KIT_ROUND) return hypot(u, v) - radius;
 
-  double rounding = 0.25 * radius, inner = radius - rounding;
+  double rounding = THR_KIT_ROUNDING * radius, inner = radius - rounding;
   double x = fabs(u), y = fabs(v);
   if (profile == THR_KIT_SQUARE) {
     double over_x = x - inner, over_y = y - inner;

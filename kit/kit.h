@@ -6,9 +6,9 @@
  * The folder kit/ makes them. Reading order: kit.c (a kit from a plan: edges, then pieces, then
  * meshes), edges.c (width, bore and lanes of every edge), channels.c (curves through a piece),
  * body.c (the solid as a distance), strokes.c (letters), estimate.c (the kit without meshes),
- * mesh.h with mesher.c and mesh.c (the surface of a solid), plates.c (pieces on the bed of a
- * printer), write_3mf.c, write_scad.c, kit_tables.c (files). Lengths are in mm, angles in rad,
- * masses in g. */
+ * mesh.h with mesher.c and mesh.c (the surface of a solid), bodies.c (what eval/ takes), plates.c
+ * (pieces on the bed of a printer), write_3mf.c, write_scad.c, kit_tables.c (files). Lengths are in
+ * mm, angles in rad, masses in g. */
 #ifndef THR_KIT_H
 #define THR_KIT_H
 
@@ -16,6 +16,7 @@
 #include "diagram/scene/scene.h"
 #include "graph/arrays.h"
 #include "graph/framework/frame.h"
+#include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
 #include "graph/limits.h"
 #include "graph/status.h"
@@ -171,6 +172,9 @@ typedef struct {
 
 /* ---- body.c: a piece as a distance. */
 
+/* Radius of the rounded corners of a profile, as a part of that of its inner circle. */
+static const double THR_KIT_ROUNDING = 0.25;
+
 /* Distance to the surface of the piece without its channels, faces, letters and base, mm; below 0
  * inside. *arm receives the nearest arm, -1: the node, -2: the foot. NULL ok. */
 double thr_kit_body(const thr_kit_piece *piece, const double at[3], int *arm);
@@ -231,6 +235,17 @@ thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_option
                         const thr_layout *layout, bool meshes, const thr_limits *limits,
                         thr_err *err) THR_MUST_CHECK;
 void thr_kit_destroy(thr_kit *kit);
+
+/* ---- bodies.c: pieces for the limit analysis. */
+
+/* Fills outline[0] with a polygon of n <= THR_MOST_CORNERS corners inside a profile, and outline[1]
+ * with one round it, in halves of the width along up and side; returns n. */
+int thr_kit_outline(thr_kit_profile profile, double outline[2][THR_MOST_CORNERS][2]);
+
+/* Measures the pieces of a kit of nodes, which has its meshes: masses and mass centres by the
+ * meshes, faces by their profile. THR_EINPUT for a kit of tubes, *out is empty
+ * on failure. */
+thr_status thr_kit_bodies(const thr_kit *kit, thr_bodies *out, thr_err *err) THR_MUST_CHECK;
 
 /* Fills place with a point of a piece's mesh in the assembled framework, mm. */
 void thr_kit_place(const thr_kit_piece *piece, const double at[3], double place[3]);

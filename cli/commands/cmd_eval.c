@@ -24,7 +24,10 @@
 #include "cli/commands/commands.h"
 #include "cli/print/print.h"
 #include "eval/cord/profile.h"
+#include "graph/arrays.h"
+#include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
+#include "kit/kit.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -54,7 +57,15 @@ typedef struct {
   const char *schedule, *calibrate; /* as given; NULL: none */
   double strength;                  /* N, of the cord; 0 = not said */
   int knot;                         /* of thr_knots */
+  int pieces;                       /* 1: those that are made */
+  thr_kit_profile profile;
 } eval_arguments;
+
+static const char *pieces_name(int i)
+{
+  static const char *const name[] = {"ideal", "kit"};
+  return name[i];
+}
 
 /* Runs --calibrate, which needs no plan, and of cord and beads only the bore, in mm (2 if nothing
  * was said). Returns an exit code. */
@@ -118,6 +129,12 @@ static const cli_option own_options[] = {
     {"knot", .value = "NAME", .kind = CLI_WORD, AT(knot), .word = thr_knot_name,
      .help = "that knot: overhand (the default, leaves 45 %), reef 45, figure-eight 48, bowline "
              "60, anchor 70, clove-hitch 75, two-half-hitches 75, eye-splice 95"},
+    {"pieces", .kind = CLI_WORD, AT(pieces), .word = pieces_name, .n_words = 2,
+     .help = "structure: ideal ones, with square arms (default), or kit, those that `thread kit` "
+             "makes: their masses, mass centres, faces and feet, with the pull of the ideal ones "
+             "beside theirs"},
+    {"profile", .kind = CLI_WORD, AT(profile), .word = thr_kit_profile_name,
+     .n_words = THR_KIT_N_PROFILES, .help = "of the arms of --pieces kit (default: round)"},
     {"still", .value = "FILE", .kind = CLI_OUTPUT, AT(still),
      .help = "structure: write a picture of the beads before and after the fall, as SVG"},
     {"stills", .value = "FILE", .kind = CLI_OUTPUT, AT(stills),
@@ -133,6 +150,28 @@ static const cli_option own_options[] = {
              "(mu_ground). piece: a drawing of the piece to drill, true to size (SVG; -o FILE.stl: "
              "to print), by --bore mm"},
     {0}};
+
+/* Refuses what does not go with pieces that are made: only the limit analysis knows them. */
+static int check_pieces(const eval_arguments *args)
+{
+  const pull_args *pull = &args->pull;
+  const char *simulated = args->still               ? "--still"
+                          : args->stills            ? "--stills"
+                          : pull->options.large     ? "--dynamics"
+                          : pull->options.start > 0 ? "--tune start"
+                                                    : NULL;
+  if (!args->pieces)
+    return cli_given("profile") ? cli_usage("eval", "--profile is of --pieces kit") : EXIT_OK;
+  if (pull->method != THR_STRUCTURE)
+    return cli_usage("eval", "--pieces kit is of --method structure");
+  if (args->output)
+    return cli_usage("eval", "--pieces kit: plans keep only what is proved of ideal pieces; take "
+                             "-o away (--json says everything)");
+  if (simulated)
+    return cli_usage("eval", "--pieces kit: only ideal pieces are simulated; take %s away",
+                     simulated);
+  return EXIT_OK;
+}
 
 /* Parses the command line into *args. Returns -1 to go on, or the exit code of the command. */
 static int parse(int argc, char **argv, eval_arguments *args)
@@ -200,6 +239,8 @@ static int parse(int argc, char **argv, eval_arguments *args)
                      args->load.rays ? "--tune rays" : "--taut");
   if (args->load.n_pulls && !args->load.load) return cli_usage("eval", "--load-pulls needs --load");
 
+  if (check_pieces(args)) return EXIT_USAGE;
+
   /* Pictures of the simulation. */
   const char *shows = args->still ? "--still" : args->stills ? "--stills" : NULL;
   if (shows && args->load.load)
@@ -235,20 +276,56 @@ static int write_outputs(const eval_arguments *args, const thr_plan *plan, const
 
   /* The summary, where stdout is free. */
   const char *const out[] = {plan_path, args->plot, args->still, args->stills};
-  const eval_view view = {
-      args->pull.pull, args->strength,          args->knot,
-      args->tension,   args->load.load != NULL, args->pull.options.dynamics && !args->load.load,
-      stopped};
+  const eval_view view = {args->pull.pull,
+                          args->strength,
+                          args->knot,
+                          args->tension,
+                          args->load.load != NULL,
+                          args->pull.options.dynamics && !args->load.load && !args->pieces,
+                          args->pieces ? thr_kit_profile_name(args->profile) : NULL,
+                          stopped};
   for (int i = 0; i < 4; i++)
     if (out[i] && strcmp(out[i], "-") == 0) return code;
 
   if (args->pull.json)
-    eval_put_json(&text, plan, eval, stopped);
+    eval_put_json(&text, &view, plan, eval);
   else
     eval_put_text(&text, &view, plan, eval);
   int printed = cli_write(&text, "-");
 
   return code ? code : printed;
+}
+
+/* Makes the pieces of a plan, without names, of the cord and beads that the command line says, and
+ * measures them. Returns an exit code. */
+static int measure_pieces(const eval_arguments *args, const thr_plan *plan, thr_bodies *bodies)
+{
+  thr_err err = {0}, why = {0};
+  thr_kit kit = {0};
+  const thr_kit_options options = {.profile = args->profile, .names = THR_KIT_NO_NAMES};
+
+  /* The kit takes its sizes from the evaluation of a plan, if there is one. */
+  thr_plan asked = *plan;
+  asked.evaluation = (thr_evaluation){0};
+  int code = cli_physics_apply(&args->pull.physics, &asked.options.physics);
+  if (code) return code;
+  if (asked.options.physics.bead_mass > 0 || asked.options.physics.bead_strength > 0)
+    return cli_usage("eval", "--pieces kit: masses follow from --density and faces are no squares; "
+                             "--bead-mass 0 and --bead-strength 0 leave out what is said of them");
+
+  thr_limits limits = cli_limits(0);
+  limits.threads = cli_processes();
+  thr_status st = thr_kit_make(&kit, &asked, &options, NULL, true, &limits, &why);
+  const bool made = !st;
+  if (made) st = thr_kit_bodies(&kit, bodies, &why);
+  cli_progress_end();
+  thr_kit_destroy(&kit);
+  if (!st) return EXIT_OK;
+
+  /* The kit's advice is in terms of its own options. */
+  thr_fail(&err, st, made ? "%s: %s" : "%s: thread kit (whose --width is --bead-diameter here): %s",
+           args->path, why.text);
+  return cli_fail(&err);
 }
 
 /* Returns whether the evaluation of any cord is known. */
@@ -282,6 +359,9 @@ int cmd_eval(int argc, char **argv)
   if (!code) code = load_apply(&args.load, &plan.frame, &args.pull.options, &load);
   if (schedule.n > 0) args.pull.options.schedule = &schedule;
   args.pull.options.strength = args.strength * thr_strength_left(args.knot);
+  thr_bodies bodies = {0};
+  if (!code && args.pieces) code = measure_pieces(&args, &plan, &bodies);
+  if (args.pieces) args.pull.options.bodies = &bodies;
 
   /* An evaluation that was stopped is worth printing if a single cord is known. */
   if (!code) code = pull_eval(&args.pull, args.path, &plan, (thr_method)args.pull.method, &eval);
@@ -311,6 +391,7 @@ int cmd_eval(int argc, char **argv)
     cli_error(known ? "stopped: only a part is known" : "stopped before any cord was known");
 
   thr_schedule_destroy(&schedule);
+  thr_scratch_free(&bodies.own);
   free(load);
   thr_eval_destroy(&eval);
   thr_plan_destroy(&plan);

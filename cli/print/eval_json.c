@@ -40,7 +40,7 @@ static void put_json_holding(thr_writer *writer, const thr_frame *frame, const c
 
   /* What gives way first just below the lower bound. */
   put_bead(writer, "first_bead", frame, holding->first_bead);
-  put_json_band(writer, "band_beads", band);
+  if (band) put_json_band(writer, "band_beads", band);
   thr_write_string(writer, "holds", when);
   thr_write_close(writer);
 }
@@ -173,13 +173,14 @@ static void put_json_joints(thr_writer *writer, const thr_eval *eval)
   thr_write_close(writer);
 }
 
-void eval_put_json(thr_text *text, const thr_plan *plan, const thr_eval *eval, bool stopped)
+void eval_put_json(thr_text *text, const eval_view *view, const thr_plan *plan,
+                   const thr_eval *eval)
 {
   thr_writer writer = {.out = text};
 
   thr_write_object(&writer, NULL);
   thr_write_hash(&writer, "framework", thr_frame_hash(&plan->frame));
-  thr_write_bool(&writer, "complete", eval->complete && !stopped);
+  thr_write_bool(&writer, "complete", eval->complete && !view->stopped);
   thr_evaluation_write(&plan->evaluation, &writer, "evaluation");
   thr_write_line(&writer, 1);
 
@@ -200,6 +201,16 @@ void eval_put_json(thr_text *text, const thr_plan *plan, const thr_eval *eval, b
   }
 
   if (eval->holding.present) put_json_answers(&writer, &plan->frame, eval);
+  if (view->pieces) {
+    thr_write_line(&writer, 1);
+    thr_write_object(&writer, "pieces");
+    thr_write_string(&writer, "as", "printed (kit)");
+    thr_write_string(&writer, "profile", view->pieces);
+    thr_write_close(&writer);
+    if (eval->ideal.present)
+      put_json_holding(&writer, &plan->frame, "ideal_pieces", &eval->ideal, NULL,
+                       "while the cord is being drawn in, with ideal pieces");
+  }
   if (eval->holding.present) put_json_play(&writer, plan);
 
   /* Loads, the witness, and the way up from slack. */

@@ -48,7 +48,7 @@ static const char *method_words(const thr_evaluation *evaluation, bool refused)
 
 /* Appends the two lines above the table: the method, and what was said of cord and beads. */
 static void put_heading(thr_text *text, const thr_evaluation *evaluation, bool refused,
-                        const char *pulled)
+                        const char *pieces, const char *pulled)
 {
   const thr_physics *physics = &evaluation->physics;
 
@@ -77,7 +77,9 @@ static void put_heading(thr_text *text, const thr_evaluation *evaluation, bool r
   if (evaluation->method == THR_JOINT || evaluation->standing.taut)
     thr_text_printf(text, "cord %.4g mm in bores of %.4g mm, ", physics->cord_diameter,
                     physics->bore);
-  thr_text_printf(text, "pulled at: %s\n\n", pulled);
+  thr_text_printf(text, "pulled at: %s\n", pulled);
+  if (pieces) thr_text_printf(text, "pieces: as printed (kit), %s arms\n", pieces);
+  thr_text_append(text, "\n");
 }
 
 /* Returns the number of significant digits of a force. Measured ones get fewer. */
@@ -437,6 +439,18 @@ static void put_holding(thr_text *text, const thr_eval *eval)
   }
 }
 
+/* Appends the holding pull of the ideal pieces, beside that of those that are made. */
+static void put_ideal(thr_text *text, const thr_holding *ideal)
+{
+  thr_text_append(text, "ideal pieces   ");
+  if (!ideal->present)
+    thr_text_append(text, "not decided\n");
+  else if (!isfinite(ideal->lower))
+    thr_text_append(text, "no pull holds them (proved)\n");
+  else
+    put_bounds(text, ideal, "at the harder ends, while the cords are being drawn in,");
+}
+
 /* Appends by how much a cord gets longer. stretch: sum of tension (N) times length (m); divided by
  * the stiffness EA (N) it is a length, printed in mm. Without a stiffness it stays "N m / EA". */
 static void put_longer(thr_text *text, const thr_evaluation *evaluation, double stretch)
@@ -624,6 +638,7 @@ static void put_structure(thr_text *text, const eval_view *view, const thr_plan 
 
   if (!holding->present) return;
   put_holding(text, eval);
+  if (view->pieces) put_ideal(text, &eval->ideal);
   put_bead_band(text, &plan->evaluation, eval);
 
   /* The collapse mechanism is the proof of the lower bound. */
@@ -805,7 +820,7 @@ void eval_put_text(thr_text *text, const eval_view *view, const thr_plan *plan,
   const thr_evaluation *evaluation = &plan->evaluation;
 
   /* What was computed, cord by cord. */
-  put_heading(text, evaluation, eval->refused > 0,
+  put_heading(text, evaluation, eval->refused > 0, view->pieces,
               evaluation->schedule.n > 0 ? "by the schedule below" : view->pulled);
   put_cords(text, plan, evaluation);
   put_sums(text, plan, eval, view);

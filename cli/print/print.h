@@ -251,7 +251,9 @@ typedef struct {
   bool tension;       /* every pass */
   bool loaded;        /* a load hangs on it */
   bool simulated;     /* the structure in simulation was asked for, too */
-  bool stopped;       /* before all was known */
+  const char
+      *pieces;  /* profile of pieces as they are made, which were evaluated; NULL: ideal ones */
+  bool stopped; /* before all was known */
 } eval_view;
 
 /* Appends everything in words. */
@@ -263,7 +265,8 @@ void eval_put_text(thr_text *text, const eval_view *view, const thr_plan *plan,
 void erect_put(thr_text *text, const thr_erect *erect);
 
 /* Appends everything as a JSON object and a newline. stopped: not all is known. */
-void eval_put_json(thr_text *text, const thr_plan *plan, const thr_eval *eval, bool stopped);
+void eval_put_json(thr_text *text, const eval_view *view, const thr_plan *plan,
+                   const thr_eval *eval);
 
 /* ---- compare_rows.c: The table of `thread compare`: a row per value, a column per plan. */
 

@@ -82,27 +82,31 @@ static footing find_footing(const thr_frame *frame)
   return standing;
 }
 
-/* Places the corners of a regular polygon on the edge of each foot's disc, the first half a side
- * from the level direction. The disc is half a width below the node. */
+/* Places the corners of a regular polygon on the edge of a foot's disc, m below the node, the first
+ * half a side from the level direction. */
+static void place_foot(thr_beads *beads, int foot, double radius, double below)
+{
+  const double *centre = beads->centre[beads->foot[foot]];
+
+  /* Along and across the level direction, which turns with the drawing. */
+  for (int i = 0; i < THR_FOOT_POINTS; i++) {
+    const double angle = 2 * THR_PI * (i + 0.5) / THR_FOOT_POINTS, along = radius * cos(angle),
+                 across = radius * sin(angle);
+    double *at = beads->foot_point[foot][i];
+    at[0] = centre[0] + along * beads->level[0] - across * beads->level[1];
+    at[1] = centre[1] + along * beads->level[1] + across * beads->level[0];
+    at[2] = centre[2] - below;
+  }
+}
+
+/* Lists the feet, with discs as wide as an arm, half a width below the node. */
 static void place_feet(thr_beads *beads, const thr_frame *frame, const footing *standing)
 {
   int n = 0;
   for (int v = 0; v < frame->n_nodes; v++) {
     if (!is_foot(frame, v, standing->any_foot, standing->lowest, standing->tolerance)) continue;
-
-    /* Along and across the level direction, which turns with the drawing. */
-    for (int i = 0; i < THR_FOOT_POINTS; i++) {
-      const double angle = 2 * THR_PI * (i + 0.5) / THR_FOOT_POINTS,
-                   along = 0.5 * beads->width * cos(angle),
-                   across = 0.5 * beads->width * sin(angle);
-      beads->foot_point[n][i][0] =
-          beads->centre[v][0] + along * beads->level[0] - across * beads->level[1];
-      beads->foot_point[n][i][1] =
-          beads->centre[v][1] + along * beads->level[1] + across * beads->level[0];
-      beads->foot_point[n][i][2] = beads->centre[v][2] - 0.5 * beads->width;
-    }
-
-    beads->foot[n++] = v;
+    beads->foot[n] = v;
+    place_foot(beads, n++, 0.5 * beads->width, 0.5 * beads->width);
   }
 }
 
@@ -279,6 +283,55 @@ thr_status thr_beads_make(const thr_frame *frame, const thr_physics *physics, th
 
   *out = beads;
   return THR_OK;
+}
+
+/* Takes pieces as they are made; see beads.h. */
+thr_status thr_beads_take(thr_beads *beads, const thr_frame *frame, const thr_bodies *bodies,
+                          bool held, thr_err *err)
+{
+  for (int v = 0; v < beads->n_beads; v++) {
+    beads->mass[v] = 1e-3 * bodies->mass[v];
+    for (int k = 0; k < 3; k++)
+      beads->mass_centre[v][k] = beads->centre[v][k] + 1e-3 * bodies->centre[v][k];
+  }
+
+  for (int i = 0; i < beads->n_feet && !held; i++) {
+    const double *foot = bodies->foot[beads->foot[i]];
+    if (!(foot[0] > 0))
+      return thr_fail(err, THR_EINPUT,
+                      "piece at node %s has no foot to stand on: mark the nodes that stand, or "
+                      "--clamp-feet",
+                      frame->name[beads->foot[i]]);
+    place_foot(beads, i, 1e-3 * foot[0], 1e-3 * foot[1]);
+  }
+
+  beads->bodies = bodies;
+  return THR_OK;
+}
+
+double thr_beads_play(const thr_beads *beads, int face)
+{
+  return beads->bodies ? 1e-3 * beads->bodies->play[face] : beads->play;
+}
+
+int thr_beads_corners(const thr_beads *beads)
+{
+  return beads->bodies ? beads->bodies->n_corners : 4;
+}
+
+void thr_beads_corner(const thr_beads *beads, int face, int i, bool outside, double at[3])
+{
+  const thr_bodies *bodies = beads->bodies;
+  if (!bodies) {
+    memcpy(at, beads->corner[face][i], sizeof beads->corner[face][i]);
+    return;
+  }
+
+  double side[3];
+  const double *corner = bodies->outline[outside][i], half = 0.5e-3 * bodies->width[face];
+  cross(bodies->up[face], beads->axis[face], side);
+  for (int k = 0; k < 3; k++)
+    at[k] = beads->middle[face][k] + half * (corner[0] * bodies->up[face][k] + corner[1] * side[k]);
 }
 
 /* Frees the arrays. */

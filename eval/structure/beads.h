@@ -16,6 +16,7 @@
 
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
+#include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/arrays.h"
@@ -49,6 +50,8 @@ typedef struct {
   double width;             /* m, of an arm */
   double bore;              /* m */
   double play;              /* m: how far from the middle of a face a cord may go through it */
+  const thr_bodies *bodies; /* pieces as they are made, whose faces and play count instead;
+                               borrowed; NULL until thr_beads_take */
   int n_feet;               /* supports: the framework's feet, or its lowest nodes if it has none */
   int *foot;                /* [n_feet] bead */
   double (*foot_point)[THR_FOOT_POINTS]
@@ -79,6 +82,22 @@ typedef struct {
 thr_status thr_beads_make(const thr_frame *frame, const thr_physics *physics, thr_beads *out,
                           thr_err *err) THR_MUST_CHECK;
 void thr_beads_destroy(thr_beads *beads);
+
+/* Gives the beads masses, mass centres, faces and feet of pieces as they are made; bodies stays the
+ * caller's. The simulation does not know these. THR_EINPUT if a bead that stands on the ground has
+ * no foot, unless held: it will be clamped. */
+thr_status thr_beads_take(thr_beads *beads, const thr_frame *frame, const thr_bodies *bodies,
+                          bool held, thr_err *err) THR_MUST_CHECK;
+
+/* Returns how far from the middle of a face a cord may go through it, m. */
+double thr_beads_play(const thr_beads *beads, int face);
+
+/* Returns the number of corners of every face. */
+int thr_beads_corners(const thr_beads *beads);
+
+/* Computes corner number i of a face, m: of a polygon inside the convex hull of the face or, if
+ * outside, round it. Ideal faces are both. */
+void thr_beads_corner(const thr_beads *beads, int face, int i, bool outside, double at[3]);
 
 /* Returns the weight, N, of all beads that are not fixed. */
 double thr_beads_weight(const thr_beads *beads, const thr_physics *physics);

@@ -3,7 +3,7 @@
  * limit analysis asks for (holding.c says what for). The model is Livesley's (1978).
  *
  * Unknowns (columns):
- *   forces at the contacts, four corners of every face and the corners of every foot, each within a
+ *   forces at the contacts, the corners of every face and the corners of every foot, each within a
  *     friction cone or a pyramid of b->rays rays;
  *   the pull, or the multiple of the load;
  *   where cords go through a face beside its middle (play): the pull times the offset, a cone, too;
@@ -120,6 +120,7 @@ static void set_contacts(thr_blocks *blocks, double widen)
 {
   const thr_beads *beads = blocks->b;
   const double up[3] = {0, 0, 1};
+  const int corners = thr_beads_corners(beads);
   double side[2][3], at[3];
 
   blocks->n_contacts = 0;
@@ -130,10 +131,12 @@ static void set_contacts(thr_blocks *blocks, double widen)
     if (thr_blocks_inside(blocks, e)) continue;
     set_side(beads, e, side);
 
-    for (int i = 0; i < THR_CORNERS; i++)
-      add_contact(blocks, blocks->f->edge[e][1], blocks->f->edge[e][0], beads->corner[e][i],
-                  beads->axis[e], side[0], widen * blocks->physics->mu_bead)
-          ->press = fmin(blocks->press[e], blocks->most) / THR_CORNERS;
+    for (int i = 0; i < corners; i++) {
+      thr_beads_corner(beads, e, i, blocks->outside, at);
+      add_contact(blocks, blocks->f->edge[e][1], blocks->f->edge[e][0], at, beads->axis[e], side[0],
+                  widen * blocks->physics->mu_bead)
+          ->press = fmin(blocks->press[e], blocks->most) / corners;
+    }
   }
 
   /* The corners of the feet, with the ground. */
@@ -292,7 +295,8 @@ static void set_plays(thr_blocks *blocks)
   for (int e = 0; e < blocks->b->n_faces; e++) {
     const bool passed = blocks->press[e] > 0 || blocks->play_of[e] > 0;
     blocks->play_of[e] = -1;
-    if (!blocks->outside || !(blocks->b->play > 0) || !passed || thr_blocks_inside(blocks, e))
+    if (!blocks->outside || !(thr_beads_play(blocks->b, e) > 0) || !passed ||
+        thr_blocks_inside(blocks, e))
       continue;
     blocks->play_of[e] = blocks->n_plays;
     blocks->play[blocks->n_plays++] = e;
@@ -314,9 +318,10 @@ thr_status thr_blocks_make(thr_blocks *blocks, double widen, thr_err *err)
   /* Everything that the blocks own, per face, bead or body; there are at most as many bodies as
    * beads. */
   int *parent = thr_scratch_array(&blocks->own, n, sizeof *parent);
-  blocks->contact = thr_scratch_array(
-      &blocks->own, (size_t)beads->n_faces * THR_CORNERS + (size_t)beads->n_feet * THR_FOOT_POINTS,
-      sizeof *blocks->contact);
+  blocks->contact = thr_scratch_array(&blocks->own,
+                                      (size_t)beads->n_faces * (size_t)thr_beads_corners(beads) +
+                                          (size_t)beads->n_feet * THR_FOOT_POINTS,
+                                      sizeof *blocks->contact);
   blocks->body = thr_scratch_array(&blocks->own, n, sizeof *blocks->body);
   blocks->origin = thr_scratch_array(&blocks->own, n, sizeof *blocks->origin);
   blocks->wrench = thr_scratch_array(&blocks->own, n, sizeof *blocks->wrench);
@@ -474,7 +479,7 @@ static void play_columns(const thr_blocks *blocks, equilibrium_programme *progra
       /* Both beads feel the moment, in opposite directions. */
       for (int which = 0; which < 2; which++) {
         const int row = blocks->row[blocks->body[blocks->f->edge[e][which]]];
-        const double arm = (which ? -1 : 1) * unit * blocks->b->play *
+        const double arm = (which ? -1 : 1) * unit * thr_beads_play(blocks->b, e) *
                            (tightens ? 1 : fmin(blocks->press[e], blocks->most)) / blocks->length;
         for (int j = 0; j < 3 && row >= 0; j++)
           entry(programme, row + 3 + j, arm * moment[j]);

@@ -19,7 +19,6 @@
 /* Beads from which on the solver's bounds need not be nearer to each other than THR_BLOCKS_ROUGH,
  * relative; twice that where the multipliers do not count. */
 enum { THR_BLOCKS_LARGE = 1000 };
-enum { THR_CORNERS = 4 }; /* contacts of a face, one after the other, faces before feet */
 static const double THR_BLOCKS_ROUGH = 5e-4;
 /* How far the equations are met then, in weights; and where only the multipliers count: their bound
  * is proved by itself. */
@@ -46,8 +45,8 @@ typedef struct {
   bool bound;     /* only the multipliers count */
   bool round;     /* contact forces are within cones, not pyramids .. */
   double guess;   /* .. and N: a pull that is enough, not a thousand times too much */
-  bool outside;   /* for a proved bound: cords anywhere within their bores, polygons round the discs
-                     of feet; else cords in the middle, and polygons inside */
+  bool outside;   /* for a proved bound: cords anywhere within their bores, polygons round faces
+                     and the discs of feet; else cords in the middle, and polygons inside */
   bool stretches; /* the unknown is how much more tension than the least there is in the passes that
                      b->rise tells, each newton at the cost of their lengths; the rest is given */
   bool carries;   /* the unknown is not the pull but what the load is multiplied by */
@@ -59,17 +58,17 @@ typedef struct {
   int n_bodies, n_contacts, n_rows, n_copies, n_ties, n_plays;
   int n_rises; /* passes whose tension is unknown: all of b->rise, or none. When stretched n_copies
                   is 0 */
-  thr_contact *contact;
-  int *body;           /* [n_beads] */
-  double (*origin)[3]; /* [n_bodies] where moments are taken about, m */
-  double (*wrench)[6]; /* [n_bodies] of what is unknown: the cords at a pull of 1, or the load */
-  double (*given)[6];  /* [n_bodies] of the other one; none of a pull that is unknown */
-  int *row;            /* [n_bodies] first of a body's six rows, -1 = held in place */
-  int *copy;           /* [n_bodies] of the pull that acts on it */
-  int (*tie)[2];       /* [n_ties] copies that are equal */
-  int *play;           /* [n_plays] faces that cords go through, not only in the middle */
-  int *play_of;        /* [n_faces] which of these a face is, -1 = none */
-  thr_scratch own;     /* the arrays */
+  thr_contact *contact; /* of a face one after the other, faces before feet */
+  int *body;            /* [n_beads] */
+  double (*origin)[3];  /* [n_bodies] where moments are taken about, m */
+  double (*wrench)[6];  /* [n_bodies] of what is unknown: the cords at a pull of 1, or the load */
+  double (*given)[6];   /* [n_bodies] of the other one; none of a pull that is unknown */
+  int *row;             /* [n_bodies] first of a body's six rows, -1 = held in place */
+  int *copy;            /* [n_bodies] of the pull that acts on it */
+  int (*tie)[2];        /* [n_ties] copies that are equal */
+  int *play;            /* [n_plays] faces that cords go through, not only in the middle */
+  int *play_of;         /* [n_faces] which of these a face is, -1 = none */
+  thr_scratch own;      /* the arrays */
 } thr_blocks;
 
 /* Holds a solution of the programme, and its multipliers. */

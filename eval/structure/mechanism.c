@@ -237,7 +237,7 @@ double thr_mechanism_parting(const thr_blocks *blocks, const double (*velocity)[
   /* Tilting moves a point at the rim of the play by the part of the rotation across the axis. */
   thr_cross(blocks->b->axis[face], turn, across);
 
-  return sum + blocks->b->play * sqrt(thr_dot(across, across));
+  return sum + thr_beads_play(blocks->b, face) * sqrt(thr_dot(across, across));
 }
 
 /* Computes how fast the faces of knotted cords part; see blocks.h. */

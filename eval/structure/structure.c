@@ -518,11 +518,14 @@ static thr_status carry_at_pulls(const thr_frame *frame, const thr_cord *cord,
   return thr_threads_run(n + 1, carry_one, &jobs, limits, err);
 }
 
-/* Makes the beads, with clamped feet, rays and tilt as the options say. */
+/* Makes the beads, as they are made if the options say so, with clamped feet, rays and tilt as the
+ * options say. */
 static thr_status make_beads(const thr_frame *frame, const thr_physics *physics,
                              const thr_eval_options *options, thr_beads *beads, thr_err *err)
 {
   thr_status st = thr_beads_make(frame, physics, beads, err);
+  if (!st && options->bodies)
+    st = thr_beads_take(beads, frame, options->bodies, options->clamped, err);
   bool *held = st ? NULL : thr_calloc((size_t)beads->n_beads, sizeof *held);
   if (!st && !held) st = thr_nomem(err);
   for (int k = 0; !st && k < beads->n_feet; k++)
@@ -789,7 +792,7 @@ thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord,
   if (!st && !knotted && out->after.upper <= 1 && beads.n_beads <= BAND_LARGEST) {
     st = let_down(frame, cord, &beads, limits, evaluation, false, &out->let_down, err);
     double least = 0;
-    if (!st && options->dynamics && !options->load) {
+    if (!st && options->dynamics && !options->load && !options->bodies) {
       st = let_down(frame, cord, &beads, limits, evaluation, true, &least, err);
       if (!st) st = settle_let_down(frame, cord, &beads, options, limits, least, out, err);
     }
@@ -1090,6 +1093,25 @@ static void simulate_collapse(const question_set *questions, const thr_eval_opti
     thr_erect_destroy(&questions->out->erect);
 }
 
+/* Computes the holding pull of the ideal pieces, beside that of those that are made. */
+static thr_status hold_ideal(const question_set *questions, const thr_eval_options *options,
+                             const thr_limits *limits, thr_err *err)
+{
+  thr_eval_options ideal = *options;
+  thr_eval *out = questions->out;
+  thr_beads beads = {0};
+  thr_err why = {0};
+  ideal.bodies = NULL;
+  thr_status st = make_beads(questions->frame, &out->record.physics, &ideal, &beads, &why);
+  if (!st)
+    st = hold(questions->frame, questions->cord, &beads, true, limits, &out->record,
+              questions->tension, &out->ideal, &why);
+  if (st == THR_EINFEASIBLE)
+    out->ideal = (thr_holding){.present = true, .lower = INFINITY, .upper = INFINITY};
+  thr_beads_destroy(&beads);
+  return pass_failure(st, &why, err);
+}
+
 /* Runs the whole method. The holding pull comes first and the other answers in order of their
  * importance, so that whoever stops the run early has lost least. Where nothing is simulated, no
  * answer has to wait for another one, and threads take all questions. */
@@ -1098,8 +1120,8 @@ static thr_status analyse(const thr_frame *frame, const thr_cord *cord, const th
                           const double **tension, thr_eval *out, thr_err *err)
 {
   thr_evaluation *evaluation = &out->record;
-  const bool simulated =
-      beads->n_beads <= thr_settle_largest(options->large) && !options->load && options->dynamics;
+  const bool simulated = beads->n_beads <= thr_settle_largest(options->large) && !options->load &&
+                         !options->bodies && options->dynamics;
   question_set questions = {
       .frame = frame, .cord = cord, .beads = beads, .tension = tension, .out = out};
 
@@ -1126,6 +1148,7 @@ static thr_status analyse(const thr_frame *frame, const thr_cord *cord, const th
   if (!st && simulated) st = simulate_found(&questions, options, limits, err);
   if (!st) st = answer_up_to(&questions, questions.n_asked, limits, err);
   if (!st && options->load) st = carry_at_pulls(frame, cord, beads, options, limits, out, err);
+  if (!st && options->bodies) st = hold_ideal(&questions, options, limits, err);
 
   /* From tensions of a pull of 1 to those of the holding pull. */
   fill_record(evaluation, out->holding.lower);

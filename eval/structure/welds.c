@@ -27,7 +27,7 @@ static bool is_pressed(const thr_blocks *blocks, const thr_blocks_solution *solu
   bool pressed = true;
 
   /* The normal force of a corner is the sum over its rays, whose normal parts are 1. */
-  for (int corner = i; corner < i + THR_CORNERS; corner++) {
+  for (int corner = i; corner < i + thr_beads_corners(blocks->b); corner++) {
     double normal = 0;
     for (int e = 0; e < blocks->b->rays; e++)
       normal += solution->x[corner * blocks->b->rays + e];
@@ -41,7 +41,8 @@ static bool is_pressed(const thr_blocks *blocks, const thr_blocks_solution *solu
 static int weld_pressed(const thr_blocks *blocks, const thr_blocks_solution *solution, int *weld)
 {
   int n = 0;
-  for (int i = 0; i < blocks->n_contacts && blocks->contact[i].other >= 0; i += THR_CORNERS)
+  for (int i = 0; i < blocks->n_contacts && blocks->contact[i].other >= 0;
+       i += thr_beads_corners(blocks->b))
     if (is_pressed(blocks, solution, i))
       n += thr_disjoint_join(weld, blocks->contact[i].bead, blocks->contact[i].other);
   return n;

@@ -4,7 +4,28 @@
 #ifndef THR_EVALUATION_H
 #define THR_EVALUATION_H
 
+#include "graph/arrays.h"
 #include "graph/plan/physics.h"
+
+/* ---- Pieces as they are made, which kit/ measures and eval/ takes instead of its ideal ones. */
+
+enum { THR_MOST_CORNERS = 16 };
+
+/* What the limit analysis needs of pieces that are made: masses, faces and feet. {0} is valid and
+ * empty. Release with thr_scratch_free(&own). */
+typedef struct {
+  double *mass;        /* [n_nodes] g */
+  double (*centre)[3]; /* [n_nodes] mm: of the mass, from the node */
+  double (*foot)[2]; /* [n_nodes] mm: radius of the base, and how far it is below the node; 0 where
+                        the piece has none */
+  double *width;     /* [n_edges] mm, of the face */
+  double *play;      /* [n_edges] mm: how far from the middle of the face a cord may be */
+  double (*up)[3];   /* [n_edges] unit, in the face: the outline's first coordinate */
+  int n_corners;     /* of the convex hull of a face, as a polygon .. */
+  double outline[2][THR_MOST_CORNERS][2]; /* .. [0] inside it and [1] round it, in halves of the
+                                             width, in order round the edge */
+  thr_scratch own;                        /* the arrays */
+} thr_bodies;
 
 /* ---- standing.c: What the limit analysis found of a structure, in the form that is kept in
  * plan.json: what acts on it, what was asked, and the mechanisms that prove the answers. */

@@ -3,7 +3,9 @@
  * mechanism checked as a mechanism. */
 #include "eval/structure/beads.h"
 #include "graph/number.h"
+#include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
+#include "kit/kit.h"
 #include "lp/solver/solver.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
@@ -178,6 +180,55 @@ START_TEST(play_of_the_bore_lowers_what_is_proved)
       thr_holding_destroy(&h);
       model_destroy(&m);
     }
+}
+END_TEST
+
+/* A piece as it is made tips about the lowest point of its face, half a width (and the play) below
+ * the cord: weight x lever = pull x that. The polygon round a face reaches as low, the one inside
+ * it less by what an arc bulges over its chord. */
+START_TEST(a_piece_that_is_made_tips_about_the_edge_of_its_face)
+{
+  static const struct {
+    thr_kit_profile profile;
+    double rounding;
+  } cases[] = {{THR_KIT_ROUND, 1}, {THR_KIT_SQUARE, 0.25}, {THR_KIT_HEX, 0.25}};
+  for (size_t i = 0; i < 3 * sizeof cases / sizeof *cases; i++) {
+    const double play = 0.3 * (double)(i / 3), grams[] = {5, 7}, off[][3] = {{0}, {3, 0, 0}};
+    double foot[2][2] = {{0}}, width = 6, up[1][3] = {{0, 0, 1}}, lever = 10 + 3;
+    thr_bodies bodies = {.mass = (double *)grams,
+                         .centre = (double(*)[3])off,
+                         .foot = foot,
+                         .width = &width,
+                         .play = (double *)&play,
+                         .up = up};
+    thr_err err = {0};
+    bodies.n_corners = thr_kit_outline(cases[i % 3].profile, bodies.outline);
+
+    model m = cantilever(2, 20, 8, 2, 0);
+    assert_ok(thr_beads_take(&m.beads, &m.frame, &bodies, true, &err), &err);
+    thr_holding h = hold(&m);
+    const double moment = 7e-3 * 10 * lever, half = width / 2, rounding = cases[i % 3].rounding,
+                 inside = 1 - rounding * (1 - cos(THR_PI / bodies.n_corners));
+    ck_assert_double_eq_tol(h.lower, moment / (half + play), 1e-6 * moment);
+    ck_assert_double_eq_tol(h.upper, moment / (half * inside), 1e-6 * moment);
+    thr_holding_destroy(&h);
+    model_destroy(&m);
+  }
+}
+END_TEST
+
+START_TEST(a_piece_without_a_foot_does_not_stand)
+{
+  model m = cantilever(2, 20, 8, 2, 0);
+  double mass[2] = {1, 1}, off[2][3] = {{0}}, foot[2][2] = {{0}};
+  const thr_bodies bodies = {.mass = mass, .centre = off, .foot = foot};
+  thr_beads standing;
+  thr_err err = {0};
+  assert_ok(thr_beads_make(&m.frame, &m.physics, &standing, &err), &err);
+  ck_assert_int_eq(thr_beads_take(&standing, &m.frame, &bodies, false, &err), THR_EINPUT);
+  assert_one_line(&err, "no foot");
+  thr_beads_destroy(&standing);
+  model_destroy(&m);
 }
 END_TEST
 
@@ -864,6 +915,8 @@ int main(void)
   ADD_TEST(s, 20, cantilever_is_held_by_its_cord);
   ADD_TEST(s, 20, knotted_cords_stretch_by_what_they_lack);
   ADD_TEST(s, 20, play_of_the_bore_lowers_what_is_proved);
+  ADD_TEST(s, 20, a_piece_that_is_made_tips_about_the_edge_of_its_face);
+  ADD_TEST(s, 10, a_piece_without_a_foot_does_not_stand);
   ADD_TEST(s, 20, each_face_holds_what_hangs_beyond_it);
   ADD_TEST(s, 20, cantilever_scales_as_in_the_thesis);
   ADD_TEST(s, 10, friction_carries_a_bead);

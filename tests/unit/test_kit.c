@@ -4,6 +4,7 @@
 #include "graph/arrays.h"
 #include "graph/framework/frame.h"
 #include "graph/number.h"
+#include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
 #include "kit/kit.h"
 #include "tests/frameworks.h"
@@ -295,6 +296,92 @@ START_TEST(faces_are_planes_at_the_middles_of_edges)
 }
 END_TEST
 
+/* The middle one of three pieces in a row is a tube with a ball round its middle. */
+START_TEST(a_straight_piece_weighs_what_its_cylinder_does)
+{
+  thr_frame f = path_make(3);
+  for (int v = 0; v < 3; v++)
+    f.xyz[v][0] *= 40;
+  thr_request o = thr_request_default();
+  thr_plan p = plan_make(&f, &o);
+  const thr_kit_options options = {
+      .names = THR_KIT_NO_NAMES, .fillet = -1, .width = 10, .density = 2};
+  thr_kit kit = kit_of(&p, &options, 1);
+  thr_bodies bodies;
+  thr_err err = {0};
+  assert_ok(thr_kit_bodies(&kit, &bodies, &err), &err);
+
+  const double bore = kit.edges.edge[0].bore, caps = pow(6 * 6 - 5 * 5, 1.5);
+  const double volume =
+      THR_PI * (5 * 5 - 0.25 * bore * bore) * 40 + 4.0 / 3 * THR_PI * caps; /* mm3 */
+  ck_assert_double_eq_tol(bodies.mass[1], 2e-3 * volume, 0.01 * 2e-3 * volume);
+  for (int k = 0; k < 3; k++)
+    ck_assert_double_eq_tol(bodies.centre[1][k], 0, 0.02);
+  ck_assert_double_eq_tol(bodies.mass[0] + bodies.mass[1] + bodies.mass[2], kit.mass, 1e-9);
+
+  thr_scratch_free(&bodies.own);
+  thr_kit_destroy(&kit);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* The hull of what a mesh has in the plane of a face is between the two polygons. */
+START_TEST(faces_are_as_the_limit_analysis_takes_them)
+{
+  thr_plan p = plan_of(THR_MAKE_DOME, 3, false);
+  const thr_kit_options options = {.names = THR_KIT_NO_NAMES, .profile = (thr_kit_profile)_i};
+  thr_kit kit = kit_of(&p, &options, 1);
+  thr_bodies bodies;
+  thr_err err = {0};
+  assert_ok(thr_kit_bodies(&kit, &bodies, &err), &err);
+  const int n = bodies.n_corners;
+
+  for (int q = 0; q < kit.n_pieces; q++)
+    for (int a = 0; a < kit.piece[q].n_arms && kit.piece[q].like == q; a++) {
+      const thr_kit_arm *arm = &kit.piece[q].arm[a];
+      const double half = 0.5 * bodies.width[arm->half >> 1];
+      for (int i = 0; i < n; i++) {
+        /* How far the mesh and both polygons reach along a corner of the inner one. */
+        double reach[3] = {0}, *way = bodies.outline[0][i];
+        for (int outside = 0; outside < 2; outside++)
+          for (int j = 0; j < n; j++) {
+            const double *corner = bodies.outline[outside][j];
+            reach[outside] = fmax(reach[outside], half * (way[0] * corner[0] + way[1] * corner[1]));
+          }
+        for (int v = 0; v < kit.mesh[q].n_points; v++) {
+          const double *at = kit.mesh[q].point[v];
+          if (fabs(thr_dot(at, arm->along) - arm->length) > 1e-6 ||
+              thr_distance(at, (double[]){0, 0, 0}) > hypot(arm->length, 2 * half))
+            continue;
+          reach[2] =
+              fmax(reach[2], way[0] * thr_dot(at, arm->up) + way[1] * thr_dot(at, arm->side));
+        }
+        ck_assert_double_ge(reach[2], 0.97 * reach[0]);
+        ck_assert_double_le(reach[2], 1.01 * reach[1]);
+      }
+    }
+
+  thr_scratch_free(&bodies.own);
+  thr_kit_destroy(&kit);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+START_TEST(tubes_have_no_faces)
+{
+  thr_plan p = plan_of(THR_MAKE_DOME, 3, true);
+  const thr_kit_options options = {.names = THR_KIT_NO_NAMES};
+  thr_kit kit = kit_of(&p, &options, 1);
+  thr_bodies bodies;
+  thr_err err = {0};
+  ck_assert_int_eq(thr_kit_bodies(&kit, &bodies, &err), THR_EINPUT);
+  assert_one_line(&err, "tubes meet in no faces");
+  thr_kit_destroy(&kit);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 START_TEST(pieces_that_are_alike_share_a_mesh_that_fits_both)
 {
   thr_plan p = plan_of(THR_MAKE_TUBE, 5, false);
@@ -462,6 +549,9 @@ START_TEST(memory_may_run_out_anywhere)
     thr_err err = {0};
     thr_alloc_fail_at((long)k);
     thr_status st = thr_kit_make(&kit, &p, &options, NULL, true, &limits, &err);
+    thr_bodies bodies = {0};
+    if (!st) st = thr_kit_bodies(&kit, &bodies, &err);
+    thr_scratch_free(&bodies.own);
     thr_alloc_fail_at(0);
     failed = st != THR_OK;
     if (failed) ck_assert_msg(st == THR_ENOMEM, "%s", err.text);
@@ -492,6 +582,9 @@ int main(void)
   ADD_LOOP(s, 240, a_ball_as_thick_as_the_cord_goes_through, 0, 3);
   ADD_LOOP(s, 240, a_ball_as_thick_as_the_cord_goes_through, TUBES, CASES);
   ADD_TEST(s, 120, faces_are_planes_at_the_middles_of_edges);
+  ADD_TEST(s, 120, a_straight_piece_weighs_what_its_cylinder_does);
+  ADD_LOOP(s, 120, faces_are_as_the_limit_analysis_takes_them, 0, THR_KIT_N_PROFILES);
+  ADD_TEST(s, 120, tubes_have_no_faces);
   ADD_TEST(s, 120, pieces_that_are_alike_share_a_mesh_that_fits_both);
   ADD_TEST(s, 120, threads_change_nothing);
   ADD_LOOP(s, 30, what_does_not_fit_is_said_with_the_number_that_would, 0, REFUSED);
