@@ -672,8 +672,8 @@ static void note_channels(const maker *work)
     }
   if (work->sizes.wall < WALL && !work->sizes.wall_given)
     thr_text_printf(&kit->notes,
-                    "walls are %.2g mm, thinner than the %.2g mm that print well: --width, or a "
-                    "larger framework\n",
+                    "walls are %.2g mm, thinner than the %.2g mm that print well: a larger --width "
+                    "or framework\n",
                     work->sizes.wall, WALL);
   if (work->unnamed)
     thr_text_printf(&kit->notes,

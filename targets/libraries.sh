@@ -92,7 +92,9 @@ glpk() {
   if [ "$target" = windows ]; then options+=(-D__WOE__); fi
   # shellcheck disable=SC2086
   find src -name '*.c' ! -name main.c | sort | compile glpk -Isrc $includes "${options[@]}"
+  mkdir -p "$built/include/zlib" # which it brings along, with names of its own
   cp src/glpk.h "$built/include"
+  cp src/zlib/zlib.h src/zlib/zconf.h "$built/include/zlib"
 }
 
 # The headers are Debian's, but for the sizes of this processor; in wasm there is no thread-local storage. No instructions that some

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* No PDF: there are no fonts to set its words in; and no zlib to compress by: streams
- * hold their bytes as they are. */
-#include "diagram/export/export_parts.h"
+/* No PDF: there are no fonts to set its words in. */
 #include "diagram/export/paper.h"
 
 #include "graph/limits.h"
@@ -45,39 +43,4 @@ thr_status thr_pages_close(thr_pages *pages, bool last_first, thr_text *out, thr
   (void)last_first;
   (void)out;
   return thr_fail(err, THR_ESOLVER, "this program makes no PDF");
-}
-
-thr_status thr_deflate_load(thr_err *err)
-{
-  (void)err;
-  return THR_OK;
-}
-
-/* Appends a zlib stream (RFC 1950) of bytes as they are, in blocks (RFC 1951, 3.2.4), at any level.
- */
-thr_status thr_deflate(const char *bytes, size_t n, thr_deflate_level level, thr_text *out,
-                       thr_err *err)
-{
-  (void)level;
-  enum { BLOCK = 65535, MODULUS = 65521 };
-  unsigned long low = 1, high = 0;
-  thr_text_append_bytes(out, "\x78\x01", 2);
-
-  for (size_t at = 0; at == 0 || at < n; at += BLOCK) {
-    size_t here = n - at < BLOCK ? n - at : BLOCK;
-    const char head[5] = {at + here == n, (char)(here & 255), (char)(here >> 8),
-                          (char)(~here & 255), (char)(~here >> 8 & 255)};
-    thr_text_append_bytes(out, head, sizeof head);
-    thr_text_append_bytes(out, bytes + at, here);
-  }
-
-  /* The checksum of Adler: the sum of the bytes, and the sum of these sums. */
-  for (size_t i = 0; i < n; i++) {
-    low = (low + (unsigned char)bytes[i]) % MODULUS;
-    high = (high + low) % MODULUS;
-  }
-  const char sum[4] = {(char)(high >> 8), (char)(high & 255), (char)(low >> 8), (char)(low & 255)};
-  thr_text_append_bytes(out, sum, sizeof sum);
-
-  return out->failed ? thr_nomem(err) : THR_OK;
 }

@@ -8,18 +8,18 @@ AR := x86_64-w64-mingw32-ar
 WINDRES := x86_64-w64-mingw32-windres
 
 WINDOWS_REPLACED := graph/os.c $(patsubst %,graph/process/%.c,child workers process lazy) \
-	$(patsubst %,diagram/export/%.c,pages paper pdf font font_outline font_find letters deflate svg_page) eval/structure/spqr.c
+	$(patsubst %,diagram/export/%.c,pages paper pdf font font_outline font_find letters svg_page) eval/structure/spqr.c
 SOURCES := $(filter-out $(WINDOWS_REPLACED),$(SOURCES)) $(wildcard targets/*.c targets/windows/*.c)
 OBJECTS = $(addsuffix .o,$(basename $(SOURCES:%=$(DIR)/%)))
 CLI_OBJECTS := $(filter-out $(DIR)/cli/guard_process.o,$(CLI_OBJECTS)) $(DIR)/targets/windows/manifest.o
 PROGRAM := $(DIR)/thread.exe
 
-PKG_CFLAGS = -isystem $(LIBRARIES)/windows/include -isystem $(LIBRARIES)/windows/include/nauty -isystem /usr/include/igraph \
+PKG_CFLAGS = -isystem $(LIBRARIES)/windows/include -isystem $(LIBRARIES)/windows/include/nauty -isystem $(LIBRARIES)/windows/include/zlib -isystem /usr/include/igraph \
 	-DTHR_LINKED -DAVOID_SYS_WAIT_H -D__USE_MINGW_ANSI_STDIO=1
 # its headers' own macros and what it takes %zu for
 THR_CFLAGS += -Wno-float-conversion -Wno-format -Wno-format-extra-args
 BULLET_CFLAGS = -isystem /usr/include/bullet -DBT_USE_DOUBLE_PRECISION
-LAZY_NAMES = -DTHR_LIBRARY_IGRAPH='"igraph"'
+LAZY_NAMES = -DTHR_LIBRARY_IGRAPH='"igraph"' -DTHR_LIBRARY_Z='"zlib"'
 WINDOWS_LIBRARIES := $(patsubst %,$(LIBRARIES)/windows/lib/%.a,igraph nauty glpk bullet)
 $(PROGRAM): $(WINDOWS_LIBRARIES)
 THR_LIBS = -lm $(LDLIBS)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # tests/targets.sh static|windows [PROGRAM [OTHER]]: the program as one file (OTHER: build/static/thread or build/windows/thread.exe,
-# as `make static` and `make windows` leave it) beside the installed one (PROGRAM: build/release/thread): plans, checks, drawings and
-# evaluations of five frameworks, and lines about bad input, must be the same, byte for byte.
+# as `make static` and `make windows` leave it) beside the installed one (PROGRAM: build/release/thread): plans, checks, drawings,
+# evaluations and pieces to print, and lines about bad input, must be the same, byte for byte.
 # static: it runs where there is nothing else: in a folder of its own as the root of its file system, with the fonts for the PDF.
 # windows: it runs under Wine. sheets.html stands for sheets.pdf, and the last digits of an evaluation are those of another exp():
 # no more may differ.
@@ -86,10 +86,13 @@ for frame in dome.json tube.json barrel.obj monkey_saddle.json liew_dome.json; d
   same 0 eval "$plan" --json
   same 0 info "$frame" --json
 done
-same 5 plan dome.json --objective tortuosity --cords 4 --ends feet --minimize max-turning --tune nodes=4 --time-limit 0 -o out/turning.json
+same 0 plan dome.json --objective tortuosity --cords 4 --ends feet --minimize max-turning --tune nodes=4 --time-limit 0 -o out/turning.json
 same 0 check out/turning.json
 same 0 symmetries dome.json --tune row-work=0.05 --json
 same 0 plan dome.json --objective symmetry --group 3 -o out/symmetry.json
+same 0 make dome --size 3 -o small.json
+same 0 plan small.json -o out/small.json
+same 0 kit out/small.json --names none --stl -o out/kit
 same 3 plan missing.obj -o out/none.json
 printf 'v 0 0 0\nv 1 0\nl 1 2\n' | tee "$here/bad.obj" >"$there/bad.obj"
 same 3 plan bad.obj -o out/none.json

@@ -8,17 +8,17 @@ AR := emar
 export NODE_PATH := /usr/share/nodejs
 
 WEB_REPLACED := graph/process/child.c graph/process/workers.c graph/process/process.c graph/process/lazy.c \
-	diagram/export/pages.c $(patsubst %,diagram/export/%.c,paper pdf font font_outline font_find letters deflate svg_page) diagram/export/viewer_page.S eval/structure/spqr.c
+	diagram/export/pages.c $(patsubst %,diagram/export/%.c,paper pdf font font_outline font_find letters svg_page) diagram/export/viewer_page.S eval/structure/spqr.c
 SOURCES := $(filter-out $(WEB_REPLACED),$(SOURCES)) $(wildcard web/*.c targets/*.c)
 OBJECTS = $(addsuffix .o,$(basename $(SOURCES:%=$(DIR)/%))) $(DIR)/web/viewer_page.o
 CLI_OBJECTS := $(filter-out $(DIR)/cli/guard_process.o,$(CLI_OBJECTS))
 
 WEB_LIBRARIES := $(patsubst %,$(LIBRARIES)/wasm/lib/%.a,glpk igraph nauty bullet)
-PKG_CFLAGS = -isystem $(LIBRARIES)/wasm/include -isystem $(LIBRARIES)/wasm/include/nauty -isystem /usr/include/igraph -DTHR_LINKED
-# clang counts these among -Wconversion, gcc, which the sources are kept clean for, does not
-THR_CFLAGS += -Wno-sign-conversion -Wno-implicit-int-float-conversion
+PKG_CFLAGS = -isystem $(LIBRARIES)/wasm/include -isystem $(LIBRARIES)/wasm/include/nauty -isystem $(LIBRARIES)/wasm/include/zlib -isystem /usr/include/igraph -DTHR_LINKED
+# clang warns of these, gcc, which the sources are kept clean for, does not
+THR_CFLAGS += -Wno-sign-conversion -Wno-implicit-int-float-conversion -Wno-missing-field-initializers
 BULLET_CFLAGS = -isystem /usr/include/bullet -DBT_USE_DOUBLE_PRECISION
-LAZY_NAMES = -DTHR_LIBRARY_IGRAPH='"igraph"'
+LAZY_NAMES = -DTHR_LIBRARY_IGRAPH='"igraph"' -DTHR_LIBRARY_Z='"zlib"'
 # the linker's --wrap: web/host.c, targets/libm.c
 WEB_LINK := -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB -sTOTAL_STACK=8MB -sSUPPORT_LONGJMP=1 -sMODULARIZE=1 \
 	-sEXPORT_NAME=ThreadEngine -sENVIRONMENT=web,worker,node -sINVOKE_RUN=0 -sEXIT_RUNTIME=1 \

@@ -36,7 +36,7 @@ typedef struct {
   guard_limits guard;
   double key_angle; /* degrees */
   int jobs;
-  bool stl, scad, no_picture;
+  bool stl, scad, no_picture, progress;
   const char *output;
 } kit_arguments;
 
@@ -64,6 +64,8 @@ static const cli_option own_options[] = {
     {"scad", .kind = CLI_FLAG, AT(scad),
      .help = "also kit.scad, the pieces in OpenSCAD's language, to be changed"},
     {"no-picture", .kind = CLI_FLAG, AT(no_picture), .help = "without kit.png and kit.html"},
+    {"progress", .kind = CLI_FLAG, AT(progress),
+     .help = "a line of JSON on stderr each time more of the pieces are made"},
     {"processes", 'j', "N",
      "so many things at a time (default: one per processor); changes no result", .kind = CLI_COUNT,
      AT(jobs), .low = 1, .high = 1024},
@@ -239,6 +241,8 @@ int cmd_kit(int argc, char **argv)
     return cli_usage("kit", "--key-angle: of which key? --key cone or pin");
   if (cli_given("letters") && asked.kit.names == THR_KIT_NO_NAMES)
     return cli_usage("kit", "--letters goes not with --names none");
+
+  if (asked.progress) progress_begin();
 
   /* The child does all of the work. */
   if (guard_fork(&asked.guard, &end)) return guard_conclude(&end, "no kit is made");

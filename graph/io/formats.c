@@ -87,8 +87,8 @@ static const char *const advice[] = {
     [TABLE] = "which is not read; save the sheet as CSV",
     [PACKED] = "which is not read; unpack it, or save a spreadsheet as CSV",
     [PICTURE] = "which is no framework; export the model that it shows as OBJ, DXF or JSON",
-    [TEXT] = "which is no framework; export the model as OBJ, DXF or JSON, or its nodes and edges "
-             "as CSV"};
+    [TEXT] = ("which is no framework; export the model as OBJ, DXF or JSON, or its nodes and edges "
+              "as CSV")};
 
 /* A kind of file that is not read. start: how its name ends, or how its text begins. */
 typedef struct {

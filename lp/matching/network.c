@@ -172,7 +172,7 @@ thr_status thr_forest_find(const thr_tjoin_problem *tjoin_problem, const double 
 thr_status thr_network_tree_weight(const thr_tjoin_problem *tjoin_problem, double *weight,
                                    thr_err *err)
 {
-  int *edge = thr_calloc((size_t)tjoin_problem->n_edges, sizeof *edge), n;
+  int *edge = thr_calloc((size_t)tjoin_problem->n_edges, sizeof *edge), n = 0;
   *weight = 0;
   thr_status st =
       edge ? thr_forest_find(tjoin_problem, NULL, INFINITY, 0, edge, &n, err) : thr_nomem(err);

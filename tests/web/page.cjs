@@ -146,6 +146,67 @@ const tests = {
     await close();
   },
 
+  async 'its pieces to print: the same files as by the command, what does not fit, what is stopped'() {
+    thread('make', 'dome', '--size', '3', '-o', file('three.json'));
+    thread('plan', file('three.json'), '-q', '-o', file('three-plan.json'));
+    const {page, close} = await open({viewport: {width: 1280, height: 800}}), heard = await listen(page);
+    await choose(page, file('three-plan.json'));
+    await drawn(page);
+    const pieces = part(page, 'Its pieces, to print'), listed = pieces.getByRole('list', {name: 'Files to print, one by one'});
+    const make = () => pieces.getByRole('button', {name: 'Make the pieces to print'}).click();
+
+    // What the command says, in words that the page has.
+    await page.getByLabel('What is engraved?').selectOption('none');
+    await page.getByLabel('How wide are the arms, in mm?').fill('2');
+    await make();
+    await page.getByRole('alert').filter({hasText: 'needs a width of'}).waitFor();
+    assert.match(await trouble(page), /^A1-A2: 1 channel of [\d.]+ mm with walls of [\d.]+ mm needs a width of [\d.]+ mm, not 2: width [\d.]+ or more$/);
+    await page.getByLabel('How wide are the arms, in mm?').fill('');
+    await page.getByLabel("How large is the printer's bed, in mm?").fill('20 x 20');
+    await make();
+    await page.getByRole('alert').filter({hasText: 'larger than the bed'}).waitFor({timeout: 120000});
+    assert.match(await trouble(page), /^piece A1 .* larger than the bed of 20 x 20 mm less 5 mm around: bed \d+x\d+ would do$/);
+    await page.getByLabel("How large is the printer's bed, in mm?").fill('mine');
+    await make();
+    await page.getByRole('alert').filter({hasText: 'bed mine'}).waitFor();
+    assert.equal(await trouble(page), 'bed mine: expected width x depth in mm, 20 to 10000, as 220x220');
+
+    // With answers to all questions, by keyboard: byte for byte what the command makes of the same plan.
+    for (const [question, keys] of [['How wide are the arms, in mm?', '9'], ["How large is the printer's bed, in mm?", '180 x 180'], ['Shall faces centre each other?', 'by c']]) {
+      await tabTo(page, question);
+      await page.keyboard.type(keys);
+    }
+    await tabTo(page, 'Make the pieces to print');
+    await page.keyboard.press('Enter');
+    await listed.getByRole('listitem').first().waitFor({timeout: 120000});
+    const own = file('kit');
+    const said = spawnSync(program, ['kit', file('three-plan.json'), '--width', '9', '--bed', '180x180', '--names', 'none', '--key', 'cone', '--stl', '-o', own], {encoding: 'utf8'}).stderr;
+    assert.deepEqual((await listed.getByRole('listitem').allInnerTexts()).sort(), ['kit.3mf', 'kit.csv', 'kit.html', 'kit.png', 'stl.zip']);
+    assert.ok((await pieces.innerText()).includes(said.split('\n')[0].replace('thread: ', '')), 'what the command says');
+    for (const name of ['kit.3mf', 'kit.csv', 'kit.html', 'kit.png'])
+      assert.ok(fs.readFileSync(await download(page, name)).equals(fs.readFileSync(path.join(own, name))), `${name} differs`);
+    const parts = execFileSync('python3', ['-c', 'import os, sys, zipfile; z = zipfile.ZipFile(sys.argv[1]); print(all(z.read(n) == open(os.path.join(sys.argv[2], n), "rb").read() for n in z.namelist()), *sorted(z.namelist()))',
+      await download(page, 'stl.zip'), own], {encoding: 'utf8'});
+    assert.equal(parts.trim(), ['True', ...fs.readdirSync(own).filter((name) => name.endsWith('.stl')).sort()].join(' '));
+    const picture = pieces.getByRole('img', {name: /^The pieces in their places/});
+    await until(() => picture.evaluate((image) => image.complete && image.naturalWidth > 500), 'a picture of the pieces');
+    await page.screenshot({path: file('kit-1280x800.png')});
+    await page.setViewportSize({width: 390, height: 844});
+    await pieces.screenshot({path: file('kit-390x844.png')});
+    assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 390, 'wider than a telephone');
+    assert.match(await heard(), /Making the pieces[^]*9 pieces, /);
+    await until(() => page.frameLocator('#viewer').locator('canvas').count(), 'the viewer with the pieces');
+
+    // Stopped on the way: what was made before is gone, too.
+    await page.getByLabel('How wide are the arms, in mm?').fill('4');
+    await make();
+    await part(page, 'Making the pieces').getByText(/ \d+ %$/).waitFor({timeout: 60000});
+    await page.getByRole('button', {name: 'Stop', exact: true}).click();
+    await page.getByRole('alert').filter({hasText: 'Stopped: no pieces were made.'}).waitFor();
+    assert.equal(await listed.getByRole('listitem').count(), 0);
+    await close();
+  },
+
   async 'bad files get the line of the command line'() {
     const bad = {
       'bad.obj': 'v 0 0 0\nv 1 0\nl 1 2\n', 'cut.json': '{"nodes": [[0, 0, 0], [1, 0', 'empty.csv': '', 'picture.svg': '<svg xmlns="http://www.w3.org/2000/svg"/>',
@@ -318,7 +379,7 @@ const tests = {
     await choose(page, path.join(DATA, 'dome7.json'));
     await made(page);
     const {nodes} = await (await page.context().newCDPSession(page)).send('Accessibility.getFullAXTree');
-    const used = nodes.filter(({ignored, role}) => !ignored && ['button', 'link', 'textbox', 'combobox', 'image', 'img', 'Iframe', 'progressbar'].includes(role?.value));
+    const used = nodes.filter(({ignored, role}) => !ignored && ['button', 'link', 'textbox', 'spinbutton', 'combobox', 'image', 'img', 'Iframe', 'progressbar'].includes(role?.value));
     assert.ok(used.length > 20, `${used.length} controls`);
     assert.deepEqual(used.filter(({name}) => !name?.value).map(({role}) => role.value), []);
     await close();

@@ -4,6 +4,7 @@ const $ = (id) => document.getElementById(id);
 const sources = [$('worker').textContent, $('wasm').textContent];
 const engine = new EngineClient(...sources), adviser = new EngineClient(...sources); // advice does not wait for a search
 const QUESTIONS = ['pull', 'cords', 'ends', 'aim', 'joint', 'seconds'];
+const KIT_QUESTIONS = ['width', 'bed', 'names', 'key'];
 const text = (bytes) => new TextDecoder().decode(bytes);
 
 let frame = null; // thread-frame, as JSON
@@ -11,6 +12,7 @@ let name = ''; // of the file, without its ending
 let plan = ''; // text of plan.json
 let best = ''; // the same, while the search runs
 let said = ''; // what the program said of the plan when it was made
+let kit = {}; // files of its pieces, once they are made
 let past = []; // states before, for Undo
 const sketch = new Sketch($('sketch'), (node) => changeFeet(toggled(node)));
 
@@ -28,10 +30,11 @@ const notesOf = (stderr) => stderr.split('\n').filter((line) => /^thread: note:/
 
 // ---- state: undo, reload, link ----
 
-const answers = () => Object.fromEntries(QUESTIONS.map((id) => [id, $(id).value]));
+const answers = () => Object.fromEntries([...QUESTIONS, ...KIT_QUESTIONS].map((id) => [id, $(id).value]));
 
 // Numbers of cords that are not in the list, which advice and links may bring, are added to it.
 function setAnswers(given) {
+  for (const id of KIT_QUESTIONS) if (given[id] !== undefined) $(id).value = given[id];
   for (const id of QUESTIONS) {
     const value = given[id], known = [...$(id).options].some((option) => option.value === value);
     if (value === undefined) continue;
@@ -259,13 +262,16 @@ function wanted() {
 
 // ---- the search ----
 
-function busy(words) {
-  for (const id of ['frame-part', 'question-part', 'result-part']) $(id).inert = Boolean(words); // a search is for what is shown
+// stop: what the button says that ends the work; none without it.
+function busy(words, stop = '', title = 'At work') {
+  for (const id of ['frame-part', 'question-part', 'result-part', 'kit-part']) $(id).inert = Boolean(words); // a search is for what is shown
   $('work-part').hidden = !words;
+  $('work-title').textContent = title;
   $('work').textContent = words;
   if (words) hear(words);
   $('bar').removeAttribute('value');
-  $('stop').hidden = true;
+  $('stop').hidden = !stop;
+  $('stop').textContent = stop;
   $('go').disabled = Boolean(words);
 }
 
@@ -286,8 +292,7 @@ function progressWords(line) {
 async function search(event) {
   event.preventDefault();
   complain('');
-  busy('Searching ..');
-  $('stop').hidden = false;
+  busy('Searching ..', 'Stop and keep the best', 'Searching');
   best = '';
   const told = {};
   let heardPlan;
@@ -328,9 +333,10 @@ async function draw(type, file) {
 }
 
 async function showResult() {
-  $('result-part').hidden = !plan;
+  $('result-part').hidden = $('kit-part').hidden = !plan;
   $('viewer').srcdoc = '';
   $('files').replaceChildren();
+  showKit({});
   if (!plan) return;
   const shown = plan, check = await engine.run(['check', 'plan.json'], {'plan.json': plan});
   if (shown !== plan) return;
@@ -338,7 +344,7 @@ async function showResult() {
   $('verdict').textContent = check.exit === 0 ? 'Every claim of this plan was verified on this device.' : lastLine(check.stderr);
   const viewer = await draw('html', 'viewer.html');
   if (viewer && shown === plan) $('viewer').srcdoc = text(viewer);
-  listFiles();
+  listFiles($('files'), FILES.map(([type, file]) => [file, () => contentOf(type, file)]));
   $('result-title').scrollIntoView({block: 'start'});
 }
 
@@ -356,14 +362,15 @@ function save(blob, title) {
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);
 }
 
-function listFiles() {
-  $('files').replaceChildren(...FILES.map(([type, file]) => {
+// named: [[name, what gives its bytes] ..]
+function listFiles(list, named) {
+  list.replaceChildren(...named.map(([file, content]) => {
     const item = document.createElement('li'), link = document.createElement('a');
     link.href = '#';
     link.textContent = file;
     link.addEventListener('click', async (event) => {
       event.preventDefault();
-      const bytes = await contentOf(type, file);
+      const bytes = await content();
       if (bytes) save(new Blob([bytes]), file);
     });
     item.append(link);
@@ -379,7 +386,7 @@ async function saveAll() {
     if (bytes) files[file] = bytes;
   }
   busy('');
-  save(zip(files), `${name || 'plan'}.zip`);
+  save(zip({...files, ...kit}), `${name || 'plan'}.zip`);
 }
 
 async function openBooklet() {
@@ -389,6 +396,53 @@ async function openBooklet() {
   const url = URL.createObjectURL(new Blob([bytes], {type: 'text/html'}));
   if (page) page.location = url;
   else save(new Blob([bytes], {type: 'text/html'}), 'sheets.html');
+}
+
+// ---- 4: the pieces ----
+
+// A line of the program in the words of the page, which has no options: "--width 4" is "width 4".
+const inWords = (line) => line.replace(/ \(plan --scale\)| \(see `[^`]*`\)/g, '').replace(/--([a-z-]+)/g, (_, option) => option.replaceAll('-', ' '));
+
+// What the command line writes of a kit: {'kit/kit.3mf': bytes ..}, and what it says.
+function showKit(files, lines = []) {
+  const figure = $('kit-picture'), picture = files['kit/kit.png'], parts = Object.entries(files).filter(([file]) => /\.stl$/.test(file));
+  kit = files;
+  $('kit-said').textContent = lines.map((line) => `${line[0].toUpperCase()}${line.slice(1)}. `).join('').trim();
+  figure.replaceChildren(caption('The pieces appear here. Many of them take minutes.'));
+  listFiles($('kit-files'), [...Object.keys(files).filter((file) => !/\.stl$/.test(file)).map((file) => [file.replace('kit/', ''), () => files[file]]),
+    ...(parts.length ? [['stl.zip', () => zip(Object.fromEntries(parts.map(([file, bytes]) => [file.replace('kit/', ''), bytes])))]] : [])]);
+  if (!picture) return;
+  const image = new Image();
+  image.alt = 'The pieces in their places, translucent, with the cords in them';
+  image.src = URL.createObjectURL(new Blob([picture], {type: 'image/png'}));
+  figure.replaceChildren(image);
+}
+
+async function makeKit(event) {
+  event.preventDefault();
+  complain('');
+  busy('Making the pieces ..', 'Stop', 'Making the pieces');
+  const {width, bed, names, key} = answers(), args = ['kit', 'plan.json', '--bed', bed.replaceAll(' ', '').replace('×', 'x'), '--names', names, '--key', key];
+  if (width) args.push('--width', width);
+  const onLine = (line) => {
+    const {done} = progressWords(line);
+    if (!(done > 0)) return;
+    $('bar').value = done;
+    $('work').textContent = `Making the pieces .. ${Math.floor(100 * done)} %`;
+    hear($('work').textContent, true);
+  };
+  const {exit, stderr, files} = await engine.run([...args, '--stl', '--progress', '-o', 'kit'], {'plan.json': plan}, {onLine});
+  busy('');
+  if (exit !== 0) {
+    showKit({});
+    complain(exit === -1 ? 'Stopped: no pieces were made.' : inWords(lastLine(stderr)));
+    return;
+  }
+  const lines = stderr.trim().split('\n').filter((line) => /^thread: (?!written to )/.test(line));
+  showKit(files, lines.map((line) => inWords(line.replace(/^thread: /, ''))));
+  $('viewer').srcdoc = text(files['kit/kit.html']); // the same steps, with these pieces
+  hear($('kit-said').textContent);
+  $('kit-title').scrollIntoView({block: 'start'});
 }
 
 // ---- events ----
@@ -412,6 +466,8 @@ async function begin() {
     remember();
     if (event.target.id === 'pull') advise();
   });
+  $('kit-questions').addEventListener('submit', makeKit);
+  $('kit-questions').addEventListener('change', remember);
   $('stop').addEventListener('click', () => engine.stop());
   $('undo').addEventListener('click', undo);
   $('link').addEventListener('click', copyLink);
