@@ -58,6 +58,12 @@ const char *thr_kit_channels_name(int i)
   return name[i];
 }
 
+const char *thr_kit_crossings_name(int i)
+{
+  static const char *const name[] = {"meet", "apart"};
+  return name[i];
+}
+
 const char *thr_kit_names_name(int i)
 {
   static const char *const name[] = {"pieces", "kinds", "none"};
@@ -286,6 +292,7 @@ static thr_status add_channels(const maker *work, thr_kit_piece *piece, int v, t
     if (!st && apart) st = add_channel(work, piece, c->cord, -1, -1, c->out, next, err);
     if (st) return st;
   }
+  thr_kit_cuts(piece, all->rank, work->kit->options.crossings == THR_KIT_APART, work->sizes.wall);
   return THR_OK;
 }
 
@@ -642,12 +649,46 @@ static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_
   return st ? thr_fail(err, st, "piece %s: %s", kit->name[job], why.text) : THR_OK;
 }
 
-/* Adds up volumes. */
+/* Adds up volumes, and says which meshes do not print as one piece. */
 static void sum_up(thr_kit *kit)
 {
-  for (int p = 0; p < kit->n_pieces; p++)
-    kit->volume += kit->report[kit->piece[p].like].volume;
+  for (int p = 0; p < kit->n_pieces; p++) {
+    const thr_mesh_report *report = &kit->report[kit->piece[p].like];
+    kit->volume += report->volume;
+    if (kit->piece[p].like != p) continue;
+    if (report->parts != 1)
+      thr_text_printf(&kit->notes, "piece %s falls into %d parts: a larger --width\n", kit->name[p],
+                      report->parts);
+    if (report->open_edges || report->crossings)
+      thr_text_printf(&kit->notes,
+                      "piece %s: its mesh has %d open edges and %d triangles that cross: an error "
+                      "of this program\n",
+                      kit->name[p], report->open_edges, report->crossings);
+  }
   kit->mass = kit->volume * kit->options.density / 1000; /* mm3 and g/cm3 */
+}
+
+/* Says which channels cut each other where they need not, or where they were to be led apart. */
+static void note_cuts(thr_kit *kit)
+{
+  bool apart = kit->options.crossings == THR_KIT_APART;
+  for (int i = 0; i < (apart ? 2 : 1); i++) {
+    int pairs = 0, pieces = 0, most = 0, where = 0;
+    for (int p = 0; p < kit->n_pieces; p++) {
+      int here = i ? kit->piece[p].crossings : kit->piece[p].cuts;
+      pairs += here;
+      pieces += here > 0;
+      if (here > most) most = here, where = p;
+    }
+    if (pairs)
+      thr_text_printf(
+          &kit->notes,
+          "%d %s of channels cut each other in %d %s %s: %d in %s; a larger --width may "
+          "part them\n",
+          pairs, pairs == 1 ? "pair" : "pairs", pieces, pieces == 1 ? "piece" : "pieces",
+          i ? "where the plan has a crossing" : "though the plan has no crossing there", most,
+          kit->name[where]);
+  }
 }
 
 /* Says what does not go as well as it might: thin walls, sharp bends, channels that meet. */
@@ -674,12 +715,13 @@ static void note_channels(const maker *work)
                     "%d names found no room on their arms: --letters smaller than %.3g mm\n",
                     work->unnamed, kit->options.letters);
   if (thin)
-    thr_text_printf(&kit->notes, "%d channels have less wall than %.2g mm: %s has %.2g mm\n", thin,
-                    work->sizes.wall, kit->name[at], thinnest);
+    thr_text_printf(&kit->notes, "%d %s less wall than %.2g mm: %s has %.2g mm\n", thin,
+                    thin == 1 ? "channel has" : "channels have", work->sizes.wall, kit->name[at],
+                    thinnest);
   if (sharp)
-    thr_text_printf(&kit->notes,
-                    "%d channels bend with a radius below two cords (%.3g mm): %s with %.2g mm\n",
-                    sharp, 2 * kit->cord, kit->name[where], sharpest);
+    thr_text_printf(&kit->notes, "%d %s with a radius below two cords (%.3g mm): %s with %.2g mm\n",
+                    sharp, sharp == 1 ? "channel bends" : "channels bend", 2 * kit->cord,
+                    kit->name[where], sharpest);
 }
 
 thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_options *options,
@@ -725,6 +767,7 @@ thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_option
   if (!st) st = find_alike(&work, err);
   if (!st) st = give_names(&work, err);
   if (!st) note_channels(&work);
+  if (!st) note_cuts(kit);
   meshing meshed = {.kit = kit};
   if (!st && meshes) st = thr_threads_run(kit->n_pieces, mesh_piece, &meshed, limits, err);
   if (!st && meshes) sum_up(kit);

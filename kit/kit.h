@@ -5,9 +5,10 @@
  *
  * The folder kit/ makes them. Reading order: kit.c (a kit from a plan: edges, then pieces, then
  * meshes), edges.c (width, bore and lanes of every edge), channels.c (curves through a piece),
- * body.c (the solid as a distance), strokes.c (letters), mesh.h with mesher.c and mesh.c (the
- * surface of a solid), plates.c (pieces on the bed of a printer), write_3mf.c, write_scad.c,
- * kit_tables.c (files). Lengths are in mm, angles in rad, masses in g. */
+ * cuts.c (those that cut each other), body.c (the solid as a distance), strokes.c (letters), mesh.h
+ * with mesher.c and mesh.c (the surface of a solid), plates.c (pieces on the bed of a printer),
+ * write_3mf.c, write_scad.c, kit_tables.c (files). Lengths are in mm, angles in rad, masses in g.
+ */
 #ifndef THR_KIT_H
 #define THR_KIT_H
 
@@ -34,6 +35,7 @@ typedef enum {
   THR_KIT_NO_NAMES,
   THR_KIT_N_NAMES
 } thr_kit_names;
+typedef enum { THR_KIT_MEET, THR_KIT_APART, THR_KIT_N_CROSSINGS } thr_kit_crossings;
 typedef enum { THR_KIT_MITRED, THR_KIT_ROUNDED, THR_KIT_N_TUBE_ENDS } thr_kit_tube_ends;
 
 /* {0} is the usual kit. */
@@ -51,6 +53,7 @@ typedef struct {
   thr_kit_profile profile;
   thr_kit_key key;
   thr_kit_channels channels;
+  thr_kit_crossings crossings; /* of channels that the plan crosses in a piece */
   thr_kit_names names;
   thr_kit_tube_ends tube_ends;
   double coarse;     /* factor on the sizes of triangles, for pictures; 0 = 1 */
@@ -61,6 +64,7 @@ typedef struct {
 const char *thr_kit_profile_name(int i);
 const char *thr_kit_key_name(int i);
 const char *thr_kit_channels_name(int i);
+const char *thr_kit_crossings_name(int i);
 const char *thr_kit_names_name(int i);
 const char *thr_kit_tube_ends_name(int i);
 
@@ -155,8 +159,10 @@ typedef struct {
   thr_kit_key key;
   double key_slope, key_radius, key_height, key_play;
   double letter_width, letter_depth;
-  bool foot;        /* it stands on a flat base .. */
-  double base, pad; /* .. so far below its centre, of this radius */
+  bool foot;           /* it stands on a flat base .. */
+  double base, pad;    /* .. so far below its centre, of this radius */
+  int cuts, crossings; /* pairs of channels that open into each other where the plan has no
+                          crossing, and where it has */
   int n_pockets;
   double (*pocket)[8]; /* [n_pockets] a capsule: two ends, radius; owned */
 } thr_kit_piece;
@@ -178,6 +184,24 @@ void thr_kit_sample(const void *user, const double at[3], thr_solid_sample *out)
 thr_status thr_kit_channel_make(const thr_kit_piece *piece, thr_kit_channel *channel,
                                 const double start[2], const double end[2], const double out[3],
                                 double wall, thr_err *err) THR_MUST_CHECK;
+
+/* Measures a curve after its points were set: the least wall beside its bend, its least radius,
+ * the ball round it. */
+void thr_kit_channel_measure(const thr_kit_piece *piece, thr_kit_channel *channel);
+
+/* ---- cuts.c: channels that cut each other. */
+
+/* Returns the least distance between two segments, by their ends; part[2] receives where on each,
+ * 0 .. 1. */
+double thr_kit_segments(const double a[2][3], const double b[2][3], double part[2]);
+
+/* Do two channels begin or end in the same mouth, or both leave the piece in the same way? */
+bool thr_kit_same_mouth(const thr_kit_channel *a, const thr_kit_channel *b);
+
+/* Moves channels of a node's piece apart that cut each other without need, or at all if they are to
+ * be apart, as far as `wall` stays between them and beside them, and counts the pairs that cut each
+ * other then. rank: as in thr_channels. O(channels squared). */
+void thr_kit_cuts(thr_kit_piece *piece, const int *rank, bool apart, double wall);
 
 /* ---- alike.c: pieces that are the same solid. */
 

@@ -100,6 +100,8 @@ static void put_piece(const thr_kit_plates *plates, const thr_guide *guide, int 
     put_number(out, stand->size[k], 2);
   put_number(out, wall, 2);
   put_number(out, bend, 2);
+  put_int(out, piece->cuts);
+  put_int(out, piece->crossings);
 
   put_number(out, stand->overhang, 1);
   put_down(plates, guide, p, out);
@@ -114,8 +116,9 @@ thr_status thr_kit_table(const thr_kit_plates *plates, const thr_layout *layout,
   thr_guide guide = {0};
   thr_status st = thr_guide_make(&guide, &kit->plan->frame, layout, err);
   thr_text text = {0};
-  thr_text_append(&text, "piece,kind,count,arms,volume_mm3,mass_g,x_mm,y_mm,z_mm,wall_mm,bend_mm,"
-                         "overhang_mm2,down,plate\n");
+  thr_text_append(&text,
+                  "piece,kind,count,arms,volume_mm3,mass_g,x_mm,y_mm,z_mm,wall_mm,bend_mm,cuts,"
+                  "crossings,overhang_mm2,down,plate\n");
   for (int p = 0; p < kit->n_pieces && !st; p++)
     put_piece(plates, &guide, p, &text);
 
