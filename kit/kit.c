@@ -107,6 +107,7 @@ static thr_status find_sizes(maker *work, const thr_kit_options *asked, thr_err 
                                 .cord = physics.cord_diameter,
                                 .width = options->width,
                                 .wall = options->wall > 0 ? options->wall : WALL,
+                                .node = NODE * options->taper,
                                 .wall_given = options->wall > 0};
   kit->mm = mm;
   kit->cord = physics.cord_diameter;
@@ -383,10 +384,29 @@ static void set_common(const maker *work, thr_kit_piece *piece, double narrowest
   piece->key = options->key;
   piece->wall = work->sizes.wall;
   piece->coarse = options->coarse > 0 ? options->coarse : 1;
-  piece->key_radius = 0.4 * narrowest;
+  /* A hollow key leaves a wall round it, if there is room. */
+  double room = 0.5 * narrowest - work->sizes.wall - PLAY;
+  piece->key_radius = fmin(0.4 * narrowest, fmax(room, 0.3 * narrowest));
   piece->key_slope = 1 / tan(options->key_angle);
   piece->key_height = options->key == THR_KIT_PIN ? 0.2 * narrowest : 0.25 * narrowest;
   piece->key_play = PLAY;
+}
+
+/* Returns the radius of the disc that a foot stands on: within the faces of its arms, and apart
+ * from the discs of other feet. */
+static double pad_of(const maker *work, const thr_kit_piece *piece, int v, double widest)
+{
+  double pad = 0.9 * widest;
+  for (int i = 0; i < piece->n_arms; i++) {
+    const thr_kit_arm *arm = &piece->arm[i];
+    pad = fmin(pad, 0.96 * arm->length * hypot(arm->along[0], arm->along[1]) +
+                        1.5 * widest * fabs(arm->along[2]));
+  }
+  for (int u = 0; u < work->frame->n_nodes && piece->foot; u++)
+    if (u != v && work->foot[u])
+      pad =
+          fmin(pad, 0.48 * work->sizes.mm * thr_distance(work->frame->xyz[u], work->frame->xyz[v]));
+  return fmax(pad, 0.5 * widest);
 }
 
 /* Makes the shape of a node's piece. */
@@ -411,7 +431,7 @@ static thr_status shape_node(maker *work, int v, thr_kit_piece *piece, thr_err *
   piece->node_radius = fmin(NODE * widest * piece->taper, fmax(0.9 * shortest, 0.5 * narrowest));
   piece->foot = work->foot[v];
   piece->base = 0.75 * widest;
-  piece->pad = 0.9 * widest;
+  piece->pad = pad_of(work, piece, v, widest);
   thr_status st = add_channels(work, piece, v, err);
 
   return st ? st : add_names(work, piece, err);

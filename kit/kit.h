@@ -77,6 +77,7 @@ typedef struct {
   double along[3], up[3], side[3]; /* unit vectors at right angles; up: outwards of the framework */
   double length;                   /* between the nodes */
   double width, bore;              /* of its arms or tube, and of each of its channels */
+  int beside;                      /* edge beside which it is narrower than asked for, if it is */
   int n_lanes; /* passes; one bore holds all of them unless lanes are asked for */
   double lane[THR_KIT_MOST_LANES][2]; /* where a channel is on the face: along up and side */
 } thr_kit_edge;
@@ -93,13 +94,14 @@ typedef struct {
 typedef struct {
   double mm; /* per unit */
   double cord, width, wall;
+  double node;     /* radius of a node, as a part of the width */
   bool wall_given; /* else it may be less where edges are narrow */
 } thr_kit_sizes;
 
 /* Fills edges->edge[n_edges], whose bores are set, with directions, widths that fit and lanes, and
- * gives each pass its lane. Edges that meet at an acute angle are made narrower, so that their
- * faces do not meet; notes say which. THR_EINPUT names the node, and the number that would do.
- * O(edges of a node squared). */
+ * gives each pass its lane. Edges that meet at an acute angle, or come near an edge of
+ * other nodes, are made narrower, so that pieces do not meet; notes say which. THR_EINPUT names
+ * both edges, and the number that would do. O(edges of a node squared + edges near each other). */
 thr_status thr_kit_edges_make(thr_kit_edges *edges, const thr_plan *plan,
                               const thr_kit_options *options, thr_kit_sizes *sizes,
                               const char (*label)[THR_LABEL], thr_text *notes,

@@ -172,11 +172,126 @@ START_TEST(crossings_are_led_apart_where_there_is_room)
 }
 END_TEST
 
+/* A ring of six nodes in a plane, in mm: two runs of length 2 x 50 that are 8 apart; or, twisted,
+ * one whose long sides cross. */
+static thr_plan ring_of(bool twisted)
+{
+  const double xyz[6][3] = {{0, 0, 0}, {50, 0, 0}, {100, 0, 0}, {100, 8, 0}, {50, 8, 0}, {0, 8, 0}};
+  const int plain[6][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 0}};
+  const int crossed[6][2] = {{0, 1}, {1, 3}, {3, 2}, {2, 4}, {4, 5}, {5, 0}};
+  thr_frame f = frame_make(6, xyz, 6, twisted ? crossed : plain, NULL, (const int[]){0, -1});
+  thr_request o = thr_request_default();
+  o.physics.cord_diameter = 0.5;
+  o.physics.bead_diameter = 7.5;
+  thr_plan p = plan_make(&f, &o);
+  thr_frame_destroy(&f);
+  return p;
+}
+
+START_TEST(strangers_do_not_touch)
+{
+  thr_plan p = ring_of(false);
+  const thr_kit_options options = {.names = THR_KIT_NO_NAMES};
+  thr_kit kit = shapes_of(&p, &options, false);
+
+  /* Balls of nodes are 0.6 of a width in radius: two of them would touch at a width of 8 / 1.2. The
+   * two short edges have no stranger near. */
+  for (int e = 0; e < 6; e++)
+    ck_assert_double_eq_tol(kit.edges.edge[e].width, e % 3 == 2 ? 7.5 : 0.96 * 8 / 1.2, 1e-9);
+  for (int q = 0; q < 6; q++)
+    for (int r = 0; r < q; r++)
+      ck_assert_double_le(kit.piece[q].node_radius + kit.piece[r].node_radius,
+                          thr_distance(p.frame.xyz[q], p.frame.xyz[r]));
+  ck_assert_ptr_nonnull(strstr(kit.notes.data, "4 of 6 arms are narrower than 7.5 mm"));
+  thr_kit_destroy(&kit);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+START_TEST(edges_that_cross_are_named)
+{
+  thr_plan p = ring_of(true);
+  const thr_kit_options options = {.names = THR_KIT_NO_NAMES};
+  const thr_limits limits = {.threads = 1};
+  thr_err err = {0};
+  thr_kit kit;
+  for (int tubes = 0; tubes < 2; tubes++) {
+    p.options.joint = tubes ? THR_JOINT_TUBE : THR_JOINT_SOLID;
+    err = (thr_err){0};
+    ck_assert_int_eq(thr_kit_make(&kit, &p, &options, NULL, false, &limits, &err), THR_EINPUT);
+    assert_one_line(&err, "cross: they need a node");
+    ck_assert_ptr_nonnull(strstr(err.text, " and "));
+    thr_kit_destroy(&kit);
+  }
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* The number that a message gives for the cord does. */
+START_TEST(the_cord_that_is_advised_fits)
+{
+  thr_plan p = ring_of(false);
+  thr_kit_options options = {.names = THR_KIT_NO_NAMES, .wall = 1.5};
+  const thr_limits limits = {.threads = 1};
+  thr_err err = {0};
+  thr_kit kit;
+  p.options.physics.cord_diameter = 2.1;
+  p.options.physics.bead_diameter = 9;
+  options.channels = _i ? THR_KIT_LANES : THR_KIT_BORE;
+  ck_assert_int_eq(thr_kit_make(&kit, &p, &options, NULL, false, &limits, &err), THR_EINPUT);
+  thr_kit_destroy(&kit);
+  const char *advice = strstr(err.text, "--cord-diameter ");
+  ck_assert_msg(advice != NULL, "%s", err.text);
+  p.options.physics.cord_diameter = strtod(advice + strlen("--cord-diameter "), NULL);
+  kit = shapes_of(&p, &options, false);
+  ck_assert_double_gt(p.options.physics.cord_diameter, 1);
+  thr_kit_destroy(&kit);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* Every pair of points of strangers in a wide kit of a
+ * round shape is farther apart than their arms are thick. */
+START_TEST(arms_of_wide_kits_keep_apart)
+{
+  thr_plan p = plan_of(_i ? THR_MAKE_SPHERE : THR_MAKE_GEODESIC, 1);
+  const thr_kit_options options = {.names = THR_KIT_NO_NAMES, .width = 40};
+  thr_kit kit = shapes_of(&p, &options, false);
+  const thr_frame *f = &p.frame;
+  for (int e = 0; e < f->n_edges; e++)
+    for (int g = 0; g < e; g++) {
+      double least = INFINITY;
+      bool neighbours = false;
+      for (int i = 0; i < 4; i++)
+        neighbours |= f->edge[e][i / 2] == f->edge[g][i % 2];
+      if (neighbours) continue;
+      for (int i = 0; i <= 40; i++)
+        for (int j = 0; j <= 40; j++) {
+          double a[3], b[3];
+          for (int k = 0; k < 3; k++) {
+            const double *from = f->xyz[f->edge[e][0]], *to = f->xyz[f->edge[e][1]];
+            a[k] = kit.mm * (from[k] + (to[k] - from[k]) * i / 40);
+            from = f->xyz[f->edge[g][0]], to = f->xyz[f->edge[g][1]];
+            b[k] = kit.mm * (from[k] + (to[k] - from[k]) * j / 40);
+          }
+          least = fmin(least, thr_distance(a, b));
+        }
+      ck_assert_double_ge(least, 0.5 * (kit.edges.edge[e].width + kit.edges.edge[g].width));
+    }
+  thr_kit_destroy(&kit);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("kit_fit");
   ADD_LOOP(s, 30, the_distance_of_segments_is_that_of_many_points, 0, 40);
   ADD_LOOP(s, 120, pairs_of_channels_that_cut_each_other_are_counted, 0, KITS);
   ADD_TEST(s, 60, crossings_are_led_apart_where_there_is_room);
+  ADD_TEST(s, 30, strangers_do_not_touch);
+  ADD_TEST(s, 30, edges_that_cross_are_named);
+  ADD_LOOP(s, 30, the_cord_that_is_advised_fits, 0, 2);
+  ADD_LOOP(s, 30, arms_of_wide_kits_keep_apart, 0, 2);
   return run_suite(s);
 }
