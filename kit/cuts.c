@@ -5,8 +5,8 @@
  * have. Those whose arms lie alternately around the node have to cross (thr_channels_cross), unless
  * one is led above the other. A move bends a channel at its middle, as a bump of a curve that
  * begins and ends without a kink: upwards, downwards, or straight away from the other channel. Of
- * all moves of a pair the one is kept after which the fewest pairs of the piece cut each other, if
- * there are fewer than before and the walls stay.
+ * all moves of a pair the one is kept after which the fewest pairs of the piece cut each other, or
+ * else have less than a wall between them, if there are fewer than before and the walls stay.
  *
  * Example: two lanes of 2 mm that are led from arm 1 to arm 2 and from arm 3 to arm 4 come within
  * 1.5 mm of each other: one is moved 0.9 mm up, the other one 0.9 mm down. */
@@ -77,6 +77,11 @@ static nearness find_nearness(const thr_kit_channel *a, const thr_kit_channel *b
   return best;
 }
 
+double thr_kit_gap(const thr_kit_channel *a, const thr_kit_channel *b)
+{
+  return find_nearness(a, b, a->reach + b->reach).gap;
+}
+
 bool thr_kit_same_mouth(const thr_kit_channel *a, const thr_kit_channel *b)
 {
   for (int i = 0; i < 2; i++)
@@ -97,16 +102,22 @@ static bool plan_crosses(const thr_kit_piece *piece, const int *rank, const thr_
   return thr_channels_cross(rank, &first, &second);
 }
 
-/* Counts the channels that one channel cuts: [0] where the plan has no crossing, [1] where it
- * has. Only those with numbers below `most`. */
-static void count_cuts(const thr_kit_piece *piece, int i, int most, const int *rank, int count[2])
+/* Returns what is to be had less of: the channels that one channel cuts, and, less so, what lacks
+ * of the walls between it and others. Crossings count if they are to be apart. */
+static double cost_of(const thr_kit_piece *piece, int i, const int *rank, bool apart, double wall)
 {
-  count[0] = count[1] = 0;
-  for (int j = 0; j < most; j++) {
+  static const double CUT = 10;
+  double cost = 0;
+  for (int j = 0; j < piece->n_channels; j++) {
     const thr_kit_channel *a = &piece->channel[i], *b = &piece->channel[j];
-    if (i == j || find_nearness(a, b, 0).gap >= -1e-9 || thr_kit_same_mouth(a, b)) continue;
-    count[plan_crosses(piece, rank, a, b)]++;
+    if (i == j) continue;
+    double gap = find_nearness(a, b, wall).gap;
+    if (gap >= wall - 1e-6 || thr_kit_same_mouth(a, b)) continue;
+    if (!apart && plan_crosses(piece, rank, a, b)) continue;
+    double lack = (wall - gap) / wall;
+    cost += lack * lack + (gap < -1e-9 ? CUT : 0);
   }
+  return cost;
 }
 
 /* Height of a bump at a place of a curve: 0 at its ends and where its bend begins and ends, 1 in
@@ -144,11 +155,11 @@ static double rise_of(const thr_kit_piece *piece, const thr_kit_channel *channel
 }
 
 /* Tries to move two channels apart in a direction, `share` of it by the first one. Returns whether
- * the walls stay; then *cuts receives how many pairs with one of them cut each other. The curves
- * are changed; move receives by how much. */
+ * the walls stay; then *cost receives that of both. The curves are changed; move receives by how
+ * much. */
 static bool try_move(thr_kit_piece *piece, int pair[2], const nearness *near,
                      const double towards[3], double share, double wall, const int *rank,
-                     bool apart, double move[2][3], int *cuts)
+                     bool apart, double move[2][3], double *cost)
 {
   /* By how much: until the axes are so far apart that there is a wall. */
   double asked = near->radii_both + wall * (1 + 1e-6), along = thr_dot(near->off, towards);
@@ -163,7 +174,7 @@ static bool try_move(thr_kit_piece *piece, int pair[2], const nearness *near,
   }
   if (!stays) return false;
 
-  *cuts = 0;
+  *cost = 0;
   for (int i = 0; i < 2; i++) {
     thr_kit_channel *channel = &piece->channel[pair[i]];
     double before = channel->wall;
@@ -171,11 +182,8 @@ static bool try_move(thr_kit_piece *piece, int pair[2], const nearness *near,
     thr_kit_channel_measure(piece, channel);
     stays &= channel->wall >= fmin(before, wall) - 1e-9;
   }
-  for (int i = 0; i < 2 && stays; i++) {
-    int count[2];
-    count_cuts(piece, pair[i], piece->n_channels, rank, count);
-    *cuts += count[0] + (apart ? count[1] : 0);
-  }
+  for (int i = 0; i < 2 && stays; i++)
+    *cost += cost_of(piece, pair[i], rank, apart, wall);
   return stays;
 }
 
@@ -190,19 +198,16 @@ static void undo(thr_kit_piece *piece, const int pair[2], double move[2][3])
   }
 }
 
-/* Moves two channels apart in the way that leaves the fewest cuts. Returns whether there is one. */
+/* Moves two channels apart in the way that costs least. Returns whether there is one. */
 static bool move_apart(thr_kit_piece *piece, int pair[2], double wall, const int *rank, bool apart)
 {
   static const double shares[] = {0.5, 1, 0};
   const thr_kit_channel *a = &piece->channel[pair[0]], *b = &piece->channel[pair[1]];
   nearness near = find_nearness(a, b, wall);
   double towards[3][3], up[3], move[2][3], best_move[2][3];
-  int before = 0, least, cuts;
-  for (int i = 0; i < 2; i++) {
-    int count[2];
-    count_cuts(piece, pair[i], piece->n_channels, rank, count);
-    before += count[0] + (apart ? count[1] : 0);
-  }
+  double before = 0, least, cost;
+  for (int i = 0; i < 2; i++)
+    before += cost_of(piece, pair[i], rank, apart, wall);
   least = before;
 
   /* Up for the one whose arms rise more; down; and as they are. */
@@ -216,15 +221,15 @@ static bool move_apart(thr_kit_piece *piece, int pair[2], double wall, const int
   int directions = thr_normalize(towards[2]) > 1e-3 ? 3 : 2;
   for (int d = 0; d < directions; d++)
     for (int i = 0; i < 3; i++) {
-      if (try_move(piece, pair, &near, towards[d], shares[i], wall, rank, apart, move, &cuts) &&
-          cuts < least) {
-        least = cuts;
+      if (try_move(piece, pair, &near, towards[d], shares[i], wall, rank, apart, move, &cost) &&
+          cost < least - 1e-6) {
+        least = cost;
         memcpy(best_move, move, sizeof move);
       }
       undo(piece, pair, move);
     }
 
-  if (least == before) return false;
+  if (least >= before) return false;
   for (int i = 0; i < 2; i++) {
     bend_by(&piece->channel[pair[i]], best_move[i]);
     thr_kit_channel_measure(piece, &piece->channel[pair[i]]);
@@ -241,17 +246,17 @@ void thr_kit_cuts(thr_kit_piece *piece, const int *rank, bool apart, double wall
     for (int i = 0; i < piece->n_channels; i++)
       for (int j = 0; j < i; j++) {
         const thr_kit_channel *a = &piece->channel[i], *b = &piece->channel[j];
-        if (find_nearness(a, b, 0).gap >= -1e-9 || thr_kit_same_mouth(a, b)) continue;
+        if (find_nearness(a, b, wall).gap >= wall - 1e-6 || thr_kit_same_mouth(a, b)) continue;
         if (!apart && plan_crosses(piece, rank, a, b)) continue;
         moved |= move_apart(piece, (int[]){i, j}, wall, rank, apart);
       }
   }
 
   piece->cuts = piece->crossings = 0;
-  for (int i = 0; i < piece->n_channels; i++) {
-    int count[2];
-    count_cuts(piece, i, i, rank, count);
-    piece->cuts += count[0];
-    piece->crossings += count[1];
-  }
+  for (int i = 0; i < piece->n_channels; i++)
+    for (int j = 0; j < i; j++) {
+      const thr_kit_channel *a = &piece->channel[i], *b = &piece->channel[j];
+      if (find_nearness(a, b, 0).gap >= -1e-9 || thr_kit_same_mouth(a, b)) continue;
+      *(plan_crosses(piece, rank, a, b) ? &piece->crossings : &piece->cuts) += 1;
+    }
 }

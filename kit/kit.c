@@ -70,6 +70,12 @@ const char *thr_kit_names_name(int i)
   return name[i];
 }
 
+const char *thr_kit_foot_name(int i)
+{
+  static const char *const name[] = {"hole", "hook"};
+  return name[i];
+}
+
 const char *thr_kit_tube_ends_name(int i)
 {
   static const char *const name[] = {"mitred", "rounded"};
@@ -180,9 +186,15 @@ static void lane_of(const maker *work, int cord, int pass, int half, double lane
   lane[1] = edge->lane[number][1] * (half & 1 ? -1 : 1);
 }
 
-/* Direction in which a cord's end leaves a piece: down from a foot, else away from the arms. */
+/* Direction in which a cord's end leaves a piece: from a foot down, or to its hook; else away from
+ * the arms. */
 static void way_out(const thr_kit_piece *piece, double out[3])
 {
+  if (piece->hook_radius > 0) {
+    memcpy(out, (double[]){piece->hook[1][0], piece->hook[1][1], 0}, 3 * sizeof *out);
+    thr_normalize(out);
+    return;
+  }
   double sum[3] = {0, 0, 0};
   for (int i = 0; i < piece->n_arms; i++)
     for (int k = 0; k < 3; k++)
@@ -409,6 +421,56 @@ static double pad_of(const maker *work, const thr_kit_piece *piece, int v, doubl
   return fmax(pad, 0.5 * widest);
 }
 
+/* Returns the angle in the plane to which the widest sector without arms opens; of equal ones the
+ * first from the first arm on. */
+static double free_angle(const thr_kit_piece *piece)
+{
+  thr_ranked arm[THR_KIT_MOST_ARMS];
+  int n = 0;
+  for (int i = 0; i < piece->n_arms && n < THR_KIT_MOST_ARMS; i++) {
+    const double *along = piece->arm[i].along;
+    if (hypot(along[0], along[1]) > 0.1)
+      arm[n++] = (thr_ranked){nearbyint(1e6 * atan2(along[1], along[0])) / 1e6, i};
+  }
+  if (n == 0) return 0;
+  thr_sort_ranked(arm, (size_t)n);
+
+  double widest = 0, angle = 0;
+  for (int i = 0; i < n; i++) {
+    double sector = (i + 1 < n ? arm[i + 1].key : arm[0].key + 2 * THR_PI) - arm[i].key;
+    if (sector <= widest + 1e-5) continue;
+    widest = sector;
+    angle = arm[i].key + 0.5 * sector;
+  }
+  return angle;
+}
+
+/* Adds a hook to a foot where a cord ends: a bar along the ground, away from the arms, whose end
+ * stands up beside the foot, lower than the cord comes out. */
+static void add_hook(const maker *work, thr_kit_piece *piece, int v, double widest)
+{
+  bool ends = false;
+  double bore = 0;
+  for (int i = work->channels.first[v]; i < work->channels.first[v + 1]; i++) {
+    const thr_channel *c = &work->channels.channel[i];
+    const thr_cord *cord = &work->kit->plan->cord[c->cord];
+    ends |= c->in < 0 || c->out < 0 || (cord->closed && c->pass == cord->n_passes - 1);
+  }
+  if (!ends) return;
+  for (int i = 0; i < piece->n_arms; i++)
+    bore = fmax(bore, work->kit->edges.edge[piece->arm[i].half >> 1].bore);
+
+  double radius = 0.2 * widest, angle = free_angle(piece), low = 0.6 * radius - piece->base;
+  double out = piece->pad + 1.2 * radius + piece->fillet + 1.6 * work->kit->cord;
+  double top = -0.5 * bore - 0.05 * widest - radius;
+  piece->hook_radius = radius;
+  for (int i = 0; i < 3; i++) {
+    piece->hook[i][0] = i ? out * cos(angle) : 0;
+    piece->hook[i][1] = i ? out * sin(angle) : 0;
+    piece->hook[i][2] = i < 2 ? low : fmax(top, low + 0.3 * radius);
+  }
+}
+
 /* Makes the shape of a node's piece. */
 static thr_status shape_node(maker *work, int v, thr_kit_piece *piece, thr_err *err)
 {
@@ -432,6 +494,7 @@ static thr_status shape_node(maker *work, int v, thr_kit_piece *piece, thr_err *
   piece->foot = work->foot[v];
   piece->base = 0.75 * widest;
   piece->pad = pad_of(work, piece, v, widest);
+  if (piece->foot && work->kit->options.foot == THR_KIT_HOOK) add_hook(work, piece, v, widest);
   thr_status st = add_channels(work, piece, v, err);
 
   return st ? st : add_names(work, piece, err);
@@ -628,7 +691,7 @@ static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_
 {
   meshing *work = user;
   thr_kit *kit = work->kit;
-  const thr_kit_piece *piece = &kit->piece[job];
+  thr_kit_piece *piece = &kit->piece[job];
   if (piece->like != job) return THR_OK;
 
   thr_solid solid = {.sample = thr_kit_sample, .user = piece};
@@ -652,6 +715,10 @@ static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_
       solid.low[k] = fmin(solid.low[k], k == 2 ? -piece->base : -piece->pad - piece->fillet);
       solid.high[k] = fmax(solid.high[k], k == 2 ? 0 : piece->pad + piece->fillet);
     }
+    for (int i = 0; i < 3 && piece->hook_radius > 0; i++) {
+      solid.low[k] = fmin(solid.low[k], piece->hook[i][k] - piece->hook_radius);
+      solid.high[k] = fmax(solid.high[k], piece->hook[i][k] + piece->hook_radius);
+    }
     /* Where the grid lies must not be where the piece has planes. */
     solid.low[k] -= margin * (1 + 0.013 * (k + 1));
     solid.high[k] += margin;
@@ -663,10 +730,29 @@ static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_
   if (!st)
     st = thr_mesh_drop_crumbs(&kit->mesh[job], 2e-3 * narrowest * narrowest * narrowest, &why);
   if (!st) st = thr_mesh_examine(&kit->mesh[job], true, &kit->report[job], &why);
+  piece->thinnest = thr_kit_thinnest(piece);
   int done = atomic_fetch_add(&work->done, 1) + 1;
   if (limits->advance) limits->advance(limits->user, "pieces", (double)done / kit->n_meshes);
 
   return st ? thr_fail(err, st, "piece %s: %s", kit->name[job], why.text) : THR_OK;
+}
+
+/* Says which finished pieces have a wall that is thinner than planned; two parts in a hundred are
+ * rounding. */
+static void note_walls(thr_kit *kit)
+{
+  int thin = 0, at = 0;
+  for (int p = 0; p < kit->n_pieces; p++) {
+    kit->piece[p].thinnest = kit->piece[kit->piece[p].like].thinnest;
+    thin += kit->piece[p].thinnest < 0.98 * kit->options.wall;
+    if (kit->piece[p].thinnest < kit->piece[at].thinnest) at = p;
+  }
+  if (thin)
+    thr_text_printf(&kit->notes,
+                    "%d %s a wall thinner than %.3g mm: %s has %.2g mm; a larger --width would "
+                    "make it thicker\n",
+                    thin, thin == 1 ? "piece has" : "pieces have", kit->options.wall, kit->name[at],
+                    kit->piece[at].thinnest);
 }
 
 /* Adds up volumes, and says which meshes do not print as one piece. */
@@ -711,18 +797,16 @@ static void note_cuts(thr_kit *kit)
   }
 }
 
-/* Says what does not go as well as it might: thin walls, sharp bends, channels that meet. */
+/* Says what does not go as well as it might: walls as planned, names, sharp bends. */
 static void note_channels(const maker *work)
 {
   thr_kit *kit = work->kit;
-  int thin = 0, sharp = 0, at = 0, where = 0;
-  double thinnest = INFINITY, sharpest = INFINITY;
+  int sharp = 0, where = 0;
+  double sharpest = INFINITY;
   for (int p = 0; p < kit->n_pieces; p++)
     for (int i = 0; i < kit->piece[p].n_channels; i++) {
       const thr_kit_channel *channel = &kit->piece[p].channel[i];
-      thin += channel->wall < work->sizes.wall * (1 - 1e-6);
       sharp += channel->bend < 2 * kit->cord;
-      if (channel->wall < thinnest) thinnest = channel->wall, at = p;
       if (channel->bend < sharpest) sharpest = channel->bend, where = p;
     }
   if (work->sizes.wall < WALL && !work->sizes.wall_given)
@@ -734,10 +818,6 @@ static void note_channels(const maker *work)
     thr_text_printf(&kit->notes,
                     "%d names found no room on their arms: --letters smaller than %.3g mm\n",
                     work->unnamed, kit->options.letters);
-  if (thin)
-    thr_text_printf(&kit->notes, "%d %s less wall than %.2g mm: %s has %.2g mm\n", thin,
-                    thin == 1 ? "channel has" : "channels have", work->sizes.wall, kit->name[at],
-                    thinnest);
   if (sharp)
     thr_text_printf(&kit->notes, "%d %s with a radius below two cords (%.3g mm): %s with %.2g mm\n",
                     sharp, sharp == 1 ? "channel bends" : "channels bend", 2 * kit->cord,
@@ -790,6 +870,7 @@ thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_option
   if (!st) note_cuts(kit);
   meshing meshed = {.kit = kit};
   if (!st && meshes) st = thr_threads_run(kit->n_pieces, mesh_piece, &meshed, limits, err);
+  if (!st && meshes) note_walls(kit);
   if (!st && meshes) sum_up(kit);
   if (!st && kit->notes.failed) st = thr_nomem(err);
 

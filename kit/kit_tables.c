@@ -91,14 +91,12 @@ static void put_piece(const thr_kit_plates *plates, const thr_guide *guide, int 
   put_number(out, report->volume * kit->options.density / 1000, 3);
 
   /* Its size as it stands; what its channels leave, and how they bend. */
-  double wall = INFINITY, bend = INFINITY;
-  for (int i = 0; i < piece->n_channels; i++) {
-    wall = fmin(wall, piece->channel[i].wall);
+  double bend = INFINITY;
+  for (int i = 0; i < piece->n_channels; i++)
     bend = fmin(bend, piece->channel[i].bend);
-  }
   for (int k = 0; k < 3; k++)
     put_number(out, stand->size[k], 2);
-  put_number(out, wall, 2);
+  put_number(out, piece->thinnest, 2);
   put_number(out, bend, 2);
   put_int(out, piece->cuts);
   put_int(out, piece->crossings);

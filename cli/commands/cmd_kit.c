@@ -97,6 +97,8 @@ static const cli_option shape_options[] = {
              "(default: 45; pin: 5)"},
     {"knot-pockets", .kind = CLI_FLAG, AT(kit.knot_pockets),
      .help = "a hollow for the knot where a cord ends"},
+    {"foot", .kind = CLI_WORD, AT(kit.foot), .word = thr_kit_foot_name, .n_words = THR_KIT_N_FEET,
+     .help = "where a cord ends at a foot: a hole in its base (default), or a hook beside it"},
     {"names", .kind = CLI_WORD, AT(kit.names), .word = thr_kit_names_name,
      .n_words = THR_KIT_N_NAMES,
      .help = "engraved: each piece's own and, on every arm, the neighbour's (default), those of "

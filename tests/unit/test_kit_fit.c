@@ -12,6 +12,7 @@
 #include "tests/symmetric.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -172,6 +173,121 @@ START_TEST(crossings_are_led_apart_where_there_is_room)
 }
 END_TEST
 
+/* Where a ray first meets the mesh beyond a distance, as a distance from its origin; INFINITY: not
+ * at all (T. Moeller and B. Trumbore, 1997). */
+static double ray_hit(const thr_mesh *mesh, const double from[3], const double along[3],
+                      double beyond)
+{
+  double best = INFINITY;
+  for (int t = 0; t < mesh->n_triangles; t++) {
+    const double *a = mesh->point[mesh->triangle[t][0]];
+    double e[3], f[3], to[3], p[3], q[3];
+    for (int k = 0; k < 3; k++) {
+      e[k] = mesh->point[mesh->triangle[t][1]][k] - a[k];
+      f[k] = mesh->point[mesh->triangle[t][2]][k] - a[k];
+      to[k] = from[k] - a[k];
+    }
+    thr_cross(along, f, p);
+    thr_cross(to, e, q);
+    double volume = thr_dot(e, p);
+    if (fabs(volume) < 1e-14) continue;
+    double u = thr_dot(to, p) / volume, v = thr_dot(along, q) / volume;
+    double by = thr_dot(f, q) / volume;
+    if (u >= 0 && v >= 0 && u + v <= 1 && by > beyond) best = fmin(best, by);
+  }
+  return best;
+}
+
+/* Is a point in a channel, or at its surface? */
+static bool in_a_channel(const thr_kit_piece *piece, const double at[3])
+{
+  for (int c = 0; c < piece->n_channels; c++)
+    for (double part = 0; part <= 1; part += 0.01) {
+      double on[3], radius = point_of(&piece->channel[c], part, on);
+      if (thr_distance(at, on) < radius + piece->mouth + 0.1) return true;
+    }
+  return false;
+}
+
+/* What the thinnest wall is measured in. */
+static const struct {
+  thr_kit_options options;
+  double least; /* mm: walls are no thinner */
+} walled[] = {{{.names = THR_KIT_NO_NAMES}, 1.2},
+              {{.names = THR_KIT_NO_NAMES, .width = 5}, 1.2},
+              {{.letters = 2}, 0.6},
+              {{.names = THR_KIT_NO_NAMES, .profile = THR_KIT_SQUARE}, 1.2}};
+enum { WALLED = sizeof walled / sizeof *walled };
+
+START_TEST(the_thinnest_wall_is_that_of_the_mesh)
+{
+  enum { RAYS = 6 };
+  thr_plan p = plan_of(THR_MAKE_DOME, 3);
+  thr_kit kit = shapes_of(&p, &walled[_i].options, true);
+  for (int q = 0; q < kit.n_pieces; q++) {
+    const thr_kit_piece *piece = &kit.piece[q];
+    const thr_mesh *mesh = &kit.mesh[q];
+    double least = INFINITY;
+    for (int c = 0; c < piece->n_channels && q < 4; c++) {
+      const thr_kit_channel *channel = &piece->channel[c];
+      if (channel->in < 0 || channel->out < 0) continue;
+      for (double part = 0; part < 1; part += 0.04) {
+        double at[3], next[3], along[3], side[3], up[3];
+        double radius = point_of(channel, part, at);
+        point_of(channel, part + 1e-3, next);
+        for (int k = 0; k < 3; k++)
+          along[k] = next[k] - at[k];
+        thr_normalize(along);
+        thr_cross(along, fabs(along[2]) < 0.7 ? (double[]){0, 0, 1} : (double[]){1, 0, 0}, side);
+        thr_normalize(side);
+        thr_cross(along, side, up);
+
+        /* Well within the faces; where the ray begins in the channel's own wall. */
+        bool within = true;
+        for (int i = 0; i < piece->n_arms; i++)
+          within &= thr_dot(at, piece->arm[i].along) < piece->arm[i].length - 2 * piece->mouth;
+        for (int i = 0; i < RAYS && within; i++) {
+          double angle = 2 * THR_PI * i / RAYS, out[3];
+          for (int k = 0; k < 3; k++)
+            out[k] = cos(angle) * side[k] + sin(angle) * up[k];
+          double first = ray_hit(mesh, at, out, 0);
+          if (first > radius + 0.1) continue; /* another channel begins here */
+          double second = ray_hit(mesh, at, out, first + 1e-6), hit[3];
+          for (int k = 0; k < 3; k++)
+            hit[k] = at[k] + second * out[k];
+          if (!in_a_channel(piece, hit)) least = fmin(least, second - first);
+        }
+      }
+    }
+    if (isfinite(least))
+      ck_assert_msg(piece->thinnest < least + 0.15 &&
+                        piece->thinnest > least - 0.35 - piece->letter_depth,
+                    "%s: %g mm, by the mesh %g", kit.name[q], piece->thinnest, least);
+    ck_assert_double_gt(piece->thinnest, 0.98 * walled[_i].least);
+  }
+  ck_assert_ptr_null(strstr(kit.notes.data ? kit.notes.data : "", "a wall thinner"));
+  thr_kit_destroy(&kit);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+START_TEST(a_wall_that_is_too_thin_is_said_by_name)
+{
+  thr_plan p = plan_of(THR_MAKE_DOME, 3);
+  const thr_kit_options options = {.letters = 3, .wall = 2.2};
+  thr_kit kit = shapes_of(&p, &options, true);
+  int thin = 0;
+  char words[100];
+  for (int q = 0; q < kit.n_pieces; q++)
+    thin += kit.piece[q].thinnest < 0.98 * 2.2;
+  ck_assert_int_gt(thin, 0);
+  snprintf(words, sizeof words, "%d pieces have a wall thinner than 2.2 mm", thin);
+  ck_assert_msg(strstr(kit.notes.data, words) != NULL, "%s", kit.notes.data);
+  thr_kit_destroy(&kit);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 /* A ring of six nodes in a plane, in mm: two runs of length 2 x 50 that are 8 apart; or, twisted,
  * one whose long sides cross. */
 static thr_plan ring_of(bool twisted)
@@ -283,12 +399,64 @@ START_TEST(arms_of_wide_kits_keep_apart)
 }
 END_TEST
 
+START_TEST(a_hook_stands_where_a_cord_ends_at_a_foot)
+{
+  thr_plan p = plan_of(THR_MAKE_DOME, 3);
+  thr_kit_options options = {.names = THR_KIT_NO_NAMES, .foot = THR_KIT_HOOK};
+  thr_kit kit = shapes_of(&p, &options, true);
+  int hooks = 0;
+  for (int q = 0; q < kit.n_pieces; q++) {
+    const thr_kit_piece *piece = &kit.piece[q];
+    const thr_mesh_report *report = &kit.report[piece->like];
+    bool open = false;
+    for (int c = 0; c < piece->n_channels; c++)
+      open |= piece->channel[c].in < 0 || piece->channel[c].out < 0;
+    ck_assert_int_eq(piece->hook_radius > 0, open && piece->foot);
+    ck_assert_int_eq(report->open_edges + report->crossings, 0);
+    ck_assert_int_eq(report->parts, 1);
+    if (!(piece->hook_radius > 0)) continue;
+    hooks++;
+
+    /* The piece still stands on its base, and reaches to the back of the hook. */
+    double out = 0, farthest = 0, along[3] = {piece->hook[1][0], piece->hook[1][1], 0};
+    out = thr_normalize(along);
+    ck_assert_double_eq_tol(report->low[2], -piece->base, 1e-6);
+    for (int i = 0; i < kit.mesh[q].n_points; i++)
+      farthest = fmax(farthest, thr_dot(kit.mesh[q].point[i], along));
+    ck_assert_double_eq_tol(farthest, out + piece->hook_radius, 0.1 * piece->hook_radius);
+
+    /* The cord comes out level, above the hook, and has room between hook and foot. */
+    for (int c = 0; c < piece->n_channels; c++) {
+      const thr_kit_channel *channel = &piece->channel[c];
+      if (channel->in >= 0 && channel->out >= 0) continue;
+      const double *end = channel->point[channel->out < 0 ? channel->n - 1 : 0];
+      ck_assert_double_eq_tol(end[2], 0, 1e-9);
+      ck_assert_double_gt(thr_dot(end, along), 0);
+      ck_assert_double_lt(piece->hook[2][2] + piece->hook_radius, -channel->radius);
+    }
+    double most = 0, above = piece->hook[0][2] + piece->hook_radius;
+    ck_assert_double_gt(piece->hook[2][2] + piece->hook_radius, above + kit.cord);
+    for (double by = piece->pad; by < out; by += 0.02) {
+      const double at[3] = {by * along[0], by * along[1], above + 0.8 * kit.cord};
+      most = fmax(most, thr_kit_body(piece, at, NULL));
+    }
+    ck_assert_double_gt(most, 0.5 * kit.cord);
+  }
+  ck_assert_int_gt(hooks, 0);
+  thr_kit_destroy(&kit);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("kit_fit");
   ADD_LOOP(s, 30, the_distance_of_segments_is_that_of_many_points, 0, 40);
   ADD_LOOP(s, 120, pairs_of_channels_that_cut_each_other_are_counted, 0, KITS);
   ADD_TEST(s, 60, crossings_are_led_apart_where_there_is_room);
+  ADD_LOOP(s, 300, the_thinnest_wall_is_that_of_the_mesh, 0, WALLED);
+  ADD_TEST(s, 60, a_wall_that_is_too_thin_is_said_by_name);
+  ADD_TEST(s, 60, a_hook_stands_where_a_cord_ends_at_a_foot);
   ADD_TEST(s, 30, strangers_do_not_touch);
   ADD_TEST(s, 30, edges_that_cross_are_named);
   ADD_LOOP(s, 30, the_cord_that_is_advised_fits, 0, 2);
