@@ -270,12 +270,19 @@ static thr_status fail_narrow(const thr_plan *plan, const thr_kit_sizes *sizes,
                   needed, advice[0], advice[1], *advice[0] || *advice[1] ? "or " : "");
 }
 
+/* Returns the width that so many lanes and their walls need. */
+static double needed_width(const thr_kit_edge *edge, int lanes, double wall)
+{
+  return 2 * lanes_radius(lanes, edge->bore + wall) + edge->bore + 2 * wall;
+}
+
 /* Checks that every edge is wide enough for its channels and walls. */
 static thr_status check_widths(const thr_plan *plan, const thr_kit_options *options,
                                thr_kit_sizes *sizes, const thr_kit_edge *edge, const int *passes,
                                const char (*label)[THR_LABEL], thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
+  double asked = sizes->wall;
   for (int e = 0; e < frame->n_edges; e++) {
     int lanes = options->channels == THR_KIT_LANES ? passes[e] : 1;
     const char *a = label[frame->edge[e][0]], *b = label[frame->edge[e][1]];
@@ -286,7 +293,7 @@ static thr_status check_widths(const thr_plan *plan, const thr_kit_options *opti
           "channel for all",
           a, b, lanes, THR_KIT_MOST_LANES);
     double ring = lanes_radius(lanes, edge[e].bore + sizes->wall);
-    double needed = 2 * ring + edge[e].bore + 2 * sizes->wall;
+    double needed = needed_width(&edge[e], lanes, sizes->wall);
     if (edge[e].width >= needed) continue;
 
     /* A wall that nobody asked for gives way as far as half of what there is. */
@@ -304,6 +311,17 @@ static thr_status check_widths(const thr_plan *plan, const thr_kit_options *opti
                       lanes == 1 ? "needs" : "need", needed, edge[e].width,
                       ceil(100 * needed) / 100);
     return fail_narrow(plan, sizes, &edge[e], edge, lanes, label, err);
+  }
+
+  /* The width that walls as asked for need, if neighbours leave it to every edge. */
+  for (int e = 0; e < frame->n_edges; e++) {
+    double needed =
+        needed_width(&edge[e], options->channels == THR_KIT_LANES ? passes[e] : 1, asked);
+    sizes->roomy = fmax(sizes->roomy, needed);
+    if (needed > edge[e].width && edge[e].width < sizes->width * (1 - 1e-9)) {
+      sizes->roomy = 0;
+      break;
+    }
   }
   return THR_OK;
 }

@@ -33,8 +33,9 @@ typedef struct {
   thr_guide guide;
   thr_pieces pieces;
   thr_channels channels;
-  bool *foot;  /* [n_nodes] */
-  int unnamed; /* arms and pieces without room for a name */
+  bool *foot;     /* [n_nodes] */
+  int unnamed;    /* arms and pieces without room for a name */
+  double letters; /* height that all of their names have room for */
   thr_scratch own;
 } maker;
 
@@ -310,14 +311,16 @@ static thr_status add_channels(const maker *work, thr_kit_piece *piece, int v, t
 }
 
 /* Engraves words on an arm, if there is room between `from` and its face. Returns whether there
- * was; *n: the strokes so far, *capacity: the room for them. */
+ * was; *capacity: the room for strokes; *fits is raised to the height for which there is room. */
 static thr_status engrave(thr_kit_piece *piece, int arm, const char *words, double height,
-                          double from, bool below, int *capacity, bool *done, thr_err *err)
+                          double from, bool below, int *capacity, bool *done, double *fits,
+                          thr_err *err)
 {
   double room;
   const thr_kit_arm *a = &piece->arm[arm];
   double free_length = a->length - piece->mouth - piece->letter_width - from;
   int n = piece->n_strokes, strokes = thr_kit_strokes(words, height, NULL, 0, &room);
+  *fits = fmax(*fits, fmin(0.75 * a->width, height * free_length / room));
   *done = room <= free_length && height <= 0.75 * a->width;
   if (!*done) return THR_OK;
 
@@ -364,22 +367,27 @@ static thr_status add_names(maker *work, thr_kit_piece *piece, thr_err *err)
     snprintf(words[1], sizeof words[1], ">%s", to);
     snprintf(words[2], sizeof words[2], "%s", to);
     done = false;
+    double fits = 0;
     for (double height = options->letters; !done && !st && height > 0.6 * options->letters;
          height *= 0.8)
       for (int k = 0; k < 3 && !done && !st; k++) {
-        st = engrave(piece, i, words[k], height, from, false, &capacity, &done, err);
+        st = engrave(piece, i, words[k], height, from, false, &capacity, &done, &fits, err);
         own |= done && k == 0;
       }
     work->unnamed += !done;
+    if (!done) work->letters = fmin(work->letters, fits);
   }
 
   /* The piece's own name, or its kind. */
+  double fits = 0;
   for (int i = 0; i < piece->n_arms && !own && !st; i++)
     for (double height = options->letters; !own && !st && height > 0.6 * options->letters;
          height *= 0.8)
       st = engrave(piece, i, of_kinds ? kind : name.data, height,
-                   piece->tube ? 0 : 0.5 * piece->node_radius, !of_kinds, &capacity, &own, err);
+                   piece->tube ? 0 : 0.5 * piece->node_radius, !of_kinds, &capacity, &own, &fits,
+                   err);
   work->unnamed += !own;
+  if (!own) work->letters = fmin(work->letters, fits);
   thr_text_destroy(&name);
 
   return st;
@@ -811,13 +819,20 @@ static void note_channels(const maker *work)
     }
   if (work->sizes.wall < WALL && !work->sizes.wall_given)
     thr_text_printf(&kit->notes,
-                    "walls are %.2g mm, thinner than the %.2g mm that print well: --width, or a "
-                    "larger framework\n",
-                    work->sizes.wall, WALL);
+                    work->sizes.roomy > 0
+                        ? "walls are %.2g mm, thinner than the %.2g mm that print "
+                          "well: --width %.4g or more\n"
+                        : "walls are %.2g mm, thinner than the %.2g mm that print "
+                          "well: a thinner cord, or a larger framework for it\n",
+                    work->sizes.wall, WALL, ceil(100 * work->sizes.roomy) / 100);
   if (work->unnamed)
-    thr_text_printf(&kit->notes,
-                    "%d names found no room on their arms: --letters smaller than %.3g mm\n",
-                    work->unnamed, kit->options.letters);
+    thr_text_printf(&kit->notes, "%d %s found no room", work->unnamed,
+                    work->unnamed == 1 ? "name" : "names");
+  if (work->unnamed && work->letters >= 1)
+    thr_text_printf(&kit->notes, ": --letters %.3g or less would do\n",
+                    floor(100 * work->letters) / 100);
+  else if (work->unnamed)
+    thr_text_append(&kit->notes, ", whatever the --letters\n");
   if (sharp)
     thr_text_printf(&kit->notes, "%d %s with a radius below two cords (%.3g mm): %s with %.2g mm\n",
                     sharp, sharp == 1 ? "channel bends" : "channels bend", 2 * kit->cord,
@@ -830,7 +845,7 @@ thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_option
 {
   const thr_frame *frame = &plan->frame;
   *kit = (thr_kit){.plan = plan};
-  maker work = {.kit = kit, .frame = frame};
+  maker work = {.kit = kit, .frame = frame, .letters = INFINITY};
   bool solid = plan->options.joint == THR_JOINT_SOLID;
   kit->n_pieces = thr_pieces_count(plan);
   size_t n = (size_t)kit->n_pieces;

@@ -100,6 +100,7 @@ typedef struct {
   double cord, width, wall;
   double node;     /* radius of a node, as a part of the width */
   bool wall_given; /* else it may be less where edges are narrow */
+  double roomy;    /* width at which it would not be; 0: none is, beside other edges */
 } thr_kit_sizes;
 
 /* Fills edges->edge[n_edges], whose bores are set, with directions, widths that fit and lanes, and

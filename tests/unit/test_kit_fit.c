@@ -366,6 +366,38 @@ START_TEST(the_cord_that_is_advised_fits)
 }
 END_TEST
 
+/* The number behind a word of the notes; 0 if the word is not there. */
+static double advised(const thr_kit *kit, const char *word)
+{
+  const char *at = kit->notes.data ? strstr(kit->notes.data, word) : NULL;
+  return at ? strtod(at + strlen(word), NULL) : 0;
+}
+
+START_TEST(numbers_that_notes_advise_do)
+{
+  thr_plan p = plan_of(THR_MAKE_DOME, 4);
+  thr_kit_options options = {.names = THR_KIT_NO_NAMES, .channels = THR_KIT_LANES};
+  thr_kit kit = shapes_of(&p, &options, false);
+  options.width = advised(&kit, "--width ");
+  ck_assert_double_gt(options.width, kit.options.width);
+  thr_kit_destroy(&kit);
+  kit = shapes_of(&p, &options, false);
+  ck_assert_double_eq(kit.options.wall, 1.2);
+  ck_assert_double_eq(advised(&kit, "print well: --width "), 0);
+  thr_kit_destroy(&kit);
+
+  options = (thr_kit_options){.letters = 12};
+  kit = shapes_of(&p, &options, false);
+  options.letters = advised(&kit, "--letters ");
+  ck_assert_double_gt(options.letters, 1);
+  thr_kit_destroy(&kit);
+  kit = shapes_of(&p, &options, false);
+  ck_assert_double_eq(advised(&kit, "--letters "), 0);
+  thr_kit_destroy(&kit);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 /* Every pair of points of strangers in a wide kit of a
  * round shape is farther apart than their arms are thick. */
 START_TEST(arms_of_wide_kits_keep_apart)
@@ -460,6 +492,7 @@ int main(void)
   ADD_TEST(s, 30, strangers_do_not_touch);
   ADD_TEST(s, 30, edges_that_cross_are_named);
   ADD_LOOP(s, 30, the_cord_that_is_advised_fits, 0, 2);
+  ADD_TEST(s, 30, numbers_that_notes_advise_do);
   ADD_LOOP(s, 30, arms_of_wide_kits_keep_apart, 0, 2);
   return run_suite(s);
 }
