@@ -745,6 +745,15 @@ static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_
   return st ? thr_fail(err, st, "piece %s: %s", kit->name[job], why.text) : THR_OK;
 }
 
+/* Returns what makes a piece wider: --width, unless other edges are in the way. */
+static const char *what_widens(const thr_kit *kit, int p)
+{
+  for (int i = 0; i < kit->piece[p].n_arms; i++)
+    if (kit->piece[p].arm[i].width < kit->options.width * (1 - 1e-9))
+      return "framework for the same cord";
+  return "--width";
+}
+
 /* Says which finished pieces have a wall that is thinner than planned; two parts in a hundred are
  * rounding. */
 static void note_walls(thr_kit *kit)
@@ -757,10 +766,10 @@ static void note_walls(thr_kit *kit)
   }
   if (thin)
     thr_text_printf(&kit->notes,
-                    "%d %s a wall thinner than %.3g mm: %s has %.2g mm; a larger --width would "
+                    "%d %s a wall thinner than %.3g mm: %s has %.2g mm; a larger %s would "
                     "make it thicker\n",
                     thin, thin == 1 ? "piece has" : "pieces have", kit->options.wall, kit->name[at],
-                    kit->piece[at].thinnest);
+                    kit->piece[at].thinnest, what_widens(kit, at));
 }
 
 /* Adds up volumes, and says which meshes do not print as one piece. */
@@ -771,8 +780,8 @@ static void sum_up(thr_kit *kit)
     kit->volume += report->volume;
     if (kit->piece[p].like != p) continue;
     if (report->parts != 1)
-      thr_text_printf(&kit->notes, "piece %s falls into %d parts: a larger --width\n", kit->name[p],
-                      report->parts);
+      thr_text_printf(&kit->notes, "piece %s falls into %d parts: a larger %s\n", kit->name[p],
+                      report->parts, what_widens(kit, p));
     if (report->open_edges || report->crossings)
       thr_text_printf(&kit->notes,
                       "piece %s: its mesh has %d open edges and %d triangles that cross: an error "
@@ -795,13 +804,13 @@ static void note_cuts(thr_kit *kit)
       if (here > most) most = here, where = p;
     }
     if (pairs)
-      thr_text_printf(
-          &kit->notes,
-          "%d %s of channels cut each other in %d %s %s: %d in %s; a larger --width may "
-          "part them\n",
-          pairs, pairs == 1 ? "pair" : "pairs", pieces, pieces == 1 ? "piece" : "pieces",
-          i ? "where the plan has a crossing" : "though the plan has no crossing there", most,
-          kit->name[where]);
+      thr_text_printf(&kit->notes,
+                      "%d %s of channels cut each other in %d %s %s: %d in %s; a larger %s may "
+                      "part them\n",
+                      pairs, pairs == 1 ? "pair" : "pairs", pieces,
+                      pieces == 1 ? "piece" : "pieces",
+                      i ? "where the plan has a crossing" : "though the plan has no crossing there",
+                      most, kit->name[where], what_widens(kit, where));
   }
 }
 
