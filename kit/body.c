@@ -68,6 +68,22 @@ static double join(double a, double b, double radius)
   return a - 0.25 * reach * part * part;
 }
 
+/* Distance from a segment. */
+static double segment_distance(const double at[3], const double a[3], const double b[3],
+                               double *part)
+{
+  double d[3], e[3];
+  for (int k = 0; k < 3; k++) {
+    d[k] = b[k] - a[k];
+    e[k] = at[k] - a[k];
+  }
+  double length2 = thr_dot(d, d);
+  *part = length2 > 0 ? fmin(fmax(thr_dot(e, d) / length2, 0), 1) : 0;
+  for (int k = 0; k < 3; k++)
+    e[k] -= *part * d[k];
+  return sqrt(thr_dot(e, e));
+}
+
 /* Distance to the surface without what is hollow. *corner: how much farther the second nearest part
  * is than the nearest: 0 where they meet. */
 static double body_distance(const thr_kit_piece *piece, const double at[3], int *arm,
@@ -108,6 +124,17 @@ static double body_distance(const thr_kit_piece *piece, const double at[3], int 
     } else if (disc < second)
       second = disc;
   }
+  if (piece->hook_radius > 0) {
+    double part, hook = segment_distance(at, piece->hook[0], piece->hook[1], &part);
+    hook = fmin(hook, segment_distance(at, piece->hook[1], piece->hook[2], &part));
+    hook -= piece->hook_radius;
+    if (hook < least) {
+      second = least;
+      least = hook;
+      nearest = -3;
+    } else if (hook < second)
+      second = hook;
+  }
   *arm = nearest;
   *corner = second - least;
 
@@ -120,22 +147,6 @@ double thr_kit_body(const thr_kit_piece *piece, const double at[3], int *arm)
   double corner, distance = body_distance(piece, at, &nearest, &corner);
   if (arm) *arm = nearest;
   return distance;
-}
-
-/* Distance from a segment. */
-static double segment_distance(const double at[3], const double a[3], const double b[3],
-                               double *part)
-{
-  double d[3], e[3];
-  for (int k = 0; k < 3; k++) {
-    d[k] = b[k] - a[k];
-    e[k] = at[k] - a[k];
-  }
-  double length2 = thr_dot(d, d);
-  *part = length2 > 0 ? fmin(fmax(thr_dot(e, d) / length2, 0), 1) : 0;
-  for (int k = 0; k < 3; k++)
-    e[k] -= *part * d[k];
-  return sqrt(thr_dot(e, e));
 }
 
 /* How much wider a channel is at a depth below its mouth: a quarter of a circle. */
@@ -253,6 +264,7 @@ void thr_kit_sample(const void *user, const double at[3], thr_solid_sample *out)
     thinnest = fmin(thinnest, piece->arm[i].width);
   double size = 0.38 * thinnest;
   if (!piece->tube) size = fmin(size, 1.2 * piece->fillet + 0.15 * thinnest + 0.5 * corner);
+  if (nearest == -3) size = fmin(size, 0.8 * piece->hook_radius);
   size = fmin(size, 1.2 * radius + 0.7 * fabs(hollow));
   /* Thin walls are not to fall between the corners of tetrahedra. */
   size = fmin(size, fmax(0.8 * (fabs(body) + fabs(hollow)),

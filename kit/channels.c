@@ -50,14 +50,15 @@ static void curve(const channel_end end[2], double reach, double (*point)[3])
 
 /* Least thickness of the material round a curve's bend, which is where it comes near the surface.
  * Ends outside do not count: there the channel is to break through. */
-static double least_wall(const thr_kit_piece *piece, const double (*point)[3],
-                         const double radii[2], bool open)
+static double least_wall(const thr_kit_piece *piece, const thr_kit_channel *channel)
 {
   double least = INFINITY;
-  int last = open ? BEND_POINTS / 2 : BEND_POINTS;
-  for (int i = 1; i <= last; i++) {
+  const double *radii = channel->radii;
+  int first = channel->in < 0 ? BEND_POINTS / 2 + 2 : 1;
+  int last = channel->out < 0 ? BEND_POINTS / 2 : BEND_POINTS;
+  for (int i = first; i <= last; i++) {
     double radius = radii[0] + (radii[1] - radii[0]) * i / (BEND_POINTS + 1);
-    least = fmin(least, -thr_kit_body(piece, point[i], NULL) - radius);
+    least = fmin(least, -thr_kit_body(piece, channel->point[i], NULL) - radius);
   }
   return least;
 }
@@ -78,9 +79,9 @@ static double circle_radius(const double a[3], const double b[3], const double c
   return area2 > 1e-6 * (thr_dot(u, u) + thr_dot(v, v)) ? sides / (2 * area2) : INFINITY;
 }
 
-/* Measures a finished curve: its least radius, and the ball round it. */
-static void measure(thr_kit_channel *channel)
+void thr_kit_channel_measure(const thr_kit_piece *piece, thr_kit_channel *channel)
 {
+  channel->wall = least_wall(piece, channel);
   channel->bend = INFINITY;
   for (int i = 1; i + 1 < channel->n; i++)
     channel->bend = fmin(channel->bend, circle_radius(channel->point[i - 1], channel->point[i],
@@ -141,7 +142,7 @@ thr_status thr_kit_channel_make(const thr_kit_piece *piece, thr_kit_channel *cha
   double reach = 0.95 * most, thickest = -INFINITY, best = reach;
   for (int i = 0; i < 24; i++, reach *= 0.86) {
     curve(ends, reach, channel->point);
-    double here = least_wall(piece, (const double(*)[3])channel->point, channel->radii, open);
+    double here = least_wall(piece, channel);
     if (here > thickest) {
       thickest = here;
       best = reach;
@@ -149,8 +150,7 @@ thr_status thr_kit_channel_make(const thr_kit_piece *piece, thr_kit_channel *cha
     if (here >= wall) break;
   }
   curve(ends, best, channel->point);
-  channel->wall = thickest;
-  measure(channel);
+  thr_kit_channel_measure(piece, channel);
 
   return THR_OK;
 }

@@ -68,22 +68,92 @@ static void set_directions(const thr_frame *frame, double mm, thr_kit_edge *edge
   }
 }
 
+/* Makes an edge narrower beside another one. */
+static void narrow(thr_kit_edge *edge, int e, double most, int beside)
+{
+  if (most >= edge[e].width) return;
+  edge[e].width = most;
+  edge[e].beside = beside;
+}
+
+static const double APART = 0.96; /* of the width that two pieces would touch at */
+
 /* Makes edges narrower that meet others at an acute angle, so that no face meets a neighbour's
  * arm. */
-static void fit_widths(const thr_frame *frame, thr_kit_edge *edge)
+static void fit_neighbours(const thr_frame *frame, thr_kit_edge *edge)
 {
-  static const double apart = 0.96; /* of the width that two faces would touch at */
-
   for (int v = 0; v < frame->n_nodes; v++)
     for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
       for (int j = frame->first[v]; j < i; j++) {
         int e = frame->half[i] >> 1, f = frame->half[j] >> 1;
         double angle = THR_PI - thr_turn_angle(frame, frame->half[i] ^ 1, frame->half[j]);
         double shorter = 0.5 * fmin(edge[e].length, edge[f].length);
-        double most = apart * 2 * shorter * tan(0.5 * fmin(angle, 0.5 * THR_PI));
-        edge[e].width = fmin(edge[e].width, most);
-        edge[f].width = fmin(edge[f].width, most);
+        double most = APART * 2 * shorter * tan(0.5 * fmin(angle, 0.5 * THR_PI));
+        narrow(edge, e, most, f);
+        narrow(edge, f, most, e);
       }
+}
+
+/* Returns the width at which two edges without a common node, or an edge and the node at one end of
+ * another, would touch: their distance over the sum of their radii, as parts of the width. */
+static double touching_width(const double a[2][3], const double b[2][3], double node)
+{
+  double part[2], parts = 0;
+  double away = thr_kit_segments(a, b, part);
+  for (int i = 0; i < 2; i++)
+    parts += part[i] > 0 && part[i] < 1 ? 0.5 : node;
+  return away / parts;
+}
+
+/* Makes edges narrower that come near edges of other nodes. They are compared in the order in which
+ * their boxes begin along x, while the boxes meet. */
+static thr_status fit_strangers(const thr_frame *frame, const thr_kit_sizes *sizes, bool tubes,
+                                thr_kit_edge *edge, thr_err *err)
+{
+  int n = frame->n_edges;
+  double node = tubes ? 0.5 : sizes->node;
+  thr_scratch work = {0};
+  thr_ranked *order = thr_scratch_array(&work, (size_t)n, sizeof *order);
+  double(*end)[2][3] = thr_scratch_array(&work, (size_t)n, sizeof *end);
+  thr_status st = thr_scratch_check(&work, err);
+  for (int e = 0; e < n && !st; e++) {
+    for (int i = 0; i < 2; i++)
+      for (int k = 0; k < 3; k++)
+        end[e][i][k] = sizes->mm * frame->xyz[frame->edge[e][i]][k];
+    order[e] = (thr_ranked){fmin(end[e][0][0], end[e][1][0]), e};
+  }
+  if (!st) thr_sort_ranked(order, (size_t)n);
+
+  double reach = 2 * fmax(node, 0.5) * sizes->width / APART;
+  for (int i = 0; i < n && !st; i++) {
+    int e = order[i].index;
+    const double(*a)[3] = (const double(*)[3])end[e];
+    double last = fmax(a[0][0], a[1][0]) + reach;
+    for (int j = i + 1; j < n && order[j].key <= last; j++) {
+      int f = order[j].index;
+      const int *of_e = frame->edge[e], *of_f = frame->edge[f];
+      const double(*b)[3] = (const double(*)[3])end[f];
+      bool far = of_e[0] == of_f[0] || of_e[0] == of_f[1] || of_e[1] == of_f[0] ||
+                 of_e[1] == of_f[1]; /* neighbours: see above */
+      for (int k = 1; k < 3 && !far; k++)
+        far = fmin(a[0][k], a[1][k]) > fmax(b[0][k], b[1][k]) + reach ||
+              fmin(b[0][k], b[1][k]) > fmax(a[0][k], a[1][k]) + reach;
+      if (far) continue;
+
+      double most = touching_width(a, b, node);
+      for (int k = 0; k < 2; k++) {
+        const double tip[2][2][3] = {{{a[k][0], a[k][1], a[k][2]}, {a[k][0], a[k][1], a[k][2]}},
+                                     {{b[k][0], b[k][1], b[k][2]}, {b[k][0], b[k][1], b[k][2]}}};
+        most = fmin(most, touching_width(tip[0], b, node));
+        most = fmin(most, touching_width(a, tip[1], node));
+      }
+      narrow(edge, e, APART * most, f);
+      narrow(edge, f, APART * most, e);
+    }
+  }
+
+  thr_scratch_free(&work);
+  return st;
 }
 
 /* Radius of the circle that holds the middles of n lanes, with so much room for each. */
@@ -168,12 +238,51 @@ static void give_lanes(const thr_plan *plan, const thr_kit_edge *edge, const int
     lane[first_pass[on[i][0]] + on[i][1]] = of[i];
 }
 
+/* Says that an edge has no room for its channels beside another one, and what would do. */
+static thr_status fail_narrow(const thr_plan *plan, const thr_kit_sizes *sizes,
+                              const thr_kit_edge *here, const thr_kit_edge *edge, int lanes,
+                              const char (*label)[THR_LABEL], thr_err *err)
+{
+  const int *own = plan->frame.edge[here - edge], *other = plan->frame.edge[here->beside];
+  if (here->width < 1e-6 * sizes->width)
+    return thr_fail(err, THR_EINPUT, "%s-%s and %s-%s cross: they need a node where they do",
+                    label[own[0]], label[own[1]], label[other[0]], label[other[1]]);
+
+  /* A thinner cord, by as much as bore and lanes are to shrink; or thinner walls. */
+  double spread = 2 * lanes_radius(lanes, 1); /* of the lanes, for each mm from lane to lane */
+  double needed = spread * (here->bore + sizes->wall) + here->bore + 2 * sizes->wall;
+  double least = sizes->wall_given ? sizes->wall : 0.06 * here->width; /* others give way */
+  double bore = (here->width - (spread + 2) * least) / (spread + 1);
+  double wall = (here->width - (spread + 1) * here->bore) / (spread + 2);
+  double asked = plan->options.physics.bore, usual = asked > 0 ? asked : sizes->cord;
+  char advice[2][40] = {"", ""};
+  double cord = floor(100 * usual * bore / here->bore) / 100;
+  if (cord >= 0.01)
+    snprintf(advice[0], sizeof advice[0], "plan %s %.3g, ",
+             asked > 0 ? "--bore" : "--cord-diameter", cord);
+  if (wall >= 0.01) snprintf(advice[1], sizeof advice[1], "--wall %.3g, ", floor(100 * wall) / 100);
+  return thr_fail(err, THR_EINPUT,
+                  "%s-%s: there is room for a piece %.3g mm wide beside %s-%s; %d channel%s of "
+                  "%.3g mm with walls of %.3g mm need%s %.3g: %s%s%sa larger framework for "
+                  "the same cord",
+                  label[own[0]], label[own[1]], here->width, label[other[0]], label[other[1]],
+                  lanes, lanes == 1 ? "" : "s", here->bore, sizes->wall, lanes == 1 ? "s" : "",
+                  needed, advice[0], advice[1], *advice[0] || *advice[1] ? "or " : "");
+}
+
+/* Returns the width that so many lanes and their walls need. */
+static double needed_width(const thr_kit_edge *edge, int lanes, double wall)
+{
+  return 2 * lanes_radius(lanes, edge->bore + wall) + edge->bore + 2 * wall;
+}
+
 /* Checks that every edge is wide enough for its channels and walls. */
 static thr_status check_widths(const thr_plan *plan, const thr_kit_options *options,
                                thr_kit_sizes *sizes, const thr_kit_edge *edge, const int *passes,
                                const char (*label)[THR_LABEL], thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
+  double asked = sizes->wall;
   for (int e = 0; e < frame->n_edges; e++) {
     int lanes = options->channels == THR_KIT_LANES ? passes[e] : 1;
     const char *a = label[frame->edge[e][0]], *b = label[frame->edge[e][1]];
@@ -184,7 +293,7 @@ static thr_status check_widths(const thr_plan *plan, const thr_kit_options *opti
           "channel for all",
           a, b, lanes, THR_KIT_MOST_LANES);
     double ring = lanes_radius(lanes, edge[e].bore + sizes->wall);
-    double needed = 2 * ring + edge[e].bore + 2 * sizes->wall;
+    double needed = needed_width(&edge[e], lanes, sizes->wall);
     if (edge[e].width >= needed) continue;
 
     /* A wall that nobody asked for gives way as far as half of what there is. */
@@ -201,14 +310,18 @@ static thr_status check_widths(const thr_plan *plan, const thr_kit_options *opti
                       a, b, lanes, lanes == 1 ? "" : "s", edge[e].bore, sizes->wall,
                       lanes == 1 ? "needs" : "need", needed, edge[e].width,
                       ceil(100 * needed) / 100);
-    char thinner[40] = "";
-    if (0.45 * room >= 0.005) snprintf(thinner, sizeof thinner, ", or --wall %.2g", 0.45 * room);
-    return thr_fail(err, THR_EINPUT,
-                    "%s-%s: there is room for a piece %.3g mm wide beside its neighbours; %d "
-                    "channel%s of %.3g mm with walls of %.3g mm need%s %.3g: a larger framework "
-                    "(plan --scale), a thinner cord%s",
-                    a, b, edge[e].width, lanes, lanes == 1 ? "" : "s", edge[e].bore, sizes->wall,
-                    lanes == 1 ? "s" : "", needed, thinner);
+    return fail_narrow(plan, sizes, &edge[e], edge, lanes, label, err);
+  }
+
+  /* The width that walls as asked for need, if neighbours leave it to every edge. */
+  for (int e = 0; e < frame->n_edges; e++) {
+    double needed =
+        needed_width(&edge[e], options->channels == THR_KIT_LANES ? passes[e] : 1, asked);
+    sizes->roomy = fmax(sizes->roomy, needed);
+    if (needed > edge[e].width && edge[e].width < sizes->width * (1 - 1e-9)) {
+      sizes->roomy = 0;
+      break;
+    }
   }
   return THR_OK;
 }
@@ -217,17 +330,19 @@ static thr_status check_widths(const thr_plan *plan, const thr_kit_options *opti
 static void note_widths(const thr_frame *frame, const thr_kit_edge *edge, double width,
                         const char (*label)[THR_LABEL], thr_text *notes)
 {
-  int narrow = 0, least = 0;
+  int narrower = 0, least = 0;
   for (int e = 0; e < frame->n_edges; e++) {
-    narrow += edge[e].width < width * (1 - 1e-9);
+    narrower += edge[e].width < width * (1 - 1e-9);
     if (edge[e].width < edge[least].width) least = e;
   }
-  if (narrow)
+  if (narrower)
     thr_text_printf(notes,
-                    "%d of %d arms are narrower than %.3g mm, since they meet others at sharp "
-                    "angles: %s-%s is %.3g mm wide\n",
-                    narrow, frame->n_edges, width, label[frame->edge[least][0]],
-                    label[frame->edge[least][1]], edge[least].width);
+                    "%d of %d arms are narrower than %.3g mm, since others are near: %s-%s is "
+                    "%.3g mm wide beside %s-%s\n",
+                    narrower, frame->n_edges, width, label[frame->edge[least][0]],
+                    label[frame->edge[least][1]], edge[least].width,
+                    label[frame->edge[edge[least].beside][0]],
+                    label[frame->edge[edge[least].beside][1]]);
 }
 
 thr_status thr_kit_edges_make(thr_kit_edges *edges, const thr_plan *plan,
@@ -268,8 +383,10 @@ thr_status thr_kit_edges_make(thr_kit_edges *edges, const thr_plan *plan,
   set_directions(frame, sizes->mm, edges->edge);
   for (int e = 0; e < frame->n_edges; e++)
     edges->edge[e].width = sizes->width;
-  if (plan->options.joint == THR_JOINT_SOLID) fit_widths(frame, edges->edge);
-  st = check_widths(plan, options, sizes, edges->edge, passes, label, err);
+  bool tubes = plan->options.joint != THR_JOINT_SOLID;
+  if (!tubes) fit_neighbours(frame, edges->edge);
+  st = fit_strangers(frame, sizes, tubes, edges->edge, err);
+  if (!st) st = check_widths(plan, options, sizes, edges->edge, passes, label, err);
   if (st) goto done;
   note_widths(frame, edges->edge, sizes->width, label, notes);
 

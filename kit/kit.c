@@ -33,8 +33,9 @@ typedef struct {
   thr_guide guide;
   thr_pieces pieces;
   thr_channels channels;
-  bool *foot;  /* [n_nodes] */
-  int unnamed; /* arms and pieces without room for a name */
+  bool *foot;     /* [n_nodes] */
+  int unnamed;    /* arms and pieces without room for a name */
+  double letters; /* height that all of their names have room for */
   thr_scratch own;
 } maker;
 
@@ -58,9 +59,21 @@ const char *thr_kit_channels_name(int i)
   return name[i];
 }
 
+const char *thr_kit_crossings_name(int i)
+{
+  static const char *const name[] = {"meet", "apart"};
+  return name[i];
+}
+
 const char *thr_kit_names_name(int i)
 {
   static const char *const name[] = {"pieces", "kinds", "none"};
+  return name[i];
+}
+
+const char *thr_kit_foot_name(int i)
+{
+  static const char *const name[] = {"hole", "hook"};
   return name[i];
 }
 
@@ -101,6 +114,7 @@ static thr_status find_sizes(maker *work, const thr_kit_options *asked, thr_err 
                                 .cord = physics.cord_diameter,
                                 .width = options->width,
                                 .wall = options->wall > 0 ? options->wall : WALL,
+                                .node = NODE * options->taper,
                                 .wall_given = options->wall > 0};
   kit->mm = mm;
   kit->cord = physics.cord_diameter;
@@ -173,9 +187,15 @@ static void lane_of(const maker *work, int cord, int pass, int half, double lane
   lane[1] = edge->lane[number][1] * (half & 1 ? -1 : 1);
 }
 
-/* Direction in which a cord's end leaves a piece: down from a foot, else away from the arms. */
+/* Direction in which a cord's end leaves a piece: from a foot down, or to its hook; else away from
+ * the arms. */
 static void way_out(const thr_kit_piece *piece, double out[3])
 {
+  if (piece->hook_radius > 0) {
+    memcpy(out, (double[]){piece->hook[1][0], piece->hook[1][1], 0}, 3 * sizeof *out);
+    thr_normalize(out);
+    return;
+  }
   double sum[3] = {0, 0, 0};
   for (int i = 0; i < piece->n_arms; i++)
     for (int k = 0; k < 3; k++)
@@ -286,18 +306,21 @@ static thr_status add_channels(const maker *work, thr_kit_piece *piece, int v, t
     if (!st && apart) st = add_channel(work, piece, c->cord, -1, -1, c->out, next, err);
     if (st) return st;
   }
+  thr_kit_cuts(piece, all->rank, work->kit->options.crossings == THR_KIT_APART, work->sizes.wall);
   return THR_OK;
 }
 
 /* Engraves words on an arm, if there is room between `from` and its face. Returns whether there
- * was; *n: the strokes so far, *capacity: the room for them. */
+ * was; *capacity: the room for strokes; *fits is raised to the height for which there is room. */
 static thr_status engrave(thr_kit_piece *piece, int arm, const char *words, double height,
-                          double from, bool below, int *capacity, bool *done, thr_err *err)
+                          double from, bool below, int *capacity, bool *done, double *fits,
+                          thr_err *err)
 {
   double room;
   const thr_kit_arm *a = &piece->arm[arm];
   double free_length = a->length - piece->mouth - piece->letter_width - from;
   int n = piece->n_strokes, strokes = thr_kit_strokes(words, height, NULL, 0, &room);
+  *fits = fmax(*fits, fmin(0.75 * a->width, height * free_length / room));
   *done = room <= free_length && height <= 0.75 * a->width;
   if (!*done) return THR_OK;
 
@@ -344,22 +367,27 @@ static thr_status add_names(maker *work, thr_kit_piece *piece, thr_err *err)
     snprintf(words[1], sizeof words[1], ">%s", to);
     snprintf(words[2], sizeof words[2], "%s", to);
     done = false;
+    double fits = 0;
     for (double height = options->letters; !done && !st && height > 0.6 * options->letters;
          height *= 0.8)
       for (int k = 0; k < 3 && !done && !st; k++) {
-        st = engrave(piece, i, words[k], height, from, false, &capacity, &done, err);
+        st = engrave(piece, i, words[k], height, from, false, &capacity, &done, &fits, err);
         own |= done && k == 0;
       }
     work->unnamed += !done;
+    if (!done) work->letters = fmin(work->letters, fits);
   }
 
   /* The piece's own name, or its kind. */
+  double fits = 0;
   for (int i = 0; i < piece->n_arms && !own && !st; i++)
     for (double height = options->letters; !own && !st && height > 0.6 * options->letters;
          height *= 0.8)
       st = engrave(piece, i, of_kinds ? kind : name.data, height,
-                   piece->tube ? 0 : 0.5 * piece->node_radius, !of_kinds, &capacity, &own, err);
+                   piece->tube ? 0 : 0.5 * piece->node_radius, !of_kinds, &capacity, &own, &fits,
+                   err);
   work->unnamed += !own;
+  if (!own) work->letters = fmin(work->letters, fits);
   thr_text_destroy(&name);
 
   return st;
@@ -376,10 +404,79 @@ static void set_common(const maker *work, thr_kit_piece *piece, double narrowest
   piece->key = options->key;
   piece->wall = work->sizes.wall;
   piece->coarse = options->coarse > 0 ? options->coarse : 1;
-  piece->key_radius = 0.4 * narrowest;
+  /* A hollow key leaves a wall round it, if there is room. */
+  double room = 0.5 * narrowest - work->sizes.wall - PLAY;
+  piece->key_radius = fmin(0.4 * narrowest, fmax(room, 0.3 * narrowest));
   piece->key_slope = 1 / tan(options->key_angle);
   piece->key_height = options->key == THR_KIT_PIN ? 0.2 * narrowest : 0.25 * narrowest;
   piece->key_play = PLAY;
+}
+
+/* Returns the radius of the disc that a foot stands on: within the faces of its arms, and apart
+ * from the discs of other feet. */
+static double pad_of(const maker *work, const thr_kit_piece *piece, int v, double widest)
+{
+  double pad = 0.9 * widest;
+  for (int i = 0; i < piece->n_arms; i++) {
+    const thr_kit_arm *arm = &piece->arm[i];
+    pad = fmin(pad, 0.96 * arm->length * hypot(arm->along[0], arm->along[1]) +
+                        1.5 * widest * fabs(arm->along[2]));
+  }
+  for (int u = 0; u < work->frame->n_nodes && piece->foot; u++)
+    if (u != v && work->foot[u])
+      pad =
+          fmin(pad, 0.48 * work->sizes.mm * thr_distance(work->frame->xyz[u], work->frame->xyz[v]));
+  return fmax(pad, 0.5 * widest);
+}
+
+/* Returns the angle in the plane to which the widest sector without arms opens; of equal ones the
+ * first from the first arm on. */
+static double free_angle(const thr_kit_piece *piece)
+{
+  thr_ranked arm[THR_KIT_MOST_ARMS];
+  int n = 0;
+  for (int i = 0; i < piece->n_arms && n < THR_KIT_MOST_ARMS; i++) {
+    const double *along = piece->arm[i].along;
+    if (hypot(along[0], along[1]) > 0.1)
+      arm[n++] = (thr_ranked){nearbyint(1e6 * atan2(along[1], along[0])) / 1e6, i};
+  }
+  if (n == 0) return 0;
+  thr_sort_ranked(arm, (size_t)n);
+
+  double widest = 0, angle = 0;
+  for (int i = 0; i < n; i++) {
+    double sector = (i + 1 < n ? arm[i + 1].key : arm[0].key + 2 * THR_PI) - arm[i].key;
+    if (sector <= widest + 1e-5) continue;
+    widest = sector;
+    angle = arm[i].key + 0.5 * sector;
+  }
+  return angle;
+}
+
+/* Adds a hook to a foot where a cord ends: a bar along the ground, away from the arms, whose end
+ * stands up beside the foot, lower than the cord comes out. */
+static void add_hook(const maker *work, thr_kit_piece *piece, int v, double widest)
+{
+  bool ends = false;
+  double bore = 0;
+  for (int i = work->channels.first[v]; i < work->channels.first[v + 1]; i++) {
+    const thr_channel *c = &work->channels.channel[i];
+    const thr_cord *cord = &work->kit->plan->cord[c->cord];
+    ends |= c->in < 0 || c->out < 0 || (cord->closed && c->pass == cord->n_passes - 1);
+  }
+  if (!ends) return;
+  for (int i = 0; i < piece->n_arms; i++)
+    bore = fmax(bore, work->kit->edges.edge[piece->arm[i].half >> 1].bore);
+
+  double radius = 0.2 * widest, angle = free_angle(piece), low = 0.6 * radius - piece->base;
+  double out = piece->pad + 1.2 * radius + piece->fillet + 1.6 * work->kit->cord;
+  double top = -0.5 * bore - 0.05 * widest - radius;
+  piece->hook_radius = radius;
+  for (int i = 0; i < 3; i++) {
+    piece->hook[i][0] = i ? out * cos(angle) : 0;
+    piece->hook[i][1] = i ? out * sin(angle) : 0;
+    piece->hook[i][2] = i < 2 ? low : fmax(top, low + 0.3 * radius);
+  }
 }
 
 /* Makes the shape of a node's piece. */
@@ -404,7 +501,8 @@ static thr_status shape_node(maker *work, int v, thr_kit_piece *piece, thr_err *
   piece->node_radius = fmin(NODE * widest * piece->taper, fmax(0.9 * shortest, 0.5 * narrowest));
   piece->foot = work->foot[v];
   piece->base = 0.75 * widest;
-  piece->pad = 0.9 * widest;
+  piece->pad = pad_of(work, piece, v, widest);
+  if (piece->foot && work->kit->options.foot == THR_KIT_HOOK) add_hook(work, piece, v, widest);
 
   return add_channels(work, piece, v, err);
 }
@@ -607,7 +705,7 @@ static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_
 {
   meshing *work = user;
   thr_kit *kit = work->kit;
-  const thr_kit_piece *piece = &kit->piece[job];
+  thr_kit_piece *piece = &kit->piece[job];
   if (piece->like != job || (kit->only && kit->piece[kit->only - 1].like != job)) return THR_OK;
 
   thr_solid solid = {.sample = thr_kit_sample, .user = piece};
@@ -631,6 +729,10 @@ static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_
       solid.low[k] = fmin(solid.low[k], k == 2 ? -piece->base : -piece->pad - piece->fillet);
       solid.high[k] = fmax(solid.high[k], k == 2 ? 0 : piece->pad + piece->fillet);
     }
+    for (int i = 0; i < 3 && piece->hook_radius > 0; i++) {
+      solid.low[k] = fmin(solid.low[k], piece->hook[i][k] - piece->hook_radius);
+      solid.high[k] = fmax(solid.high[k], piece->hook[i][k] + piece->hook_radius);
+    }
     /* Where the grid lies must not be where the piece has planes. */
     solid.low[k] -= margin * (1 + 0.013 * (k + 1));
     solid.high[k] += margin;
@@ -642,50 +744,114 @@ static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_
   if (!st)
     st = thr_mesh_drop_crumbs(&kit->mesh[job], 2e-3 * narrowest * narrowest * narrowest, &why);
   if (!st) st = thr_mesh_examine(&kit->mesh[job], true, &kit->report[job], &why);
+  piece->thinnest = thr_kit_thinnest(piece);
   int done = atomic_fetch_add(&work->done, 1) + 1;
   if (limits->advance) limits->advance(limits->user, "pieces", (double)done / kit->n_meshes);
 
   return st ? thr_fail(err, st, "piece %s: %s", kit->name[job], why.text) : THR_OK;
 }
 
-/* Adds up volumes. */
+/* Returns what makes a piece wider: --width, unless other edges are in the way. */
+static const char *what_widens(const thr_kit *kit, int p)
+{
+  for (int i = 0; i < kit->piece[p].n_arms; i++)
+    if (kit->piece[p].arm[i].width < kit->options.width * (1 - 1e-9))
+      return "framework for the same cord";
+  return "--width";
+}
+
+/* Says which finished pieces have a wall that is thinner than planned; two parts in a hundred are
+ * rounding. */
+static void note_walls(thr_kit *kit)
+{
+  int thin = 0, at = 0;
+  for (int p = 0; p < kit->n_pieces; p++) {
+    kit->piece[p].thinnest = kit->piece[kit->piece[p].like].thinnest;
+    thin += kit->piece[p].thinnest < 0.98 * kit->options.wall;
+    if (kit->piece[p].thinnest < kit->piece[at].thinnest) at = p;
+  }
+  if (thin)
+    thr_text_printf(&kit->notes,
+                    "%d %s a wall thinner than %.3g mm: %s has %.2g mm; a larger %s would "
+                    "make it thicker\n",
+                    thin, thin == 1 ? "piece has" : "pieces have", kit->options.wall, kit->name[at],
+                    kit->piece[at].thinnest, what_widens(kit, at));
+}
+
+/* Adds up volumes, and says which meshes do not print as one piece. */
 static void sum_up(thr_kit *kit)
 {
-  for (int p = 0; p < kit->n_pieces; p++)
-    kit->volume += kit->report[kit->piece[p].like].volume;
+  for (int p = 0; p < kit->n_pieces; p++) {
+    const thr_mesh_report *report = &kit->report[kit->piece[p].like];
+    kit->volume += report->volume;
+    if (kit->piece[p].like != p) continue;
+    if (report->parts != 1)
+      thr_text_printf(&kit->notes, "piece %s falls into %d parts: a larger %s\n", kit->name[p],
+                      report->parts, what_widens(kit, p));
+    if (report->open_edges || report->crossings)
+      thr_text_printf(&kit->notes,
+                      "piece %s: its mesh has %d open edges and %d triangles that cross: an error "
+                      "of this program\n",
+                      kit->name[p], report->open_edges, report->crossings);
+  }
   kit->mass = kit->volume * kit->options.density / 1000; /* mm3 and g/cm3 */
 }
 
-/* Says what does not go as well as it might: thin walls, sharp bends, channels that meet. */
+/* Says which channels cut each other where they need not, or where they were to be led apart. */
+static void note_cuts(thr_kit *kit)
+{
+  bool apart = kit->options.crossings == THR_KIT_APART;
+  for (int i = 0; i < (apart ? 2 : 1); i++) {
+    int pairs = 0, pieces = 0, most = 0, where = 0;
+    for (int p = 0; p < kit->n_pieces; p++) {
+      int here = i ? kit->piece[p].crossings : kit->piece[p].cuts;
+      pairs += here;
+      pieces += here > 0;
+      if (here > most) most = here, where = p;
+    }
+    if (pairs)
+      thr_text_printf(&kit->notes,
+                      "%d %s of channels cut each other in %d %s %s: %d in %s; a larger %s may "
+                      "part them\n",
+                      pairs, pairs == 1 ? "pair" : "pairs", pieces,
+                      pieces == 1 ? "piece" : "pieces",
+                      i ? "where the plan has a crossing" : "though the plan has no crossing there",
+                      most, kit->name[where], what_widens(kit, where));
+  }
+}
+
+/* Says what does not go as well as it might: walls as planned, names, sharp bends. */
 static void note_channels(const maker *work)
 {
   thr_kit *kit = work->kit;
-  int thin = 0, sharp = 0, at = 0, where = 0;
-  double thinnest = INFINITY, sharpest = INFINITY;
+  int sharp = 0, where = 0;
+  double sharpest = INFINITY;
   for (int p = 0; p < kit->n_pieces; p++)
     for (int i = 0; i < kit->piece[p].n_channels; i++) {
       const thr_kit_channel *channel = &kit->piece[p].channel[i];
-      thin += channel->wall < work->sizes.wall * (1 - 1e-6);
       sharp += channel->bend < 2 * kit->cord;
-      if (channel->wall < thinnest) thinnest = channel->wall, at = p;
       if (channel->bend < sharpest) sharpest = channel->bend, where = p;
     }
   if (work->sizes.wall < WALL && !work->sizes.wall_given)
     thr_text_printf(&kit->notes,
-                    "walls are %.2g mm, thinner than the %.2g mm that print well: a larger --width "
-                    "or framework\n",
-                    work->sizes.wall, WALL);
+                    work->sizes.roomy > 0
+                        ? "walls are %.2g mm, thinner than the %.2g mm that print "
+                          "well: --width %.4g or more\n"
+                        : "walls are %.2g mm, thinner than the %.2g mm that print "
+                          "well: a thinner cord, or a larger framework for it\n",
+                    work->sizes.wall, WALL, ceil(100 * work->sizes.roomy) / 100);
   if (work->unnamed)
-    thr_text_printf(&kit->notes,
-                    "%d names found no room on their arms: --letters smaller than %.3g mm\n",
-                    work->unnamed, kit->options.letters);
-  if (thin)
-    thr_text_printf(&kit->notes, "%d channels have less wall than %.2g mm: %s has %.2g mm\n", thin,
-                    work->sizes.wall, kit->name[at], thinnest);
+    thr_text_printf(&kit->notes, "%d %s found no room", work->unnamed,
+                    work->unnamed == 1 ? "name" : "names");
+  if (work->unnamed && work->letters >= 1)
+    thr_text_printf(&kit->notes, ": --letters %.3g or less would do\n",
+                    floor(100 * work->letters) / 100);
+  else if (work->unnamed)
+    thr_text_append(&kit->notes, ", whatever the --letters\n");
   if (sharp)
-    thr_text_printf(&kit->notes,
-                    "%d channels bend with a radius below two cords (%.3g mm): %s with %.2g mm\n",
-                    sharp, 2 * kit->cord, kit->name[where], sharpest);
+    thr_text_printf(&kit->notes, "%d %s with a radius below two cords (%.3g mm): %s with %.2g mm\n",
+                    sharp, sharp == 1 ? "channel bends" : "channels bend", 2 * kit->cord,
+                    kit->name[where], sharpest);
 }
 
 thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_options *options,
@@ -694,7 +860,7 @@ thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_option
 {
   const thr_frame *frame = &plan->frame;
   *kit = (thr_kit){.plan = plan};
-  maker work = {.kit = kit, .frame = frame};
+  maker work = {.kit = kit, .frame = frame, .letters = INFINITY};
   bool solid = plan->options.joint == THR_JOINT_SOLID;
   kit->n_pieces = thr_pieces_count(plan);
   size_t n = (size_t)kit->n_pieces;
@@ -736,8 +902,10 @@ thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_option
   if (!st) st = give_names(&work, err);
   if (!st) st = find_only(kit, options->only, err);
   if (!st) note_channels(&work);
+  if (!st) note_cuts(kit);
   meshing meshed = {.kit = kit};
   if (!st && meshes) st = thr_threads_run(kit->n_pieces, mesh_piece, &meshed, limits, err);
+  if (!st && meshes) note_walls(kit);
   if (!st && meshes) sum_up(kit);
   if (!st && kit->notes.failed) st = thr_nomem(err);
 

@@ -5,10 +5,10 @@
  *
  * The folder kit/ makes them. Reading order: kit.c (a kit from a plan: edges, then pieces, then
  * meshes), edges.c (width, bore and lanes of every edge), channels.c (curves through a piece),
- * body.c (the solid as a distance), strokes.c (letters), estimate.c (the kit without meshes),
- * mesh.h with mesher.c and mesh.c (the surface of a solid), bodies.c (what eval/ takes), plates.c
- * (pieces on the bed of a printer), write_3mf.c, write_scad.c, kit_tables.c (files). Lengths are in
- * mm, angles in rad, masses in g. */
+ * cuts.c and walls.c (those that cut each other; what is thin), body.c (the solid as a distance),
+ * strokes.c (letters), estimate.c (the kit without meshes), mesh.h with mesher.c and mesh.c (the
+ * surface of a solid), bodies.c (what eval/ takes), plates.c (pieces on the bed of a printer),
+ * write_3mf.c, write_scad.c, kit_tables.c (files). Lengths are in mm, angles in rad, masses in g. */
 #ifndef THR_KIT_H
 #define THR_KIT_H
 
@@ -36,6 +36,8 @@ typedef enum {
   THR_KIT_NO_NAMES,
   THR_KIT_N_NAMES
 } thr_kit_names;
+typedef enum { THR_KIT_MEET, THR_KIT_APART, THR_KIT_N_CROSSINGS } thr_kit_crossings;
+typedef enum { THR_KIT_HOLE, THR_KIT_HOOK, THR_KIT_N_FEET } thr_kit_foot;
 typedef enum { THR_KIT_MITRED, THR_KIT_ROUNDED, THR_KIT_N_TUBE_ENDS } thr_kit_tube_ends;
 
 /* {0} is the usual kit. */
@@ -53,8 +55,10 @@ typedef struct {
   thr_kit_profile profile;
   thr_kit_key key;
   thr_kit_channels channels;
+  thr_kit_crossings crossings; /* of channels that the plan crosses in a piece */
   thr_kit_names names;
   thr_kit_tube_ends tube_ends;
+  thr_kit_foot foot; /* what holds a cord that ends at one */
   double coarse;     /* factor on the sizes of triangles, for pictures; 0 = 1 */
   bool knot_pockets; /* where cords end, a hollow for the knot */
   const char *only;  /* name of the piece that alone gets its mesh, for pictures; NULL = all */
@@ -64,7 +68,9 @@ typedef struct {
 const char *thr_kit_profile_name(int i);
 const char *thr_kit_key_name(int i);
 const char *thr_kit_channels_name(int i);
+const char *thr_kit_crossings_name(int i);
 const char *thr_kit_names_name(int i);
+const char *thr_kit_foot_name(int i);
 const char *thr_kit_tube_ends_name(int i);
 
 /* ---- edges.c: what both pieces of an edge agree on. */
@@ -76,6 +82,7 @@ typedef struct {
   double along[3], up[3], side[3]; /* unit vectors at right angles; up: outwards of the framework */
   double length;                   /* between the nodes */
   double width, bore;              /* of its arms or tube, and of each of its channels */
+  int beside;                      /* edge beside which it is narrower than asked for, if it is */
   int n_lanes; /* passes; one bore holds all of them unless lanes are asked for */
   double lane[THR_KIT_MOST_LANES][2]; /* where a channel is on the face: along up and side */
 } thr_kit_edge;
@@ -92,13 +99,15 @@ typedef struct {
 typedef struct {
   double mm; /* per unit */
   double cord, width, wall;
+  double node;     /* radius of a node, as a part of the width */
   bool wall_given; /* else it may be less where edges are narrow */
+  double roomy;    /* width at which it would not be; 0: none is, beside other edges */
 } thr_kit_sizes;
 
 /* Fills edges->edge[n_edges], whose bores are set, with directions, widths that fit and lanes, and
- * gives each pass its lane. Edges that meet at an acute angle are made narrower, so that their
- * faces do not meet; notes say which. THR_EINPUT names the node, and the number that would do.
- * O(edges of a node squared). */
+ * gives each pass its lane. Edges that meet at an acute angle, or come near an edge of
+ * other nodes, are made narrower, so that pieces do not meet; notes say which. THR_EINPUT names
+ * both edges, and the number that would do. O(edges of a node squared + edges near each other). */
 thr_status thr_kit_edges_make(thr_kit_edges *edges, const thr_plan *plan,
                               const thr_kit_options *options, thr_kit_sizes *sizes,
                               const char (*label)[THR_LABEL], thr_text *notes,
@@ -134,7 +143,7 @@ typedef struct {
   double (*point)[3];      /* [n] from the piece's centre; owned */
   double middle[3], reach; /* a ball that holds the curve */
   double bend;             /* least radius of the curve; INFINITY: straight */
-  double wall;             /* least thickness of material beside the channel */
+  double wall;             /* least thickness of material beside its bend */
   bool mouth[2];           /* its first and last end is a mouth in a face, and is rounded */
 } thr_kit_channel;
 
@@ -159,13 +168,17 @@ typedef struct {
   thr_kit_stroke *stroke;
   double node_radius, fillet, taper, mouth; /* mouth: radius of the rounding */
   double coarse;                            /* factor on sizes of triangles */
-  double wall;                              /* that there is at least */
+  double wall;                              /* that there is to be at least */
+  double thinnest;                          /* wall of the finished solid; 0: not measured */
   thr_kit_profile profile;
   thr_kit_key key;
   double key_slope, key_radius, key_height, key_play;
   double letter_width, letter_depth;
-  bool foot;        /* it stands on a flat base .. */
-  double base, pad; /* .. so far below its centre, of this radius */
+  bool foot;                      /* it stands on a flat base .. */
+  double base, pad;               /* .. so far below its centre, of this radius */
+  double hook[3][3], hook_radius; /* a bar from the foot, out and up; radius 0: it has none */
+  int cuts, crossings; /* pairs of channels that open into each other where the plan has no
+                          crossing, and where it has */
   int n_pockets;
   double (*pocket)[8]; /* [n_pockets] a capsule: two ends, radius; owned */
 } thr_kit_piece;
@@ -176,7 +189,7 @@ typedef struct {
 static const double THR_KIT_ROUNDING = 0.25;
 
 /* Distance to the surface of the piece without its channels, faces, letters and base, mm; below 0
- * inside. *arm receives the nearest arm, -1: the node, -2: the foot. NULL ok. */
+ * inside. *arm receives the nearest arm, -1: the node, -2: the foot, -3: its hook. NULL ok. */
 double thr_kit_body(const thr_kit_piece *piece, const double at[3], int *arm);
 
 /* Sample of the whole piece, for thr_mesh_make; user: a thr_kit_piece. */
@@ -190,6 +203,34 @@ void thr_kit_sample(const void *user, const double at[3], thr_solid_sample *out)
 thr_status thr_kit_channel_make(const thr_kit_piece *piece, thr_kit_channel *channel,
                                 const double start[2], const double end[2], const double out[3],
                                 double wall, thr_err *err) THR_MUST_CHECK;
+
+/* Measures a curve after its points were set: the least wall beside its bend, its least radius,
+ * the ball round it. */
+void thr_kit_channel_measure(const thr_kit_piece *piece, thr_kit_channel *channel);
+
+/* ---- cuts.c: channels that cut each other. */
+
+/* Returns the least distance between two segments, by their ends; part[2] receives where on each,
+ * 0 .. 1. */
+double thr_kit_segments(const double a[2][3], const double b[2][3], double part[2]);
+
+/* Returns how much material is between two channels; below 0 where they open into each other;
+ * INFINITY if they are far apart. */
+double thr_kit_gap(const thr_kit_channel *a, const thr_kit_channel *b);
+
+/* Do two channels begin or end in the same mouth, or both leave the piece in the same way? */
+bool thr_kit_same_mouth(const thr_kit_channel *a, const thr_kit_channel *b);
+
+/* Moves channels of a node's piece apart that cut each other without need, or at all if they are to
+ * be apart, as far as `wall` stays between them and beside them, and counts the pairs that cut each
+ * other then. rank: as in thr_channels. O(channels squared). */
+void thr_kit_cuts(thr_kit_piece *piece, const int *rank, bool apart, double wall);
+
+/* ---- walls.c */
+
+/* Returns the thinnest wall of a piece in mm, measured by rays through the solid; INFINITY if it
+ * has no channels. O(channels (points + channels)) samples. */
+double thr_kit_thinnest(const thr_kit_piece *piece);
 
 /* ---- alike.c: pieces that are the same solid. */
 

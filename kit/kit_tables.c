@@ -91,15 +91,15 @@ static void put_piece(const thr_kit_plates *plates, const thr_guide *guide, int 
   put_number(out, report->volume * kit->options.density / 1000, 3);
 
   /* Its size as it stands; what its channels leave, and how they bend. */
-  double wall = INFINITY, bend = INFINITY;
-  for (int i = 0; i < piece->n_channels; i++) {
-    wall = fmin(wall, piece->channel[i].wall);
+  double bend = INFINITY;
+  for (int i = 0; i < piece->n_channels; i++)
     bend = fmin(bend, piece->channel[i].bend);
-  }
   for (int k = 0; k < 3; k++)
     put_number(out, stand->size[k], 2);
-  put_number(out, wall, 2);
+  put_number(out, piece->thinnest, 2);
   put_number(out, bend, 2);
+  put_int(out, piece->cuts);
+  put_int(out, piece->crossings);
 
   put_number(out, stand->overhang, 1);
   put_down(plates, guide, p, out);
@@ -114,8 +114,9 @@ thr_status thr_kit_table(const thr_kit_plates *plates, const thr_layout *layout,
   thr_guide guide = {0};
   thr_status st = thr_guide_make(&guide, &kit->plan->frame, layout, err);
   thr_text text = {0};
-  thr_text_append(&text, "piece,kind,count,arms,volume_mm3,mass_g,x_mm,y_mm,z_mm,wall_mm,bend_mm,"
-                         "overhang_mm2,down,plate\n");
+  thr_text_append(&text,
+                  "piece,kind,count,arms,volume_mm3,mass_g,x_mm,y_mm,z_mm,wall_mm,bend_mm,cuts,"
+                  "crossings,overhang_mm2,down,plate\n");
   for (int p = 0; p < kit->n_pieces && !st; p++)
     put_piece(plates, &guide, p, &text);
 

@@ -86,6 +86,12 @@ static const char programme_of_parts[] =
     "  }\n"
     "}\n"
     "\n"
+    "// The bar that a cord is made fast to: its three points and its radius follow in a foot.\n"
+    "module hook(f) {\n"
+    "  for (i = [2, 3]) hull() for (p = [f[i], f[i + 1]])\n"
+    "    translate(p * width) sphere(r = f[5] * width);\n"
+    "}\n"
+    "\n"
     "// Fills the corner between two arms, flat.\n"
     "module web(a, b) {\n"
     "  angle = acos(max(-1, min(a[0] * b[0], 1)));\n"
@@ -130,6 +136,7 @@ static const char programme_of_pieces[] =
     "      for (a = arms) arm(a);\n"
     "      if (k[4] > 0) ball(k[4]);\n"
     "      if (len(k[5]) > 0) foot(k[5]);\n"
+    "      if (len(k[5]) > 2) hook(k[5]);\n"
     "      if (fillet && k[4] > 0)\n"
     "        for (i = [0:1:len(arms) - 2], j = [i + 1:len(arms) - 1]) web(arms[i], arms[j]);\n"
     "    }\n"
@@ -297,12 +304,23 @@ static void put_kind(const thr_kit *kit, const top_sizes *top, const thr_kit_pie
   thr_text_append(out, "], ");
   put_number(out, piece->tube ? 0 : piece->node_radius / top->width, 1e6);
   thr_text_append(out, ", ");
-  const double foot[2] = {piece->base / top->width, piece->pad / top->width};
-  if (piece->foot)
-    put_vector(out, foot, 2, 1e6);
-  else
-    thr_text_append(out, "[]");
-  thr_text_append(out, "],\n");
+  thr_text_append(out, "[");
+  if (piece->foot) {
+    put_number(out, piece->base / top->width, 1e6);
+    thr_text_append(out, ", ");
+    put_number(out, piece->pad / top->width, 1e6);
+  }
+  for (int i = 0; i < 3 && piece->hook_radius > 0; i++) {
+    const double *at = piece->hook[i];
+    const double point[3] = {at[0] / top->width, at[1] / top->width, at[2] / top->width};
+    thr_text_append(out, ", ");
+    put_vector(out, point, 3, 1e6);
+  }
+  if (piece->hook_radius > 0) {
+    thr_text_append(out, ", ");
+    put_number(out, piece->hook_radius / top->width, 1e6);
+  }
+  thr_text_append(out, "]],\n");
 }
 
 /* Appends where a piece belongs: a matrix of four columns. */

@@ -88,6 +88,10 @@ static const cli_option shape_options[] = {
      .n_words = THR_KIT_N_CHANNELS,
      .help = "one bore for all passes of an interface (default), or a lane for each: two lanes "
              "keep faces from turning on each other"},
+    {"crossings", .kind = CLI_WORD, AT(kit.crossings), .word = thr_kit_crossings_name,
+     .n_words = THR_KIT_N_CROSSINGS,
+     .help = "channels that the plan crosses in a piece: they meet (default), or one is led above "
+             "the other where walls allow; all others are led apart anyway"},
     {"key", .kind = CLI_WORD, AT(kit.key), .word = thr_kit_key_name, .n_words = THR_KIT_N_KEYS,
      .help = "what faces have to centre each other (default: none)"},
     {"key-angle", .value = "DEG", .kind = CLI_AMOUNT, AT(key_angle), .low = 2, .high = 75,
@@ -95,6 +99,8 @@ static const cli_option shape_options[] = {
              "(default: 45; pin: 5)"},
     {"knot-pockets", .kind = CLI_FLAG, AT(kit.knot_pockets),
      .help = "a hollow for the knot where a cord ends"},
+    {"foot", .kind = CLI_WORD, AT(kit.foot), .word = thr_kit_foot_name, .n_words = THR_KIT_N_FEET,
+     .help = "where a cord ends at a foot: a hole in its base (default), or a hook beside it"},
     {"names", .kind = CLI_WORD, AT(kit.names), .word = thr_kit_names_name,
      .n_words = THR_KIT_N_NAMES,
      .help = "engraved: each piece's own and, on every arm, the neighbour's (default), those of "
