@@ -604,7 +604,8 @@ static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_
   const thr_kit_piece *piece = &kit->piece[job];
   if (piece->like != job) return THR_OK;
 
-  thr_solid solid = {.sample = thr_kit_sample, .user = piece};
+  thr_kit_solid body;
+  thr_solid solid = {.sample = thr_kit_sample, .user = &body};
   double thickest = piece->node_radius, narrowest = INFINITY;
   for (int i = 0; i < piece->n_arms; i++) {
     thickest = fmax(thickest, 0.5 * piece->arm[i].width);
@@ -632,10 +633,13 @@ static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_
   solid.coarsest = narrowest;
 
   thr_err why = {0};
-  thr_status st = thr_mesh_make(&kit->mesh[job], &solid, limits, &why);
+  thr_status st = thr_kit_solid_make(&body, piece, &why);
+  if (!st) st = thr_mesh_make(&kit->mesh[job], &solid, limits, &why);
+  if (!st) st = thr_kit_solid_check(&body, &why);
+  thr_kit_solid_destroy(&body);
   if (!st)
     st = thr_mesh_drop_crumbs(&kit->mesh[job], 2e-3 * narrowest * narrowest * narrowest, &why);
-  if (!st) st = thr_mesh_examine(&kit->mesh[job], true, &kit->report[job], &why);
+  if (!st) st = thr_mesh_examine(&kit->mesh[job], false, &kit->report[job], &why);
   int done = atomic_fetch_add(&work->done, 1) + 1;
   if (limits->advance) limits->advance(limits->user, "pieces", (double)done / kit->n_meshes);
 

@@ -34,8 +34,8 @@ typedef struct {
 typedef struct {
   double low[3], high[3]; /* a box with the whole surface well inside */
   double coarsest;        /* mm: edges of the first tetrahedra */
-  void (*sample)(const void *user, const double at[3], thr_solid_sample *out);
-  const void *user;
+  void (*sample)(void *user, const double at[3], thr_solid_sample *out);
+  void *user;
 } thr_solid;
 
 /* Makes the surface of a solid: space is divided into tetrahedra, which are bisected until they are
@@ -60,8 +60,8 @@ typedef struct {
   int crossings; /* pairs of triangles that meet outside corners and edges that they share */
 } thr_mesh_report;
 
-/* Examines a mesh. crossings: only if asked for. O(triangles log triangles) where no place is
- * crowded. */
+/* Examines a mesh. crossings: only if asked for, since thr_mesh_make makes none; tests ask.
+ * O(triangles) where no place is crowded. */
 thr_status thr_mesh_examine(const thr_mesh *mesh, bool crossings, thr_mesh_report *out,
                             thr_err *err) THR_MUST_CHECK;
 

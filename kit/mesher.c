@@ -39,7 +39,6 @@ typedef struct {
   double distance, cut, size;
   double across[3];
   double shortest; /* of the edges that meet here; 0 = not known */
-  int pass;        /* of refine: the last one in which an edge that ends here was bisected */
 } corner;
 
 /* A tetrahedron, in the order of Maubach: it is bisected between its first corner and number
@@ -56,6 +55,8 @@ typedef struct {
   thr_mesh *mesh;
   corner *corner;
   int n_corners, corners_capacity;
+  int *pass; /* [n_corners] of refine: the last one in which an edge that ends here was bisected */
+  int passes_capacity;
   tetrahedron *tet;
   int n_tets, tets_capacity;
   pairs middle;      /* the corner in the middle of an edge that was bisected */
@@ -154,6 +155,8 @@ static thr_status add_corner(mesher *work, const double at[3], int *number, thr_
                     MOST_CORNERS);
   thr_status st =
       thr_grow(&work->corner, work->n_corners, &work->corners_capacity, sizeof *work->corner, err);
+  if (!st)
+    st = thr_grow(&work->pass, work->n_corners, &work->passes_capacity, sizeof *work->pass, err);
   if (st) return st;
 
   thr_solid_sample here = {0};
@@ -162,6 +165,7 @@ static thr_status add_corner(mesher *work, const double at[3], int *number, thr_
   *fresh = (corner){.distance = here.distance, .cut = here.cut, .size = here.size};
   memcpy(fresh->at, at, sizeof fresh->at);
   memcpy(fresh->across, here.across, sizeof fresh->across);
+  work->pass[work->n_corners] = 0;
   *number = work->n_corners++;
 
   return THR_OK;
@@ -252,7 +256,7 @@ static bool hangs(const mesher *work, const tetrahedron *tet, int pass)
 {
   int fresh = 0;
   for (int i = 0; i < 4; i++)
-    fresh += work->corner[tet->v[i]].pass >= pass - 1;
+    fresh += work->pass[tet->v[i]] >= pass - 1;
   if (fresh < 2) return false;
   for (int i = 0; i < 4; i++)
     for (int j = 0; j < i; j++)
@@ -275,7 +279,7 @@ static thr_status bisect(mesher *work, int t, int pass, bool *fresh, thr_err *er
   }
   if (st) return st;
   *fresh = !found;
-  if (!found) work->corner[a].pass = work->corner[b].pass = pass;
+  if (!found) work->pass[a] = work->pass[b] = pass;
 
   /* Maubach's rule: the middle takes the place of the last, or of the first, which leaves. */
   tetrahedron first = {.tag = tag > 1 ? tag - 1 : 3}, second = first;
@@ -323,11 +327,12 @@ static thr_status refine(mesher *work, thr_err *err)
  * bears. */
 static void move_off_cut(mesher *work)
 {
+  const double most = 2 * MARGIN * work->solid->coarsest;
   for (int t = 0; t < work->n_tets; t++)
     for (int i = 0; i < 4; i++)
       for (int j = 0; j < 4; j++) {
-        if (i == j) continue;
         int v = work->tet[t].v[i];
+        if (i == j || fabs(work->corner[v].cut) >= most) continue;
         double length = length_between(work, v, work->tet[t].v[j]);
         double *shortest = &work->corner[v].shortest;
         if (*shortest == 0 || length < *shortest) *shortest = length;
@@ -608,6 +613,7 @@ thr_status thr_mesh_make(thr_mesh *mesh, const thr_solid *solid, const thr_limit
   if (!st && mesh->n_triangles == 0) st = thr_fail(err, THR_EINPUT, "nothing is left of a piece");
 
   free(work.corner);
+  free(work.pass);
   free(work.tet);
   pairs_free(&work.middle);
   pairs_free(&work.section);

@@ -110,14 +110,56 @@ START_TEST(every_mesh_is_a_closed_surface)
   thr_kit kit = kit_of(&p, &cases[_i].options, 1);
   for (int i = 0; i < kit.n_pieces; i++) {
     if (kit.piece[i].like != i) continue;
-    const thr_mesh_report *r = &kit.report[i];
-    ck_assert_msg(r->open_edges == 0 && r->crossings == 0 && r->parts == 1 && r->volume > 0,
+    thr_err err = {0};
+    thr_mesh_report r; /* with crossings, which kits are made without */
+    assert_ok(thr_mesh_examine(&kit.mesh[i], true, &r, &err), &err);
+    ck_assert_msg(r.open_edges == 0 && r.crossings == 0 && r.parts == 1 && r.volume > 0,
                   "%s, piece %s: %d open edges, %d crossings, %d parts, %g mm3", cases[_i].name,
-                  kit.name[i], r->open_edges, r->crossings, r->parts, r->volume);
+                  kit.name[i], r.open_edges, r.crossings, r.parts, r.volume);
     assert_fans(&kit.mesh[i], kit.name[i]);
   }
   thr_kit_destroy(&kit);
   thr_plan_destroy(&p);
+}
+END_TEST
+
+START_TEST(lists_of_capsules_have_the_nearest)
+{
+  uint64_t random = 11 + (uint64_t)_i;
+  thr_err err = {0};
+  thr_capsules tree = {0};
+  int axes = 2 + _i % 2;
+  for (int i = 0; i < 60; i++) {
+    double end[2][3] = {{0}};
+    for (int k = 0; k < axes; k++) {
+      end[0][k] = 10 * thr_random_disorder(&random);
+      end[1][k] = end[0][k] + 2 * thr_random_disorder(&random);
+    }
+    const thr_capsule how = {.radius = {thr_random_unit(&random), thr_random_unit(&random)}};
+    assert_ok(thr_capsules_add(&tree, end[0], end[1], &how, &err), &err);
+  }
+  const double low[3] = {-9, -9, -9}, high[3] = {9, 9, 9};
+  assert_ok(thr_capsules_make(&tree, axes, low, high, 0.5, &err), &err);
+
+  int64_t looked_at = 0;
+  for (int i = 0; i < 2000; i++) {
+    double at[3] = {0}, part, least[2] = {INFINITY, INFINITY};
+    for (int k = 0; k < axes; k++)
+      at[k] = 10 * thr_random_disorder(&random);
+    int n;
+    const int *list = thr_capsules_list(&tree, at, &n);
+    for (int whole = 0; whole < 2; whole++)
+      for (int j = 0; j < (whole ? tree.n_capsules : n); j++) {
+        const thr_capsule *c = &tree.capsule[whole ? j : list[j]];
+        double here = thr_capsule_distance(c, at, &part);
+        least[whole] =
+            fmin(least[whole], here - c->radius[0] - part * (c->radius[1] - c->radius[0]));
+      }
+    ck_assert_double_eq(least[0], least[1]);
+    looked_at += n;
+  }
+  ck_assert_int_lt(looked_at, 2000 * 25);
+  thr_capsules_destroy(&tree);
 }
 END_TEST
 
@@ -404,6 +446,7 @@ int main(void)
 {
   Suite *s = suite_create("kit");
   ADD_LOOP(s, 120, every_mesh_is_a_closed_surface, 0, CASES);
+  ADD_LOOP(s, 30, lists_of_capsules_have_the_nearest, 0, 4);
   ADD_TEST(s, 120, volumes_are_those_of_small_cubes);
   ADD_LOOP(s, 240, a_ball_as_thick_as_the_cord_goes_through, 0, 3);
   ADD_LOOP(s, 240, a_ball_as_thick_as_the_cord_goes_through, TUBES, CASES);
