@@ -326,7 +326,10 @@ void thr_kit_sample(void *user, const double at[3], thr_solid_sample *out)
   if (piece->n_strokes && body > -2 * piece->letter_depth && body < size) {
     double letters = letters_distance(solid, at, nearest);
     body += groove(piece, letters);
-    size = fmin(size, 0.8 * piece->letter_width + 0.6 * fmax(letters - piece->letter_width, 0));
+    /* As fine as strokes are wide in the groove; coarser beside it, and below. */
+    double beside = fmax(letters - 0.7 * piece->letter_width, 0);
+    double below = fmax(fabs(body) - 0.5 * piece->letter_depth, 0);
+    size = fmin(size, 0.8 * piece->letter_width + 1.2 * (beside + below));
   }
   out->distance = fmax(body, -hollow);
   out->size = size * piece->coarse;

@@ -22,6 +22,9 @@
 static const double FILLET = 0.15, NODE = 0.6, MOUTH = 0.08;
 /* mm: of a wall, of letters, and how deep these are; of a key's play. */
 static const double WALL = 1.2, LETTERS = 4, DEPTH = 0.6, PLAY = 0.15;
+/* How far simplifying may move a surface, as a part of the narrowest arm and in mm: a tenth of what
+ * a printer shows. */
+static const double SIMPLE = 0.003, SIMPLEST = 0.02;
 /* A knot is three cords thick (an overhand knot: C. Ashley, 1944). */
 static const double KNOT = 3;
 
@@ -631,6 +634,7 @@ static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_
     solid.high[k] += margin;
   }
   solid.coarsest = narrowest;
+  solid.tolerance = fmin(SIMPLE * narrowest, SIMPLEST) * piece->coarse;
 
   thr_err why = {0};
   thr_status st = thr_kit_solid_make(&body, piece, &why);

@@ -6,8 +6,8 @@
  * The folder kit/ makes them. Reading order: kit.c (a kit from a plan: edges, then pieces, then
  * meshes), edges.c (width, bore and lanes of every edge), channels.c (curves through a piece),
  * body.c (the solid as a distance), capsules.c (only what is near counts), strokes.c (letters),
- * mesh.h with mesher.c and mesh.c (the surface of a solid), plates.c (pieces on the bed of a
- * printer), write_3mf.c, write_scad.c, kit_tables.c (files). Lengths are in mm, angles in rad,
+ * mesh.h with mesher.c, simplify.c and mesh.c (the surface of a solid), plates.c (pieces on the bed
+ * of a printer), write_3mf.c, write_scad.c, kit_tables.c (files). Lengths are in mm, angles in rad,
  * masses in g. */
 #ifndef THR_KIT_H
 #define THR_KIT_H

@@ -108,10 +108,39 @@ static bool cross_each_other(const thr_mesh *mesh, int a, int b)
   return false;
 }
 
-/* The box of a triangle, in cells of a grid. */
+/* The box of a triangle, in cells of a grid, and its plane: unit normal and distance from the
+ * origin. */
 typedef struct {
-  double low[3], high[3];
+  double low[3], high[3], plane[4];
 } triangle_box;
+
+/* mm: so near to a plane a corner is on both sides of it. */
+static const double ON_PLANE = 1e-9;
+
+/* Fills the plane of a triangle. */
+static void set_plane(const double *const corner[3], double plane[4])
+{
+  double e[3], f[3];
+  for (int k = 0; k < 3; k++) {
+    e[k] = corner[1][k] - corner[0][k];
+    f[k] = corner[2][k] - corner[0][k];
+  }
+  thr_cross(e, f, plane);
+  thr_normalize(plane);
+  plane[3] = thr_dot(plane, corner[0]);
+}
+
+/* Returns whether a triangle is on one side of a plane. */
+static bool on_one_side(const thr_mesh *mesh, int triangle, const double plane[4])
+{
+  bool above = false, below = false;
+  for (int k = 0; k < 3; k++) {
+    double height = thr_dot(plane, mesh->point[mesh->triangle[triangle][k]]) - plane[3];
+    above |= height > ON_PLANE;
+    below |= height < -ON_PLANE;
+  }
+  return !above || !below;
+}
 
 /* Counts pairs of triangles that cross. Each is put into all cells that its box touches; a pair
  * counts in the lowest cell that both are in. */
@@ -141,6 +170,12 @@ static thr_status count_crossings(const thr_mesh *mesh, const double low[3], con
       box[t].low[k] = (fmin(a, fmin(b, c)) - low[k]) / cell;
       box[t].high[k] = (fmax(a, fmax(b, c)) - low[k]) / cell;
     }
+  for (int t = 0; t < mesh->n_triangles && !st; t++) {
+    const int *corner = mesh->triangle[t];
+    set_plane((const double *const[]){mesh->point[corner[0]], mesh->point[corner[1]],
+                                      mesh->point[corner[2]]},
+              box[t].plane);
+  }
 
   /* Twice over all triangles: count, then place. */
   for (int round = 0; round < 2 && !st; round++) {
@@ -168,6 +203,8 @@ static thr_status count_crossings(const thr_mesh *mesh, const double low[3], con
         const triangle_box *a = &box[member[i]], *b = &box[member[j]];
         if (a->low[0] > b->high[0] || b->low[0] > a->high[0] || a->low[1] > b->high[1] ||
             b->low[1] > a->high[1] || a->low[2] > b->high[2] || b->low[2] > a->high[2])
+          continue;
+        if (on_one_side(mesh, member[j], a->plane) || on_one_side(mesh, member[i], b->plane))
           continue;
         size_t lowest = 0;
         for (int k = 2; k >= 0; k--)

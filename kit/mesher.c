@@ -26,6 +26,12 @@ static const double MARGIN = 0.03;
 /* Points on the cut too, but by less than what moving corners off it leaves: faces stay flat. */
 static const double LEAST = 0.001;
 
+/* Tetrahedra that show no surface at their corners may be larger by this factor. */
+static const double UNSEEN = 1.4;
+
+/* Distances below this part of an edge are near the surface. */
+static const double NEARLY = 0.03;
+
 /* Numbers pairs of numbers: a table with open addresses. */
 typedef struct {
   uint64_t *key; /* [size] the pair + 1; 0 = free */
@@ -63,6 +69,8 @@ typedef struct {
   pairs section;     /* the point where the cut meets an edge: a corner */
   pairs crossed;     /* the point where the surface meets an edge: a point of the mesh */
   int first_section; /* corners from here on lie on the cut */
+  bool *flat;        /* [triangles] does it lie on the cut? */
+  int flat_capacity;
 } mesher;
 
 /* ---- pairs ---- */
@@ -247,7 +255,9 @@ static bool too_large(const mesher *work, const tetrahedron *tet)
     *(solid < 0 ? &inside : &outside) = true;
   }
 
-  return longest > size && ((inside && outside) || nearest < 0.75 * longest);
+  /* Where all corners are on one side, a surface within is no farther from one of them than half
+   * the longest edge, and a part that none of them shows is less than is worth a corner. */
+  return inside && outside ? longest > size : longest > UNSEEN * size && nearest < 0.5 * longest;
 }
 
 /* Returns whether an edge of the tetrahedron was bisected by another one, in the last pass or this
@@ -374,6 +384,16 @@ static thr_status section_of(mesher *work, int a, int b, int *number, thr_err *e
   return add_corner(work, at, number, err);
 }
 
+/* Returns where a parabola is 0 near b, by two steps of Newton's: it has the values fa, fb and fc
+ * at a < b < c. NAN if it is 0 there nowhere. */
+static double parabola(double a, double b, double c, double fa, double fb, double fc)
+{
+  double before = (fb - fa) / (b - a), after = (fc - fb) / (c - b);
+  double bend = (after - before) / (c - a), slope = before + bend * (b - a);
+  double step = -fb / slope;
+  return b + step - bend * step * step / (slope + 2 * bend * step);
+}
+
 /* Finds the point of the mesh where the surface meets an edge: where the distance is 0 if it
  * changes evenly, made better by what it is there. */
 static thr_status point_of(mesher *work, int a, int b, int *number, thr_err *err)
@@ -386,15 +406,18 @@ static thr_status point_of(mesher *work, int a, int b, int *number, thr_err *err
   int low = a < b ? a : b, high = a < b ? b : a;
   const corner *p = &work->corner[low], *q = &work->corner[high];
   double from = 0, to = 1, at_from = p->distance, at_to = q->distance, part = 0.5, at[3];
-  for (int round = 0; round < 3; round++) {
+  double length = length_between(work, low, high);
+  for (int round = 0; round < 2; round++) {
     part = at_from / (at_from - at_to);
     part = from + (to - from) * (isfinite(part) ? part : 0.5);
     for (int i = 0; i < 3; i++)
       at[i] = p->at[i] + part * (q->at[i] - p->at[i]);
-    if (round == 2) break;
-
     thr_solid_sample here = {0};
     work->solid->sample(work->solid->user, at, &here);
+
+    /* Near the surface a parabola through the three is better than another sample. */
+    bool near = fabs(here.distance) < NEARLY * length;
+    double better = near ? parabola(from, part, to, at_from, here.distance, at_to) : part;
     if ((here.distance < 0) == (at_from < 0)) {
       from = part;
       at_from = here.distance;
@@ -402,7 +425,13 @@ static thr_status point_of(mesher *work, int a, int b, int *number, thr_err *err
       to = part;
       at_to = here.distance;
     }
+    if (near && better > from && better < to) {
+      part = better;
+      break;
+    }
+    part = from + (to - from) * (at_from / (at_from - at_to));
   }
+  if (!isfinite(part)) part = 0.5;
   part = fmin(fmax(part, MARGIN), 1 - MARGIN);
 
   st = thr_grow(&mesh->point, mesh->n_points, &mesh->points_capacity, sizeof *mesh->point, err);
@@ -426,12 +455,15 @@ static thr_status point_at(mesher *work, int v, int *number, thr_err *err)
   return st;
 }
 
-static thr_status add_triangle(mesher *work, int a, int b, int c, thr_err *err)
+static thr_status add_triangle(mesher *work, int a, int b, int c, bool flat, thr_err *err)
 {
   thr_mesh *mesh = work->mesh;
   thr_status st = thr_grow(&mesh->triangle, mesh->n_triangles, &mesh->triangles_capacity,
                            sizeof *mesh->triangle, err);
+  if (!st)
+    st = thr_grow(&work->flat, mesh->n_triangles, &work->flat_capacity, sizeof *work->flat, err);
   if (st) return st;
+  work->flat[mesh->n_triangles] = flat;
   int *corners = mesh->triangle[mesh->n_triangles++];
   corners[0] = a;
   corners[1] = b;
@@ -458,7 +490,7 @@ static thr_status add_face(mesher *work, const int v[3], thr_err *err)
       st = point_of(work, here, next, &polygon[n++], err);
   }
   for (int i = 2; i < n && !st; i++)
-    st = add_triangle(work, polygon[0], polygon[i - 1], polygon[i], err);
+    st = add_triangle(work, polygon[0], polygon[i - 1], polygon[i], true, err);
 
   return st;
 }
@@ -514,8 +546,8 @@ static thr_status add_surface(mesher *work, const int corners[4], thr_err *err)
     for (int i = 0; i < 3 && !st; i++)
       st = point_of(work, v[apart], v[order[i + 1]], &point[i], err);
     if (st) return st;
-    return n_within == 1 ? add_triangle(work, point[0], point[1], point[2], err)
-                         : add_triangle(work, point[2], point[1], point[0], err);
+    return n_within == 1 ? add_triangle(work, point[0], point[1], point[2], false, err)
+                         : add_triangle(work, point[2], point[1], point[0], false, err);
   }
 
   /* Two and two: a quadrilateral between the pairs, a b inside, c d outside, in an even order. */
@@ -529,8 +561,8 @@ static thr_status add_surface(mesher *work, const int corners[4], thr_err *err)
   if (!st) st = point_of(work, a, d, &point[1], err);
   if (!st) st = point_of(work, b, d, &point[2], err);
   if (!st) st = point_of(work, b, c, &point[3], err);
-  if (!st) st = add_triangle(work, point[0], point[1], point[2], err);
-  if (!st) st = add_triangle(work, point[0], point[2], point[3], err);
+  if (!st) st = add_triangle(work, point[0], point[1], point[2], false, err);
+  if (!st) st = add_triangle(work, point[0], point[2], point[3], false, err);
 
   return st;
 }
@@ -597,6 +629,32 @@ static thr_status add_part(mesher *work, const tetrahedron *tet, thr_err *err)
                    err);
 }
 
+/* Simplifies the mesh, unless two of its triangles cross then: simplifying looks at neighbours
+ * only. */
+static thr_status simplify(mesher *work, thr_err *err)
+{
+  thr_mesh *mesh = work->mesh, whole = *mesh;
+  size_t points = (size_t)mesh->n_points, triangles = (size_t)mesh->n_triangles;
+  whole.point = thr_calloc(points, sizeof *whole.point);
+  whole.triangle = thr_calloc(triangles, sizeof *whole.triangle);
+  thr_status st = whole.point && whole.triangle ? THR_OK : thr_nomem(err);
+  whole.points_capacity = whole.n_points;
+  whole.triangles_capacity = whole.n_triangles;
+  if (!st) memcpy(whole.point, mesh->point, points * sizeof *whole.point);
+  if (!st) memcpy(whole.triangle, mesh->triangle, triangles * sizeof *whole.triangle);
+
+  thr_mesh_report report = {0};
+  if (!st) st = thr_mesh_simplify(mesh, work->flat, work->solid->tolerance, err);
+  if (!st) st = thr_mesh_examine(mesh, true, &report, err);
+  if (report.crossings) {
+    thr_mesh simple = *mesh;
+    *mesh = whole;
+    whole = simple;
+  }
+  thr_mesh_destroy(&whole);
+  return st;
+}
+
 thr_status thr_mesh_make(thr_mesh *mesh, const thr_solid *solid, const thr_limits *limits,
                          thr_err *err)
 {
@@ -611,9 +669,11 @@ thr_status thr_mesh_make(thr_mesh *mesh, const thr_solid *solid, const thr_limit
   for (int t = 0; t < work.n_tets && !st; t++)
     st = add_part(&work, &work.tet[t], err);
   if (!st && mesh->n_triangles == 0) st = thr_fail(err, THR_EINPUT, "nothing is left of a piece");
+  if (!st && solid->tolerance > 0) st = simplify(&work, err);
 
   free(work.corner);
   free(work.pass);
+  free(work.flat);
   free(work.tet);
   pairs_free(&work.middle);
   pairs_free(&work.section);
