@@ -163,6 +163,72 @@ START_TEST(lists_of_capsules_have_the_nearest)
 }
 END_TEST
 
+enum { GRID = 9 };
+
+/* Returns the number of the point x, y, z of a cube's surface, and adds it if it is new. */
+static int grid_point(thr_mesh *mesh, int *number, const int at[3])
+{
+  int *here = &number[(at[2] * (GRID + 1) + at[1]) * (GRID + 1) + at[0]];
+  if (*here) return *here - 1;
+  for (int k = 0; k < 3; k++)
+    mesh->point[mesh->n_points][k] = at[k];
+  *here = ++mesh->n_points;
+  return *here - 1;
+}
+
+/* Makes a cube whose sides are grids of triangles. */
+static thr_mesh grid_cube(void)
+{
+  thr_mesh mesh = {.point = thr_calloc(6 * (GRID + 1) * (GRID + 1), sizeof *mesh.point),
+                   .triangle = thr_calloc(12 * GRID * GRID, sizeof *mesh.triangle)};
+  int *number = thr_calloc((GRID + 1) * (GRID + 1) * (GRID + 1), sizeof *number);
+  for (int side = 0; side < 6; side++)
+    for (int i = 0; i < GRID * GRID; i++) {
+      int corner[4], axis = side / 2;
+      for (int k = 0; k < 4; k++) {
+        int u = i % GRID + (k == 1 || k == 2), v = i / GRID + (k > 1), at[3];
+        at[axis] = side % 2 ? GRID : 0;
+        at[(axis + 1) % 3] = side % 2 ? u : v;
+        at[(axis + 2) % 3] = side % 2 ? v : u;
+        corner[k] = grid_point(&mesh, number, at);
+      }
+      for (int half = 0; half < 2; half++) {
+        int *triangle = mesh.triangle[mesh.n_triangles++];
+        triangle[0] = corner[0];
+        triangle[1] = corner[1 + half];
+        triangle[2] = corner[2 + half];
+      }
+    }
+  free(number);
+  return mesh;
+}
+
+START_TEST(a_cube_needs_its_corners_only)
+{
+  thr_mesh mesh = grid_cube();
+  bool *flat = thr_calloc((size_t)mesh.n_triangles, sizeof *flat);
+  thr_mesh_report before, after;
+  thr_err err = {0};
+  memset(flat, _i, (size_t)mesh.n_triangles);
+  assert_ok(thr_mesh_examine(&mesh, true, &before, &err), &err);
+  ck_assert_int_eq(before.open_edges, 0);
+  ck_assert_double_eq_tol(before.volume, GRID * GRID * GRID, 1e-9);
+
+  /* Slender triangles keep a few points back. */
+  assert_ok(thr_mesh_simplify(&mesh, flat, 0.01, &err), &err);
+  assert_ok(thr_mesh_examine(&mesh, true, &after, &err), &err);
+  ck_assert_int_lt(mesh.n_points, 40);
+  ck_assert_int_eq(after.open_edges, 0);
+  ck_assert_int_eq(after.crossings, 0);
+  ck_assert_int_eq(after.parts, 1);
+  ck_assert_double_eq_tol(after.volume, before.volume, 1e-9);
+  ck_assert_double_eq_tol(after.area, before.area, 1e-9);
+  assert_fans(&mesh, "cube");
+  free(flat);
+  thr_mesh_destroy(&mesh);
+}
+END_TEST
+
 /* Is a point in a piece, told from the geometry alone: in an arm or the ball, on the node's side of
  * all faces, in no channel? */
 static bool is_inside(const thr_kit_piece *piece, const double at[3])
@@ -447,6 +513,7 @@ int main(void)
   Suite *s = suite_create("kit");
   ADD_LOOP(s, 120, every_mesh_is_a_closed_surface, 0, CASES);
   ADD_LOOP(s, 30, lists_of_capsules_have_the_nearest, 0, 4);
+  ADD_LOOP(s, 30, a_cube_needs_its_corners_only, 0, 2);
   ADD_TEST(s, 120, volumes_are_those_of_small_cubes);
   ADD_LOOP(s, 240, a_ball_as_thick_as_the_cord_goes_through, 0, 3);
   ADD_LOOP(s, 240, a_ball_as_thick_as_the_cord_goes_through, TUBES, CASES);
