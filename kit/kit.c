@@ -22,6 +22,8 @@
 static const double FILLET = 0.15, NODE = 0.6, MOUTH = 0.08;
 /* mm: of a wall, of letters, and how deep these are; of a key's play. */
 static const double WALL = 1.2, LETTERS = 4, DEPTH = 0.6, PLAY = 0.15;
+/* Longer arms are refused. */
+enum { MOST_WIDTHS = 300 };
 /* How far simplifying may move a surface, as a part of the narrowest arm and in mm: a tenth of what
  * a printer shows. */
 static const double SIMPLE = 0.003, SIMPLEST = 0.02;
@@ -593,6 +595,22 @@ static thr_status give_names(maker *work, thr_err *err)
 
 /* ---- meshes ---- */
 
+/* Refuses arms that take minutes and that nobody can print. */
+static thr_status check_lengths(const thr_kit *kit, thr_err *err)
+{
+  for (int p = 0; p < kit->n_pieces; p++)
+    for (int i = 0; i < kit->piece[p].n_arms; i++) {
+      const thr_kit_arm *arm = &kit->piece[p].arm[i];
+      if (arm->length <= MOST_WIDTHS * arm->width) continue;
+      return thr_fail(err, THR_EINPUT,
+                      "piece %s: an arm of %.4g mm is %.3g mm wide, longer than %d widths: --width "
+                      "%.3g if there is room, or shorter edges",
+                      kit->name[p], arm->length, arm->width, MOST_WIDTHS,
+                      1.01 * arm->length / MOST_WIDTHS);
+    }
+  return THR_OK;
+}
+
 /* Pieces whose meshes are made in threads. */
 typedef struct {
   thr_kit *kit;
@@ -734,6 +752,7 @@ thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_option
   if (!st) st = give_names(&work, err);
   if (!st) note_channels(&work);
   meshing meshed = {.kit = kit};
+  if (!st && meshes) st = check_lengths(kit, err);
   if (!st && meshes) st = thr_threads_run(kit->n_pieces, mesh_piece, &meshed, limits, err);
   if (!st && meshes) sum_up(kit);
   if (!st && kit->notes.failed) st = thr_nomem(err);

@@ -20,6 +20,9 @@
 /* More corners than this are refused: a mesh of some hundred MB, and seconds. */
 enum { MOST_CORNERS = 3000000 };
 
+/* Of more cubes than this the first ones are larger, and parted near the surface only. */
+enum { MOST_CUBES = 4096 };
+
 /* Points on edges stay this part of the edge away from the ends. */
 static const double MARGIN = 0.03;
 
@@ -158,8 +161,8 @@ static thr_status add_corner(mesher *work, const double at[3], int *number, thr_
 {
   if (work->n_corners >= MOST_CORNERS)
     return thr_fail(err, THR_EINPUT,
-                    "a piece takes more than %d points of a mesh: its details are too fine for "
-                    "its size",
+                    "a piece takes more than %d points of a mesh: its arms are too long for their "
+                    "width and its details: a larger --width",
                     MOST_CORNERS);
   thr_status st =
       thr_grow(&work->corner, work->n_corners, &work->corners_capacity, sizeof *work->corner, err);
@@ -201,16 +204,17 @@ static thr_status divide_box(mesher *work, thr_err *err)
 {
   static const int order[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   const thr_solid *solid = work->solid;
-  double step = solid->coarsest / sqrt(3); /* the diagonal is the longest edge */
+  double step = 0.5 * solid->coarsest / sqrt(3), many; /* the diagonal is the longest edge */
   int n[3];
-  double many = 1;
-  for (int i = 0; i < 3; i++) {
-    double cubes = ceil((solid->high[i] - solid->low[i]) / step);
-    many *= cubes + 1;
-    if (!(many < MOST_CORNERS))
-      return thr_fail(err, THR_EINPUT, "a piece is too long for the width of its arms");
-    n[i] = (int)cubes;
-  }
+  do {
+    step *= 2;
+    many = 1;
+    for (int i = 0; i < 3; i++) {
+      double cubes = ceil((solid->high[i] - solid->low[i]) / step);
+      many *= cubes;
+      n[i] = (int)fmin(cubes, MOST_CUBES);
+    }
+  } while (many > MOST_CUBES);
 
   /* The corners, x fastest. */
   for (int z = 0; z <= n[2]; z++)
@@ -249,7 +253,8 @@ static bool too_large(const mesher *work, const tetrahedron *tet)
 
   for (int i = 0; i < 4; i++) {
     const corner *c = &work->corner[tet->v[i]];
-    double solid = fmax(c->distance, c->cut);
+    /* Far beyond a face another arm may be: large ones are parted wherever any body is near. */
+    double solid = longest > 1.01 * work->solid->coarsest ? c->distance : fmax(c->distance, c->cut);
     nearest = fmin(nearest, fabs(solid));
     size = fmin(size, c->size);
     *(solid < 0 ? &inside : &outside) = true;

@@ -229,6 +229,39 @@ START_TEST(a_cube_needs_its_corners_only)
 }
 END_TEST
 
+START_TEST(long_thin_arms_are_whole)
+{
+  static const double xyz[4][3] = {{0, 0, 0}, {300, 140, 60}, {293, 155, 60}, {-7, 15, 0}};
+  static const int edge[4][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  thr_frame f = frame_make(4, xyz, 4, edge, NULL, NULL);
+  thr_request o = thr_request_default();
+  thr_plan p = plan_make(&f, &o);
+  strcpy(p.frame.units, "mm");
+  const thr_kit_options options = {.names = THR_KIT_NO_NAMES};
+  thr_kit kit = kit_of(&p, &options, 2);
+  for (int i = 0; i < kit.n_pieces; i++) {
+    thr_err err = {0};
+    thr_mesh_report r;
+    const thr_kit_piece *piece = &kit.piece[i];
+    if (piece->like != i) continue;
+    assert_ok(thr_mesh_examine(&kit.mesh[i], true, &r, &err), &err);
+    ck_assert_int_eq(r.open_edges + r.crossings + (r.parts != 1), 0);
+
+    /* A hollow cylinder at least, and no more than one and a half. */
+    double least = 0;
+    for (int k = 0; k < piece->n_arms; k++) {
+      double radius = 0.5 * piece->arm[k].width, bore = piece->channel[0].radius;
+      least += THR_PI * (radius * radius - bore * bore) * piece->arm[k].length;
+    }
+    ck_assert_double_gt(r.volume, 0.97 * least);
+    ck_assert_double_lt(r.volume, 1.5 * least);
+  }
+  thr_kit_destroy(&kit);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* Is a point in a piece, told from the geometry alone: in an arm or the ball, on the node's side of
  * all faces, in no channel? */
 static bool is_inside(const thr_kit_piece *piece, const double at[3])
@@ -514,6 +547,7 @@ int main(void)
   ADD_LOOP(s, 120, every_mesh_is_a_closed_surface, 0, CASES);
   ADD_LOOP(s, 30, lists_of_capsules_have_the_nearest, 0, 4);
   ADD_LOOP(s, 30, a_cube_needs_its_corners_only, 0, 2);
+  ADD_TEST(s, 120, long_thin_arms_are_whole);
   ADD_TEST(s, 120, volumes_are_those_of_small_cubes);
   ADD_LOOP(s, 240, a_ball_as_thick_as_the_cord_goes_through, 0, 3);
   ADD_LOOP(s, 240, a_ball_as_thick_as_the_cord_goes_through, TUBES, CASES);
