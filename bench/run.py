@@ -16,6 +16,7 @@ import os
 import random
 import re
 import resource
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -109,7 +110,7 @@ class Bench:
         Failed, if the program does not end with exit code 0 or 5, or has not written that."""
         written = command[command.index("-o") + 1] if "-o" in command else None
         if written and os.path.exists(written):
-            os.remove(written)
+            (shutil.rmtree if os.path.isdir(written) else os.remove)(written)
         run = Run(command, self.folder)
         said = run.said.strip().split("\n")[-1] or "nothing said"
         if command[0] == self.thread and run.code not in (0, 5):
@@ -420,6 +421,24 @@ would go, but a table of 40 functions and a layer over them would come. Debian h
                   svg_grows(edges, spent["svg"], goes_on), pdf_grows(edges, spent.get("pdf"), goes_on))
 
 
+def kit(b):
+    text = """`thread kit` of the shortest cord, one thread, whole: meshes, 3MF, table, picture and viewer, without names; beside it with names
+engraved, without picture and viewer, and in two threads, to the clock. *MB*: of kit.3mf with names."""
+    b.table("Pieces to print", text, "framework", "pieces", "s", "ms a piece", "growth", "names / none", "no picture / picture",
+            "-j 1 / -j 2, clock", "MB")
+    grows = Growth()
+    for name, path, _, goes_on in b.lines(["grid", "sphere", "honeycomb"], (84, 480), []):
+        pieces = b.info(path)["nodes"]
+        with b.line(name, pieces):
+            b.once(b.plan(path))
+            made = [b.thread, "kit", b.path("plan.json"), "-q"]
+            how = (["--names", "none", "-j", 1], ["-j", 1], ["--names", "none", "-j", 1, "--no-picture"], ["--names", "none", "-j", 2])
+            none, named, bare, two = b.least(*([*made, *options, "-o", b.path("kit-%d" % i)] for i, options in enumerate(how)))
+            b.row(name, pieces, seconds(none.seconds), figure(1000 * none.seconds / pieces), grows(pieces, none.seconds, goes_on),
+                  ratio(named.seconds, none.seconds), ratio(bare.seconds, none.seconds), ratio(none.wall, two.wall),
+                  figure(os.path.getsize(b.path("kit-1/kit.3mf")) / 1e6))
+
+
 def joints(b):
     b.table("Tube joints", "`thread plan` with tube joints beside solid ones.", "framework", "edges", "solid s", "tube / solid")
     for name, path, edges, _ in b.lines(SHAPES, (100,) if b.smallest else (10000,), []):
@@ -466,7 +485,7 @@ file of frame JSON."""
                   seconds(convert.seconds), figure(convert.megabytes))
 
 
-PARTS = {f.__name__: f for f in (length, files, turning, symmetry, threads, balance, pull, structure, drawings, joints)}
+PARTS = {f.__name__: f for f in (length, files, turning, symmetry, threads, balance, pull, structure, drawings, joints, kit)}
 
 
 def machine(b):

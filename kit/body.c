@@ -9,13 +9,14 @@
 #include "graph/number.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Signed distance from the outline of a profile, whose inner circle has the radius; corners are
  * rounded by a part of it. u, v: across the arm. */
 static double profile_distance(thr_kit_profile profile, double radius, double u, double v)
 {
-  if (profile == THR_KIT_ROUND) return hypot(u, v) - radius;
+  if (profile == THR_KIT_ROUND) return sqrt(u * u + v * v) - radius;
 
   double rounding = THR_KIT_ROUNDING * radius, inner = radius - rounding;
   double x = fabs(u), y = fabs(v);
@@ -56,7 +57,8 @@ static double arm_distance(const thr_kit_piece *piece, const thr_kit_arm *arm, c
   }
   double across = profile_distance(piece->profile, radius, v, u);
   if (s >= 0) return across;
-  return piece->tube ? hypot(fmax(across, 0), s) : hypot(across + radius, s) - radius;
+  return piece->tube ? hypot(fmax(across, 0), s)
+                     : sqrt((across + radius) * (across + radius) + s * s) - radius;
 }
 
 /* Joins two distances, a <= b, with a fillet of about a radius between them. */
@@ -157,60 +159,67 @@ static double flare(double mouth, double depth)
   return mouth - sqrt(fmax(mouth * mouth - rest * rest, 0));
 }
 
-/* Distance from the hollow of a channel, if it is less than `best`: below 0 inside. */
-static double channel_distance(const thr_kit_piece *piece, const thr_kit_channel *channel,
-                               const double at[3], double best)
+/* Distance from the mouth at one end of a channel, which is wider near its face; INFINITY where
+ * there is none. */
+static double mouth_distance(const thr_kit_piece *piece, const thr_kit_channel *channel, int end,
+                             const double at[3])
 {
-  double to_ball[3] = {at[0] - channel->middle[0], at[1] - channel->middle[1],
-                       at[2] - channel->middle[2]};
-  double widest = fmax(channel->radii[0], channel->radii[1]) + piece->mouth;
-  if (sqrt(thr_dot(to_ball, to_ball)) - channel->reach - widest > best) return best;
+  int number = end ? channel->out : channel->in;
+  if (!channel->mouth[end] || number < 0) return INFINITY;
+  const thr_kit_arm *arm = &piece->arm[number];
+  double depth = arm->length - thr_dot(at, arm->along);
+  if (depth > piece->mouth) return INFINITY;
 
-  for (int i = 0; i + 1 < channel->n; i++) {
-    double part;
-    double away = segment_distance(at, channel->point[i], channel->point[i + 1], &part);
-    double along = (i + part) / (channel->n - 1);
-    double radius = channel->radii[0] + along * (channel->radii[1] - channel->radii[0]);
-    best = fmin(best, away - radius);
+  const double *mouth = channel->point[end ? channel->n - 1 : 0];
+  const double off[3] = {at[0] - mouth[0], at[1] - mouth[1], at[2] - mouth[2]};
+  double along = thr_dot(off, arm->along);
+  double across = sqrt(fmax(thr_dot(off, off) - along * along, 0));
+  return across - channel->radii[end] - flare(piece->mouth, depth);
+}
+
+/* Distance from the surface of what is hollow: channels and pockets. *radius: of the nearest
+ * channel. */
+static double hollow_distance(thr_kit_solid *solid, const double at[3], double *radius)
+{
+  const thr_kit_piece *piece = solid->piece;
+  double best = INFINITY;
+  int n, nearest = -1;
+  const int *list = thr_capsules_list(&solid->hollow, at, &n);
+  for (int i = 0; i < n; i++) {
+    const thr_capsule *capsule = &solid->hollow.capsule[list[i]];
+    double part, away = thr_capsule_distance(capsule, at, &part);
+    double here = away - (capsule->radius[0] + part * (capsule->radius[1] - capsule->radius[0]));
+
+    /* The first segment of a channel is in its arm, and the last one too. */
+    if (capsule->more > 0)
+      here = fmin(here, mouth_distance(piece, &piece->channel[capsule->of], capsule->last, at));
+    if (here >= best) continue;
+    best = here;
+    nearest = capsule->of;
   }
-
-  /* Mouths are wider near their faces. */
-  for (int end = 0; end < 2; end++) {
-    int number = end ? channel->out : channel->in;
-    if (!channel->mouth[end] || number < 0) continue;
-    const thr_kit_arm *arm = &piece->arm[number];
-    double depth = arm->length - thr_dot(at, arm->along);
-    if (depth > piece->mouth) continue;
-    const double *mouth = channel->point[end ? channel->n - 1 : 0];
-    double off[3] = {at[0] - mouth[0], at[1] - mouth[1], at[2] - mouth[2]};
-    double along = thr_dot(off, arm->along);
-    double across = sqrt(fmax(thr_dot(off, off) - along * along, 0));
-    best = fmin(best, across - channel->radii[end] - flare(piece->mouth, depth));
-  }
-
+  *radius = nearest < 0 ? INFINITY : piece->channel[nearest].radius;
   return best;
 }
 
 /* Distance from the strokes of letters on an arm, along its surface; INFINITY if there are none. */
-static double letters_distance(const thr_kit_piece *piece, const double at[3], int arm)
+static double letters_distance(thr_kit_solid *solid, const double at[3], int arm)
 {
-  if (arm < 0) return INFINITY;
+  if (arm < 0 || !solid->letters) return INFINITY;
+  const thr_kit_piece *piece = solid->piece;
   const thr_kit_arm *on = &piece->arm[arm];
-  double up = thr_dot(at, on->up), side = thr_dot(at, on->side), s = thr_dot(at, on->along);
-  double best = INFINITY;
+  double up = thr_dot(at, on->up), side = thr_dot(at, on->side);
+  bool below = up < 0;
+  thr_capsules *strokes = &solid->letters[2 * arm + below];
+  if (strokes->n_capsules == 0 || up == 0) return INFINITY;
+  if (below) up = -up, side = -side;
+  double across = piece->profile == THR_KIT_ROUND ? atan2(side, up) * 0.5 * on->width : side;
+  const double here[3] = {thr_dot(at, on->along), across, 0};
 
-  for (int i = 0; i < piece->n_strokes; i++) {
-    const thr_kit_stroke *stroke = &piece->stroke[i];
-    double u = stroke->below ? -up : up, v = stroke->below ? -side : side;
-    if (stroke->arm != arm || u <= 0) continue;
-    double across = piece->profile == THR_KIT_ROUND ? atan2(v, u) * 0.5 * on->width : v;
-    const double here[3] = {s, across, 0};
-    const double from[3] = {stroke->from[0], stroke->from[1], 0};
-    const double to[3] = {stroke->to[0], stroke->to[1], 0};
-    double part;
-    best = fmin(best, segment_distance(here, from, to, &part));
-  }
-
+  double best = INFINITY, part;
+  int n;
+  const int *list = thr_capsules_list(strokes, here, &n);
+  for (int i = 0; i < n; i++)
+    best = fmin(best, thr_capsule_distance(&strokes->capsule[list[i]], here, &part));
   return best;
 }
 
@@ -239,30 +248,103 @@ static double key_height(const thr_kit_piece *piece, bool out, double off)
   return out ? height : -height;
 }
 
-void thr_kit_sample(const void *user, const double at[3], thr_solid_sample *out)
+/* Adds the segments of a channel to what is hollow. */
+static thr_status add_channel(thr_kit_solid *solid, int number, thr_err *err)
 {
-  const thr_kit_piece *piece = user;
-  int nearest;
-  double corner, body = body_distance(piece, at, &nearest, &corner);
+  const thr_kit_channel *channel = &solid->piece->channel[number];
+  thr_status st = THR_OK;
+  for (int i = 0; i + 1 < channel->n && !st; i++) {
+    thr_capsule capsule = {.of = number};
+    for (int end = 0; end < 2; end++) {
+      double along = (double)(i + end) / (channel->n - 1);
+      capsule.radius[end] = channel->radii[0] + along * (channel->radii[1] - channel->radii[0]);
+    }
+    capsule.last = i > 0;
+    bool at_end = i == 0 || i + 2 == channel->n;
+    if (at_end && channel->mouth[capsule.last]) capsule.more = 2 * solid->piece->mouth;
+    st = thr_capsules_add(&solid->hollow, channel->point[i], channel->point[i + 1], &capsule, err);
+  }
+  return st;
+}
 
-  /* What is hollow. */
-  double hollow = INFINITY, radius = INFINITY;
-  for (int i = 0; i < piece->n_channels; i++) {
-    double here = channel_distance(piece, &piece->channel[i], at, hollow);
-    if (here < hollow) radius = piece->channel[i].radius;
-    hollow = here;
+/* Makes the trees of the strokes on every arm and either side. */
+static thr_status add_letters(thr_kit_solid *solid, thr_err *err)
+{
+  const thr_kit_piece *piece = solid->piece;
+  size_t sides = 2 * (size_t)piece->n_arms;
+  thr_status st = THR_OK;
+  solid->letters = thr_calloc(sides, sizeof *solid->letters);
+  if (!solid->letters) return thr_nomem(err);
+
+  for (int i = 0; i < piece->n_strokes && !st; i++) {
+    const thr_kit_stroke *stroke = &piece->stroke[i];
+    const double from[3] = {stroke->from[0], stroke->from[1], 0};
+    const double to[3] = {stroke->to[0], stroke->to[1], 0};
+    const thr_capsule thin = {.of = i};
+    st = thr_capsules_add(&solid->letters[2 * stroke->arm + stroke->below], from, to, &thin, err);
   }
-  for (int i = 0; i < piece->n_pockets; i++) {
-    const double *p = piece->pocket[i];
-    double part;
-    hollow = fmin(hollow, segment_distance(at, p, p + 3, &part) - p[6]);
+  for (int i = 0; i < 2 * piece->n_arms && !st; i++) {
+    const thr_kit_arm *arm = &piece->arm[i / 2];
+    double half = 0.25 * THR_PI * arm->width;
+    if (solid->letters[i].n_capsules)
+      st = thr_capsules_make(&solid->letters[i], 2, (double[]){-half, -half},
+                             (double[]){arm->length + half, half}, piece->letter_width, err);
   }
+  return st;
+}
+
+thr_status thr_kit_solid_make(thr_kit_solid *solid, const thr_kit_piece *piece, thr_err *err)
+{
+  *solid = (thr_kit_solid){.piece = piece, .thinnest = INFINITY};
+  double reach = piece->node_radius;
+  for (int i = 0; i < piece->n_arms; i++) {
+    solid->thinnest = fmin(solid->thinnest, piece->arm[i].width);
+    reach = fmax(reach, piece->arm[i].length + piece->arm[i].width);
+  }
+
+  thr_status st = THR_OK;
+  for (int i = 0; i < piece->n_channels && !st; i++)
+    st = add_channel(solid, i, err);
+  for (int i = 0; i < piece->n_pockets && !st; i++) {
+    const double *pocket = piece->pocket[i];
+    const thr_capsule round = {.radius = {pocket[6], pocket[6]}, .of = -1};
+    st = thr_capsules_add(&solid->hollow, pocket, pocket + 3, &round, err);
+  }
+  if (!st)
+    st = thr_capsules_make(&solid->hollow, 3, (double[]){-reach, -reach, -reach},
+                           (double[]){reach, reach, reach}, 0.2 * solid->thinnest, err);
+  if (!st && piece->n_strokes) st = add_letters(solid, err);
+  if (st) thr_kit_solid_destroy(solid);
+  return st;
+}
+
+thr_status thr_kit_solid_check(const thr_kit_solid *solid, thr_err *err)
+{
+  bool failed = solid->hollow.failure.text[0] != '\0';
+  for (int i = 0; solid->letters && i < 2 * solid->piece->n_arms; i++)
+    failed |= solid->letters[i].failure.text[0] != '\0';
+  return failed ? thr_nomem(err) : THR_OK;
+}
+
+void thr_kit_solid_destroy(thr_kit_solid *solid)
+{
+  thr_capsules_destroy(&solid->hollow);
+  for (int i = 0; solid->letters && i < 2 * solid->piece->n_arms; i++)
+    thr_capsules_destroy(&solid->letters[i]);
+  free(solid->letters);
+  *solid = (thr_kit_solid){0};
+}
+
+void thr_kit_sample(void *user, const double at[3], thr_solid_sample *out)
+{
+  thr_kit_solid *solid = user;
+  const thr_kit_piece *piece = solid->piece;
+  int nearest;
+  double corner, radius, body = body_distance(piece, at, &nearest, &corner);
+  double hollow = hollow_distance(solid, at, &radius);
 
   /* Sizes: a third of an arm, finer at channels and letters. */
-  double thinnest = INFINITY;
-  for (int i = 0; i < piece->n_arms; i++)
-    thinnest = fmin(thinnest, piece->arm[i].width);
-  double size = 0.38 * thinnest;
+  double thinnest = solid->thinnest, size = 0.38 * thinnest;
   if (!piece->tube) size = fmin(size, 1.2 * piece->fillet + 0.15 * thinnest + 0.5 * corner);
   if (nearest == -3) size = fmin(size, 0.8 * piece->hook_radius);
   size = fmin(size, 1.2 * radius + 0.7 * fabs(hollow));
@@ -270,9 +352,12 @@ void thr_kit_sample(const void *user, const double at[3], thr_solid_sample *out)
   size = fmin(size, fmax(0.8 * (fabs(body) + fabs(hollow)),
                          fmax(0.7 * piece->wall, isfinite(radius) ? 0.2 * radius : 0)));
   if (piece->n_strokes && body > -2 * piece->letter_depth && body < size) {
-    double letters = letters_distance(piece, at, nearest);
+    double letters = letters_distance(solid, at, nearest);
     body += groove(piece, letters);
-    size = fmin(size, 0.8 * piece->letter_width + 0.6 * fmax(letters - piece->letter_width, 0));
+    /* As fine as strokes are wide in the groove; coarser beside it, and below. */
+    double beside = fmax(letters - 0.7 * piece->letter_width, 0);
+    double below = fmax(fabs(body) - 0.5 * piece->letter_depth, 0);
+    size = fmin(size, 0.8 * piece->letter_width + 1.2 * (beside + below));
   }
   out->distance = fmax(body, -hollow);
   out->size = size * piece->coarse;

@@ -22,6 +22,11 @@
 static const double FILLET = 0.15, NODE = 0.6, MOUTH = 0.08;
 /* mm: of a wall, of letters, and how deep these are; of a key's play. */
 static const double WALL = 1.2, LETTERS = 4, DEPTH = 0.6, PLAY = 0.15;
+/* Longer arms are refused. */
+enum { MOST_WIDTHS = 300 };
+/* How far simplifying may move a surface, as a part of the narrowest arm and in mm: a tenth of what
+ * a printer shows. */
+static const double SIMPLE = 0.003, SIMPLEST = 0.02;
 /* A knot is three cords thick (an overhand knot: C. Ashley, 1944). */
 static const double KNOT = 3;
 
@@ -693,6 +698,22 @@ static thr_status find_only(thr_kit *kit, const char *name, thr_err *err)
 
 /* ---- meshes ---- */
 
+/* Refuses arms that take minutes and that nobody can print. */
+static thr_status check_lengths(const thr_kit *kit, thr_err *err)
+{
+  for (int p = 0; p < kit->n_pieces; p++)
+    for (int i = 0; i < kit->piece[p].n_arms; i++) {
+      const thr_kit_arm *arm = &kit->piece[p].arm[i];
+      if (arm->length <= MOST_WIDTHS * arm->width) continue;
+      return thr_fail(err, THR_EINPUT,
+                      "piece %s: an arm of %.4g mm is %.3g mm wide, longer than %d widths: --width "
+                      "%.3g if there is room, or shorter edges",
+                      kit->name[p], arm->length, arm->width, MOST_WIDTHS,
+                      1.01 * arm->length / MOST_WIDTHS);
+    }
+  return THR_OK;
+}
+
 /* Pieces whose meshes are made in threads. */
 typedef struct {
   thr_kit *kit;
@@ -708,7 +729,8 @@ static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_
   thr_kit_piece *piece = &kit->piece[job];
   if (piece->like != job || (kit->only && kit->piece[kit->only - 1].like != job)) return THR_OK;
 
-  thr_solid solid = {.sample = thr_kit_sample, .user = piece};
+  thr_kit_solid body;
+  thr_solid solid = {.sample = thr_kit_sample, .user = &body};
   double thickest = piece->node_radius, narrowest = INFINITY;
   for (int i = 0; i < piece->n_arms; i++) {
     thickest = fmax(thickest, 0.5 * piece->arm[i].width);
@@ -738,12 +760,16 @@ static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_
     solid.high[k] += margin;
   }
   solid.coarsest = narrowest;
+  solid.tolerance = fmin(SIMPLE * narrowest, SIMPLEST) * piece->coarse;
 
   thr_err why = {0};
-  thr_status st = thr_mesh_make(&kit->mesh[job], &solid, limits, &why);
+  thr_status st = thr_kit_solid_make(&body, piece, &why);
+  if (!st) st = thr_mesh_make(&kit->mesh[job], &solid, limits, &why);
+  if (!st) st = thr_kit_solid_check(&body, &why);
+  thr_kit_solid_destroy(&body);
   if (!st)
     st = thr_mesh_drop_crumbs(&kit->mesh[job], 2e-3 * narrowest * narrowest * narrowest, &why);
-  if (!st) st = thr_mesh_examine(&kit->mesh[job], true, &kit->report[job], &why);
+  if (!st) st = thr_mesh_examine(&kit->mesh[job], false, &kit->report[job], &why);
   piece->thinnest = thr_kit_thinnest(piece);
   int done = atomic_fetch_add(&work->done, 1) + 1;
   if (limits->advance) limits->advance(limits->user, "pieces", (double)done / kit->n_meshes);
@@ -904,6 +930,7 @@ thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_option
   if (!st) note_channels(&work);
   if (!st) note_cuts(kit);
   meshing meshed = {.kit = kit};
+  if (!st && meshes) st = check_lengths(kit, err);
   if (!st && meshes) st = thr_threads_run(kit->n_pieces, mesh_piece, &meshed, limits, err);
   if (!st && meshes) note_walls(kit);
   if (!st && meshes) sum_up(kit);

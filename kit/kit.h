@@ -6,9 +6,10 @@
  * The folder kit/ makes them. Reading order: kit.c (a kit from a plan: edges, then pieces, then
  * meshes), edges.c (width, bore and lanes of every edge), channels.c (curves through a piece),
  * cuts.c and walls.c (those that cut each other; what is thin), body.c (the solid as a distance),
- * strokes.c (letters), estimate.c (the kit without meshes), mesh.h with mesher.c and mesh.c (the
- * surface of a solid), bodies.c (what eval/ takes), plates.c (pieces on the bed of a printer),
- * write_3mf.c, write_scad.c, kit_tables.c (files). Lengths are in mm, angles in rad, masses in g. */
+ * capsules.c (only what is near counts), strokes.c (letters), estimate.c (the kit without meshes),
+ * mesh.h with mesher.c, simplify.c and mesh.c (the surface of a solid), bodies.c (what eval/ takes),
+ * plates.c (pieces on the bed of a printer), write_3mf.c, write_scad.c, kit_tables.c (files).
+ * Lengths are in mm, angles in rad, masses in g. */
 #ifndef THR_KIT_H
 #define THR_KIT_H
 
@@ -183,17 +184,69 @@ typedef struct {
   double (*pocket)[8]; /* [n_pockets] a capsule: two ends, radius; owned */
 } thr_kit_piece;
 
+/* ---- capsules.c: which of many capsules are nearest to a point. */
+
+/* A segment with a radius at each end. */
+typedef struct {
+  double from[3], along[3]; /* one end; from it to the other one */
+  double inverse;           /* of the square of its length; 0 for a point */
+  double radius[2];
+  double more; /* how far beyond the radius what stands for it may reach */
+  int of;      /* the caller's number */
+  bool last;   /* it is at the second end of what it is of */
+} thr_capsule;
+
+/* A cell of an octree: its list is members first .. first + n - 1, not known yet if n is -1; its
+ * first part, or -1. */
+typedef struct {
+  int first, n, child;
+} thr_capsule_cell;
+
+/* Lists of capsules for the cells of an octree. {0} is valid and empty. Arrays are owned. */
+typedef struct {
+  thr_capsule *capsule;
+  thr_capsule_cell *cell; /* [0]: the whole */
+  int *member;
+  int axes;                   /* 3, or 2: all ends have z = 0 */
+  double low[3], side, least; /* mm: the whole; so small cells are not parted */
+  int n_capsules, n_cells, n_members, capsules_capacity, cells_capacity, members_capacity;
+  thr_err failure; /* why it could not grow; its lists are longer then, and as right */
+} thr_capsules;
+
+/* Returns the distance of a point from the capsule's segment; *part: where on it, 0 .. 1. */
+double thr_capsule_distance(const thr_capsule *capsule, const double at[3], double *part);
+
+/* Appends a capsule between two points, before the tree is made; how: its other members.
+ * THR_ENOMEM. */
+thr_status thr_capsules_add(thr_capsules *tree, const double from[3], const double to[3],
+                            const thr_capsule *how, thr_err *err) THR_MUST_CHECK;
+
+/* Makes a tree of all capsules, for points in the cube (if axes is 2: square) from low to high.
+ * THR_ENOMEM. */
+thr_status thr_capsules_make(thr_capsules *tree, int axes, const double low[], const double high[],
+                             double least, thr_err *err) THR_MUST_CHECK;
+
+/* Returns the numbers, ascending, of n capsules. Each that may be nearest to the point is among
+ * them: the distance is from the segment, less the radius, less `more` at most. The tree grows, so
+ * that one thread at a time may ask. O(depth of the tree). */
+const int *thr_capsules_list(thr_capsules *tree, const double at[3], int *n);
+
+void thr_capsules_destroy(thr_capsules *tree);
+
 /* ---- body.c: a piece as a distance. */
 
-/* Radius of the rounded corners of a profile, as a part of that of its inner circle. */
-static const double THR_KIT_ROUNDING = 0.25;
+ * cuts.c and walls.c (those that cut each other; what is thin), body.c (the solid as a distance),
+ * capsules.c (only what is near counts), strokes.c (letters), estimate.c (the kit without meshes),
+ * mesh.h with mesher.c, simplify.c and mesh.c (the surface of a solid), bodies.c (what eval/ takes),
+ * plates.c (pieces on the bed of a printer), write_3mf.c, write_scad.c, kit_tables.c (files).
+ * Lengths are in mm, angles in rad, masses in g. */
 
 /* Distance to the surface of the piece without its channels, faces, letters and base, mm; below 0
  * inside. *arm receives the nearest arm, -1: the node, -2: the foot, -3: its hook. NULL ok. */
 double thr_kit_body(const thr_kit_piece *piece, const double at[3], int *arm);
 
-/* Sample of the whole piece, for thr_mesh_make; user: a thr_kit_piece. */
-void thr_kit_sample(const void *user, const double at[3], thr_solid_sample *out);
+/* Sample of the whole piece, for thr_mesh_make; user: a thr_kit_solid, whose trees grow. */
+void thr_kit_sample(void *user, const double at[3], thr_solid_sample *out);
 
 /* ---- channels.c: curves through a piece. */
 

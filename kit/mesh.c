@@ -21,33 +21,44 @@ void thr_mesh_destroy(thr_mesh *mesh)
   *mesh = (thr_mesh){0};
 }
 
-/* An edge of a triangle, with the direction in which it is run through. */
-typedef struct {
-  int low, high;
-  int sense; /* 1 from low to high, else -1 */
-} side;
-
-static int by_ends(const void *a, const void *b)
+/* Counts edges that have not just one triangle on either side. Sides of triangles are collected at
+ * their lower end, where few of them meet. */
+static thr_status count_open(const thr_mesh *mesh, int *open, thr_err *err)
 {
-  const side *first = a, *second = b;
-  if (first->low != second->low) return first->low < second->low ? -1 : 1;
-  if (first->high != second->high) return first->high < second->high ? -1 : 1;
-  return first->sense - second->sense;
-}
+  thr_scratch work = {0};
+  int *first = thr_scratch_array(&work, (size_t)mesh->n_points + 2, sizeof *first);
+  int *other = thr_scratch_array(&work, 3 * (size_t)mesh->n_triangles, sizeof *other);
+  thr_status st = thr_scratch_check(&work, err);
 
-/* Counts edges that have not just one triangle on either side. */
-static int count_open(side *sides, int n)
-{
-  int open = 0;
-  qsort(sides, (size_t)n, sizeof *sides, by_ends);
-  for (int i = 0; i < n;) {
-    int end = i, sum = 0;
-    while (end < n && sides[end].low == sides[i].low && sides[end].high == sides[i].high)
-      sum += sides[end++].sense;
-    open += end - i != 2 || sum != 0;
-    i = end;
+  /* Twice over all sides: count, then place. A side that is run down is the other end's
+   * complement. */
+  for (int round = 0; round < 2 && !st; round++) {
+    for (int t = 0; t < mesh->n_triangles; t++)
+      for (int k = 0; k < 3; k++) {
+        int from = mesh->triangle[t][k], to = mesh->triangle[t][(k + 1) % 3];
+        int low = from < to ? from : to;
+        if (round == 0)
+          first[low + 2]++;
+        else
+          other[first[low + 1]++] = from < to ? to : ~from;
+      }
+    for (int v = 0; v < mesh->n_points && round == 0; v++)
+      first[v + 2] += first[v + 1];
   }
-  return open;
+
+  *open = 0;
+  for (int v = 0; v < mesh->n_points && !st; v++)
+    for (int i = first[v]; i < first[v + 1]; i++) {
+      int up = 0, down = 0, earlier = 0, high = other[i] < 0 ? ~other[i] : other[i];
+      for (int k = first[v]; k < first[v + 1]; k++) {
+        up += other[k] == high;
+        down += other[k] == ~high;
+        earlier += k < i && (other[k] == high || other[k] == ~high);
+      }
+      *open += earlier == 0 && (up != 1 || down != 1);
+    }
+  thr_scratch_free(&work);
+  return st;
 }
 
 /* ---- triangles that meet ---- */
@@ -97,10 +108,39 @@ static bool cross_each_other(const thr_mesh *mesh, int a, int b)
   return false;
 }
 
-/* The box of a triangle, in cells of a grid. */
+/* The box of a triangle, in cells of a grid, and its plane: unit normal and distance from the
+ * origin. */
 typedef struct {
-  double low[3], high[3];
+  double low[3], high[3], plane[4];
 } triangle_box;
+
+/* mm: so near to a plane a corner is on both sides of it. */
+static const double ON_PLANE = 1e-9;
+
+/* Fills the plane of a triangle. */
+static void set_plane(const double *const corner[3], double plane[4])
+{
+  double e[3], f[3];
+  for (int k = 0; k < 3; k++) {
+    e[k] = corner[1][k] - corner[0][k];
+    f[k] = corner[2][k] - corner[0][k];
+  }
+  thr_cross(e, f, plane);
+  thr_normalize(plane);
+  plane[3] = thr_dot(plane, corner[0]);
+}
+
+/* Returns whether a triangle is on one side of a plane. */
+static bool on_one_side(const thr_mesh *mesh, int triangle, const double plane[4])
+{
+  bool above = false, below = false;
+  for (int k = 0; k < 3; k++) {
+    double height = thr_dot(plane, mesh->point[mesh->triangle[triangle][k]]) - plane[3];
+    above |= height > ON_PLANE;
+    below |= height < -ON_PLANE;
+  }
+  return !above || !below;
+}
 
 /* Counts pairs of triangles that cross. Each is put into all cells that its box touches; a pair
  * counts in the lowest cell that both are in. */
@@ -130,6 +170,12 @@ static thr_status count_crossings(const thr_mesh *mesh, const double low[3], con
       box[t].low[k] = (fmin(a, fmin(b, c)) - low[k]) / cell;
       box[t].high[k] = (fmax(a, fmax(b, c)) - low[k]) / cell;
     }
+  for (int t = 0; t < mesh->n_triangles && !st; t++) {
+    const int *corner = mesh->triangle[t];
+    set_plane((const double *const[]){mesh->point[corner[0]], mesh->point[corner[1]],
+                                      mesh->point[corner[2]]},
+              box[t].plane);
+  }
 
   /* Twice over all triangles: count, then place. */
   for (int round = 0; round < 2 && !st; round++) {
@@ -158,6 +204,8 @@ static thr_status count_crossings(const thr_mesh *mesh, const double low[3], con
         if (a->low[0] > b->high[0] || b->low[0] > a->high[0] || a->low[1] > b->high[1] ||
             b->low[1] > a->high[1] || a->low[2] > b->high[2] || b->low[2] > a->high[2])
           continue;
+        if (on_one_side(mesh, member[j], a->plane) || on_one_side(mesh, member[i], b->plane))
+          continue;
         size_t lowest = 0;
         for (int k = 2; k >= 0; k--)
           lowest = lowest * (size_t)n[k] + (size_t)fmax(a->low[k], b->low[k]);
@@ -172,8 +220,6 @@ thr_status thr_mesh_examine(const thr_mesh *mesh, bool crossings, thr_mesh_repor
                             thr_err *err)
 {
   thr_scratch work = {0};
-  int n = 3 * mesh->n_triangles;
-  side *sides = thr_scratch_array(&work, (size_t)n, sizeof *sides);
   int *set = thr_scratch_array(&work, (size_t)mesh->n_points, sizeof *set);
   thr_status st = thr_scratch_check(&work, err);
   *out = (thr_mesh_report){.low = {INFINITY, INFINITY, INFINITY},
@@ -196,9 +242,7 @@ thr_status thr_mesh_examine(const thr_mesh *mesh, bool crossings, thr_mesh_repor
     for (int k = 0; k < 3; k++) {
       e[k] = b[k] - a[k];
       f[k] = c[k] - a[k];
-      int from = corner[k], to = corner[(k + 1) % 3];
-      sides[3 * t + k] = (side){from < to ? from : to, from < to ? to : from, from < to ? 1 : -1};
-      out->parts -= thr_disjoint_join(set, from, to);
+      out->parts -= thr_disjoint_join(set, corner[k], corner[(k + 1) % 3]);
     }
     thr_cross(e, f, normal);
     out->area += 0.5 * sqrt(thr_dot(normal, normal));
@@ -209,8 +253,8 @@ thr_status thr_mesh_examine(const thr_mesh *mesh, bool crossings, thr_mesh_repor
   }
   for (int k = 0; k < 3 && out->volume != 0; k++)
     out->centre[k] /= out->volume;
-  out->open_edges = count_open(sides, n);
-  if (crossings && mesh->n_triangles)
+  st = count_open(mesh, &out->open_edges, err);
+  if (!st && crossings && mesh->n_triangles)
     st = count_crossings(mesh, out->low, out->high, out->area, &out->crossings, err);
 
 done:

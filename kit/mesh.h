@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Solids as closed meshes of triangles: made from a distance (mesher.c), measured and examined
- * (mesh.c). Lengths are in mm. */
+/* Solids as closed meshes of triangles: made from a distance (mesher.c), simplified
+ * (simplify.c), measured and examined (mesh.c). Lengths are in mm. */
 #ifndef THR_MESH_H
 #define THR_MESH_H
 
@@ -34,8 +34,9 @@ typedef struct {
 typedef struct {
   double low[3], high[3]; /* a box with the whole surface well inside */
   double coarsest;        /* mm: edges of the first tetrahedra */
-  void (*sample)(const void *user, const double at[3], thr_solid_sample *out);
-  const void *user;
+  double tolerance;       /* mm: points that the shape does not need go; 0 = all stay */
+  void (*sample)(void *user, const double at[3], thr_solid_sample *out);
+  void *user;
 } thr_solid;
 
 /* Makes the surface of a solid: space is divided into tetrahedra, which are bisected until they are
@@ -47,6 +48,14 @@ typedef struct {
  * O(tetrahedra). */
 thr_status thr_mesh_make(thr_mesh *mesh, const thr_solid *solid, const thr_limits *limits,
                          thr_err *err) THR_MUST_CHECK;
+
+/* ---- simplify.c: fewer triangles. */
+
+/* Takes points out of a closed mesh, so that no part of its surface moves by more than about the
+ * tolerance in mm, and triangles that are flat[n_triangles] not out of their plane. Triangles may
+ * cross others then: the caller looks. O(triangles). THR_ENOMEM. */
+thr_status thr_mesh_simplify(thr_mesh *mesh, const bool *flat, double tolerance,
+                             thr_err *err) THR_MUST_CHECK;
 
 /* ---- mesh.c: what a mesh measures, and whether it can be printed. */
 
@@ -60,8 +69,8 @@ typedef struct {
   int crossings; /* pairs of triangles that meet outside corners and edges that they share */
 } thr_mesh_report;
 
-/* Examines a mesh. crossings: only if asked for. O(triangles log triangles) where no place is
- * crowded. */
+/* Examines a mesh. crossings: only if asked for, since thr_mesh_make makes none; tests ask.
+ * O(triangles) where no place is crowded. */
 thr_status thr_mesh_examine(const thr_mesh *mesh, bool crossings, thr_mesh_report *out,
                             thr_err *err) THR_MUST_CHECK;
 

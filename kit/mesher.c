@@ -20,11 +20,20 @@
 /* More corners than this are refused: a mesh of some hundred MB, and seconds. */
 enum { MOST_CORNERS = 3000000 };
 
+/* Of more cubes than this the first ones are larger, and parted near the surface only. */
+enum { MOST_CUBES = 4096 };
+
 /* Points on edges stay this part of the edge away from the ends. */
 static const double MARGIN = 0.03;
 
 /* Points on the cut too, but by less than what moving corners off it leaves: faces stay flat. */
 static const double LEAST = 0.001;
+
+/* Tetrahedra that show no surface at their corners may be larger by this factor. */
+static const double UNSEEN = 1.4;
+
+/* Distances below this part of an edge are near the surface. */
+static const double NEARLY = 0.03;
 
 /* Numbers pairs of numbers: a table with open addresses. */
 typedef struct {
@@ -39,7 +48,6 @@ typedef struct {
   double distance, cut, size;
   double across[3];
   double shortest; /* of the edges that meet here; 0 = not known */
-  int pass;        /* of refine: the last one in which an edge that ends here was bisected */
 } corner;
 
 /* A tetrahedron, in the order of Maubach: it is bisected between its first corner and number
@@ -56,12 +64,16 @@ typedef struct {
   thr_mesh *mesh;
   corner *corner;
   int n_corners, corners_capacity;
+  int *pass; /* [n_corners] of refine: the last one in which an edge that ends here was bisected */
+  int passes_capacity;
   tetrahedron *tet;
   int n_tets, tets_capacity;
   pairs middle;      /* the corner in the middle of an edge that was bisected */
   pairs section;     /* the point where the cut meets an edge: a corner */
   pairs crossed;     /* the point where the surface meets an edge: a point of the mesh */
   int first_section; /* corners from here on lie on the cut */
+  bool *flat;        /* [triangles] does it lie on the cut? */
+  int flat_capacity;
 } mesher;
 
 /* ---- pairs ---- */
@@ -149,11 +161,13 @@ static thr_status add_corner(mesher *work, const double at[3], int *number, thr_
 {
   if (work->n_corners >= MOST_CORNERS)
     return thr_fail(err, THR_EINPUT,
-                    "a piece takes more than %d points of a mesh: its details are too fine for "
-                    "its size",
+                    "a piece takes more than %d points of a mesh: its arms are too long for their "
+                    "width and its details: a larger --width",
                     MOST_CORNERS);
   thr_status st =
       thr_grow(&work->corner, work->n_corners, &work->corners_capacity, sizeof *work->corner, err);
+  if (!st)
+    st = thr_grow(&work->pass, work->n_corners, &work->passes_capacity, sizeof *work->pass, err);
   if (st) return st;
 
   thr_solid_sample here = {0};
@@ -162,6 +176,7 @@ static thr_status add_corner(mesher *work, const double at[3], int *number, thr_
   *fresh = (corner){.distance = here.distance, .cut = here.cut, .size = here.size};
   memcpy(fresh->at, at, sizeof fresh->at);
   memcpy(fresh->across, here.across, sizeof fresh->across);
+  work->pass[work->n_corners] = 0;
   *number = work->n_corners++;
 
   return THR_OK;
@@ -189,16 +204,17 @@ static thr_status divide_box(mesher *work, thr_err *err)
 {
   static const int order[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   const thr_solid *solid = work->solid;
-  double step = solid->coarsest / sqrt(3); /* the diagonal is the longest edge */
+  double step = 0.5 * solid->coarsest / sqrt(3), many; /* the diagonal is the longest edge */
   int n[3];
-  double many = 1;
-  for (int i = 0; i < 3; i++) {
-    double cubes = ceil((solid->high[i] - solid->low[i]) / step);
-    many *= cubes + 1;
-    if (!(many < MOST_CORNERS))
-      return thr_fail(err, THR_EINPUT, "a piece is too long for the width of its arms");
-    n[i] = (int)cubes;
-  }
+  do {
+    step *= 2;
+    many = 1;
+    for (int i = 0; i < 3; i++) {
+      double cubes = ceil((solid->high[i] - solid->low[i]) / step);
+      many *= cubes;
+      n[i] = (int)fmin(cubes, MOST_CUBES);
+    }
+  } while (many > MOST_CUBES);
 
   /* The corners, x fastest. */
   for (int z = 0; z <= n[2]; z++)
@@ -237,13 +253,16 @@ static bool too_large(const mesher *work, const tetrahedron *tet)
 
   for (int i = 0; i < 4; i++) {
     const corner *c = &work->corner[tet->v[i]];
-    double solid = fmax(c->distance, c->cut);
+    /* Far beyond a face another arm may be: large ones are parted wherever any body is near. */
+    double solid = longest > 1.01 * work->solid->coarsest ? c->distance : fmax(c->distance, c->cut);
     nearest = fmin(nearest, fabs(solid));
     size = fmin(size, c->size);
     *(solid < 0 ? &inside : &outside) = true;
   }
 
-  return longest > size && ((inside && outside) || nearest < 0.75 * longest);
+  /* Where all corners are on one side, a surface within is no farther from one of them than half
+   * the longest edge, and a part that none of them shows is less than is worth a corner. */
+  return inside && outside ? longest > size : longest > UNSEEN * size && nearest < 0.5 * longest;
 }
 
 /* Returns whether an edge of the tetrahedron was bisected by another one, in the last pass or this
@@ -252,7 +271,7 @@ static bool hangs(const mesher *work, const tetrahedron *tet, int pass)
 {
   int fresh = 0;
   for (int i = 0; i < 4; i++)
-    fresh += work->corner[tet->v[i]].pass >= pass - 1;
+    fresh += work->pass[tet->v[i]] >= pass - 1;
   if (fresh < 2) return false;
   for (int i = 0; i < 4; i++)
     for (int j = 0; j < i; j++)
@@ -275,7 +294,7 @@ static thr_status bisect(mesher *work, int t, int pass, bool *fresh, thr_err *er
   }
   if (st) return st;
   *fresh = !found;
-  if (!found) work->corner[a].pass = work->corner[b].pass = pass;
+  if (!found) work->pass[a] = work->pass[b] = pass;
 
   /* Maubach's rule: the middle takes the place of the last, or of the first, which leaves. */
   tetrahedron first = {.tag = tag > 1 ? tag - 1 : 3}, second = first;
@@ -323,11 +342,12 @@ static thr_status refine(mesher *work, thr_err *err)
  * bears. */
 static void move_off_cut(mesher *work)
 {
+  const double most = 2 * MARGIN * work->solid->coarsest;
   for (int t = 0; t < work->n_tets; t++)
     for (int i = 0; i < 4; i++)
       for (int j = 0; j < 4; j++) {
-        if (i == j) continue;
         int v = work->tet[t].v[i];
+        if (i == j || fabs(work->corner[v].cut) >= most) continue;
         double length = length_between(work, v, work->tet[t].v[j]);
         double *shortest = &work->corner[v].shortest;
         if (*shortest == 0 || length < *shortest) *shortest = length;
@@ -369,6 +389,16 @@ static thr_status section_of(mesher *work, int a, int b, int *number, thr_err *e
   return add_corner(work, at, number, err);
 }
 
+/* Returns where a parabola is 0 near b, by two steps of Newton's: it has the values fa, fb and fc
+ * at a < b < c. NAN if it is 0 there nowhere. */
+static double parabola(double a, double b, double c, double fa, double fb, double fc)
+{
+  double before = (fb - fa) / (b - a), after = (fc - fb) / (c - b);
+  double bend = (after - before) / (c - a), slope = before + bend * (b - a);
+  double step = -fb / slope;
+  return b + step - bend * step * step / (slope + 2 * bend * step);
+}
+
 /* Finds the point of the mesh where the surface meets an edge: where the distance is 0 if it
  * changes evenly, made better by what it is there. */
 static thr_status point_of(mesher *work, int a, int b, int *number, thr_err *err)
@@ -381,15 +411,18 @@ static thr_status point_of(mesher *work, int a, int b, int *number, thr_err *err
   int low = a < b ? a : b, high = a < b ? b : a;
   const corner *p = &work->corner[low], *q = &work->corner[high];
   double from = 0, to = 1, at_from = p->distance, at_to = q->distance, part = 0.5, at[3];
-  for (int round = 0; round < 3; round++) {
+  double length = length_between(work, low, high);
+  for (int round = 0; round < 2; round++) {
     part = at_from / (at_from - at_to);
     part = from + (to - from) * (isfinite(part) ? part : 0.5);
     for (int i = 0; i < 3; i++)
       at[i] = p->at[i] + part * (q->at[i] - p->at[i]);
-    if (round == 2) break;
-
     thr_solid_sample here = {0};
     work->solid->sample(work->solid->user, at, &here);
+
+    /* Near the surface a parabola through the three is better than another sample. */
+    bool near = fabs(here.distance) < NEARLY * length;
+    double better = near ? parabola(from, part, to, at_from, here.distance, at_to) : part;
     if ((here.distance < 0) == (at_from < 0)) {
       from = part;
       at_from = here.distance;
@@ -397,7 +430,13 @@ static thr_status point_of(mesher *work, int a, int b, int *number, thr_err *err
       to = part;
       at_to = here.distance;
     }
+    if (near && better > from && better < to) {
+      part = better;
+      break;
+    }
+    part = from + (to - from) * (at_from / (at_from - at_to));
   }
+  if (!isfinite(part)) part = 0.5;
   part = fmin(fmax(part, MARGIN), 1 - MARGIN);
 
   st = thr_grow(&mesh->point, mesh->n_points, &mesh->points_capacity, sizeof *mesh->point, err);
@@ -421,12 +460,15 @@ static thr_status point_at(mesher *work, int v, int *number, thr_err *err)
   return st;
 }
 
-static thr_status add_triangle(mesher *work, int a, int b, int c, thr_err *err)
+static thr_status add_triangle(mesher *work, int a, int b, int c, bool flat, thr_err *err)
 {
   thr_mesh *mesh = work->mesh;
   thr_status st = thr_grow(&mesh->triangle, mesh->n_triangles, &mesh->triangles_capacity,
                            sizeof *mesh->triangle, err);
+  if (!st)
+    st = thr_grow(&work->flat, mesh->n_triangles, &work->flat_capacity, sizeof *work->flat, err);
   if (st) return st;
+  work->flat[mesh->n_triangles] = flat;
   int *corners = mesh->triangle[mesh->n_triangles++];
   corners[0] = a;
   corners[1] = b;
@@ -453,7 +495,7 @@ static thr_status add_face(mesher *work, const int v[3], thr_err *err)
       st = point_of(work, here, next, &polygon[n++], err);
   }
   for (int i = 2; i < n && !st; i++)
-    st = add_triangle(work, polygon[0], polygon[i - 1], polygon[i], err);
+    st = add_triangle(work, polygon[0], polygon[i - 1], polygon[i], true, err);
 
   return st;
 }
@@ -509,8 +551,8 @@ static thr_status add_surface(mesher *work, const int corners[4], thr_err *err)
     for (int i = 0; i < 3 && !st; i++)
       st = point_of(work, v[apart], v[order[i + 1]], &point[i], err);
     if (st) return st;
-    return n_within == 1 ? add_triangle(work, point[0], point[1], point[2], err)
-                         : add_triangle(work, point[2], point[1], point[0], err);
+    return n_within == 1 ? add_triangle(work, point[0], point[1], point[2], false, err)
+                         : add_triangle(work, point[2], point[1], point[0], false, err);
   }
 
   /* Two and two: a quadrilateral between the pairs, a b inside, c d outside, in an even order. */
@@ -524,8 +566,8 @@ static thr_status add_surface(mesher *work, const int corners[4], thr_err *err)
   if (!st) st = point_of(work, a, d, &point[1], err);
   if (!st) st = point_of(work, b, d, &point[2], err);
   if (!st) st = point_of(work, b, c, &point[3], err);
-  if (!st) st = add_triangle(work, point[0], point[1], point[2], err);
-  if (!st) st = add_triangle(work, point[0], point[2], point[3], err);
+  if (!st) st = add_triangle(work, point[0], point[1], point[2], false, err);
+  if (!st) st = add_triangle(work, point[0], point[2], point[3], false, err);
 
   return st;
 }
@@ -592,6 +634,32 @@ static thr_status add_part(mesher *work, const tetrahedron *tet, thr_err *err)
                    err);
 }
 
+/* Simplifies the mesh, unless two of its triangles cross then: simplifying looks at neighbours
+ * only. */
+static thr_status simplify(mesher *work, thr_err *err)
+{
+  thr_mesh *mesh = work->mesh, whole = *mesh;
+  size_t points = (size_t)mesh->n_points, triangles = (size_t)mesh->n_triangles;
+  whole.point = thr_calloc(points, sizeof *whole.point);
+  whole.triangle = thr_calloc(triangles, sizeof *whole.triangle);
+  thr_status st = whole.point && whole.triangle ? THR_OK : thr_nomem(err);
+  whole.points_capacity = whole.n_points;
+  whole.triangles_capacity = whole.n_triangles;
+  if (!st) memcpy(whole.point, mesh->point, points * sizeof *whole.point);
+  if (!st) memcpy(whole.triangle, mesh->triangle, triangles * sizeof *whole.triangle);
+
+  thr_mesh_report report = {0};
+  if (!st) st = thr_mesh_simplify(mesh, work->flat, work->solid->tolerance, err);
+  if (!st) st = thr_mesh_examine(mesh, true, &report, err);
+  if (report.crossings) {
+    thr_mesh simple = *mesh;
+    *mesh = whole;
+    whole = simple;
+  }
+  thr_mesh_destroy(&whole);
+  return st;
+}
+
 thr_status thr_mesh_make(thr_mesh *mesh, const thr_solid *solid, const thr_limits *limits,
                          thr_err *err)
 {
@@ -606,8 +674,11 @@ thr_status thr_mesh_make(thr_mesh *mesh, const thr_solid *solid, const thr_limit
   for (int t = 0; t < work.n_tets && !st; t++)
     st = add_part(&work, &work.tet[t], err);
   if (!st && mesh->n_triangles == 0) st = thr_fail(err, THR_EINPUT, "nothing is left of a piece");
+  if (!st && solid->tolerance > 0) st = simplify(&work, err);
 
   free(work.corner);
+  free(work.pass);
+  free(work.flat);
   free(work.tet);
   pairs_free(&work.middle);
   pairs_free(&work.section);

@@ -55,6 +55,7 @@ typedef struct {
   float **normal;               /* [n_pieces] of a mesh: [n_triangles][3][3] */
   thr_spot *spot;               /* [most points of a mesh] */
   thr_sample *middle_of;        /* [px] the sample in the middle of each */
+  float *depth;                 /* [px] of its surface; -INFINITY: none */
   thr_band band;
   thr_look look;
   thr_scratch own;
@@ -666,16 +667,14 @@ static void draw_strand(drawing *work, const strand *line)
   }
 }
 
-/* Returns whether a pixel and the samples around it see nothing but the ground. */
-static bool is_empty(const thr_band *band, int x, int row)
+/* Returns whether nothing is drawn in the samples of a pixel, nor beside them. */
+static bool is_empty(const thr_band *band, int x, int y)
 {
-  int left = THR_SAMPLES * x - (x > 0), right = THR_SAMPLES * (x + 1);
-  if (right == band->width) right--;
-  for (int y = THR_SAMPLES * row - 1; y <= THR_SAMPLES * (row + 1); y++) {
-    const thr_sample *samples = band->sample + (size_t)(y - band->begin) * (size_t)band->width;
-    for (int i = left; i <= right; i++)
-      if (samples[i].piece >= 0 || samples[i].colour >= 0) return false;
-  }
+  const thr_sample *corner = band->sample + (size_t)(y - 1 - band->begin) * (size_t)band->width + x;
+  int first = x > 0 ? -1 : 0, last = x + THR_SAMPLES < band->width ? THR_SAMPLES : THR_SAMPLES - 1;
+  for (int i = 0; i < THR_SAMPLES + 2; i++, corner += band->width)
+    for (int k = first; k <= last; k++)
+      if (corner[k].piece >= 0 || corner[k].colour >= 0) return false;
   return true;
 }
 
@@ -707,13 +706,15 @@ static void draw_rows(drawing *work, int y, const int size[2], unsigned char *pi
     for (int x = 0; x < size[0]; x++) {
       double sum[3] = {0, 0, 0}, n = THR_SAMPLES * THR_SAMPLES;
       double ground = ground_at(work, THR_SAMPLES * (x + 0.5), THR_SAMPLES * (row + 0.5));
-      bool bright = ground >= 1 && is_empty(band, x, row); /* white, as most often */
-      for (int i = 0; i < THR_SAMPLES * THR_SAMPLES && !bright; i++)
+      bool empty = is_empty(band, THR_SAMPLES * x, THR_SAMPLES * row);
+      for (size_t k = 0; k < 3 && empty; k++)
+        sum[k] = n * fmin(ground, 1);
+      for (int i = 0; i < THR_SAMPLES * THR_SAMPLES && !empty; i++)
         thr_look_at(&work->look, band, THR_SAMPLES * x + i % THR_SAMPLES,
                     THR_SAMPLES * row + i / THR_SAMPLES, ground, sum);
       size_t at = (size_t)row * (size_t)size[0] + (size_t)x;
       for (size_t k = 0; k < 3; k++)
-        pixel[3 * at + k] = (unsigned char)(bright ? 255 : 255 * sum[k] / n + 0.5);
+        pixel[3 * at + k] = (unsigned char)(255 * sum[k] / n + 0.5);
       work->middle_of[at] =
           band->sample[(THR_SAMPLES * (row - y) + 2) * band->width + THR_SAMPLES * x + 1];
     }
@@ -738,22 +739,26 @@ static void darken_hollows(const drawing *work, const int size[2], unsigned char
     away[i] = hypot(right[i], up[i]);
   }
 
+  /* Heights by themselves are read faster than samples. */
+  for (size_t i = 0; i < (size_t)size[0] * (size_t)size[1]; i++)
+    work->depth[i] = work->middle_of[i].piece < 0 ? -INFINITY : work->middle_of[i].surface;
+
   for (int y = 0; y < size[1]; y++)
     for (int x = 0; x < size[0]; x++) {
       size_t at = (size_t)y * (size_t)size[0] + (size_t)x;
       const thr_sample *here = &work->middle_of[at];
       if (here->piece < 0 || here->normal[2] <= 0) continue;
       double steep = fmax(here->normal[2], 20), dark = 0;
+      double slope[2] = {here->normal[0] / steep, here->normal[1] / steep};
       for (int i = 0; i < POINTS; i++) {
         int u = x + off[i][0], v = y + off[i][1];
         if (u < 0 || u >= size[0] || v < 0 || v >= size[1] || away[i] <= 0) continue;
-        const thr_sample *there = &work->middle_of[(size_t)v * (size_t)size[0] + (size_t)u];
-        if (there->piece < 0) continue;
-        double plane = -(here->normal[0] * right[i] + here->normal[1] * up[i]) / steep;
-        double rise = (double)there->surface - here->surface - plane;
+        double there = work->depth[(size_t)v * (size_t)size[0] + (size_t)u];
+        double rise = there - here->surface + slope[0] * right[i] + slope[1] * up[i];
+        if (rise <= 0.2 * away[i]) continue; /* what is not drawn, too */
         /* What is far in front takes no light away. */
-        double fade = rise > reach ? reach / rise : 1;
-        dark += fade * fade * fmin(fmax(rise / away[i] - 0.2, 0), 1.5) / POINTS;
+        double fade = rise > reach ? reach / rise : 1, steepness = rise / away[i] - 0.2;
+        dark += fade * fade * (steepness < 1.5 ? steepness : 1.5) / POINTS;
       }
       for (size_t k = 0; k < 3; k++)
         pixel[3 * at + k] = (unsigned char)(pixel[3 * at + k] * (1 - fmin(HOLLOW * dark, 0.6)));
@@ -778,6 +783,8 @@ static thr_status make_room(drawing *work, const int size[2], thr_err *err)
       &work->own, (size_t)work->band.width * (THR_SAMPLES * ROWS + 2), sizeof *work->band.sample);
   work->middle_of =
       thr_scratch_array(&work->own, (size_t)size[0] * (size_t)size[1], sizeof *work->middle_of);
+  work->depth =
+      thr_scratch_array(&work->own, (size_t)size[0] * (size_t)size[1], sizeof *work->depth);
   return thr_scratch_check(&work->own, err);
 }
 

@@ -102,8 +102,8 @@ static void measure(const stander *work, thr_kit_stand *way)
   double lowest = -INFINITY, highest = INFINITY; /* along `down` */
   for (int i = 0; i < mesh->n_points; i++) {
     double depth = thr_dot(mesh->point[i], way->down);
-    lowest = fmax(lowest, depth);
-    highest = fmin(highest, depth);
+    lowest = depth > lowest ? depth : lowest;
+    highest = depth < highest ? depth : highest;
   }
   way->size[2] = lowest - highest;
 
@@ -176,8 +176,8 @@ static bool turn_about(stander *work, thr_kit_stand *way, const double room[2])
       const double *p = work->in_plane[i];
       const double at[2] = {c * p[0] + s * p[1], c * p[1] - s * p[0]};
       for (int k = 0; k < 2; k++) {
-        low[k] = fmin(low[k], at[k]);
-        high[k] = fmax(high[k], at[k]);
+        low[k] = at[k] < low[k] ? at[k] : low[k];
+        high[k] = at[k] > high[k] ? at[k] : high[k];
       }
     }
     double width = high[0] - low[0], depth = high[1] - low[1];

@@ -112,14 +112,155 @@ START_TEST(every_mesh_is_a_closed_surface)
   thr_kit kit = kit_of(&p, &cases[_i].options, 1);
   for (int i = 0; i < kit.n_pieces; i++) {
     if (kit.piece[i].like != i) continue;
-    const thr_mesh_report *r = &kit.report[i];
-    ck_assert_msg(r->open_edges == 0 && r->crossings == 0 && r->parts == 1 && r->volume > 0,
+    thr_err err = {0};
+    thr_mesh_report r; /* with crossings, which kits are made without */
+    assert_ok(thr_mesh_examine(&kit.mesh[i], true, &r, &err), &err);
+    ck_assert_msg(r.open_edges == 0 && r.crossings == 0 && r.parts == 1 && r.volume > 0,
                   "%s, piece %s: %d open edges, %d crossings, %d parts, %g mm3", cases[_i].name,
-                  kit.name[i], r->open_edges, r->crossings, r->parts, r->volume);
+                  kit.name[i], r.open_edges, r.crossings, r.parts, r.volume);
     assert_fans(&kit.mesh[i], kit.name[i]);
   }
   thr_kit_destroy(&kit);
   thr_plan_destroy(&p);
+}
+END_TEST
+
+START_TEST(lists_of_capsules_have_the_nearest)
+{
+  uint64_t random = 11 + (uint64_t)_i;
+  thr_err err = {0};
+  thr_capsules tree = {0};
+  int axes = 2 + _i % 2;
+  for (int i = 0; i < 60; i++) {
+    double end[2][3] = {{0}};
+    for (int k = 0; k < axes; k++) {
+      end[0][k] = 10 * thr_random_disorder(&random);
+      end[1][k] = end[0][k] + 2 * thr_random_disorder(&random);
+    }
+    const thr_capsule how = {.radius = {thr_random_unit(&random), thr_random_unit(&random)}};
+    assert_ok(thr_capsules_add(&tree, end[0], end[1], &how, &err), &err);
+  }
+  const double low[3] = {-9, -9, -9}, high[3] = {9, 9, 9};
+  assert_ok(thr_capsules_make(&tree, axes, low, high, 0.5, &err), &err);
+
+  int64_t looked_at = 0;
+  for (int i = 0; i < 2000; i++) {
+    double at[3] = {0}, part, least[2] = {INFINITY, INFINITY};
+    for (int k = 0; k < axes; k++)
+      at[k] = 10 * thr_random_disorder(&random);
+    int n;
+    const int *list = thr_capsules_list(&tree, at, &n);
+    for (int whole = 0; whole < 2; whole++)
+      for (int j = 0; j < (whole ? tree.n_capsules : n); j++) {
+        const thr_capsule *c = &tree.capsule[whole ? j : list[j]];
+        double here = thr_capsule_distance(c, at, &part);
+        least[whole] =
+            fmin(least[whole], here - c->radius[0] - part * (c->radius[1] - c->radius[0]));
+      }
+    ck_assert_double_eq(least[0], least[1]);
+    looked_at += n;
+  }
+  ck_assert_int_lt(looked_at, 2000 * 25);
+  thr_capsules_destroy(&tree);
+}
+END_TEST
+
+enum { GRID = 9 };
+
+/* Returns the number of the point x, y, z of a cube's surface, and adds it if it is new. */
+static int grid_point(thr_mesh *mesh, int *number, const int at[3])
+{
+  int *here = &number[(at[2] * (GRID + 1) + at[1]) * (GRID + 1) + at[0]];
+  if (*here) return *here - 1;
+  for (int k = 0; k < 3; k++)
+    mesh->point[mesh->n_points][k] = at[k];
+  *here = ++mesh->n_points;
+  return *here - 1;
+}
+
+/* Makes a cube whose sides are grids of triangles. */
+static thr_mesh grid_cube(void)
+{
+  thr_mesh mesh = {.point = thr_calloc(6 * (GRID + 1) * (GRID + 1), sizeof *mesh.point),
+                   .triangle = thr_calloc(12 * GRID * GRID, sizeof *mesh.triangle)};
+  int *number = thr_calloc((GRID + 1) * (GRID + 1) * (GRID + 1), sizeof *number);
+  for (int side = 0; side < 6; side++)
+    for (int i = 0; i < GRID * GRID; i++) {
+      int corner[4], axis = side / 2;
+      for (int k = 0; k < 4; k++) {
+        int u = i % GRID + (k == 1 || k == 2), v = i / GRID + (k > 1), at[3];
+        at[axis] = side % 2 ? GRID : 0;
+        at[(axis + 1) % 3] = side % 2 ? u : v;
+        at[(axis + 2) % 3] = side % 2 ? v : u;
+        corner[k] = grid_point(&mesh, number, at);
+      }
+      for (int half = 0; half < 2; half++) {
+        int *triangle = mesh.triangle[mesh.n_triangles++];
+        triangle[0] = corner[0];
+        triangle[1] = corner[1 + half];
+        triangle[2] = corner[2 + half];
+      }
+    }
+  free(number);
+  return mesh;
+}
+
+START_TEST(a_cube_needs_its_corners_only)
+{
+  thr_mesh mesh = grid_cube();
+  bool *flat = thr_calloc((size_t)mesh.n_triangles, sizeof *flat);
+  thr_mesh_report before, after;
+  thr_err err = {0};
+  memset(flat, _i, (size_t)mesh.n_triangles);
+  assert_ok(thr_mesh_examine(&mesh, true, &before, &err), &err);
+  ck_assert_int_eq(before.open_edges, 0);
+  ck_assert_double_eq_tol(before.volume, GRID * GRID * GRID, 1e-9);
+
+  /* Slender triangles keep a few points back. */
+  assert_ok(thr_mesh_simplify(&mesh, flat, 0.01, &err), &err);
+  assert_ok(thr_mesh_examine(&mesh, true, &after, &err), &err);
+  ck_assert_int_lt(mesh.n_points, 40);
+  ck_assert_int_eq(after.open_edges, 0);
+  ck_assert_int_eq(after.crossings, 0);
+  ck_assert_int_eq(after.parts, 1);
+  ck_assert_double_eq_tol(after.volume, before.volume, 1e-9);
+  ck_assert_double_eq_tol(after.area, before.area, 1e-9);
+  assert_fans(&mesh, "cube");
+  free(flat);
+  thr_mesh_destroy(&mesh);
+}
+END_TEST
+
+START_TEST(long_thin_arms_are_whole)
+{
+  static const double xyz[4][3] = {{0, 0, 0}, {300, 140, 60}, {293, 155, 60}, {-7, 15, 0}};
+  static const int edge[4][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  thr_frame f = frame_make(4, xyz, 4, edge, NULL, NULL);
+  thr_request o = thr_request_default();
+  thr_plan p = plan_make(&f, &o);
+  strcpy(p.frame.units, "mm");
+  const thr_kit_options options = {.names = THR_KIT_NO_NAMES};
+  thr_kit kit = kit_of(&p, &options, 2);
+  for (int i = 0; i < kit.n_pieces; i++) {
+    thr_err err = {0};
+    thr_mesh_report r;
+    const thr_kit_piece *piece = &kit.piece[i];
+    if (piece->like != i) continue;
+    assert_ok(thr_mesh_examine(&kit.mesh[i], true, &r, &err), &err);
+    ck_assert_int_eq(r.open_edges + r.crossings + (r.parts != 1), 0);
+
+    /* A hollow cylinder at least, and no more than one and a half. */
+    double least = 0;
+    for (int k = 0; k < piece->n_arms; k++) {
+      double radius = 0.5 * piece->arm[k].width, bore = piece->channel[0].radius;
+      least += THR_PI * (radius * radius - bore * bore) * piece->arm[k].length;
+    }
+    ck_assert_double_gt(r.volume, 0.97 * least);
+    ck_assert_double_lt(r.volume, 1.5 * least);
+  }
+  thr_kit_destroy(&kit);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
 }
 END_TEST
 
@@ -578,6 +719,9 @@ int main(void)
 {
   Suite *s = suite_create("kit");
   ADD_LOOP(s, 120, every_mesh_is_a_closed_surface, 0, CASES);
+  ADD_LOOP(s, 30, lists_of_capsules_have_the_nearest, 0, 4);
+  ADD_LOOP(s, 30, a_cube_needs_its_corners_only, 0, 2);
+  ADD_TEST(s, 120, long_thin_arms_are_whole);
   ADD_TEST(s, 120, volumes_are_those_of_small_cubes);
   ADD_LOOP(s, 240, a_ball_as_thick_as_the_cord_goes_through, 0, 3);
   ADD_LOOP(s, 240, a_ball_as_thick_as_the_cord_goes_through, TUBES, CASES);
