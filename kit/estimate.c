@@ -22,12 +22,12 @@
 enum { POINTS = 100000, MOST_PIECES = 1000 };
 
 /* Returns whether a point is inside the solid. */
-static bool is_inside(const thr_kit_piece *piece, const double at[3])
+static bool is_inside(thr_kit_solid *solid, const double at[3])
 {
   /* Points outside are found without channels and letters. */
-  if (thr_kit_body(piece, at, NULL) >= 0) return false;
+  if (thr_kit_body(solid->piece, at, NULL) >= 0) return false;
   thr_solid_sample sample;
-  thr_kit_sample(piece, at, &sample);
+  thr_kit_sample(solid, at, &sample);
   return sample.distance < 0 && sample.cut < 0;
 }
 
@@ -91,8 +91,9 @@ static int boxes_around(const thr_kit_piece *piece, const double at[3])
 
 /* Estimates the part of a piece's volume that its box i stands for, in mm3, from n points. A point
  * in several boxes counts for each of them by its share. *number: of points so far. */
-static double sample_box(const thr_kit_piece *piece, int i, int n, int64_t *number)
+static double sample_box(thr_kit_solid *solid, int i, int n, int64_t *number)
 {
+  const thr_kit_piece *piece = solid->piece;
   static const double root = 1.22074408460575947536; /* of x^4 = x + 1 */
   const box b = box_of(piece, i);
   double inside = 0;
@@ -106,7 +107,7 @@ static double sample_box(const thr_kit_piece *piece, int i, int n, int64_t *numb
       for (int l = 0; l < 3; l++)
         at[l] += place * b.axis[k][l];
     }
-    if (is_inside(piece, at)) inside += 1.0 / fmax(boxes_around(piece, at), 1);
+    if (is_inside(solid, at)) inside += 1.0 / fmax(boxes_around(piece, at), 1);
   }
 
   return box_volume(&b) * inside / n;
@@ -114,8 +115,9 @@ static double sample_box(const thr_kit_piece *piece, int i, int n, int64_t *numb
 
 /* Estimates the volume of a piece in mm3 from about n points, as many in each box as it is large.
  * *number: of points so far. */
-static double sample_piece(const thr_kit_piece *piece, int n, int64_t *number)
+static double sample_piece(thr_kit_solid *solid, int n, int64_t *number)
 {
+  const thr_kit_piece *piece = solid->piece;
   double all = 0, volume = 0;
   for (int i = 0; i < count_boxes(piece); i++) {
     const box b = box_of(piece, i);
@@ -123,19 +125,26 @@ static double sample_piece(const thr_kit_piece *piece, int n, int64_t *number)
   }
   for (int i = 0; i < count_boxes(piece); i++) {
     const box b = box_of(piece, i);
-    volume += sample_box(piece, i, 1 + (int)(n * box_volume(&b) / all), number);
+    volume += sample_box(solid, i, 1 + (int)(n * box_volume(&b) / all), number);
   }
   return volume;
 }
 
-double thr_kit_sampled_volume(const thr_kit *kit)
+thr_status thr_kit_sampled_volume(const thr_kit *kit, double *volume, thr_err *err)
 {
-  double volume = 0;
   int64_t number = 0;
-  for (int p = 0; p < kit->n_pieces; p++)
-    if (kit->piece[p].like == p)
-      volume += kit->piece[p].count * sample_piece(&kit->piece[p], POINTS / kit->n_meshes, &number);
-  return volume;
+  thr_status st = THR_OK;
+  *volume = 0;
+  for (int p = 0; p < kit->n_pieces && !st; p++) {
+    const thr_kit_piece *piece = &kit->piece[p];
+    thr_kit_solid solid;
+    if (piece->like != p) continue;
+    st = thr_kit_solid_make(&solid, piece, err);
+    if (!st) *volume += piece->count * sample_piece(&solid, POINTS / kit->n_meshes, &number);
+    if (!st) st = thr_kit_solid_check(&solid, err);
+    thr_kit_solid_destroy(&solid);
+  }
+  return st;
 }
 
 thr_status thr_kit_estimate_make(thr_kit_estimate *estimate, const thr_plan *plan, thr_err *err)
@@ -159,7 +168,7 @@ thr_status thr_kit_estimate_make(thr_kit_estimate *estimate, const thr_plan *pla
   if (!st) {
     estimate->kinds = kit.n_unnamed_kinds;
     estimate->width = kit.options.width;
-    estimate->volume = thr_kit_sampled_volume(&kit);
+    st = thr_kit_sampled_volume(&kit, &estimate->volume, err);
   }
   thr_kit_destroy(&kit);
 

@@ -770,7 +770,7 @@ static thr_status mesh_piece(void *user, int job, const thr_limits *limits, thr_
   if (!st)
     st = thr_mesh_drop_crumbs(&kit->mesh[job], 2e-3 * narrowest * narrowest * narrowest, &why);
   if (!st) st = thr_mesh_examine(&kit->mesh[job], false, &kit->report[job], &why);
-  piece->thinnest = thr_kit_thinnest(piece);
+  if (!st) st = thr_kit_thinnest(piece, &piece->thinnest, &why);
   int done = atomic_fetch_add(&work->done, 1) + 1;
   if (limits->advance) limits->advance(limits->user, "pieces", (double)done / kit->n_meshes);
 

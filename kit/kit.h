@@ -7,9 +7,9 @@
  * meshes), edges.c (width, bore and lanes of every edge), channels.c (curves through a piece),
  * cuts.c and walls.c (those that cut each other; what is thin), body.c (the solid as a distance),
  * capsules.c (only what is near counts), strokes.c (letters), estimate.c (the kit without meshes),
- * mesh.h with mesher.c, simplify.c and mesh.c (the surface of a solid), bodies.c (what eval/ takes),
- * plates.c (pieces on the bed of a printer), write_3mf.c, write_scad.c, kit_tables.c (files).
- * Lengths are in mm, angles in rad, masses in g. */
+ * mesh.h with mesher.c, simplify.c and mesh.c (the surface of a solid), bodies.c (what eval/
+ * takes), plates.c (pieces on the bed of a printer), write_3mf.c, write_scad.c, kit_tables.c
+ * (files). Lengths are in mm, angles in rad, masses in g. */
 #ifndef THR_KIT_H
 #define THR_KIT_H
 
@@ -235,11 +235,24 @@ void thr_capsules_destroy(thr_capsules *tree);
 
 /* ---- body.c: a piece as a distance. */
 
- * cuts.c and walls.c (those that cut each other; what is thin), body.c (the solid as a distance),
- * capsules.c (only what is near counts), strokes.c (letters), estimate.c (the kit without meshes),
- * mesh.h with mesher.c, simplify.c and mesh.c (the surface of a solid), bodies.c (what eval/ takes),
- * plates.c (pieces on the bed of a printer), write_3mf.c, write_scad.c, kit_tables.c (files).
- * Lengths are in mm, angles in rad, masses in g. */
+/* Radius of the rounded corners of a profile, as a part of that of its inner circle. */
+static const double THR_KIT_ROUNDING = 0.25;
+
+/* A piece with what makes its distance fast to compute. {0} is valid and empty. */
+typedef struct {
+  const thr_kit_piece *piece; /* borrowed */
+  double thinnest;            /* of its arms */
+  thr_capsules hollow;        /* segments of channels, and pockets (of = -1) */
+  thr_capsules *letters;      /* [2 * n_arms] strokes on either side of each arm, or NULL */
+} thr_kit_solid;
+
+/* Makes the solid of a piece. Empty on failure. THR_ENOMEM. */
+thr_status thr_kit_solid_make(thr_kit_solid *solid, const thr_kit_piece *piece,
+                              thr_err *err) THR_MUST_CHECK;
+
+/* THR_ENOMEM if one of its trees could not grow. */
+thr_status thr_kit_solid_check(const thr_kit_solid *solid, thr_err *err) THR_MUST_CHECK;
+void thr_kit_solid_destroy(thr_kit_solid *solid);
 
 /* Distance to the surface of the piece without its channels, faces, letters and base, mm; below 0
  * inside. *arm receives the nearest arm, -1: the node, -2: the foot, -3: its hook. NULL ok. */
@@ -281,9 +294,10 @@ void thr_kit_cuts(thr_kit_piece *piece, const int *rank, bool apart, double wall
 
 /* ---- walls.c */
 
-/* Returns the thinnest wall of a piece in mm, measured by rays through the solid; INFINITY if it
- * has no channels. O(channels (points + channels)) samples. */
-double thr_kit_thinnest(const thr_kit_piece *piece);
+/* Measures the thinnest wall of a piece in mm, by rays through the solid; INFINITY if it has no
+ * channels. THR_ENOMEM. O(channels (points + channels)) samples. */
+thr_status thr_kit_thinnest(const thr_kit_piece *piece, double *thinnest,
+                            thr_err *err) THR_MUST_CHECK;
 
 /* ---- alike.c: pieces that are the same solid. */
 
@@ -362,8 +376,8 @@ typedef struct {
 thr_status thr_kit_estimate_make(thr_kit_estimate *estimate, const thr_plan *plan,
                                  thr_err *err) THR_MUST_CHECK;
 
-/* Returns the volume of all pieces in mm3, sampled within 1 % from their shapes. The kit needs no
- * meshes. */
-double thr_kit_sampled_volume(const thr_kit *kit);
+/* Fills volume with that of all pieces in mm3, sampled within 1 % from their shapes. The kit needs
+ * no meshes. THR_ENOMEM. */
+thr_status thr_kit_sampled_volume(const thr_kit *kit, double *volume, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -13,8 +13,8 @@
 #include <string.h>
 
 /* Returns the distance from the surface of the solid, below 0 inside. */
-static double surface_distance(const thr_kit_piece *solid, const double from[3],
-                               const double along[3], double by, double at[3])
+static double surface_distance(thr_kit_solid *solid, const double from[3], const double along[3],
+                               double by, double at[3])
 {
   thr_solid_sample sample;
   for (int k = 0; k < 3; k++)
@@ -25,7 +25,7 @@ static double surface_distance(const thr_kit_piece *solid, const double from[3],
 
 /* Returns how much material a ray meets before it leaves the solid; INFINITY if it begins outside,
  * meets more than `most`, or leaves through a face. */
-static double ray_thickness(const thr_kit_piece *solid, const double from[3], const double along[3],
+static double ray_thickness(thr_kit_solid *solid, const double from[3], const double along[3],
                             double most)
 {
   double at[3], by = 1e-3 * most;
@@ -38,10 +38,10 @@ static double ray_thickness(const thr_kit_piece *solid, const double from[3], co
   if (inside < 0) return INFINITY;
 
   int arm;
-  thr_kit_body(solid, at, &arm);
-  bool beyond = arm >= 0 && !solid->rounded;
+  thr_kit_body(solid->piece, at, &arm);
+  bool beyond = arm >= 0 && !solid->piece->rounded;
   if (beyond) {
-    const thr_kit_arm *of = &solid->arm[arm];
+    const thr_kit_arm *of = &solid->piece->arm[arm];
     beyond = of->n_mitres ? false : thr_dot(at, of->along) > of->length;
     for (int i = 0; i < of->n_mitres; i++)
       beyond |= thr_dot(at, of->mitre[i]) > of->mitre[i][3];
@@ -59,7 +59,7 @@ static void sides_of(const double along[3], double side[2][3])
 }
 
 /* Returns the thinnest wall round one place of a channel, if it is less than `best`. */
-static double wall_at(const thr_kit_piece *solid, const double at[3], const double along[3],
+static double wall_at(thr_kit_solid *solid, const double at[3], const double along[3],
                       double radius, double best)
 {
   enum { RAYS = 16 };
@@ -71,18 +71,16 @@ static double wall_at(const thr_kit_piece *solid, const double at[3], const doub
       out[k] = cos(angle) * side[0][k] + sin(angle) * side[1][k];
       from[k] = at[k] + radius * out[k];
     }
-    best = fmin(best, ray_thickness(solid, from, out, 4 * solid->node_radius));
+    best = fmin(best, ray_thickness(solid, from, out, 4 * solid->piece->node_radius));
   }
   return best;
 }
 
-/* Returns the thinnest wall between a channel and the surface, if it is less than `best`. */
-static double channel_wall(const thr_kit_piece *piece, const thr_kit_channel *channel, double best)
+/* Returns the thinnest wall between a channel and the surface of a solid without channels, if it is
+ * less than `best`. */
+static double channel_wall(thr_kit_solid *solid, const thr_kit_channel *channel, double best)
 {
-  bool open = channel->in < 0 || channel->out < 0;
-  thr_kit_piece solid = *piece;
-  solid.n_channels = solid.n_strokes = 0;
-  if (open) solid.n_pockets = 0;
+  const thr_kit_piece *piece = solid->piece;
   int first = channel->in < 0 ? channel->n / 2 : 0;
   int last = channel->out < 0 ? channel->n / 2 : channel->n - 1;
 
@@ -100,8 +98,8 @@ static double channel_wall(const thr_kit_piece *piece, const thr_kit_channel *ch
       /* No ray is shorter than the surface is near. */
       double near = -thr_kit_body(piece, at, NULL) - radius;
       if (piece->foot) near = fmin(near, at[2] + piece->base - radius);
-      if (solid.n_pockets == 0 && near >= best - 1e-3) continue;
-      best = wall_at(&solid, at, along, radius, best);
+      if (piece->n_pockets == 0 && near >= best - 1e-3) continue;
+      best = wall_at(solid, at, along, radius, best);
     }
   }
   return best;
@@ -153,12 +151,12 @@ static double stroke_wall(const thr_kit_piece *piece, const thr_kit_stroke *stro
   return best;
 }
 
-/* Returns the thinnest wall round a hollow key, if it is less than `best`. */
-static double key_wall(const thr_kit_piece *piece, const thr_kit_arm *arm, double best)
+/* Returns the thinnest wall round a hollow key of a solid without channels, if it is less than
+ * `best`. */
+static double key_wall(thr_kit_solid *solid, const thr_kit_arm *arm, double best)
 {
   enum { RAYS = 8, DEPTHS = 4 };
-  thr_kit_piece solid = *piece;
-  solid.n_channels = solid.n_pockets = solid.n_strokes = 0;
+  const thr_kit_piece *piece = solid->piece;
   double step = 0.01 * arm->width;
   for (int d = 0; d < DEPTHS; d++)
     for (int i = 0; i < RAYS; i++) {
@@ -168,34 +166,50 @@ static double key_wall(const thr_kit_piece *piece, const thr_kit_arm *arm, doubl
         out[k] = cos(angle) * arm->up[k] + sin(angle) * arm->side[k];
         from[k] = (arm->length - depth) * arm->along[k];
       }
-      while (by < arm->width && surface_distance(&solid, from, out, by, at) >= 0)
+      while (by < arm->width && surface_distance(solid, from, out, by, at) >= 0)
         by += step;
       double low = by - step, high = by;
       for (int half = 0; half < 10; half++) {
-        bool out_of = surface_distance(&solid, from, out, 0.5 * (low + high), at) >= 0;
+        bool out_of = surface_distance(solid, from, out, 0.5 * (low + high), at) >= 0;
         *(out_of ? &low : &high) = 0.5 * (low + high);
       }
-      surface_distance(&solid, from, out, high, at);
+      surface_distance(solid, from, out, high, at);
       if (by < arm->width && by > 0)
-        best = fmin(best, ray_thickness(&solid, at, out, 2 * arm->width));
+        best = fmin(best, ray_thickness(solid, at, out, 2 * arm->width));
     }
   return best;
 }
 
-double thr_kit_thinnest(const thr_kit_piece *piece)
+thr_status thr_kit_thinnest(const thr_kit_piece *piece, double *thinnest, thr_err *err)
 {
   double best = INFINITY;
-  for (int i = 0; i < piece->n_channels; i++) {
-    best = channel_wall(piece, &piece->channel[i], best);
+
+  /* The piece without channels and letters; where its pockets are on the way, without them, too. */
+  thr_kit_piece plain = *piece, bare = *piece;
+  plain.n_channels = plain.n_strokes = 0;
+  bare.n_channels = bare.n_strokes = bare.n_pockets = 0;
+  thr_kit_solid whole = {0}, without = {0};
+  thr_status st = thr_kit_solid_make(&whole, &plain, err);
+  if (!st) st = thr_kit_solid_make(&without, &bare, err);
+
+  for (int i = 0; i < piece->n_channels && !st; i++) {
+    const thr_kit_channel *a = &piece->channel[i];
+    best = channel_wall(a->in < 0 || a->out < 0 ? &without : &whole, a, best);
     for (int j = 0; j < i; j++) {
-      const thr_kit_channel *a = &piece->channel[i], *b = &piece->channel[j];
+      const thr_kit_channel *b = &piece->channel[j];
       double gap = thr_kit_gap(a, b);
       if (gap >= 0 && gap < best && !thr_kit_same_mouth(a, b)) best = gap;
     }
   }
-  for (int i = 0; i < piece->n_strokes; i++)
+  for (int i = 0; i < piece->n_strokes && !st; i++)
     best = stroke_wall(piece, &piece->stroke[i], best);
-  for (int i = 0; i < piece->n_arms && piece->key != THR_KIT_NO_KEY; i++)
-    if (!piece->arm[i].key_out) best = key_wall(piece, &piece->arm[i], best);
-  return best;
+  for (int i = 0; i < piece->n_arms && piece->key != THR_KIT_NO_KEY && !st; i++)
+    if (!piece->arm[i].key_out) best = key_wall(&without, &piece->arm[i], best);
+
+  if (!st) st = thr_kit_solid_check(&whole, err);
+  if (!st) st = thr_kit_solid_check(&without, err);
+  thr_kit_solid_destroy(&whole);
+  thr_kit_solid_destroy(&without);
+  *thinnest = best;
+  return st;
 }

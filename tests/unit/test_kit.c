@@ -645,7 +645,9 @@ START_TEST(every_shape_is_sampled)
 {
   thr_plan p = plan_of(cases[_i].shape, cases[_i].size, cases[_i].tubes);
   thr_kit kit = kit_of(&p, &cases[_i].options, 1);
-  double sampled = thr_kit_sampled_volume(&kit);
+  thr_err err = {0};
+  double sampled;
+  assert_ok(thr_kit_sampled_volume(&kit, &sampled, &err), &err);
   ck_assert_msg(fabs(sampled / kit.volume - 1) < 0.015, "%s: %g mm3, of meshes %g", cases[_i].name,
                 sampled, kit.volume);
   thr_kit_destroy(&kit);

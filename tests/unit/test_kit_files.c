@@ -241,7 +241,7 @@ START_TEST(test_rows_of_pieces)
       if (*c != ',' || ++commas != 5) continue;
       mass += strtod(c + 1, NULL);
     }
-    ck_assert_int_eq(commas, 13);
+    ck_assert_int_eq(commas, 15);
     bases += strstr(line, ",base,") != NULL;
   }
   ck_assert_int_eq(rows, m.kit.n_pieces);
