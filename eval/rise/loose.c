@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Makes pieces bodies, and lays them out where they begin (bodies.h). */
-#include "eval/rise/bodies.h"
+/* Makes pieces bodies, and lays them out where they begin (loose.h). */
+#include "eval/rise/loose.h"
 #include "graph/number.h"
 
 #include <math.h>
@@ -9,27 +9,19 @@
 static const double UNIT_EDGE = 4; /* units in a mean edge */
 static const double SPREAD = 1.15; /* of what lies flat, so that faces are apart */
 static const double JITTER = 0.05; /* rad, by which pieces are turned by chance */
+static const double DROPPED = 1; /* rad, the same in a heap: cords keep pieces from turning over */
+static const double CROWDED = 0.8; /* of what lies in a heap, where pieces lie on each other */
 static const double CLEAR = 0.02;  /* of an edge, over the ground and between pieces */
 static const double DAMPING = 0.2; /* part of a velocity that air takes in a second */
 
-/* A rotation about an axis by chance: by up to `most`, or any at all where that is pi (Shoemake
- * 1992). */
+/* A rotation by up to `most` rad about an axis by chance. */
 static void turn_by_chance(uint64_t *state, double most, double q[4])
 {
-  const double part = thr_random_unit(state), one = 2 * THR_PI * thr_random_unit(state),
-               other = 2 * THR_PI * thr_random_unit(state);
-  q[0] = sqrt(1 - part) * sin(one);
-  q[1] = sqrt(1 - part) * cos(one);
-  q[2] = sqrt(part) * sin(other);
-  q[3] = sqrt(part) * cos(other);
-  if (most >= THR_PI) return;
-
-  /* Its axis, with a smaller angle. */
-  double axis[3] = {q[0], q[1], q[2]};
-  if (thr_normalize(axis) == 0) axis[0] = 1;
-  const double half = 0.5 * most * thr_random_unit(state);
-  for (int k = 0; k < 3; k++)
-    q[k] = sin(half) * axis[k];
+  const double height = thr_random_disorder(state), around = THR_PI * thr_random_disorder(state),
+               half = 0.5 * most * thr_random_unit(state), beside = sqrt(1 - height * height);
+  q[0] = sin(half) * beside * cos(around);
+  q[1] = sin(half) * beside * sin(around);
+  q[2] = sin(half) * height;
   q[3] = cos(half);
 }
 
@@ -160,7 +152,7 @@ static thr_status lay_out(thr_rise_bodies *bodies, const thr_rise_options *optio
     const thr_rise_piece *piece = &structure->piece[p];
     double below, *pose = bodies->pose[p];
     memcpy(pose + 3, (const double[4]){0, 0, 0, 1}, 4 * sizeof *pose);
-    if (flat && !piece->held) turn_by_chance(&state, heap ? THR_PI : JITTER, pose + 3);
+    if (flat && !piece->held) turn_by_chance(&state, heap ? DROPPED : JITTER, pose + 3);
     matrix_of(pose + 3, bodies->turn[p]);
     reach_of(bodies, p, &below, &around[p]);
     order[p] = p;
@@ -170,7 +162,7 @@ static thr_status lay_out(thr_rise_bodies *bodies, const thr_rise_options *optio
                 bodies->length;
     if (!flat || piece->held) continue;
     for (int k = 0; k < 2; k++)
-      pose[k] *= SPREAD;
+      pose[k] *= heap ? CROWDED : SPREAD;
     pose[2] = below + clear;
   }
 
