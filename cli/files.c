@@ -42,8 +42,8 @@ static struct {
 /* Returns what a value of this option is. writes: is it the name of an output? */
 static file_kind kind_of(const char *option, bool writes)
 {
-  if (writes || (option && strcmp(option, "output") == 0)) return OUTPUT;
-  return option && strcmp(option, "draw") == 0 ? OUTPUT_FOLDER : INPUT;
+  if (option && strcmp(option, "draw") == 0) return OUTPUT_FOLDER;
+  return writes || (option && strcmp(option, "output") == 0) ? OUTPUT : INPUT;
 }
 
 /* Frees an entry. */

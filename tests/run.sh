@@ -159,7 +159,7 @@ fi
 
 export TIER=${1:-test} MEMORY_SAMPLES=40 MUTANTS=50 FUZZ_RUNS=100000
 # Golden cases that take minutes under sanitizers, and whose planning and evaluation other tests run under them.
-slow='asan/kit.case asan/figures.case asan/eval.case asan/cords.case asan/turning.case asan/threads.case asan/convert.case asan/plan.case asan/compare.case asan/schedules.case'
+slow='asan/kit.case asan/figures.case asan/eval.case asan/cords.case asan/turning.case asan/threads.case asan/convert.case asan/plan.case asan/compare.case asan/schedules.case asan/rise.case'
 # What a change needs within minutes, and what `make test` leaves to `make test-rest`: no tenth of these says anything.
 builds=release tree='layers layers-self-test documents format bench/smallest library/install readme examples formats/mutants'
 programs='second/json second/plans schema viewer/page viewer/browser' fuzz='' whole='' left=''

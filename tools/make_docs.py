@@ -170,6 +170,11 @@ def first_picture(run, pictures):
     svg_to_png(run.path("first.svg"), os.path.join(pictures, "first.png"), 1200)
 
 
+def film(run, pictures):
+    """A dome that rises, as README shows it."""
+    run.thread("rise", os.path.abspath("data/dome7-lines.json"), "--pull", "3", "--size", "480x300", "--film", os.path.abspath(os.path.join(pictures, "rise.png")))
+
+
 def with_outputs(run, page):
     """The page with what its commands print behind them."""
     def block(found):
@@ -231,6 +236,7 @@ def main():
             tutorial_pictures(run, PICTURES)
             put(pages["gallery.md"], gallery(run, text["gallery.md"], PICTURES), check)
             first_picture(run, PICTURES)
+            film(run, PICTURES)
     finally:
         shutil.rmtree(run.folder)
     sys.exit(0 if same or not check else 1)

@@ -53,12 +53,24 @@ typedef struct {
   guard_limits guard;
   const char *lift, *raise, *output, *plot, *film, *frames;
   const char *path;
-  int seeds, first_seed, start;
+  int seeds, first_seed, start, size[2];
   double time_step, iterations;
   bool json, let_down;
 } rise_arguments;
 
 #define AT(member) .offset = offsetof(rise_arguments, member)
+
+/* Takes "640x480". */
+static bool take_size(void *into, const cli_option *option, const char *value)
+{
+  int *size = ((rise_arguments *)into)->size, end = 0;
+  (void)option;
+  if (sscanf(value, "%4dx%4d%n", &size[0], &size[1], &end) == 2 && !value[end] && size[0] >= 64 &&
+      size[1] >= 64 && size[0] <= 4000 && size[1] <= 4000)
+    return true;
+  cli_usage("rise", "--size %s: expected width x height in px, 64 to 4000, as 640x480", value);
+  return false;
+}
 
 static const cli_option own_options[] = {
     {"start", .kind = CLI_WORD, AT(start), .word = thr_rise_start_name,
@@ -88,6 +100,8 @@ static const cli_option own_options[] = {
      .help = "a picture that moves (APNG), which every browser plays"},
     {"frames", .value = "FOLDER", .kind = CLI_TEXT, AT(frames),
      .help = "the same as numbered pictures, frame-0001.png and so on"},
+    {"size", .value = "WxH", .kind = CLI_OTHER, .take = take_size,
+     .help = "of film and frames in pixels (default: 640x480)"},
     {"json", .kind = CLI_FLAG, AT(json), .help = "print the answers as JSON"},
     {0}};
 
@@ -369,7 +383,7 @@ static int write_film(const rise_runs *runs)
 {
   const rise_arguments *args = runs->args;
   const thr_limits limits = cli_limits(0);
-  const thr_film_options options = {0};
+  const thr_film_options options = {.size = {args->size[0], args->size[1]}};
   thr_err err = {0};
   thr_movement movement;
   thr_film *film = NULL;
