@@ -8,6 +8,7 @@
 #define THR_KIT_FILES_H
 
 #include "diagram/layout/layout.h"
+#include "diagram/scene/movement.h"
 #include "graph/status.h"
 #include "graph/text.h"
 #include "kit/kit.h"
@@ -70,8 +71,16 @@ void thr_kit_stl_name(const thr_kit *kit, int piece, char name[32]);
 
 /* ---- write_viewer.c: what the viewer's page needs to show the pieces themselves. */
 
-/* Appends one JSON object, for thr_viewer_html. The kit has meshes. */
-void thr_kit_viewer(const thr_kit *kit, thr_text *out);
+/* Appends one JSON object, for thr_viewer_html. The kit has meshes. moves: of thr_kit_moves, the
+ * page plays it instead of the threading; NULL: none. */
+void thr_kit_viewer(const thr_kit *kit, const thr_text *moves, thr_text *out);
+
+/* Appends a movement of the kit's pieces and of its cords as one JSON object. Places are exact to
+ * 1/65535 of the box of all of them, turns to 1/32767; the same movement gives the same bytes, some
+ * 19 for each piece in a frame. title: what moves; note: how it ends. THR_EINPUT as for
+ * thr_film_open, THR_ENOMEM; out may be incomplete then. O(frames (pieces + points)). */
+thr_status thr_kit_moves(const thr_kit *kit, const thr_movement *movement, const char *title,
+                         const char *note, thr_text *out, thr_err *err) THR_MUST_CHECK;
 
 /* ---- kit_tables.c: CSV, in the manner of diagram/tables/tables.h, which says what layout is. */
 

@@ -170,8 +170,7 @@ thr_status thr_film_movement(thr_movement *movement, const thr_kit *kit, int n_f
 
 /* ---- the camera ---- */
 
-/* Refuses a movement that cannot be drawn. */
-static thr_status check_movement(const thr_kit *kit, const thr_movement *movement, thr_err *err)
+thr_status thr_film_check(const thr_kit *kit, const thr_movement *movement, thr_err *err)
 {
   if (movement->n_pieces != kit->n_pieces)
     return thr_fail(err, THR_EINPUT, "a movement of %d pieces, but the kit has %d",
@@ -272,23 +271,6 @@ static thr_status set_stage(thr_film *film, thr_err *err)
 
 /* ---- opening ---- */
 
-/* Returns the tension that the colours end at: the largest one, rounded up to two digits. */
-static double find_most(const thr_film *film)
-{
-  const thr_movement *movement = film->movement;
-  double most = 0;
-  if (film->options.most > 0) return film->options.most;
-  for (int c = 0; c < movement->n_cords; c++)
-    for (int frame = 0; frame < movement->n_frames; frame++)
-      for (int i = movement->first[c]; i + 1 < movement->first[c + 1]; i++) {
-        double tension = movement->tension[frame * movement->first[movement->n_cords] + i];
-        if (isfinite(tension)) most = fmax(most, tension);
-      }
-  if (most <= 0) return 0;
-  double unit = pow(10, floor(log10(most)) - 1);
-  return unit * ceil(most / unit - 1e-9);
-}
-
 void thr_film_close(thr_film *film)
 {
   if (!film) return;
@@ -301,7 +283,7 @@ thr_status thr_film_open(thr_film **film, const thr_kit *kit, const thr_movement
                          const thr_film_options *options, thr_err *err)
 {
   *film = NULL;
-  thr_status st = check_movement(kit, movement, err);
+  thr_status st = thr_film_check(kit, movement, err);
   if (st) return st;
   thr_film *made = thr_calloc(1, sizeof *made);
   if (!made) return thr_nomem(err);
@@ -330,7 +312,7 @@ thr_status thr_film_open(thr_film **film, const thr_kit *kit, const thr_movement
   if (!st) {
     made->view.camera = options->from ? thr_camera_at(options->azimuth, options->elevation)
                                       : thr_camera_at(AZIMUTH, ELEVATION);
-    made->most = find_most(made);
+    made->most = options->most > 0 ? options->most : thr_film_most(movement);
     thr_film_tensions(made->tension);
     thr_film_colours(&made->palette);
     st = set_stage(made, err);
@@ -381,14 +363,6 @@ static unsigned char find_nearest(thr_film *film, const unsigned char pixel[3])
   return *known = (unsigned char)best;
 }
 
-/* Returns the number of a tension's colour. */
-static int find_colour(const thr_film *film, double tension)
-{
-  enum { KNOWN = THR_FILM_TENSIONS - 1 };
-  if (!isfinite(tension) || film->most <= 0) return KNOWN;
-  return (int)fmin(fmax(KNOWN * tension / film->most, 0), KNOWN - 1);
-}
-
 /* Lays the cords of a frame; without those parts that opaque pieces hide. Returns how many straight
  * parts there are. */
 static int lay_cords(thr_film *film, int frame)
@@ -403,8 +377,8 @@ static int lay_cords(thr_film *film, int frame)
       if (inside && !film->options.translucent) continue;
       for (int k = 0; k < 2; k++)
         thr_movement_place(movement, frame, i + k, film->line[n][k]);
-      film->colour[n++] =
-          find_colour(film, movement->tension[(size_t)frame * (size_t)n_points + (size_t)i]);
+      film->colour[n++] = thr_film_tension(
+          movement->tension[(size_t)frame * (size_t)n_points + (size_t)i], film->most);
     }
   return n;
 }

@@ -57,6 +57,10 @@ thr_status thr_film_open(thr_film **film, const thr_kit *kit, const thr_movement
                          const thr_film_options *options, thr_err *err) THR_MUST_CHECK;
 void thr_film_close(thr_film *film);
 
+/* Refuses a movement that cannot be shown: THR_EINPUT, as for thr_film_open. O(frames pieces). */
+thr_status thr_film_check(const thr_kit *kit, const thr_movement *movement,
+                          thr_err *err) THR_MUST_CHECK;
+
 /* Return from where a film sees the world (px per mm), and its colours. */
 thr_camera_view thr_film_view(const thr_film *film);
 const thr_png_palette *thr_film_palette(const thr_film *film);
@@ -88,6 +92,13 @@ typedef struct {
 /* Fills the colours of tensions, red, green and blue, 0 to 1: ever lighter from blue over red to
  * yellow, so that lightness alone tells their order, then grey. */
 void thr_film_tensions(double colour[THR_FILM_TENSIONS][3]);
+
+/* Returns the number of the colour of a tension where the colours end at `most`, both N. */
+int thr_film_tension(double tension, double most);
+
+/* Returns the tension that the colours of a movement end at, N: the largest one, rounded up to two
+ * digits; 0 if none is known. O(frames points). */
+double thr_film_most(const thr_movement *movement);
 
 /* Fills the palette: number 0 is black and unused. */
 void thr_film_colours(thr_png_palette *palette);

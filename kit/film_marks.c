@@ -41,6 +41,28 @@ void thr_film_tensions(double colour[THR_FILM_TENSIONS][3])
   memcpy(colour[KNOWN], unknown, sizeof unknown);
 }
 
+int thr_film_tension(double tension, double most)
+{
+  enum { KNOWN = THR_FILM_TENSIONS - 1 };
+  if (!isfinite(tension) || most <= 0) return KNOWN;
+  return (int)fmin(fmax(KNOWN * tension / most, 0), KNOWN - 1);
+}
+
+double thr_film_most(const thr_movement *movement)
+{
+  const size_t n_points = (size_t)movement->first[movement->n_cords];
+  double most = 0;
+  for (int c = 0; c < movement->n_cords; c++)
+    for (int frame = 0; frame < movement->n_frames; frame++)
+      for (int i = movement->first[c]; i + 1 < movement->first[c + 1]; i++) {
+        double tension = movement->tension[(size_t)frame * n_points + (size_t)i];
+        if (isfinite(tension)) most = fmax(most, tension);
+      }
+  if (most <= 0) return 0;
+  double unit = pow(10, floor(log10(most)) - 1);
+  return unit * ceil(most / unit - 1e-9);
+}
+
 /* Writes a colour, 0 to 1, as bytes. */
 static void put_colour(const double colour[3], unsigned char *to)
 {

@@ -2,15 +2,21 @@
 /* Writes the pieces of a kit as the viewer's page reads them: JSON with the meshes as base64.
  *
  * Points are whole numbers of two bytes, the lowest first, that count steps from the lowest corner
- * of the mesh's box; triangles are three numbers of points of four bytes each. */
+ * of the mesh's box; triangles are three numbers of points of four bytes each.
+ *
+ * A movement is seven such numbers for each piece in each frame: x, y and z as steps from the
+ * lowest corner of the box of all places, and the quaternion x, y, z, w as 32767 (1 + q). A tension
+ * is one byte, the number of its colour. */
 #include "kit/files.h"
 
+#include "diagram/overview/overview.h"
 #include "graph/io/json.h"
+#include "kit/film.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { STEPS = 65535 };
+enum { STEPS = 65535, HALF = 32767, TICKS = 4 };
 
 /* Appends bytes as base64: a multiple of three, which needs no padding. */
 static void put_base64(const thr_text *bytes, thr_text *out)
@@ -80,13 +86,153 @@ static void put_lanes(const thr_kit *kit, thr_writer *writer)
   free(off);
 }
 
-void thr_kit_viewer(const thr_kit *kit, thr_text *out)
+/* Writes bytes as a string of base64, filled up with zeros, and releases them. */
+static void put_bytes(const char *key, thr_text *bytes, thr_writer *writer)
+{
+  thr_text words = {0};
+  while (bytes->length % 3)
+    thr_kit_number(bytes, 0, 1);
+  put_base64(bytes, &words);
+  writer->out->failed |= bytes->failed;
+  thr_text_destroy(bytes);
+  thr_write_words(writer, key, &words);
+}
+
+/* Writes the poses of all pieces, frame by frame, with the corner and the step of the places. */
+static void put_poses(const thr_movement *movement, thr_writer *writer)
+{
+  const size_t n = (size_t)movement->n_frames * (size_t)movement->n_pieces;
+  double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, step = 1e-6;
+  for (size_t i = 0; i < n; i++)
+    for (int k = 0; k < 3; k++)
+      low[k] = fmin(low[k], movement->pose[i][k]);
+  for (size_t i = 0; i < n; i++)
+    for (int k = 0; k < 3; k++)
+      step = fmax(step, (movement->pose[i][k] - low[k]) / STEPS);
+
+  thr_write_numbers(writer, "low", low, 3);
+  thr_write_printf(writer, "step", "%.9g", step);
+
+  thr_text bytes = {0};
+  for (size_t i = 0; i < n; i++) {
+    const double *pose = movement->pose[i];
+    double square = 0;
+    for (int k = 3; k < 7; k++)
+      square += pose[k] * pose[k];
+    for (int k = 0; k < 3; k++)
+      thr_kit_number(&bytes, (uint64_t)lround((pose[k] - low[k]) / step), 2);
+    for (int k = 3; k < 7; k++)
+      thr_kit_number(&bytes, (uint64_t)lround(HALF * (1 + pose[k] / sqrt(square))), 2);
+  }
+  put_bytes("poses", &bytes, writer);
+}
+
+/* Writes the points of each cord, [piece, x, y, z], and the colours of the tensions between them.
+ */
+static void put_cords(const thr_movement *movement, double most, thr_writer *writer)
+{
+  const int n_points = movement->first[movement->n_cords];
+  thr_write_array(writer, "cords");
+  for (int c = 0; c < movement->n_cords; c++) {
+    thr_write_array(writer, NULL);
+    for (int i = movement->first[c]; i < movement->first[c + 1]; i++) {
+      thr_write_array(writer, NULL);
+      thr_write_int(writer, NULL, movement->point[i].piece);
+      for (int k = 0; k < 3; k++)
+        thr_write_printf(writer, NULL, "%.5g", movement->point[i].at[k]);
+      thr_write_close(writer);
+    }
+    thr_write_close(writer);
+  }
+  thr_write_close(writer);
+
+  thr_text bytes = {0};
+  for (int f = 0; f < movement->n_frames; f++)
+    for (int i = 0; i < n_points; i++) {
+      const double tension = movement->tension[(size_t)f * (size_t)n_points + (size_t)i];
+      thr_kit_number(&bytes, (uint64_t)thr_film_tension(tension, most), 1);
+    }
+  put_bytes("tensions", &bytes, writer);
+}
+
+/* Writes the colours of tensions, the last one for what is not known, and their scale, as a plan
+ * with an evaluation has one. */
+static void put_colours(double most, thr_writer *writer)
+{
+  double colour[THR_FILM_TENSIONS][3], tick[TICKS];
+  thr_film_tensions(colour);
+  thr_write_array(writer, "colours");
+  for (int i = 0; i < THR_FILM_TENSIONS; i++) {
+    long byte[3];
+    for (int k = 0; k < 3; k++)
+      byte[k] = lround(255 * colour[i][k]);
+    thr_write_printf(writer, NULL, "\"#%02lx%02lx%02lx\"", byte[0], byte[1], byte[2]);
+  }
+  thr_write_close(writer);
+  if (most <= 0) return;
+
+  thr_write_object(writer, "scale");
+  thr_write_number(writer, "low", 0);
+  thr_write_number(writer, "high", most);
+  thr_write_array(writer, "ticks");
+  const int n = thr_svg_ticks(0, most, false, TICKS, tick);
+  for (int i = 0; i < n; i++) {
+    char words[32];
+    thr_svg_force(tick[i], words);
+    thr_write_array(writer, NULL);
+    thr_write_printf(writer, NULL, "%.7g", tick[i]);
+    thr_write_string(writer, NULL, tick[i] == 0 ? "0" : words);
+    thr_write_close(writer);
+  }
+  thr_write_close(writer);
+  thr_write_close(writer);
+}
+
+/* Writes what each frame says in words. */
+static void put_states(const thr_movement *movement, thr_writer *writer)
+{
+  thr_write_array(writer, "words");
+  for (int f = 0; f < movement->n_frames; f++) {
+    const thr_movement_state *state = &movement->state[f];
+    thr_text words = {0};
+    thr_text_printf(&words, "%.2f s", state->time);
+    if (isfinite(state->pull)) thr_text_printf(&words, ", pull %.2f N", state->pull);
+    if (movement->n_faces)
+      thr_text_printf(&words, ", %d of %d faces closed", state->closed, movement->n_faces);
+    if (isfinite(state->drawn)) thr_text_printf(&words, ", %.0f mm drawn in", state->drawn);
+    thr_write_words(writer, NULL, &words);
+  }
+  thr_write_close(writer);
+}
+
+thr_status thr_kit_moves(const thr_kit *kit, const thr_movement *movement, const char *title,
+                         const char *note, thr_text *out, thr_err *err)
+{
+  thr_writer writer = {.out = out, .compact = true};
+  thr_status st = thr_film_check(kit, movement, err);
+  if (st) return st;
+  const double most = thr_film_most(movement);
+  thr_write_object(&writer, NULL);
+  thr_write_string(&writer, "title", title);
+  thr_write_string(&writer, "note", note);
+  thr_write_printf(&writer, "seconds", "%.6g", movement->seconds);
+  thr_write_printf(&writer, "floor", "%.6g", movement->floor);
+  put_states(movement, &writer);
+  put_colours(most, &writer);
+  put_cords(movement, most, &writer);
+  put_poses(movement, &writer);
+  thr_write_close(&writer);
+  return out->failed ? thr_nomem(err) : THR_OK;
+}
+
+void thr_kit_viewer(const thr_kit *kit, const thr_text *moves, thr_text *out)
 {
   thr_writer writer = {.out = out, .compact = true};
   thr_write_object(&writer, NULL);
   thr_write_printf(&writer, "mm", "%.9g", kit->mm);
   thr_write_printf(&writer, "cord", "%.5g", kit->cord);
   put_lanes(kit, &writer);
+  if (moves) thr_write_json(&writer, "moves", moves);
   thr_write_array(&writer, "meshes");
   for (int p = 0; p < kit->n_pieces; p++)
     if (kit->piece[p].like == p) put_mesh(&kit->mesh[p], &kit->report[p], &writer);

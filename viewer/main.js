@@ -7,7 +7,7 @@ const $ = (id) => document.getElementById(id);
 const plan = readPlan($('plan').textContent);
 const hidden = new Set();
 const still = window.matchMedia('(prefers-reduced-motion: reduce)');
-let stage = null, done = 0, timer = 0, tension = false;
+let stage = null, done = 0, timer = 0, tension = false, picked = -1;
 
 // ---- colours ----
 
@@ -63,8 +63,8 @@ function showWords() {
   const now = $('now'), last = plan.steps.length;
   setText($('count'), `${done} / ${last}`);
   if (plan.moves) {
-    setText(now, plan.moves.title);
-    setText($('then'), plan.moves.note);
+    setText(now, plan.moves.words?.[done] ?? plan.moves.title);
+    setText($('then'), capital(plan.moves.note));
     return;
   }
   if (done) {
@@ -122,7 +122,12 @@ function placeNames(taken) {
 }
 
 function placeTags() {
-  if (plan.moves) return;
+  if (plan.moves) {
+    const names = [];
+    if (picked >= 0) tag('now', picked, plan.places[picked], names);
+    placeNames(names);
+    return;
+  }
   const step = plan.steps[done - 1], ahead = plan.steps[done];
   const here = step ? plan.head(step.half) : plan.tail(ahead.half);
   const start = ahead && ahead.begins && step ? plan.tail(ahead.half) : -1;
@@ -165,7 +170,7 @@ function goTo(step) {
   slider.value = String(done);
   showWords();
   slider.setAttribute('aria-valuetext', `${done} of ${plural(plan.steps.length, plan.moves ? 'step' : 'pass')}`);
-  remember(plan.key, done);
+  if (plan.key) remember(plan.key, done);
   refresh();
   if (stage && !plan.moves && $('follow').checked) stage.face(plan.steps[Math.max(done - 1, 0)].piece, still.matches);
   if (done === plan.steps.length) pause();
@@ -234,20 +239,20 @@ function cordItem(c) {
 }
 
 function showScale() {
-  const {scale} = plan, box = $('scale');
+  const {scale} = plan, box = $('scale'), part = (value) => (scale.low > 0 ? Math.log(value / scale.low) / span : value / scale.high);
   const ramp = document.createElement('div'), note = document.createElement('small');
   const span = Math.log(scale.high / scale.low);
   ramp.className = 'ramp';
   ramp.style.background = `linear-gradient(90deg, ${scale.ramp.join(', ')})`;
   box.append(ramp);
   for (const [value, text] of scale.ticks) {
-    const tick = document.createElement('span'), part = span > 0 && scale.low > 0 ? Math.log(value / scale.low) / span : 0;
+    const tick = document.createElement('span');
     tick.className = 'tick';
     tick.textContent = text;
-    tick.style.left = `${100 * part}%`;
+    tick.style.left = `${span > 0 ? 100 * part(value) : 0}%`;
     box.append(tick);
   }
-  note.textContent = `Tension of every pass: ${scale.method}.`;
+  note.textContent = plan.moves ? 'tension' : `Tension of every pass: ${scale.method}.`;
   box.append(note);
 }
 
@@ -262,12 +267,30 @@ function thinTicks() {
   }
 }
 
-// A motion has no cords: the panel only says what moves, and play begins at a speed at which it is seen to move.
+// The scale lies in the picture, where a telephone shows it, too; speeds are those of the simulation, as it was timed.
+function fillRisePanel() {
+  const {seconds, colours} = plan.moves;
+  $('seen').textContent = 'Simulated: pieces as they are made, cords from mouth to mouth in the colours of their tension.';
+  for (const option of $('speed').options) option.value = String(Number(option.value) / seconds);
+  $('speed').value = String(0.5 / seconds); // most are up within three seconds
+  setText($('per'), '×');
+  $('speed').ariaLabel = 'Speed, as a part of the real one';
+  if (!plan.scale) return;
+  plan.scale.ramp = colours.slice(0, -1);
+  showScale();
+  $('scale').hidden = false;
+  $('stage').append($('scale'));
+  thinTicks();
+}
+
+// What moves has no cords to thread: the panel only says what moves, and play begins at a speed at which it is seen to move.
 function fillMotionPanel() {
   $('title').textContent = document.title = plan.moves.title;
   $('slider').max = String(plan.steps.length);
   $('speed').value = '20';
   for (const part of ['jump', 'key', 'cords', 'follow']) ($(part).closest('section, label') ?? $(part)).hidden = true;
+  ['one step back, on', 'ten steps', 'the first frame, the last'].forEach((words, i) => setText(document.querySelectorAll('dl dd')[i], words));
+  if (plan.moves.poses) fillRisePanel();
   for (const [button, words] of [['back', 'One step back'], ['on', 'One step on'], ['slider', 'Step of the motion']]) $(button).ariaLabel = words;
 }
 
@@ -382,7 +405,11 @@ function listenForPicks(canvas) {
   canvas.addEventListener('pointerup', (event) => {
     if (!down || Math.hypot(event.offsetX - down[0], event.offsetY - down[1]) > 5) return;
     const piece = stage.pick(event.offsetX, event.offsetY);
-    if (piece < 0) return;
+    if (plan.moves?.poses) {
+      picked = document.documentElement.dataset.piece = piece;
+      placeTags();
+    }
+    if (piece < 0 || plan.moves) return;
     describe(piece);
     $('pass').value = '';
     $('piece').value = plan.pieces[piece];
@@ -439,6 +466,7 @@ try {
   $('trouble').hidden = false;
 }
 listen();
-goTo(Number(recall(plan.key)));
+goTo(plan.key ? Number(recall(plan.key)) : 0);
+if (!plan.key && !still.matches) play();
 // for tests and the curious: where a point of the framework is in the picture
 window.threadViewer = {project: (node) => stage.project(node), nodes: stage?.nodes};

@@ -23,18 +23,34 @@ function orderOfPasses({half, fold}) {
   return [...right, ...left.map(({k, half: h}) => ({k, half: h ^ 1, left: true}))];
 }
 
-// A motion of a framework without cords: its steps are the frames after the first.
+// What moves is played: its steps are the frames after the first. No cord is threaded meanwhile.
 function readMotion(plan) {
-  const {frames} = plan.moves;
-  plan.order = [];
+  const {frames, words} = plan.moves;
+  plan.order = plan.cords = [];
   plan.most = 1;
-  plan.steps = frames.slice(1).map((_, i) => ({frame: i + 1}));
+  plan.steps = (frames ?? words).slice(1).map((_, i) => ({frame: i + 1}));
+  if (!frames) return readRise(plan);
   plan.key = `thread-viewer:${plan.frame}:moves:${hash(frames[frames.length - 1].map((x) => Math.round(1e4 * x)))}`;
+  return plan;
+}
+
+// Base64 as bytes.
+export const bytesOf = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer;
+
+// Pieces that move with their cords, as kit/write_viewer.c writes them.
+function readRise(plan) {
+  const {moves} = plan, n = plan.pieces.length, whole = new Uint16Array(bytesOf(moves.poses), 0, 7 * n * moves.words.length);
+  // x, y, z in mm and the quaternion x, y, z, w of a piece in a frame
+  moves.pose = (frame, piece) => Array.from(whole.subarray(7 * (frame * n + piece), 7 * (frame * n + piece + 1)),
+    (x, k) => (k < 3 ? moves.low[k] + moves.step * x : x / 32767 - 1));
+  moves.tension = new Uint8Array(bytesOf(moves.tensions));
+  plan.scale = moves.scale;
   return plan;
 }
 
 export function readPlan(text) {
   const plan = JSON.parse(text);
+  plan.moves ??= plan.kit?.moves;
   if (plan.moves) return readMotion(plan);
   const held = new Int32Array(plan.edges.length);
   const steps = [];

@@ -1,11 +1,11 @@
 // The picture in space: pieces, cords, feet, the camera. Draws only when something changed.
 import {
-  AmbientLight, BackSide, BufferAttribute, BufferGeometry, Color, ConeGeometry, CylinderGeometry, DirectionalLight, Fog, Group, InstancedMesh,
+  AmbientLight, BackSide, BufferAttribute, BufferGeometry, CircleGeometry, Color, ConeGeometry, CylinderGeometry, DirectionalLight, Fog, Group, InstancedMesh,
   LatheGeometry, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, Quaternion, Raycaster, Scene,
   Sphere, SphereGeometry, Vector2, Vector3, WebGLRenderer,
 } from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
-import {startOf} from './plan.js';
+import {bytesOf, startOf} from './plan.js';
 import {across, centreLine, frames, lanes, sizesOf, tubes} from './strands.js';
 
 // A dark rim around a mesh, so that no colour of a cord fades into a piece or the page: its far side, wider by so much.
@@ -39,7 +39,7 @@ export class Stage {
     this.sizes = sizesOf(plan, this.nodes);
     this.frame = frames(plan, this.nodes);
     this.lane = plan.moves ? [] : lanes(plan, this.nodes, this.sizes, this.frame);
-    this.reach = plan.moves ? plan.moves.frames.flatMap(points) : this.nodes; // all places that the picture has room for
+    this.reach = plan.moves ? this.reachOf(plan.moves) : this.nodes; // all places that the picture has room for
     this.renderer = new WebGLRenderer({canvas, antialias: true});
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     this.scene = new Scene();
@@ -56,12 +56,19 @@ export class Stage {
     this.rim = rimMaterial(0.28 * this.sizes.cord);
     this.addCords();
     this.addNeedle();
+    if (plan.moves?.poses) this.addGround();
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener('change', () => this.request());
     this.resize();
     this.reset();
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
     canvas.addEventListener('webglcontextrestored', () => this.request());
+  }
+
+  // All places of what moves.
+  reachOf({frames, words, pose}) {
+    const {mm} = this.plan.kit ?? {};
+    return frames ? frames.flatMap(points) : words.flatMap((_, f) => this.nodes.map((_, v) => new Vector3(...pose(f, v)).divideScalar(mm)));
   }
 
   // What hands pick up: solid pieces are hubs with arms, through which one sees the cords; tubes are barrels.
@@ -138,7 +145,6 @@ export class Stage {
   addKit() {
     const {plan} = this, {mm, meshes, pieces} = plan.kit, unit = 1 / mm;
     const material = new MeshLambertMaterial({transparent: true, opacity: 0.4});
-    const bytes = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer;
     pieces.forEach(([mesh, ...numbers], piece) => {
       const ends = plan.solid ? plan.edges.filter((edge) => edge.includes(piece)).map((edge) => [piece, edge[0] + edge[1] - piece]) : [plan.edges[piece]];
       for (const [a, b] of ends) this.tips[piece].push(this.nodes[b].clone().sub(this.nodes[a]).multiplyScalar(0.5));
@@ -148,9 +154,9 @@ export class Stage {
       (meshes[mesh].places ??= []).push(place);
     });
     meshes.forEach(({low, step, points, triangles, places}) => {
-      const shape = new BufferGeometry(), whole = new Uint16Array(bytes(points));
+      const shape = new BufferGeometry(), whole = new Uint16Array(bytesOf(points));
       shape.setAttribute('position', new BufferAttribute(Float32Array.from(whole, (x, k) => low[k % 3] + step * x), 3));
-      shape.setIndex(new BufferAttribute(new Uint32Array(bytes(triangles)), 1));
+      shape.setIndex(new BufferAttribute(new Uint32Array(bytesOf(triangles)), 1));
       shape.computeVertexNormals();
       this.addTranslucent(shape, material, places);
     });
@@ -203,8 +209,69 @@ export class Stage {
     return {piece, middle, turn, scale: new Vector3(radius, Math.max(length, 0.4 * radius), radius)};
   }
 
+  // The level ground, the shadows of all pieces flat on it, as if light came from the side, and a tube for every part of the cords.
+  addGround() {
+    const {plan, sizes} = this, {floor, cords} = plan.moves, z = floor / plan.kit.mm, {center, radius} = new Sphere().setFromPoints(this.reach);
+    this.ground = new Mesh(new CircleGeometry(1.25 * radius + sizes.pitch, 64), new MeshBasicMaterial({polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4}));
+    this.ground.position.set(center.x, center.y, z);
+    this.shadow = new MeshBasicMaterial();
+    this.scene.add(this.ground);
+    for (const {mesh} of this.parts) {
+      const shade = new InstancedMesh(mesh.geometry, this.shadow, mesh.count);
+      shade.instanceMatrix = mesh.instanceMatrix;
+      shade.frustumCulled = shade.matrixAutoUpdate = false;
+      shade.matrix.set(1, 0, 0.35, -0.35 * z, 0, 1, 0.2, -0.2 * z, 0, 0, 0, z, 0, 0, 0, 1);
+      this.scene.add(shade);
+    }
+    this.spans = cords.flatMap((cord) => cord.slice(1).map((to, i) => [cord[i], to]).concat([null])); // the last point has a tension, unused
+    this.strings = new InstancedMesh(new CylinderGeometry(1, 1, 1, 8), new MeshBasicMaterial(), this.spans.length);
+    this.strings.frustumCulled = false;
+    this.scene.add(this.strings);
+    this.colours = plan.moves.colours.map((colour) => new Color(colour));
+  }
+
+  // Shows a frame of pieces that move with their cords.
+  showPoses(number) {
+    const {plan, nodes, sizes, strings} = this, {moves, kit} = plan, at = new Matrix4(), up = new Vector3(0, 1, 0);
+    const turns = nodes.map((node, v) => {
+      const [x, y, z, ...turn] = moves.pose(number, v);
+      node.set(x, y, z).divideScalar(kit.mm);
+      return new Quaternion(...turn).normalize();
+    });
+    for (const {mesh, matrix} of this.parts) {
+      matrix.forEach(({piece, turn, scale}, i) => {
+        mesh.setMatrixAt(i, at.compose(nodes[piece], turns[piece].clone().multiply(turn), scale));
+        mesh.setColorAt(i, this.theme.held);
+      });
+      mesh.instanceMatrix.needsUpdate = mesh.instanceColor.needsUpdate = true;
+      mesh.boundingSphere = null;
+    }
+    const place = ([piece, ...from]) => {
+      const point = new Vector3(...from).divideScalar(kit.mm);
+      return piece < 0 ? point : point.applyQuaternion(turns[piece]).add(nodes[piece]);
+    };
+    const turn = new Quaternion(), size = new Vector3(), radius = Math.max(sizes.cord, 0.012 * sizes.pitch);
+    this.spans.forEach((span, i) => {
+      if (!span) {
+        strings.setMatrixAt(i, at.makeScale(0, 0, 0));
+        return;
+      }
+      const [from, to] = span.map(place), axis = to.clone().sub(from), length = axis.length();
+      turn.setFromUnitVectors(up, length > 0 ? axis.divideScalar(length) : up);
+      strings.setMatrixAt(i, at.compose(from.lerp(to, 0.5), turn, size.set(radius, length + 0.5 * radius, radius)));
+      strings.setColorAt(i, this.colours[moves.tension[number * this.spans.length + i]]);
+    });
+    strings.instanceMatrix.needsUpdate = strings.instanceColor.needsUpdate = true;
+    for (const mesh of [this.current, this.arrow, this.ball]) mesh.visible = false;
+    this.request();
+  }
+
   // Shows a frame of a motion.
   showFrame(number) {
+    if (this.plan.moves.poses) {
+      this.showPoses(number);
+      return;
+    }
     const {plan, nodes} = this, at = new Matrix4();
     points(plan.moves.frames[number]).forEach((p, v) => nodes[v].copy(p));
     for (const part of this.parts) {
@@ -282,6 +349,10 @@ export class Stage {
     this.scene.fog.color.copy(this.theme.paper);
     this.rim.color.copy(this.theme.rim);
     if (this.feet) this.feet.material.color.copy(this.theme.foot);
+    if (this.ground) {
+      this.ground.material.color.copy(this.theme.paper).lerp(this.theme.foot, 0.2);
+      this.shadow.color.copy(this.ground.material.color).multiplyScalar(0.75);
+    }
     this.request();
   }
 
@@ -386,7 +457,7 @@ export class Stage {
   showAll(view) {
     const right = across(view, new Vector3(-view.y, view.x, 0)), up = new Vector3().crossVectors(view, right);
     const high = 0.9 * Math.tan((this.camera.fov * Math.PI) / 360), wide = high * this.camera.aspect;
-    const room = 2 * this.sizes.radius;
+    const room = this.ground ? 0.6 * this.sizes.pitch : 2 * this.sizes.radius; // pieces reach beyond their middles
     const arms = this.reach.map((node) => node.clone().sub(this.middle));
     const centre = (axis) => {
       const along = arms.map((arm) => arm.dot(axis));

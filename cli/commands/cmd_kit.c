@@ -170,7 +170,7 @@ static int write_viewer(const thr_kit *kit, const kit_arguments *args, const cha
   limits.threads = args->jobs ? args->jobs : thr_os_processors();
 
   thr_status st = thr_kit_make(&shown, kit->plan, &options, NULL, true, &limits, &err);
-  if (!st) thr_kit_viewer(&shown, &meshes);
+  if (!st) thr_kit_viewer(&shown, NULL, &meshes);
   const thr_document_options how = {.kit = &meshes, .kind_tolerance = options.kind_tolerance};
   if (!st && meshes.failed) st = thr_fail(&err, THR_ENOMEM, "out of memory");
   if (!st) st = thr_document_make(kit->plan, thr_document_find("html"), &how, &limits, &page, &err);

@@ -21,8 +21,10 @@
 #include "graph/plan/plan.h"
 #include "graph/process/process.h"
 #include "graph/text.h"
+#include "kit/files.h"
 #include "kit/film.h"
 #include "kit/kit.h"
+#include "lib/lib.h"
 #include "lib/rise_pieces.h"
 
 #include <math.h>
@@ -51,7 +53,7 @@ typedef struct {
   thr_rise_options rise;
   thr_kit_options kit;
   guard_limits guard;
-  const char *lift, *raise, *output, *plot, *film, *frames;
+  const char *lift, *raise, *output, *plot, *film, *frames, *play;
   const char *path;
   int seeds, first_seed, start, size[2];
   double time_step, iterations;
@@ -102,6 +104,8 @@ static const cli_option own_options[] = {
      .help = "the same as numbered pictures, frame-0001.png and so on"},
     {"size", .value = "WxH", .kind = CLI_OTHER, .take = take_size,
      .help = "of film and frames in pixels (default: 640x480)"},
+    {"play", .value = "FILE.html", .kind = CLI_OUTPUT, AT(play),
+     .help = "the viewer, which plays it: one file for any browser"},
     {"json", .kind = CLI_FLAG, AT(json), .help = "print the answers as JSON"},
     {0}};
 
@@ -239,8 +243,8 @@ static void pieces_of(const rise_runs *runs, int pass, const char *name[2])
   }
 }
 
-/* Appends the lines for people. */
-static void put_text(const rise_runs *runs, thr_text *text)
+/* Appends what rises and from where. */
+static void put_title(const rise_runs *runs, thr_text *text)
 {
   const thr_rise_structure *structure = &runs->made.structure;
   const thr_rise_record *record = &runs->record[0];
@@ -248,25 +252,38 @@ static void put_text(const rise_runs *runs, thr_text *text)
   int ends = 0;
   for (int c = 0; c < structure->n_cords; c++)
     ends += structure->cord[c].pulled[0] + structure->cord[c].pulled[1];
-  thr_text_printf(text, "%d pieces, %.3g N in all, %d %s pulled at %d %s, %s\n",
-                  structure->n_pieces, record->weight, structure->n_cords,
+  thr_text_printf(text, "%d pieces, %.3g N in all, %d %s pulled at %d %s, %s", structure->n_pieces,
+                  record->weight, structure->n_cords,
                   cli_plural(structure->n_cords, "cord", "cords"), ends,
                   cli_plural(ends, "end", "ends"),
                   options->start == THR_RISE_FLAT   ? "from flat on the ground"
                   : options->start == THR_RISE_HEAP ? "from a heap"
                                                     : "from its shape");
+}
 
+/* Appends whether it comes up, and at what pull. */
+static void put_outcome(const rise_runs *runs, thr_text *text)
+{
   const int up = count_up(runs);
-  const thr_rise_moment *last = &record->moment[record->held ? record->held - 1 : 0];
   if (runs->n_runs > 1)
     thr_text_printf(text, "comes up in %d of %d runs", up, runs->n_runs);
   else
     thr_text_append(text, up ? "comes up" : "does not come up");
   if (2 * up > runs->n_runs) {
-    thr_text_append(text, options->start == THR_RISE_SHAPE ? ": it stands at " : " at ");
+    thr_text_append(text, runs->args->rise.start == THR_RISE_SHAPE ? ": it stands at " : " at ");
     put_spread(runs, pull_up, "N", text);
     thr_text_append(text, " at every end");
   }
+}
+
+/* Appends the lines for people. */
+static void put_text(const rise_runs *runs, thr_text *text)
+{
+  const thr_rise_record *record = &runs->record[0];
+  const thr_rise_moment *last = &record->moment[record->held ? record->held - 1 : 0];
+  put_title(runs, text);
+  thr_text_append(text, "\n");
+  put_outcome(runs, text);
   thr_text_printf(text,
                   "\n%d of %d faces closed, highest node at %.3g mm, %.3g mm of cord drawn in\n",
                   record->most_closed, record->n_passes, last->height, last->drawn);
@@ -283,7 +300,7 @@ static void put_text(const rise_runs *runs, thr_text *text)
   thr_text_append(text, "differs from the drawn shape by ");
   put_spread(runs, off_of, "mm at most", text);
   thr_text_append(text, "\n");
-  if (options->let_down) {
+  if (runs->args->rise.let_down) {
     if (record->fell >= 0) {
       thr_text_append(text, "let down, it falls below ");
       put_spread(runs, pull_down, "N", text);
@@ -405,6 +422,34 @@ static int write_film(const rise_runs *runs)
   return st ? cli_fail(&err) : EXIT_SUCCESS;
 }
 
+/* Writes the viewer that plays the first run. Returns an exit code. */
+static int write_viewer(const rise_runs *runs)
+{
+  const thr_limits limits = cli_limits(0);
+  thr_err err = {0};
+  thr_movement movement;
+  thr_text title = {0}, note = {0}, moves = {0}, pieces = {0}, page = {0};
+  put_title(runs, &title);
+  put_outcome(runs, &note);
+
+  thr_status st = thr_rise_movement(&movement, runs->kit, &runs->record[0], &err);
+  if (!st && (title.failed || note.failed)) st = thr_nomem(&err);
+  if (!st) st = thr_kit_moves(runs->kit, &movement, title.data, note.data, &moves, &err);
+  if (!st) thr_kit_viewer(runs->kit, &moves, &pieces);
+  if (!st && pieces.failed) st = thr_nomem(&err);
+  const thr_document_options how = {.kit = &pieces,
+                                    .kind_tolerance = runs->args->kit.kind_tolerance};
+  if (!st)
+    st = thr_document_make(runs->kit->plan, thr_document_find("html"), &how, &limits, &page, &err);
+  cli_progress_end();
+  thr_movement_destroy(&movement);
+  thr_text_destroy(&title);
+  thr_text_destroy(&note);
+  thr_text_destroy(&moves);
+  thr_text_destroy(&pieces);
+  return cli_write_drawn(st, &page, runs->args->play, &err);
+}
+
 /* Prints and writes what was seen. Returns an exit code. */
 static int tell(const rise_runs *runs)
 {
@@ -422,6 +467,10 @@ static int tell(const rise_runs *runs)
   }
   if (runs->args->film || runs->args->frames) {
     code = write_film(runs);
+    if (code) return code;
+  }
+  if (runs->args->play) {
+    code = write_viewer(runs);
     if (code) return code;
   }
   text = (thr_text){0};

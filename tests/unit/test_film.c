@@ -6,7 +6,9 @@
 
 #include "diagram/scene/movement.h"
 #include "diagram/space/space.h"
+#include "graph/io/json.h"
 #include "graph/number.h"
+#include "kit/files.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "tests/support.h"
@@ -355,6 +357,54 @@ START_TEST(what_cannot_be_filmed_is_refused)
 }
 END_TEST
 
+/* What the viewer's page plays; tests/viewer/test.cjs reads the places on the page. */
+START_TEST(the_page_gets_all_frames)
+{
+  theatre of;
+  open_theatre(&of, THR_JOINT_SOLID);
+  throw_pieces(&of);
+  of.movement.n_faces = 2;
+  of.movement.tension[0] = 3.14;
+  thr_status st = THR_ENOMEM;
+  for (long fail = 1; st == THR_ENOMEM; fail++) {
+    ck_assert_int_lt(fail, 2000);
+    thr_err err = {0};
+    thr_text moves = {0}, pieces = {0};
+    thr_alloc_fail_at(fail);
+    st = thr_kit_moves(&of.kit, &of.movement, "title", "note", &moves, &err);
+    if (!st) thr_kit_viewer(&of.kit, &moves, &pieces);
+    if (pieces.failed) st = THR_ENOMEM;
+    thr_alloc_fail_at(0);
+    if (!st) {
+      thr_json *doc;
+      ck_assert_int_eq(thr_json_parse(&doc, pieces.data, pieces.length, "page", &err), THR_OK);
+      const thr_json *in = thr_json_get(doc, "moves"), *words = thr_json_get(in, "words");
+      ck_assert_int_eq(thr_json_size(words), FRAMES);
+      ck_assert_str_eq(thr_json_string(thr_json_at(words, 1)),
+                       "0.10 s, pull 10.00 N, 0 of 2 faces closed, 1 mm drawn in");
+      ck_assert_int_eq(thr_json_size(thr_json_get(in, "colours")), THR_FILM_TENSIONS);
+      double high;
+      ck_assert(thr_json_number(thr_json_get(thr_json_get(in, "scale"), "high"), &high));
+      ck_assert_double_eq(high, 3.2);
+      const size_t bytes = FRAMES * (size_t)of.kit.n_pieces * 7 * 2;
+      ck_assert_uint_eq(strlen(thr_json_string(thr_json_get(in, "poses"))), (bytes + 2) / 3 * 4);
+      thr_json_destroy(doc);
+    }
+    thr_text_destroy(&moves);
+    thr_text_destroy(&pieces);
+  }
+  ck_assert_int_eq(st, THR_OK);
+
+  thr_err err = {0};
+  thr_text moves = {0};
+  pose_of(&of, 1, 1)[2] = INFINITY;
+  ck_assert_int_eq(thr_kit_moves(&of.kit, &of.movement, "", "", &moves, &err), THR_EINPUT);
+  assert_one_line(&err, "frame 2");
+  thr_text_destroy(&moves);
+  close_theatre(&of);
+}
+END_TEST
+
 START_TEST(memory_runs_out_cleanly)
 {
   theatre of;
@@ -391,6 +441,7 @@ int main(void)
   ADD_TEST(s, 20, cords_have_the_colours_of_their_tension);
   ADD_TEST(s, 20, files_are_written);
   ADD_TEST(s, 20, what_cannot_be_filmed_is_refused);
+  ADD_TEST(s, 60, the_page_gets_all_frames);
   ADD_TEST(s, 60, memory_runs_out_cleanly);
   return run_suite(s);
 }

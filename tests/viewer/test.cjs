@@ -184,6 +184,46 @@ const tests = {
     await close();
   },
 
+  async 'rising pieces are where the simulation had them'() {
+    const plan = file('small.json'), url = file('rise.html'), record = file('rise.json');
+    thread('make', 'dome', '--size', '3', '-o', file('d3.json'));
+    thread('plan', file('d3.json'), '-o', plan);
+    thread('rise', plan, '--pull', '3', '-o', record, '--play', url);
+    const {moments, frames} = JSON.parse(fs.readFileSync(record, 'utf8')).runs[0], last = frames.length - 1;
+    const opened = await open({url: pathToFileURL(url).href}), {page} = opened;
+    const unit = JSON.parse(await page.locator('#plan').textContent()).kit.mm; // mm in a unit of the framework
+    for (const step of [0, last >> 1, last]) {
+      await setSlider(page, step);
+      const [time, pull, , closed] = moments[step], words = await text(page, '#now');
+      assert.ok(words.startsWith(`${time.toFixed(2)} s, pull ${pull.toFixed(2)} N, ${closed} of `), words);
+      const nodes = await page.evaluate(() => window.threadViewer.nodes.map((p) => p.toArray()));
+      nodes.forEach((p, v) => p.forEach((x, k) => assert.ok(Math.abs(x * unit - frames[step][7 * v + k]) < 2e-3, `frame ${step}, piece ${v}`)));
+    }
+    assert.ok((await text(page, '#scale')).includes(' N'));
+
+    // a click finds the solid itself there: the meshes moved, and not only their middles
+    for (const step of [0, last]) {
+      await setSlider(page, step);
+      await drawn(page);
+      const at = await page.evaluate(() => window.threadViewer.project(window.threadViewer.nodes[0]));
+      await page.locator('#canvas').click({position: {x: at.x, y: at.y}});
+      assert.equal((await state(page)).piece, 0);
+      assert.equal(await text(page, '#tags .now'), JSON.parse(await page.locator('#plan').textContent()).places[0]);
+    }
+    assert.deepEqual(opened.complaints, []);
+    await opened.close();
+
+    // it plays by itself, unless less motion is wanted; on a telephone the scale is in sight
+    const playing = await open({url: pathToFileURL(url).href}, {viewport: PHONE, reducedMotion: 'no-preference'});
+    await playing.page.waitForFunction((n) => Number(document.documentElement.dataset.step) > n, 3);
+    await playing.page.keyboard.press(' ');
+    assert.equal(await playing.page.locator('#play').getAttribute('aria-label'), 'Play');
+    const scale = await playing.page.locator('#scale').boundingBox();
+    assert.ok(scale.y >= 0 && scale.y + scale.height < PHONE.height / 2);
+    assert.deepEqual(playing.complaints, []);
+    await playing.close();
+  },
+
   async 'slider, words and piece follow the plan'({dome}) {
     const {page, close} = await open(dome), passes = passesOf(dome.plan), names = namesOf(dome);
     assert.equal(Number(await page.locator('#slider').getAttribute('max')), passes.length);
