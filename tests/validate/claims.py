@@ -430,9 +430,9 @@ def rises(report, program, data):
         report.lines.append(f"| {name} | {len(up)} of {len(runs)} | {spread(up)} | {max(run['most_closed'] for run in runs)} of {found['faces']} | "
                             f"{spread(fell)} | {stands:.3g} | {ratio} |")
     report.lines += ["", "What falls does so at a larger pull than that of limit analysis, in which what slides also opens: Coulomb's friction in "
-                     "Bullet is not associated, and such friction holds less (Gilbert and others 2006). An equilibrium was found only at the larger pull of "
-                     "the section before, to which the falls are nearer. Pulls change by 4 to 15 % from one moment that is "
-                     "seen to the next, and are those of moving pieces."]
+                     "Bullet is not associated, and such friction holds less (Gilbert and others 2006). An equilibrium was found only at "
+                     "the larger pull of the section before, to which the falls are nearer. Pulls change by 4 to 15 % from one moment "
+                     "that is seen to the next, and are those of moving pieces."]
 
 
 # ---- chapter 5 ----
