@@ -62,6 +62,21 @@ static inline double thr_normalize(double v[3])
   return length;
 }
 
+/* Fills turn with the rotation of a unit quaternion x y z w, by rows. */
+static inline void thr_quaternion_turn(const double q[4], double turn[9])
+{
+  double x = q[0], y = q[1], z = q[2], w = q[3];
+  turn[0] = 1 - 2 * (y * y + z * z);
+  turn[1] = 2 * (x * y - z * w);
+  turn[2] = 2 * (x * z + y * w);
+  turn[3] = 2 * (x * y + z * w);
+  turn[4] = 1 - 2 * (x * x + z * z);
+  turn[5] = 2 * (y * z - x * w);
+  turn[6] = 2 * (x * z - y * w);
+  turn[7] = 2 * (y * z + x * w);
+  turn[8] = 1 - 2 * (x * x + y * y);
+}
+
 /* ---- Angles, in radians: the number pi, degrees for people, and the angle between two directions.
  */
 

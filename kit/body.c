@@ -86,61 +86,58 @@ static double segment_distance(const double at[3], const double a[3], const doub
   return sqrt(thr_dot(e, e));
 }
 
+/* The distances of the nearest part of a piece and of the second nearest, and which the nearest is.
+ */
+typedef struct {
+  double least, second;
+  int part;
+} nearest_parts;
+
+/* Counts a part in. */
+static void rank(double distance, int part, nearest_parts *near)
+{
+  if (distance < near->least) {
+    near->second = near->least;
+    near->least = distance;
+    near->part = part;
+  } else if (distance < near->second)
+    near->second = distance;
+}
+
 /* Distance to the surface without what is hollow. *corner: how much farther the second nearest part
  * is than the nearest: 0 where they meet. */
 static double body_distance(const thr_kit_piece *piece, const double at[3], int *arm,
                             double *corner)
 {
-  double least = INFINITY, second = INFINITY;
-  int nearest = -1;
+  nearest_parts near = {INFINITY, INFINITY, -1};
 
   for (int i = 0; i < piece->n_arms; i++) {
     double here = arm_distance(piece, &piece->arm[i], at);
-    if (here < least) {
-      second = least;
-      least = here;
-      nearest = i;
-    } else if (here < second)
-      second = here;
+    rank(here, i, &near);
   }
 
   /* The ball of the node, and the foot's disc. Halves of a tube need no fillet between them. */
   if (!piece->tube) {
     double ball = sqrt(thr_dot(at, at)) - piece->node_radius;
-    if (ball < least) {
-      second = least;
-      least = ball;
-      nearest = -1;
-    } else if (ball < second)
-      second = ball;
+    rank(ball, -1, &near);
   }
   if (piece->foot) {
     /* A disc with a round rim; its lower half is cut off at the base. */
     double rim = 0.4 * piece->base;
     double off = hypot(at[0], at[1]) - piece->pad + rim, over = fabs(at[2] + piece->base) - rim;
     double disc = hypot(fmax(off, 0), fmax(over, 0)) + fmin(fmax(off, over), 0) - rim;
-    if (disc < least) {
-      second = least;
-      least = disc;
-      nearest = -2;
-    } else if (disc < second)
-      second = disc;
+    rank(disc, -2, &near);
   }
   if (piece->hook_radius > 0) {
     double part, hook = segment_distance(at, piece->hook[0], piece->hook[1], &part);
     hook = fmin(hook, segment_distance(at, piece->hook[1], piece->hook[2], &part));
     hook -= piece->hook_radius;
-    if (hook < least) {
-      second = least;
-      least = hook;
-      nearest = -3;
-    } else if (hook < second)
-      second = hook;
+    rank(hook, -3, &near);
   }
-  *arm = nearest;
-  *corner = second - least;
+  *arm = near.part;
+  *corner = near.second - near.least;
 
-  return piece->tube ? least : join(least, second, piece->fillet);
+  return piece->tube ? near.least : join(near.least, near.second, piece->fillet);
 }
 
 double thr_kit_body(const thr_kit_piece *piece, const double at[3], int *arm)

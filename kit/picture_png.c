@@ -46,6 +46,23 @@ static void put_head(thr_text *png, const int size[2], char kind)
   put_chunk(png, "IHDR", head, sizeof head);
 }
 
+/* Appends a whole file with one picture, whose rows are compressed. palette NULL: in true colours.
+ * png is unchanged on failure. */
+static thr_status put_file(const int size[2], const thr_png_palette *palette, const thr_text *rows,
+                           thr_text *png, thr_err *err)
+{
+  thr_text whole = {0};
+  thr_text_append_bytes(&whole, SIGNATURE, 8);
+  put_head(&whole, size, palette ? 3 : 2);
+  if (palette) put_chunk(&whole, "PLTE", (const char *)palette->colour, sizeof palette->colour);
+  put_chunk(&whole, "IDAT", rows->data, rows->length);
+  put_chunk(&whole, "IEND", "", 0);
+  if (!whole.failed) thr_text_append_bytes(png, whole.data, whole.length);
+  const bool failed = whole.failed || png->failed;
+  thr_text_destroy(&whole);
+  return failed ? thr_nomem(err) : THR_OK;
+}
+
 thr_status thr_png_write(const unsigned char *pixel, const int size[2], thr_text *png, thr_err *err)
 {
   enum { UP = 2 }; /* the filter that takes the row above away */
@@ -62,18 +79,10 @@ thr_status thr_png_write(const unsigned char *pixel, const int size[2], thr_text
       *to++ = (char)(unsigned char)(pixel[i] - (y ? pixel[i - row] : 0));
   }
 
-  thr_text small = {0}, whole = {0};
+  thr_text small = {0};
   st = thr_deflate(rows, n, THR_DEFLATE_FAST, &small, err);
-  if (!st) {
-    thr_text_append_bytes(&whole, SIGNATURE, 8);
-    put_head(&whole, size, 2);
-    put_chunk(&whole, "IDAT", small.data, small.length);
-    put_chunk(&whole, "IEND", "", 0);
-    if (!whole.failed) thr_text_append_bytes(png, whole.data, whole.length);
-    if (whole.failed || png->failed) st = thr_nomem(err);
-  }
+  if (!st) st = put_file(size, NULL, &small, png, err);
   thr_text_destroy(&small);
-  thr_text_destroy(&whole);
   free(rows);
   return st;
 }
@@ -107,20 +116,11 @@ static thr_status squeeze(const unsigned char *index, const unsigned char *last,
 thr_status thr_png_write_indexed(const unsigned char *index, const int size[2],
                                  const thr_png_palette *palette, thr_text *png, thr_err *err)
 {
-  thr_text small = {0}, whole = {0};
+  thr_text small = {0};
   thr_status st = thr_deflate_load(err);
   if (!st) st = squeeze(index, NULL, size[0], (part){.size = {size[0], size[1]}}, &small, err);
-  if (!st) {
-    thr_text_append_bytes(&whole, SIGNATURE, 8);
-    put_head(&whole, size, 3);
-    put_chunk(&whole, "PLTE", (const char *)palette->colour, sizeof palette->colour);
-    put_chunk(&whole, "IDAT", small.data, small.length);
-    put_chunk(&whole, "IEND", "", 0);
-    if (!whole.failed) thr_text_append_bytes(png, whole.data, whole.length);
-    if (whole.failed || png->failed) st = thr_nomem(err);
-  }
+  if (!st) st = put_file(size, palette, &small, png, err);
   thr_text_destroy(&small);
-  thr_text_destroy(&whole);
   return st;
 }
 

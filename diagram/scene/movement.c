@@ -55,12 +55,7 @@ void thr_movement_turn(const double pose[7], double turn[9])
     square += pose[3 + k] * pose[3 + k];
   for (int k = 0; k < 4; k++)
     q[k] = pose[3 + k] / sqrt(square);
-  double x = q[0], y = q[1], z = q[2], w = q[3];
-  const double rows[9] = {
-      1 - 2 * (y * y + z * z), 2 * (x * y - w * z),     2 * (x * z + w * y),
-      2 * (x * y + w * z),     1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
-      2 * (x * z - w * y),     2 * (y * z + w * x),     1 - 2 * (x * x + y * y)};
-  memcpy(turn, rows, sizeof rows);
+  thr_quaternion_turn(q, turn);
 }
 
 void thr_movement_place(const thr_movement *movement, int frame, int i, double at[3])

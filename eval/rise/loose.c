@@ -25,16 +25,6 @@ static void turn_by_chance(uint64_t *state, double most, double q[4])
   q[3] = cos(half);
 }
 
-static void matrix_of(const double q[4], double matrix[9])
-{
-  const double x = q[0], y = q[1], z = q[2], w = q[3];
-  const double rotation[9] = {
-      1 - 2 * (y * y + z * z), 2 * (x * y - z * w),     2 * (x * z + y * w),
-      2 * (x * y + z * w),     1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
-      2 * (x * z - y * w),     2 * (y * z + x * w),     1 - 2 * (x * x + y * y)};
-  memcpy(matrix, rotation, sizeof rotation);
-}
-
 void thr_rise_turned(const thr_rise_bodies *bodies, int piece, const double v[3], double out[3])
 {
   for (int k = 0; k < 3; k++)
@@ -55,7 +45,7 @@ void thr_rise_look(thr_rise_bodies *bodies)
 {
   for (int p = 0; p < bodies->structure->n_pieces; p++) {
     thr_world_pose(bodies->world, bodies->body[p], bodies->pose[p]);
-    matrix_of(bodies->pose[p] + 3, bodies->turn[p]);
+    thr_quaternion_turn(bodies->pose[p] + 3, bodies->turn[p]);
   }
 }
 
@@ -153,7 +143,7 @@ static thr_status lay_out(thr_rise_bodies *bodies, const thr_rise_options *optio
     double below, *pose = bodies->pose[p];
     memcpy(pose + 3, (const double[4]){0, 0, 0, 1}, 4 * sizeof *pose);
     if (flat && !piece->held) turn_by_chance(&state, heap ? DROPPED : JITTER, pose + 3);
-    matrix_of(pose + 3, bodies->turn[p]);
+    thr_quaternion_turn(pose + 3, bodies->turn[p]);
     reach_of(bodies, p, &below, &around[p]);
     order[p] = p;
 

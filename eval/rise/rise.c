@@ -228,11 +228,11 @@ static thr_status keep_frame(const rise_run *run, double time, double pull, doub
   const size_t n = (size_t)record->n_pieces, passes = (size_t)record->n_passes;
   if (record->n_frames == record->room) {
     const size_t room = record->room ? 2 * (size_t)record->room : 64;
-    void *moment = realloc(record->moment, room * sizeof *record->moment);
+    void *moment = thr_realloc(record->moment, room, sizeof *record->moment);
     if (moment) record->moment = moment;
-    void *pose = realloc(record->pose, room * n * sizeof *record->pose);
+    void *pose = thr_realloc(record->pose, room * n, sizeof *record->pose);
     if (pose) record->pose = pose;
-    void *tension = realloc(record->tension, room * passes * sizeof *record->tension);
+    void *tension = thr_realloc(record->tension, room * passes, sizeof *record->tension);
     if (tension) record->tension = tension;
     if (!moment || !pose || !tension) return thr_nomem(err);
     record->room = (int)room;
@@ -252,19 +252,22 @@ static thr_status keep_frame(const rise_run *run, double time, double pull, doub
   return THR_OK;
 }
 
-/* How far the shape is from the drawn one now, mm. */
-static thr_status measure_off(const rise_run *run, double *off, thr_err *err)
+/* Measures how far the shape was from the drawn one when hands began to let down. */
+static thr_status measure_off(const rise_run *run, thr_rise_record *record, thr_err *err)
 {
-  const int n = run->structure->n_pieces;
+  const int n = record->n_pieces;
   thr_scratch work = {0};
   double(*drawn)[3] = thr_scratch_array(&work, (size_t)n, sizeof *drawn);
-  double(*now)[3] = thr_scratch_array(&work, (size_t)n, sizeof *now);
+  double(*last)[3] = thr_scratch_array(&work, (size_t)n, sizeof *last);
   thr_status st = thr_scratch_check(&work, err);
   for (int p = 0; p < n && !st; p++) {
+    const size_t frame = (size_t)record->held - 1;
     memcpy(drawn[p], run->structure->piece[p].centre, sizeof *drawn);
-    node_of(run, p, now[p]);
+    memcpy(last[p], record->pose[frame * (size_t)n + (size_t)p], sizeof *last);
   }
-  if (!st) *off = thr_fit_points((const double(*)[3])drawn, (const double(*)[3])now, n, NULL, NULL);
+  if (!st)
+    record->off =
+        thr_fit_points((const double(*)[3])drawn, (const double(*)[3])last, n, NULL, NULL);
   thr_scratch_free(&work);
   return st;
 }
@@ -359,10 +362,7 @@ static thr_status report(const rise_run *run, double time, double pull, double l
                          bool held, const thr_limits *limits, thr_rise_record *record, thr_err *err)
 {
   thr_status st = keep_frame(run, time, pull, lift, record, err);
-  if (!st && held) {
-    record->held = record->n_frames;
-    st = measure_off(run, &record->off, err);
-  }
+  if (!st && held) record->held = record->n_frames;
   if (!st && limits && thr_limits_stop(limits))
     st = thr_fail(err, THR_ELIMIT, "rise: stopped before all was seen");
   if (!st && limits && limits->advance) {
@@ -414,6 +414,13 @@ static thr_status let_pass(rise_run *run, const thr_limits *limits, thr_rise_rec
       if (record->fell >= 0 && record->n_frames - record->fell > FRAMES_AFTER) break;
     }
     if (!st) st = take_step(run, pull, &lift, err);
+  }
+
+  /* What was seen counts where time ran out, too. */
+  thr_err ignored = {0};
+  if (record->held) {
+    const thr_status measured = measure_off(run, record, st ? &ignored : err);
+    if (!st) st = measured;
   }
   return st;
 }

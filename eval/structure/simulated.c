@@ -70,17 +70,6 @@ static void quaternion_of(const double axis_x[3], const double axis_y[3], const 
   q[3] = 0.5 / root * (matrix[k][j] - matrix[j][k]);
 }
 
-/* Computes the rotation matrix of a quaternion (x y z w). */
-static void matrix_of(const double q[4], double matrix[3][3])
-{
-  double x = q[0], y = q[1], z = q[2], w = q[3];
-  const double rotation[3][3] = {
-      {1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
-      {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
-      {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
-  memcpy(matrix, rotation, sizeof rotation);
-}
-
 /* Rotates a vector with a bead. */
 static void turned(const thr_placed *p, const double v[3], double out[3])
 {
@@ -106,10 +95,11 @@ static void carried(const thr_simulated *simulated, int bead, const double point
 static void look(thr_simulated *simulated)
 {
   for (int v = 0; v < simulated->b->n_beads; v++) {
-    double pose[7];
+    double pose[7], turn[9];
     thr_world_pose(simulated->world, simulated->body[v], pose);
     memcpy(simulated->now[v].at, pose, sizeof simulated->now[v].at);
-    matrix_of(pose + 3, simulated->now[v].turn);
+    thr_quaternion_turn(pose + 3, turn);
+    memcpy(simulated->now[v].turn, turn, sizeof turn);
   }
 }
 
