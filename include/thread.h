@@ -143,11 +143,25 @@ THREAD_API int thread_plan_cords(const thread_plan *plan);
  * borrowed. 0: no such cord. */
 THREAD_API int thread_plan_cord(const thread_plan *plan, int i, const int **node);
 
+/* One cord. Forces are those of the plan's evaluation (thread_eval); without one, of the closed
+ * form while both ends are pulled. */
+typedef struct {
+  size_t size;
+  const char *name;            /* "A"; borrowed */
+  int passes, from, to;        /* edges that it passes, and the nodes where it comes out */
+  double length, turning;      /* without tails and knots; of all its turns on the way */
+  double pull_start, pull_end; /* N; 0 = not pulled there, INFINITY = beyond all numbers */
+  const double *tension;       /* N, [passes]; NULL = not known; borrowed until thread_eval */
+} thread_cord;
+/* Fills in what is known of cord i, from 0. THREAD_BAD_INPUT: no such cord. */
+THREAD_API thread_status thread_plan_cord_summary(const thread_plan *plan, int i, thread_cord *out,
+                                                  size_t size, thread_error *err);
+
 typedef struct {
   size_t size;
   double length, bound, overlap;   /* bound: no such plan is shorter */
   double turning, largest_turning; /* of all cords, and of the one that turns most */
-  double pull; /* both ends pulled, of the cord that needs most, by the closed form */
+  double pull;                     /* at an end, of the cord that needs most: as in thread_cord */
   int passes, u_turns;
   int shortest, straightest; /* 1: no such plan is shorter, turns less, proved */
 } thread_summary;

@@ -37,8 +37,9 @@ struct thread_frame {
 /* A plan of a program. */
 struct thread_plan {
   thr_plan plan;
-  thread_frame lent; /* the plan's framework, for thread_plan_frame: a shallow copy */
-  int **node;        /* [n_cords] where each cord runs; owned */
+  thread_frame lent;          /* the plan's framework, for thread_plan_frame: a shallow copy */
+  int **node;                 /* [n_cords] where each cord runs; owned */
+  thr_evaluation closed_form; /* both ends pulled, until the plan has an evaluation of its own */
 };
 
 /* Lets calls that use what is not reentrant come one after another. */

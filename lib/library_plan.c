@@ -173,11 +173,34 @@ static void destroy(thread_plan *plan)
   for (int i = 0; plan->node && i < plan->plan.n_cords; i++)
     free(plan->node[i]);
   free(plan->node);
+  thr_evaluation_destroy(&plan->closed_form);
   thr_plan_destroy(&plan->plan);
   free(plan);
 }
 
-/* Prepares what a plan lends: the nodes along each cord, and the framework. */
+/* Works out the pulls and tensions by the closed form. A plan whose pulls are more than numbers
+ * hold has none. */
+static thr_status pull_by_closed_form(thread_plan *plan, thr_err *err)
+{
+  const thr_plan *made = &plan->plan;
+  const thr_limits limits = {0};
+  thr_err overflow = {0};
+  thr_eval found = {0};
+  thr_eval_options options = thr_eval_options_default();
+  options.physics = made->options.physics;
+
+  thr_status st = thr_eval_plan(&made->frame, made->cord, made->n_cords, THR_CAPSTAN, &options,
+                                &limits, &found, &overflow);
+  if (!st) {
+    plan->closed_form = found.record;
+    found.record = (thr_evaluation){0};
+  }
+  thr_eval_destroy(&found);
+
+  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
+}
+
+/* Prepares what a plan lends: the nodes along each cord, the framework, and the pulls. */
 static thr_status describe(thread_plan *plan, thr_err *err)
 {
   const thr_plan *made = &plan->plan;
@@ -195,7 +218,7 @@ static thr_status describe(thread_plan *plan, thr_err *err)
       node[k + 1] = thr_head(&made->frame, cord->half[k]);
   }
 
-  return THR_OK;
+  return pull_by_closed_form(plan, err);
 }
 
 /* Ends a call that makes a plan: a plan with cords becomes the caller's, whatever is proved of it,
@@ -344,22 +367,62 @@ int thread_plan_cord(const thread_plan *plan, int i, const int **node)
   return known ? plan->plan.cord[i].n_passes : 0;
 }
 
+/* What is known of the forces in a plan: of its own evaluation, else of the closed form. */
+static const thr_evaluation *forces_of(const thread_plan *plan)
+{
+  return plan->plan.evaluation.present ? &plan->plan.evaluation : &plan->closed_form;
+}
+
+/* Describes a cord, of which a program knows the first `size` bytes. */
+thread_status thread_plan_cord_summary(const thread_plan *plan, int i, thread_cord *out,
+                                       size_t size, thread_error *err)
+{
+  thr_err why = {0};
+  const thr_plan *stated = &plan->plan;
+  const thr_evaluation *forces = forces_of(plan);
+
+  memset(out, 0, size);
+  memcpy(out, &size, size < sizeof size ? 0 : sizeof size);
+  if (i < 0 || i >= stated->n_cords)
+    return thr_library_status(
+        thr_fail(&why, THR_EINPUT, "there is no cord %d, only 0 to %d", i, stated->n_cords - 1),
+        &why, err);
+
+  const thr_cord *cord = &stated->cord[i];
+  thread_cord all = {.size = size,
+                     .name = cord->id,
+                     .passes = cord->n_passes,
+                     .from = plan->node[i][0],
+                     .to = plan->node[i][cord->n_passes],
+                     .length = thr_cord_length(&stated->frame, cord),
+                     .turning = thr_cord_turning(&stated->frame, cord, false),
+                     .pull_start = INFINITY,
+                     .pull_end = INFINITY};
+
+  /* An end that is pulled has the tension of its first pass. */
+  const thr_eval_cord *force = i < forces->n_cords ? &forces->cord[i] : NULL;
+  if (force && force->known && force->tension) {
+    const bool both = force->pull == THR_PULL_BOTH;
+    all.tension = force->tension;
+    all.pull_start = both || force->pull == THR_PULL_START ? force->tension[0] : 0;
+    all.pull_end = both || force->pull == THR_PULL_END ? force->tension[cord->n_passes - 1] : 0;
+  }
+  memcpy(out, &all, size < sizeof all ? size : sizeof all);
+
+  return thr_library_status(THR_OK, &why, err);
+}
+
 /* Summarizes a plan, of which a program knows the first `size` bytes. */
 thread_status thread_plan_summary(const thread_plan *plan, thread_summary *out, size_t size,
                                   thread_error *err)
 {
   thr_err why = {0};
-  thr_physics physics;
+  const thr_evaluation *forces = forces_of(plan);
   const thr_plan *stated = &plan->plan;
 
   /* Even after a failure the struct says its size. */
   memset(out, 0, size);
   memcpy(out, &size, size < sizeof size ? 0 : sizeof size);
-
-  /* The pull by the closed form: seating x exp(mu x pulled turning of the cord that needs most). */
-  thr_status st = thr_physics_resolve(&stated->options.physics, &stated->frame, &physics, &why);
-  if (st) return thr_library_status(st, &why, err);
-  double reach = thr_cords_pulled_turning(&stated->frame, stated->cord, stated->n_cords);
 
   /* What the plan states, and what it proves. */
   const thread_summary all = {.size = size,
@@ -368,7 +431,7 @@ thread_status thread_plan_summary(const thread_plan *plan, thread_summary *out, 
                               .overlap = stated->metrics.overlap,
                               .turning = stated->metrics.turning,
                               .largest_turning = stated->metrics.max_turning,
-                              .pull = physics.seating * exp(physics.mu * reach),
+                              .pull = forces->n_cords > 0 ? forces->largest : INFINITY,
                               .passes = stated->metrics.passes,
                               .u_turns = stated->metrics.u_turns,
                               .shortest = stated->proof.present && stated->proof.optimal,

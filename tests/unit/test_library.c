@@ -97,6 +97,51 @@ START_TEST(a_dome_is_planned_checked_and_drawn)
 }
 END_TEST
 
+/* The tensions of a cord by hand: seating x exp(mu x turning) from its slackest pass to both ends.
+ */
+START_TEST(cords_say_what_they_are)
+{
+  static const double cross[] = {0, 0, 0, 10, 0, 0, 20, 0, 0, 20, 30, 0};
+  static const int row[] = {0, 1, 1, 2, 2, 3};
+  static const double right_angle = 1.5707963267948966;
+  thread_error err;
+  thread_frame *frame;
+  thread_plan *plan;
+  thread_plan_options o;
+  thread_cord cord;
+  thread_summary s;
+  thread_plan_options_init(&o, sizeof o);
+  o.ends = THREAD_ANY;
+  o.physics = "{\"mu\": 0.5, \"seating\": 2}";
+  ck_assert_int_eq((int)thread_frame_make(4, cross, 3, row, NULL, &frame, &err), THREAD_OK);
+  ck_assert_int_eq((int)thread_plan_make(frame, &o, &plan, &err), THREAD_OK);
+
+  for (int evaluated = 0; evaluated < 2; evaluated++) {
+    ck_assert_int_eq((int)thread_plan_cord_summary(plan, 0, &cord, sizeof cord, &err), THREAD_OK);
+    ck_assert_str_eq(cord.name, "A");
+    ck_assert_int_eq(cord.passes, 3);
+    ck_assert(cord.from + cord.to == 3 && cord.from * cord.to == 0);
+    ck_assert_double_eq_tol(cord.length, 50, 1e-9);
+    ck_assert_double_eq_tol(cord.turning, right_angle, 1e-9);
+
+    /* One turn: the slack side of it needs 2 N, and so does the end there; no turn lies between
+     * the other end and its side, where each end does its own half. */
+    ck_assert_double_eq_tol(cord.pull_start, cord.tension[0], 1e-12);
+    ck_assert_double_eq_tol(cord.pull_end, cord.tension[2], 1e-12);
+    ck_assert_double_eq_tol(fmin(cord.pull_start, cord.pull_end), 2, 1e-9);
+    ck_assert(fmax(cord.pull_start, cord.pull_end) <= 2 * exp(0.5 * right_angle) + 1e-9);
+    ck_assert_int_eq((int)thread_plan_summary(plan, &s, sizeof s, &err), THREAD_OK);
+    ck_assert_double_eq_tol(s.pull, fmax(cord.pull_start, cord.pull_end), 1e-9);
+    ck_assert_int_eq((int)thread_eval(plan, "capstan", 0, &err), THREAD_OK);
+  }
+  ck_assert_int_eq((int)thread_plan_cord_summary(plan, 1, &cord, sizeof cord, &err),
+                   THREAD_BAD_INPUT);
+  ck_assert(cord.size == sizeof cord && !cord.name && cord.passes == 0);
+  thread_plan_free(plan);
+  thread_frame_free(frame);
+}
+END_TEST
+
 START_TEST(by_hand)
 {
   /* The diagonal twice: 140 + 2 x 50. */
@@ -507,6 +552,7 @@ int main(void)
 {
   Suite *s = suite_create("library");
   ADD_TEST(s, 20, a_dome_is_planned_checked_and_drawn);
+  ADD_TEST(s, 20, cords_say_what_they_are);
   ADD_TEST(s, 20, by_hand);
   ADD_TEST(s, 20, plans_are_written_and_read);
   ADD_TEST(s, 20, frames_are_written_and_read);

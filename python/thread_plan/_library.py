@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: MIT
+"""libthread through ctypes: its structs, its functions, and its failures as exceptions.
+
+include/thread.h says what each function does; nothing here does more than hand values over.
+"""
+from __future__ import annotations
+
+import ctypes
+import os
+from ctypes import POINTER, byref, c_char, c_char_p, c_double, c_int, c_size_t, c_void_p
+from typing import Any, Dict
+
+OK, NO_MEMORY, IO, BAD_INPUT, INFEASIBLE, NOT_PROVED, SOLVER, VIOLATED = range(8)
+Progress = ctypes.CFUNCTYPE(c_int, c_void_p, c_char_p, c_double, c_double)
+
+
+class Error(Exception):
+    """What a call could not do. The text is one line: where, what, and what to do."""
+
+    status: int
+
+    def __init__(self, status: int, text: str) -> None:
+        super().__init__(text)
+        self.status = status
+
+
+class BadInput(Error, ValueError):
+    """A file, a frame or an option is wrong."""
+
+
+class Infeasible(Error):
+    """There is no threading with these options."""
+
+
+class NotProved(Error):
+    """The search was stopped before it had found any threading."""
+
+
+class Violated(Error):
+    """A claim of the plan is not true."""
+
+
+_classes = {BAD_INPUT: BadInput, INFEASIBLE: Infeasible, NOT_PROVED: NotProved, VIOLATED: Violated}
+
+
+class Text(ctypes.Structure):
+    _fields_ = [("text", c_char * 512)]
+
+
+class ReadOptions(ctypes.Structure):
+    _fields_ = [("size", c_size_t), ("edges", c_char_p), ("units", c_char_p), ("weld", c_double), ("scale", c_double),
+                ("flat", c_double), ("up", c_char), ("split", c_char), ("pick", c_int), ("part", c_char_p),
+                ("all_layers", c_char), ("parallel", c_char), ("columns", c_char_p)]
+
+
+class PlanOptions(ctypes.Structure):
+    _fields_ = [("size", c_size_t), ("aims", c_char_p), ("request", c_char_p), ("cords_least", c_int), ("cords", c_int),
+                ("cover", c_int), ("capacity", c_int), ("distinct", c_int), ("max_length", c_double),
+                ("max_pull", c_double), ("tube", c_int), ("ends", c_int), ("n_end_nodes", c_int),
+                ("end_node", POINTER(c_int)), ("physics", c_char_p), ("seconds", c_double), ("threads", c_int),
+                ("progress", Progress), ("user", c_void_p), ("gap", c_double)]
+
+
+class CordFacts(ctypes.Structure):
+    _fields_ = [("size", c_size_t), ("name", c_char_p), ("passes", c_int), ("start", c_int), ("end", c_int),
+                ("length", c_double), ("turning", c_double), ("pull_start", c_double), ("pull_end", c_double),
+                ("tension", POINTER(c_double))]
+
+
+class SummaryFacts(ctypes.Structure):
+    _fields_ = [("size", c_size_t), ("length", c_double), ("bound", c_double), ("overlap", c_double),
+                ("turning", c_double), ("largest_turning", c_double), ("pull", c_double), ("passes", c_int),
+                ("u_turns", c_int), ("shortest", c_int), ("straightest", c_int)]
+
+
+def _load() -> ctypes.CDLL:
+    """The library named by LIBTHREAD, else the one of this package, else the system's."""
+    here = os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib", "libthread.so.0")
+    named = os.environ.get("LIBTHREAD")
+    try:
+        return ctypes.CDLL(named or (here if os.path.exists(here) else "libthread.so.0"))
+    except OSError as reason:
+        raise ImportError("libthread is not installed: `make install`, or LIBTHREAD=/path/to/libthread.so.0 (%s)" % reason) from None
+
+
+lib = _load()
+for _name in ["thread_libraries", "thread_frame_name", "thread_frame_notes"]:
+    getattr(lib, _name).restype = c_char_p
+lib.thread_plan_frame.restype = c_void_p
+
+
+def encoded(value: Any) -> Any:
+    return value.encode() if isinstance(value, str) else value
+
+
+def call(function: Any, *args: Any) -> None:
+    """Calls a function whose last argument is the error."""
+    error = Text()
+    status = function(*args, byref(error))
+    if status != OK:
+        raise failure(status, error)
+
+
+def failure(status: int, error: Text) -> Exception:
+    text = error.text.decode()
+    if status == NO_MEMORY:
+        return MemoryError(text)
+    if status == IO:
+        return OSError(text)
+    return _classes.get(status, Error)(status, text)
+
+
+def received(function: Any, handle: c_void_p, *args: Any) -> bytes:
+    """The bytes that a function gives to be freed."""
+    data, n = c_void_p(), c_size_t()
+    call(function, handle, *args, byref(data), byref(n))
+    try:
+        return ctypes.string_at(data, n.value)
+    finally:
+        lib.thread_free(data)
+
+
+def filled(options: Any, init: Any, given: Dict[str, Any]) -> Any:
+    """The struct with its usual values, and those that are given."""
+    init(byref(options), c_size_t(ctypes.sizeof(options)))
+    known = dict(options._fields_)
+    for name, value in given.items():
+        if name not in known or name == "size":
+            raise TypeError("there is no option %s; there are %s" % (name, ", ".join(sorted(set(known) - {"size", "progress", "user"}))))
+        try:
+            setattr(options, name, encoded(value) if known[name] != c_char or not isinstance(value, bool) else bytes([value]))
+        except TypeError:
+            raise TypeError("option %s: %r is no value for it" % (name, value)) from None
+    return options
