@@ -70,8 +70,9 @@ MODE_fuzz := -O1 -fsanitize=fuzzer-no-link,address,undefined $(SANITIZE)
 MODE_web := -O2
 MODE_static := -O2
 MODE_windows := -O2
+MODE_wheel := -O2 -fPIC -fvisibility=hidden
 ifeq ($(MODE_$(BUILD)),)
-$(error BUILD=$(BUILD) is not one of release debug asan cov fuzz mutants web static windows)
+$(error BUILD=$(BUILD) is not one of release debug asan cov fuzz mutants web static windows wheel)
 endif
 # -ffp-contract=off: no fused multiply-add, so the same digits on every machine
 THR_CFLAGS = -std=c11 $(WARN) -ffp-contract=off $(MODE_$(BUILD)) $(CFLAGS)
@@ -118,6 +119,9 @@ endif
 ifeq ($(BUILD),static)
 include targets/static.mk
 endif
+ifeq ($(BUILD),wheel)
+include targets/wheel.mk
+endif
 ifeq ($(BUILD),windows)
 include targets/windows.mk
 endif
@@ -135,6 +139,7 @@ quote = '$(subst ','\'',$(1))'
 
 all: $(PROGRAM) ## build the program (BUILD=release|debug|asan|cov)
 
+shared: $(SHARED)
 library: $(SHARED) $(STATIC) $(DIR)/thread.pc ## build libthread, shared and static
 
 demo: ## install what is missing, build, plan a dome, check the plan
@@ -179,6 +184,13 @@ windows: ## the program as one file for Windows (64 bits): $(OUT)/windows/thread
 	+@$(MAKE) --no-print-directory BUILD=release $(OUT)/packages.ok
 	@targets/libraries.sh windows "$(LIBRARIES)"
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=windows LIBRARIES="$(LIBRARIES)" all
+
+wheel: ## the Python package with the library in it, for any Linux as new as this one: $(OUT)/wheel/*.whl (libraries as for `make web`)
+	+@tools/install-packages.sh $(BUILD_PACKAGES) python3
+	@targets/libraries.sh shared "$(LIBRARIES)"
+	+@$(MAKE) --no-print-directory $(JOBS) BUILD=wheel LIBRARIES="$(LIBRARIES)" shared
+	@rm -f $(OUT)/wheel/*.whl
+	@python3 python/build_wheel.py $(OUT)/wheel $(OUT)/wheel/$(SONAME)
 
 asan: ## build the program with the address and undefined-behaviour sanitizers
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=asan all
@@ -269,6 +281,9 @@ MAN_PAGES := $(COMMANDS:%=$(DIR)/man/thread-%.1)
 BIN = $(DESTDIR)$(PREFIX)/bin
 SHARE = $(DESTDIR)$(PREFIX)/share
 LIB = $(DESTDIR)$(LIBDIR)
+# where the python3 of this system looks for packages below PREFIX
+PYTHON_DIR ?= $(or $(shell python3 -c 'import site; print(next(d for d in site.getsitepackages() if d.startswith("$(PREFIX)/lib/python")))' 2>/dev/null),$(PREFIX)/lib/python3/dist-packages)
+PACKAGE = $(DESTDIR)$(PYTHON_DIR)/thread_plan
 
 man: $(MAN_PAGES) ## man pages of the commands, from their help
 $(DIR)/man/thread-%.1: $(PROGRAM) tools/man_page.awk
@@ -276,7 +291,7 @@ $(DIR)/man/thread-%.1: $(PROGRAM) tools/man_page.awk
 	@$(PROGRAM) $* --help | awk -v command=$* -v version=$(VERSION) -f tools/man_page.awk > $@
 
 install: all library man ## install program, library, man pages, completions, docs, examples under $(DESTDIR)$(PREFIX)
-	install -d "$(BIN)" "$(LIB)/pkgconfig" "$(DESTDIR)$(PREFIX)/include" "$(SHARE)/man/man1" "$(SHARE)/doc/thread/pictures"
+	install -d "$(PACKAGE)" "$(BIN)" "$(LIB)/pkgconfig" "$(DESTDIR)$(PREFIX)/include" "$(SHARE)/man/man1" "$(SHARE)/doc/thread/pictures"
 	install -m 755 $(PROGRAM) "$(BIN)/thread"
 	install -m 755 $(SHARED) "$(LIB)/$(notdir $(SHARED))"
 	ln -sf $(notdir $(SHARED)) "$(LIB)/$(SONAME)"
@@ -284,10 +299,12 @@ install: all library man ## install program, library, man pages, completions, do
 	install -m 644 $(STATIC) "$(LIB)/libthread.a"
 	install -m 644 $(DIR)/thread.pc "$(LIB)/pkgconfig/thread.pc"
 	install -m 644 include/thread.h "$(DESTDIR)$(PREFIX)/include/thread.h"
+	install -m 644 python/thread_plan/*.py python/thread_plan/py.typed "$(PACKAGE)/"
 	install -m 644 docs/thread.1 $(MAN_PAGES) "$(SHARE)/man/man1/"
 	install -m 644 README.md CHANGELOG.md docs/*.md docs/plan.schema.json "$(SHARE)/doc/thread/"
 	install -m 644 docs/pictures/* "$(SHARE)/doc/thread/pictures/"
 	cp -R examples "$(SHARE)/doc/thread/"
+	@if [ -z "$(DESTDIR)" ] && [ "$$(id -u)" = 0 ]; then ldconfig; else echo "thread: run ldconfig as root if the linker does not find libthread.so.0" >&2; fi
 	install -D -m 644 completions/thread.bash "$(SHARE)/bash-completion/completions/thread"
 	install -D -m 644 completions/_thread "$(SHARE)/zsh/site-functions/_thread"
 	install -D -m 644 completions/thread.fish "$(SHARE)/fish/vendor_completions.d/thread.fish"
@@ -296,7 +313,7 @@ uninstall: ## remove what `make install` installed
 	rm -f "$(BIN)/thread" "$(LIB)"/libthread.so "$(LIB)"/libthread.so.* "$(LIB)/libthread.a" "$(LIB)/pkgconfig/thread.pc"
 	rm -f "$(DESTDIR)$(PREFIX)/include/thread.h" "$(SHARE)/man/man1/thread.1" $(COMMANDS:%="$(SHARE)/man/man1/thread-%.1")
 	rm -f "$(SHARE)/bash-completion/completions/thread" "$(SHARE)/zsh/site-functions/_thread" "$(SHARE)/fish/vendor_completions.d/thread.fish"
-	rm -rf "$(SHARE)/doc/thread"
+	rm -rf "$(SHARE)/doc/thread" "$(PACKAGE)"
 
 TARBALL := $(OUT)/thread-$(VERSION).tar.gz
 DEB_PACKAGES := debhelper fakeroot lintian
@@ -411,7 +428,7 @@ $(DIR)/%.o: %.cpp $(DIR)/flags.list
 	$(Q)$(COMPILER_CXX) -I. $(BULLET_CFLAGS) $(CPPFLAGS) $(THR_CXXFLAGS) $(STRICT) -MMD -MP -c -o $@ $<
 
 # dense work in long loops, which pays to be unrolled
-$(addprefix $(DIR)/lp/solver/,normal.o dense.o bundles.o rays.o interior.o cones.o): THR_CFLAGS += $(if $(filter release web static windows,$(BUILD)),-O3)
+$(addprefix $(DIR)/lp/solver/,normal.o dense.o bundles.o rays.o interior.o cones.o): THR_CFLAGS += $(if $(filter release web static windows wheel,$(BUILD)),-O3)
 
 # the viewer's page, as it lies built in the tree, becomes bytes of the program
 $(DIR)/%.o: %.S %.html $(DIR)/flags.list
@@ -449,6 +466,6 @@ $(OUT)/packages.ok:
 	@touch $@
 
 FORCE:
-.PHONY: web web-pictures web-files static windows all library man dist deb demo docs formats test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
+.PHONY: web web-pictures web-files static shared wheel windows all library man dist deb demo docs formats test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
 .PHONY: suite-release suite-asan suite-fuzz test-programs fuzz-programs list-tests list-fuzz list-flags list-c FORCE
 -include $(wildcard $(DIR)/*/*.d $(DIR)/*/*/*.d)

@@ -10,6 +10,7 @@
 #include "graph/framework/frame.h"
 #include "graph/io/read.h"
 #include "graph/limits.h"
+#include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
 #include "graph/text.h"

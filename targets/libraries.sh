@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the libraries that thread stands on, to be linked with it, from Debian's own sources: GLPK, igraph, nauty, Bullet, and the
-# small version of GMP. Usage: targets/libraries.sh wasm|linux|windows FOLDER: with Emscripten, with gcc for this machine's
-# processor, or with MinGW; or targets/libraries.sh --fetch FOLDER: the sources only. What is there already is not built again, as long
+# small version of GMP. Usage: targets/libraries.sh wasm|linux|shared|windows FOLDER: with Emscripten, with gcc for this machine's
+# processor (shared: to be part of a shared library, without GMP), or with MinGW; or targets/libraries.sh --fetch FOLDER: the sources only. What is there already is not built again, as long
 # as it was built by the same compiler and this same file (FOLDER/TARGET/built-by): FOLDER/TARGET/lib/*.a and, of those headers that
 # differ from the ones that Debian installs, FOLDER/TARGET/include.
 #
@@ -9,14 +9,14 @@
 # changed); their versions are pinned here and their bytes by targets/sources.sha256.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-target=${1:?which target: wasm, linux or windows?}
+target=${1:?which target: wasm, linux, shared or windows?}
 folder=${2:?which folder?}
 case $target in
 wasm) cc=emcc cxx=em++ ar=emar ;;
-linux) cc=gcc cxx=g++ ar=ar ;;
+linux | shared) cc=gcc cxx=g++ ar=ar ;;
 windows) cc=x86_64-w64-mingw32-gcc-posix cxx=x86_64-w64-mingw32-g++-posix ar=x86_64-w64-mingw32-ar ;;
 --fetch) ;;
-*) echo "targets/libraries.sh: $target is none of wasm, linux, windows" >&2 && exit 2 ;;
+*) echo "targets/libraries.sh: $target is none of wasm, linux, shared, windows" >&2 && exit 2 ;;
 esac
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
@@ -24,6 +24,7 @@ built=$folder/$target
 export LC_ALL=C
 packages='glpk=5.0-1 igraph=0.10.2+ds-2 nauty=2.8.6+ds-2 bullet=3.24+dfsg-2 gmp=2:6.2.1+dfsg1-1.1'
 flags='-O2 -ffp-contract=off -ffunction-sections -fdata-sections -w' # the linker drops what nothing calls, and what that calls
+if [ "$target" = shared ]; then flags+=' -fPIC -fvisibility=hidden'; fi
 
 # ---- sources ----
 

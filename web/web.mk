@@ -52,6 +52,6 @@ $(DIR)/engine.js: web/engine.js
 	@cp $< $@
 $(NPM)/package.json: $(WEB_PROGRAM) $(DIR)/engine.js $(wildcard web/npm/*) Makefile
 	@mkdir -p $(NPM)
-	@cp $(DIR)/thread-engine.js $(DIR)/thread-engine.wasm $(DIR)/engine.js web/npm/README.md web/npm/thread.js web/npm/worker.js LICENSE $(NPM)
+	@cp $(DIR)/thread-engine.js $(DIR)/thread-engine.wasm $(DIR)/engine.js web/npm/README.md web/npm/engine.d.ts web/npm/thread.js web/npm/worker.js LICENSE $(NPM)
 	@sed 's/@VERSION@/$(VERSION)/' web/npm/package.json > $@.new
 	@mv $@.new $@

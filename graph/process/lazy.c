@@ -27,6 +27,14 @@ thr_status thr_lazy_load(bool *loaded, const char *library, const thr_lazy_symbo
 {
   if (*loaded) return THR_OK;
 
+  /* A library that is linked with the program is there. */
+  if (symbol[0].linked) {
+    for (size_t i = 0; i < n; i++)
+      memcpy(symbol[i].pointer, &symbol[i].linked, sizeof symbol[i].linked);
+    *loaded = true;
+    return THR_OK;
+  }
+
   /* Functions of the libraries that it needs itself are found, too. */
   void *handle = dlopen(library, RTLD_NOW | RTLD_LOCAL);
   if (!handle) return failed(library, err);

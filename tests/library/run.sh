@@ -52,7 +52,16 @@ page_compiles() { # the program in docs/library.md
     printf 'return 0;\n}\n'; } | cc -Wall -Wextra -std=c99 -x c - $(pkg-config --cflags --libs thread) -o "$out/page"
 }
 prints_length() { [ "$("$@")" = $length ]; }
-python_example() { PYTHONDONTWRITEBYTECODE=1 LIBTHREAD=$usr/lib/libthread.so.0 prints_length python3 "$examples/python/dome.py" "$out/python.svg"; }
+package=$(dirname "$(find "$root" -path '*/thread_plan/__init__.py')")
+# the package as it was installed, by a Python that knows nothing else of it
+python() { PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$(dirname "$package") LIBTHREAD=$usr/lib/libthread.so.0 python3 "$@"; }
+python_example() { prints_length python "$examples/python/dome.py" "$out/python.svg"; }
+python_package() { python tests/library/package.py; }
+python_wheel() { # one without the library, built twice by the rules of PEP 517, as pip takes it
+  local wheel again
+  wheel=$(python3 python/build_wheel.py "$out/wheel") && again=$(python3 python/build_wheel.py "$out/wheel-again") && cmp "$wheel" "$again" &&
+    rm -rf "$out/unpacked" && python3 -m zipfile -e "$wheel" "$out/unpacked" && diff -r --exclude='*.pyc' "$package" "$out/unpacked/thread_plan"
+}
 as_drawn() { "$usr/bin/thread" draw "$out/plan.json" -o "$out/program.svg" && cmp "$out/program.svg" "$out/c.svg"; }
 same_picture() { cmp "$out/c.svg" "$out/python.svg"; }
 has_options() { # the man page of a command names every option that the command knows
@@ -99,7 +108,7 @@ packaged() { # debian/ asks for the libraries that the Makefile asks for, and kn
 one_version() { # of header, pkg-config, package and citation
   local major minor patch
   IFS=. read -r major minor patch <<<"$version"
-  grep -q "^#define THREAD_VERSION $((10000 * major + 100 * minor + patch)) " include/thread.h && [ "$(pkg-config --modversion thread)" = "$version" ] &&
+  grep -qxF "version = \"$version\"" python/pyproject.toml && grep -q "^#define THREAD_VERSION $((10000 * major + 100 * minor + patch)) " include/thread.h && [ "$(pkg-config --modversion thread)" = "$version" ] &&
     head -n 1 debian/changelog | grep -qF "($version)" && grep -qx "version: $version" CITATION.cff
 }
 
@@ -120,6 +129,8 @@ test_that 'the header is C++, too' cplusplus
 test_that 'what docs/library.md shows compiles' page_compiles
 test_that 'the Python example prints the least length' python_example
 test_that 'C and Python draw the same picture' same_picture
+test_that 'the Python package does what it says' python_package
+test_that 'the wheel has the same files, and the same bytes twice' python_wheel
 test_that 'the program plans the dome' bash -c "'$usr/bin/thread' make dome | '$usr/bin/thread' plan - -o '$out/plan.json'"
 test_that 'and draws the same picture' as_drawn
 for command in $("$usr/bin/thread" complete '' | cut -f 1 | grep -v help); do

@@ -178,6 +178,31 @@ const commandLineTests = {
   },
 };
 
+// ---- the package, as npm installs it ----
+
+const packageTests = {
+  'packed, installed into an empty folder, run by its names and from a program': () => {
+    const home = place('installed'), quiet = ['--no-audit', '--no-fund', '--offline', '--silent'];
+    const sh = (command, ...words) => {
+      const run = spawnSync(command, words, {cwd: home, encoding: 'utf8'});
+      assert.equal(run.status, 0, `${command} ${words.join(' ')}: ${run.stderr}`);
+      return run.stdout.trim();
+    };
+    fs.mkdirSync(home, {recursive: true});
+    const file = sh('npm', 'pack', path.join(build, 'npm'), '--silent').split('\n').at(-1);
+    fs.writeFileSync(path.join(home, 'package.json'), '{"name": "empty", "version": "1.0.0"}');
+    sh('npm', 'install', `./${file}`, ...quiet);
+    for (const name of ['thread-plan', 'thread']) assert.equal(sh('npx', '--offline', name, '--version'), native('--version').stdout.trim());
+    sh('npx', '--offline', 'thread-plan', 'make', 'dome', '-o', 'dome.json');
+    sh('npx', '--offline', 'thread-plan', 'plan', 'dome.json', '--cords', '1', '-q', '-o', 'plan.json');
+    fs.writeFileSync(path.join(home, 'program.js'), `require('thread-plan').makeEngine()
+      .then((engine) => engine.run(['check', 'plan.json'], {'plan.json': require('fs').readFileSync('plan.json')}))
+      .then(({exit}) => process.exit(exit));`);
+    sh('node', 'program.js');
+    assert.ok(fs.existsSync(path.join(home, 'node_modules/thread-plan/engine.d.ts')));
+  },
+};
+
 // ---- a search that is watched and stopped ----
 
 const watched = ['plan', 'sphere.json', '--objective', 'tortuosity', '--time-limit', '60', '--progress', '-q', '-o', 'plan.json'];
@@ -310,6 +335,7 @@ async function main() {
   await test('a search is watched and stopped', () => stopTest(engine.run));
   await test('memory is given back', () => memoryTest(engine.run));
   for (const [name, body] of Object.entries(commandLineTests)) await test(name, body);
+  for (const [name, body] of Object.entries(packageTests)) await test(name, body);
   await test('sizes', sizesTest);
   await test('times', () => timesTest(engine.run));
   const {chromium} = createRequire(path.join(packages, 'package.json'))('playwright-core');

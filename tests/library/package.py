@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""The package thread_plan: what it gives beside what geometry says, and what it refuses. Says nothing if all is well."""
+import inspect
+import math
+import os
+import tempfile
+
+import thread_plan
+from thread_plan import Frame
+
+SQUARE = [(0, 0, 0), (30, 0, 0), (30, 40, 0), (0, 40, 0)]
+SIDES = [(0, 1), (1, 2), (2, 3), (3, 0), (0, 2)]
+
+
+def refused(kind, words, call):
+    try:
+        call()
+    except kind as reason:
+        assert words in str(reason), reason
+    else:
+        raise AssertionError("not refused: " + words)
+
+
+def angle(a, b, c):
+    """By which a cord turns that comes from a over b to c."""
+    u, v = [q - p for p, q in zip(a, b)], [q - p for p, q in zip(b, c)]
+    cos = sum(p * q for p, q in zip(u, v)) / math.dist(a, b) / math.dist(b, c)
+    return math.acos(max(-1.0, min(1.0, cos)))
+
+
+frame = Frame(SQUARE, SIDES)
+assert frame.nodes == [tuple(map(float, p)) for p in SQUARE] and frame.edges == SIDES and len(set(frame.names)) == 4 and frame.notes == []
+
+# The diagonal twice: 140 + 2 x 50.
+plan = frame.plan()
+assert plan.proved and plan.summary.shortest and abs(plan.summary.length - 240) < 1e-9 and plan.summary.passes == 6
+plan.check()
+(cord,) = plan.cords
+assert cord.ends[0] == cord.ends[1] and cord.passes == 6 and abs(cord.length - 240) < 1e-9
+assert plan.frame.edges == SIDES and plan.frame.nodes == frame.nodes
+
+# Tensions by the capstan law, walked by hand over the cord's own nodes: they differ by no more at a turn, and exactly so much on
+# the way from the slackest pass to an end (the turn between two slackest passes is nobody's).
+turns = [angle(*[SQUARE[n] for n in cord.nodes[k:k + 3]]) for k in range(cord.passes - 1)]
+assert abs(sum(turns) - cord.turning) < 1e-9
+for k, turn in enumerate(turns):
+    assert abs(math.log(cord.tension[k + 1] / cord.tension[k])) <= 0.2 * turn + 1e-9
+slack = [k for k, tension in enumerate(cord.tension) if tension == min(cord.tension)]
+assert abs(math.log(cord.pull_start / cord.tension[slack[0]]) - 0.2 * sum(turns[:slack[0]])) < 1e-9
+assert abs(math.log(cord.pull_end / cord.tension[slack[-1]]) - 0.2 * sum(turns[slack[-1]:])) < 1e-9
+assert plan.summary.pull == max(cord.pull_start, cord.pull_end)
+
+# From one odd node to the other, from given nodes, several cords.
+assert abs(frame.plan(ends="any").summary.length - 190) < 1e-9
+assert set(frame.plan(ends=[1, 3]).cords[0].ends) <= {1, 3}
+assert len(Frame.shape("dome", 5).set_feet().plan(cords=2, ends="feet").cords) == 2
+
+# Written, read, drawn.
+with tempfile.TemporaryDirectory() as folder:
+    path = os.path.join(folder, "plan.json")
+    plan.write(path)
+    again = thread_plan.Plan.read(path)
+    assert again.json() == plan.json() and again.proved
+    assert plan.draw("svg", os.path.join(folder, "a.svg")) == open(os.path.join(folder, "a.svg"), "rb").read()
+    frame.write("obj", os.path.join(folder, "a.obj"))
+    assert thread_plan.read(os.path.join(folder, "a.obj"), units="m", scale=2).nodes[1] == (60.0, 0.0, 0.0)
+assert thread_plan.parse(frame.write("ply"), "a.ply").edges == SIDES
+lie = plan.json().replace(b'"length": 240', b'"length": 140')
+refused((thread_plan.Violated, thread_plan.BadInput), "length", lambda: thread_plan.Plan(lie).check())
+
+# Progress is a plain function; it stops the search, and what it raises comes out.
+heard = []
+dome = Frame.shape("dome", 7).set_feet()
+stopped = dome.plan(cords=4, ends="feet", aims="turning", progress=lambda what, best, bound: heard.append((what, best, bound)) or best < 1e9)
+assert heard and all(isinstance(what, str) and bound <= best for what, best, bound in heard), heard
+stopped.check()
+refused(ZeroDivisionError, "", lambda: dome.plan(cords=4, ends="feet", aims="turning", progress=lambda *_: 1 / 0))
+
+# What is wrong is said.
+refused(thread_plan.BadInput, "moon", lambda: frame.plan(ends="moon"))
+refused(ValueError, "a.obj:1", lambda: thread_plan.parse("v 1 2 x\n", "a.obj"))
+refused(OSError, "no.obj", lambda: thread_plan.read("no.obj"))
+refused(TypeError, "speed", lambda: frame.plan(speed=1))
+refused(TypeError, "cover", lambda: frame.plan(cover="x"))
+refused(thread_plan.Infeasible, "", lambda: frame.plan(cover=1, capacity=1))
+refused(thread_plan.BadInput, "three", lambda: Frame([(0, 0)], []))
+with Frame(SQUARE, SIDES) as lent:
+    assert len(lent.edges) == 5
+refused(ValueError, "closed", lambda: lent.nodes)
+
+# Everything that is public says what it is.
+for name in thread_plan.__all__:
+    assert inspect.getdoc(getattr(thread_plan, name)), name
+
+try:
+    import numpy
+except ImportError:
+    numpy = None
+if numpy is not None:
+    arrays = Frame(numpy.array(SQUARE, dtype=float), numpy.array(SIDES))
+    assert arrays.array().shape == (4, 3) and (arrays.edge_array() == numpy.array(SIDES)).all()
+    assert arrays.plan().json() == plan.json()
