@@ -6,7 +6,7 @@
  * Every writer appends to out: a plan without cords, or cords that do not fit the framework, are
  * THR_EINPUT, and out is then unchanged. O(nodes + passes).
  *
- * Example, OBJ: "o cord-A", "l 1 2", "l 2 5" for a cord from node 0 by 1 to 4. */
+ * Example, OBJ: "o cord-A", "l 1 2 5" for a cord from node 0 by 1 to 4. */
 #include "diagram/scene/scene.h"
 
 #include "graph/framework/frame.h"
@@ -56,13 +56,14 @@ static void put_object(const thr_plan *plan, int c, thr_text *out)
   thr_text_printf(out, "o cord-%s\n", id);
 }
 
-/* Writes each cord as lines between the nodes, which stand before all cords. If a cord passes an
+/* Writes each cord as one line through the nodes, which stand before all cords. If a cord passes an
  * edge again, it goes on to a vertex of its own: in a mesh of Blender two vertices have one edge at
  * most. last: [n_edges] zeros. */
 static void put_passes(thr_cord_lines *lines, int *last, thr_text *out)
 {
   const thr_plan *plan = lines->plan;
   int n_vertices = plan->frame.n_nodes;
+  thr_text line = {0}; /* of the cord: its own vertices come before it */
 
   /* Vertices 1 .. n_nodes are the nodes; vertices of second passes come after them. */
   for (int c = 0; c < plan->n_cords; c++) {
@@ -71,10 +72,11 @@ static void put_passes(thr_cord_lines *lines, int *last, thr_text *out)
     put_object(plan, c, out);
 
     /* OBJ counts vertices from 1. */
-    for (int k = 0, from = thr_cord_start(&plan->frame, cord) + 1, to; k < cord->n_passes;
-         k++, from = to) {
+    line.length = 0;
+    thr_text_printf(&line, "l %d", thr_cord_start(&plan->frame, cord) + 1);
+    for (int k = 0; k < cord->n_passes; k++) {
       const int e = cord->half[k] >> 1;
-      to = thr_head(&plan->frame, cord->half[k]) + 1;
+      int to = thr_head(&plan->frame, cord->half[k]) + 1;
 
       /* The cord has passed this edge before: a second vertex at the same place. */
       if (last[e] == c + 1) {
@@ -83,9 +85,13 @@ static void put_passes(thr_cord_lines *lines, int *last, thr_text *out)
       }
 
       last[e] = c + 1;
-      thr_text_printf(out, "l %d %d\n", from, to);
+      thr_text_printf(&line, " %d", to);
     }
+    thr_text_append_bytes(out, line.data, line.length);
+    thr_text_byte(out, '\n');
+    out->failed |= line.failed;
   }
+  thr_text_destroy(&line);
 }
 
 /* Writes each cord with vertices of its own, in the lanes. */
@@ -95,11 +101,13 @@ static void put_lanes(thr_cord_lines *lines, thr_text *out)
     thr_cord_lines_next(lines, c);
     put_object(lines->plan, c, out);
 
-    /* Points, then a line from each to the next. */
+    /* Points, then a line through all of them. */
     for (int i = 0; i < lines->n_points; i++)
       put_vertex(lines->point[i], out);
-    for (int i = 0; i + 1 < lines->n_points; i++)
-      thr_text_printf(out, "l %d %d\n", first + i, first + i + 1);
+    thr_text_append(out, "l");
+    for (int i = 0; i < lines->n_points; i++)
+      thr_text_printf(out, " %d", first + i);
+    thr_text_byte(out, '\n');
     first += lines->n_points;
   }
 }

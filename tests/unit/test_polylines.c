@@ -63,14 +63,13 @@ static bool stands_at(const thr_plan *p, double (*vertex)[3], int i, int node)
   return memcmp(vertex[i - 1], p->frame.xyz[node], sizeof *vertex) == 0;
 }
 
-/* One object per cord, one record of two vertices per pass, in order and joined, none twice in an
- * object. */
+/* One object per cord with one line through a vertex per pass, in order, no step of it twice. */
 START_TEST(obj_has_the_passes_in_order)
 {
   thr_plan p = plan_number(_i);
   thr_text t = text_of(&p, thr_polylines_obj);
   const int most = p.frame.n_nodes + p.metrics.passes;
-  int c = -1, k = 0, a, b, used, n = 0, before = 0,
+  int c = -1, k = 0, a, b, used, n = 0,
       (*line_of)[2] = calloc((size_t)p.metrics.passes, sizeof *line_of);
   double(*vertex)[3] = calloc((size_t)most, sizeof *vertex);
   for (const char *line = t.data; *line; line = strchr(line, '\n') + 1) {
@@ -85,18 +84,20 @@ START_TEST(obj_has_the_passes_in_order)
                        3);
       n++;
     } else if (*line == 'l') {
-      ck_assert_int_eq(sscanf(line, "l %d %d%n", &a, &b, &used), 2);
-      ck_assert_int_eq(line[used], '\n');
-      ck_assert_int_lt(k, p.cord[c].n_passes);
-      ck_assert(a >= 1 && a <= n && b >= 1 && b <= n);
-      ck_assert(k == 0 || a == before);
-      ck_assert(stands_at(&p, vertex, a, thr_tail(&p.frame, p.cord[c].half[k])));
-      ck_assert(stands_at(&p, vertex, b, thr_head(&p.frame, p.cord[c].half[k])));
-      for (int i = 0; i < k; i++)
-        ck_assert((line_of[i][0] != a || line_of[i][1] != b) &&
-                  (line_of[i][0] != b || line_of[i][1] != a));
-      line_of[k][0] = a;
-      line_of[k++][1] = before = b;
+      ck_assert_int_eq(k, 0); /* the only one of its cord */
+      ck_assert_int_eq(sscanf(line, "l %d%n", &a, &used), 1);
+      for (const char *next = line + used; *next != '\n'; next += used, a = b, k++) {
+        ck_assert_int_eq(sscanf(next, " %d%n", &b, &used), 1);
+        ck_assert_int_lt(k, p.cord[c].n_passes);
+        ck_assert(a >= 1 && a <= n && b >= 1 && b <= n);
+        ck_assert(stands_at(&p, vertex, a, thr_tail(&p.frame, p.cord[c].half[k])));
+        ck_assert(stands_at(&p, vertex, b, thr_head(&p.frame, p.cord[c].half[k])));
+        for (int i = 0; i < k; i++)
+          ck_assert((line_of[i][0] != a || line_of[i][1] != b) &&
+                    (line_of[i][0] != b || line_of[i][1] != a));
+        line_of[k][0] = a;
+        line_of[k][1] = b;
+      }
     } else
       ck_assert_int_eq(*line, '#');
   }
