@@ -245,8 +245,7 @@ validate: ## measure the pull force against theory (a few minutes), write docs/v
 	+@tools/install-packages.sh $(BUILD_PACKAGES)
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release all $(OUT)/release/validate
 	@$(OUT)/release/validate docs/validation.md; first=$$?; \
-	tests/validate/claims.py $(OUT)/release/thread docs/validation.md docs/pictures && \
-	bench/falls.py $(OUT)/release/thread --seeds 1 --steps 1 --append docs/validation.md && exit $$first
+	tests/validate/claims.py $(OUT)/release/thread docs/validation.md docs/pictures && exit $$first
 
 memory: ## every command with an allocation of each distinct stack of calls failing (hours; SAMPLES=N: N of each command)
 	+@tools/install-packages.sh $(BUILD_PACKAGES)

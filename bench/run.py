@@ -376,13 +376,13 @@ structure, each beside the closed form."""
             evaluate, cache = [b.thread, "eval", b.path("plan.json")], b.path("cache-%s-%d" % (name, edges))
             cold = None if b.smallest else b.once([*evaluate, "--method", "joint", "--cache", cache]).seconds
             warm = None if b.smallest else b.least([*evaluate, "--method", "joint", "--cache", cache])[0].seconds
-            closed, limit = b.least(evaluate, [*evaluate, "--method", "structure", "--no-dynamics"])
+            closed, limit = b.least(evaluate, [*evaluate, "--method", "structure"])
             b.row(name, edges, seconds(closed.seconds), ratio(cold, closed.seconds), ratio(warm, closed.seconds),
                   seconds(limit.seconds), ratio(limit.seconds, closed.seconds), grows(edges, limit.seconds, goes_on))
 
 
 def structure(b):
-    text = """`thread eval --method structure --no-dynamics`: the limit analysis of square domes on straight cords, two for each row, while
+    text = """`thread eval --method structure`: the limit analysis of square domes on straight cords, two for each row, while
 they are drawn in and in any state.
 
 The factors of the normal equations (`lp/solver/normal.c`) are our own. CHOLMOD 3.0.14 in their place (AMD order, one thread) has as many
@@ -396,7 +396,7 @@ Supernodal factors need BLAS and LAPACK, too, for which Emscripten has no Fortra
         path, edges = b.frame("grid", 2 * side * (side - 1))
         with b.line("grid", edges):
             b.once(b.plan(path, *"--objective tortuosity --minimize turning --tune nodes=50 --ends any --cords".split(), 2 * side))
-            run = b.least([b.thread, "eval", b.path("plan.json"), "--method", "structure", "--no-dynamics"])[0]
+            run = b.least([b.thread, "eval", b.path("plan.json"), "--method", "structure"])[0]
             b.row("grid", side * side, 2 * side, seconds(run.seconds), grows(side * side, run.seconds, side > 20))
 
 

@@ -25,8 +25,7 @@ thr_eval_options thr_eval_options_default(void)
                             .pull = THR_PULL_BOTH,
                             .time_step = 1,
                             .iterations = 1,
-                            .processes = 1,
-                            .dynamics = true};
+                            .processes = 1};
 }
 
 /* Frees what an evaluation owns. */
@@ -39,8 +38,6 @@ void thr_eval_destroy(thr_eval *eval)
   thr_holding_destroy(&eval->loosest);
   thr_holding_destroy(&eval->after);
   thr_holding_destroy(&eval->stretch);
-  thr_settle_destroy(&eval->settle);
-  thr_erect_destroy(&eval->erect);
   thr_holding_destroy(&eval->loaded);
 
   for (int i = 0; i < eval->n_carries; i++)
@@ -64,13 +61,6 @@ static thr_status check_options(const thr_eval_options *options, thr_err *err)
     return thr_fail(err, THR_EINPUT,
                     "iterations: a factor of %g; expected 0.1 to 100 times the validated number",
                     options->iterations);
-
-  /* A pull of 0 stands for the usual one. */
-  if (!(options->start >= 0) || !isfinite(options->start))
-    return thr_fail(
-        err, THR_EINPUT,
-        "start: a pull of %g N; expected more than 0, or 0 for 1.3 times the holding pull",
-        options->start);
 
   if (options->processes < 1)
     return thr_fail(err, THR_EINPUT, "processes: %d; expected 1 or more", options->processes);
@@ -180,18 +170,6 @@ static thr_status sum_up(const thr_frame *frame, const thr_cord *cord, thr_eval 
                   "with more cords");
 }
 
-/* Keeps nothing but the picture of the erection, where no pull holds the structure. */
-static void keep_shape(thr_eval *eval)
-{
-  const thr_erect shape = eval->erect;
-  const thr_physics physics = eval->record.physics;
-
-  eval->erect = (thr_erect){0};
-  thr_eval_destroy(eval);
-  eval->erect = shape;
-  if (shape.present) eval->record.physics = physics;
-}
-
 /* Evaluates a plan by one method; see eval.h. */
 thr_status thr_eval_plan(const thr_frame *frame, const thr_cord *cord, int n_cords,
                          thr_method method, const thr_eval_options *options,
@@ -223,13 +201,12 @@ thr_status thr_eval_plan(const thr_frame *frame, const thr_cord *cord, int n_cor
     if (kept) st = kept;
   }
 
-  /* What is complete stays after a stop, whatever it adds up to; after a failure only the picture
-   * does. */
+  /* What is complete stays after a stop, whatever it adds up to. */
   if (!st)
     st = sum_up(frame, cord, &eval, err);
   else if (st == THR_ELIMIT)
     (void)sum_up(frame, cord, &eval, NULL);
-  if (st && st != THR_ELIMIT) keep_shape(&eval);
+  if (st && st != THR_ELIMIT) thr_eval_destroy(&eval);
   *out = eval;
   return st;
 }

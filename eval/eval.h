@@ -33,8 +33,6 @@ typedef struct {
   double iterations; /* factor on the validated iterations, 1 */
   int processes;     /* that measure joints at a time, >= 1; results do not depend on it */
   const char *cache; /* folder of measured joints; NULL = none; borrowed */
-  double start;      /* N, method structure: pull at which Bullet's structure settles; 0 = 1.3 x its
-                        holding pull */
   const thr_schedule *schedule; /* what is done to the cords, borrowed; NULL: they are pulled until
                                    the slackest pass is seated */
   const double (
@@ -48,15 +46,11 @@ typedef struct {
   bool taut;   /* method structure: turns are those of the tight cord in its bores, as of method
                   joint; else of their middles */
   bool clamped; /* method structure: feet are held in place; else they stand on the ground */
-  const thr_bodies
-      *bodies; /* method structure: pieces as they are made instead of the ideal ones; they are not
-                  simulated, and the record has no proofs, which do not know them; borrowed */
-  double strength; /* N, method structure: that a knotted cord bears; 0 = not known */
+  const thr_bodies *bodies; /* method structure: pieces as they are made instead of the ideal ones;
+                               the record has no proofs, which do not know them; borrowed */
+  double strength;          /* N, method structure: that a knotted cord bears; 0 = not known */
   double hand; /* N, methods capstan and joint: 0, or the largest pull of a schedule with the fewest
                   grips, which is made */
-  bool dynamics; /* method structure: confirm by Bullet (true) or limit analysis only */
-  bool large;    /* .. also where that takes many minutes: up to thr_settle_largest(true) beads */
-  bool erect;    /* method structure, with dynamics: simulate how it comes up from slack */
 } thr_eval_options;
 
 /* Returns the usual options. */
@@ -119,10 +113,6 @@ typedef struct {
   int n_carries;
   thr_carry
       after_carries; /* of the load, after a schedule; of first_bead -1 if that was not asked */
-  thr_settle settle; /* method structure: while being drawn in, after a schedule let down; none with
-                        a load, which it does not know */
-  thr_erect erect; /* if that was asked and a pull is needed; where no pull holds all that is left,
-                      with record.physics */
 } thr_eval;
 
 /* Evaluates a plan by one method. Contract of each: THR_EINPUT for absurd physics or an overflow
@@ -130,7 +120,7 @@ typedef struct {
  * (total may be INFINITY then); same plan, options and seed give the same bits whatever the number
  * of processes. largest, total, tension do not fall when mu grows; tension[slackest] is the least
  * of a cord, and for capstan and joint it is the seating tension. Release with thr_eval_destroy
- * (also after THR_ELIMIT, and THR_EINFEASIBLE, where erect may be left). */
+ * (also after THR_ELIMIT). */
 thr_status thr_eval_plan(const thr_frame *frame, const thr_cord *cord, int n_cords,
                          thr_method method, const thr_eval_options *options,
                          const thr_limits *limits, thr_eval *out, thr_err *err) THR_MUST_CHECK;
@@ -138,13 +128,6 @@ void thr_eval_destroy(thr_eval *eval);
 
 /* Beyond so many pieces the limit analysis takes longer than half a second. */
 enum { THR_HOLDS_LARGEST = 500 };
-
-/* Simulates in this process, which Bullet may end, how the structure falls when the holding pull
- * that method structure found for it is let off: > 0, and with the tensions of the record. options:
- * start, time_step, iterations, seed and large. Release out with thr_settle_destroy. */
-thr_status thr_eval_settle(const thr_frame *frame, const thr_cord *cord, const thr_eval *eval,
-                           const thr_eval_options *options, const thr_limits *limits,
-                           thr_settle *out, thr_err *err) THR_MUST_CHECK;
 
 /* Computes the factor below which no multiple of an evaluation's tensions holds the pieces together
  * while the cords are drawn in (one programme of the limit analysis, proved at the frictions of the
@@ -168,10 +151,9 @@ thr_status thr_joint_method(const thr_frame *frame, const thr_cord *cord,
                             const thr_eval_options *options, const thr_limits *limits,
                             thr_eval *out, thr_err *err) THR_MUST_CHECK;
 
-/* Limit analysis, confirmed by Bullet (structure.c): every cord is pulled at its harder end with
- * the holding pull. If that is 0, so are forces, tensions and losses, and Bullet has nothing to
- * show unless a start is given. THR_EINFEASIBLE if no pull holds it, THR_ESOLVER if that is not
- * decided; at an end of the band the one is INFINITY, the other NAN. */
+/* Limit analysis (structure.c): every cord is pulled at its harder end with the holding pull. If
+ * that is 0, so are forces, tensions and losses. THR_EINFEASIBLE if no pull holds it, THR_ESOLVER
+ * if that is not decided; at an end of the band the one is INFINITY, the other NAN. */
 thr_status thr_structure_method(const thr_frame *frame, const thr_cord *cord,
                                 const thr_eval_options *options, const thr_limits *limits,
                                 thr_eval *out, thr_err *err) THR_MUST_CHECK;

@@ -14,7 +14,7 @@ longest='release/memory property/test_cover property/test_pull_limit release/wat
 property/test_shortest second/plans viewer/browser golden/eval unit/test_planner unit/test_memory unit/test_advice
 property/test_decomposition property/test_reference property/test_cross fuzz/fuzz_plan property/test_few_edges golden/turning
 property/test_distinct golden/plan golden/second golden/cords golden/schedules golden/threads golden/convert golden/compare
-golden/draw golden/usage unit/test_standing unit/test_symmetry unit/test_settle unit/test_sheets unit/test_tied_symmetry
+golden/draw golden/usage unit/test_standing unit/test_symmetry unit/test_sheets unit/test_tied_symmetry
 property/test_evenly unit/test_svg_page unit/test_joint unit/test_hubs unit/test_rigidity unit/test_eval
 property/test_length_options property/test_anneal property/test_walk_proof property/test_turning property/test_order
 property/test_cross_known golden/meant golden/symmetries unit/test_postman unit/test_drag unit/test_frontier_chart

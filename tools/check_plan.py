@@ -3102,11 +3102,6 @@ class Standing:
         self.bodies()
         self.loads = [self.load(x) for x in member(o, "loads", "list", place)] if "loads" in o else []
         require("loads" not in o or self.loads, f"{place}.loads: empty")
-        if "stills" in o:
-            stills = member(o, "stills", "list", place)
-            require(stills, f"{place}.stills: empty")
-            for still in stills:
-                self.check_still(still)
         drawn = member(o, "drawn", "list", place)
         require(len(drawn) == len(cords), f"{place}.drawn: not one per cord")
         self.drawn = [self.draw(x, cord) for x, cord in zip(drawn, cords)]
@@ -3156,32 +3151,6 @@ class Standing:
         force = member(o, "force", "list", self.place)
         require(len(force) == 3, f"{self.place}.loads: not three numbers")
         return member(o, "node", "integer", self.place, 0, self.frame.n - 1), [member({"x": x}, "x", "number", self.place) for x in force]
-
-    def check_still(self, o):
-        """Poses of all beads in a still of a simulation: rotations, and so many gaps that are closed to a hundredth of a mean edge."""
-        f, place = self.frame, self.place + ".stills"
-        known(o, "pull counterweight seated poses", place)
-        member(o, "pull", "number", place, 0), member(o, "counterweight", "number", place, 0)
-        numbers = member(o, "poses", "list", place)
-        require(len(numbers) == 7 * f.n, f"{place}.poses: not seven numbers for every node")
-        numbers = [float(member({"x": x}, "x", "number", place)) for x in numbers]
-        pose = [(numbers[i:i + 3], numbers[i + 3:i + 6], numbers[i + 6]) for i in range(0, len(numbers), 7)]
-        require(all(abs(dot(q, q) + w * w - 1) <= 1e-6 for _, q, w in pose), f"{place}.poses: a bead is not turned, but stretched")
-
-        def turn(node, arm):
-            _, q, w = pose[node]
-            once = cross(q, arm)
-            return plus(plus(arm, once, 2 * w), cross(q, once), 2)
-
-        mean = sum(math.dist(self.at[a], self.at[b]) for a, b in f.edge) / f.m
-        open_by = []
-        for (a, b), (middle, axis, one, other) in zip(f.edge, self.face):
-            now = turn(a, axis)
-            at = [plus(plus(middle, one, s * self.width / 2), other, t * self.width / 2) for s in (1, -1) for t in (1, -1)]
-            place_of = lambda node, x: plus(pose[node][0], turn(node, plus(x, self.at[node], -1)))
-            open_by.append(max(0.0, *(dot(plus(place_of(b, x), place_of(a, x), -1), now) for x in at)) / mean)
-        seated = member(o, "seated", "integer", place, 0, f.m)
-        require(sum(x < 0.01 - 1e-6 for x in open_by) <= seated <= sum(x < 0.01 + 1e-6 for x in open_by), f"{place}.seated: not so many gaps are")
 
     def draw(self, o, cord):
         """Exponents before every pass, the ends that are pulled, and the slackest pass, which has to be one."""

@@ -6,13 +6,13 @@
  * lower and finds an upper pull. Two plans whose intervals overlap tie (cli/print/ranking.c). There
  * is one ranking for each question that was asked: the seating pull by the closed form and by
  * simulated joints, the holding pull, the force in any state, what is left after a schedule, what a
- * load needs and what is carried, and the fall in simulation (docs/method.md, "Comparing").
+ * load needs and what is carried (docs/method.md, "Comparing").
  *
  * Example: two plans with seating pulls of 12.3 N (+-0.4 %) and 12.33 N (+-0.5 %) tie; 12.3 N and
  * 14.1 N do not.
  *
  * Order of work: read all plans, refuse loads and schedules that do not fit one of them, evaluate
- * every method for every plan, simulate the structures twice, print. */
+ * every method for every plan, print. */
 #include "cli/args/args.h"
 #include "cli/print/print.h"
 #include "diagram/overview/charts.h"
@@ -35,11 +35,7 @@ static const char intro[] =
     "  thread compare closed.json feet.json --method capstan   by the closed form, at once\n"
     "  thread compare data/dome7-*.json --method all           by either, and by when they stand\n"
     "  thread compare data/dome7-*.json --method structure --load D4=1   by what they carry\n";
-static const char outro[] =
-    "A difference within the measured error is a tie. The simulation of the structure runs twice "
-    "for each plan, the second time with half the time step; only what both runs and their errors "
-    "tell apart is no tie. It takes minutes; --no-dynamics is fast; it knows no loads, leaning "
-    "ground, held feet and schedules, and is left out with them.";
+static const char outro[] = "A difference within the measured error is a tie.";
 
 /* What acts on the structures beside the pull: a load, leaning ground and the like, and a
  * schedule. */
@@ -57,7 +53,6 @@ static int read_entries(char **path, int n, entry *entries)
 {
   for (int i = 0; i < n; i++) {
     entries[i].path = path[i];
-    entries[i].fall[0] = entries[i].fall[1] = NAN;
     int code = cli_read_plan(path[i], &entries[i].plan);
     if (code) return code;
 
@@ -111,8 +106,6 @@ static int evaluate_one(const pull_args *args, const structure_actions *actions,
   double(*load)[3] = NULL;
   int code = EXIT_OK;
 
-  /* The simulation comes later, for all plans together (settle). */
-  plain.options.dynamics = false;
   if (method == THR_STRUCTURE)
     code = read_actions(actions, candidate, &plain.options, &schedule, &load);
   if (schedule.n > 0) plain.options.schedule = &schedule;
@@ -218,12 +211,6 @@ static int compare(const pull_args *args, const structure_actions *actions, char
   code = evaluate(args, actions, entries, n);
   if (code && code != EXIT_LIMIT && !entries[n - 1].eval[THR_CAPSTAN].record.present) return code;
 
-  /* An interrupt ends the work; what is known is printed all the same. */
-  if (code != EXIT_LIMIT && pull_wants(args, THR_STRUCTURE) && args->options.dynamics) {
-    int ended = compare_settle(args, entries, n);
-    if (!code || ended == EXIT_LIMIT) code = ended;
-  }
-
   for (int i = 0; i < n; i++)
     compare_measure(&entries[i]);
   for (int i = 0; i < n && !args->json; i++)
@@ -238,10 +225,9 @@ static int compare(const pull_args *args, const structure_actions *actions, char
   return printed ? printed : code;
 }
 
-/* Refuses options that would be ignored. Sets the default pull for a load (10 N), and leaves out
- * the simulation where it does not know what was asked: it knows only cords and weights. Returns an
- * exit code. */
-static int check_actions(pull_args *args, structure_actions *actions)
+/* Refuses options that would be ignored. Sets the default pull for a load (10 N). Returns an exit
+ * code. */
+static int check_actions(const pull_args *args, structure_actions *actions)
 {
   const bool structure = pull_wants(args, THR_STRUCTURE),
              any = load_any(&actions->load) || actions->schedule;
@@ -261,14 +247,8 @@ static int check_actions(pull_args *args, structure_actions *actions)
   if (actions->load.n_pulls > 1)
     return cli_usage("compare", "--load-pulls: one pull, to rank by what is carried at it");
 
-  /* The simulation knows cords and weights only. */
-  if (any && args->options.start > 0)
-    return cli_usage("compare",
-                     "--tune start is of the simulation, which knows no loads and schedules");
-
   if (actions->load.load && !actions->load.n_pulls)
     actions->load.pulls[actions->load.n_pulls++] = 10;
-  if (any) args->options.dynamics = false;
 
   return EXIT_OK;
 }

@@ -11,8 +11,8 @@
  * and measures what single turns cost in simulation.
  *
  * structure: the holding pull, N, below which the rigid beads have no equilibrium while the cords
- * are drawn in (limit analysis of blocks with friction), with a simulation as its witness. It grows
- * with the weight of the beads, not with T.
+ * are drawn in (limit analysis of blocks with friction). It grows with the weight of the beads, not
+ * with T.
  *
  * This file parses the options, evaluates one plan in a guarded child process, puts the evaluation
  * into the plan, and writes the plan, pictures (eval_pictures.c) and a summary
@@ -37,8 +37,7 @@ static const char intro[] =
     "Examples:\n"
     "  thread eval plan.json --mu 0.3 --seating 5    which pull leaves 5 N where it is slackest\n"
     "  thread eval plan.json --method joint          the same, joints measured in simulation\n"
-    "  thread eval plan.json --method structure --still still.svg   which pull lets the whole "
-    "stand\n"
+    "  thread eval plan.json --method structure      which pull lets the whole stand\n"
     "  thread eval plan.json -o plan.json --plot tension.svg        keep it in the plan; draw it\n";
 static const char outro[] =
     "Pull is the force at the pulled ends of a cord at which its slackest pass has the seating "
@@ -53,7 +52,7 @@ typedef struct {
   guard_limits guard;
   load_args load;
   bool tension;
-  const char *path, *output, *plot, *still, *stills;
+  const char *path, *output, *plot;
   const char *schedule, *calibrate; /* as given; NULL: none */
   double strength;                  /* N, of the cord; 0 = not said */
   int knot;                         /* of thr_knots */
@@ -135,12 +134,6 @@ static const cli_option own_options[] = {
              "beside theirs"},
     {"profile", .kind = CLI_WORD, AT(profile), .word = thr_kit_profile_name,
      .n_words = THR_KIT_N_PROFILES, .help = "of the arms of --pieces kit (default: round)"},
-    {"still", .value = "FILE", .kind = CLI_OUTPUT, AT(still),
-     .help = "structure: write a picture of the beads before and after the fall, as SVG"},
-    {"stills", .value = "FILE", .kind = CLI_OUTPUT, AT(stills),
-     .help = "structure: how it comes up from slack as the cords are drawn in, in stills, as SVG, "
-             "and the counterweight that takes (--pull A=both,B=none: by one cord alone); -o keeps "
-             "their poses"},
     {"calibrate", .value = "HANG,IN,OUT", .kind = CLI_OUTPUT, AT(calibrate),
      .help = "no plan: friction from weights at the bench. HANG hangs from a cord that goes round "
              "90 degrees; IN at its other end just draws it up, OUT just lets it slip down. "
@@ -155,11 +148,6 @@ static const cli_option own_options[] = {
 static int check_pieces(const eval_arguments *args)
 {
   const pull_args *pull = &args->pull;
-  const char *simulated = args->still               ? "--still"
-                          : args->stills            ? "--stills"
-                          : pull->options.large     ? "--dynamics"
-                          : pull->options.start > 0 ? "--tune start"
-                                                    : NULL;
   if (!args->pieces)
     return cli_given("profile") ? cli_usage("eval", "--profile is of --pieces kit") : EXIT_OK;
   if (pull->method != THR_STRUCTURE)
@@ -167,9 +155,6 @@ static int check_pieces(const eval_arguments *args)
   if (args->output)
     return cli_usage("eval", "--pieces kit: plans keep only what is proved of ideal pieces; take "
                              "-o away (--json says everything)");
-  if (simulated)
-    return cli_usage("eval", "--pieces kit: only ideal pieces are simulated; take %s away",
-                     simulated);
   return EXIT_OK;
 }
 
@@ -199,7 +184,6 @@ static int parse(int argc, char **argv, eval_arguments *args)
                               {NULL}};
   const int code = cli_options(argc, argv, &syntax, groups);
   if (code >= 0) return code;
-  args->pull.options.erect = args->stills != NULL;
   if (args->calibrate) return calibrate(args, optind < argc);
   if (optind + 1 != argc)
     return cli_usage("eval", optind == argc ? "which plan?"
@@ -207,13 +191,12 @@ static int parse(int argc, char **argv, eval_arguments *args)
   args->path = argv[optind];
 
   /* At most one of the outputs can have stdout. */
-  const char *const out[] = {args->output, args->plot, args->still, args->stills};
+  const char *const out[] = {args->output, args->plot};
   int to_stdout = args->pull.json;
-  for (int i = 0; i < 4; i++)
+  for (int i = 0; i < 2; i++)
     to_stdout += out[i] && strcmp(out[i], "-") == 0;
   if (to_stdout > 1)
-    return cli_usage(
-        "eval", "only one of --json, -o -, --plot -, --still - and --stills - can have stdout");
+    return cli_usage("eval", "only one of --json, -o - and --plot - can have stdout");
 
   /* Options that exclude or need each other: what would be ignored is refused. */
   if (args->output && cli_no_plan_name("eval", args->output)) return EXIT_USAGE;
@@ -227,11 +210,6 @@ static int parse(int argc, char **argv, eval_arguments *args)
                      "--hand is of the methods capstan and joint; --schedule takes what it says");
 
   /* What only method structure knows. */
-  if ((args->still || args->stills) && args->pull.method != THR_STRUCTURE)
-    return cli_usage("eval", "%s needs --method structure", args->still ? "--still" : "--stills");
-
-  if (args->stills && args->schedule)
-    return cli_usage("eval", "--stills draws the cords in; take --schedule away");
   if (load_any(&args->load) && args->pull.method != THR_STRUCTURE)
     return cli_usage("eval", "--load, --tilt and --clamp-feet are of --method structure");
   if ((args->load.rays || args->load.taut) && args->pull.method != THR_STRUCTURE)
@@ -240,13 +218,6 @@ static int parse(int argc, char **argv, eval_arguments *args)
   if (args->load.n_pulls && !args->load.load) return cli_usage("eval", "--load-pulls needs --load");
 
   if (check_pieces(args)) return EXIT_USAGE;
-
-  /* Pictures of the simulation. */
-  const char *shows = args->still ? "--still" : args->stills ? "--stills" : NULL;
-  if (shows && args->load.load)
-    return cli_usage("eval", "%s shows a simulation, which knows no loads", shows);
-  if (shows && !args->pull.options.dynamics)
-    return cli_usage("eval", "%s shows a simulation; take --no-dynamics away", shows);
 
   return -1;
 }
@@ -271,20 +242,17 @@ static int write_outputs(const eval_arguments *args, const thr_plan *plan, const
     code = eval_write_load_plot(plan, eval, args->load.load, args->plot);
   else if (!code && args->plot)
     code = eval_write_plot(plan, args->strength * thr_strength_left(args->knot), args->plot);
-  if (!code && args->still) code = eval_write_still(plan, &eval->settle, stopped, args->still);
-  if (!code && args->stills) code = eval_write_stills(plan, &eval->erect, stopped, args->stills);
 
   /* The summary, where stdout is free. */
-  const char *const out[] = {plan_path, args->plot, args->still, args->stills};
+  const char *const out[] = {plan_path, args->plot};
   const eval_view view = {args->pull.pull,
                           args->strength,
                           args->knot,
                           args->tension,
                           args->load.load != NULL,
-                          args->pull.options.dynamics && !args->load.load && !args->pieces,
                           args->pieces ? thr_kit_profile_name(args->profile) : NULL,
                           stopped};
-  for (int i = 0; i < 4; i++)
+  for (int i = 0; i < 2; i++)
     if (out[i] && strcmp(out[i], "-") == 0) return code;
 
   if (args->pull.json)
@@ -378,13 +346,6 @@ int cmd_eval(int argc, char **argv)
     if (plan.evaluation.method == THR_JOINT && code == EXIT_OK)
       cli_note("note: %d %s measured, %d from the cache", eval.joints_measured,
                cli_plural(eval.joints_measured, "joint", "joints"), eval.joints_cached);
-  }
-
-  /* No pull holds the structure: what is left is how it was drawn in, a heap. */
-  if (code == EXIT_INFEASIBLE && eval.erect.present) {
-    plan.evaluation.physics = eval.record.physics;
-    const int written = eval_write_stills(&plan, &eval.erect, false, args.stills);
-    if (written) code = written;
   }
 
   if (code == EXIT_LIMIT)

@@ -551,7 +551,6 @@ static void foretell(rise_runs *runs, const thr_plan *plan, const thr_limits *li
     thr_eval_options options = thr_eval_options_default();
     options.physics = plan->options.physics;
     options.pull = THR_PULL_BOTH;
-    options.dynamics = false;
     if (method == 1 && (!known || plan->frame.n_nodes > THR_HOLDS_LARGEST)) break;
     if (method == 1) options.bodies = &bodies;
     if (!thr_eval_plan(&plan->frame, plan->cord, plan->n_cords,

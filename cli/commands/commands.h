@@ -164,13 +164,4 @@ int eval_write_plot(const thr_plan *plan, double strength, const char *path);
 int eval_write_load_plot(const thr_plan *plan, const thr_eval *eval, const char *load,
                          const char *path);
 
-/* Writes the picture of the fall, unless there is nothing to draw. stopped: as for write_stills.
- * Returns an exit code. */
-int eval_write_still(const thr_plan *plan, const thr_settle *settle, bool stopped,
-                     const char *path);
-
-/* Writes the picture of how the structure comes up. stopped: the user or a limit ended the work,
- * which is no error of this picture. Returns an exit code. */
-int eval_write_stills(const thr_plan *plan, const thr_erect *erect, bool stopped, const char *path);
-
 #endif

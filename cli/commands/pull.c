@@ -121,13 +121,6 @@ static bool take_seed(void *into, const cli_option *option, const char *value)
   return false;
 }
 
-static bool take_no_dynamics(void *into, const cli_option *option, const char *value)
-{
-  (void)option, (void)value;
-  ((pull_args *)into)->options.dynamics = false;
-  return true;
-}
-
 static bool take_cache(void *into, const cli_option *option, const char *value)
 {
   (void)option;
@@ -155,20 +148,13 @@ const cli_option pull_options[] = {
              "cords"},
     {"seed", .value = "N", .kind = CLI_OTHER, .take = take_seed,
      .help = "number of the small disorder that a simulation begins with, 0 to 2^53 (default: 0)"},
-    {"no-dynamics", .kind = CLI_OTHER, .take = take_no_dynamics,
-     .help = "structure: limit analysis only, no simulation (of up to 400 pieces; seconds, beyond "
-             "100 minutes)"},
-    {"dynamics", .kind = CLI_FLAG, AT(options.large),
-     .help = "structure: simulate up to 1,000 pieces (a quarter of an hour)"},
     {"json", .kind = CLI_FLAG, AT(json), .help = "everything as JSON"},
     {0}};
 
-/* Factors on the simulation's validated time step and iterations, and the pull in newton at which a
- * structure's begins, which is 1.3 times the (largest) holding pull. */
+/* Factors on the simulation's validated time step and iterations. */
 const cli_option pull_tuned[] = {
     {"time-step", .kind = CLI_AMOUNT, AT(options.time_step), .low = 0.01, .high = 10},
     {"iterations", .kind = CLI_AMOUNT, AT(options.iterations), .low = 0.1, .high = 100},
-    {"start", .kind = CLI_AMOUNT, AT(options.start), .low = 1e-9, .high = 1e12},
     {0}};
 
 bool pull_wants(const pull_args *args, thr_method method)
@@ -179,26 +165,11 @@ bool pull_wants(const pull_args *args, thr_method method)
 /* Refuses options that would be ignored. */
 int pull_check(const pull_args *args, const char *command)
 {
-  const bool structure = pull_wants(args, THR_STRUCTURE);
   bool closed = args->method == THR_CAPSTAN || strcmp(command, "compare") == 0;
 
   /* thread compare shows the closed form whatever the method. */
   if (args->options.law != THR_LAW_CAPSTAN && !closed)
     return cli_usage(command, "--law is for --method capstan");
-
-  /* The simulation is one of the structure. */
-  if (args->options.start > 0 && !structure)
-    return cli_usage(command, "--tune start needs --method structure");
-  if (!args->options.dynamics && !structure)
-    return cli_usage(command, "--no-dynamics needs --method structure");
-  if (args->options.large && !structure)
-    return cli_usage(command, "--dynamics needs --method structure");
-
-  /* What excludes each other. */
-  if (args->options.large && !args->options.dynamics)
-    return cli_usage(command, "--dynamics and --no-dynamics exclude each other");
-  if (args->options.start > 0 && !args->options.dynamics)
-    return cli_usage(command, "--tune start is of the simulation that --no-dynamics leaves out");
 
   return EXIT_OK;
 }

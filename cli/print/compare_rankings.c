@@ -2,9 +2,8 @@
 /* Ranks the plans of `thread compare`, once for each question that was asked, and says whether the
  * rankings agree.
  *
- * A value of a plan is an interval (ranking.c): a measured pull has a relative error, a limit
- * analysis proves a lower and finds an upper pull, and the simulation falls at two pulls with two
- * time steps.
+ * A value of a plan is an interval (ranking.c): a measured pull has a relative error, and a limit
+ * analysis proves a lower and finds an upper pull.
  *
  * Example: holding pulls of 4.14 .. 4.60 N and 4.30 .. 4.70 N tie; 4.14 .. 4.20 N is less than the
  * second, beyond the error. */
@@ -15,20 +14,8 @@
 
 /* Rankings, one for each question, in the order in which they are printed. CAPSTAN and JOINT:
  * seating pull. HOLDING to LOADED: least pull (or part of the tensions) of the limit analysis.
- * CARRIED, CARRIED_AFTER: multiple of the load. SIMULATION: pull at which the structure falls in
- * Bullet. */
-enum {
-  CAPSTAN,
-  JOINT,
-  HOLDING,
-  STANDING,
-  AFTER,
-  LOADED,
-  CARRIED,
-  CARRIED_AFTER,
-  SIMULATION,
-  N_QUESTIONS
-};
+ * CARRIED, CARRIED_AFTER: multiple of the load. */
+enum { CAPSTAN, JOINT, HOLDING, STANDING, AFTER, LOADED, CARRIED, CARRIED_AFTER, N_QUESTIONS };
 _Static_assert((int)N_QUESTIONS == (int)COMPARE_RANKINGS, "a ranking for each question");
 
 /* Sets the interval of plan i from a pull, or a factor on tensions, that is needed: from the proved
@@ -72,7 +59,7 @@ static void rank_bands(ranking *ranked, int question, const compare_entry *candi
       rank_band(ranked, 0, candidate->eval[question == CAPSTAN ? THR_CAPSTAN : THR_JOINT].band, i);
   } else if (question == CARRIED) {
     if (structure->n_carries) rank_band(ranked, 1, structure->carries[0].band_beads, i);
-  } else if (question != SIMULATION && structure->record.present) {
+  } else if (structure->record.present) {
     rank_band(ranked, 1, structure->band_beads[of[question]], i);
     if (question == HOLDING || question == STANDING)
       rank_band(ranked, 0, question == HOLDING ? structure->band : structure->band_any, i);
@@ -109,32 +96,14 @@ static void rank_plan(ranking *ranked, int question, const compare_entry *candid
   case CARRIED:
     if (structure->n_carries) rank_carry(ranked, &structure->carries[0].carry, i);
     break;
-  case CARRIED_AFTER:
-    if (structure->after.present) rank_carry(ranked, &structure->after_carries, i);
-    break;
-
-  /* The fall in simulation: the interval holds what both time steps say, each with its error. */
   default:
-    ranked->value[i] = isnan(candidate->fall[1]) ? NAN : candidate->fall[0];
-    ranked->low[i] = fmin(candidate->fall[0] - candidate->fall_error[0],
-                          candidate->fall[1] - candidate->fall_error[1]);
-    ranked->high[i] = fmax(candidate->fall[0] + candidate->fall_error[0],
-                           candidate->fall[1] + candidate->fall_error[1]);
+    if (structure->after.present) rank_carry(ranked, &structure->after_carries, i);
   }
-}
-
-/* Returns whether any plan fell in simulation. */
-static bool simulated(const compare_entry *entries, int n)
-{
-  for (int i = 0; i < n; i++)
-    if (!isnan(entries[i].fall[0])) return true;
-  return false;
 }
 
 /* Returns whether a question was asked of any plan. */
 static bool asked(int question, const compare_entry *entries, int n)
 {
-  if (question == SIMULATION) return simulated(entries, n);
   for (int i = 0; i < n; i++) {
     const thr_eval *structure = &entries[i].eval[THR_STRUCTURE];
 
@@ -186,12 +155,7 @@ thr_status compare_rank(const pull_args *args, const compare_entry *entries, int
       [CARRIED_AFTER] = {.title = "load carried after the schedule (the same two)",
                          .key = "carried_after",
                          .unit = " x",
-                         .most = true},
-      [SIMULATION] = {.title = "pull at which the structure falls in simulation (from where it is "
-                               "seen to where it begins, with both time "
-                               "steps; nothing else is in it)",
-                      .key = "simulation",
-                      .unit = " N"}};
+                         .most = true}};
 
   /* A ranking for each question of the methods that are wanted, unless no plan was asked it. */
   bool all = args->method == PULL_ALL_METHODS;

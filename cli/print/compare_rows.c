@@ -50,8 +50,6 @@ enum {
   JOINT_REFUSED,
   JOINT_TOTAL,
   HOLDING,
-  SETTLE_FALL,
-  SETTLE_FALL_FINE,
   N_ROWS
 };
 
@@ -102,10 +100,6 @@ const compare_row compare_rows[COMPARE_ROWS] = {
                      false},
     [HOLDING] = {"holding pull while drawn in, N", "holding_pull", true, -6, THR_STRUCTURE, false,
                  false},
-    [SETTLE_FALL] = {"falls in simulation at, N", "falls_at", false, -4, THR_STRUCTURE, false,
-                     false},
-    [SETTLE_FALL_FINE] = {"the same, finer steps, N", "falls_at_fine", false, -4, THR_STRUCTURE,
-                          false, false},
 };
 _Static_assert((int)N_ROWS == (int)COMPARE_ROWS, "a value for each row");
 
@@ -196,8 +190,6 @@ void compare_measure(compare_entry *entry)
 
   /* Of the structure. */
   value[HOLDING] = compare_largest(entry, THR_STRUCTURE);
-  value[SETTLE_FALL] = entry->fall[0];
-  value[SETTLE_FALL_FINE] = entry->fall[1];
 }
 
 bool compare_is_best(const compare_entry *entries, int n, int row, int i)

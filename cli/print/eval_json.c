@@ -2,9 +2,8 @@
 /* Prints what `thread eval` found of a plan as a JSON object.
  *
  * Member "evaluation" is the one that `-o` keeps in the plan (graph/plan/evaluation.h); beside it
- * stands what a plan does not keep: bands, errors, bounds of the limit analysis, loads, the
- * simulation, and how the structure comes up. Forces are in N, angles in rad, lengths in mm where
- * the name ends in _mm; what is not known is null. */
+ * stands what a plan does not keep: bands, errors, bounds of the limit analysis, and loads. Forces
+ * are in N, angles in rad, lengths in mm where the name ends in _mm; what is not known is null. */
 #include "cli/print/print.h"
 
 #include <math.h>
@@ -93,73 +92,6 @@ static void put_json_play(thr_writer *writer, const thr_plan *plan)
   thr_write_close(writer);
 }
 
-/* Writes the result of the simulation. after: ends were let down after a schedule. */
-static void put_json_simulation(thr_writer *writer, const thr_frame *frame,
-                                const thr_settle *settle, bool after)
-{
-  static const char *const
-      status[] = {"fell", "held", "not settled", "too large", "fell", "fell"},
-      *const why[] = {
-          NULL,
-          NULL,
-          "never came to rest",
-          NULL,
-          "crept: where the limit analysis found an equilibrium, or not known to a twentieth",
-          "late: below where nothing holds"};
-
-  const bool fell = settle->fall > 0;
-
-  /* What contradicts the limit analysis is told as what it is. */
-  thr_write_line(writer, 1);
-  thr_write_object(writer, "simulation");
-  thr_write_string(writer, "status",
-                   settle->status == THR_SETTLE_LATE && !fell ? "stood" : status[settle->status]);
-  if (why[settle->status]) thr_write_string(writer, "why", why[settle->status]);
-
-  /* The fall: at which pull, and which bead moved first. */
-  thr_write_string(writer, "state",
-                   after ? "ends let down after the schedule" : "while the cord is being drawn in");
-  thr_write_number(writer, "falls_at", fell ? settle->fall : NAN);
-  thr_write_number(writer, "falls_error", fell ? settle->error : NAN);
-  put_bead(writer, "first_bead", frame, settle->first_bead);
-
-  /* What was seen before and afterwards. */
-  thr_write_number(writer, "gap_before_mm", settle->gap_before);
-  thr_write_number(writer, "gap_after_mm", settle->gap_after);
-  thr_write_number(writer, "drift_mm", settle->drift);
-  thr_write_number(writer, "effort", settle->effort);
-  thr_write_close(writer);
-}
-
-/* Writes how the structure comes up from slack: the least counterweight, N, and the stills of that
- * run. */
-static void put_json_erection(thr_writer *writer, const thr_erect *erect)
-{
-  thr_write_line(writer, 1);
-  thr_write_object(writer, "from_slack");
-  thr_write_number(writer, "weight", erect->weight);
-
-  /* The lift is a part of the weight. */
-  thr_write_number(writer, "counterweight", erect->lift * erect->weight);
-  thr_write_array(writer, "stills");
-
-  for (int i = 0; i < THR_ERECT_STILLS; i++) {
-    const thr_erect_still *still = &erect->still[i];
-    thr_write_line(writer, 2);
-    thr_write_object(writer, NULL);
-
-    /* N, gaps that are closed, and heights and the widest gap in mm. */
-    thr_write_number(writer, "pull", still->pull);
-    thr_write_number(writer, "counterweight", still->lift * erect->weight);
-    thr_write_int(writer, "closed", still->closed);
-    thr_write_number(writer, "height_mm", still->height);
-    thr_write_number(writer, "gap_mm", still->gap);
-    thr_write_close(writer);
-  }
-  thr_write_close(writer);
-  thr_write_close(writer);
-}
-
 /* Writes why turns were not measured, and how good the interpolation is. */
 static void put_json_joints(thr_writer *writer, const thr_eval *eval)
 {
@@ -213,11 +145,7 @@ void eval_put_json(thr_text *text, const eval_view *view, const thr_plan *plan,
   }
   if (eval->holding.present) put_json_play(&writer, plan);
 
-  /* Loads, the witness, and the way up from slack. */
   if (eval->n_carries) load_put_json(&writer, &plan->frame, eval);
-  if (eval->holding.present && eval->settle.present)
-    put_json_simulation(&writer, &plan->frame, &eval->settle, eval->after.present);
-  if (eval->erect.present) put_json_erection(&writer, &eval->erect);
   thr_write_close(&writer);
   thr_text_append(text, "\n");
 }

@@ -337,67 +337,6 @@ static void put_joint(thr_text *text, const thr_plan *plan, const thr_eval *eval
                     100 * eval->interpolation);
 }
 
-/* Appends at which pull the structure fell in simulation, N, and whether that contradicts what the
- * limit analysis proved. after: ends are let down after a schedule. */
-static void put_fall(thr_text *text, const thr_plan *plan, const thr_settle *settle, bool after)
-{
-  /* The fall begins and is seen half an error above and below the pull that is told. */
-  thr_text_printf(
-      text,
-      "simulation     falls %s %.4g N (begins at %.4g N, is seen at %.4g N; what time step, "
-      "iterations and seed add to "
-      "that is not in it); bead %s moves first; widest gap %.3g mm before, %.3g mm after\n",
-      after ? "when all ends are let down to" : "at", settle->fall,
-      settle->fall + settle->error / 2, settle->fall - settle->error / 2,
-      plan->frame.name[settle->first_bead], settle->gap_before, settle->gap_after);
-
-  /* The simulation may be wrong in either direction. */
-  if (settle->status == THR_SETTLE_CREPT)
-    thr_text_append(text, "               this contradicts the limit analysis, which found an "
-                          "equilibrium there, or is not known to a\n"
-                          "               twentieth: beads creep in the simulation; a smaller "
-                          "--tune time-step or more --tune iterations may help\n");
-  if (settle->status == THR_SETTLE_LATE)
-    thr_text_append(text, "               this is below the pull under which nothing holds it "
-                          "(proved): its fall was seen late\n");
-}
-
-/* Appends that there are too many beads for the simulation. */
-static void put_too_large(thr_text *text)
-{
-  thr_text_printf(text, "simulation     left out: more than %d beads (with --dynamics up to %d)\n",
-                  thr_settle_largest(false), thr_settle_largest(true));
-}
-
-/* Appends the result of the simulation: a pull in N, or why there is none. */
-static void put_settle(thr_text *text, const thr_plan *plan, const thr_settle *settle, bool after)
-{
-  switch (settle->status) {
-  case THR_SETTLE_FELL: put_fall(text, plan, settle, after); break;
-  case THR_SETTLE_HELD:
-    thr_text_printf(text, "simulation     stands until the pull is gone; widest gap %.3g mm\n",
-                    settle->gap_before);
-    break;
-
-  /* Nothing is known of the fall. */
-  case THR_SETTLE_TOO_LARGE: put_too_large(text); break;
-  case THR_SETTLE_NEVER_SETTLED:
-    thr_text_append(text,
-                    "simulation     not settled: it never came to rest under the pull at its "
-                    "start. Nothing is known of the\n"
-                    "               fall; a larger --start or more --tune iterations may help\n");
-    break;
-
-  /* CREPT and LATE: what was seen contradicts the limit analysis. */
-  default:
-    if (settle->fall > 0)
-      put_fall(text, plan, settle, after);
-    else
-      thr_text_append(text, "simulation     stood where nothing holds it (proved): its fall was "
-                            "too slow to be seen\n");
-  }
-}
-
 /* Appends the two bounds of a holding pull: below `lower` nothing holds the structure (proved by a
  * mechanism), at `upper` the solver found an equilibrium. It stands by itself only if an
  * equilibrium was found without any pull. */
@@ -606,31 +545,7 @@ static void put_after(thr_text *text, const thr_evaluation *evaluation, const th
   put_after_band(text, evaluation, eval);
 }
 
-void erect_put(thr_text *text, const thr_erect *erect)
-{
-  const thr_erect_still *last = &erect->still[THR_ERECT_STILLS - 1];
-
-  /* lift is the part of the weight that a counterweight carries: 0, a quarter to all, or NAN if not
-   * even all of it is enough. */
-  if (erect->lift == 0)
-    thr_text_printf(text, "Drawn in with %.3g N at the harder ends it comes up by itself",
-                    last->pull);
-  else if (erect->lift > 0)
-    thr_text_printf(text,
-                    "Drawn in with %.3g N at the harder ends it comes up under a counterweight of "
-                    "%.3g N (%.0f %% of its weight), and then "
-                    "stands alone",
-                    last->pull, erect->lift * erect->weight, 100 * erect->lift);
-  else
-    thr_text_printf(text,
-                    "Drawn in with %.3g N at the harder ends it does not come up to its shape, not "
-                    "even with all its weight of %.3g N "
-                    "carried",
-                    last->pull, erect->weight);
-}
-
-/* Appends all that method structure found: answers, bands, the mechanism, loads, the simulation and
- * how it comes up from slack. */
+/* Appends all that method structure found: answers, bands, the mechanism, and loads. */
 static void put_structure(thr_text *text, const eval_view *view, const thr_plan *plan,
                           const thr_eval *eval)
 {
@@ -646,21 +561,6 @@ static void put_structure(thr_text *text, const eval_view *view, const thr_plan 
     thr_text_printf(text, "just below     bead %s moves fastest (collapse mechanism)\n",
                     plan->frame.name[holding->first_bead]);
   if (view->loaded) load_put(text, plan, eval);
-
-  /* The witness: Bullet. */
-  if (!view->simulated) return;
-  if (eval->settle.present)
-    put_settle(text, plan, &eval->settle, eval->after.present);
-  else if (plan->frame.n_nodes > thr_settle_largest(false))
-    put_too_large(text);
-  else if (view->stopped)
-    thr_text_append(text, "simulation     stopped: not known\n");
-
-  /* From slack to its shape. */
-  if (!eval->erect.present) return;
-  thr_text_append(text, "from slack     ");
-  erect_put(text, &eval->erect);
-  thr_text_append(text, "\n");
 }
 
 /* Appends a table with the tension in every pass, N, and the most that may be in it where a

@@ -250,7 +250,6 @@ typedef struct {
   int knot;           /* at its ends, of thr_knots */
   bool tension;       /* every pass */
   bool loaded;        /* a load hangs on it */
-  bool simulated;     /* the structure in simulation was asked for, too */
   const char
       *pieces;  /* profile of pieces as they are made, which were evaluated; NULL: ideal ones */
   bool stopped; /* before all was known */
@@ -260,27 +259,20 @@ typedef struct {
 void eval_put_text(thr_text *text, const eval_view *view, const thr_plan *plan,
                    const thr_eval *eval);
 
-/* Appends with which counterweight the structure comes up from slack: a sentence without a full
- * stop or newline. */
-void erect_put(thr_text *text, const thr_erect *erect);
-
 /* Appends everything as a JSON object and a newline. stopped: not all is known. */
 void eval_put_json(thr_text *text, const eval_view *view, const thr_plan *plan,
                    const thr_eval *eval);
 
 /* ---- compare_rows.c: The table of `thread compare`: a row per value, a column per plan. */
 
-enum { COMPARE_ROWS = 30 };
+enum { COMPARE_ROWS = 28 };
 
 /* A plan with all that was found about it. */
 typedef struct {
   const char *path;
   thr_plan plan;
-  thr_eval eval[THR_N_METHODS];  /* record.present only where the method ran and did not fail */
-  double fall[2], fall_error[2]; /* N, in simulation at the settings given and with half the time
-                                    step; NAN = did not fall, or never came to rest */
-  bool contradicted;             /* that is said of the plan */
-  double value[COMPARE_ROWS];    /* of each row; NAN = not known, INFINITY = beyond 1e300 */
+  thr_eval eval[THR_N_METHODS]; /* record.present only where the method ran and did not fail */
+  double value[COMPARE_ROWS];   /* of each row; NAN = not known, INFINITY = beyond 1e300 */
 } compare_entry;
 
 /* A row of the table. */
@@ -295,7 +287,7 @@ typedef struct {
 
 extern const compare_row compare_rows[COMPARE_ROWS];
 
-/* Fills in the values of all rows from the plan, its evaluations and its fall. */
+/* Fills in the values of all rows from the plan and its evaluations. */
 void compare_measure(compare_entry *entry);
 
 /* Returns the largest pull by a method, N; of method structure the proved lower bound of the
@@ -318,7 +310,7 @@ void compare_put_cell(thr_text *text, int row, double value, bool best);
 
 /* ---- compare_rankings.c: A ranking for each question that was asked of the plans. */
 
-enum { COMPARE_RANKINGS = 9 };
+enum { COMPARE_RANKINGS = 8 };
 
 /* Fills `rankings` with those of the wanted methods and *count with their number. On failure the
  * rankings so far, and the one that failed, can be released. */
@@ -348,12 +340,6 @@ void compare_put_json(thr_text *text, const pull_args *args, const compare_entry
 /* Appends how the pulls of the picture were found: "Pull at both ends of every cord, so that 1 N is
  * left where it is slackest ..". */
 void compare_put_note(thr_text *text, const pull_args *args, const compare_entry *entries, int n);
-
-/* ---- cli/commands/compare_settle.c: Simulates the structures that are compared. */
-
-/* Simulates every structure twice, the second time with half the time step, except where no pull is
- * needed: then there is none to let off. Returns an exit code. */
-int compare_settle(const pull_args *args, compare_entry *entries, int n);
 
 /* ---- advice_table.c: Prints the table of `thread advise`, as text and as JSON, and the command
  * that makes the recommended plan. */

@@ -1,15 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Implements world.h with Bullet 3.24: the only file that knows the library.
  *
- * Bullet gives broad phase, integration and its sequential impulse solver. Three things are our
- * own: Link (a distance constraint of one row that reports its force), Cones (contacts by
- * contacts.h instead of Bullet's rows) and Ends (contacts of boxes that meet end to end). */
+ * Bullet gives broad phase, integration and its sequential impulse solver. Two things are our own:
+ * Link (a distance constraint of one row that reports its force) and Cord (a force that pulls two
+ * points together, and one that holds them). */
 
-#include "eval/joint/contacts.h"
 #include "eval/joint/world.h"
 
-#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
-#include <BulletCollision/CollisionDispatch/btCompoundCompoundCollisionAlgorithm.h>
 #include <btBulletDynamicsCommon.h>
 
 #include <cmath>
@@ -148,276 +145,6 @@ private:
   btVector3 start, end; /* in the bodies' frames */
 };
 
-/* Solves contacts as the limit analysis has them (contacts.h).
- *
- * Bullet's own rows have a pyramid round the cone, begin every step without lateral impulses, and
- * leave the torque of forces out of them; and what its iterations leave unsolved lets firmly
- * pressed faces creep. Here all impulses start from those of the last step. */
-class Cones final : public btSequentialImpulseConstraintSolver
-{
-public:
-  /* Makes the solver; slowest: m/s, as thr_world_options.still. */
-  thr_status begin(double slowest, thr_err *err)
-  {
-    still = slowest;
-    return thr_contacts_create(&cones, err);
-  }
-
-  ~Cones() override { thr_contacts_destroy(cones); }
-
-  /* Returns what went wrong in the last steps. */
-  thr_status status(thr_err *err) const
-  {
-    return failed == THR_OK ? THR_OK : thr_fail(err, failed, "%s", why.text);
-  }
-
-protected:
-  /* Lets Bullet make its rows, then starts the lateral ones from the last step's impulses. */
-  btScalar solveGroupCacheFriendlySetup(btCollisionObject **bodies, int n_bodies,
-                                        btPersistentManifold **manifolds, int n_manifolds,
-                                        btTypedConstraint **joints, int n_joints,
-                                        const btContactSolverInfo &info,
-                                        btIDebugDraw *drawer) override
-  {
-    const btScalar result = btSequentialImpulseConstraintSolver::solveGroupCacheFriendlySetup(
-        bodies, n_bodies, manifolds, n_manifolds, joints, n_joints, info, drawer);
-
-    /* Bullet computed their right-hand sides without the torque of forces. */
-    for (int i = 0; i < m_tmpSolverContactConstraintPool.size(); i++) {
-      const btManifoldPoint *point =
-          static_cast<const btManifoldPoint *>(row(i, 0).m_originalContactPoint);
-      demand(row(i, 1));
-      demand(row(i, 2));
-      add(row(i, 1), point->m_appliedImpulseLateral1);
-      add(row(i, 2), point->m_appliedImpulseLateral2);
-    }
-
-    return result;
-  }
-
-  /* Solves all contacts at once: Bullet is told to take a single iteration. */
-  btScalar solveSingleIteration(int, btCollisionObject **, int, btPersistentManifold **, int,
-                                btTypedConstraint **, int, const btContactSolverInfo &info,
-                                btIDebugDraw *) override
-  {
-    const int n = m_tmpSolverContactConstraintPool.size();
-    if (n == 0 || failed != THR_OK) return 0;
-
-    /* The contacts in the form of contacts.h. */
-    number_bodies();
-    contacts.resizeNoInitialize(n);
-    for (int i = 0; i < n; i++)
-      describe(i, contacts[i]);
-
-    /* An error is kept for status(): Bullet's interface cannot pass it on. */
-    failed =
-        thr_contacts_solve(cones, mass.size() / 2, reinterpret_cast<const double(*)[2]>(&mass[0]),
-                           n, &contacts[0], still, info.m_numIterations, &why);
-
-    /* Hand the changes of impulses back to Bullet's rows, and so to the velocities. */
-    for (int i = 0; i < n && failed == THR_OK; i++)
-      for (int k = 0; k < 3; k++)
-        add(row(i, k), contacts[i].impulse[k] - row(i, k).m_appliedImpulse);
-    return 0;
-  }
-
-private:
-  thr_contacts *cones = nullptr;
-  double still = 0;
-  thr_status failed = THR_OK;
-  thr_err why = {};
-  btAlignedObjectArray<thr_cone_contact> contacts;
-  btAlignedObjectArray<int> number;  /* of a solver body among those that move; -1 */
-  btAlignedObjectArray<double> mass; /* and moment of inertia of each of these */
-
-  /* Numbers the bodies that move, and lists mass, kg, and moment of inertia, kg m^2, of each. */
-  void number_bodies()
-  {
-    number.resizeNoInitialize(m_tmpSolverBodyPool.size());
-    mass.resizeNoInitialize(0);
-
-    for (int i = 0; i < number.size(); i++) {
-      const btRigidBody *body = m_tmpSolverBodyPool[i].m_originalBody;
-      const bool moves = body && body->getInvMass() > 0;
-
-      /* Each body has one moment for all axes (eval/structure/simulated.c). */
-      number[i] = moves ? mass.size() / 2 : -1;
-      if (!moves) continue;
-      mass.push_back(1 / body->getInvMass());
-      mass.push_back(1 / body->getInvInertiaDiagLocal()[0]);
-    }
-  }
-
-  /* Describes contact i by Bullet's three rows: Jacobian, velocities that are missing, impulses. */
-  void describe(int i, thr_cone_contact &out)
-  {
-    out.mu = row(i, 1).m_friction;
-    out.body[0] = number[row(i, 0).m_solverBodyIdA];
-    out.body[1] = number[row(i, 0).m_solverBodyIdB];
-
-    for (int k = 0; k < 3; k++) {
-      const btSolverConstraint &from = row(i, k);
-      copy_out(from.m_contactNormal1, out.jacobian[k][0]);
-      copy_out(from.m_relpos1CrossNormal, out.jacobian[k][0] + 3);
-      copy_out(from.m_contactNormal2, out.jacobian[k][1]);
-      copy_out(from.m_relpos2CrossNormal, out.jacobian[k][1] + 3);
-
-      /* Bullet keeps the right-hand side divided by the row's inverse mass. */
-      out.target[k] = from.m_rhs / from.m_jacDiagABInv;
-      out.impulse[k] = from.m_appliedImpulse;
-    }
-  }
-
-  /* Returns row k of a contact: the normal one or one of two lateral rows. */
-  btSolverConstraint &row(int contact, int k)
-  {
-    btSolverConstraint &normal = m_tmpSolverContactConstraintPool[contact];
-    return k == 0 ? normal
-                  : m_tmpSolverContactFrictionConstraintPool[normal.m_frictionIndex + k - 1];
-  }
-
-  /* Sets a lateral row's right-hand side to what stops sliding, with the forces of this step. */
-  void demand(btSolverConstraint &row)
-  {
-    const btSolverBody &a = m_tmpSolverBodyPool[row.m_solverBodyIdA],
-                       &b = m_tmpSolverBodyPool[row.m_solverBodyIdB];
-
-    row.m_rhs = -row.m_jacDiagABInv *
-                (row.m_contactNormal1.dot(a.m_linearVelocity + a.m_externalForceImpulse) +
-                 row.m_relpos1CrossNormal.dot(a.m_angularVelocity + a.m_externalTorqueImpulse) +
-                 row.m_contactNormal2.dot(b.m_linearVelocity + b.m_externalForceImpulse) +
-                 row.m_relpos2CrossNormal.dot(b.m_angularVelocity + b.m_externalTorqueImpulse));
-  }
-
-  /* Adds an impulse to a row and to the velocities of its two bodies. */
-  void add(btSolverConstraint &row, btScalar impulse)
-  {
-    btSolverBody &a = m_tmpSolverBodyPool[row.m_solverBodyIdA],
-                 &b = m_tmpSolverBodyPool[row.m_solverBodyIdB];
-
-    row.m_appliedImpulse += impulse;
-    a.internalApplyImpulse(row.m_contactNormal1 * a.internalGetInvMass(), row.m_angularComponentA,
-                           impulse);
-    b.internalApplyImpulse(row.m_contactNormal2 * b.internalGetInvMass(), row.m_angularComponentB,
-                           impulse);
-  }
-};
-
-/* Finds the contacts of boxes that meet end to end: the four corners of the narrower one's end
- * touch the plane of the other's.
- *
- * Bullet's own detector clips one face against the other and keeps four points of up to eight,
- * which need not be the corners, and drops points as faces open. Corners that are off by less than
- * TOUCH touch, no more and no less: rigid faces are never quite together at all four, and if
- * corners carried only once they have closed, something would always move. */
-class Ends final : public btCollisionAlgorithm
-{
-public:
-  Ends(const btCollisionAlgorithmConstructionInfo &info, const btCollisionObjectWrapper *a,
-       const btCollisionObjectWrapper *b)
-      : btCollisionAlgorithm(info),
-        manifold(m_dispatcher->getNewManifold(a->getCollisionObject(), b->getCollisionObject()))
-  {
-  }
-
-  ~Ends() override { m_dispatcher->releaseManifold(manifold); }
-
-  /* Reports the corners that the wider end covers, with their distance from its plane. */
-  void processCollision(const btCollisionObjectWrapper *a, const btCollisionObjectWrapper *b,
-                        const btDispatcherInfo &, btManifoldResult *result) override
-  {
-    const End first(*a, *b), second(*b, *a);
-
-    result->setPersistentManifold(manifold);
-
-    /* The narrower end has the corners, the wider one the plane. */
-    const bool swapped = second.half < first.half;
-    const End &narrow = swapped ? second : first, &wide = swapped ? first : second;
-
-    /* Off by less than TOUCH counts as touching: apart is 0. */
-    for (int i = 0; i < 4; i++) {
-      const btVector3 corner = narrow.corner(i);
-      const btScalar off = (corner - wide.middle).dot(wide.normal),
-                     apart = off - btMin(btMax(off, -TOUCH), TOUCH);
-
-      /* A corner beside the other end touches nothing. */
-      if (!wide.covers(corner)) continue;
-      result->addContactPoint(swapped ? -wide.normal : wide.normal,
-                              swapped ? corner : corner - apart * wide.normal, apart);
-    }
-
-    result->refreshContactPoints();
-  }
-
-  /* Returns that nothing is hit within the step: continuous detection is not used. */
-  btScalar calculateTimeOfImpact(btCollisionObject *, btCollisionObject *, const btDispatcherInfo &,
-                                 btManifoldResult *) override
-  {
-    return 1;
-  }
-
-  void getAllContactManifolds(btManifoldArray &manifolds) override
-  {
-    manifolds.push_back(manifold);
-  }
-
-  /* Makes the detector for a pair of boxes, as the dispatcher asks for. */
-  struct Maker final : btCollisionAlgorithmCreateFunc {
-    btCollisionAlgorithm *CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo &info,
-                                                   const btCollisionObjectWrapper *a,
-                                                   const btCollisionObjectWrapper *b) override
-    {
-      void *memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(Ends));
-      return ::new (memory) Ends(info, a, b);
-    }
-  };
-
-  static constexpr btScalar TOUCH = 1e-4; /* 3 micrometres of pieces of 30 mm */
-  static constexpr double SKIN =
-      0.02; /* by which shapes are longer at either end, so that open faces are still seen */
-
-private:
-  /* The end of a box, along its own third axis, that looks to another box. */
-  struct End {
-    btVector3 middle, normal, side[2];
-    btScalar half;
-
-    /* The two faces across the third axis are squares of half side `half`. */
-    End(const btCollisionObjectWrapper &box, const btCollisionObjectWrapper &other)
-    {
-      const btTransform &at = box.getWorldTransform();
-      const btVector3 sizes =
-          static_cast<const btBoxShape *>(box.getCollisionShape())->getHalfExtentsWithMargin();
-
-      /* The end on the side of the other box, without the skin. */
-      normal = at.getBasis().getColumn(2);
-      if (normal.dot(other.getWorldTransform().getOrigin() - at.getOrigin()) < 0) normal = -normal;
-      middle = at.getOrigin() + (sizes[2] - SKIN) * normal;
-
-      /* Half side and directions of the square. */
-      half = sizes[0];
-      for (int k = 0; k < 2; k++)
-        side[k] = at.getBasis().getColumn(k);
-    }
-
-    btVector3 corner(int i) const
-    {
-      return middle + half * ((i & 1 ? 1 : -1) * side[0] + (i & 2 ? 1 : -1) * side[1]);
-    }
-
-    /* Returns whether a point lies within the end, or nearly. */
-    bool covers(const btVector3 &point) const
-    {
-      return btMax(btFabs(side[0].dot(point - middle)), btFabs(side[1].dot(point - middle))) <
-             1.2 * half;
-    }
-  };
-
-  btPersistentManifold *manifold;
-};
-
-Ends::Maker make_ends;
-
 } // namespace
 
 /* A world owns all of Bullet's objects. Shapes are shared by bodies, so that they have a list of
@@ -452,18 +179,11 @@ static void configure(btContactSolverInfo &info, const thr_world_options &option
   /* Position errors apart from velocities; impulses from the step before. */
   info.m_splitImpulse = options.split_impulse;
   info.m_solverMode = SOLVER_SIMD;
-  if (options.warm_start || options.cones) info.m_solverMode |= SOLVER_USE_WARMSTARTING;
+  if (options.warm_start) info.m_solverMode |= SOLVER_USE_WARMSTARTING;
   if (options.faces)
     info.m_solverMode |=
         SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_ENABLE_FRICTION_DIRECTION_CACHING;
 
-  /* With cones all contacts are solved in one call: keep lateral impulses and their directions. */
-  if (!options.cones) return;
-  info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_ENABLE_FRICTION_DIRECTION_CACHING |
-                       SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
-  info.m_warmstartingFactor = 1;
-  info.m_leastSquaresResidualThreshold = 0; /* one iteration */
-  info.m_minimumSolverBatchSize = 1 << 30;  /* for all bodies */
 }
 
 thr_status thr_world_create(thr_world **out, const thr_world_options *options, thr_err *err)
@@ -481,7 +201,7 @@ thr_status thr_world_create(thr_world **out, const thr_world_options *options, t
   world->configuration = make<btDefaultCollisionConfiguration>();
   if (world->configuration) world->dispatcher = make<btCollisionDispatcher>(world->configuration);
   world->broadphase = make<btDbvtBroadphase>();
-  world->solver = options->cones ? make<Cones>() : make<btSequentialImpulseConstraintSolver>();
+  world->solver = make<btSequentialImpulseConstraintSolver>();
 
   /* The world needs all of these parts. */
   if (world->dispatcher && world->broadphase && world->solver)
@@ -493,18 +213,6 @@ thr_status thr_world_create(thr_world **out, const thr_world_options *options, t
     return thr_nomem(err);
   }
 
-  /* The cones' solver has memory of its own. */
-  thr_status st =
-      options->cones ? static_cast<Cones *>(world->solver)->begin(options->still, err) : THR_OK;
-  if (st != THR_OK) {
-    thr_world_destroy(world);
-    return st;
-  }
-
-  /* Boxes meet boxes by Ends; all other pairs by Bullet's own detectors. */
-  if (!options->faces)
-    world->dispatcher->registerCollisionCreateFunc(BOX_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE,
-                                                   &make_ends);
   world->dynamics->getDispatchInfo().m_enableSatConvex = options->faces;
   world->dynamics->setGravity(vector_of(options->gravity));
   world->dynamics->setForceUpdateAllAabbs(false);
@@ -652,63 +360,6 @@ thr_status thr_world_add_hulls(thr_world *world, const thr_world_hulls *hulls, i
   return add_body(world, info, hulls->group, hulls->mask, body, err);
 }
 
-/* Returns the frame of a pose: position and quaternion (x y z w). */
-static btTransform transform_of(const double pose[7])
-{
-  return btTransform(btQuaternion(pose[3], pose[4], pose[5], pose[6]), vector_of(pose));
-}
-
-/* Returns whether two boxes may touch: parts of compounds meet only if their tags are the same. */
-static bool same_tag(const btCollisionShape *a, const btCollisionShape *b)
-{
-  return a->getUserIndex() == b->getUserIndex();
-}
-
-/* Makes the boxes of one body. A single box is a compound as well, since Bullet filters parts of
- * compounds only. */
-static thr_status compound_of(thr_world *world, const thr_world_boxes *boxes,
-                              btCompoundShape **compound, thr_err *err)
-{
-  int first = world->n_shapes;
-  thr_status st = THR_OK;
-
-  /* The boxes, longer by the skin at either end. */
-  for (int i = 0; st == THR_OK && i < boxes->n_boxes; i++) {
-    st = keep_shape(
-        world, make<btBoxShape>(vector_of(boxes->half[i]) + btVector3(0, 0, Ends::SKIN)), -1, err);
-    if (st == THR_OK) world->shape[first + i]->setUserIndex(boxes->tag[i]);
-  }
-  if (st != THR_OK) return st;
-
-  /* Their places in the body's frame. */
-  *compound = make<btCompoundShape>(true, boxes->n_boxes);
-  st = keep_shape(world, *compound, -1, err);
-  for (int i = 0; st == THR_OK && i < boxes->n_boxes; i++)
-    (*compound)->addChildShape(transform_of(boxes->place[i]), world->shape[first + i]);
-  return st;
-}
-
-thr_status thr_world_add_boxes(thr_world *world, const thr_world_boxes *boxes, int *body,
-                               thr_err *err)
-{
-  *body = -1;
-  if (boxes->n_boxes < 1)
-    return thr_fail(err, THR_EINPUT, "simulation: a body needs at least one convex part");
-
-  btCompoundShape *compound;
-  thr_status st = compound_of(world, boxes, &compound, err);
-  if (st != THR_OK) return st;
-
-  /* The filter by tags is one for all worlds. */
-  gCompoundCompoundChildShapePairCallback = same_tag;
-
-  btRigidBody::btRigidBodyConstructionInfo info(boxes->mass, nullptr, compound,
-                                                vector_of(boxes->inertia));
-  info.m_startWorldTransform = transform_of(boxes->pose);
-  info.m_friction = boxes->friction;
-  return add_body(world, info, 1, 1, body, err);
-}
-
 thr_status thr_world_add_ground(thr_world *world, double friction, int *body, thr_err *err)
 {
   *body = -1;
@@ -811,12 +462,6 @@ void thr_world_force(thr_world *world, int body, const double force[3])
   world->body[body]->applyCentralForce(vector_of(force));
 }
 
-void thr_world_force_at(thr_world *world, int body, const double force[3], const double at[3])
-{
-  btRigidBody *moved = world->body[body];
-  moved->applyForce(vector_of(force), vector_of(at) - moved->getCenterOfMassPosition());
-}
-
 thr_status thr_world_step(thr_world *world, thr_err *err)
 {
   /* One step of exactly time_step: no substeps, no clock. */
@@ -830,7 +475,7 @@ thr_status thr_world_step(thr_world *world, thr_err *err)
                       "the simulation diverged: choose a smaller time step or more iterations");
   }
 
-  return world->options.cones ? static_cast<const Cones *>(world->solver)->status(err) : THR_OK;
+  return THR_OK;
 }
 
 void thr_world_position(const thr_world *world, int body, double at[3])

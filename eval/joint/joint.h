@@ -4,8 +4,7 @@
  *
  * Reading order: drag.c (one experiment: protocol, channels, chain, measuring), joint.c (a table of
  * joints, and the exponents of whole cords from it), cache.c (joints measured before). Below them:
- * world.h and bullet.cpp (rigid bodies in Bullet behind a C interface), contacts.h (contacts with
- * friction cones as a convex problem; for structures, eval/structure). */
+ * world.h and bullet.cpp (rigid bodies in Bullet behind a C interface). */
 #ifndef THR_JOINT_H
 #define THR_JOINT_H
 

@@ -16,17 +16,14 @@ typedef struct thr_world thr_world;
 /* How a world is simulated. */
 typedef struct {
   double time_step; /* s */
-  int iterations;   /* of sequential impulse; with cones: linear systems in a step, at most */
+  int iterations;   /* of sequential impulse */
   double gravity[3];
   double erp, erp2,
       cfm; /* error reduction and constraint force mixing; negative = Bullet's default */
   bool split_impulse;
   bool warm_start; /* of contacts; Bullet starts links from nothing */
-  bool cones;   /* contacts have friction cones and start from all of the last step's impulses; for
-                   worlds without links */
-  double still; /* with cones: a step is solved when no velocity is wrong by so much, m/s */
-  bool faces;   /* without cones: parts of bodies meet in whole faces (thr_world_add_hulls), and
-                   friction acts in two directions */
+  bool faces;      /* parts of bodies meet in whole faces (thr_world_add_hulls), and
+                      friction acts in two directions */
 } thr_world_options;
 
 thr_status thr_world_create(thr_world **out, const thr_world_options *options,
@@ -48,24 +45,6 @@ typedef struct {
   int group, mask;
 } thr_world_hulls;
 thr_status thr_world_add_hulls(thr_world *world, const thr_world_hulls *hulls, int *body,
-                               thr_err *err) THR_MUST_CHECK;
-
-/* Adds a body of one or more boxes that meets only other such bodies, and there only boxes of the
- * same tag: what is to touch is known beforehand, and arms that cross inside a joint do not. Two
- * boxes meet end to end along their own third axes, and touch at the four corners of the narrower
- * end, which may be off by 1e-4 m. half: half sides; place: position and quaternion of each box in
- * the body's frame (origin = mass centre). The rest as above. */
-typedef struct {
-  int n_boxes;
-  const double (*half)[3];
-  const double (*place)[7];
-  const int *tag; /* [n_boxes] >= 0 */
-  double mass;
-  double inertia[3];
-  double pose[7];
-  double friction;
-} thr_world_boxes;
-thr_status thr_world_add_boxes(thr_world *world, const thr_world_boxes *boxes, int *body,
                                thr_err *err) THR_MUST_CHECK;
 
 /* Adds the ground: all of z <= 0, which does not move. */
@@ -95,10 +74,8 @@ thr_status thr_world_add_link(thr_world *world, int a, int b, double length, int
 double thr_world_link_force(const thr_world *world,
                             int link); /* N in the last step, > 0 = tension */
 
-/* Applies a force, N, at a body's centre or at a place, in the next step only. */
+/* Applies a force, N, at a body's centre, in the next step only. */
 void thr_world_force(thr_world *world, int body, const double force[3]);
-void thr_world_force_at(thr_world *world, int body, const double force[3],
-                        const double at[3]); /* at: world coordinates */
 /* Takes a step. THR_ESOLVER: the simulation diverged. */
 thr_status thr_world_step(thr_world *world, thr_err *err) THR_MUST_CHECK;
 

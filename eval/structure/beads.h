@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The closed structure as a mechanical system: which pull of the cords holds the rigid beads,
- * against their weights and a load, by limit analysis; what Bullet shows of the fall and of the
- * erection; and whether the framework is rigid if its nodes were free hinges.
+ * against their weights and a load, by limit analysis; and whether the framework is rigid if its
+ * nodes were free hinges.
  *
  * Read beads.c first (the shape: nodes, faces, feet, masses), then blocks.c (rigid blocks and the
  * linear programme of their equilibrium), mechanism.c (collapse mechanisms and the balance of
  * powers that proves a bound), holding.c (the bounds) with welds.c, and structure.c (which
- * questions are asked of a plan; record.c lays the answers into the plan). The witness: simulated.c
- * (the world), settle.c (the fall), erect.c (the erection). By themselves: rigidity.c and spqr.c;
- * bar_motions.c, pulling.c.
+ * questions are asked of a plan; record.c lays the answers into the plan). By themselves:
+ * rigidity.c and spqr.c; bar_motions.c, pulling.c.
  *
  * Units are m, kg, N, rad inside; mm and g in the physics that users state. */
 #ifndef THR_BEADS_H
@@ -84,7 +83,7 @@ thr_status thr_beads_make(const thr_frame *frame, const thr_physics *physics, th
 void thr_beads_destroy(thr_beads *beads);
 
 /* Gives the beads masses, mass centres, faces and feet of pieces as they are made; bodies stays the
- * caller's. The simulation does not know these. THR_EINPUT if a bead that stands on the ground has
+ * caller's. THR_EINPUT if a bead that stands on the ground has
  * no foot, unless held: it will be clamped. */
 thr_status thr_beads_take(thr_beads *beads, const thr_frame *frame, const thr_bodies *bodies,
                           bool held, thr_err *err) THR_MUST_CHECK;
@@ -109,125 +108,6 @@ void thr_beads_clamp(thr_beads *beads, const bool *fixed);
 /* Tilts the ground about a horizontal axis by angle, rad, so that weight draws towards azimuth (rad
  * from x towards y), too. */
 void thr_beads_tilt(thr_beads *beads, double angle, double azimuth);
-
-/* ---- settle.c: The closed structure in Bullet, as a witness for the limit analysis: rigid beads
- * that touch at the corners of their faces, cords as forces between them. */
-
-/* Says what limit analysis knows of the fall, and how it is simulated. */
-typedef struct {
-  double least;       /* N: below it nothing holds the structure, as limit analysis has proved; 0 =
-                         nothing is proved .. */
-  double equilibrium; /* N: .. and at it, and at every larger pull, an equilibrium exists; INFINITY
-                         = none was found */
-  double start; /* N: pull at which the structure settles; 0 = 1.3 x equilibrium, or least where
-                   none was found */
-  double time_step, iterations; /* factors on the protocol's, 1 */
-  uint64_t seed;
-  bool large; /* thr_settle_largest */
-} thr_settle_options;
-
-/* Says what a simulation of the fall shows. */
-typedef enum {
-  THR_SETTLE_FELL,
-  THR_SETTLE_HELD, /* without any pull */
-  THR_SETTLE_NEVER_SETTLED,
-  THR_SETTLE_TOO_LARGE,
-  THR_SETTLE_CREPT, /* a bead moved at a pull at which an equilibrium exists, or too slowly to say
-                       when (thr_settle_judge) */
-  THR_SETTLE_LATE   /* it stood where limit analysis proves that nothing holds it (thr_settle_judge)
-                     */
-} thr_settle_status;
-
-/* Holds what a simulation of the fall shows. */
-typedef struct {
-  bool present;
-  int status;         /* thr_settle_status */
-  double fall, error; /* N: it began to fall, and that was seen, at fall + error / 2 and fall -
-                         error / 2; 0 if it did not, CREPT or LATE though it may be */
-  int first_bead;     /* that moved; -1 if none */
-  double gap_before,
-      gap_after; /* mm, widest gap between two adjacent faces, settled and at the end */
-  double drift;  /* mm, largest movement while settling */
-  double effort; /* factor on the options' iterations with which this was found: 1 or 4 */
-  int n_beads;
-  double (*before)[7], (*after)[7]; /* [n_beads] position of the node (m, as thr_beads.centre) and
-                                       rotation from the drawn position as a quaternion (x y z w) of
-                                       each bead, settled and after the fall; owned */
-} thr_settle;
-
-/* Returns the largest number of beads that are simulated; above, the status is TOO_LARGE. large:
- * where a run of many minutes is asked for. */
-int thr_settle_largest(bool large);
-
-/* Decides what a simulation shows: a fall counts if it is known to a twentieth and not more than a
- * twentieth above a pull at which an equilibrium exists (CREPT otherwise) or below the one below
- * which none does (LATE). Without a proof (least 0) it need not be known so well. What does not
- * count is told all the same. */
-void thr_settle_judge(thr_settle *settle, double least, double equilibrium);
-
-/* Simulates how the structure falls as the pull is let off. A cord's pass has tension x pull, but
- * not more than most: [n_cords][n_passes] N each; most NULL: no such limit, cords are drawn in;
- * else they were drawn in and are let down, tension = what friction keeps of a force of 1 at the
- * ends. Settles for 2, then lets off the pull by 4 % in units of the time sqrt(mean edge /
- * gravity), down to 0.7 of least; where nothing is proved, for 15 and then all of it: structures
- * and their scale models behave alike. It falls when a bead moves by 0.005 of the mean edge within
- * half a unit; it began to when that was a tenth as much. NEVER_SETTLED: a bead moved by a
- * twentieth of an edge at the start. What does not count is tried once more with four times the
- * linear systems and a 16th of the velocity that may be wrong. Same input and seed, same bits on
- * one machine. Some 1,500 steps of five linear systems: 49 beads 4 s, 400 beads two minutes.
- * THR_EINPUT for options out of range, THR_ELIMIT when stopped, both with out empty. */
-thr_status thr_settle_run(const thr_beads *beads, const thr_frame *frame, const thr_cord *cord,
-                          int n_cords, const double *const *tension, const double *const *most,
-                          const thr_physics *physics, const thr_settle_options *options,
-                          const thr_limits *limits, thr_settle *out, thr_err *err) THR_MUST_CHECK;
-void thr_settle_destroy(thr_settle *settle);
-
-/* ---- erect.c: How the structure comes up: the same beads and cords as in settle.c, sunk down
- * under slack cords, then drawn in. */
-
-enum { THR_ERECT_STILLS = 6 };
-
-/* Holds a moment of the erection. */
-typedef struct {
-  double pull;   /* N, of the harder ends */
-  double lift;   /* part of the weight that the counterweight carries */
-  double height; /* mm, of the highest node over the ground under the lowest foot */
-  double gap;    /* mm, widest opening of any face */
-  int closed;    /* faces that open nowhere by a hundredth of an edge */
-} thr_erect_still;
-
-/* Holds what a simulation of the erection shows. */
-typedef struct {
-  bool present;
-  double lift; /* least part of the weight with which it comes up and then stands alone, of 0, 1/4,
-                  1/2, 3/4, 1; NAN = with none */
-  double weight; /* N, of all that is not held in place */
-  double drawn;  /* mm, height as drawn */
-  int n_beads, n_gaps;
-  thr_erect_still
-      still[THR_ERECT_STILLS]; /* slack; drawn in by a half, once, twice the pull; let alone */
-  double (*pose)[7]; /* [THR_ERECT_STILLS * n_beads] of each still: node (m), rotation (x y z w)
-                        from the drawn position; owned */
-} thr_erect;
-
-/* Says how the erection is simulated. */
-typedef struct {
-  double pull; /* N: with which it stands, once it is up */
-  double time_step, iterations;
-  uint64_t seed;
-} thr_erect_options;
-
-/* Simulates how the structure comes up. tension: N, of a pull of 1 N. It comes up if no face opens
- * by a fiftieth of an edge and nine tenths of the drawn height are there, when the counterweight is
- * gone. Stills are those of the least counterweight that does it, or of the largest. Same input and
- * seed, same bits on one machine. At most five runs of some 4,000 steps: 49 beads half a minute.
- * THR_EINPUT for a pull that is not positive, THR_ELIMIT when stopped, both with out empty; above
- * thr_settle_largest(false) beads not present. */
-thr_status thr_erect_run(const thr_beads *beads, const thr_frame *frame, const thr_cord *cord,
-                         int n_cords, const double *const *tension, const thr_physics *physics,
-                         const thr_erect_options *options, const thr_limits *limits, thr_erect *out,
-                         thr_err *err) THR_MUST_CHECK;
-void thr_erect_destroy(thr_erect *erect);
 
 /* ---- holding.c: Holding pull: least pull at which the closed structure of rigid beads has any
  * equilibrium while the cords are being drawn in: their tension falls from the pulled ends inwards.

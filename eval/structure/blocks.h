@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the files of eval/structure/ share with each other and with nobody else: rigid blocks and
- * their programme (blocks.c), collapse mechanisms (mechanism.c), welds (welds.c), the
- * simulation in Bullet (simulated.c), and rows of bars (bar_motions.c). beads.h says in which order
- * to read the files. */
+ * their programme (blocks.c), collapse mechanisms (mechanism.c), welds (welds.c), and rows of bars
+ * (bar_motions.c). beads.h says in which order to read the files. */
 #ifndef THR_BLOCKS_H
 #define THR_BLOCKS_H
 
-#include "eval/joint/world.h"
 #include "eval/structure/beads.h"
 #include "graph/plan/plan_measures.h"
 #include "lp/solver/solver.h"
@@ -173,81 +171,6 @@ int thr_mechanism_fastest(const thr_beads *beads, const double (*velocity)[6]);
  * thr_blocks_make. */
 thr_status thr_welds_find(const thr_blocks *blocks, double widen, const thr_limits *limits,
                           int *weld, thr_err *err) THR_MUST_CHECK;
-
-/* ---- simulated.c: The closed structure as a world of Bullet: rigid beads that touch at the
- * corners of their faces, feet on patches of ground, cords as forces between beads. */
-
-enum { THR_LOOKS = 10 }; /* that are remembered */
-
-typedef struct {
-  double at[3], turn[3][3];
-} thr_placed; /* a bead's mass centre and rotation matrix */
-
-/* Holds a simulated structure: its world in Bullet, the forces, and where its beads were. */
-typedef struct {
-  const thr_beads *b;
-  const thr_frame *f;
-  const thr_physics *physics;
-  const thr_limits *limits;
-  thr_world *world;
-  const thr_cord *cord;
-  int n_cords;
-  const double *const *tension, *const *most; /* N, of a pull of 1 N */
-  double unit, mass, weight;                  /* m per unit of length; kg and N of a mean bead */
-  double dt;
-  long steps, all;   /* taken; in all, at most */
-  double pull;       /* N, on the cords' ends */
-  double lift;       /* part of the weights that is carried from above */
-  bool leans;        /* cords lead from hole to hole, not along axes */
-  double *press;     /* [n_faces] sum of its passes' tensions */
-  int *body;         /* [n_beads] in the world */
-  thr_placed *now;   /* [n_beads] */
-  double (*home)[3]; /* [n_beads] node when settled */
-  double (*seen)[3]; /* [THR_LOOKS * n_beads] nodes at the last looks */
-  thr_scratch own;   /* the arrays */
-} thr_simulated;
-
-typedef struct {
-  double time_step, iterations; /* factors on the protocol's, 1 */
-  uint64_t seed;                /* of small initial displacements */
-} thr_simulated_options;
-
-/* Allocates the arrays and chooses the units of a simulation that has b, f, physics, limits, cord,
- * n_cords, tension and most; the rest is 0. End it whatever comes back. */
-thr_status thr_simulated_begin(thr_simulated *simulated, thr_err *err) THR_MUST_CHECK;
-void thr_simulated_end(thr_simulated *simulated);
-
-/* Builds a fresh world as drawn, which becomes home, in place of the old one. */
-thr_status thr_simulated_build(thr_simulated *simulated, const thr_simulated_options *options,
-                               thr_err *err) THR_MUST_CHECK;
-
-/* Moves the world on by a time step, at simulated->pull and ->lift. THR_ELIMIT when stopped. */
-thr_status thr_simulated_step(thr_simulated *simulated, thr_err *err) THR_MUST_CHECK;
-
-/* Sets the part of the velocity that is lost in a unit of time. */
-void thr_simulated_damp(const thr_simulated *simulated, double damping);
-
-/* Returns the number of steps in a time. */
-long thr_simulated_steps(const thr_simulated *simulated, double time);
-
-/* Makes home of where the beads are now. */
-void thr_simulated_set_home(thr_simulated *simulated);
-
-/* Returns how far the bead that moved most is from home, in edges. */
-double thr_simulated_most_moved(const thr_simulated *simulated, int *bead);
-
-/* Returns how far the bead that moved most has moved within the last THR_LOOKS looks, of which this
- * is the next; 0 before so many. */
-double thr_simulated_moved_lately(thr_simulated *simulated, long look, int *bead);
-
-/* Returns the widest opening of any face, at its corners, in edges. */
-double thr_simulated_widest_gap(const thr_simulated *simulated);
-
-/* Returns the number of faces that open nowhere by so many edges. */
-int thr_simulated_closed(const thr_simulated *simulated, double gap);
-
-/* Fills pose[n_beads]: node in m, rotation from the drawn position as a quaternion (x y z w). */
-void thr_simulated_take_poses(const thr_simulated *simulated, double (*pose)[7]);
 
 /* ---- bar_motions.c: rows of the rigidity matrix, and motions without those of rigid pieces. */
 

@@ -108,31 +108,6 @@ static thr_status add_loads(thr_standing *standing, int n_nodes, const double (*
   return THR_OK;
 }
 
-/* Adds the stills of the erection. */
-static thr_status add_stills(thr_standing *standing, int n_beads, const thr_erect *erect,
-                             thr_err *err)
-{
-  if (!erect->present) return THR_OK;
-  if (!(standing->still = thr_calloc(THR_ERECT_STILLS, sizeof *standing->still)))
-    return thr_nomem(err);
-
-  /* Count a still before it is filled: after a failure the caller frees what is counted. */
-  while (standing->n_stills < THR_ERECT_STILLS) {
-    const int i = standing->n_stills++;
-    const thr_erect_still *from = &erect->still[i];
-    thr_posed *to = &standing->still[i];
-    *to = (thr_posed){
-        .pull = from->pull, .counterweight = from->lift * erect->weight, .seated = from->closed};
-    if (!(to->pose = thr_calloc((size_t)n_beads, sizeof *to->pose))) return thr_nomem(err);
-
-    /* The poses of this still. */
-    memcpy(to->pose, erect->pose + i * n_beads, (size_t)n_beads * sizeof *to->pose);
-    to->n_beads = n_beads;
-  }
-
-  return THR_OK;
-}
-
 /* Begins the record: which model, and how the cords are drawn in; see eval.h. */
 thr_status thr_structure_drawn(thr_evaluation *evaluation, const thr_eval_options *options,
                                thr_err *err)
@@ -156,7 +131,7 @@ thr_status thr_structure_drawn(thr_evaluation *evaluation, const thr_eval_option
   return THR_OK;
 }
 
-/* Lays answers, loads and stills into the record; see eval.h. */
+/* Lays answers and loads into the record; see eval.h. */
 thr_status thr_structure_record(int n_beads, const thr_eval_options *options, thr_eval *out,
                                 thr_err *err)
 {
@@ -168,9 +143,8 @@ thr_status thr_structure_record(int n_beads, const thr_eval_options *options, th
   standing->answer = thr_calloc((size_t)(NAMED + out->n_carries), sizeof *standing->answer);
   if (!standing->answer) return thr_nomem(err);
 
-  /* The load and the stills first. */
+  /* The load first. */
   thr_status st = add_loads(standing, n_beads, options->load, err);
-  if (!st) st = add_stills(standing, n_beads, &out->erect, err);
 
   /* Answers in a fixed order, which is that of the file. */
   if (!st) st = add_holding(standing, n_beads, THR_ASKED_HOLDING, &out->holding, err);

@@ -4,8 +4,7 @@
  *
  * Every cord's tensions follow the capstan law, T_out = T_in exp(mu theta), scaled to a pull of 1
  * at the harder end. Each face is pressed with the sum of its passes' tensions. The limit analysis
- * (holding.c) then finds the least factor, in N, with which the structure has an equilibrium, and
- * Bullet simulates the fall as a witness (settle.c).
+ * (holding.c) then finds the least factor, in N, with which the structure has an equilibrium.
  *
  * Friction has no memory of direction: over a turn with exponent e = mu theta, neighbouring
  * tensions are in equilibrium as long as T e^-e <= T' <= T e^e. The same question is therefore
@@ -92,162 +91,6 @@ static thr_status profiles(const thr_frame *frame, const thr_cord *cord, double 
   }
 
   return st;
-}
-
-/* ---- the simulation, in a child process: Bullet does not check whether memory was given ---- */
-
-/* Holds the input of a simulation; all pointers are borrowed. */
-typedef struct {
-  const thr_frame *frame;
-  const thr_cord *cord;
-  const thr_beads *beads;
-  const thr_physics *physics;
-  int n_cords;
-  const double *const *tension, *const *most;
-  thr_settle_options options;
-} simulation;
-
-/* Runs in the child: simulates the fall and sends a thr_settle, followed by its poses. */
-static thr_status simulate(void *user, const thr_limits *limits, thr_sender *to, thr_err *err)
-{
-  const simulation *job = user;
-  thr_settle found = {0};
-  thr_text text = {0};
-  thr_status st = thr_settle_run(job->beads, job->frame, job->cord, job->n_cords, job->tension,
-                                 job->most, job->physics, &job->options, limits, &found, err);
-
-  /* What is sent is the struct as it lies in memory, with its two arrays appended. */
-  size_t poses = (size_t)found.n_beads * sizeof *found.before;
-  if (!st) {
-    thr_text_append_bytes(&text, (const char *)&found, sizeof found);
-    if (found.before) thr_text_append_bytes(&text, (const char *)found.before, poses);
-    if (found.after) thr_text_append_bytes(&text, (const char *)found.after, poses);
-    st = thr_child_send(to, &text, err);
-  }
-
-  thr_text_destroy(&text);
-  thr_settle_destroy(&found);
-  return st;
-}
-
-/* Copies n poses from the bytes at *at, which moves on behind the poses. Returns NULL if there are
- * none or memory ran out. */
-static double (*take_poses(const char **at, bool present, size_t n))[7]
-{
-  double(*pose)[7] = present ? thr_calloc(n, sizeof *pose) : NULL;
-  if (pose) memcpy(pose, *at, n * sizeof *pose);
-  if (present) *at += n * sizeof *pose;
-  return pose;
-}
-
-/* Reads what `simulate` sent: the struct, whose pointers only tell which arrays follow, then the
- * arrays. */
-static thr_status take_settle(const thr_text *text, thr_settle *out, thr_err *err)
-{
-  memcpy(out, text->data, sizeof *out);
-  const char *at = text->data + sizeof *out;
-  const bool before = out->before, after = out->after; /* there, not here */
-
-  /* The child's pointers mean nothing here: they only say whether an array follows. */
-  out->before = take_poses(&at, before, (size_t)out->n_beads);
-  out->after = take_poses(&at, after, (size_t)out->n_beads);
-
-  if ((!before || out->before) && (!after || out->after)) return THR_OK;
-
-  thr_settle_destroy(out);
-  return thr_nomem(err);
-}
-
-/* Simulates the fall in a child process, which may crash or be ended from outside. */
-static thr_status settle(simulation *job, const thr_limits *limits, thr_settle *out, thr_err *err)
-{
-  const thr_child child = {.what = "simulating the structure",
-                           .advice = "use --no-dynamics",
-                           .run = simulate,
-                           .user = job};
-  thr_text answer = {0};
-
-  *out = (thr_settle){0};
-
-  thr_status st = thr_child_run(&child, limits, &answer, err);
-  if (!st) st = take_settle(&answer, out, err);
-
-  thr_text_destroy(&answer);
-  return st;
-}
-
-/* Holds the input of a simulation of the erection. */
-typedef struct {
-  const simulation *of;
-  thr_erect_options options;
-} erection;
-
-/* Runs in the child: simulates the erection and sends a thr_erect, followed by its poses. */
-static thr_status simulate_erection(void *user, const thr_limits *limits, thr_sender *to,
-                                    thr_err *err)
-{
-  const erection *job = user;
-  const simulation *of = job->of;
-  thr_erect found = {0};
-  thr_text text = {0};
-  thr_status st = thr_erect_run(of->beads, of->frame, of->cord, of->n_cords, of->tension,
-                                of->physics, &job->options, limits, &found, err);
-
-  /* The struct as it lies in memory, then the poses of all stills. */
-  if (!st) {
-    thr_text_append_bytes(&text, (const char *)&found, sizeof found);
-    if (found.pose)
-      thr_text_append_bytes(&text, (const char *)found.pose,
-                            THR_ERECT_STILLS * (size_t)found.n_beads * sizeof *found.pose);
-    st = thr_child_send(to, &text, err);
-  }
-
-  thr_text_destroy(&text);
-  thr_erect_destroy(&found);
-  return st;
-}
-
-/* Simulates in a child process how the structure comes up from slack cords. */
-static thr_status erect(const simulation *of, double pull, const thr_limits *limits, thr_erect *out,
-                        thr_err *err)
-{
-  erection job = {of, {pull, of->options.time_step, of->options.iterations, of->options.seed}};
-  const thr_child child = {.what = "simulating how the structure comes up",
-                           .advice = "leave --stills out",
-                           .run = simulate_erection,
-                           .user = &job};
-  thr_text answer = {0};
-
-  *out = (thr_erect){0};
-  thr_status st = thr_child_run(&child, limits, &answer, err);
-
-  /* Read the struct; its pointer tells whether poses follow. */
-  if (!st) {
-    memcpy(out, answer.data, sizeof *out);
-    const char *at = answer.data + sizeof *out;
-    const bool there = out->pose;
-    out->pose = take_poses(&at, there, THR_ERECT_STILLS * (size_t)out->n_beads);
-    if (there && !out->pose) st = thr_nomem(err);
-  }
-
-  if (st) *out = (thr_erect){0};
-
-  thr_text_destroy(&answer);
-  return st;
-}
-
-/* Returns the options for a simulation in which the fall must be between the pull `least`, below
- * which nothing holds, and the pull `equilibrium`, at which an equilibrium exists, N. */
-static thr_settle_options options_between(const thr_eval_options *options, double least,
-                                          double equilibrium)
-{
-  return (thr_settle_options){.least = least,
-                              .equilibrium = equilibrium,
-                              .start = options->start,
-                              .time_step = options->time_step,
-                              .iterations = options->iterations,
-                              .seed = options->seed,
-                              .large = options->large};
 }
 
 /* ---- states that friction keeps ---- */
@@ -540,31 +383,27 @@ static thr_status make_beads(const thr_frame *frame, const thr_physics *physics,
   return st;
 }
 
-/* Decides for cords whose ends were let down to `force`, N: *stands if an equilibrium was found,
- * *falls if it is proved that there is none. Neither is set if the two bounds leave it open. */
+/* Decides for cords whose ends were let down to `force`, N: *stands if an equilibrium was found. */
 static thr_status stands_at(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads,
                             double force, const thr_limits *limits,
-                            const thr_evaluation *evaluation, bool *stands, bool *falls,
-                            thr_err *err)
+                            const thr_evaluation *evaluation, bool *stands, thr_err *err)
 {
   thr_holding holding = {0};
   thr_err why = {0};
   thr_status st =
       hold_state(frame, cord, beads, LET_DOWN, force, true, limits, evaluation, &holding, &why);
 
-  /* A factor of at most 1 on the tensions is enough: it stands. More than 1 is needed: it falls. */
+  /* A factor of at most 1 on the tensions is enough. */
   *stands = st == THR_OK && holding.upper <= 1;
-  *falls = st == THR_EINFEASIBLE || (st == THR_OK && holding.lower > 1);
   thr_holding_destroy(&holding);
   return st == THR_ENOMEM || st == THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
 
 /* Computes by bisection of the logarithm, to half a percent, to which force the ends can be let
- * down, N. proved false: the least force tried at which the structure stands. proved true: the
- * largest force tried at which the structure is proved to fall, or 0 if there is none. */
+ * down, N: the least force tried at which the structure stands. */
 static thr_status let_down(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads,
-                           const thr_limits *limits, const thr_evaluation *evaluation, bool proved,
-                           double *out, thr_err *err)
+                           const thr_limits *limits, const thr_evaluation *evaluation, double *out,
+                           thr_err *err)
 {
   /* Begin with the largest force at any end, and a millionth of that. */
   double high = 0;
@@ -572,64 +411,26 @@ static thr_status let_down(const thr_frame *frame, const thr_cord *cord, const t
     high = fmax(high, fmax(evaluation->cord[i].tension[0],
                            evaluation->cord[i].tension[evaluation->cord[i].n_passes - 1]));
   double low = 1e-6 * high;
-  bool stands, falls;
+  bool stands;
 
   /* The answer may be below all forces that are tried. */
-  thr_status st = stands_at(frame, cord, beads, low, limits, evaluation, &stands, &falls, err);
-  if (!st && (proved ? !falls : stands)) {
-    *out = proved ? 0 : low;
+  thr_status st = stands_at(frame, cord, beads, low, limits, evaluation, &stands, err);
+  if (!st && stands) {
+    *out = low;
     return THR_OK;
   }
 
-  /* Invariant: low does not stand (proved: is proved to fall), high does (is not proved to). */
+  /* Invariant: low does not stand, high does. */
   while (!st && high > 1.005 * low) {
     const double middle = sqrt(low * high);
-    st = stands_at(frame, cord, beads, middle, limits, evaluation, &stands, &falls, err);
-    if (proved ? !falls : stands)
+    st = stands_at(frame, cord, beads, middle, limits, evaluation, &stands, err);
+    if (stands)
       high = middle;
     else
       low = middle;
   }
 
-  *out = proved ? low : high;
-  return st;
-}
-
-/* Simulates how the ends are let down from the record's tensions. The simulation multiplies the
- * tensions of KEPT by the pull, and caps each at what the pass had before. */
-static thr_status settle_let_down(const thr_frame *frame, const thr_cord *cord,
-                                  const thr_beads *beads, const thr_eval_options *options,
-                                  const thr_limits *limits, double least, thr_eval *out,
-                                  thr_err *err)
-{
-  const thr_evaluation *evaluation = &out->record;
-  const size_t n = (size_t)evaluation->n_cords;
-  thr_scratch own = {0};
-  const double **tension = thr_scratch_array(&own, n, sizeof *tension),
-               **most = thr_scratch_array(&own, n, sizeof *most);
-
-  /* The tensions of KEPT at a force of 1 N, and what each pass had before as its cap. */
-  for (int i = 0; i < evaluation->n_cords && tension && most; i++) {
-    double *kept = thr_scratch_array(&own, (size_t)cord[i].n_passes, sizeof *kept);
-    if (kept) set_state(&evaluation->cord[i], KEPT, 1, kept);
-    tension[i] = kept;
-    most[i] = evaluation->cord[i].tension;
-  }
-
-  thr_status st = thr_scratch_check(&own, err);
-  simulation job = {frame,
-                    cord,
-                    beads,
-                    &evaluation->physics,
-                    evaluation->n_cords,
-                    tension,
-                    most,
-                    options_between(options, least, out->let_down)};
-
-  /* Now the simulation lowers the force at the ends. */
-  if (!st) st = settle(&job, limits, &out->settle, err);
-
-  thr_scratch_free(&own);
+  *out = high;
   return st;
 }
 
@@ -756,8 +557,8 @@ static thr_status stretch(const thr_frame *frame, const thr_cord *cord, const th
 }
 
 /* Answers what the schedule's tensions hold. Knotted cords are springs, which is a question of its
- * own; else: by what may the tensions be multiplied, how far can the ends be let down, and is that
- * what the simulation shows? At last, which load is carried. */
+ * own; else: by what may the tensions be multiplied, and how far can the ends be let down? At last,
+ * which load is carried. */
 thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord,
                                const thr_eval_options *options, const thr_limits *limits,
                                thr_eval *out, thr_err *err)
@@ -788,15 +589,9 @@ thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord,
                        &out->band_beads[THR_ASKED_AFTER][end], err);
   }
 
-  /* How far can the ends be let down? The simulation is told the proved bound, too. */
-  if (!st && !knotted && out->after.upper <= 1 && beads.n_beads <= BAND_LARGEST) {
-    st = let_down(frame, cord, &beads, limits, evaluation, false, &out->let_down, err);
-    double least = 0;
-    if (!st && options->dynamics && !options->load && !options->bodies) {
-      st = let_down(frame, cord, &beads, limits, evaluation, true, &least, err);
-      if (!st) st = settle_let_down(frame, cord, &beads, options, limits, least, out, err);
-    }
-  }
+  /* How far can the ends be let down? */
+  if (!st && !knotted && out->after.upper <= 1 && beads.n_beads <= BAND_LARGEST)
+    st = let_down(frame, cord, &beads, limits, evaluation, &out->let_down, err);
 
   /* The load. If even tightening knotted cords without a limit leaves the question open, no load is
    * too much as far as can be proved, and what is carried is found with the least tensions. */
@@ -930,7 +725,7 @@ typedef struct {
   const thr_beads *beads;
   const double *const *tension;
   thr_eval *out;
-  int n_asked, n_answered;
+  int n_asked;
   question asked[N_QUESTIONS]; /* [n_asked] */
 } question_set;
 
@@ -939,8 +734,7 @@ static thr_status answer(void *user, int job, const thr_limits *limits, thr_err 
 {
   const question_set *questions = user;
   const thr_evaluation *record = &questions->out->record;
-  const int asked = (int)questions->asked[questions->n_answered + job],
-            end = (asked - PULL_BEADS) % 2;
+  const int asked = (int)questions->asked[job], end = (asked - PULL_BEADS) % 2;
   double(*band)[2] = questions->out->band_beads;
 
   /* One programme for each question; `end` says which end of the band. */
@@ -1016,15 +810,6 @@ static bool all_both(const thr_evaluation *evaluation)
   return both;
 }
 
-/* Answers the questions n_answered .. n - 1, each in whichever thread is free. */
-static thr_status answer_up_to(question_set *questions, int n, const thr_limits *limits,
-                               thr_err *err)
-{
-  thr_status st = thr_threads_run(n - questions->n_answered, answer, questions, limits, err);
-  questions->n_answered = n;
-  return st;
-}
-
 /* Lists the questions that the size of the structure allows, the most important first. */
 static void ask(question_set *questions)
 {
@@ -1047,52 +832,6 @@ static void ask(question_set *questions)
       questions->asked[questions->n_asked++] = (question)asked;
 }
 
-/* Returns the input of a simulation with the evaluation's tensions. */
-static simulation simulation_of(const question_set *questions, thr_settle_options how)
-{
-  const thr_evaluation *record = &questions->out->record;
-  return (simulation){questions->frame,
-                      questions->cord,
-                      questions->beads,
-                      &record->physics,
-                      record->n_cords,
-                      questions->tension,
-                      NULL,
-                      how};
-}
-
-/* Simulates the fall, and the erection if asked for, with the holding pull that was found. */
-static thr_status simulate_found(const question_set *questions, const thr_eval_options *options,
-                                 const thr_limits *limits, thr_err *err)
-{
-  thr_eval *out = questions->out;
-  const double lower = out->holding.lower, upper = out->holding.upper;
-  simulation job = simulation_of(questions, options_between(options, lower, upper));
-
-  /* The fall is asked for without a schedule only: after one, thr_structure_after simulates. */
-  thr_status st = THR_OK;
-  if (!options->schedule && (options->start > 0 || lower > 0))
-    st = settle(&job, limits, &out->settle, err);
-  if (!st && options->erect && lower > 0)
-    st = erect(&job, isfinite(upper) ? upper : lower, limits, &out->erect, err);
-
-  return st;
-}
-
-/* Simulates the erection where no pull holds the structure, with a pull of its whole weight. The
- * picture is the only result then; without one, the evaluation just has none. */
-static void simulate_collapse(const question_set *questions, const thr_eval_options *options,
-                              const thr_limits *limits)
-{
-  const simulation job = simulation_of(questions, options_between(options, 0, 0));
-  const double weight = thr_beads_weight(questions->beads, job.physics);
-
-  /* A failure here must not hide that no pull holds the structure. */
-  thr_err why = {0};
-  if (erect(&job, weight, limits, &questions->out->erect, &why))
-    thr_erect_destroy(&questions->out->erect);
-}
-
 /* Computes the holding pull of the ideal pieces, beside that of those that are made. */
 static thr_status hold_ideal(const question_set *questions, const thr_eval_options *options,
                              const thr_limits *limits, thr_err *err)
@@ -1113,15 +852,12 @@ static thr_status hold_ideal(const question_set *questions, const thr_eval_optio
 }
 
 /* Runs the whole method. The holding pull comes first and the other answers in order of their
- * importance, so that whoever stops the run early has lost least. Where nothing is simulated, no
- * answer has to wait for another one, and threads take all questions. */
+ * importance, so that whoever stops the run early has lost least. Threads take them. */
 static thr_status analyse(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads,
                           const thr_eval_options *options, const thr_limits *limits,
                           const double **tension, thr_eval *out, thr_err *err)
 {
   thr_evaluation *evaluation = &out->record;
-  const bool simulated = beads->n_beads <= thr_settle_largest(options->large) && !options->load &&
-                         !options->bodies && options->dynamics;
   question_set questions = {
       .frame = frame, .cord = cord, .beads = beads, .tension = tension, .out = out};
 
@@ -1130,23 +866,18 @@ static thr_status analyse(const thr_frame *frame, const thr_cord *cord, const th
   for (int i = 0; i < THR_N_ASKED; i++)
     out->band_beads[i][0] = out->band_beads[i][1] = NAN;
 
-  /* The holding pull first; everything at the same time where no simulation follows. */
   thr_status st = profiles(frame, cord, evaluation->physics.mu, evaluation, tension, err);
   ask(&questions);
-  if (!st) st = answer_up_to(&questions, simulated ? 1 : questions.n_asked, limits, err);
+  if (!st) st = thr_threads_run(questions.n_asked, answer, &questions, limits, err);
 
   /* Without the holding pull nothing is known. */
   if (st && !out->holding.present) {
-    if (st == THR_EINFEASIBLE && simulated && options->erect)
-      simulate_collapse(&questions, options, limits);
     thr_holding_destroy(&out->loosest); /* of another thread */
     clear_record(evaluation);
     return st;
   }
 
-  /* Then the simulation, the other questions, and the load. */
-  if (!st && simulated) st = simulate_found(&questions, options, limits, err);
-  if (!st) st = answer_up_to(&questions, questions.n_asked, limits, err);
+  /* Then the load. */
   if (!st && options->load) st = carry_at_pulls(frame, cord, beads, options, limits, out, err);
   if (!st && options->bodies) st = hold_ideal(&questions, options, limits, err);
 
@@ -1227,36 +958,4 @@ thr_status thr_eval_holds_from(const thr_frame *frame, const thr_cord *cord,
   thr_holding_destroy(&holding);
   thr_beads_destroy(&beads);
   return st == THR_ENOMEM || st == THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK;
-}
-
-/* Simulates the fall of a structure whose limit analysis is known; see eval.h. */
-thr_status thr_eval_settle(const thr_frame *frame, const thr_cord *cord, const thr_eval *eval,
-                           const thr_eval_options *options, const thr_limits *limits,
-                           thr_settle *out, thr_err *err)
-{
-  const thr_evaluation *evaluation = &eval->record;
-  const thr_settle_options how = options_between(options, eval->holding.lower, eval->holding.upper);
-  double **tension = thr_calloc((size_t)evaluation->n_cords, sizeof *tension);
-  thr_beads beads = {0};
-  thr_status st =
-      tension ? thr_beads_make(frame, &evaluation->physics, &beads, err) : thr_nomem(err);
-
-  /* The tensions of the record are those of the lower bound; the simulation takes those of 1 N. */
-  for (int i = 0; i < evaluation->n_cords && !st; i++) {
-    const thr_eval_cord *drawn = &evaluation->cord[i];
-    tension[i] = thr_calloc((size_t)drawn->n_passes, sizeof **tension);
-    if (!tension[i]) st = thr_nomem(err);
-    for (int k = 0; k < drawn->n_passes && !st; k++)
-      tension[i][k] = drawn->tension[k] / how.least;
-  }
-
-  if (!st)
-    st = thr_settle_run(&beads, frame, cord, evaluation->n_cords, (const double *const *)tension,
-                        NULL, &evaluation->physics, &how, limits, out, err);
-
-  for (int i = 0; i < evaluation->n_cords && tension; i++)
-    free(tension[i]);
-  free(tension);
-  thr_beads_destroy(&beads);
-  return st;
 }

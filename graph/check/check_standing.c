@@ -7,8 +7,7 @@
  * analysis). The file rebuilds the bodies, verifies that no contact closes, and compares the
  * powers. It shares no code with eval/ and uses no solver.
  *
- * Order of the file: geometry, what cords press faces with, mechanisms, the other claims, stills.
- */
+ * Order of the file: geometry, what cords press faces with, mechanisms, the other claims. */
 #include "graph/number.h"
 #include "graph/check/check_parts.h"
 #include "graph/framework/frame.h"
@@ -785,94 +784,6 @@ static thr_status check_tensions(bead_bodies *bodies, thr_err *err)
   return THR_OK;
 }
 
-/* ---- stills ---- */
-
-/* Turns a vector by a unit quaternion (x y z w): v + 2 w (q x v) + 2 q x (q x v). */
-static void turned(const double q[4], const double v[3], double out[3])
-{
-  double once[3], twice[3];
-  thr_cross(q, v, once);
-  thr_cross(q, once, twice);
-  for (int k = 0; k < 3; k++)
-    out[k] = v[k] + 2 * (q[3] * once[k] + twice[k]);
-}
-
-/* Computes where a point of bead v is in a still. */
-static void posed(const bead_bodies *bodies, const thr_posed *still, int v, const double at[3],
-                  double out[3])
-{
-  double arm[3];
-  for (int k = 0; k < 3; k++)
-    arm[k] = at[k] - bodies->centre[v][k];
-  turned(still->pose[v] + 3, arm, out);
-  for (int k = 0; k < 3; k++)
-    out[k] += still->pose[v][k];
-}
-
-/* Returns by how much the gap of edge e opens at the widest of its corners, along its axis as the
- * first bead holds it. */
-static double opening(const bead_bodies *bodies, const thr_posed *still, int e)
-{
-  const int *end = bodies->plan->frame.edge[e];
-  double axis[3], side[2][3], middle[3], now[3], at[3], one[3], other[3], widest = 0;
-
-  axes_of(bodies, e, axis, side);
-  turned(still->pose[end[0]] + 3, axis, now);
-
-  for (int k = 0; k < 3; k++)
-    middle[k] = (bodies->centre[end[0]][k] + bodies->centre[end[1]][k]) / 2;
-
-  /* Compare each corner on the second bead with the same corner on the first one. */
-  for (int i = 0; i < 4; i++) {
-    corner_of(bodies, middle, (const double(*)[3])side, i, at);
-    posed(bodies, still, end[0], at, one);
-    posed(bodies, still, end[1], at, other);
-    widest = fmax(widest, thr_dot(other, now) - thr_dot(one, now));
-  }
-  return widest;
-}
-
-/* Checks a still: its poses are rigid motions, and as many gaps are seated as it states. */
-static thr_status check_still(const bead_bodies *bodies, int i, thr_err *err)
-{
-  const thr_frame *frame = &bodies->plan->frame;
-  const thr_posed *still = &bodies->standing->still[i];
-  double mean = 0;
-  int least = 0, most = 0;
-
-  if (still->n_beads != frame->n_nodes)
-    return thr_fail(err, THR_EVIOLATED,
-                    "evaluation.structure.stills[%d].poses: not seven numbers for every node", i);
-
-  /* Quaternions have length 1. */
-  for (int v = 0; v < frame->n_nodes; v++) {
-    const double *q = still->pose[v] + 3;
-    if (!(fabs(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] - 1) <= 1e-6))
-      return thr_fail(err, THR_EVIOLATED,
-                      "evaluation.structure.stills[%d].poses: node %d is not turned, but stretched",
-                      i, v);
-  }
-
-  /* The mean length of an edge. */
-  for (int e = 0; e < frame->n_edges; e++) {
-    const double *one = bodies->centre[frame->edge[e][0]],
-                 *other = bodies->centre[frame->edge[e][1]];
-    const double way[3] = {other[0] - one[0], other[1] - one[1], other[2] - one[2]};
-    mean += sqrt(thr_dot(way, way)) / frame->n_edges;
-  }
-
-  /* Gaps at the threshold may be counted either way. */
-  for (int e = 0; e < frame->n_edges; e++) {
-    const double part = opening(bodies, still, e) / mean;
-    least += part < THR_SEATED - 1e-6;
-    most += part < THR_SEATED + 1e-6;
-  }
-
-  if (still->seated >= least && still->seated <= most) return THR_OK;
-  return thr_fail(err, THR_EVIOLATED, "evaluation.structure.stills[%d].seated: %d, but %d gaps are",
-                  i, still->seated, least);
-}
-
 thr_status thr_check_standing(const thr_plan *plan, thr_err *err)
 {
   const thr_standing *standing = &plan->evaluation.standing;
@@ -884,8 +795,6 @@ thr_status thr_check_standing(const thr_plan *plan, thr_err *err)
     if (standing->load[i].node >= plan->frame.n_nodes)
       st = thr_fail(err, THR_EVIOLATED,
                     "evaluation.structure.loads[%d].node: there is no such node", i);
-  for (int i = 0; i < standing->n_stills && !st; i++)
-    st = check_still(&bodies, i, err);
 
   if (!st) st = check_cords(&bodies, err);
   if (!st) st = check_taut(&bodies, err);

@@ -71,18 +71,6 @@ typedef struct {
   int pull, slackest;
 } thr_drawn;
 
-/* A still of how the structure comes up in simulation as its cords are drawn in
- * (eval/structure/erect.c). */
-typedef struct {
-  double pull;          /* N, of the harder ends */
-  double counterweight; /* N, carried from above */
-  int seated;           /* gaps that open nowhere by more than THR_SEATED of a mean edge */
-  int n_beads;          /* all of the framework */
-  double (*pose)[7]; /* [n_beads] where the bead's node is (m), and its rotation from where it was
-                        drawn (x y z w); owned */
-} thr_posed;
-
-static const double THR_SEATED = 0.01;
 enum { THR_STANDING_MODEL = 2 };
 
 typedef struct {
@@ -94,10 +82,9 @@ typedef struct {
   double tilt, azimuth; /* rad: of the ground, and where it goes down (from x towards y) */
   double strength;      /* N: no pass of a knotted cord bears more; 0: any tension */
   double let_down; /* N: to which all ends can be let down after the schedule; NAN: was not asked */
-  int n_loads, n_cords, n_stills, n_answers;
+  int n_loads, n_cords, n_answers;
   thr_load *load;     /* [n_loads] owned */
   thr_drawn *drawn;   /* [n_cords] owned */
-  thr_posed *still;   /* [n_stills] owned */
   thr_answer *answer; /* [n_answers] owned */
 } thr_standing;
 

@@ -39,14 +39,11 @@ bool thr_asked_after(thr_asked asked)
 
 void thr_standing_destroy(thr_standing *standing)
 {
-  /* Arrays of the answers and stills. */
+  /* Arrays of the answers. */
   for (int i = 0; i < standing->n_answers; i++)
     free(standing->answer[i].velocity);
-  for (int i = 0; i < standing->n_stills; i++)
-    free(standing->still[i].pose);
 
   free(standing->answer);
-  free(standing->still);
   free(standing->load);
   free(standing->drawn);
   *standing = (thr_standing){0};
@@ -87,15 +84,6 @@ static const thr_field answer_fields[] = {
     {.key = "mechanism"},
     {0}};
 
-static const thr_field still_fields[] = {
-    {"pull", THR_FIELD_AMOUNT, .offset = offsetof(thr_posed, pull), .wrong = not_amount},
-    {"counterweight", THR_FIELD_AMOUNT, .offset = offsetof(thr_posed, counterweight),
-     .wrong = not_amount},
-    {"seated", THR_FIELD_COUNT, .offset = offsetof(thr_posed, seated),
-     .wrong = "not a number of gaps"},
-    {.key = "poses"},
-    {0}};
-
 /* A load's node is compared with the framework by the checker. */
 static const thr_field load_fields[] = {{"node", THR_FIELD_COUNT,
                                          .offset = offsetof(thr_load, node),
@@ -110,7 +98,8 @@ static const thr_field drawn_fields[] = {
      .wrong = "not a number of a pass"},
     {0}};
 
-/* An older version has no model and no stills; strength and letting down need not be stated. */
+/* An older version has no model, and stills of a simulation, which are passed over; strength and
+ * letting down need not be stated. */
 static const thr_field own_fields[] = {
     {"model", THR_FIELD_COUNT, .offset = offsetof(thr_standing, model), .low = 1,
      .high = THR_STANDING_MODEL, .optional = true, .unsaid = 1, .wrong = "not 1 or 2"},
@@ -164,25 +153,6 @@ static void put_drawn(thr_writer *writer, const thr_standing *standing)
   thr_write_close(writer);
 }
 
-/* Writes stills of the structure while its cords are drawn in. A bead's pose is its place in m and
- * a quaternion. */
-static void put_stills(thr_writer *writer, const thr_standing *standing)
-{
-  thr_write_line(writer, 4);
-  thr_write_array(writer, "stills");
-
-  for (int i = 0; i < standing->n_stills; i++) {
-    const thr_posed *still = &standing->still[i];
-    thr_write_line(writer, 5);
-    thr_write_object(writer, NULL);
-    thr_fields_write(writer, still_fields, still);
-    thr_write_numbers(writer, "poses", &still->pose[0][0], 7 * still->n_beads);
-    thr_write_close(writer);
-  }
-
-  thr_write_close(writer);
-}
-
 /* Writes the answers with the mechanisms that prove them. */
 static void put_answers(thr_writer *writer, const thr_standing *standing)
 {
@@ -202,7 +172,7 @@ static void put_answers(thr_writer *writer, const thr_standing *standing)
   thr_write_close(writer);
 }
 
-/* Writes what acts, how cords are drawn in, stills, and the answers with their mechanisms. */
+/* Writes what acts, how cords are drawn in, and the answers with their mechanisms. */
 void thr_standing_write(const thr_standing *standing, thr_writer *writer, const char *key)
 {
   thr_write_object(writer, key);
@@ -211,7 +181,6 @@ void thr_standing_write(const thr_standing *standing, thr_writer *writer, const 
   /* Lists, some of which only some structures have. */
   if (standing->n_loads > 0) put_loads(writer, standing);
   put_drawn(writer, standing);
-  if (standing->n_stills > 0) put_stills(writer, standing);
   put_answers(writer, standing);
   thr_write_line(writer, 3);
   thr_write_close(writer);
@@ -254,22 +223,6 @@ static thr_status read_mechanism(const thr_field_reader *reader, const thr_json 
              : thr_field_bad(reader, "mechanism", "not numbers");
 }
 
-/* Reads the beads of a still: place and rotation of each. */
-static thr_status read_poses(const thr_field_reader *reader, const thr_json *object, void *into)
-{
-  thr_posed *still = into;
-  const thr_json *list = thr_json_get(object, "poses");
-  const int n = thr_json_size(list);
-
-  if (n < 7 || n % 7) return thr_field_bad(reader, "poses", "not seven numbers for every node");
-  if (!(still->pose = thr_calloc((size_t)n / 7, sizeof *still->pose)))
-    return thr_nomem(reader->err);
-  still->n_beads = n / 7;
-
-  return read_row(list, n, &still->pose[0][0]) ? THR_OK
-                                               : thr_field_bad(reader, "poses", "not numbers");
-}
-
 /* Reads the force of a load. */
 static thr_status read_force(const thr_field_reader *reader, const thr_json *object, void *into)
 {
@@ -310,23 +263,19 @@ static thr_status read_list(const thr_field_reader *reader, const thr_json *obje
   return st;
 }
 
-/* Reads loads, how cords are drawn in, stills and answers. */
+/* Reads loads, how cords are drawn in, and answers. */
 static thr_status read_lists(const thr_field_reader *reader, const thr_json *object,
                              thr_standing *standing)
 {
-  static const standing_list of_stills = {"stills", still_fields, sizeof(thr_posed), read_poses};
   static const standing_list of_loads = {"loads", load_fields, sizeof(thr_load), read_force};
   static const standing_list of_drawn = {"drawn", drawn_fields, sizeof(thr_drawn), NULL};
   static const standing_list of_answers = {"answers", answer_fields, sizeof(thr_answer),
                                            read_mechanism};
-  const thr_json *stills = thr_json_get(object, "stills"), *loads = thr_json_get(object, "loads"),
-                 *drawn = thr_json_get(object, "drawn"), *answers = thr_json_get(object, "answers");
-  const int n_stills = thr_json_size(stills), n_loads = thr_json_size(loads),
-            n_answers = thr_json_size(answers);
+  const thr_json *loads = thr_json_get(object, "loads"), *drawn = thr_json_get(object, "drawn"),
+                 *answers = thr_json_get(object, "answers");
+  const int n_loads = thr_json_size(loads), n_answers = thr_json_size(answers);
 
   /* Shapes first, so that the arrays can be allocated. */
-  if (stills && (thr_json_typeof(stills) != THR_JSON_ARRAY || n_stills < 1))
-    return thr_field_bad(reader, "stills", "not a list of stills");
   if (loads && (thr_json_typeof(loads) != THR_JSON_ARRAY || n_loads < 1))
     return thr_field_bad(reader, "loads", "not a list of loads");
   if (thr_json_typeof(drawn) != THR_JSON_ARRAY || thr_json_size(drawn) != standing->n_cords)
@@ -334,12 +283,10 @@ static thr_status read_lists(const thr_field_reader *reader, const thr_json *obj
   if (thr_json_typeof(answers) != THR_JSON_ARRAY || n_answers < 1)
     return thr_field_bad(reader, "answers", "missing or empty");
 
-  standing->still = thr_calloc((size_t)n_stills, sizeof *standing->still);
   standing->load = thr_calloc((size_t)n_loads, sizeof *standing->load);
   standing->drawn = thr_calloc((size_t)standing->n_cords, sizeof *standing->drawn);
   standing->answer = thr_calloc((size_t)n_answers, sizeof *standing->answer);
-  if (!standing->still || !standing->load || !standing->drawn || !standing->answer)
-    return thr_nomem(reader->err);
+  if (!standing->load || !standing->drawn || !standing->answer) return thr_nomem(reader->err);
 
   /* What an answer does not state is not known. */
   for (int i = 0; i < n_answers; i++)
@@ -347,9 +294,7 @@ static thr_status read_lists(const thr_field_reader *reader, const thr_json *obj
 
   /* There are as many cords drawn in as there are cords. */
   int n_drawn;
-  thr_status st =
-      read_list(reader, object, &of_stills, standing->still, n_stills, &standing->n_stills);
-  if (!st) st = read_list(reader, object, &of_loads, standing->load, n_loads, &standing->n_loads);
+  thr_status st = read_list(reader, object, &of_loads, standing->load, n_loads, &standing->n_loads);
   if (!st) st = read_list(reader, object, &of_drawn, standing->drawn, standing->n_cords, &n_drawn);
 
   return st ? st

@@ -137,7 +137,7 @@ command_fails check plan.json
 command_fails eval plan.json --method joint --plot tension.svg
 command_fails eval plan.json --method structure --tune time-step=10 --tune iterations=0.1
 command_fails eval plan.json --method structure --taut --load B2=1 --load-pulls 5 --schedule "all: pull both 9" -o new.json
-command_fails compare plan.json any.json --method all --no-dynamics
+command_fails compare plan.json any.json --method all
 command_fails draw plan.json -o overview.svg
 command_fails draw plan.json -T pdf -o sheets.pdf
 command_fails draw plan.json -T html -o viewer.html

@@ -52,13 +52,12 @@ const PLANS = [
 
 // A plan and options of `thread eval`: what is found of the plan is kept in it.
 const SNAKE = path.join(ROOT, 'data/dome7-snake.json');
-const STRUCTURE = ['--method', 'structure', '--no-dynamics'];
+const STRUCTURE = ['--method', 'structure'];
 const EVALUATIONS = [
   ['feet.json', '--law', 'mitre', '--pull', 'start', '--preset', 'wood-paracord',
     '--cord-diameter', '2'],
   ['feet.json', '--method', 'joint'],
   ['feet.json', ...STRUCTURE, '--load', 'B2=1', '--tilt', '5'],
-  ['feet.json', '--method', 'structure', '--tune', 'time-step=8', '--stills', 'stills.svg'],
   ['feet.json', ...STRUCTURE, '--schedule', 'all: pull both 20'],
   ['two.json', '--schedule', 'A: pull both 60; A: release end 2; B: none', '--wobble', '1',
     '--mu-power', '0.5', '--mu-tension', '2', '--stiffness', '1000', '--bead-strength', '10'],

@@ -223,7 +223,7 @@ const REFUSED = [
   ['.evaluation.cords[].known', false], ['.evaluation.cords[].colours[]', 'red'],
   ['.evaluation.structure.model', 3], ['.evaluation.structure.tilt', 1.5707963267948966],
   ['.evaluation.structure.answers', []], ['.evaluation.structure.answers[].asked', 'why'],
-  ['.evaluation.structure.stills[].poses', []], ['.proof.length.status', 'perhaps'],
+  ['.proof.length.status', 'perhaps'],
   ['.proof.length.slack', 'closed'], ['.proof.length.certificate[].scale', 0],
   ['.proof.length.certificate[].denominator', 0],
   ['.proof.length.certificate[].denominator', 1099511627777], ['.proof.cords.sets', false],

@@ -52,7 +52,6 @@ static thr_eval_options options(void)
 {
   thr_eval_options o = thr_eval_options_default();
   o.cache = cache;
-  o.dynamics = false;
   return o;
 }
 
@@ -244,27 +243,6 @@ START_TEST(same_input_gives_the_same_bits)
 }
 END_TEST
 
-/* Bullet's structure too: a fall of the post's arm. */
-START_TEST(dynamics_give_the_same_bits)
-{
-  thr_frame f = post_make(1);
-  thr_plan p = plan_simple(&f, THR_ENDS_ANY, 1);
-  thr_eval_options o = options();
-  o.dynamics = true;
-  thr_eval a = eval(&p, THR_STRUCTURE, &o), b = eval(&p, THR_STRUCTURE, &o);
-  assert_same_bits(&a, &b);
-  ck_assert(a.settle.present && a.settle.n_beads == 3 && b.settle.n_beads == 3);
-  ck_assert(a.settle.status == b.settle.status && a.settle.fall == b.settle.fall &&
-            a.settle.drift == b.settle.drift);
-  ck_assert(memcmp(a.settle.before, b.settle.before, 3 * sizeof *a.settle.before) == 0);
-  ck_assert(memcmp(a.settle.after, b.settle.after, 3 * sizeof *a.settle.after) == 0);
-  thr_eval_destroy(&a);
-  thr_eval_destroy(&b);
-  thr_plan_destroy(&p);
-  thr_frame_destroy(&f);
-}
-END_TEST
-
 static void spoil_mu(thr_eval_options *o)
 {
   o->physics.mu = -0.1;
@@ -307,10 +285,6 @@ static void spoil_iterations(thr_eval_options *o)
 {
   o->iterations = NAN;
 }
-static void spoil_start(thr_eval_options *o)
-{
-  o->start = -1;
-}
 static void spoil_processes(thr_eval_options *o)
 {
   o->processes = 0;
@@ -325,11 +299,11 @@ START_TEST(absurd_options_are_refused)
   static const struct {
     void (*spoil)(thr_eval_options *);
     const char *word;
-  } wrong[] = {{spoil_mu, "mu"},           {spoil_mu_large, "mu"},  {spoil_mu_nan, "mu"},
-               {spoil_seating, "seating"}, {spoil_bore, "bore"},    {spoil_bead, "bead_diameter"},
-               {spoil_edge, "edge 1"},     {spoil_mass, "density"}, {spoil_step, "time step"},
-               {spoil_iterations, "iter"}, {spoil_start, "start"},  {spoil_processes, "processes"},
-               {spoil_seed, "seed"}};
+  } wrong[] = {
+      {spoil_mu, "mu"},           {spoil_mu_large, "mu"},         {spoil_mu_nan, "mu"},
+      {spoil_seating, "seating"}, {spoil_bore, "bore"},           {spoil_bead, "bead_diameter"},
+      {spoil_edge, "edge 1"},     {spoil_mass, "density"},        {spoil_step, "time step"},
+      {spoil_iterations, "iter"}, {spoil_processes, "processes"}, {spoil_seed, "seed"}};
   thr_frame f = post_make(1);
   thr_plan p = plan_simple(&f, THR_ENDS_ANY, 1);
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
@@ -530,7 +504,6 @@ int main(void)
   ADD_LOOP(s, 60, more_friction_is_never_less_pull, 0, THR_N_METHODS);
   ADD_LOOP(s, 60, pull_is_proportional, 0, THR_N_METHODS);
   ADD_LOOP(s, 60, same_input_gives_the_same_bits, 0, THR_N_METHODS);
-  ADD_TEST(s, 60, dynamics_give_the_same_bits);
   ADD_LOOP(s, 10, absurd_options_are_refused, 0, THR_N_METHODS);
   ADD_LOOP(s, 10, overflow_names_the_cord, 0, 2);
   ADD_TEST(s, 30, a_stop_is_a_stop_whatever_the_sum);

@@ -200,7 +200,6 @@ static thr_plan evaluated_plan(bool scheduled)
   options.n_load_pulls = 2;
   options.tilt = 0.05;
   options.azimuth = 1;
-  options.dynamics = false;
   if (scheduled) {
     static const char text[] = "all: pull both 20; all: release both 5";
     ck_assert_int_eq(thr_schedule_parse(&schedule, &plan, text, sizeof text - 1, "text", &err),
@@ -307,7 +306,6 @@ START_TEST(tight_turns_are_those_of_the_tight_path)
   thr_err err = {0};
   ck_assert_int_eq(thr_plan_read(&plan, "data/dome7-stairs.json", NULL), THR_OK);
   options.taut = true;
-  options.dynamics = false;
   assert_ok(thr_eval_plan(&plan.frame, plan.cord, plan.n_cords, THR_STRUCTURE, &options, &none,
                           &eval, &err),
             &err);

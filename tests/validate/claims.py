@@ -108,7 +108,7 @@ def cantilever(program, n, width):
     program.frame("row.json", [[i * step, 0, 1000] for i in range(n + 1)], [[i, i + 1] for i in range(n)], [0])
     program.run("plan", "row.json", "--cords", 1, "--ends", "any", "-q", "-o", "row.plan.json")
     density = STRIP / (width * width - math.pi / 4 * 4)  # g/cm3; the bore is 2 mm
-    found = program.evaluate("row.plan.json", "--method", "structure", "--no-dynamics", "--clamp-feet", "--bead-diameter", width,
+    found = program.evaluate("row.plan.json", "--method", "structure", "--clamp-feet", "--bead-diameter", width,
                              "--bore", 2, "--cord-diameter", 1, "--density", f"{density:.17g}")
     return found["holding"]["upper"], found["holding"]["lower"]
 
@@ -182,7 +182,7 @@ def fig_14(report, program, pictures):
             step = LENGTH / (n - 0.5)
             program.frame("row.json", [[i * step, 0, 1000] for i in range(n + 1)], [[i, i + 1] for i in range(n)], [0])
             program.run("plan", "row.json", "--cords", 1, "--ends", "any", "-q", "-o", "row.plan.json")
-            said = program.evaluate("row.plan.json", "--method", "structure", "--no-dynamics", "--clamp-feet", "--bead-diameter", 20,
+            said = program.evaluate("row.plan.json", "--method", "structure", "--clamp-feet", "--bead-diameter", 20,
                                     "--bore", bore, "--cord-diameter", 1)["play"]
             report.relative(f"{n} pieces, bores of {bore:g} mm: sag of the last one, mm", hung(bore - 1, n), said["most_mm"], 1e-9)
             found.append((n, said["most_mm"]))
@@ -227,7 +227,7 @@ def fig_24(report, program, pictures, data):
         found.append((pull, 100 * said))
         law.append((pull, 100 * expected))
     report.holds("4 N seat", "all of it", f"{found[-1][1]:.0f} %", found[-1][1] == 100)
-    after = program.evaluate("four.json", "--method", "structure", "--no-dynamics", "--schedule", "all: pull both 4")
+    after = program.evaluate("four.json", "--method", "structure", "--schedule", "all: pull both 4")
     report.holds("pulled with 4 N", "stands", f"with {after['after']['upper']:.3g} of its tensions, too", after["after"]["upper"] < 1)
     report.holds("without tension", "falls (proved)", f"below {after['any_state']['lower']:.3g} N at all ends", after["any_state"]["lower"] > 0)
     plot(os.path.join(pictures, "validation-seated.svg"), "Four cords to the feet: gaps closed against pull", "pull at all ends, N",
@@ -249,7 +249,7 @@ def fig_25(report, program, pictures, data):
     lifts = (0, 0.05, 0.1, 0.15, 0.2)
     low, high = [], []
     for lift in lifts:
-        said = program.evaluate("window.json", "--method", "structure", "--no-dynamics", "--load", f"D4=0,0,{lift or 1e-9}",
+        said = program.evaluate("window.json", "--method", "structure", "--load", f"D4=0,0,{lift or 1e-9}",
                                 "--load-pulls", 10)
         low.append((lift, said["load"]["needs_at_least"]))
         high.append((lift, said["load"]["needs"]))
@@ -330,7 +330,7 @@ def states(report, program, pictures, data):
                    "most; once the cords are in, it is the other way round. Newtons at all ends, above which an equilibrium "
                    "exists.")
     program.run("plan", os.path.join(data, "dome7.json"), "--cords", 2, "--ends", "feet", "-q", "-o", "two.json")
-    asked = ("eval", "two.json", "--method", "structure", "--no-dynamics", "--pull")
+    asked = ("eval", "two.json", "--method", "structure", "--pull")
     for pull, stands in (("A=none,B=both", True), ("A=both,B=none", False)):
         done = program.run(*asked, pull, codes=(0, 1, 4))
         word = "stands" if done.returncode == 0 else "falls at any pull" if "no pull holds" in done.stderr else done.stderr
@@ -338,13 +338,13 @@ def states(report, program, pictures, data):
     names = ("lines", "stairs", "snake")
     found = {}
     for name in names:
-        found[name] = program.evaluate(os.path.join(data, f"dome7-{name}.json"), "--method", "structure", "--no-dynamics")
+        found[name] = program.evaluate(os.path.join(data, f"dome7-{name}.json"), "--method", "structure")
     drawn = [found[name]["equal_pulls"]["upper"] for name in names]
     kept = [found[name]["any_state"]["upper"] for name in names]
     report.holds("while being drawn in", "lines < stairs < snake", ", ".join(f"{x:.4g}" for x in drawn), drawn == sorted(drawn))
     report.holds("in any state that friction keeps", "snake < stairs < lines", ", ".join(f"{x:.4g}" for x in kept),
                  kept == sorted(kept, reverse=True))
-    after = program.evaluate(os.path.join(data, "dome7-snake.json"), "--method", "structure", "--no-dynamics", "--schedule",
+    after = program.evaluate(os.path.join(data, "dome7-snake.json"), "--method", "structure", "--schedule",
                              "all: pull both 131")
     report.holds("snake, pulled with 131 N, then let down to", "between any state and drawn in", f"{after['let_down']:.3g} N",
                  kept[2] <= after["let_down"] < drawn[2])
@@ -383,7 +383,7 @@ def made_pieces(report, program, data):
             thin = ("--cord-diameter", 0.7) if "robarch" in name else () # what its narrowest arm has room for
             program.run("plan", plan, *thin, "-q", "-o", "made.json")
             plan = "made.json"
-        asked = (plan, "--method", "structure", "--no-dynamics")
+        asked = (plan, "--method", "structure")
         ideal = program.evaluate(*asked)["holding"]
         printed = [program.evaluate(*asked, "--pieces", "kit", "--profile", profile) for profile in ("round", "square")]
         for found in printed:
