@@ -51,7 +51,7 @@ typedef struct {
   int held; /* The turn that a grip keeps the cord from sliding over, or NO_TURN. */
 } cord_state;
 
-enum { NO_TURN = -1 };
+enum { NO_TURN = THR_NO_TURN };
 static const double SAME = 1e-12; /* relative: a tension that a turn just holds */
 
 static bool at_start(thr_pull end)
@@ -133,15 +133,6 @@ static void let_slip(cord_state *state, thr_pull end, double slip)
 
 /* ---- letting go of a grip ---- */
 
-/* Returns whether the cord slips over turn k. falling: towards pass k, so that tensions fall along
- * the cord; else towards pass k + 1. */
-static bool slips(const cord_state *state, const double *tension, int k, bool falling)
-{
-  const double tight = tension[falling ? k : k + 1], slack = tension[falling ? k + 1 : k];
-  return k != state->held &&
-         tight > thr_friction_more(&state->friction, slack, state->exponent[k]) * (1 + SAME);
-}
-
 /* Changes tensions to the largest state below them (lower) or to the least state above them in
  * which every turn holds: one sweep forwards and one backwards, as for shortest paths on a line. */
 static void sweep(const cord_state *state, double *tension, bool lower)
@@ -162,82 +153,6 @@ static void sweep(const cord_state *state, double *tension, bool lower)
     }
 }
 
-/* Returns tension x length, N mm, of passes a .. b if each turn between them holds as much as
- * friction can, with tension `top` at the tight end. */
-static double profile_sum(const cord_state *state, int a, int b, bool falling, double top)
-{
-  double sum = 0;
-  for (int k = a; k <= b; k++)
-    sum += state->length[k] * thr_friction_less(&state->friction, top,
-                                                fabs(state->sum[k] - state->sum[falling ? a : b]));
-  return sum;
-}
-
-/* Returns the tension at the tight end with which passes a .. b keep the sum of their elongations
- * although each turn between them holds no more than friction can. */
-static double profile_top(const cord_state *state, int a, int b, bool falling)
-{
-  double sum = 0, low = 0, high = 0;
-
-  /* The sum that is kept, N mm (EA is the same everywhere and cancels), and an upper bound. */
-  for (int k = a; k <= b; k++) {
-    sum += state->length[k] * state->tension[k];
-    high = fmax(high, state->tension[k]);
-  }
-
-  /* By the capstan law tensions are proportional to `top`. Other laws of friction need
-   * bisection. */
-  if (state->friction.power == 1) return sum / profile_sum(state, a, b, falling, 1);
-
-  for (double middle = high / 2; middle > low && middle < high; middle = (low + high) / 2) {
-    if (profile_sum(state, a, b, falling, middle) < sum)
-      low = middle;
-    else
-      high = middle;
-  }
-
-  return high;
-}
-
-/* Lets the cord slip over turn k, and over the turns beside it that then hold no longer, until all
- * of them just hold. Cord moves in one direction over all of them, and the sum of the elongations
- * of passes a .. b is kept. Extending the range on one side never removes a reason for extending
- * the range on the other side, so that the order does not matter (pooling of adjacent violators, as
- * in isotonic regression: R. E. Barlow et al., 1972). */
-static void relax_at(cord_state *state, int k, bool falling)
-{
-  int a = k, b = k + 1;
-  for (bool more = true; more;) {
-    /* Pool the range a .. b: its tensions fall by as much as friction can hold. */
-    const double top = profile_top(state, a, b, falling);
-    const double far = thr_friction_less(&state->friction, top, state->sum[b] - state->sum[a]);
-    const double first = falling ? top : far, last = falling ? far : top;
-    more = false;
-
-    /* Extend the range if the pass before it now slips against its first pass, .. */
-    if (a > 0 && a - 1 != state->held) {
-      const double tight = falling ? state->tension[a - 1] : first,
-                   slack = falling ? first : state->tension[a - 1];
-      more =
-          tight > thr_friction_more(&state->friction, slack, state->exponent[a - 1]) * (1 + SAME);
-      a -= more;
-    }
-
-    /* .. or if the pass behind it slips against its last pass. */
-    if (!more && b + 1 < state->n && b != state->held) {
-      const double tight = falling ? last : state->tension[b + 1],
-                   slack = falling ? state->tension[b + 1] : last;
-      more = tight > thr_friction_more(&state->friction, slack, state->exponent[b]) * (1 + SAME);
-      b += more;
-    }
-
-    /* Nothing slips at the borders any more: the pooled tensions are the state. */
-    for (int i = a; !more && i <= b; i++)
-      state->tension[i] = thr_friction_less(&state->friction, top,
-                                            fabs(state->sum[i] - state->sum[falling ? a : b]));
-  }
-}
-
 /* Lets the cord slip until every turn holds the tensions on its two sides apart. With the stiffness
  * known, this is the state that keeps the elongation. Without the stiffness, `tension` becomes the
  * largest state below and `most` the least state above. */
@@ -250,10 +165,10 @@ static void relax(cord_state *state)
     return;
   }
 
-  /* EA is known: pool the passes round every turn that slips, in either direction. */
-  for (int k = 0; k + 1 < state->n; k++)
-    for (int falling = 0; falling < 2; falling++)
-      if (slips(state, state->tension, k, falling)) relax_at(state, k, falling);
+  /* EA is known: the state that keeps the sum of the elongations. */
+  const thr_slide slide = {state->n,      state->exponent, state->sum,
+                           state->length, state->held,     state->friction};
+  thr_slide_relax(&slide, state->tension);
 
   /* The elastic state is unique. */
   memcpy(state->most, state->tension, (size_t)state->n * sizeof *state->most);

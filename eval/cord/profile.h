@@ -4,10 +4,10 @@
  * beads do not move (eval/structure is for that).
  *
  * Reading order: capstan.c (the factor of a turn in closed form), profile.c (tensions from
- * factors), history.c (tensions after a schedule), taut.c (turns of a cord thinner than its bore),
- * knots.c (strength), calibrate.h (mu from experiments). The exponent of a turn is ln of the ratio
- * of the tensions on its two sides; forces are in N, lengths in units of the framework, angles in
- * rad. */
+ * factors), slide.c (a cord that slides until its turns hold), history.c (tensions after a
+ * schedule), taut.c (turns of a cord thinner than its bore), knots.c (strength), calibrate.h (mu
+ * from experiments). The exponent of a turn is ln of the ratio of the tensions on its two sides;
+ * forces are in N, lengths in units of the framework, angles in rad. */
 #ifndef THR_PROFILE_H
 #define THR_PROFILE_H
 
@@ -56,6 +56,25 @@ thr_status thr_profile_cord(thr_eval_cord *out, const thr_cord *cord, const doub
 thr_status thr_profile_before(thr_eval_cord *out, const thr_cord *cord, const double *exponent,
                               double seating, const thr_friction *friction, bool gripped,
                               thr_err *err) THR_MUST_CHECK;
+
+/* ---- slide.c: Lets a cord slide over its turns until each holds the tensions beside it apart. */
+
+enum { THR_NO_TURN = -1 };
+
+/* A cord that is held at both ends, or a part of one. Arrays are borrowed. */
+typedef struct {
+  int n;
+  const double *exponent; /* [n - 1] of the turns between passes */
+  const double *sum;      /* [n] exponents before each pass */
+  const double *length;   /* [n] of passes, > 0 */
+  int held;               /* a turn that nothing slides over, or THR_NO_TURN */
+  thr_friction friction;
+} thr_slide;
+
+/* Changes tension[n], N, to the state that keeps the sum of the elongations, tension x length / EA,
+ * and in which every turn holds. Below 0 stands for a pass that is slack, by so much as such a
+ * pressure would shorten the pass. O(n), O(n^2) at worst. */
+void thr_slide_relax(const thr_slide *cord, double *tension);
 
 /* ---- history.c: Computes what pulling, gripping, letting down and knotting leave of tension in a
  * cord, in closed form. */
