@@ -18,17 +18,16 @@ enum { MAX_NODES = 2000000 };
 
 const char *thr_shape_name(int shape)
 {
-  static const char *const name[THR_N_SHAPES] = {"dome", "geodesic", "tube", "sphere", "honeycomb"};
+  static const char *const name[THR_N_SHAPES] = {"dome",      "geodesic", "tube", "sphere",
+                                                 "honeycomb", "row",      "arch"};
   return name[shape];
 }
 
 thr_make_options thr_make_options_default(thr_shape shape)
 {
-  static const int size[] = {[THR_MAKE_DOME] = 7,
-                             [THR_MAKE_GEODESIC] = 4,
-                             [THR_MAKE_TUBE] = 12,
-                             [THR_MAKE_SPHERE] = 3,
-                             [THR_MAKE_HONEYCOMB] = 3};
+  static const int size[] = {[THR_MAKE_DOME] = 7,   [THR_MAKE_GEODESIC] = 4,  [THR_MAKE_TUBE] = 12,
+                             [THR_MAKE_SPHERE] = 3, [THR_MAKE_HONEYCOMB] = 3, [THR_MAKE_ROW] = 9,
+                             [THR_MAKE_ARCH] = 9};
   return (thr_make_options){shape, size[shape], 7, 20, 0.5};
 }
 
@@ -381,6 +380,30 @@ static thr_status make_honeycomb(thr_draft *draft, const thr_make_options *optio
   return st;
 }
 
+/* ---- rows and arches: equal edges in the plane y = 0, straight or round a circle ---- */
+
+/* Makes a path of `size` nodes. A row lies along x. The nodes of an arch are on a circle: with f
+ * the angle at its centre from the crown to a foot, the rise is tan(f / 2) half spans. Node i is as
+ * far from the crown as its mirror image, to the last digit. */
+static thr_status make_path(thr_draft *draft, const thr_make_options *options, thr_err *err)
+{
+  const int n = options->size, half = n - 1;
+  const bool arch = options->shape == THR_MAKE_ARCH;
+  const double foot = arch ? 2 * atan(options->rise) : 0, /* rad from the crown */
+      radius = foot > 0 ? 0.5 * options->pitch / sin(foot / half) : 0;
+  thr_status st = THR_OK;
+
+  for (int i = 0; i < n && !st; i++) {
+    const int place = 2 * i - half; /* from the middle, in half edges */
+    const double angle = foot * place / half, straight = 0.5 * options->pitch * place;
+    st = add_node(draft, foot > 0 ? radius * sin(angle) : straight, 0,
+                  radius * (cos(angle) - cos(foot)), i, 0, arch && (i == 0 || i == half), err);
+  }
+  for (int i = 0; i < half && !st; i++)
+    st = thr_draft_add_edge(draft, i, i + 1, 0, err);
+  return st;
+}
+
 /* ---- all of them ---- */
 
 /* Checks a size; THR_EINPUT with what it is. */
@@ -397,11 +420,10 @@ static thr_status check_options(const thr_make_options *options, thr_err *err)
   /* the largest sizes within MAX_NODES: n^2, 5f^2 + 5f + 1 or so, 10f^2 + 2, 6R^2 nodes */
   static const struct {
     int least, most;
-  } size[] = {[THR_MAKE_DOME] = {2, 1414},
-              [THR_MAKE_GEODESIC] = {1, 630},
-              [THR_MAKE_TUBE] = {3, MAX_NODES / 2},
-              [THR_MAKE_SPHERE] = {1, 447},
-              [THR_MAKE_HONEYCOMB] = {1, 577}};
+  } size[] = {[THR_MAKE_DOME] = {2, 1414},          [THR_MAKE_GEODESIC] = {1, 630},
+              [THR_MAKE_TUBE] = {3, MAX_NODES / 2}, [THR_MAKE_SPHERE] = {1, 447},
+              [THR_MAKE_HONEYCOMB] = {1, 577},      [THR_MAKE_ROW] = {2, MAX_NODES},
+              [THR_MAKE_ARCH] = {3, MAX_NODES}};
 
   /* Which sizes are used depends on the shape. */
   thr_status st =
@@ -435,6 +457,8 @@ thr_status thr_make(thr_draft *draft, const thr_make_options *options, thr_err *
     st = make_rows(draft, options, options->size + (options->size + 1) / 2, err);
     break;
   case THR_MAKE_SPHERE: st = make_rows(draft, options, 3 * options->size, err); break;
+  case THR_MAKE_ROW:
+  case THR_MAKE_ARCH: st = make_path(draft, options, err); break;
   default: st = make_honeycomb(draft, options, err);
   }
 

@@ -226,6 +226,35 @@ START_TEST(honeycomb)
 }
 END_TEST
 
+START_TEST(row_and_arch)
+{
+  for (int n = 3; n < 12; n++)
+    for (int arch = 0; arch < 2; arch++) {
+      thr_frame f = make(arch ? THR_MAKE_ARCH : THR_MAKE_ROW, n, 0, 20, 0.7);
+      ck_assert_int_eq(f.n_nodes, n);
+      ck_assert_int_eq(f.n_edges, n - 1);
+      ck_assert_int_eq(count_degree(&f, 1), 2);
+      ck_assert_int_eq(count_feet(&f), 2 * arch);
+      for (int e = 0; e < f.n_edges; e++)
+        ck_assert_double_eq_tol(f.length[e], 20, 1e-9);
+      for (int v = 0; v < n; v++) {
+        ck_assert_double_eq(f.xyz[v][0], -f.xyz[n - 1 - v][0]); /* mirror images are exact */
+        ck_assert_double_eq(f.xyz[v][1], 0);
+        ck_assert_double_eq(f.xyz[v][2], f.xyz[n - 1 - v][2]);
+        if (!arch) ck_assert_double_eq(f.xyz[v][2], 0);
+      }
+      ck_assert_double_eq(f.xyz[0][2], 0);
+      if (arch && n % 2) ck_assert_double_eq_tol(f.xyz[n / 2][2], 0.7 * f.xyz[n - 1][0], 1e-9);
+      if (arch) check_lowest_are_feet(&f);
+      thr_frame_destroy(&f);
+    }
+  thr_frame flat = make(THR_MAKE_ARCH, 5, 0, 20, 0);
+  ck_assert_double_eq(flat.xyz[4][0], 40);
+  ck_assert_double_eq(flat.xyz[2][2], 0);
+  thr_frame_destroy(&flat);
+}
+END_TEST
+
 START_TEST(refuses_sizes)
 {
   static const struct {
@@ -241,6 +270,8 @@ START_TEST(refuses_sizes)
       {{THR_MAKE_TUBE, 12, 1, 20, 0.5}, "rings"},
       {{THR_MAKE_TUBE, 1000, 2001, 20, 0.5}, "rings"},
       {{THR_MAKE_HONEYCOMB, 0, 7, 20, 0.5}, "size"},
+      {{THR_MAKE_ROW, 1, 7, 20, 0.5}, "size"},
+      {{THR_MAKE_ARCH, 2, 7, 20, 0.5}, "size"},
       {{THR_MAKE_DOME, 7, 7, 0, 0.5}, "pitch"},
       {{THR_MAKE_DOME, 7, 7, NAN, 0.5}, "pitch"},
       {{THR_MAKE_DOME, 7, 7, 20, -1}, "rise"},
@@ -299,6 +330,7 @@ int main(void)
   ADD_TEST(s, 4, geodesic);
   ADD_TEST(s, 4, tube);
   ADD_TEST(s, 4, honeycomb);
+  ADD_TEST(s, 4, row_and_arch);
   ADD_TEST(s, 4, refuses_sizes);
   ADD_TEST(s, 4, data_dome_is_the_default);
   ADD_TEST(s, 4, every_allocation_may_fail);
