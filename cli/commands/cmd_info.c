@@ -36,7 +36,8 @@ static const char intro[] =
     "                             the channels that cross inside a piece, and the pieces to "
     "make\n"
     "  thread info arch.obj --motions --held feet --play arch.html\n"
-    "  thread info prism.obj --cables 1-4,2-5,3-6     can pulling these edges move anything?\n\n"
+    "  thread info prism.obj --cables 1-4,2-5,3-6     can pulling these edges move anything?\n"
+    "  thread info --turn cone --tip 60 --plot a.svg  how far can two beads on a cord turn?\n\n"
     "The line `hinged` takes every node for a ball joint: can nodes move without an edge getting\n"
     "longer? What can move must be held by joints that lock. A joint is tied if the cord alone "
     "holds\n"
@@ -140,6 +141,7 @@ typedef struct {
   cli_frame_args frame;
   guard_limits guard;
   motion_arguments motions;
+  turn_arguments turn;
   bool json;
 } info_arguments;
 
@@ -191,17 +193,22 @@ int cmd_info(int argc, char **argv)
   const cli_group groups[] = {{"Options", own_options, &args},
                               {NULL, guard_options, &args.guard},
                               {"Motions", motion_options, &args.motions},
+                              {"Two pieces on a cord", turn_options, &args.turn},
                               {"Framework", cli_frame_options, &args.frame},
                               {NULL}};
   const int code = cli_options(argc, argv, &syntax, groups);
   if (code >= 0) return code;
 
   /* One operand: the framework, or a plan that holds one. */
-  if (optind + 1 != argc)
+  if (args.turn.wanted && optind != argc)
+    return cli_usage("info", "--turn asks about two pieces, and takes no FRAME");
+  if (!args.turn.wanted && cli_given_of(turn_options))
+    return cli_usage("info", "%s needs --turn", cli_given_of(turn_options));
+  if (!args.turn.wanted && optind + 1 != argc)
     return cli_usage("info", optind == argc ? "which framework?" : "one framework at a time");
 
   /* The child does all of the work. */
   if (guard_fork(&args.guard, &end)) return guard_conclude(&end, "nothing is known");
 
-  return print_facts(argv[optind], &args);
+  return args.turn.wanted ? turn_print(&args.turn, args.json) : print_facts(argv[optind], &args);
 }

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Declares what the files of `thread info` share: the options and the making of --motions. */
+/* Declares what the files of `thread info` share: the options and the making of --motions, and of
+ * --turn, which needs no framework. */
 #ifndef THR_INFO_PARTS_H
 #define THR_INFO_PARTS_H
 
 #include "cli/cli.h"
 #include "cli/print/print.h"
+#include "eval/rise/turn.h"
 #include "graph/framework/frame.h"
 
 #include <stdbool.h>
@@ -27,5 +29,18 @@ bool motions_asked(const motion_arguments *args);
 int motions_find(const char *path, const thr_frame *frame, const motion_arguments *args,
                  motion_facts *facts);
 void motions_destroy(motion_facts *facts);
+
+/* What was asked of two pieces on a cord. Strings point into argv. */
+typedef struct {
+  bool wanted;
+  thr_turn_piece piece; /* lengths of 0: not said; tip in degrees */
+  const char *plot;
+} turn_arguments;
+
+extern const cli_option turn_options[];
+
+/* Prints how far two pieces can turn, in closed form and in simulation, and draws the plot. Returns
+ * an exit code. */
+int turn_print(const turn_arguments *args, bool json);
 
 #endif

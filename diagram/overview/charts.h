@@ -131,4 +131,23 @@ typedef struct {
  * the same bytes. THR_EINPUT where no cord was drawn in. svg is unchanged on failure. O(n). */
 thr_status thr_rise_svg(const thr_rise_chart *chart, thr_text *svg, thr_err *err) THR_MUST_CHECK;
 
+/* ---- turn_chart.c: The picture of how far two pieces on a cord can turn. */
+
+typedef struct {
+  double cord;  /* mm that are free between them */
+  double angle; /* rad, the largest */
+} thr_turn_mark;
+
+typedef struct {
+  const char *name; /* of the pieces, in words; borrowed */
+  int n_line, n_dots;
+  const thr_turn_mark *line; /* [n_line] in closed form, by ascending cord; borrowed */
+  const thr_turn_mark *dot;  /* [n_dots] simulated; borrowed */
+} thr_turn_chart;
+
+/* Appends the picture to svg, each simulation as <circle id="point-1">. Sizes are physical (mm); no
+ * text is under 7 pt. The same marks give the same bytes. THR_EINPUT without a line. svg is
+ * unchanged on failure. O(n_line + n_dots). */
+thr_status thr_turn_svg(const thr_turn_chart *chart, thr_text *svg, thr_err *err) THR_MUST_CHECK;
+
 #endif
