@@ -177,6 +177,7 @@ static thr_sheets_options sheets_options(const thr_plan *plan, const thr_documen
   options.kind_tolerance = asked->kind_tolerance;
   options.motion = motion;
   options.layout = asked->layout;
+  options.rise = asked->rise;
 
   return options;
 }

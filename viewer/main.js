@@ -63,7 +63,7 @@ function showWords() {
   const now = $('now'), last = plan.steps.length;
   setText($('count'), `${done} / ${last}`);
   if (plan.moves) {
-    setText(now, plan.moves.words?.[done] ?? plan.moves.title);
+    setText(now, (plan.moves.words?.[done] ?? plan.moves.title).replace(/(\d) (N|mm|s)\b/g, '$1\u00a0$2')); // numbers keep their units
     setText($('then'), capital(plan.moves.note));
     return;
   }

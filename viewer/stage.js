@@ -144,7 +144,7 @@ export class Stage {
   // The pieces as they are made: a mesh for each kind, turned and put in its places; and what is seen through what.
   addKit() {
     const {plan} = this, {mm, meshes, pieces} = plan.kit, unit = 1 / mm;
-    const material = new MeshLambertMaterial({transparent: true, opacity: 0.4});
+    const material = new MeshLambertMaterial({transparent: true, opacity: plan.moves ? 0.62 : 0.4}); // what moves is told apart by its gaps
     pieces.forEach(([mesh, ...numbers], piece) => {
       const ends = plan.solid ? plan.edges.filter((edge) => edge.includes(piece)).map((edge) => [piece, edge[0] + edge[1] - piece]) : [plan.edges[piece]];
       for (const [a, b] of ends) this.tips[piece].push(this.nodes[b].clone().sub(this.nodes[a]).multiplyScalar(0.5));

@@ -34,6 +34,8 @@ static const char intro[] =
     "  thread draw plan.json --color turning         the sharper a turn the darker\n"
     "  thread draw plan.json -T picture -o dome.png  the pieces to print, with the cords in them\n";
 static const char outro[] =
+    "How the pieces come up, as a film and as stills in the booklet, is drawn by thread rise\n"
+    "(--play, --film, --frames, --booklet).\n"
     "Exit codes: 0 drawn, 2 usage, 3 not a plan, 5 not all drawn in the time or memory";
 
 /* Returns the value of --up for a choice: 0 = y, 1 = z. */

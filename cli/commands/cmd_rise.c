@@ -9,13 +9,16 @@
 #include "cli/args/args.h"
 #include "cli/cli.h"
 #include "cli/commands/commands.h"
+#include "diagram/export/paper.h"
 #include "diagram/overview/charts.h"
+#include "diagram/overview/overview.h"
 #include "diagram/scene/movement.h"
 #include "eval/eval.h"
 #include "eval/rise/rise.h"
 #include "graph/arrays.h"
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"
+#include "graph/io/read.h"
 #include "graph/number.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
@@ -38,12 +41,13 @@ static const char intro[] =
     "  thread rise plan.json                         from flat on the ground\n"
     "  thread rise plan.json --start heap --seeds 5  dropped in a heap, five times\n"
     "  thread rise plan.json --raise D4              a hand carries piece D4 to its height\n"
-    "  thread rise plan.json --let-down              and down again, until it falls\n";
+    "  thread rise plan.json --let-down              and down again, until it falls\n"
+    "  thread rise plan.json --play up.html          the viewer, which plays it\n";
 static const char outro[] =
     "Exit codes: 0 all was seen, whether it comes up or not, 2 usage, 3 not a plan or nothing that "
     "can be simulated, 5 not done in the time or memory (what was seen is printed)";
 
-enum { MOST_SEEDS = 1000, MOST_MOMENTS = 4000 };
+enum { MOST_SEEDS = 1000, MOST_MOMENTS = 4000, STILLS = 4 };
 static const double HAND = 50;    /* N, the most that a hand pulls once */
 static const double COARSE = 2.2; /* factor on the triangles of pieces in films */
 static const double LIFTING = 2;  /* of the structure's weight, that a hand carries at most */
@@ -53,11 +57,11 @@ typedef struct {
   thr_rise_options rise;
   thr_kit_options kit;
   guard_limits guard;
-  const char *lift, *raise, *output, *plot, *film, *frames, *play;
+  const char *lift, *raise, *output, *plot, *film, *frames, *play, *booklet;
   const char *path;
-  int seeds, first_seed, start, size[2];
+  int seeds, first_seed, start, size[2], page;
   double time_step, iterations;
-  bool json, let_down;
+  bool json, let_down, progress;
 } rise_arguments;
 
 #define AT(member) .offset = offsetof(rise_arguments, member)
@@ -106,7 +110,15 @@ static const cli_option own_options[] = {
      .help = "of film and frames in pixels (default: 640x480)"},
     {"play", .value = "FILE.html", .kind = CLI_OUTPUT, AT(play),
      .help = "the viewer, which plays it: one file for any browser"},
+    {"booklet", .value = "FILE.pdf", .kind = CLI_OUTPUT, AT(booklet),
+     .help =
+         "the step sheets with stills of it on the page that says how to pull tight; as HTML if "
+         "FILE ends in .html"},
+    {"page", .kind = CLI_WORD, AT(page), .word = thr_page_name, .n_words = THR_N_PAGES,
+     .help = "paper of the booklet (default: a4)"},
     {"json", .kind = CLI_FLAG, AT(json), .help = "print the answers as JSON"},
+    {"progress", .kind = CLI_FLAG, AT(progress),
+     .help = "a line of JSON on stderr each time more is simulated or drawn"},
     {0}};
 
 static const cli_option shape_options[] = {
@@ -450,6 +462,80 @@ static int write_viewer(const rise_runs *runs)
   return cli_write_drawn(st, &page, runs->args->play, &err);
 }
 
+/* Returns what a name of a booklet ends in: 1 = .html, 0 = .pdf, -1 = neither. */
+static int booklet_kind(const char *name)
+{
+  const char *ending = thr_path_ending(name);
+  return strcmp(ending, "html") == 0 ? 1 : strcmp(ending, "pdf") == 0 ? 0 : -1;
+}
+
+/* Finds the moments that a booklet shows: the first, those where a third and two thirds of the
+ * faces are closed, and the one where it is up or most are closed. Returns how many. */
+static int find_stills(const thr_rise_record *record, int frame[STILLS])
+{
+  int n = 0, thirds = 0, last = record->came_up;
+  for (int f = 0; f < record->held && last < 0; f++)
+    if (record->moment[f].closed == record->most_closed) last = f;
+  for (int f = 0; f < last && thirds < 3; f++) {
+    if (3 * record->moment[f].closed < thirds * record->n_passes) continue;
+    frame[n++] = f;
+    while (3 * record->moment[f].closed >= thirds * record->n_passes)
+      thirds++;
+  }
+  frame[n++] = last < 0 ? 0 : last;
+  return n;
+}
+
+/* Writes the booklet with stills of the first run. Returns an exit code. */
+static int write_booklet(const rise_runs *runs)
+{
+  static const char *const id[STILLS] = {"rise-1", "rise-2", "rise-3", "rise-4"};
+  const thr_rise_record *record = &runs->record[0];
+  const thr_limits limits = cli_limits(0);
+  const int n_pieces = record->n_pieces;
+  int frame[STILLS];
+  char caption[STILLS][96];
+  thr_still_panel panel[STILLS];
+  thr_err err = {0};
+  thr_text note = {0}, pages = {0};
+  thr_still still = {.title = "How it comes up",
+                     .width = runs->kit->options.width / runs->kit->mm,
+                     .n_panels = find_stills(record, frame),
+                     .panel = panel,
+                     .first_bead = -1};
+  double(*pose)[7] = thr_calloc((size_t)(still.n_panels * n_pieces), sizeof *pose);
+  thr_text_append(&note, "In simulation (thread rise): ");
+  put_title(runs, &note);
+  thr_text_append(&note, "; ");
+  put_outcome(runs, &note);
+  thr_text_append(&note, ". Openings that show are pale.");
+
+  /* Places in units of the framework. */
+  for (int i = 0; i < still.n_panels && pose; i++) {
+    const thr_rise_moment *moment = &record->moment[frame[i]];
+    double(*own)[7] = pose + i * n_pieces;
+    memcpy(own, record->pose + frame[i] * n_pieces, (size_t)n_pieces * sizeof *own);
+    for (int v = 0; v < n_pieces; v++)
+      for (int k = 0; k < 3; k++)
+        own[v][k] /= runs->kit->mm;
+    snprintf(caption[i], sizeof *caption, "%d of %d faces closed, %.3g N at every end",
+             moment->closed, record->n_passes, moment->pull);
+    panel[i] = (thr_still_panel){id[i], caption[i], (const double(*)[7])own};
+  }
+
+  still.note = note.data;
+  const thr_document_options how = {
+      .rise = &still, .page = runs->args->page, .kind_tolerance = runs->args->kit.kind_tolerance};
+  const int kind =
+      thr_document_find(booklet_kind(runs->args->booklet) == 1 ? "sheets.html" : "pdf");
+  thr_status st = pose && !note.failed ? THR_OK : thr_nomem(&err);
+  if (!st) st = thr_document_make(runs->kit->plan, kind, &how, &limits, &pages, &err);
+  cli_progress_end();
+  free(pose);
+  thr_text_destroy(&note);
+  return cli_write_drawn(st, &pages, runs->args->booklet, &err);
+}
+
 /* Prints and writes what was seen. Returns an exit code. */
 static int tell(const rise_runs *runs)
 {
@@ -471,6 +557,10 @@ static int tell(const rise_runs *runs)
   }
   if (runs->args->play) {
     code = write_viewer(runs);
+    if (code) return code;
+  }
+  if (runs->args->booklet) {
+    code = write_booklet(runs);
     if (code) return code;
   }
   text = (thr_text){0};
@@ -640,9 +730,13 @@ int cmd_rise(int argc, char **argv)
   if (optind + 1 != argc)
     return cli_usage("rise", optind == argc ? "which plan?" : "one plan at a time");
   if (asked.lift && asked.raise) return cli_usage("rise", "--lift or --raise, not both");
+  if (asked.booklet && booklet_kind(asked.booklet) < 0)
+    return cli_usage("rise", "--booklet %s: expected a name ending in .pdf or .html",
+                     asked.booklet);
   asked.path = argv[optind];
   asked.rise.start = (thr_rise_start)asked.start;
   asked.rise.iterations = (int)asked.iterations;
+  if (asked.progress) progress_begin();
 
   /* The child does all of the work. */
   if (guard_fork(&asked.guard, &end)) return guard_conclude(&end, "nothing was seen");

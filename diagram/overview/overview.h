@@ -17,6 +17,7 @@
 
 #include "diagram/export/paper.h"
 #include "diagram/layout/layout.h"
+#include "diagram/scene/scene.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/evaluation.h"
@@ -130,6 +131,11 @@ typedef struct {
  * failure. */
 thr_status thr_still_svg(const thr_frame *frame, const thr_still *still, thr_text *svg,
                          thr_err *err) THR_MUST_CHECK;
+
+/* Appends the panels with their captions alone, two in a row, as large as paper takes with captions
+ * of a line; *bottom receives the y below them, mm. Else as thr_still_svg. */
+thr_status thr_still_panels(const thr_frame *frame, const thr_still *still, thr_box paper,
+                            double *bottom, thr_text *svg, thr_err *err) THR_MUST_CHECK;
 
 /* ---- tension.c: The tension plot: the tension of every pass along every cord. */
 

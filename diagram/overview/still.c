@@ -20,9 +20,12 @@
 
 /* Lengths in mm on paper. */
 static const double MARGIN = 10, PANEL = 130, GAP = 8, TITLE_SIZE = 5, TEXT_SIZE = 3.2;
+static const double WORDS = 9; /* below a panel: air, and a line of its caption */
 static const double AZIMUTH = -0.95, ELEVATION = 0.42; /* rad, of the eye */
 static const double LIGHT[3] = {0.32, -0.52, 0.79};    /* unit, towards the light */
 static const double ROAM = 0.3; /* share of the first picture by which the others may be larger */
+static const char *const GROUND =
+    " class=\"ground\" fill=\"#eef0ea\" stroke=\"#9aa08c\" stroke-width=\"0.25\"";
 enum { MOST_IN_ROW = 3 };
 /* Red, green and blue, 0 to 255: sides and ends of the arms of all beads, and of the one that moves
  * first. */
@@ -252,8 +255,9 @@ static void bound(still_view *view, const double (*pose)[7], double low[2], doub
 
 /* Chooses what part of the plane of view is shown, the same for all panels: all of the first panel
  * with the ground, and of the others what lies within a share ROAM of its size beyond. A bead that
- * has flown off would make all others tiny. Sets the scale, too. */
-static void measure(still_view *view)
+ * has flown off would make all others tiny. Sets the scale so that a panel is at most width x
+ * height mm. */
+static void measure(still_view *view, double width, double height)
 {
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL}, corner[4][2];
 
@@ -273,8 +277,8 @@ static void measure(still_view *view)
     view->high[k] = fmin(all_high[k], high[k] + margin);
   }
 
-  /* The longer side of a panel is PANEL mm. */
-  view->scale = PANEL / fmax(view->high[0] - view->low[0], view->high[1] - view->low[1]);
+  view->scale =
+      fmin(width / (view->high[0] - view->low[0]), height / (view->high[1] - view->low[1]));
 }
 
 /* Appends a quadrilateral of the plane of view as a path, in mm; y grows downwards on paper. */
@@ -306,12 +310,13 @@ static void write_panel(still_view *view, const char *id, const double (*pose)[7
   /* clip-path cuts off what lies outside of the part of the plane that is shown. */
   thr_text_printf(text,
                   "<g id=\"%s\" class=\"panel\" clip-path=\"url(#panel)\" "
-                  "transform=\"translate(%.2f %.2f)\">\n",
+                  "transform=\"translate(%.2f %.2f)\" stroke=\"#4a4030\" stroke-width=\"0.12\" "
+                  "stroke-linejoin=\"round\">\n",
                   id, x, y);
 
   /* The ground is drawn first, and so lies below everything. */
   ground_corners(view, corner);
-  write_polygon(view, (const double(*)[2])corner, " class=\"ground\"", text);
+  write_polygon(view, (const double(*)[2])corner, GROUND, text);
 
   /* The beads stand on the ground, the farthest faces first. */
   int n = collect(view, pose);
@@ -322,6 +327,33 @@ static void write_panel(still_view *view, const char *id, const double (*pose)[7
   thr_text_append(text, "</g>\n");
 }
 
+/* Appends all panels with their captions in rows of so many, from (x, y) on, each in the middle of
+ * a column. Returns the y below them, mm. */
+static double write_panels(still_view *view, int in_row, double x, double y, double column,
+                           thr_text *text)
+{
+  const double width = (view->high[0] - view->low[0]) * view->scale,
+               height = (view->high[1] - view->low[1]) * view->scale;
+  double bottom = y;
+
+  /* All panels share the clip path, which leaves 0.5 mm on each side for the outlines of faces. */
+  thr_text_printf(text,
+                  "<clipPath id=\"panel\"><rect x=\"-0.50\" y=\"-0.50\" width=\"%.2f\" "
+                  "height=\"%.2f\"/></clipPath>\n",
+                  width + 1, height + 1);
+
+  /* A row begins below the longest caption of the row before. */
+  for (int i = 0; i < view->still->n_panels; i++) {
+    const thr_still_panel *panel = &view->still->panel[i];
+    const double left = x + i % in_row * (column + GAP);
+    if (i > 0 && i % in_row == 0) y = bottom + 1;
+    write_panel(view, panel->id, panel->pose, left + 0.5 * (column - width), y, text);
+    bottom = fmax(bottom, thr_svg_wrap(text, left, y + height + 2 + TEXT_SIZE, TEXT_SIZE, column,
+                                       "", panel->caption));
+  }
+  return bottom;
+}
+
 /* Appends the whole sheet: title, panels in rows of MOST_IN_ROW with their captions, the note. */
 static void write_sheet(still_view *view, thr_text *text)
 {
@@ -330,26 +362,12 @@ static void write_sheet(still_view *view, thr_text *text)
   const int in_row = still->n_panels < MOST_IN_ROW ? still->n_panels : MOST_IN_ROW;
   thr_text body = {0};
 
-  /* The size of a panel, mm. */
-  double panel_width = (view->high[0] - view->low[0]) * view->scale,
-         panel_height = (view->high[1] - view->low[1]) * view->scale;
-
   /* A column is at least 75 mm wide, because captions need space, too. */
-  double column_width = fmax(panel_width, 75), width = in_row * column_width + (in_row - 1) * GAP;
-
+  double column = fmax((view->high[0] - view->low[0]) * view->scale, 75),
+         width = in_row * column + (in_row - 1) * GAP;
   double y = thr_svg_wrap(&body, MARGIN, MARGIN + TITLE_SIZE, TITLE_SIZE, width,
-                          " font-weight=\"bold\"", title),
-         bottom = 0;
-
-  /* A row begins below the longest caption of the row before. */
-  for (int i = 0; i < still->n_panels; i++) {
-    const thr_still_panel *panel = &still->panel[i];
-    double x = MARGIN + i % in_row * (column_width + GAP);
-    if (i > 0 && i % in_row == 0) y = bottom + 1;
-    write_panel(view, panel->id, panel->pose, x + 0.5 * (column_width - panel_width), y, &body);
-    bottom = fmax(bottom, thr_svg_wrap(&body, x, y + panel_height + 2 + TEXT_SIZE, TEXT_SIZE,
-                                       column_width, "", panel->caption));
-  }
+                          " font-weight=\"bold\"", title);
+  double bottom = write_panels(view, in_row, MARGIN, y, column, &body);
 
   /* The note, across all columns. */
   if (still->note)
@@ -357,19 +375,12 @@ static void write_sheet(still_view *view, thr_text *text)
   width += 2 * MARGIN;
   bottom += MARGIN - TEXT_SIZE;
 
-  /* The document: style, the clip path that all panels share, white ground, body. */
+  /* The document: style, white ground, body. */
   thr_svg_open(text, width, bottom, title, "Rigid beads, seen from one side, drawn back to front.");
   thr_text_append(
       text,
       "<style>\n.thread text{stroke:none;fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}\n"
-      ".thread .panel{stroke:#4a4030;stroke-width:0.12;stroke-linejoin:round}\n"
-      ".thread .ground{fill:#eef0ea;stroke:#9aa08c;stroke-width:0.25}\n</style>\n");
-
-  /* The clip path leaves 0.5 mm on each side for the outlines of the faces. */
-  thr_text_printf(text,
-                  "<clipPath id=\"panel\"><rect x=\"-0.50\" y=\"-0.50\" width=\"%.2f\" "
-                  "height=\"%.2f\"/></clipPath>\n",
-                  panel_width + 1, panel_height + 1);
+      "</style>\n");
   thr_text_printf(text, "<rect width=\"%.2f\" height=\"%.2f\" fill=\"#fff\"/>\n", width, bottom);
   if (body.data) thr_text_append_bytes(text, body.data, body.length);
   thr_text_append(text, "</svg>\n");
@@ -398,9 +409,10 @@ static thr_status check(const thr_frame *frame, const thr_still *still, thr_err 
   return THR_OK;
 }
 
-/* Checks the input, chooses the view and draws the sheet. */
-thr_status thr_still_svg(const thr_frame *frame, const thr_still *still, thr_text *svg,
-                         thr_err *err)
+/* Checks the input, chooses the view and draws: a sheet, or, with paper, in rows of two there.
+ * *bottom receives the y below the panels. */
+static thr_status draw(const thr_frame *frame, const thr_still *still, const thr_box *paper,
+                       double *bottom, thr_text *svg, thr_err *err)
 {
   still_view view = {.frame = frame, .still = still};
   thr_text out = {0};
@@ -413,12 +425,31 @@ thr_status thr_still_svg(const thr_frame *frame, const thr_still *still, thr_tex
 
   /* Write into a text of its own, so that svg is unchanged on failure. */
   look(&view);
-  measure(&view);
-  write_sheet(&view, &out);
+  if (paper) {
+    const int rows = (still->n_panels + 1) / 2;
+    const double column = 0.5 * (paper->x1 - paper->x0 - GAP);
+    measure(&view, column, (paper->y1 - paper->y0) / rows - WORDS);
+    *bottom = write_panels(&view, 2, paper->x0, paper->y0, column, &out);
+  } else {
+    measure(&view, PANEL, PANEL);
+    write_sheet(&view, &out);
+  }
 
   if (!out.failed) thr_text_append_bytes(svg, out.data, out.length);
   if (out.failed || svg->failed) st = thr_nomem(err);
   thr_text_destroy(&out);
   free(view.face);
   return st;
+}
+
+thr_status thr_still_svg(const thr_frame *frame, const thr_still *still, thr_text *svg,
+                         thr_err *err)
+{
+  return draw(frame, still, NULL, NULL, svg, err);
+}
+
+thr_status thr_still_panels(const thr_frame *frame, const thr_still *still, thr_box paper,
+                            double *bottom, thr_text *svg, thr_err *err)
+{
+  return draw(frame, still, &paper, bottom, svg, err);
 }

@@ -18,6 +18,7 @@
 
 #include "diagram/export/paper.h"
 #include "diagram/layout/layout.h"
+#include "diagram/overview/overview.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
@@ -33,6 +34,8 @@ typedef struct {
   double kind_tolerance;     /* as in thr_pieces_make */
   const char *const *motion; /* as in thr_overview_options; borrowed */
   const thr_layout *layout;  /* the same */
+  const thr_still *rise;     /* how the pieces come up as the cords are pulled, with its title and
+                                note, for the page "Last"; NULL: not shown; borrowed */
 } thr_sheets_options;
 
 static const double THR_SHEETS_WORKING = 2000; /* mm: somewhat more than both arms reach */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lays out the page "Last": how to pull the cords tight, knots, and a check list for when all cords
- * are through.
+/* Lays out the page "Last": how to pull the cords tight, how the pieces come up meanwhile if that
+ * was simulated, knots, and a check list for when all cords are through.
  *
  * The cord that is hardest to pull comes first, while the pieces still move. Hardness is the larger
  * force of a cord's two ends where the plan was evaluated (thread eval), else the cord's total
@@ -191,6 +191,24 @@ static void put_pulling(thr_flow *flow, const thr_known *known, cord_pull *pulls
   put_too_hard(flow, known, pulls);
 }
 
+/* Draws how the pieces come up as the cords are pulled, on one page. */
+static void put_rise(thr_flow *flow, const thr_known *known)
+{
+  static const double ROW = 58; /* mm: two pictures beside each other, and their captions */
+  const thr_still *rise = known->o.rise;
+  const int rows = rise ? (rise->n_panels + 1) / 2 : 0;
+  if (!rise) return;
+
+  thr_sheets_room(flow, ROW * rows + 6 * THR_SHEET_LINE);
+  thr_sheets_put(flow, THR_BLOCK_TITLE, "%s", rise->title);
+  thr_sheets_put(flow, THR_BLOCK_PARAGRAPH, "%s", rise->note);
+  if (flow->why.code) return;
+  const thr_box paper = {THR_SHEET_MARGIN, flow->y, flow->size[0] - THR_SHEET_MARGIN,
+                         flow->y + ROW * rows};
+  thr_sheets_fail(
+      flow, thr_still_panels(known->f, rise, paper, &flow->y, thr_sheets_out(flow), &flow->why));
+}
+
 /* Writes which knot ends a cord and how much cord it takes, in mm if the cord's size is known: a
  * length that is proportional to the cord's diameter. */
 static void put_knots(thr_flow *flow, const thr_known *known)
@@ -243,6 +261,7 @@ void thr_sheets_last(thr_flow *flow, const thr_known *known)
   /* In the order of work. */
   thr_sheets_page(flow, "Last", "Last (continued)");
   put_pulling(flow, known, pulls);
+  put_rise(flow, known);
   put_knots(flow, known);
   put_checks(flow, known);
   free(pulls);

@@ -819,6 +819,35 @@ START_TEST(the_nearer_is_painted_last)
 }
 END_TEST
 
+/* Three panels, two in a row, stay within their paper, and the sheets go on below them. */
+START_TEST(panels_stay_on_their_paper)
+{
+  thr_frame f = path_make(4);
+  double pose[4][7], bottom = 0, low = HUGE_VAL, high = 0;
+  rest_poses(&f, pose);
+  thr_still_panel panel[3];
+  for (int i = 0; i < 3; i++)
+    panel[i] = (thr_still_panel){"panel", "two words", (const double(*)[7])pose};
+  const thr_still still = {.width = 0.3, .n_panels = 3, .panel = panel, .first_bead = -1};
+  thr_text svg = {0};
+  thr_err err = {0};
+  assert_ok(thr_still_panels(&f, &still, (thr_box){10, 20, 200, 120}, &bottom, &svg, &err), &err);
+  const char *at = svg.data;
+  int n = 0;
+  for (; (at = strstr(at, "translate(")); at++, n++) {
+    double x, y;
+    ck_assert_int_eq(sscanf(at, "translate(%lf %lf)", &x, &y), 2);
+    ck_assert(x >= 10 && x < 200 && y >= 20);
+    low = fmin(low, y);
+    high = fmax(high, y);
+  }
+  ck_assert_int_eq(n, 3);
+  ck_assert(high > low && bottom > high && bottom <= 121);
+  thr_text_destroy(&svg);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 START_TEST(still_refuses_nonsense)
 {
   thr_frame f = path_make(3);
@@ -853,15 +882,18 @@ START_TEST(allocations_may_fail)
   thr_tension_options o = thr_tension_options_default();
   for (int c = 0; c < 9; c++)
     fill(&p, c, 2 + c);
-  for (int picture = 0; picture < 2; picture++) {
+  for (int picture = 0; picture < 3; picture++) {
     thr_status st = THR_ENOMEM;
     long k = 0;
     while (st) {
       thr_text svg = {0};
       thr_err err = {0};
       thr_alloc_fail_at(++k);
-      st = picture ? thr_still_svg(&p.frame, &still, &svg, &err)
-                   : thr_tension_svg(&p, &o, &svg, &err);
+      double bottom;
+      st = picture == 2
+               ? thr_still_panels(&p.frame, &still, (thr_box){12, 20, 198, 80}, &bottom, &svg, &err)
+           : picture ? thr_still_svg(&p.frame, &still, &svg, &err)
+                     : thr_tension_svg(&p, &o, &svg, &err);
       thr_alloc_fail_at(0);
       if (st) {
         assert_status(st, THR_ENOMEM, &err, "memory");
@@ -893,6 +925,7 @@ int main(void)
   ADD_TEST(s, 10, only_faces_that_can_be_seen);
   ADD_TEST(s, 10, poses_turn_beads);
   ADD_TEST(s, 10, the_nearer_is_painted_last);
+  ADD_TEST(s, 10, panels_stay_on_their_paper);
   ADD_TEST(s, 10, still_refuses_nonsense);
   ADD_TEST(s, 20, allocations_may_fail);
   return run_suite(s);

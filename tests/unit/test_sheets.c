@@ -6,6 +6,7 @@
 #include "diagram/export/paper.h"
 #include "diagram/overview/overview_parts.h"
 #include "diagram/scene/scene.h"
+#include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets.h"
 #include "graph/limits.h"
 #include "graph/number.h"
@@ -836,6 +837,14 @@ START_TEST(every_failing_allocation_is_reported)
   thr_plan p = _i ? symmetric_plan(solid_make(TETRAHEDRON), THR_ENDS_ANY, 1, "")
                   : plan_of(path_make(2), THR_ENDS_ANY, 1);
   thr_sheets_options o = thr_sheets_options_default();
+  double pose[4][7] = {{0}};
+  for (int v = 0; v < p.frame.n_nodes; v++) {
+    memcpy(pose[v], p.frame.xyz[v], sizeof p.frame.xyz[v]);
+    pose[v][6] = 1;
+  }
+  const thr_still_panel panel = {"rise-1", "flat", (const double(*)[7])pose};
+  const thr_still rise = {"How it comes up", "Seen.", 0.3, 0, 1, &panel, -1};
+  o.rise = &rise;
   thr_status st = THR_ENOMEM;
   for (long k = 1; st; k = after(k)) {
     thr_sheets *s = NULL;

@@ -194,7 +194,7 @@ const tests = {
     const unit = JSON.parse(await page.locator('#plan').textContent()).kit.mm; // mm in a unit of the framework
     for (const step of [0, last >> 1, last]) {
       await setSlider(page, step);
-      const [time, pull, , closed] = moments[step], words = await text(page, '#now');
+      const [time, pull, , closed] = moments[step], words = (await text(page, '#now')).replaceAll('\u00a0', ' ');
       assert.ok(words.startsWith(`${time.toFixed(2)} s, pull ${pull.toFixed(2)} N, ${closed} of `), words);
       const nodes = await page.evaluate(() => window.threadViewer.nodes.map((p) => p.toArray()));
       nodes.forEach((p, v) => p.forEach((x, k) => assert.ok(Math.abs(x * unit - frames[step][7 * v + k]) < 2e-3, `frame ${step}, piece ${v}`)));
@@ -218,6 +218,11 @@ const tests = {
     await playing.page.waitForFunction((n) => Number(document.documentElement.dataset.step) > n, 3);
     await playing.page.keyboard.press(' ');
     assert.equal(await playing.page.locator('#play').getAttribute('aria-label'), 'Play');
+    const {step} = await state(playing.page);
+    await playing.page.keyboard.press('ArrowRight');
+    assert.equal((await state(playing.page)).step, step + 1);
+    const [slider, count] = await Promise.all(['#slider', '#count'].map((name) => playing.page.locator(name).boundingBox()));
+    assert.ok(count.x >= slider.x + slider.width && Math.abs(count.y + count.height / 2 - slider.y - slider.height / 2) < slider.height / 2, 'the count beside the slider');
     const scale = await playing.page.locator('#scale').boundingBox();
     assert.ok(scale.y >= 0 && scale.y + scale.height < PHONE.height / 2);
     assert.deepEqual(playing.complaints, []);
