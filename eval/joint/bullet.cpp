@@ -462,6 +462,12 @@ void thr_world_force(thr_world *world, int body, const double force[3])
   world->body[body]->applyCentralForce(vector_of(force));
 }
 
+void thr_world_force_at(thr_world *world, int body, const double force[3], const double at[3])
+{
+  btRigidBody *moved = world->body[body];
+  moved->applyForce(vector_of(force), vector_of(at) - moved->getCenterOfMassPosition());
+}
+
 thr_status thr_world_step(thr_world *world, thr_err *err)
 {
   /* One step of exactly time_step: no substeps, no clock. */

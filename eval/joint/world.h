@@ -74,8 +74,10 @@ thr_status thr_world_add_link(thr_world *world, int a, int b, double length, int
 double thr_world_link_force(const thr_world *world,
                             int link); /* N in the last step, > 0 = tension */
 
-/* Applies a force, N, at a body's centre, in the next step only. */
+/* Applies a force, N, at a body's centre or at a place, in the next step only. */
 void thr_world_force(thr_world *world, int body, const double force[3]);
+void thr_world_force_at(thr_world *world, int body, const double force[3],
+                        const double at[3]); /* at: world coordinates */
 /* Takes a step. THR_ESOLVER: the simulation diverged. */
 thr_status thr_world_step(thr_world *world, thr_err *err) THR_MUST_CHECK;
 
