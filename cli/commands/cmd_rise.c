@@ -292,6 +292,10 @@ static void put_after(const rise_runs *runs, thr_text *text)
   const thr_rise_record *record = &runs->record[0];
   const double *left = record->tension + (size_t)(record->n_frames - 1) * (size_t)record->n_passes;
   int standing = 0;
+  if (!record->finished) {
+    thr_text_append(text, "the schedule was not done to its end\n");
+    return;
+  }
   for (int i = 0; i < runs->n_runs; i++)
     standing += runs->record[i].stands;
   if (runs->n_runs > 1)
@@ -400,7 +404,7 @@ static void write_run(thr_writer *writer, const rise_runs *runs, int i, bool mot
   if (record->fell >= 0) thr_write_number(writer, "pull_down", pull_down(record));
   thr_write_int(writer, "most_closed", record->most_closed);
   thr_write_number(writer, "off", record->off);
-  if (runs->args->schedule) thr_write_bool(writer, "stands", record->stands);
+  if (runs->args->schedule && record->finished) thr_write_bool(writer, "stands", record->stands);
 
   thr_write_array(writer, "moments");
   for (int f = 0; f < record->n_frames; f++) {
@@ -465,7 +469,7 @@ static void put_json(const rise_runs *runs, bool motion, thr_text *text)
   thr_write_number(&writer, "seconds_a_frame", record->between);
   thr_write_number(&writer, "closed_form", runs->seated);
   thr_write_number(&writer, "limit_analysis", runs->stands);
-  if (runs->args->schedule) write_left(&writer, runs);
+  if (runs->args->schedule && record->finished) write_left(&writer, runs);
   thr_write_array(&writer, "runs");
   for (int i = 0; i < runs->n_runs; i++)
     write_run(&writer, runs, i, motion);

@@ -436,6 +436,8 @@ static thr_status let_pass(rise_run *run, const thr_limits *limits, thr_rise_rec
     if (!st) st = take_step(run, &lift, err);
   }
 
+  record->finished = !st;
+
   /* What was seen counts where time ran out, too. */
   thr_err ignored = {0};
   if (record->held) {

@@ -118,7 +118,8 @@ typedef struct {
   double off;     /* largest distance of a node from the drawn shape, after the best fit, at the
                      end of holding */
   int held;       /* frames until hands let down */
-  bool scheduled; /* it was pulled by a schedule */
+  bool scheduled; /* it was pulled by a schedule .. */
+  bool finished;  /* .. to its end; or all was seen that was asked for */
   bool stands; /* at the last of these all faces are closed, and none is lower than when they were
                   first, by a tenth of the height */
   int fell;    /* first frame after these that is lower by a tenth of the height; -1 */
