@@ -657,7 +657,7 @@ static void foretell(rise_runs *runs, const thr_plan *plan, const thr_limits *li
     thr_eval eval;
     thr_eval_options options = thr_eval_options_default();
     options.physics = runs->made.structure.physics;
-    options.pull = THR_PULL_BOTH;
+    options.pull = (thr_pull)runs->args->ends;
     options.dynamics = false;
     if (method == 1 && (!known || plan->frame.n_nodes > THR_HOLDS_LARGEST)) break;
     if (method == 1) options.bodies = &bodies;
