@@ -126,8 +126,14 @@ static void make_cord(const thr_kit *kit, int c, thr_pull pull, const thr_physic
   }
 }
 
+const char *thr_rise_feet_name(int feet)
+{
+  static const char *const name[] = {"free", "ground", "held"};
+  return feet >= 0 && feet < THR_RISE_N_FEET ? name[feet] : NULL;
+}
+
 thr_status thr_rise_kit_make(thr_rise_kit *made, const thr_kit *kit, const thr_pull *pull,
-                             const thr_physics *physics, thr_err *err)
+                             thr_rise_feet feet, const thr_physics *physics, thr_err *err)
 {
   const thr_plan *plan = kit->plan;
   *made = (thr_rise_kit){0};
@@ -138,6 +144,7 @@ thr_status thr_rise_kit_make(thr_rise_kit *made, const thr_kit *kit, const thr_p
 
   /* All arrays, one after the other. */
   size_t parts = 0, passes = 0, next = 0, pass = 0;
+  int n_feet = 0;
   for (int p = 0; p < kit->n_pieces; p++)
     parts += (size_t)kit->piece[p].n_arms + 1;
   for (int c = 0; c < plan->n_cords; c++)
@@ -155,8 +162,14 @@ thr_status thr_rise_kit_make(thr_rise_kit *made, const thr_kit *kit, const thr_p
 
   for (int p = 0; p < kit->n_pieces; p++) {
     make_piece(kit, p, n_corners + next, corner + next * 2 * MOST_SIDES, &piece[p]);
+    piece[p].held = feet == THR_RISE_HELD && plan->frame.foot[p];
+    piece[p].down = feet == THR_RISE_GROUND && plan->frame.foot[p];
+    n_feet += plan->frame.foot[p];
     next += (size_t)kit->piece[p].n_arms + 1;
   }
+  if (n_feet == 0 && feet != THR_RISE_FREE)
+    return thr_fail(err, THR_EINPUT, "rise: the plan has no feet, which could be %s",
+                    feet == THR_RISE_HELD ? "held" : "kept on the ground");
   for (int c = 0; c < plan->n_cords; c++) {
     make_cord(kit, c, pull[c], physics, visited + pass + (size_t)c, mouth + pass, along + pass,
               wobble + pass, &cord[c]);

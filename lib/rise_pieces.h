@@ -11,6 +11,15 @@
 #include "graph/status.h"
 #include "kit/kit.h"
 
+/* What feet can do. */
+typedef enum {
+  THR_RISE_FREE,   /* stand on the ground like all pieces, slide and lift off */
+  THR_RISE_GROUND, /* slide on the ground, but neither lift off nor tip */
+  THR_RISE_HELD,   /* stay where they are drawn */
+  THR_RISE_N_FEET
+} thr_rise_feet;
+const char *thr_rise_feet_name(int feet);
+
 /* A structure with all that it points to. {0} is valid. */
 typedef struct {
   thr_rise_structure structure;
@@ -19,10 +28,12 @@ typedef struct {
 
 /* Makes the structure of a kit of a plan with solid joints. Every arm is a convex part, a foot is
  * one more; masses and their centres are those of the meshes if the kit has them, else of the
- * parts. pull: [n_cords] which ends are pulled. physics: resolved. THR_EINPUT: the plan has tubes.
- * Release with thr_rise_kit_destroy, after a failure too. O(pieces + passes). */
+ * parts. pull: [n_cords] which ends are pulled. Feet are the plan's. physics: resolved. THR_EINPUT:
+ * the plan has tubes, or no feet where these are to be held or to stay down. Release with
+ * thr_rise_kit_destroy, after a failure too. O(pieces + passes). */
 thr_status thr_rise_kit_make(thr_rise_kit *made, const thr_kit *kit, const thr_pull *pull,
-                             const thr_physics *physics, thr_err *err) THR_MUST_CHECK;
+                             thr_rise_feet feet, const thr_physics *physics,
+                             thr_err *err) THR_MUST_CHECK;
 void thr_rise_kit_destroy(thr_rise_kit *made);
 
 /* Makes of what was seen a movement that can be shown (kit/film.h). THR_ENOMEM. Release with

@@ -42,6 +42,8 @@ static const char intro[] =
     "  thread rise plan.json --start heap --seeds 5  dropped in a heap, five times\n"
     "  thread rise plan.json --raise D4              a hand carries piece D4 to its height\n"
     "  thread rise plan.json --let-down              and down again, until it falls\n"
+    "  thread rise plan.json --stiffness 500 --schedule \"all: pull both 5; all: knot both\"\n"
+    "                                                pulled, knotted: does it stand?\n"
     "  thread rise plan.json --play up.html          the viewer, which plays it\n";
 static const char outro[] =
     "Exit codes: 0 all was seen, whether it comes up or not, 2 usage, 3 not a plan or nothing that "
@@ -59,8 +61,10 @@ typedef struct {
   guard_limits guard;
   const char *lift, *raise, *output, *plot, *film, *frames, *play, *booklet;
   const char *path;
-  int seeds, first_seed, start, size[2], page;
+  const char *schedule;
+  int seeds, first_seed, start, ends, feet, size[2], page;
   double time_step, iterations;
+  double stiffness, gravity; /* N, m/s2; NAN: as the plan says */
   bool json, let_down, progress;
 } rise_arguments;
 
@@ -78,6 +82,20 @@ static bool take_size(void *into, const cli_option *option, const char *value)
   return false;
 }
 
+/* Words of ends, and what feet do. */
+static const char *end_name(int end)
+{
+  return thr_pull_name((thr_pull)end);
+}
+
+static const char *feet_meaning(int feet)
+{
+  static const char *const meaning[] = {"stand on the ground as all pieces do, slide, and lift off",
+                                        "slide on the ground, but neither lift off nor tip",
+                                        "stay where they are drawn"};
+  return meaning[feet];
+}
+
 static const cli_option own_options[] = {
     {"start", .kind = CLI_WORD, AT(start), .word = thr_rise_start_name,
      .n_words = THR_RISE_N_STARTS,
@@ -86,6 +104,25 @@ static const cli_option own_options[] = {
     {"pull", .value = "N", .kind = CLI_AMOUNT, AT(rise.pull), .low = CLI_ABOVE_0, .high = 1e6,
      .help = "hands pull every end with more and more, up to so much (default: 50, the most of a "
              "hand)"},
+    {"ends", .kind = CLI_WORD, AT(ends), .word = end_name, .n_words = THR_PULL_NONE,
+     .help = "which ends of every cord hands pull; the others are tied (default: both)"},
+    {"rate", .value = "MM/S", .kind = CLI_AMOUNT, AT(rise.rate), .low = CLI_ABOVE_0, .high = 1e6,
+     .help = "a hand draws in so many mm a second, and pulls as hard as that takes, but no harder "
+             "than --pull"},
+    {"spare", .value = "MM", .kind = CLI_AMOUNT, AT(rise.spare), .low = CLI_ABOVE_0, .high = 1e9,
+     .help = "so much of every cord lies beyond its structure at the start, and hands give out no "
+             "more (default: any)"},
+    {"schedule", .value = "TEXT", .kind = CLI_OUTPUT, AT(schedule),
+     .help = "what hands do to the cords, step after step, as for thread eval; or a file of that: "
+             "\"all: pull both 5; A: release end 1; all: knot both\". Cords stretch then: "
+             "--stiffness"},
+    {"feet", .kind = CLI_WORD, AT(feet), .word = thr_rise_feet_name, .meaning = feet_meaning,
+     .n_words = THR_RISE_N_FEET, .help = "what the plan's feet can do (default: free)"},
+    {"stiffness", .value = "N", .kind = CLI_AMOUNT, AT(stiffness), .low = CLI_ABOVE_0, .high = 1e12,
+     .help = "EA of the cords: the force that would stretch them to twice their length (default: "
+             "as the plan says)"},
+    {"gravity", .value = "M/S2", .kind = CLI_AMOUNT, AT(gravity), .low = 0, .high = 1000,
+     .help = "0: only what begins in its shape (default: as the plan says)"},
     {"slower", .value = "X", .kind = CLI_AMOUNT, AT(rise.slower), .low = 0.01, .high = 1000,
      .help = "hands take X times as long"},
     {"let-down", .kind = CLI_FLAG, AT(rise.let_down),
@@ -144,6 +181,7 @@ typedef struct {
   int n_runs;
   thr_rise_record *record; /* [seeds] of which n_runs are done; only the first has poses */
   double seated, stands;   /* N, by the closed form and by limit analysis; NAN: not known */
+  thr_eval after;          /* what the closed form says that the schedule leaves */
 } rise_runs;
 
 /* What a process returns of a run. */
@@ -188,7 +226,11 @@ static int take_lift(const rise_arguments *args, const thr_kit *kit, double weig
 /* The pull at which a run came up, N; infinite if it did not. */
 static double pull_up(const thr_rise_record *record)
 {
-  return record->came_up >= 0 ? record->moment[record->came_up].pull : INFINITY;
+  double most = 0;
+  if (record->came_up < 0) return INFINITY;
+  for (int f = record->scheduled ? 0 : record->came_up; f <= record->came_up; f++)
+    most = fmax(most, record->moment[f].pull);
+  return most;
 }
 
 static double pull_down(const thr_rise_record *record)
@@ -255,6 +297,41 @@ static void pieces_of(const rise_runs *runs, int pass, const char *name[2])
   }
 }
 
+/* Appends whether it stands after the schedule, and what tension is left in each cord, beside what
+ * the closed form says. */
+static void put_after(const rise_runs *runs, thr_text *text)
+{
+  const thr_rise_record *record = &runs->record[0];
+  const double *left = record->tension + (size_t)(record->n_frames - 1) * (size_t)record->n_passes;
+  int standing = 0;
+  if (!record->finished) {
+    thr_text_append(text, "the schedule was not done to its end\n");
+    return;
+  }
+  for (int i = 0; i < runs->n_runs; i++)
+    standing += runs->record[i].stands;
+  if (runs->n_runs > 1)
+    thr_text_printf(text, "after the schedule it stands in %d of %d runs\n", standing,
+                    runs->n_runs);
+  else
+    thr_text_printf(text, "after the schedule it %s\n", standing ? "stands" : "does not stand");
+
+  for (int c = 0; c < runs->made.structure.n_cords; c++) {
+    const thr_eval_cord *cord = &runs->after.record.cord[c];
+    double range[2][2] = {{INFINITY, 0}, {INFINITY, 0}};
+    for (int k = 0; k < cord->n_passes; k++)
+      for (int i = 0; i < 2; i++) {
+        const double tension = i ? cord->tension[k] : left[k];
+        range[i][0] = fmin(range[i][0], tension);
+        range[i][1] = fmax(range[i][1], tension);
+      }
+    thr_text_printf(text, "cord %s keeps %.3g to %.3g N; by the closed form %.3g to %.3g N\n",
+                    runs->kit->plan->cord[c].id, range[0][0], range[0][1], range[1][0],
+                    range[1][1]);
+    left += cord->n_passes;
+  }
+}
+
 /* Appends what rises and from where. */
 static void put_title(const rise_runs *runs, thr_text *text)
 {
@@ -264,10 +341,13 @@ static void put_title(const rise_runs *runs, thr_text *text)
   int ends = 0;
   for (int c = 0; c < structure->n_cords; c++)
     ends += structure->cord[c].pulled[0] + structure->cord[c].pulled[1];
-  thr_text_printf(text, "%d pieces, %.3g N in all, %d %s pulled at %d %s, %s", structure->n_pieces,
-                  record->weight, structure->n_cords,
-                  cli_plural(structure->n_cords, "cord", "cords"), ends,
-                  cli_plural(ends, "end", "ends"),
+  thr_text_printf(text, "%d pieces, %.3g N in all, %d %s ", structure->n_pieces, record->weight,
+                  structure->n_cords, cli_plural(structure->n_cords, "cord", "cords"));
+  if (runs->args->schedule)
+    thr_text_append(text, "pulled by a schedule");
+  else
+    thr_text_printf(text, "pulled at %d %s", ends, cli_plural(ends, "end", "ends"));
+  thr_text_printf(text, ", %s",
                   options->start == THR_RISE_FLAT   ? "from flat on the ground"
                   : options->start == THR_RISE_HEAP ? "from a heap"
                                                     : "from its shape");
@@ -284,7 +364,9 @@ static void put_outcome(const rise_runs *runs, thr_text *text)
   if (2 * up > runs->n_runs) {
     thr_text_append(text, runs->args->rise.start == THR_RISE_SHAPE ? ": it stands at " : " at ");
     put_spread(runs, pull_up, "N", text);
-    thr_text_append(text, " at every end");
+    thr_text_append(text, runs->args->schedule        ? ", the largest pull by then"
+                          : runs->args->rise.rate > 0 ? " at the end that is pulled hardest"
+                                                      : " at every end");
   }
 }
 
@@ -312,6 +394,7 @@ static void put_text(const rise_runs *runs, thr_text *text)
   thr_text_append(text, "differs from the drawn shape by ");
   put_spread(runs, off_of, "mm at most", text);
   thr_text_append(text, "\n");
+  if (runs->args->schedule) put_after(runs, text);
   if (runs->args->rise.let_down) {
     if (record->fell >= 0) {
       thr_text_append(text, "let down, it falls below ");
@@ -333,6 +416,7 @@ static void write_run(thr_writer *writer, const rise_runs *runs, int i, bool mot
   if (record->fell >= 0) thr_write_number(writer, "pull_down", pull_down(record));
   thr_write_int(writer, "most_closed", record->most_closed);
   thr_write_number(writer, "off", record->off);
+  if (runs->args->schedule && record->finished) thr_write_bool(writer, "stands", record->stands);
 
   thr_write_array(writer, "moments");
   for (int f = 0; f < record->n_frames; f++) {
@@ -362,6 +446,28 @@ static void write_run(thr_writer *writer, const rise_runs *runs, int i, bool mot
   thr_write_close(writer);
 }
 
+/* Writes the tensions that the schedule leaves in the first run, and those of the closed form. */
+static void write_left(thr_writer *writer, const rise_runs *runs)
+{
+  const thr_rise_record *record = &runs->record[0];
+  const double *left = record->tension + (size_t)(record->n_frames - 1) * (size_t)record->n_passes;
+  thr_write_array(writer, "left");
+  for (int c = 0; c < runs->made.structure.n_cords; c++) {
+    const thr_eval_cord *cord = &runs->after.record.cord[c];
+    thr_write_object(writer, NULL);
+    thr_write_string(writer, "cord", runs->kit->plan->cord[c].id);
+    for (int i = 0; i < 2; i++) {
+      thr_write_row(writer, i ? "closed_form" : "tension");
+      for (int k = 0; k < cord->n_passes; k++)
+        thr_write_printf(writer, NULL, "%.6g", i ? cord->tension[k] : left[k]);
+      thr_write_close(writer);
+    }
+    thr_write_close(writer);
+    left += cord->n_passes;
+  }
+  thr_write_close(writer);
+}
+
 /* Appends everything as JSON. */
 static void put_json(const rise_runs *runs, bool motion, thr_text *text)
 {
@@ -375,6 +481,7 @@ static void put_json(const rise_runs *runs, bool motion, thr_text *text)
   thr_write_number(&writer, "seconds_a_frame", record->between);
   thr_write_number(&writer, "closed_form", runs->seated);
   thr_write_number(&writer, "limit_analysis", runs->stands);
+  if (runs->args->schedule && record->finished) write_left(&writer, runs);
   thr_write_array(&writer, "runs");
   for (int i = 0; i < runs->n_runs; i++)
     write_run(&writer, runs, i, motion);
@@ -639,8 +746,8 @@ static void foretell(rise_runs *runs, const thr_plan *plan, const thr_limits *li
   for (int method = 0; method < 2; method++) {
     thr_eval eval;
     thr_eval_options options = thr_eval_options_default();
-    options.physics = plan->options.physics;
-    options.pull = THR_PULL_BOTH;
+    options.physics = runs->made.structure.physics;
+    options.pull = (thr_pull)runs->args->ends;
     if (method == 1 && (!known || plan->frame.n_nodes > THR_HOLDS_LARGEST)) break;
     if (method == 1) options.bodies = &bodies;
     if (!thr_eval_plan(&plan->frame, plan->cord, plan->n_cords,
@@ -656,6 +763,18 @@ static void foretell(rise_runs *runs, const thr_plan *plan, const thr_limits *li
   thr_scratch_free(&bodies.own);
 }
 
+/* Computes what the closed form says that the schedule leaves, and refuses what that refuses. */
+static thr_status foretell_left(rise_runs *runs, const thr_plan *plan, const thr_limits *limits,
+                                thr_err *err)
+{
+  thr_eval_options options = thr_eval_options_default();
+  options.physics = runs->made.structure.physics;
+  options.pull = THR_PULL_BOTH;
+  options.schedule = runs->options.schedule;
+  return thr_eval_plan(&plan->frame, plan->cord, plan->n_cords, THR_CAPSTAN, &options, limits,
+                       &runs->after, err);
+}
+
 /* Runs all seeds, and tells what was seen. Returns an exit code. */
 static int run_all(rise_runs *runs, const thr_plan *plan)
 {
@@ -665,14 +784,14 @@ static int run_all(rise_runs *runs, const thr_plan *plan)
   double weight = 0;
   for (int p = 0; p < runs->made.structure.n_pieces; p++)
     weight += 1e-3 * runs->made.structure.piece[p].mass * runs->made.structure.physics.gravity;
-  runs->options = args->rise;
   runs->options.seed = (uint64_t)args->first_seed;
   int code = take_lift(args, runs->kit, weight, &runs->options);
   if (code >= 0) return code;
 
   foretell(runs, plan, &limits);
-  thr_status st =
-      thr_rise_simulate(&runs->made.structure, &runs->options, &limits, &runs->record[0], &err);
+  thr_status st = args->schedule ? foretell_left(runs, plan, &limits, &err) : THR_OK;
+  if (!st)
+    st = thr_rise_simulate(&runs->made.structure, &runs->options, &limits, &runs->record[0], &err);
   if (!st || (st == THR_ELIMIT && runs->record[0].held)) runs->n_runs = 1;
   if (!st && args->seeds > 1) st = run_others(runs, &limits, &err);
   cli_progress_end();
@@ -690,22 +809,34 @@ static int make_and_run(const rise_arguments *args, const thr_plan *plan)
   thr_kit kit;
   rise_runs runs = {.args = args, .kit = &kit};
   thr_physics physics;
+  thr_schedule schedule = {0};
+  const int read = pull_read_schedule(args->schedule, plan, &schedule);
+  if (read) return read;
   thr_limits limits = cli_limits(0);
   thr_pull *pull = thr_calloc((size_t)plan->n_cords, sizeof *pull);
   runs.record = thr_calloc((size_t)args->seeds, sizeof *runs.record);
   for (int c = 0; c < plan->n_cords && pull; c++)
-    pull[c] = THR_PULL_BOTH;
+    pull[c] = (thr_pull)args->ends;
+  runs.options = args->rise;
+  if (args->schedule) runs.options.schedule = &schedule;
+
+  thr_physics asked = plan->options.physics;
+  if (isfinite(args->stiffness)) asked.stiffness = args->stiffness;
+  if (isfinite(args->gravity)) asked.gravity = args->gravity;
 
   thr_status st = thr_kit_make(&kit, plan, &args->kit, NULL, true, &limits, &err);
   if (!st && (!pull || !runs.record)) st = thr_nomem(&err);
-  if (!st) st = thr_physics_resolve(&plan->options.physics, &plan->frame, &physics, &err);
-  if (!st) st = thr_rise_kit_make(&runs.made, &kit, pull, &physics, &err);
+  if (!st) st = thr_physics_resolve(&asked, &plan->frame, &physics, &err);
+  if (!st)
+    st = thr_rise_kit_make(&runs.made, &kit, pull, (thr_rise_feet)args->feet, &physics, &err);
   const int code = st ? cli_fail(&err) : run_all(&runs, plan);
 
   for (int i = 0; i < args->seeds && runs.record; i++)
     thr_rise_record_destroy(&runs.record[i]);
   free(runs.record);
   free(pull);
+  thr_schedule_destroy(&schedule);
+  thr_eval_destroy(&runs.after);
   thr_rise_kit_destroy(&runs.made);
   thr_kit_destroy(&kit);
   return code;
@@ -719,6 +850,9 @@ int cmd_rise(int argc, char **argv)
                           .rise = {.pull = HAND},
                           .kit = {.names = THR_KIT_NO_NAMES, .coarse = COARSE},
                           .seeds = 1,
+                          .ends = THR_PULL_BOTH,
+                          .stiffness = NAN,
+                          .gravity = NAN,
                           .first_seed = 1};
   guard_end end;
   const cli_group groups[] = {
@@ -729,6 +863,12 @@ int cmd_rise(int argc, char **argv)
   if (code >= 0) return code;
   if (optind + 1 != argc)
     return cli_usage("rise", optind == argc ? "which plan?" : "one plan at a time");
+  const char *clash = !asked.schedule       ? NULL
+                      : asked.rise.let_down ? "--let-down"
+                      : cli_given("ends")   ? "--ends"
+                      : cli_given("pull")   ? "--pull"
+                                            : NULL;
+  if (clash) return cli_usage("rise", "--schedule says who pulls how hard: no %s", clash);
   if (asked.lift && asked.raise) return cli_usage("rise", "--lift or --raise, not both");
   if (asked.booklet && booklet_kind(asked.booklet) < 0)
     return cli_usage("rise", "--booklet %s: expected a name ending in .pdf or .html",

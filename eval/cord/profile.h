@@ -72,8 +72,9 @@ typedef struct {
 } thr_slide;
 
 /* Changes tension[n], N, to the state that keeps the sum of the elongations, tension x length / EA,
- * and in which every turn holds. Below 0 stands for a pass that is slack, by so much as such a
- * pressure would shorten the pass. O(n), O(n^2) at worst. */
+ * and in which every turn holds. Cord slides over one turn after the other, so that large changes
+ * may end in another of the states that hold than small ones do. Below 0 stands for a pass that is
+ * slack, by so much as such a pressure would shorten the pass. O(n), O(n^2) at worst. */
 void thr_slide_relax(const thr_slide *cord, double *tension);
 
 /* ---- history.c: Computes what pulling, gripping, letting down and knotting leave of tension in a

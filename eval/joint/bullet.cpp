@@ -94,6 +94,8 @@ private:
   double rest;
 };
 
+const double SOFTEST = 0.9; /* of a spring's row: Bullet's sweeps diverge from 1 on */
+
 /* A cord from a point of one body to a point of another: two rows of the solver along the line
  * between them. The first pulls, with a largest force, at no more than a speed; the second holds,
  * with a largest force, against being drawn longer. */
@@ -105,7 +107,7 @@ public:
   {
   }
 
-  double force = 0, speed = 0, hold = 0;
+  double force = 0, speed = 0, hold = 0, stiffness = 0;
 
   void getInfo1(btConstraintInfo1 *info) override
   {
@@ -135,6 +137,16 @@ public:
       info->m_constraintError[first] = row == 0 ? speed : 0;
       info->m_lowerLimit[first] = 0;
       info->m_upperLimit[first] = (row == 0 ? force : hold) / info->fps;
+    }
+
+    /* A spring gives way by impulse / (stiffness step^2) of speed. Bullet takes that times the mass
+     * that the row moves, and its sweeps converge for less than 1. */
+    if (stiffness > 0) {
+      const double ease = m_rbA.getInvMass() + m_rbB.getInvMass() +
+                          turn_a.dot(m_rbA.getInvInertiaTensorWorld() * turn_a) +
+                          turn_b.dot(m_rbB.getInvInertiaTensorWorld() * turn_b);
+      const double soft = info->fps * info->fps / (stiffness * ease);
+      info->cfm[info->rowskip] = soft < SOFTEST ? soft : SOFTEST;
     }
   }
 
@@ -439,11 +451,13 @@ thr_status thr_world_add_cord(thr_world *world, int a, const double from[3], int
   return THR_OK;
 }
 
-void thr_world_pull(thr_world *world, int cord, double force, double speed, double hold)
+void thr_world_pull(thr_world *world, int cord, double force, double speed, double hold,
+                    double stiffness)
 {
   world->cord[cord]->force = force;
   world->cord[cord]->speed = speed;
   world->cord[cord]->hold = hold;
+  world->cord[cord]->stiffness = stiffness;
 }
 
 double thr_world_cord_held(const thr_world *world, int cord)

@@ -57,9 +57,12 @@ thr_status thr_world_add_cord(thr_world *world, int a, const double from[3], int
                               const double to[3], int *cord, thr_err *err) THR_MUST_CHECK;
 
 /* For the next step: the cord pulls with up to `force` to close at `speed`, and with up to `hold`
- * more against being drawn longer. thr_world_cord_held then tells how much of
- * `hold` it took. N and m/s, or what the world's units are. */
-void thr_world_pull(thr_world *world, int cord, double force, double speed, double hold);
+ * more against being drawn longer: as a spring with a stiffness (N/m; 0: it does not give way). A
+ * spring too soft for the step is stiffer within it, so that what hangs from it sinks slowly.
+ * thr_world_cord_held then tells how much of `hold` it took. N and m/s, or what the world's units
+ * are. */
+void thr_world_pull(thr_world *world, int cord, double force, double speed, double hold,
+                    double stiffness);
 double thr_world_cord_held(const thr_world *world, int cord);
 
 /* Adds a sphere that does not rotate (angular factor 0). */

@@ -232,11 +232,11 @@ thr_status thr_rise_bodies_make(thr_rise_bodies *bodies, const thr_rise_structur
       .split_impulse = true,
       .warm_start = true,
       .faces = true};
-  int ignored;
   if (!st) st = thr_world_create(&bodies->world, &world_options, err);
   if (!st)
-    st = thr_world_add_ground(
-        bodies->world, physics->mu_ground / sqrt(fmax(physics->mu_bead, 1e-9)), &ignored, err);
+    st =
+        thr_world_add_ground(bodies->world, physics->mu_ground / sqrt(fmax(physics->mu_bead, 1e-9)),
+                             &bodies->ground, err);
   for (int p = 0; p < structure->n_pieces && !st; p++)
     st = add_piece(bodies, p, points, err);
 

@@ -17,6 +17,7 @@ typedef struct {
   double mass;   /* g in a unit */
   double force;  /* N in a unit */
   thr_world *world;
+  int ground;        /* its body */
   int *body;         /* [n_pieces] */
   double (*pose)[7]; /* [n_pieces] of mass centres, in the world's units, as they are now */
   double (*turn)[9]; /* [n_pieces] the rotation matrices of these, by rows */

@@ -6,6 +6,7 @@
  * its two mouths together with its tension, but closes its gap no faster than in CLOSING s, as a
  * hand would; and it holds against being opened with what friction adds. */
 #include "eval/rise/cable.h"
+#include "eval/rise/hands.h"
 #include "eval/rise/loose.h"
 #include "eval/rise/rise.h"
 #include "graph/number.h"
@@ -20,18 +21,13 @@ static const double TIME_EDGE = 40;   /* .. so many mm */
 static const double CLOSING = 0.02;   /* s that a gap takes to close at least, in such steps */
 static const double FASTEST = 2.5;    /* edges in such a second, of a gap that closes */
 static const double SLOWEST = 2.5e-3; /* .. of one that is closed: so that the cord still pulls */
-static const double GENTLE = 0.02;    /* of the weight, that hands begin to pull with */
-static const double UP = 0.36;        /* s in which hands pull e times as much */
-static const double DOWN = 1;         /* s in which they let down by a factor e .. */
-static const double NOTHING = 1e-3;   /* .. to so much of the pull */
 static const double FRAME = 0.05;     /* s between frames */
-static const double HOLD = 1;         /* s */
-enum { FRAMES_AFTER = 20 };           /* that are seen of a fall */
-static const double SETTLING = 0.5;   /* s before hands pull, so that what is dropped lies */
-static const double CLOSED = 0.02;    /* of an edge: a gap that is no gap */
-static const double STRAIGHT = 0.1;   /* rad between the axes of closed faces */
-static const double FALLEN = 0.9;     /* of the height: what is lower has fallen */
-static const double QUIET = 0.5; /* s that all faces are closed before hands stop pulling more */
+static const double DEEP = 1e4; /* edges under the ground, that feet which stay down are tied to */
+static const double ANY = 1e6;  /* N: whatever pulls */
+enum { FRAMES_AFTER = 20 };     /* that are seen of a fall */
+static const double CLOSED = 0.02;  /* of an edge: a gap that is no gap */
+static const double STRAIGHT = 0.1; /* rad between the axes of closed faces */
+static const double FALLEN = 0.9;   /* of the height: what is lower has fallen */
 
 static const char *const start_names[] = {"flat", "heap", "shape"};
 
@@ -54,7 +50,10 @@ typedef struct {
   const thr_rise_options *options;
   thr_rise_bodies bodies;
   thr_cable *cable; /* [n_cords] */
-  rise_pass *pass;  /* [n_passes] cord after cord */
+  thr_hands hands;
+  double *drawn;   /* [n_cords] mm that each has given out since the start */
+  rise_pass *pass; /* [n_passes] cord after cord */
+  int *tie;        /* [n_pieces] of a piece that stays down, the cord in the world; -1 */
   int n_passes;
   thr_friction friction;
   double dt, scale; /* s; and how much slower than with edges of TIME_EDGE everything is */
@@ -76,8 +75,11 @@ static thr_status make_cords(rise_run *run, thr_err *err)
     const thr_rise_cord *cord = &structure->cord[c];
     thr_cable *cable = &run->cable[c];
     const size_t n = (size_t)cord->n_passes;
+    double *length = thr_scratch_array(&run->own, n, sizeof *length);
     *cable = (thr_cable){.n = cord->n_passes,
-                         .pulled = {cord->pulled[0], cord->pulled[1]},
+                         .held = THR_NO_TURN,
+                         .stiffness = structure->physics.stiffness,
+                         .length = length,
                          .exponent = thr_scratch_array(&run->own, n, sizeof(double)),
                          .tension = thr_scratch_array(&run->own, n, sizeof(double)),
                          .low = thr_scratch_array(&run->own, n, sizeof(double)),
@@ -88,6 +90,7 @@ static thr_status make_cords(rise_run *run, thr_err *err)
     for (int k = 0; k < cord->n_passes && !st; k++, pass++) {
       const int from = cord->piece[k], to = cord->piece[k + 1];
       double start[3], end[3];
+      length[k] = thr_distance(structure->piece[from].centre, structure->piece[to].centre);
       for (int i = 0; i < 3; i++) {
         const thr_rise_piece *one = &structure->piece[from], *other = &structure->piece[to];
         start[i] =
@@ -100,6 +103,27 @@ static thr_status make_cords(rise_run *run, thr_err *err)
       st = thr_world_add_cord(run->bodies.world, run->bodies.body[from], start,
                               run->bodies.body[to], end, &pass->cord, err);
     }
+  }
+  return st;
+}
+
+/* Ties the feet that stay down to places far below, so that they can slide, but not rise. */
+static thr_status tie_down(rise_run *run, thr_err *err)
+{
+  const thr_rise_structure *structure = run->structure;
+  const double deep = DEEP * run->bodies.edge / run->bodies.length;
+  thr_status st = THR_OK;
+  for (int p = 0; p < structure->n_pieces && !st; p++) {
+    const thr_rise_piece *piece = &structure->piece[p];
+    double at[3], node[3];
+    run->tie[p] = -1;
+    if (!piece->down || piece->held) continue;
+    thr_rise_carried(&run->bodies, p, (const double[3]){0, 0, 0}, at);
+    for (int k = 0; k < 3; k++)
+      node[k] = -piece->mass_centre[k] / run->bodies.length;
+    st = thr_world_add_cord(run->bodies.world, run->bodies.ground,
+                            (const double[3]){at[0], at[1], -deep}, run->bodies.body[p], node,
+                            &run->tie[p], err);
   }
   return st;
 }
@@ -136,9 +160,13 @@ static void look_at_cords(rise_run *run)
 
   for (int c = 0; c < run->structure->n_cords; c++) {
     const thr_rise_cord *cord = &run->structure->cord[c];
+    run->drawn[c] = 0;
     for (int k = 0; k < cord->n_passes; k++, pass++) {
       const double before = pass->gap;
       look_at(run, cord, k, pass);
+      run->drawn[c] += (pass->first_gap - pass->gap) * run->bodies.length;
+      if (run->cable[c].stiffness > 0)
+        thr_cable_opened(&run->cable[c], k, (pass->gap - before) * run->bodies.length);
       thr_cable_felt(&run->cable[c], k, 0,
                      before - pass->gap >
                          SLOWEST * run->bodies.edge / run->bodies.length * run->dt / run->scale);
@@ -153,24 +181,35 @@ static void look_at_cords(rise_run *run)
   }
 }
 
-/* Sets what the cords do in the next step while hands pull with `pull` N. */
-static void pull_cords(rise_run *run, double pull)
+/* Sets what the cords do in the next step. */
+static void pull_cords(rise_run *run)
 {
-  const double force[2] = {pull, pull};
-  const double edge = run->bodies.edge / run->bodies.length;
+  const thr_rise_bodies *bodies = &run->bodies;
+  const double edge = bodies->edge / bodies->length;
   rise_pass *pass = run->pass;
 
   for (int c = 0; c < run->structure->n_cords; c++) {
     thr_cable *cable = &run->cable[c];
-    thr_cable_pull(cable, force, &run->friction);
+    thr_cable_pull(cable, &run->friction);
     for (int k = 0; k < cable->n; k++, pass++) {
-      const double speed =
-          fmin(fmax(pass->gap / (CLOSING * run->scale), SLOWEST * edge / run->scale),
-               FASTEST * edge / run->scale);
-      thr_world_pull(run->bodies.world, pass->cord, cable->tension[k] / run->bodies.force, speed,
-                     fmin(cable->high[k] - cable->tension[k], 1e6) / run->bodies.force);
+      const double tension = fmax(cable->tension[k], 0);
+      double speed = fmin(fmax(pass->gap / (CLOSING * run->scale), SLOWEST * edge / run->scale),
+                          FASTEST * edge / run->scale),
+             hold = fmin(cable->high[k] - tension, ANY), stiffness = 0;
+
+      /* What stretches is a spring. Where no hand takes it up, it closes by no more than its
+       * stretch, and holds unless it is slack. */
+      if (cable->stiffness > 0) stiffness = cable->stiffness / cable->length[k];
+      if (stiffness > 0 && !thr_cable_is_fed(cable, k)) {
+        speed = fmin(speed, tension / stiffness / bodies->length / run->dt);
+        hold = tension > 0 ? ANY : 0;
+      }
+      thr_world_pull(bodies->world, pass->cord, tension / bodies->force, speed,
+                     hold / bodies->force, stiffness * bodies->length / bodies->force);
     }
   }
+  for (int p = 0; p < run->structure->n_pieces; p++)
+    if (run->tie[p] >= 0) thr_world_pull(bodies->world, run->tie[p], 0, 0, ANY / bodies->force, 0);
 }
 
 /* Takes over what the cords held beyond their tension in the last step. */
@@ -200,11 +239,23 @@ static void node_of(const rise_run *run, int p, double at[3])
     at[k] *= run->bodies.length;
 }
 
+/* The speed of the fastest piece, mm/s. */
+static double fastest(const rise_run *run)
+{
+  double most = 0;
+  for (int p = 0; p < run->structure->n_pieces; p++) {
+    double linear[3], angular[3];
+    thr_world_velocity(run->bodies.world, run->bodies.body[p], linear, angular);
+    most = fmax(most, run->bodies.length * sqrt(thr_dot(linear, linear)));
+  }
+  return most;
+}
+
 /* Fills a moment with what is to be seen now. */
 static void see(const rise_run *run, double time, double pull, double lift, thr_rise_moment *moment)
 {
   const double mm = run->bodies.length;
-  *moment = (thr_rise_moment){.time = time, .pull = pull, .lift = lift};
+  *moment = (thr_rise_moment){.time = time, .pull = pull, .lift = lift, .speed = fastest(run)};
 
   for (int i = 0; i < run->n_passes; i++) {
     const rise_pass *pass = &run->pass[i];
@@ -213,11 +264,9 @@ static void see(const rise_run *run, double time, double pull, double lift, thr_
     moment->drawn += (pass->first_gap - pass->gap) * mm;
   }
   for (int p = 0; p < run->structure->n_pieces; p++) {
-    double at[3], linear[3], angular[3];
+    double at[3];
     node_of(run, p, at);
-    thr_world_velocity(run->bodies.world, run->bodies.body[p], linear, angular);
     moment->height = fmax(moment->height, at[2]);
-    moment->speed = fmax(moment->speed, mm * sqrt(thr_dot(linear, linear)));
   }
 }
 
@@ -247,7 +296,7 @@ static thr_status keep_frame(const rise_run *run, double time, double pull, doub
   double *tension = record->tension + (size_t)record->n_frames * passes;
   for (int c = 0; c < run->structure->n_cords; c++)
     for (int k = 0; k < run->cable[c].n; k++)
-      *tension++ = run->cable[c].tension[k];
+      *tension++ = fmax(run->cable[c].tension[k], 0);
   record->n_frames++;
   return THR_OK;
 }
@@ -293,9 +342,9 @@ static double lift_now(const rise_run *run)
 }
 
 /* Takes one step. */
-static thr_status take_step(rise_run *run, double pull, double *lift, thr_err *err)
+static thr_status take_step(rise_run *run, double *lift, thr_err *err)
 {
-  pull_cords(run, pull);
+  pull_cords(run);
   *lift = lift_now(run);
   if (*lift > 0)
     thr_world_force(run->bodies.world, run->bodies.body[run->options->lifted],
@@ -319,33 +368,6 @@ static int count_closed(const rise_run *run, int *widest)
   return n;
 }
 
-/* What hands do: wait until all lies, pull more until `full`, hold, and let down. Times in s. */
-typedef struct {
-  double settle, full, hold;
-  double up, down;     /* in which the pull changes by a factor e */
-  double gentle, most; /* N */
-  double quiet, closed_since;
-} rise_hands;
-
-static double pull_at(const rise_hands *hands, double time)
-{
-  if (time < hands->settle) return 0;
-  const double upward = fmin(time, hands->full) - hands->settle,
-               downward = time - hands->full - hands->hold;
-  const double pull = fmin(hands->gentle * exp(upward / hands->up), hands->most);
-  return downward > 0 ? pull * exp(-downward / hands->down) : pull;
-}
-
-/* Hands stop pulling more once all faces have been closed for a while. */
-static void watch(rise_hands *hands, double time, bool closed)
-{
-  if (!closed)
-    hands->closed_since = INFINITY;
-  else if (hands->closed_since == INFINITY)
-    hands->closed_since = time;
-  if (time < hands->full && time - hands->closed_since > hands->quiet) hands->full = time;
-}
-
 /* Reads off the record when the structure came up and when it fell. */
 static void conclude(const rise_run *run, thr_rise_record *record)
 {
@@ -357,9 +379,20 @@ static void conclude(const rise_run *run, thr_rise_record *record)
       record->fell = i;
 }
 
-/* Writes down what is seen, and tells how far the simulation is. all: s. */
-static thr_status report(const rise_run *run, double time, double pull, double lift, double all,
-                         bool held, const thr_limits *limits, thr_rise_record *record, thr_err *err)
+/* Reads off the record whether the structure stood when hands let down, or at the end. */
+static void judge(const rise_run *run, thr_rise_record *record)
+{
+  const thr_rise_moment *last = &record->moment[record->held - 1];
+  int first = 0;
+  while (record->moment[first].closed < run->n_passes && first < record->held - 1)
+    first++;
+  record->stands =
+      last->closed == run->n_passes && last->height >= FALLEN * record->moment[first].height;
+}
+
+/* Writes down what is seen, and tells how far the simulation is. */
+static thr_status report(const rise_run *run, double time, double pull, double lift, bool held,
+                         const thr_limits *limits, thr_rise_record *record, thr_err *err)
 {
   thr_status st = keep_frame(run, time, pull, lift, record, err);
   if (!st && held) record->held = record->n_frames;
@@ -369,7 +402,7 @@ static thr_status report(const rise_run *run, double time, double pull, double l
     char words[64];
     snprintf(words, sizeof words, "%d of %d faces closed",
              record->moment[record->n_frames - 1].closed, run->n_passes);
-    limits->advance(limits->user, words, fmin(time / all, 1));
+    limits->advance(limits->user, words, thr_hands_part(&run->hands, time));
   }
   return st;
 }
@@ -378,47 +411,37 @@ static thr_status report(const rise_run *run, double time, double pull, double l
 static thr_status let_pass(rise_run *run, const thr_limits *limits, thr_rise_record *record,
                            thr_err *err)
 {
-  const thr_rise_options *options = run->options;
-  const double slower = run->scale * (options->slower > 0 ? options->slower : 1);
-  rise_hands hands = {.settle = options->start == THR_RISE_SHAPE ? 0 : SETTLING * run->scale,
-                      .hold = run->scale * (options->hold > 0 ? options->hold : HOLD),
-                      .up = UP * slower,
-                      .down = DOWN * slower,
-                      .gentle = options->start == THR_RISE_SHAPE
-                                    ? options->pull
-                                    : fmin(GENTLE * record->weight, options->pull),
-                      .most = options->pull,
-                      .quiet = QUIET * run->scale,
-                      .closed_since = INFINITY};
-  hands.full = hands.settle + hands.up * log(hands.most / hands.gentle);
-  const double down = options->let_down ? hands.down * log(1 / NOTHING) : 0,
-               all = hands.full + hands.hold + down;
+  thr_hands *hands = &run->hands;
   const long per_frame = lround(fmax(record->between / run->dt, 1));
   double lift = 0, time = 0;
   thr_status st = THR_OK;
 
-  for (long step = 0; !st && time <= hands.full + hands.hold + down; step++) {
+  for (long step = 0; !st && !thr_hands_are_done(hands, time); step++) {
     time = (double)step * run->dt;
     int widest;
     const int closed = count_closed(run, &widest);
-    const double pull = pull_at(&hands, time);
-    watch(&hands, time, closed == run->n_passes);
-    if (closed > record->most_closed && time >= hands.settle) {
+    thr_hands_watch(hands, time, closed == run->n_passes,
+                    run->options->schedule ? fastest(run) : 0);
+    const double pull = thr_hands_pull(hands, time, run->dt, run->drawn);
+    if (closed > record->most_closed && time >= hands->settle) {
       record->most_closed = closed;
       record->loosest = widest;
     }
 
     if (step % per_frame == 0) {
-      st = report(run, time, pull, lift, all, time <= hands.full + hands.hold, limits, record, err);
+      st = report(run, time, pull, lift, thr_hands_hold(hands, time), limits, record, err);
       conclude(run, record);
       if (record->fell >= 0 && record->n_frames - record->fell > FRAMES_AFTER) break;
     }
-    if (!st) st = take_step(run, pull, &lift, err);
+    if (!st) st = take_step(run, &lift, err);
   }
+
+  record->finished = !st;
 
   /* What was seen counts where time ran out, too. */
   thr_err ignored = {0};
   if (record->held) {
+    judge(run, record);
     const thr_status measured = measure_off(run, record, st ? &ignored : err);
     if (!st) st = measured;
   }
@@ -431,25 +454,33 @@ static thr_status check(const thr_rise_structure *structure, const thr_rise_opti
 {
   if (!(options->pull > 0) || !isfinite(options->pull))
     return thr_fail(err, THR_EINPUT, "rise: hands pull with more than 0 N");
-  if (!(structure->physics.gravity > 0))
+  if (!(structure->physics.gravity > 0) && options->start != THR_RISE_SHAPE)
     return thr_fail(err, THR_EINPUT,
-                    "rise: without gravity nothing lies on the ground: give a gravity above 0");
-  bool pulled = false;
-  for (int c = 0; c < structure->n_cords; c++)
-    pulled |= structure->cord[c].pulled[0] || structure->cord[c].pulled[1];
-  if (!pulled) return thr_fail(err, THR_EINPUT, "rise: no cord has an end that is pulled");
+                    "rise: without gravity nothing lies on the ground: give a gravity above 0, or "
+                    "let it begin in its shape");
+  if (structure->physics.gravity < 0 || structure->physics.stiffness < 0)
+    return thr_fail(err, THR_EINPUT, "rise: %s is below 0",
+                    structure->physics.gravity < 0 ? "gravity" : "the stiffness of cords");
+  const thr_status st = thr_hands_check(structure, options, err);
+  if (st) return st;
   if (!(thr_rise_edge(structure) > 0))
     return thr_fail(err, THR_EINPUT, "rise: the cords join no two pieces at different places");
-  for (int p = 0; p < structure->n_pieces; p++)
+  bool loose = false;
+  for (int p = 0; p < structure->n_pieces; p++) {
+    loose |= !structure->piece[p].held;
     if (!(structure->piece[p].mass > 0))
       return thr_fail(err, THR_EINPUT, "rise: piece %d weighs nothing", p);
-  return THR_OK;
+  }
+  return loose ? THR_OK : thr_fail(err, THR_EINPUT, "rise: all pieces are held: nothing can move");
 }
 
 thr_status thr_rise_simulate(const thr_rise_structure *structure, const thr_rise_options *options,
                              const thr_limits *limits, thr_rise_record *record, thr_err *err)
 {
-  *record = (thr_rise_record){.n_pieces = structure->n_pieces, .came_up = -1, .fell = -1};
+  *record = (thr_rise_record){.n_pieces = structure->n_pieces,
+                              .came_up = -1,
+                              .fell = -1,
+                              .scheduled = options->schedule != NULL};
   thr_status st = check(structure, options, err);
   if (st) return st;
 
@@ -461,7 +492,9 @@ thr_status thr_rise_simulate(const thr_rise_structure *structure, const thr_rise
     run.n_passes += structure->cord[c].n_passes;
   record->n_passes = run.n_passes;
   run.cable = thr_scratch_array(&run.own, (size_t)structure->n_cords, sizeof *run.cable);
+  run.drawn = thr_scratch_array(&run.own, (size_t)structure->n_cords, sizeof *run.drawn);
   run.pass = thr_scratch_array(&run.own, (size_t)run.n_passes, sizeof *run.pass);
+  run.tie = thr_scratch_array(&run.own, (size_t)structure->n_pieces, sizeof *run.tie);
   st = thr_scratch_check(&run.own, err);
 
   /* Everything takes longer where pieces are larger, as falling does. */
@@ -471,6 +504,7 @@ thr_status thr_rise_simulate(const thr_rise_structure *structure, const thr_rise
   record->between = FRAME * run.scale;
   if (!st) st = thr_rise_bodies_make(&run.bodies, structure, options, run.dt, err);
   if (!st) st = make_cords(&run, err);
+  if (!st) st = tie_down(&run, err);
   for (int p = 0; p < structure->n_pieces && !st; p++) {
     const thr_rise_piece *piece = &structure->piece[p];
     if (!piece->held) record->weight += 1e-3 * piece->mass * structure->physics.gravity;
@@ -478,10 +512,19 @@ thr_status thr_rise_simulate(const thr_rise_structure *structure, const thr_rise
     high = fmax(high, piece->centre[2]);
   }
   record->drawn_height = high - low;
+  if (!st)
+    st = thr_hands_make(&run.hands, structure, options, run.cable, run.scale, run.bodies.edge,
+                        record->weight, &run.own, err);
   if (!st) {
     look_at_cords(&run);
     for (int i = 0; i < run.n_passes; i++)
       run.pass[i].first_gap = run.pass[i].gap;
+
+    /* Nothing has opened yet. */
+    for (int c = 0; c < structure->n_cords; c++) {
+      memset(run.cable[c].tension, 0, (size_t)run.cable[c].n * sizeof(double));
+      run.drawn[c] = 0;
+    }
     st = let_pass(&run, limits, record, err);
   }
 

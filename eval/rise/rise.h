@@ -3,10 +3,10 @@
  * hands that pull the cords (M. Nelson, thesis, Cornell, chapters 6 and 7).
  *
  * Reading order: loose.c (pieces in Bullet, and where they begin), cable.c (how tension spreads
- * along a cord whose pieces move), rise.c (time passes: hands pull, pieces move, what is seen is
- * written down), fit.c (how far the shape is from the drawn one). Contacts and friction are those
- * of Bullet's own solver, the bodies are convex parts, and nothing is known of the limit analysis:
- * a second opinion.
+ * along a cord whose pieces move), hands.c (who pulls when, and the steps of a schedule), rise.c
+ * (time passes: hands pull, pieces move, what is seen is written down), fit.c (how far the shape is
+ * from the drawn one). Contacts and friction are those of Bullet's own solver, the bodies are
+ * convex parts, and nothing is known of the limit analysis: a second opinion.
  *
  * Lengths are in mm, masses in g, forces in N, times in s, angles in rad; up is +z, and the ground
  * is z = 0. */
@@ -14,6 +14,7 @@
 #define THR_RISE_H
 
 #include "graph/limits.h"
+#include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/status.h"
 
@@ -32,6 +33,7 @@ typedef struct {
   const int *n_corners;  /* [n_parts] of each part; those of all parts follow each other in .. */
   const double (*corner)[3]; /* .. this, from the node */
   bool held;                 /* it cannot move */
+  bool down;                 /* it slides on the ground, but does not lift off or tip */
 } thr_rise_piece;
 
 /* A cord: pass k leads from piece[k] through the mouth mouth[k] to piece[k + 1]. */
@@ -50,7 +52,8 @@ typedef struct {
   const thr_rise_cord *cord;
   double width;        /* of a typical face */
   double mouth_depth;  /* how far inside the mouth the cord first touches its channel */
-  thr_physics physics; /* resolved: mu, mu_bead, mu_ground, gravity and the law of friction count */
+  thr_physics physics; /* resolved: mu, mu_bead, mu_ground, gravity, stiffness and the law of
+                          friction count */
 } thr_rise_structure;
 
 /* ---- how it is made to rise ---- */
@@ -64,14 +67,19 @@ typedef enum {
 const char *thr_rise_start_name(int start);
 
 /* What hands do: pull all pulled ends, first gently, with up to `pull` N or until all faces have
- * been closed for a while; hold that; and let down, if they do, until the structure has fallen. A
- * hand may also lift a piece. */
+ * been closed for a while; hold that; and let down, if they do, until the structure has fallen. Or
+ * they do what a schedule says (graph/plan/plan.h), with cords of a known stiffness. A hand may
+ * also lift a piece. */
 typedef struct {
   thr_rise_start start;
   uint64_t seed; /* of heaps, and of the small disorder of the others */
   double pull;   /* N, > 0 */
-  double slower; /* factor on the time that hands take; 0 = 1 */
-  double hold;   /* s before they let down; 0 = 1 */
+  double rate;   /* mm/s at which a hand draws cord in, with up to `pull` N; 0: by force alone */
+  double spare;  /* mm of each cord that hands can give out beyond the start; 0: any */
+  const thr_schedule *schedule; /* borrowed, of cords and passes that exist; NULL: none, all ends
+                                   that cords are pulled at. Else any end can be pulled */
+  double slower;                /* factor on the time that hands take; 0 = 1 */
+  double hold;                  /* s before they let down; 0 = 1 */
   bool let_down;
   double time_step; /* factor on the usual one; 0 = 1 */
   int iterations;   /* of Bullet's solver, in every step; 0 = 60 */
@@ -84,7 +92,7 @@ typedef struct {
 
 /* One moment. */
 typedef struct {
-  double time, pull; /* N at every pulled end */
+  double time, pull; /* N at every pulled end; with a rate or a schedule the largest */
   double drawn;      /* cord that all ends have given out since the start */
   double height;     /* of the highest node over the ground */
   double lift;       /* N */
@@ -107,10 +115,14 @@ typedef struct {
                           closed; -1: they never are */
   int most_closed;     /* the largest number of passes with closed faces */
   int loosest;         /* pass, counted over all cords, with the widest gap when most were closed */
-  double off; /* largest distance of a node from the drawn shape, after the best fit, at the
-                 end of holding */
-  int held;   /* frames until hands let down */
-  int fell;   /* first frame after these that is lower by a tenth of the height; -1 */
+  double off;     /* largest distance of a node from the drawn shape, after the best fit, at the
+                     end of holding */
+  int held;       /* frames until hands let down */
+  bool scheduled; /* it was pulled by a schedule .. */
+  bool finished;  /* .. to its end; or all was seen that was asked for */
+  bool stands; /* at the last of these all faces are closed, and none is lower than when they were
+                  first, by a tenth of the height */
+  int fell;    /* first frame after these that is lower by a tenth of the height; -1 */
 } thr_rise_record;
 
 /* Lets a structure rise. progress and time limits come by limits; what was seen until then is kept

@@ -123,11 +123,12 @@ typedef enum {
 typedef struct {
   thr_deed deed;
   int cord;
-  thr_pull end; /* of pull, release and knot: which end(s). Of a grip: from which side(s) the cord
-                   is drawn. Never none */
-  int pass;     /* of a grip, counted from 0 */
-  double force; /* N; of a knot 0 */
-  double slip;  /* of a knot, mm of cord that it gives back; else 0 */
+  thr_pull end;  /* of pull, release and knot: which end(s). Of a grip: from which side(s) the cord
+                    is drawn. Never none */
+  int pass;      /* of a grip, counted from 0 */
+  double force;  /* N; of a knot 0 */
+  double slip;   /* of a knot, mm of cord that it gives back; else 0 */
+  bool together; /* of one "all" with the step before: at the same time; not in plans */
   const char *remark; /* what its giver may not have meant, or NULL; not in plans */
 } thr_schedule_step;
 typedef struct {

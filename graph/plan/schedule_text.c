@@ -173,6 +173,7 @@ static thr_status read_step(step_reader *reader, thr_span text, thr_schedule *sc
     found++;
     reader->rest = words;
     st = read_for_cord(reader, i, deed, schedule);
+    if (!st) schedule->step[schedule->n - 1].together = found > 1;
   }
   if (st || found) return st;
 

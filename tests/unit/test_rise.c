@@ -6,6 +6,7 @@
 #include "eval/rise/rise.h"
 #include "graph/arrays.h"
 #include "graph/number.h"
+#include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "tests/support.h"
 
@@ -21,17 +22,20 @@ START_TEST(cord_pulled_and_let_down)
   double exponent[2] = {log(2), log(2)}, tension[3] = {0}, low[3], high[3], sum[3];
   thr_cable cable = {.n = 3,
                      .pulled = {false, true},
+                     .force = {0, 8},
+                     .held = THR_NO_TURN,
                      .exponent = exponent,
                      .tension = tension,
                      .low = low,
                      .high = high,
                      .sum = sum};
   const thr_friction friction = {.power = 1};
-  thr_cable_pull(&cable, (const double[2]){0, 8}, &friction);
+  thr_cable_pull(&cable, &friction);
   const double up[3] = {2, 4, 8}, down[3] = {2, 2, 1};
   for (int k = 0; k < 3; k++)
     ck_assert_double_eq_tol(tension[k], up[k], 1e-12);
-  thr_cable_pull(&cable, (const double[2]){0, 1}, &friction);
+  cable.force[1] = 1;
+  thr_cable_pull(&cable, &friction);
   for (int k = 0; k < 3; k++)
     ck_assert_double_eq_tol(tension[k], down[k], 1e-12);
 
@@ -48,6 +52,7 @@ START_TEST(cord_obeys_friction)
   double exponent[N - 1], tension[N] = {0}, low[N], high[N], sum[N];
   thr_cable cable = {.n = N,
                      .pulled = {true, true},
+                     .held = THR_NO_TURN,
                      .exponent = exponent,
                      .tension = tension,
                      .low = low,
@@ -58,9 +63,10 @@ START_TEST(cord_obeys_friction)
   for (int step = 0; step < 2000; step++) {
     for (int k = 0; k < N - 1; k++)
       exponent[k] = thr_random_unit(&state);
-    const double force[2] = {10 * thr_random_unit(&state), 10 * thr_random_unit(&state)};
-    thr_cable_pull(&cable, force, &friction);
-    ck_assert_double_le(tension[0], force[0] * (1 + 1e-12));
+    for (int end = 0; end < 2; end++)
+      cable.force[end] = 10 * thr_random_unit(&state);
+    thr_cable_pull(&cable, &friction);
+    ck_assert_double_le(tension[0], cable.force[0] * (1 + 1e-12));
     for (int k = 0; k < N - 1; k++)
       ck_assert_double_le(fabs(log(tension[k + 1] / tension[k])), exponent[k] + 1e-9);
     for (int k = 0; k < N; k++) {
@@ -72,6 +78,127 @@ START_TEST(cord_obeys_friction)
 }
 END_TEST
 
+/* ---- a cord that stretches ---- */
+
+enum { STRETCHED = 3 };
+
+typedef struct {
+  double exponent[STRETCHED - 1], tension[STRETCHED], low[STRETCHED], high[STRETCHED],
+      sum[STRETCHED], length[STRETCHED];
+  thr_cable cable;
+} stretched;
+
+/* A cord of three passes of 40 mm and two turns of exponent ln 2, EA = 500 N, tied at both ends. */
+static void make_stretched(stretched *out)
+{
+  *out = (stretched){.exponent = {log(2), log(2)}, .length = {40, 40, 40}};
+  out->cable = (thr_cable){.n = STRETCHED,
+                           .held = THR_NO_TURN,
+                           .stiffness = 500,
+                           .exponent = out->exponent,
+                           .tension = out->tension,
+                           .low = out->low,
+                           .high = out->high,
+                           .sum = out->sum,
+                           .length = out->length};
+}
+
+static void check_tensions(const stretched *cord, double a, double b, double c)
+{
+  ck_assert_double_eq_tol(cord->tension[0], a, 1e-9);
+  ck_assert_double_eq_tol(cord->tension[1], b, 1e-9);
+  ck_assert_double_eq_tol(cord->tension[2], c, 1e-9);
+}
+
+/* Pulls, lets down, knots and grips as eval/cord/history.c has it in closed form. */
+START_TEST(cord_stretches)
+{
+  const thr_friction friction = {.power = 1};
+  stretched cord;
+  thr_cable *cable = &cord.cable;
+  make_stretched(&cord);
+
+  /* Both ends pulled with 8 N; the start held, the end let down to 1 N, then knotted. */
+  cable->pulled[0] = cable->pulled[1] = true;
+  cable->force[0] = cable->force[1] = 8;
+  thr_cable_pull(cable, &friction);
+  check_tensions(&cord, 8, 4, 8);
+  cable->pulled[0] = false;
+  cable->force[1] = 1;
+  thr_cable_pull(cable, &friction);
+  check_tensions(&cord, 4, 2, 1);
+  cable->pulled[1] = false;
+  thr_cable_pull(cable, &friction);
+  check_tensions(&cord, 4, 2, 1);
+
+  /* The last gap opens by 0.04 mm: 0.5 N more, which its turn holds. The first opens by 0.4 mm, 5 N
+   * more, and cord slides over the first turn: 9 + 2 = 22 / 3 + 11 / 3, and over the second: 12.5
+   * is shared as 4 : 2 : 1. */
+  thr_cable_opened(cable, 2, 0.04);
+  thr_cable_pull(cable, &friction);
+  check_tensions(&cord, 4, 2, 1.5);
+  thr_cable_opened(cable, 0, 0.4);
+  thr_cable_pull(cable, &friction);
+  check_tensions(&cord, 12.5 * 4 / 7, 12.5 * 2 / 7, 12.5 / 7);
+
+  /* All closes by more than all of the stretch: slack, and tight again only when that is taken. */
+  thr_cable_opened(cable, 1, -1.2);
+  thr_cable_pull(cable, &friction);
+  for (int k = 0; k < STRETCHED; k++)
+    ck_assert_double_le(cord.tension[k], 0);
+  for (int step = 0; step < 2000; step++) {
+    thr_cable_opened(cable, 1, 1.2 / 2000);
+    thr_cable_pull(cable, &friction);
+  }
+  ck_assert_double_eq_tol(cord.tension[0], 12.5 / 4, 0.01);
+  ck_assert_double_eq_tol(cord.tension[1], 12.5 / 2, 0.01);
+  ck_assert_double_eq_tol(cord.tension[2], 12.5 / 4, 0.01);
+
+  /* A knot gives back 0.4 mm at the end, 5 N, and the middle slides after it. */
+  thr_cable_slip(cable, (const double[2]){0, 0.4}, &friction);
+  ck_assert_double_eq_tol(cord.tension[0] + cord.tension[1] + cord.tension[2], 7.5, 1e-9);
+  ck_assert_double_eq_tol(cord.tension[1], 2 * cord.tension[2], 1e-9);
+
+  /* A grip of 7 N at the first pass from the start holds the turn after it. Let go, all share it.
+   */
+  make_stretched(&cord);
+  thr_cable_grip(cable, 0, 0, 7, &friction);
+  thr_cable_pull(cable, &friction);
+  check_tensions(&cord, 7, 0, 0);
+  thr_cable_let_go(cable, &friction);
+  check_tensions(&cord, 4, 2, 1);
+}
+END_TEST
+
+/* Cord that is tied keeps its length, whatever opens and closes, and turns hold. */
+START_TEST(cord_keeps_its_length)
+{
+  const thr_friction friction = {.power = _i ? 0.7 : 1, .at = 1};
+  stretched cord;
+  make_stretched(&cord);
+  uint64_t state = 7;
+  double opened = 0;
+  for (int step = 0; step < 2000; step++) {
+    const double mm = 0.2 * thr_random_disorder(&state);
+    thr_cable_opened(&cord.cable, step % STRETCHED, mm);
+    opened += mm;
+    for (int k = 0; k < STRETCHED - 1; k++)
+      cord.exponent[k] = thr_random_unit(&state);
+    thr_cable_pull(&cord.cable, &friction);
+    double stretch = 0;
+    for (int k = 0; k < STRETCHED; k++)
+      stretch += cord.tension[k] * 40 / 500;
+    ck_assert_double_eq_tol(stretch, opened, 1e-6);
+    for (int k = 0; k < STRETCHED - 1; k++)
+      for (int way = 0; way < 2; way++) {
+        const double tight = cord.tension[way ? k + 1 : k],
+                     slack = fmax(cord.tension[way ? k : k + 1], 0);
+        ck_assert_double_le(tight, thr_friction_more(&friction, slack, cord.exponent[k]) + 1e-9);
+      }
+  }
+}
+END_TEST
+
 /* ---- pulleys: pieces that are held, a cord that turns over them, and a weight ---- */
 
 enum { PULLEYS = 5, CORNERS = 8 };
@@ -79,8 +206,9 @@ static const double EDGE = 40, HALF = 5;
 
 /* Runs a weight that hangs from a cord over PULLEYS held pieces, each of which turns it by `turn`,
  * pulled at the other end. Returns the pull, N, at which it begins to rise from the ground, or, if
- * it is let down, at which it begins to sink. */
-static double hang_weight(double turn, double mu, bool let_down, double *weight)
+ * it is let down, at which it begins to sink. With a stiffness, N, it hangs from a cord that is
+ * tied without tension, and how far it sags is returned, mm. */
+static double hang_weight(double turn, double mu, bool let_down, double stiffness, double *weight)
 {
   enum { N = PULLEYS + 2, LINKS = N - 1 };
   thr_rise_piece piece[N + 1];
@@ -121,23 +249,37 @@ static double hang_weight(double turn, double mu, bool let_down, double *weight)
                               .mouth = (const double(*)[3])mouth,
                               .along = (const double(*)[3])along,
                               .pulled = {false, true}};
-  const thr_rise_structure structure = {
-      .n_pieces = N + 1,
-      .n_cords = 1,
-      .piece = piece,
-      .cord = &cord,
-      .width = 2 * HALF,
-      .mouth_depth = 1,
-      .physics = {.mu = mu, .mu_bead = 0.3, .mu_ground = 0.3, .gravity = G, .mu_power = 1}};
+  const thr_rise_structure structure = {.n_pieces = N + 1,
+                                        .n_cords = 1,
+                                        .piece = piece,
+                                        .cord = &cord,
+                                        .width = 2 * HALF,
+                                        .mouth_depth = 1,
+                                        .physics = {.mu = mu,
+                                                    .mu_bead = 0.3,
+                                                    .mu_ground = 0.3,
+                                                    .gravity = G,
+                                                    .mu_power = 1,
+                                                    .stiffness = stiffness}};
+  thr_schedule_step knot = {.deed = THR_DEED_KNOT, .end = THR_PULL_BOTH};
+  const thr_schedule schedule = {.step = &knot, .n = 1};
   const thr_rise_options options = {.start = let_down ? THR_RISE_SHAPE : THR_RISE_FLAT,
                                     .pull = 1,
                                     .slower = let_down ? 4 : 12,
                                     .hold = 0.3,
-                                    .let_down = let_down,
+                                    .let_down = let_down && stiffness == 0,
+                                    .schedule = stiffness > 0 ? &schedule : NULL,
                                     .seed = 1};
   thr_err err = {0};
   thr_rise_record record;
   assert_ok(thr_rise_simulate(&structure, &options, NULL, &record, &err), &err);
+
+  *weight = 20e-3 * G;
+  if (stiffness > 0) {
+    const double sag = record.pose[0][2] - record.pose[(size_t)(record.n_frames - 1) * (N + 1)][2];
+    thr_rise_record_destroy(&record);
+    return sag;
+  }
 
   /* Where it is while it hangs or lies, and the first frame in which it is not there. */
   const int from = let_down ? record.held - 1 : 12;
@@ -145,7 +287,6 @@ static double hang_weight(double turn, double mu, bool let_down, double *weight)
   double found = NAN;
   for (int i = from; i < record.n_frames && isnan(found); i++)
     if (fabs(record.pose[(size_t)i * (N + 1)][2] - rest) > 0.5) found = record.moment[i].pull;
-  *weight = 20e-3 * G;
   thr_rise_record_destroy(&record);
   return found;
 }
@@ -156,10 +297,24 @@ START_TEST(capstan_over_pulleys)
 {
   const double turn = 0.3, mu = 0.1 * (_i / 2 + 1), angle = turn * PULLEYS;
   double weight;
-  const double found = hang_weight(turn, mu, _i % 2, &weight),
+  const double found = hang_weight(turn, mu, _i % 2, 0, &weight),
                expected = weight * exp((_i % 2 ? -1 : 1) * mu * angle);
   const double late = _i % 2 ? expected / found : found / expected;
   ck_assert_msg(late > 0.99 && late < 1.06, "mu %g: moves at %g N, not %g", mu, found, expected);
+}
+END_TEST
+
+/* A weight on a tied cord sags by the sum of T l / EA: with friction T falls by exp(-mu turn) from
+ * pass to pass, the first being twice HALF long, the others EDGE. */
+START_TEST(sag_of_a_tied_cord)
+{
+  const double turn = 0.3, mu = _i % 2 ? 0.3 : 0, stiffness = _i / 2 ? 1000 : 100;
+  double weight, sum = 0;
+  const double sag = hang_weight(turn, mu, true, stiffness, &weight);
+  for (int k = 0; k <= PULLEYS; k++)
+    sum += weight * exp(-mu * turn * k) * (k ? EDGE : 2 * HALF) / stiffness;
+  ck_assert_msg(fabs(sag - sum) < 0.02 * sum, "EA %g N, mu %g: sags by %g mm, not %g", stiffness,
+                mu, sag, sum);
 }
 END_TEST
 
@@ -218,7 +373,7 @@ START_TEST(pendulum)
   double before = start[0], crossed[2] = {0, 0}, most = -G * length * cos(angle);
   int n = 0;
   for (int step = 1; step < 8000 && n < 2; step++) {
-    thr_world_pull(world, cord, 0, 0, 1e6);
+    thr_world_pull(world, cord, 0, 0, 1e6, 0);
     ck_assert_int_eq(thr_world_step(world, &err), THR_OK);
     double pose[7], linear[3], angular[3];
     thr_world_pose(world, bob, pose);
@@ -245,7 +400,7 @@ START_TEST(momentum)
   ck_assert_int_eq(thr_world_add_cord(world, one, from, other, to, &cord, &err), THR_OK);
 
   for (int step = 0; step < 1000; step++) {
-    thr_world_pull(world, cord, 2, 1.5, 0);
+    thr_world_pull(world, cord, 2, 1.5, 0, 0);
     ck_assert_int_eq(thr_world_step(world, &err), THR_OK);
   }
   double sum[3] = {0, 0, 0}, about[3] = {0, 0, 0};
@@ -312,14 +467,28 @@ START_TEST(refusals)
   thr_err err = {0};
   const thr_rise_structure none = {.physics = {.gravity = G}};
   const thr_rise_options gentle = {.pull = 1}, nothing = {.pull = 0};
-  const thr_rise_structure space = {.physics = {.gravity = 0}};
+  const thr_rise_structure space = {.physics = {.gravity = 0}},
+                           soft = {.physics = {.gravity = G, .stiffness = -1}},
+                           firm = {.physics = {.gravity = G, .stiffness = 500}};
+  thr_schedule_step grip = {.deed = THR_DEED_GRIP, .pass = 2, .force = 1},
+                    let_go = {.deed = THR_DEED_RELEASE};
+  const thr_schedule grips = {.step = &grip, .n = 1}, knots = {.step = &let_go, .n = 1};
+  const thr_rise_options gripped = {.pull = 1, .schedule = &grips},
+                         knotted = {.pull = 1, .schedule = &knots},
+                         backward = {.pull = 1, .rate = -1}, mean = {.pull = 1, .spare = -1};
   const struct {
     const thr_rise_structure *structure;
     const thr_rise_options *options;
     const char *word;
   } refused[] = {{&none, &nothing, "more than 0 N"},
-                 {&none, &gentle, "no cord has an end that is pulled"},
-                 {&space, &gentle, "gravity"}};
+                 {&none, &gentle, "no end is pulled"},
+                 {&space, &gentle, "gravity"},
+                 {&soft, &gentle, "stiffness of cords is below 0"},
+                 {&none, &gripped, "--stiffness"},
+                 {&firm, &gripped, "nothing holds cord A against the grip at its pass 3"},
+                 {&firm, &knotted, "pulls and knots none"},
+                 {&none, &backward, "more than 0 mm/s"},
+                 {&none, &mean, "more than 0 mm of cord"}};
   for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
     const thr_status st =
         thr_rise_simulate(refused[i].structure, refused[i].options, NULL, &record, &err);
@@ -334,7 +503,10 @@ int main(void)
   Suite *s = suite_create("rise");
   ADD_TEST(s, 10, cord_pulled_and_let_down);
   ADD_TEST(s, 10, cord_obeys_friction);
+  ADD_TEST(s, 10, cord_stretches);
+  ADD_LOOP(s, 10, cord_keeps_its_length, 0, 2);
   ADD_LOOP(s, 60, capstan_over_pulleys, 0, 6);
+  ADD_LOOP(s, 60, sag_of_a_tied_cord, 0, 4);
   ADD_TEST(s, 20, pendulum);
   ADD_TEST(s, 20, momentum);
   ADD_TEST(s, 20, best_fit);
