@@ -6,7 +6,8 @@
  * lower and finds an upper pull. Two plans whose intervals overlap tie (cli/print/ranking.c). There
  * is one ranking for each question that was asked: the seating pull by the closed form and by
  * simulated joints, the holding pull, the force in any state, what is left after a schedule, what a
- * load needs and what is carried (docs/method.md, "Comparing").
+ * load needs and what is carried (docs/method.md, "Comparing"); or what comes up in simulation
+ * (compare_rise.c).
  *
  * Example: two plans with seating pulls of 12.3 N (+-0.4 %) and 12.33 N (+-0.5 %) tie; 12.3 N and
  * 14.1 N do not.
@@ -14,6 +15,7 @@
  * Order of work: read all plans, refuse loads and schedules that do not fit one of them, evaluate
  * every method for every plan, print. */
 #include "cli/args/args.h"
+#include "cli/commands/rise_runs.h"
 #include "cli/print/print.h"
 #include "diagram/overview/charts.h"
 #include "eval/eval.h"
@@ -34,8 +36,15 @@ static const char intro[] =
     "simulation\n"
     "  thread compare closed.json feet.json --method capstan   by the closed form, at once\n"
     "  thread compare data/dome7-*.json --method all           by either, and by when they stand\n"
-    "  thread compare data/dome7-*.json --method structure --load D4=1   by what they carry\n";
-static const char outro[] = "A difference within the measured error is a tie.";
+    "  thread compare data/dome7-*.json --method structure --load D4=1   by what they carry\n"
+    "  thread compare data/dome7-*.json --method rise --seeds 5   by whether they come up, and "
+    "how\n";
+static const char outro[] =
+    "A difference within the measured error is a tie; so are runs of --method rise that overlap. "
+    "That "
+    "method makes the pieces of every plan and simulates them as `thread rise` does: a minute of a "
+    "processor for 49 pieces and a run. `thread rise` says more of each plan, and has more "
+    "options.";
 
 /* What acts on the structures beside the pull: a load, leaning ground and the like, and a
  * schedule. */
@@ -199,8 +208,9 @@ static int print(const pull_args *args, const entry *entries, int n)
 
 /* Does the work of the command. plot: where the picture goes, NULL = nowhere. Returns the exit
  * code: the first one of reading, evaluating and drawing, unless printing fails. */
-static int compare(const pull_args *args, const structure_actions *actions, char **path, int n,
-                   entry *entries, const char *plot)
+static int compare(const pull_args *args, const structure_actions *actions,
+                   const compare_rise_asked *rise, char **path, int n, entry *entries,
+                   const char *plot)
 {
   int code = read_entries(path, n, entries);
 
@@ -210,6 +220,12 @@ static int compare(const pull_args *args, const structure_actions *actions, char
   /* If the last plan has no closed form, nothing can be compared. */
   code = evaluate(args, actions, entries, n);
   if (code && code != EXIT_LIMIT && !entries[n - 1].eval[THR_CAPSTAN].record.present) return code;
+
+  /* An interrupt ends the work; what is known is printed all the same. */
+  if (code != EXIT_LIMIT && args->method == PULL_RISE) {
+    const int ended = compare_rise_all(args, rise, entries, n);
+    if (!code || ended == EXIT_LIMIT) code = ended;
+  }
 
   for (int i = 0; i < n; i++)
     compare_measure(&entries[i]);
@@ -258,28 +274,50 @@ typedef struct {
   pull_args pull;
   guard_limits guard;
   structure_actions actions;
+  compare_rise_asked rise;
+  int start; /* of rise */
   const char *plot;
 } compare_arguments;
 
 #define AT(member) .offset = offsetof(compare_arguments, member)
 
 static const cli_option own_options[] = {
-    {"method", .value = "joint|capstan|structure|all", .kind = CLI_WORD, AT(pull.method),
+    {"method", .value = "joint|capstan|structure|rise|all", .kind = CLI_WORD, AT(pull.method),
      .word = pull_method_name, .n_words = PULL_ALL_METHODS + 1,
-     .help = "what to rank by (default: joint); the closed form is always shown beside it"},
+     .help = "what to rank by (default: joint; all: by the first three); the closed form is always "
+             "shown beside it"},
     {"schedule", .value = "TEXT", .kind = CLI_TEXT, AT(actions.schedule),
      .help = "structure: and after what is done to the cords, as `thread eval` takes it"},
+    {"start", .kind = CLI_WORD, AT(start), .word = thr_rise_start_name,
+     .n_words = THR_RISE_N_STARTS,
+     .help = "rise: where pieces begin, as for `thread rise` (default: flat)"},
+    {"seeds", .value = "N", .kind = CLI_COUNT, AT(rise.seeds), .low = 1, .high = RISE_MOST_SEEDS,
+     .help = "rise: so many runs of every plan (default: 3)"},
+    {"let-down", .kind = CLI_FLAG, AT(rise.let_down),
+     .help = "rise: and the cords let go again, until it falls"},
     {"plot", .value = "FILE", .kind = CLI_OUTPUT, AT(plot),
      .help = "write a picture as SVG: the plans side by side, small, with pull, cord and number of "
              "cords"},
     {0}};
+
+/* Refuses options that would be ignored. Returns an exit code. */
+static int check_rise(const pull_args *args)
+{
+  static const char *const own[] = {"start", "seeds", "let-down"};
+  const bool rise = args->method == PULL_RISE;
+  for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+    if (!rise && cli_given(own[i])) return cli_usage("compare", "--%s is of --method rise", own[i]);
+  if (rise && args->options.iterations != 1)
+    return cli_usage("compare", "--tune iterations: `thread rise` takes them");
+  return EXIT_OK;
+}
 
 /* Runs `thread compare`: parses the options, does the work in a guarded child process, and returns
  * the exit code. */
 int cmd_compare(int argc, char **argv)
 {
   static const cli_syntax syntax = {"compare", intro, outro};
-  compare_arguments asked = {.guard = guard_limits_default()};
+  compare_arguments asked = {.guard = guard_limits_default(), .rise = {.seeds = 3}};
   guard_end end;
   pull_args_init(&asked.pull, THR_JOINT);
   const cli_group groups[] = {{"Options", own_options, &asked},
@@ -304,7 +342,9 @@ int cmd_compare(int argc, char **argv)
 
   code = pull_check(&asked.pull, "compare");
   if (!code) code = check_actions(&asked.pull, &asked.actions);
+  if (!code) code = check_rise(&asked.pull);
   if (code) return code;
+  asked.rise.start = (thr_rise_start)asked.start;
 
   /* From here on in the child, whose time and memory are bounded. */
   if (guard_fork(&asked.guard, &end)) return guard_conclude(&end, "no comparison");
@@ -314,7 +354,7 @@ int cmd_compare(int argc, char **argv)
     return EXIT_INTERNAL;
   }
 
-  code = compare(&asked.pull, &asked.actions, argv + optind, n, entries, asked.plot);
+  code = compare(&asked.pull, &asked.actions, &asked.rise, argv + optind, n, entries, asked.plot);
 
   /* Plans and evaluations that were never filled in are all 0, which is valid. */
   for (int i = 0; i < n; i++) {

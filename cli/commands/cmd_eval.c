@@ -2,8 +2,8 @@
 /* thread eval: computes how hard the ends of a plan's cords must be pulled, and what the structure
  * holds.
  *
- * Three methods behind one interface (eval/eval.h) answer two questions that must not be mixed up
- * (docs/method.md, "Pull force"):
+ * Three of the methods, behind one interface (eval/eval.h), answer two questions that must not be
+ * mixed up (docs/method.md, "Pull force"):
  *
  * capstan and joint: the seating pull, at which every pass has the seating tension T, N. Along a
  * cord that slides over a turn of theta rad, tension grows by exp(mu theta) (Euler-Eytelwein).
@@ -14,6 +14,8 @@
  * are drawn in (limit analysis of blocks with friction). It grows with the weight of the beads, not
  * with T.
  *
+ * rise: whether loose pieces come up in simulation: `thread rise` (cmd_rise.c) with its defaults.
+ *
  * This file parses the options, evaluates one plan in a guarded child process, puts the evaluation
  * into the plan, and writes the plan, pictures (eval_pictures.c) and a summary
  * (cli/print/eval_text.c, eval_json.c). With --calibrate there is no plan: weights at the bench
@@ -22,6 +24,7 @@
  * Example: `thread eval plan.json --mu 0.3 -o plan.json --plot tension.svg` stores the tension of
  * every pass in the plan and draws it along each cord. */
 #include "cli/commands/commands.h"
+#include "cli/commands/rise_runs.h"
 #include "cli/print/print.h"
 #include "eval/cord/profile.h"
 #include "graph/arrays.h"
@@ -85,7 +88,9 @@ static const char *method_meaning(int method)
       [THR_JOINT] = "each joint's friction measured in simulation, along the path the tight cord "
                     "takes",
       [THR_STRUCTURE] = "least pull at which the rigid beads have any equilibrium while the cord "
-                        "is drawn in, and which fails first"};
+                        "is drawn in, and which fails first",
+      [PULL_RISE] = "whether loose pieces come up in simulation: `thread rise`, which has options, "
+                    "with its defaults"};
   return meaning[method];
 }
 
@@ -99,7 +104,7 @@ static bool take_hand(void *into, const cli_option *option, const char *value)
 
 static const cli_option method_options[] = {{"method", .kind = CLI_WORD, AT(pull.method),
                                              .word = pull_method_name, .meaning = method_meaning,
-                                             .n_words = THR_N_METHODS,
+                                             .n_words = PULL_RISE + 1,
                                              .help = "how the pull is found (default: capstan)"},
                                             {0}};
 
@@ -158,6 +163,25 @@ static int check_pieces(const eval_arguments *args)
   return EXIT_OK;
 }
 
+/* Refuses what --method rise would ignore. */
+static int check_rise(const eval_arguments *args)
+{
+  const cli_option *const table[] = {own_options, cli_load_options, cli_load_tuned,
+                                     pull_run_options};
+  const char *given = NULL;
+  if (args->pull.method != PULL_RISE) return EXIT_OK;
+  for (size_t i = 0; i < sizeof table / sizeof *table && !given; i++)
+    given = cli_given_of(table[i]);
+  if (!given && args->pull.options.iterations != 1) given = "--tune iterations";
+  if (!given && args->pull.options.seed > 1000000000) given = "--seed above 1e9";
+  if (given)
+    return cli_usage("eval",
+                     "%s: --method rise is `thread rise` with its defaults, and plans do not keep "
+                     "what it sees; that command has options of its own",
+                     given);
+  return EXIT_OK;
+}
+
 /* Parses the command line into *args. Returns -1 to go on, or the exit code of the command. */
 static int parse(int argc, char **argv, eval_arguments *args)
 {
@@ -199,6 +223,7 @@ static int parse(int argc, char **argv, eval_arguments *args)
     return cli_usage("eval", "only one of --json, -o - and --plot - can have stdout");
 
   /* Options that exclude or need each other: what would be ignored is refused. */
+  if (check_rise(args)) return EXIT_USAGE;
   if (args->output && cli_no_plan_name("eval", args->output)) return EXIT_USAGE;
   if (pull_check(&args->pull, "eval")) return EXIT_USAGE;
 
@@ -315,6 +340,15 @@ int cmd_eval(int argc, char **argv)
   int code = parse(argc, argv, &args);
 
   if (code >= 0) return code;
+  if (args.pull.method == PULL_RISE) {
+    const rise_usual usual = {&args.pull.physics,
+                              &args.guard,
+                              args.pull.newtons,
+                              args.pull.options.time_step,
+                              cli_given("seed") ? (int)args.pull.options.seed : -1,
+                              args.pull.json};
+    return rise_as_usual(args.path, &usual);
+  }
 
   /* The child does all of the work. */
   if (guard_fork(&args.guard, &end)) return guard_conclude(&end, "no result");

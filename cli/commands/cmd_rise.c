@@ -9,6 +9,7 @@
 #include "cli/args/args.h"
 #include "cli/cli.h"
 #include "cli/commands/commands.h"
+#include "cli/commands/rise_runs.h"
 #include "diagram/export/paper.h"
 #include "diagram/overview/charts.h"
 #include "diagram/overview/overview.h"
@@ -49,10 +50,8 @@ static const char outro[] =
     "Exit codes: 0 all was seen, whether it comes up or not, 2 usage, 3 not a plan or nothing that "
     "can be simulated, 5 not done in the time or memory (what was seen is printed)";
 
-enum { MOST_SEEDS = 1000, MOST_MOMENTS = 4000, STILLS = 4 };
-static const double HAND = 50;    /* N, the most that a hand pulls once */
-static const double COARSE = 2.2; /* factor on the triangles of pieces in films */
-static const double LIFTING = 2;  /* of the structure's weight, that a hand carries at most */
+enum { STILLS = 4 };
+static const double LIFTING = 2; /* of the structure's weight, that a hand carries at most */
 
 /* What was asked. */
 typedef struct {
@@ -131,7 +130,7 @@ static const cli_option own_options[] = {
      .help = "a counterweight lifts this piece with so many newtons"},
     {"raise", .value = "NODE", .kind = CLI_TEXT, AT(raise),
      .help = "a hand carries this piece to its height, and no higher"},
-    {"seeds", .value = "N", .kind = CLI_COUNT, AT(seeds), .low = 1, .high = MOST_SEEDS,
+    {"seeds", .value = "N", .kind = CLI_COUNT, AT(seeds), .low = 1, .high = RISE_MOST_SEEDS,
      .help = "so many runs, each from another disorder: median and range (default: 1)"},
     {"seed", .value = "N", .kind = CLI_COUNT, AT(first_seed), .low = 0, .high = 1e9,
      .help = "of the first run (default: 1)"},
@@ -175,20 +174,12 @@ static const cli_option tuned_options[] = {
 /* All that a run needs. */
 typedef struct {
   const rise_arguments *args;
-  const thr_kit *kit;
-  thr_rise_kit made;
+  rise_pieces pieces;
   thr_rise_options options; /* of the first run */
   int n_runs;
   thr_rise_record *record; /* [seeds] of which n_runs are done; only the first has poses */
-  double seated, stands;   /* N, by the closed form and by limit analysis; NAN: not known */
   thr_eval after;          /* what the closed form says that the schedule leaves */
 } rise_runs;
-
-/* What a process returns of a run. */
-typedef struct {
-  thr_rise_record record; /* without its arrays */
-  thr_rise_moment moment[MOST_MOMENTS];
-} rise_result;
 
 /* The piece with this name, as documents call it or as the framework does; -1. */
 static int piece_named(const thr_kit *kit, const char *name)
@@ -223,39 +214,6 @@ static int take_lift(const rise_arguments *args, const thr_kit *kit, double weig
 
 /* ---- what is said ---- */
 
-/* The pull at which a run came up, N; infinite if it did not. */
-static double pull_up(const thr_rise_record *record)
-{
-  double most = 0;
-  if (record->came_up < 0) return INFINITY;
-  for (int f = record->scheduled ? 0 : record->came_up; f <= record->came_up; f++)
-    most = fmax(most, record->moment[f].pull);
-  return most;
-}
-
-static double pull_down(const thr_rise_record *record)
-{
-  return record->fell >= 0 ? record->moment[record->fell].pull : 0;
-}
-
-static int ascending(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
-/* The least, the middle and the largest of what is read off all runs. */
-static void spread_of(const rise_runs *runs, double (*of)(const thr_rise_record *), double out[3])
-{
-  double value[MOST_SEEDS];
-  for (int i = 0; i < runs->n_runs; i++)
-    value[i] = of(&runs->record[i]);
-  qsort(value, (size_t)runs->n_runs, sizeof *value, ascending);
-  out[0] = value[0];
-  out[1] = value[(runs->n_runs - 1) / 2];
-  out[2] = value[runs->n_runs - 1];
-}
-
 static double off_of(const thr_rise_record *record)
 {
   return record->off;
@@ -274,27 +232,14 @@ static int count_up(const rise_runs *runs)
 static void put_spread(const rise_runs *runs, double (*of)(const thr_rise_record *),
                        const char *unit, thr_text *text)
 {
-  double value[3];
-  spread_of(runs, of, value);
+  double value[RISE_MOST_SEEDS], spread[3];
+  for (int i = 0; i < runs->n_runs; i++)
+    value[i] = of(&runs->record[i]);
+  rise_spread(value, runs->n_runs, spread);
   if (runs->n_runs == 1)
-    thr_text_printf(text, "%.3g %s", value[0], unit);
+    thr_text_printf(text, "%.3g %s", spread[0], unit);
   else
-    thr_text_printf(text, "%.3g %s (%.3g to %.3g)", value[1], unit, value[0], value[2]);
-}
-
-/* The names of the two pieces of a pass, counted over all cords. */
-static void pieces_of(const rise_runs *runs, int pass, const char *name[2])
-{
-  for (int c = 0; c < runs->made.structure.n_cords; c++) {
-    const thr_rise_cord *cord = &runs->made.structure.cord[c];
-    if (pass >= cord->n_passes) {
-      pass -= cord->n_passes;
-      continue;
-    }
-    name[0] = runs->kit->name[cord->piece[pass]];
-    name[1] = runs->kit->name[cord->piece[pass + 1]];
-    return;
-  }
+    thr_text_printf(text, "%.3g %s (%.3g to %.3g)", spread[1], unit, spread[0], spread[2]);
 }
 
 /* Appends whether it stands after the schedule, and what tension is left in each cord, beside what
@@ -316,7 +261,7 @@ static void put_after(const rise_runs *runs, thr_text *text)
   else
     thr_text_printf(text, "after the schedule it %s\n", standing ? "stands" : "does not stand");
 
-  for (int c = 0; c < runs->made.structure.n_cords; c++) {
+  for (int c = 0; c < runs->pieces.made.structure.n_cords; c++) {
     const thr_eval_cord *cord = &runs->after.record.cord[c];
     double range[2][2] = {{INFINITY, 0}, {INFINITY, 0}};
     for (int k = 0; k < cord->n_passes; k++)
@@ -326,7 +271,7 @@ static void put_after(const rise_runs *runs, thr_text *text)
         range[i][1] = fmax(range[i][1], tension);
       }
     thr_text_printf(text, "cord %s keeps %.3g to %.3g N; by the closed form %.3g to %.3g N\n",
-                    runs->kit->plan->cord[c].id, range[0][0], range[0][1], range[1][0],
+                    runs->pieces.kit.plan->cord[c].id, range[0][0], range[0][1], range[1][0],
                     range[1][1]);
     left += cord->n_passes;
   }
@@ -335,7 +280,7 @@ static void put_after(const rise_runs *runs, thr_text *text)
 /* Appends what rises and from where. */
 static void put_title(const rise_runs *runs, thr_text *text)
 {
-  const thr_rise_structure *structure = &runs->made.structure;
+  const thr_rise_structure *structure = &runs->pieces.made.structure;
   const thr_rise_record *record = &runs->record[0];
   const thr_rise_options *options = &runs->args->rise;
   int ends = 0;
@@ -363,7 +308,7 @@ static void put_outcome(const rise_runs *runs, thr_text *text)
     thr_text_append(text, up ? "comes up" : "does not come up");
   if (2 * up > runs->n_runs) {
     thr_text_append(text, runs->args->rise.start == THR_RISE_SHAPE ? ": it stands at " : " at ");
-    put_spread(runs, pull_up, "N", text);
+    put_spread(runs, rise_pull_up, "N", text);
     thr_text_append(text, runs->args->schedule        ? ", the largest pull by then"
                           : runs->args->rise.rate > 0 ? " at the end that is pulled hardest"
                                                       : " at every end");
@@ -383,14 +328,14 @@ static void put_text(const rise_runs *runs, thr_text *text)
                   record->most_closed, record->n_passes, last->height, last->drawn);
   if (record->most_closed < record->n_passes) {
     const char *name[2] = {"", ""};
-    pieces_of(runs, record->loosest, name);
+    rise_pass_names(&runs->pieces, record->loosest, name);
     thr_text_printf(text, "the widest gap stays between %s and %s\n", name[0], name[1]);
   }
-  if (runs->seated > 0 && isfinite(runs->seated))
-    thr_text_printf(text, "by the closed form %.3g N seat every pass", runs->seated);
-  if (runs->stands > 0 && isfinite(runs->stands))
-    thr_text_printf(text, "; by limit analysis it stands from %.3g N on", runs->stands);
-  if (runs->seated > 0) thr_text_append(text, "\n");
+  if (runs->pieces.seated > 0 && isfinite(runs->pieces.seated))
+    thr_text_printf(text, "by the closed form %.3g N seat every pass", runs->pieces.seated);
+  if (runs->pieces.stands > 0 && isfinite(runs->pieces.stands))
+    thr_text_printf(text, "; by limit analysis it stands from %.3g N on", runs->pieces.stands);
+  if (runs->pieces.seated > 0) thr_text_append(text, "\n");
   thr_text_append(text, "differs from the drawn shape by ");
   put_spread(runs, off_of, "mm at most", text);
   thr_text_append(text, "\n");
@@ -398,7 +343,7 @@ static void put_text(const rise_runs *runs, thr_text *text)
   if (runs->args->rise.let_down) {
     if (record->fell >= 0) {
       thr_text_append(text, "let down, it falls below ");
-      put_spread(runs, pull_down, "N", text);
+      put_spread(runs, rise_pull_down, "N", text);
       thr_text_append(text, "\n");
     } else
       thr_text_append(text, "let down, it does not fall\n");
@@ -412,8 +357,8 @@ static void write_run(thr_writer *writer, const rise_runs *runs, int i, bool mot
   thr_write_object(writer, NULL);
   thr_write_int(writer, "seed", runs->args->first_seed + i);
   thr_write_bool(writer, "came_up", record->came_up >= 0);
-  if (record->came_up >= 0) thr_write_number(writer, "pull_up", pull_up(record));
-  if (record->fell >= 0) thr_write_number(writer, "pull_down", pull_down(record));
+  if (record->came_up >= 0) thr_write_number(writer, "pull_up", rise_pull_up(record));
+  if (record->fell >= 0) thr_write_number(writer, "pull_down", rise_pull_down(record));
   thr_write_int(writer, "most_closed", record->most_closed);
   thr_write_number(writer, "off", record->off);
   if (runs->args->schedule && record->finished) thr_write_bool(writer, "stands", record->stands);
@@ -452,10 +397,10 @@ static void write_left(thr_writer *writer, const rise_runs *runs)
   const thr_rise_record *record = &runs->record[0];
   const double *left = record->tension + (size_t)(record->n_frames - 1) * (size_t)record->n_passes;
   thr_write_array(writer, "left");
-  for (int c = 0; c < runs->made.structure.n_cords; c++) {
+  for (int c = 0; c < runs->pieces.made.structure.n_cords; c++) {
     const thr_eval_cord *cord = &runs->after.record.cord[c];
     thr_write_object(writer, NULL);
-    thr_write_string(writer, "cord", runs->kit->plan->cord[c].id);
+    thr_write_string(writer, "cord", runs->pieces.kit.plan->cord[c].id);
     for (int i = 0; i < 2; i++) {
       thr_write_row(writer, i ? "closed_form" : "tension");
       for (int k = 0; k < cord->n_passes; k++)
@@ -479,8 +424,8 @@ static void put_json(const rise_runs *runs, bool motion, thr_text *text)
   thr_write_int(&writer, "faces", record->n_passes);
   thr_write_number(&writer, "weight", record->weight);
   thr_write_number(&writer, "seconds_a_frame", record->between);
-  thr_write_number(&writer, "closed_form", runs->seated);
-  thr_write_number(&writer, "limit_analysis", runs->stands);
+  thr_write_number(&writer, "closed_form", runs->pieces.seated);
+  thr_write_number(&writer, "limit_analysis", runs->pieces.stands);
   if (runs->args->schedule && record->finished) write_left(&writer, runs);
   thr_write_array(&writer, "runs");
   for (int i = 0; i < runs->n_runs; i++)
@@ -511,8 +456,12 @@ static int write_plot(const rise_runs *runs, const char *name)
       value[2 * n + i] = (double)record->moment[i].closed / record->n_passes;
     }
   }
-  const thr_rise_chart chart = {
-      name, &runs->made.structure.physics, runs->seated, runs->stands, runs->n_runs, line};
+  const thr_rise_chart chart = {name,
+                                &runs->pieces.made.structure.physics,
+                                runs->pieces.seated,
+                                runs->pieces.stands,
+                                runs->n_runs,
+                                line};
   if (!st) st = thr_rise_svg(&chart, &svg, &err);
   thr_scratch_free(&own);
   return cli_write_drawn(st, &svg, runs->args->plot, &err);
@@ -531,8 +480,8 @@ static int write_film(const rise_runs *runs)
   const int code = args->frames ? cli_make_folder(args->frames) : EXIT_SUCCESS;
   if (code) return code;
 
-  thr_status st = thr_rise_movement(&movement, runs->kit, &runs->record[0], &err);
-  if (!st) st = thr_film_open(&film, runs->kit, &movement, &options, &err);
+  thr_status st = thr_rise_movement(&movement, &runs->pieces.kit, &runs->record[0], &err);
+  if (!st) st = thr_film_open(&film, &runs->pieces.kit, &movement, &options, &err);
   if (!st) st = thr_film_write(film, args->frames, args->film ? &png : NULL, &limits, &err);
   cli_progress_end();
   thr_film_close(film);
@@ -551,15 +500,16 @@ static int write_viewer(const rise_runs *runs)
   put_title(runs, &title);
   put_outcome(runs, &note);
 
-  thr_status st = thr_rise_movement(&movement, runs->kit, &runs->record[0], &err);
+  thr_status st = thr_rise_movement(&movement, &runs->pieces.kit, &runs->record[0], &err);
   if (!st && (title.failed || note.failed)) st = thr_nomem(&err);
-  if (!st) st = thr_kit_moves(runs->kit, &movement, title.data, note.data, &moves, &err);
-  if (!st) thr_kit_viewer(runs->kit, &moves, &pieces);
+  if (!st) st = thr_kit_moves(&runs->pieces.kit, &movement, title.data, note.data, &moves, &err);
+  if (!st) thr_kit_viewer(&runs->pieces.kit, &moves, &pieces);
   if (!st && pieces.failed) st = thr_nomem(&err);
   const thr_document_options how = {.kit = &pieces,
                                     .kind_tolerance = runs->args->kit.kind_tolerance};
   if (!st)
-    st = thr_document_make(runs->kit->plan, thr_document_find("html"), &how, &limits, &page, &err);
+    st = thr_document_make(runs->pieces.kit.plan, thr_document_find("html"), &how, &limits, &page,
+                           &err);
   cli_progress_end();
   thr_movement_destroy(&movement);
   thr_text_destroy(&title);
@@ -606,7 +556,7 @@ static int write_booklet(const rise_runs *runs)
   thr_err err = {0};
   thr_text note = {0}, pages = {0};
   thr_still still = {.title = "How it comes up",
-                     .width = runs->kit->options.width / runs->kit->mm,
+                     .width = runs->pieces.kit.options.width / runs->pieces.kit.mm,
                      .n_panels = find_stills(record, frame),
                      .panel = panel,
                      .first_bead = -1};
@@ -624,7 +574,7 @@ static int write_booklet(const rise_runs *runs)
     memcpy(own, record->pose + frame[i] * n_pieces, (size_t)n_pieces * sizeof *own);
     for (int v = 0; v < n_pieces; v++)
       for (int k = 0; k < 3; k++)
-        own[v][k] /= runs->kit->mm;
+        own[v][k] /= runs->pieces.kit.mm;
     snprintf(caption[i], sizeof *caption, "%d of %d faces closed, %.3g N at every end",
              moment->closed, record->n_passes, moment->pull);
     panel[i] = (thr_still_panel){id[i], caption[i], (const double(*)[7])own};
@@ -636,7 +586,7 @@ static int write_booklet(const rise_runs *runs)
   const int kind =
       thr_document_find(booklet_kind(runs->args->booklet) == 1 ? "sheets.html" : "pdf");
   thr_status st = pose && !note.failed ? THR_OK : thr_nomem(&err);
-  if (!st) st = thr_document_make(runs->kit->plan, kind, &how, &limits, &pages, &err);
+  if (!st) st = thr_document_make(runs->pieces.kit.plan, kind, &how, &limits, &pages, &err);
   cli_progress_end();
   free(pose);
   thr_text_destroy(&note);
@@ -680,95 +630,32 @@ static int tell(const rise_runs *runs)
 
 /* ---- the runs ---- */
 
-/* Runs seed first_seed + 1 + job in a process of its own. Signature of thr_work.run. */
-static thr_status run_job(void *user, int job, void *result, thr_err *err)
-{
-  const rise_runs *runs = user;
-  rise_result *out = result;
-  thr_rise_options options = runs->options;
-  thr_rise_record record;
-  options.seed += (uint64_t)job + 1;
-  thr_status st = thr_rise_simulate(&runs->made.structure, &options, NULL, &record, err);
-  if (!st) {
-    out->record = record;
-    if (record.n_frames > MOST_MOMENTS) out->record.n_frames = MOST_MOMENTS;
-    memcpy(out->moment, record.moment, (size_t)out->record.n_frames * sizeof *out->moment);
-    out->record.moment = NULL;
-    out->record.pose = NULL;
-    out->record.tension = NULL;
-  }
-  thr_rise_record_destroy(&record);
-  return st;
-}
-
 /* Runs all seeds but the first in parallel processes. Those that are finished follow each other. */
 static thr_status run_others(rise_runs *runs, const thr_limits *limits, thr_err *err)
 {
   const int n = runs->args->seeds - 1;
-  const thr_work work = {.n_jobs = n,
-                         .result_size = sizeof(rise_result),
-                         .run = run_job,
-                         .user = runs,
-                         .what = "simulating",
-                         .advice = "fewer --seeds"};
-  rise_result *result = thr_calloc((size_t)n, sizeof *result);
-  bool *finished = thr_calloc((size_t)n, sizeof *finished);
-  thr_status st = result && finished
-                      ? thr_workers_run(&work, cli_processes(), limits, result, finished, err)
-                      : thr_nomem(err);
-  for (int i = 0; i < n && result && finished; i++) {
-    thr_rise_record *record = &runs->record[runs->n_runs];
-    if (!finished[i]) continue;
-    *record = result[i].record;
-    record->moment = thr_calloc((size_t)record->n_frames, sizeof *record->moment);
-    if (!record->moment) {
-      *record = (thr_rise_record){0};
-      st = thr_nomem(err);
-      break;
-    }
-    memcpy(record->moment, result[i].moment, (size_t)record->n_frames * sizeof *record->moment);
-    runs->n_runs++;
+  rise_job *job = thr_calloc((size_t)n, sizeof *job);
+  if (!job) return thr_nomem(err);
+  for (int i = 0; i < n; i++) {
+    job[i].structure = &runs->pieces.made.structure;
+    job[i].options = runs->options;
+    job[i].options.seed += (uint64_t)i + 1;
   }
-  free(result);
-  free(finished);
+  thr_status st = rise_jobs_run(job, n, limits, err);
+  for (int i = 0; i < n; i++) {
+    if (job[i].done) runs->record[runs->n_runs++] = job[i].record;
+    if (job[i].status && !st) st = thr_fail(err, job[i].status, "%s", job[i].why.text);
+  }
+  free(job);
   return st;
 }
 
-/* What the closed form says of the cords, and the limit analysis of these very pieces in their
- * closed shape, N at every end. */
-static void foretell(rise_runs *runs, const thr_plan *plan, const thr_limits *limits)
-{
-  thr_err err = {0};
-  thr_bodies bodies;
-  const bool known = !thr_kit_bodies(runs->kit, &bodies, &err);
-  err = (thr_err){0};
-  runs->seated = runs->stands = NAN;
-  for (int method = 0; method < 2; method++) {
-    thr_eval eval;
-    thr_eval_options options = thr_eval_options_default();
-    options.physics = runs->made.structure.physics;
-    options.pull = (thr_pull)runs->args->ends;
-    if (method == 1 && (!known || plan->frame.n_nodes > THR_HOLDS_LARGEST)) break;
-    if (method == 1) options.bodies = &bodies;
-    if (!thr_eval_plan(&plan->frame, plan->cord, plan->n_cords,
-                       method ? THR_STRUCTURE : THR_CAPSTAN, &options, limits, &eval, &err)) {
-      if (method)
-        runs->stands = eval.equal.present ? eval.equal.lower : eval.holding.lower;
-      else
-        runs->seated = eval.record.largest;
-    }
-    thr_eval_destroy(&eval);
-    err = (thr_err){0};
-  }
-  thr_scratch_free(&bodies.own);
-}
-
 /* Computes what the closed form says that the schedule leaves, and refuses what that refuses. */
-static thr_status foretell_left(rise_runs *runs, const thr_plan *plan, const thr_limits *limits,
-                                thr_err *err)
+static thr_status foretell_left(rise_runs *runs, const thr_limits *limits, thr_err *err)
 {
+  const thr_plan *plan = runs->pieces.kit.plan;
   thr_eval_options options = thr_eval_options_default();
-  options.physics = runs->made.structure.physics;
+  options.physics = runs->pieces.made.structure.physics;
   options.pull = THR_PULL_BOTH;
   options.schedule = runs->options.schedule;
   return thr_eval_plan(&plan->frame, plan->cord, plan->n_cords, THR_CAPSTAN, &options, limits,
@@ -776,22 +663,24 @@ static thr_status foretell_left(rise_runs *runs, const thr_plan *plan, const thr
 }
 
 /* Runs all seeds, and tells what was seen. Returns an exit code. */
-static int run_all(rise_runs *runs, const thr_plan *plan)
+static int run_all(rise_runs *runs)
 {
   const rise_arguments *args = runs->args;
   thr_err err = {0};
   thr_limits limits = cli_limits(0);
   double weight = 0;
-  for (int p = 0; p < runs->made.structure.n_pieces; p++)
-    weight += 1e-3 * runs->made.structure.piece[p].mass * runs->made.structure.physics.gravity;
+  for (int p = 0; p < runs->pieces.made.structure.n_pieces; p++)
+    weight += 1e-3 * runs->pieces.made.structure.piece[p].mass *
+              runs->pieces.made.structure.physics.gravity;
   runs->options.seed = (uint64_t)args->first_seed;
-  int code = take_lift(args, runs->kit, weight, &runs->options);
+  int code = take_lift(args, &runs->pieces.kit, weight, &runs->options);
   if (code >= 0) return code;
 
-  foretell(runs, plan, &limits);
-  thr_status st = args->schedule ? foretell_left(runs, plan, &limits, &err) : THR_OK;
+  rise_foretell(&runs->pieces, &limits);
+  thr_status st = args->schedule ? foretell_left(runs, &limits, &err) : THR_OK;
   if (!st)
-    st = thr_rise_simulate(&runs->made.structure, &runs->options, &limits, &runs->record[0], &err);
+    st = thr_rise_simulate(&runs->pieces.made.structure, &runs->options, &limits, &runs->record[0],
+                           &err);
   if (!st || (st == THR_ELIMIT && runs->record[0].held)) runs->n_runs = 1;
   if (!st && args->seeds > 1) st = run_others(runs, &limits, &err);
   cli_progress_end();
@@ -802,59 +691,82 @@ static int run_all(rise_runs *runs, const thr_plan *plan)
   return code ? code : failed;
 }
 
-/* Makes the kit of a plan, and what rises from it. Returns an exit code. */
+/* Makes the pieces of a plan, and lets them rise. Returns an exit code. */
 static int make_and_run(const rise_arguments *args, const thr_plan *plan)
 {
   thr_err err = {0};
-  thr_kit kit;
-  rise_runs runs = {.args = args, .kit = &kit};
-  thr_physics physics;
+  const thr_limits limits = cli_limits(0);
+  rise_runs runs = {.args = args, .options = args->rise};
   thr_schedule schedule = {0};
   const int read = pull_read_schedule(args->schedule, plan, &schedule);
   if (read) return read;
-  thr_limits limits = cli_limits(0);
-  thr_pull *pull = thr_calloc((size_t)plan->n_cords, sizeof *pull);
-  runs.record = thr_calloc((size_t)args->seeds, sizeof *runs.record);
-  for (int c = 0; c < plan->n_cords && pull; c++)
-    pull[c] = (thr_pull)args->ends;
-  runs.options = args->rise;
   if (args->schedule) runs.options.schedule = &schedule;
 
   thr_physics asked = plan->options.physics;
   if (isfinite(args->stiffness)) asked.stiffness = args->stiffness;
   if (isfinite(args->gravity)) asked.gravity = args->gravity;
+  const rise_setting setting = {(thr_pull)args->ends, (thr_rise_feet)args->feet, &asked};
+  runs.record = thr_calloc((size_t)args->seeds, sizeof *runs.record);
 
-  thr_status st = thr_kit_make(&kit, plan, &args->kit, NULL, true, &limits, &err);
-  if (!st && (!pull || !runs.record)) st = thr_nomem(&err);
-  if (!st) st = thr_physics_resolve(&asked, &plan->frame, &physics, &err);
-  if (!st)
-    st = thr_rise_kit_make(&runs.made, &kit, pull, (thr_rise_feet)args->feet, &physics, &err);
-  const int code = st ? cli_fail(&err) : run_all(&runs, plan);
+  thr_status st = rise_pieces_make(&runs.pieces, plan, &args->kit, &setting, &limits, &err);
+  if (!st && !runs.record) st = thr_nomem(&err);
+  const int code = st ? cli_fail(&err) : run_all(&runs);
 
   for (int i = 0; i < args->seeds && runs.record; i++)
     thr_rise_record_destroy(&runs.record[i]);
   free(runs.record);
-  free(pull);
   thr_schedule_destroy(&schedule);
   thr_eval_destroy(&runs.after);
-  thr_rise_kit_destroy(&runs.made);
-  thr_kit_destroy(&kit);
+  rise_pieces_destroy(&runs.pieces);
   return code;
+}
+
+/* What `thread rise` does without options. */
+static rise_arguments usual_arguments(void)
+{
+  return (rise_arguments){.guard = guard_limits_default(),
+                          .rise = {.pull = rise_hand},
+                          .kit = {.names = THR_KIT_NO_NAMES, .coarse = rise_coarse},
+                          .seeds = 1,
+                          .ends = THR_PULL_BOTH,
+                          .stiffness = NAN,
+                          .gravity = NAN,
+                          .first_seed = 1};
+}
+
+/* Reads the plan and does all of the work in a child. physics: what is said of cord and beads;
+ * NULL: nothing. Returns the exit code. */
+static int run_guarded(const rise_arguments *args, const cli_physics *physics)
+{
+  guard_end end;
+  thr_plan plan;
+  if (guard_fork(&args->guard, &end)) return guard_conclude(&end, "nothing was seen");
+
+  int code = cli_read_plan(args->path, &plan);
+  if (code) return code;
+  if (physics) code = rise_apply_physics(physics, &plan);
+  if (!code) code = make_and_run(args, &plan);
+  thr_plan_destroy(&plan);
+  return code;
+}
+
+int rise_as_usual(const char *path, const rise_usual *asked)
+{
+  rise_arguments args = usual_arguments();
+  args.path = path;
+  args.guard = *asked->guard;
+  args.json = asked->json;
+  args.rise.time_step = asked->time_step;
+  if (asked->newtons > 0) args.rise.pull = asked->newtons;
+  if (asked->seed >= 0) args.first_seed = asked->seed;
+  return run_guarded(&args, asked->physics);
 }
 
 /* Runs `thread rise` and returns the exit code. */
 int cmd_rise(int argc, char **argv)
 {
   static const cli_syntax syntax = {"rise", intro, outro};
-  rise_arguments asked = {.guard = guard_limits_default(),
-                          .rise = {.pull = HAND},
-                          .kit = {.names = THR_KIT_NO_NAMES, .coarse = COARSE},
-                          .seeds = 1,
-                          .ends = THR_PULL_BOTH,
-                          .stiffness = NAN,
-                          .gravity = NAN,
-                          .first_seed = 1};
-  guard_end end;
+  rise_arguments asked = usual_arguments();
   const cli_group groups[] = {
       {"Options", own_options, &asked},    {"Shape", shape_options, &asked},
       {NULL, guard_options, &asked.guard}, {NULL, cli_processes_options, NULL},
@@ -878,13 +790,5 @@ int cmd_rise(int argc, char **argv)
   asked.rise.iterations = (int)asked.iterations;
   if (asked.progress) progress_begin();
 
-  /* The child does all of the work. */
-  if (guard_fork(&asked.guard, &end)) return guard_conclude(&end, "nothing was seen");
-
-  thr_plan plan;
-  code = cli_read_plan(argv[optind], &plan);
-  if (code) return code;
-  code = make_and_run(&asked, &plan);
-  thr_plan_destroy(&plan);
-  return code;
+  return run_guarded(&asked, NULL);
 }

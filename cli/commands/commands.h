@@ -106,14 +106,15 @@ void drawings_names(const thr_plan *plan, const drawings_args *a, char names[DRA
  * A command calls pull_args_init, pull_option for each option, pull_check when all are known, and
  * pull_eval for each plan. */
 
-enum { PULL_ALL_METHODS = THR_N_METHODS };
+enum { PULL_RISE = THR_N_METHODS, PULL_ALL_METHODS }; /* all: those that compute a pull */
 
 /* What was asked for. */
 typedef struct {
   cli_physics physics;
   thr_eval_options options; /* physics and pulls are set for each plan */
-  int method;               /* thr_method, or PULL_ALL_METHODS */
-  const char *pull;         /* as given */
+  int method;               /* thr_method, PULL_RISE or PULL_ALL_METHODS */
+  const char *pull;         /* which ends, as given */
+  double newtons;           /* .. or, of PULL_RISE, the most that a hand pulls; 0 = not said */
   bool json, no_cache;
   char cache[1024]; /* where options.cache points unless given */
 } pull_args;
@@ -123,11 +124,11 @@ void pull_args_init(pull_args *a, thr_method method);
 /* How a pull is measured, --json, and what is for developers; where measured joints are kept. */
 extern const cli_option pull_options[], pull_tuned[], pull_run_options[];
 
-/* The name of a method, or "all", for the rows of --method that commands have. */
+/* The name of a method, "rise" or "all", for the rows of --method that commands have. */
 const char *pull_method_name(int method);
 
 /* Returns whether a method is among those that were asked for. The closed form always is. */
-bool pull_wants(const pull_args *args, thr_method method);
+bool pull_wants(const pull_args *args, int method);
 
 /* Checks that what was asked makes sense together. Returns EXIT_OK, or prints and returns the code.
  */

@@ -16,6 +16,7 @@
 
 #include "cli/commands/commands.h"
 #include "graph/framework/frame.h"
+#include "graph/number.h"
 #include "graph/os.h"
 #include "graph/plan/physics.h"
 
@@ -76,14 +77,19 @@ static bool is_named_twice(const char *value, const char *end, const char id[12]
   return false;
 }
 
-/* Takes a value of --pull: a word, or a list without a cord that is named twice. */
+/* Takes a value of --pull: a word, or a list without a cord that is named twice; or newtons. */
 static bool take_pull(void *into, const cli_option *option, const char *value)
 {
   const char *command = cli_command_name();
+  pull_args *args = into;
   thr_pull pull;
   char id[12];
   (void)option;
-  ((pull_args *)into)->pull = value;
+  if (thr_number_parse(value, strlen(value), &args->newtons) && args->newtons > 0 &&
+      args->newtons <= 1e6)
+    return true;
+  args->newtons = 0;
+  args->pull = value;
   bool ok = pull_by_name(value, strlen(value), &pull) && pull != THR_PULL_NONE;
 
   /* A list. */
@@ -105,7 +111,7 @@ static bool take_pull(void *into, const cli_option *option, const char *value)
 
 const char *pull_method_name(int method)
 {
-  return method < THR_N_METHODS ? thr_method_name(method) : "all";
+  return method < THR_N_METHODS ? thr_method_name(method) : method == PULL_RISE ? "rise" : "all";
 }
 
 /* A whole number that JSON can hold. */
@@ -145,9 +151,10 @@ const cli_option pull_options[] = {
              "capstan)"},
     {"pull", .value = "start|end|both", .kind = CLI_OTHER, .take = take_pull,
      .help = "which end of each cord is pulled (default: both); or A=start,B=none for single "
-             "cords"},
+             "cords; rise: newtons, the most that hands pull every end with (default: 50)"},
     {"seed", .value = "N", .kind = CLI_OTHER, .take = take_seed,
-     .help = "number of the small disorder that a simulation begins with, 0 to 2^53 (default: 0)"},
+     .help = "number of the small disorder that a simulation begins with, 0 to 2^53 (default: 0; "
+             "rise: 1, of the first run)"},
     {"json", .kind = CLI_FLAG, AT(json), .help = "everything as JSON"},
     {0}};
 
@@ -157,9 +164,10 @@ const cli_option pull_tuned[] = {
     {"iterations", .kind = CLI_AMOUNT, AT(options.iterations), .low = 0.1, .high = 100},
     {0}};
 
-bool pull_wants(const pull_args *args, thr_method method)
+bool pull_wants(const pull_args *args, int method)
 {
-  return method == THR_CAPSTAN || args->method == (int)method || args->method == PULL_ALL_METHODS;
+  return method == THR_CAPSTAN || args->method == method ||
+         (args->method == PULL_ALL_METHODS && method < THR_N_METHODS);
 }
 
 /* Refuses options that would be ignored. */
@@ -170,6 +178,15 @@ int pull_check(const pull_args *args, const char *command)
   /* thread compare shows the closed form whatever the method. */
   if (args->options.law != THR_LAW_CAPSTAN && !closed)
     return cli_usage(command, "--law is for --method capstan");
+
+  /* Which ends, or how hard. */
+  if (args->newtons > 0 && args->method != PULL_RISE)
+    return cli_usage(command,
+                     "--pull %s: expected start, end or both, or a list like A=none,B=both",
+                     cli_given_value("pull"));
+  if (args->method == PULL_RISE && cli_given("pull") && !(args->newtons > 0))
+    return cli_usage(command, "--pull %s: --method rise pulls every end; expected newtons, as 20",
+                     args->pull);
 
   return EXIT_OK;
 }

@@ -14,8 +14,19 @@
 
 /* Rankings, one for each question, in the order in which they are printed. CAPSTAN and JOINT:
  * seating pull. HOLDING to LOADED: least pull (or part of the tensions) of the limit analysis.
- * CARRIED, CARRIED_AFTER: multiple of the load. */
-enum { CAPSTAN, JOINT, HOLDING, STANDING, AFTER, LOADED, CARRIED, CARRIED_AFTER, N_QUESTIONS };
+ * CARRIED, CARRIED_AFTER: multiple of the load. RISE: what comes up in simulation. */
+enum {
+  CAPSTAN,
+  JOINT,
+  HOLDING,
+  STANDING,
+  AFTER,
+  LOADED,
+  CARRIED,
+  CARRIED_AFTER,
+  RISE,
+  N_QUESTIONS
+};
 _Static_assert((int)N_QUESTIONS == (int)COMPARE_RANKINGS, "a ranking for each question");
 
 /* Sets the interval of plan i from a pull, or a factor on tensions, that is needed: from the proved
@@ -59,7 +70,7 @@ static void rank_bands(ranking *ranked, int question, const compare_entry *candi
       rank_band(ranked, 0, candidate->eval[question == CAPSTAN ? THR_CAPSTAN : THR_JOINT].band, i);
   } else if (question == CARRIED) {
     if (structure->n_carries) rank_band(ranked, 1, structure->carries[0].band_beads, i);
-  } else if (structure->record.present) {
+  } else if (question != RISE && structure->record.present) {
     rank_band(ranked, 1, structure->band_beads[of[question]], i);
     if (question == HOLDING || question == STANDING)
       rank_band(ranked, 0, question == HOLDING ? structure->band : structure->band_any, i);
@@ -96,6 +107,7 @@ static void rank_plan(ranking *ranked, int question, const compare_entry *candid
   case CARRIED:
     if (structure->n_carries) rank_carry(ranked, &structure->carries[0].carry, i);
     break;
+  case RISE: break; /* compare_rises.c */
   default:
     if (structure->after.present) rank_carry(ranked, &structure->after_carries, i);
   }
@@ -106,6 +118,7 @@ static bool asked(int question, const compare_entry *entries, int n)
 {
   for (int i = 0; i < n; i++) {
     const thr_eval *structure = &entries[i].eval[THR_STRUCTURE];
+    if (question == RISE && entries[i].rise.runs > 0) return true;
 
     /* The closed form, the joints and the holding pull have no option of their own; any other
      * answer is there only if an option asked for it. */
@@ -155,22 +168,28 @@ thr_status compare_rank(const pull_args *args, const compare_entry *entries, int
       [CARRIED_AFTER] = {.title = "load carried after the schedule (the same two)",
                          .key = "carried_after",
                          .unit = " x",
-                         .most = true}};
+                         .most = true},
+      [RISE] = {.title = "rising in simulation (first what comes up in all runs, by the pull at "
+                         "which it does; then by how many come up, and by closed faces)",
+                .key = "rise",
+                .unit = " N"}};
 
   /* A ranking for each question of the methods that are wanted, unless no plan was asked it. */
   bool all = args->method == PULL_ALL_METHODS;
 
   *count = 0;
   for (int question = 0; question < N_QUESTIONS; question++) {
-    const thr_method method = question == CAPSTAN ? THR_CAPSTAN
-                              : question == JOINT ? THR_JOINT
-                                                  : THR_STRUCTURE;
-    if ((!all && args->method != (int)method) || !asked(question, entries, n)) continue;
+    const int method = question == CAPSTAN ? THR_CAPSTAN
+                       : question == JOINT ? THR_JOINT
+                       : question == RISE  ? PULL_RISE
+                                           : THR_STRUCTURE;
+    if ((!all && args->method != method) || !asked(question, entries, n)) continue;
 
     /* The ranking is counted only once it is complete. */
     rankings[*count] = kind[question];
     thr_status st = ranking_init(&rankings[*count], n, err);
     if (st) return st;
+    if (question == RISE && (st = compare_rank_rises(&rankings[*count], entries, err))) return st;
 
     for (int i = 0; i < n; i++) {
       rank_plan(&rankings[*count], question, &entries[i], i);

@@ -50,6 +50,18 @@ enum {
   JOINT_REFUSED,
   JOINT_TOTAL,
   HOLDING,
+  RISE_RUNS,
+  RISE_UP,
+  RISE_PULL,
+  RISE_PULL_LOW,
+  RISE_PULL_HIGH,
+  RISE_FACES,
+  RISE_CLOSED,
+  RISE_CLOSED_LOW,
+  RISE_FALL,
+  RISE_FALL_LOW,
+  RISE_FALL_HIGH,
+  RISE_STANDS,
   N_ROWS
 };
 
@@ -100,6 +112,25 @@ const compare_row compare_rows[COMPARE_ROWS] = {
                      false},
     [HOLDING] = {"holding pull while drawn in, N", "holding_pull", true, -6, THR_STRUCTURE, false,
                  false},
+    [RISE_RUNS] = {"runs in simulation", "rise_runs", false, -1, PULL_RISE, false, false},
+    [RISE_UP] = {"of these come up", "rise_up", false, -1, PULL_RISE, false, false},
+    [RISE_PULL] = {"these come up at, median, N", "rise_pull", false, -3, PULL_RISE, false, false},
+    [RISE_PULL_LOW] = {"the first of them at, N", "rise_pull_low", false, -3, PULL_RISE, false,
+                       false},
+    [RISE_PULL_HIGH] = {"the last of them at, N", "rise_pull_high", false, -3, PULL_RISE, false,
+                        false},
+    [RISE_FACES] = {"faces", "rise_faces", false, -1, PULL_RISE, false, false},
+    [RISE_CLOSED] = {"of these closed at most, median", "rise_closed", false, -1, PULL_RISE, false,
+                     false},
+    [RISE_CLOSED_LOW] = {"in the worst run", "rise_closed_low", false, -1, PULL_RISE, false, false},
+    [RISE_FALL] = {"let down, falls below, median, N", "rise_fall", false, -3, PULL_RISE, true,
+                   false},
+    [RISE_FALL_LOW] = {"the last of them below, N", "rise_fall_low", false, -3, PULL_RISE, true,
+                       false},
+    [RISE_FALL_HIGH] = {"the first of them below, N", "rise_fall_high", false, -3, PULL_RISE, true,
+                        false},
+    [RISE_STANDS] = {"stands by limit analysis at, N", "rise_stands", false, -4, PULL_RISE, false,
+                     false},
 };
 _Static_assert((int)N_ROWS == (int)COMPARE_ROWS, "a value for each row");
 
@@ -164,6 +195,24 @@ static void measure_plan(const thr_plan *plan, double *value)
       angles && !thr_wants_pull(&plan->options) ? thr_degrees(claim->largest_bound) : NAN;
 }
 
+/* Fills in what was seen in simulation. */
+static void measure_rise(const compare_rise *rise, double *value)
+{
+  const bool seen = rise->runs > 0, up = rise->up > 0, fell = rise->fell > 0;
+  value[RISE_RUNS] = seen ? (double)rise->runs : NAN;
+  value[RISE_UP] = seen ? (double)rise->up : NAN;
+  value[RISE_PULL_LOW] = up ? rise->pull[0] : NAN;
+  value[RISE_PULL] = up ? rise->pull[1] : NAN;
+  value[RISE_PULL_HIGH] = up ? rise->pull[2] : NAN;
+  value[RISE_FACES] = seen ? (double)rise->faces : NAN;
+  value[RISE_CLOSED_LOW] = seen ? rise->closed[0] : NAN;
+  value[RISE_CLOSED] = seen ? rise->closed[1] : NAN;
+  value[RISE_FALL_LOW] = fell ? rise->fall[0] : NAN;
+  value[RISE_FALL] = fell ? rise->fall[1] : NAN;
+  value[RISE_FALL_HIGH] = fell ? rise->fall[2] : NAN;
+  value[RISE_STANDS] = rise->stands > 0 ? rise->stands : NAN;
+}
+
 void compare_measure(compare_entry *entry)
 {
   const thr_eval *joint = &entry->eval[THR_JOINT], *closed = &entry->eval[THR_CAPSTAN];
@@ -190,6 +239,7 @@ void compare_measure(compare_entry *entry)
 
   /* Of the structure. */
   value[HOLDING] = compare_largest(entry, THR_STRUCTURE);
+  measure_rise(&entry->rise, value);
 }
 
 bool compare_is_best(const compare_entry *entries, int n, int row, int i)

@@ -156,6 +156,13 @@ static void put_plan_json(thr_writer *writer, const pull_args *args, const compa
   thr_write_number(writer, "pull_low", entries[i].eval[THR_CAPSTAN].band[0]);
   thr_write_number(writer, "pull_high", entries[i].eval[THR_CAPSTAN].band[1]);
 
+  if (entries[i].rise.jams > 0) {
+    thr_write_array(writer, "rise_jams_between");
+    for (int side = 0; side < 2; side++)
+      thr_write_string(writer, NULL, entries[i].rise.jam[side]);
+    thr_write_close(writer);
+  }
+
   thr_write_array(writer, "best");
   for (int k = 0; k < COMPARE_ROWS; k++)
     if (compare_is_best(entries, n, k, i)) thr_write_string(writer, NULL, compare_rows[k].key);

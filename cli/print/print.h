@@ -10,14 +10,15 @@
  * Read plain.c first: forces and proofs in words, which all others use. Then, by command:
  * plan_summary.c with turning_summary.c, symmetry_table.c and seated.c (thread plan); verdict.c and
  * terms.c (thread check); eval_text.c, eval_json.c and load_words.c (thread eval); compare_rows.c
- * and ranking.c, compare_rankings.c and compare_table.c (thread compare); advice_table.c (thread
- * advise); facts.c, motion_facts.c (thread info). */
+ * and ranking.c, compare_rankings.c, compare_rises.c and compare_table.c (thread compare);
+ * advice_table.c (thread advise); facts.c, motion_facts.c (thread info). */
 #ifndef THR_PRINT_H
 #define THR_PRINT_H
 
 #include "cli/cli.h"
 #include "cli/commands/commands.h"
 #include "eval/eval.h"
+#include "eval/rise/rise.h"
 #include "eval/structure/beads.h"
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"
@@ -85,8 +86,11 @@ void plain_put_hand(thr_text *text, double newton);
 
 /* The bands: of the friction of the cords (0), and of that of beads and ground (1). Their names are
  * members in JSON. */
-enum { RANKING_BANDS = 2, RANKING_ENDS = 2 * RANKING_BANDS };
+enum { RANKING_BANDS = 2, RANKING_ENDS = 2 * RANKING_BANDS, RANKING_WORDS = 240 };
 extern const char *const ranking_bands[RANKING_BANDS];
+
+/* Values from here on only put plans with words in an order. */
+static const double ranking_order = 1e7;
 
 /* Plans in the order of a value, the least first or the most. The rank of a plan is 1 and one more
  * for every plan that is surely less, whose interval ends before that of the plan begins. Two plans
@@ -99,9 +103,10 @@ typedef struct {
   const char *open;  /* what to say of a plan without an upper end; NULL = nothing */
   bool most;  /* most first: value, low and high are then negative, and printed without the sign */
   bool error; /* print the interval as +- percent, else as from .. to */
-  int n, n_ranked;            /* plans, and how many of them have a rank */
-  double *end[RANKING_ENDS];  /* [n] values at the ends of the bands of friction, in the order of
-                                 ranking_bands; NAN = not known;  owned */
+  char (*words)[RANKING_WORDS]; /* [n] said of plan i instead of its value; NULL: nothing; owned */
+  int n, n_ranked;              /* plans, and how many of them have a rank */
+  double *end[RANKING_ENDS];    /* [n] values at the ends of the bands of friction, in the order of
+                                   ranking_bands; NAN = not known;  owned */
   double *value, *low, *high; /* [n] of plan i; value NAN = not known, not ranked; INFINITY = proved
                                  that there is none; high INFINITY = no upper end; owned */
   int *order;                 /* [n_ranked] plans; owned */
@@ -265,24 +270,37 @@ void eval_put_json(thr_text *text, const eval_view *view, const thr_plan *plan,
 
 /* ---- compare_rows.c: The table of `thread compare`: a row per value, a column per plan. */
 
-enum { COMPARE_ROWS = 28 };
+enum { COMPARE_ROWS = 40 };
+
+/* What was seen of a plan that rises in simulation, over several runs. */
+typedef struct {
+  int runs, up, fell; /* that were seen; of these, that came up; of these, that fell at last */
+  int faces;
+  double pull[3], closed[3],
+      fall[3];     /* least, middle and largest: N at which those came up; faces that were closed at
+                      most in each run; N below which those fell that did */
+  double stands;   /* N, by the limit analysis of the same pieces; NAN: not known */
+  char jam[2][48]; /* pieces between which the widest gap stayed in .. */
+  int jams;        /* .. so many of the runs that did not come up; 0: none is known */
+} compare_rise;
 
 /* A plan with all that was found about it. */
 typedef struct {
   const char *path;
   thr_plan plan;
   thr_eval eval[THR_N_METHODS]; /* record.present only where the method ran and did not fail */
+  compare_rise rise;            /* 0 without --method rise */
   double value[COMPARE_ROWS];   /* of each row; NAN = not known, INFINITY = beyond 1e300 */
 } compare_entry;
 
 /* A row of the table. */
 typedef struct {
   const char *label, *key;
-  bool rate;         /* less is better; rows that say what a plan is, not how good, mark nothing */
-  int decimals;      /* -1: whole number, -k: k significant digits */
-  thr_method method; /* that must be wanted */
-  bool optional;     /* left out of the text where no plan has it */
-  bool machinery;    /* in the text only with --verbose: what proofs are made of */
+  bool rate;      /* less is better; rows that say what a plan is, not how good, mark nothing */
+  int decimals;   /* -1: whole number, -k: k significant digits */
+  int method;     /* that must be wanted: thr_method or PULL_RISE */
+  bool optional;  /* left out of the text where no plan has it */
+  bool machinery; /* in the text only with --verbose: what proofs are made of */
 } compare_row;
 
 extern const compare_row compare_rows[COMPARE_ROWS];
@@ -310,12 +328,17 @@ void compare_put_cell(thr_text *text, int row, double value, bool best);
 
 /* ---- compare_rankings.c: A ranking for each question that was asked of the plans. */
 
-enum { COMPARE_RANKINGS = 8 };
+enum { COMPARE_RANKINGS = 9 };
 
 /* Fills `rankings` with those of the wanted methods and *count with their number. On failure the
  * rankings so far, and the one that failed, can be released. */
 thr_status compare_rank(const pull_args *args, const compare_entry *entries, int n,
                         ranking *rankings, int *count, thr_err *err) THR_MUST_CHECK;
+
+/* compare_rises.c: Fills in value, interval and words of a ranking of what comes up in simulation.
+ */
+thr_status compare_rank_rises(ranking *ranked, const compare_entry *entries,
+                              thr_err *err) THR_MUST_CHECK;
 
 /* Returns whether no two rankings contradict each other: ties do not. */
 bool compare_agree(const ranking *rankings, int count);
@@ -340,6 +363,20 @@ void compare_put_json(thr_text *text, const pull_args *args, const compare_entry
 /* Appends how the pulls of the picture were found: "Pull at both ends of every cord, so that 1 N is
  * left where it is slackest ..". */
 void compare_put_note(thr_text *text, const pull_args *args, const compare_entry *entries, int n);
+
+/* ---- cli/commands/compare_rise.c: Lets the structures that are compared rise. */
+
+/* What is asked of the runs, beside pull_args: newtons, seed (default: 1) and time step. */
+typedef struct {
+  int seeds; /* of each plan */
+  thr_rise_start start;
+  bool let_down;
+} compare_rise_asked;
+
+/* Lets every plan rise so many times, in parallel processes, and fills in entry[n].rise. Returns an
+ * exit code. */
+int compare_rise_all(const pull_args *args, const compare_rise_asked *asked, compare_entry *entry,
+                     int n);
 
 /* ---- advice_table.c: Prints the table of `thread advise`, as text and as JSON, and the command
  * that makes the recommended plan. */

@@ -60,6 +60,7 @@ void ranking_destroy(ranking *ranked)
     free(ranked->end[k]);
   free(ranked->order);
   free(ranked->rank);
+  free(ranked->words);
   *ranked = (ranking){0};
 }
 
@@ -151,6 +152,11 @@ static void put_interval(const ranking *ranked, int i, thr_text *text)
 /* Appends the value of plan i with its interval. INFINITY: proved that no value will do. */
 static void put_value(const ranking *ranked, int i, thr_text *text)
 {
+  if (ranked->words) {
+    thr_text_append(text, ranked->words[i]);
+    return;
+  }
+
   /* A lower bound of INFINITY: no value will do. */
   if (isinf(ranked->value[i])) {
     thr_text_append(text, "none, proved");
@@ -164,18 +170,21 @@ static void put_value(const ranking *ranked, int i, thr_text *text)
  * where it is not just the one before, or all. */
 static void put_ties(const ranking *ranked, int k, const char *const *name, thr_text *text)
 {
+  const char *overlap = ranked->words ? "the runs overlap" : "within the error";
   int ties = 0;
 
   for (int j = 0; j < k; j++)
     ties += ranking_is_tie(ranked, ranked->order[j], ranked->order[k]);
 
   /* Told apart from all before, or with which of them it ties. */
-  if (ties == 0)
+  if (ties == 0 && ranked->words)
+    return;
+  else if (ties == 0)
     thr_text_append(text, ranked->most ? "  less, beyond the error" : "  more, beyond the error");
   else if (ties == 1 && ranking_is_tie(ranked, ranked->order[k - 1], ranked->order[k]))
-    thr_text_append(text, "  tie, within the error");
+    thr_text_printf(text, "  tie, %s", overlap);
   else if (ties == k)
-    thr_text_append(text, "  tie with all before, within the error");
+    thr_text_printf(text, "  tie with all before, %s", overlap);
   else {
     /* Some of the plans before: by name. */
     const char *with = "  tie with ";
@@ -184,7 +193,7 @@ static void put_ties(const ranking *ranked, int k, const char *const *name, thr_
       thr_text_printf(text, "%s%s", with, name[ranked->order[j]]);
       with = ", ";
     }
-    thr_text_append(text, ", within the error");
+    thr_text_printf(text, ", %s", overlap);
   }
 }
 
@@ -278,9 +287,10 @@ void ranking_put_json(const ranking *ranked, const char *const *name, thr_writer
     int i = ranked->order[k];
     thr_write_object(writer, NULL);
     thr_write_string(writer, "plan", name[i]);
-    thr_write_number(writer, "value", unsigned_values(ranked, i).value);
-    thr_write_number(writer, "low", unsigned_values(ranked, i).low);
-    thr_write_number(writer, "high", unsigned_values(ranked, i).high);
+    const bool known = !ranked->words || ranked->value[i] < ranking_order;
+    thr_write_number(writer, "value", known ? unsigned_values(ranked, i).value : NAN);
+    thr_write_number(writer, "low", known ? unsigned_values(ranked, i).low : NAN);
+    thr_write_number(writer, "high", known ? unsigned_values(ranked, i).high : NAN);
     thr_write_int(writer, "rank", ranked->rank[i]);
 
     /* The values at the ends of each band. */

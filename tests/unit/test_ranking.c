@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rankings: ties are what the intervals allow, and no more. */
+#include "cli/print/compare_rises.c"
 #include "cli/print/ranking.c"
 #include "graph/io/json.h"
 #include "tests/support.h"
@@ -170,6 +171,70 @@ START_TEST(the_most_first)
 }
 END_TEST
 
+/* Plans that rise: those that always come up by their pulls, then by how many runs come up, then by
+ * closed faces; runs that overlap tie. */
+START_TEST(what_comes_up_comes_first)
+{
+  enum { N = 6 };
+  static const compare_rise seen[N] = {
+      {.runs = 3, .faces = 12, .closed = {4, 5, 8}, .jam = {"A1", "A2"}, .jams = 2},
+      {.runs = 3, .up = 3, .faces = 12, .pull = {2, 2.5, 3}, .closed = {12, 12, 12}},
+      {.runs = 3,
+       .up = 2,
+       .faces = 12,
+       .pull = {0.1, 0.1, 0.2},
+       .closed = {6, 12, 12},
+       .jam = {"B1", "B2"},
+       .jams = 1},
+      {.runs = 0},
+      {.runs = 3, .faces = 12, .closed = {9, 9, 10}, .jam = {"C1", "C2"}, .jams = 3},
+      {.runs = 3,
+       .up = 3,
+       .faces = 12,
+       .pull = {1, 2.2, 2.4},
+       .closed = {12, 12, 12},
+       .fell = 2,
+       .fall = {0.5, 0.5, 0.6}}};
+  static const int rank[N] = {5, 1, 3, 0, 4, 1}, order[] = {5, 1, 2, 4, 0};
+  const char *const name[N] = {"a", "b", "c", "d", "e", "f"};
+  compare_entry *entry = calloc(N, sizeof *entry);
+  ranking r = {.title = "nothing", .key = "rise", .unit = " N"};
+  thr_err err = {0};
+  thr_text t = {0};
+  thr_writer w = {.out = &t};
+  ck_assert_ptr_nonnull(entry);
+  for (int i = 0; i < N; i++)
+    entry[i].rise = seen[i];
+  ck_assert_int_eq(ranking_init(&r, N, NULL), THR_OK);
+  assert_ok(compare_rank_rises(&r, entry, &err), &err);
+  ranking_make(&r);
+  ck_assert_int_eq(r.n_ranked, 5);
+  for (int i = 0; i < N; i++)
+    ck_assert_int_eq(r.rank[i], rank[i]);
+  for (int k = 0; k < 5; k++)
+    ck_assert_int_eq(r.order[k], order[k]);
+
+  ranking_put_text(&r, name, &t);
+  ck_assert_ptr_nonnull(strstr(t.data, "1. f comes up in 3 of 3 runs, at 2.2 N (1 to 2.4); let "
+                                       "down, it falls below 0.5 N (0.5 to 0.6)\n"));
+  ck_assert_ptr_nonnull(
+      strstr(t.data, "1. b comes up in 3 of 3 runs, at 2.5 N (2 to 3)  tie, the runs overlap\n"));
+  ck_assert_ptr_nonnull(
+      strstr(t.data, "3. c comes up in 2 of 3 runs, at 0.1 N (0.1 to 0.2); 12 of 12 faces closed "
+                     "at most (6 to 12); jams between B1 and B2\n"));
+  ck_assert_ptr_nonnull(strstr(t.data, "5. a comes up in 0 of 3 runs; 5 of 12 faces closed at most "
+                                       "(4 to 8); jams between A1 and A2 in 2 of 3\n"));
+  ck_assert_ptr_nonnull(strstr(t.data, "-  d not known\n"));
+  thr_text_destroy(&t);
+  ranking_put_json(&r, name, &w);
+  ck_assert_ptr_nonnull(strstr(
+      t.data, "{\"plan\": \"e\", \"value\": null, \"low\": null, \"high\": null, \"rank\": 4}"));
+  thr_text_destroy(&t);
+  ranking_destroy(&r);
+  free(entry);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("ranking");
@@ -179,5 +244,6 @@ int main(void)
   ADD_TEST(s, 10, ranks_count_what_is_surely_less);
   ADD_TEST(s, 10, only_sure_orders_contradict);
   ADD_TEST(s, 10, the_most_first);
+  ADD_TEST(s, 10, what_comes_up_comes_first);
   return run_suite(s);
 }

@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lets the plans of `thread compare --method rise` rise in simulation (eval/rise/rise.h): every
+ * plan in as many runs as --seeds says, all of them in parallel processes, and beside that what the
+ * limit analysis says of the same pieces.
+ *
+ * A plan whose pieces cannot be made, or cannot be simulated, leaves its values unknown. */
+#include "cli/commands/rise_runs.h"
+#include "cli/print/print.h"
+#include "eval/rise/rise.h"
+#include "graph/arrays.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* Plan i of n has the pieces pieces[i] and the jobs job[i * seeds] and so on. */
+typedef struct {
+  const pull_args *args;
+  const compare_rise_asked *asked;
+  compare_entry *entry;
+  int n;
+  rise_pieces *pieces; /* [n] */
+  bool *made;          /* [n] */
+  rise_job *job;       /* [n * seeds]; those of plans without pieces come last */
+  int *first;          /* [n] job; -1 */
+  int n_jobs;
+} comparison;
+
+/* Makes the pieces of plan i, and its jobs. Returns an exit code. */
+static int prepare(comparison *work, int i)
+{
+  const thr_kit_options kit = {.names = THR_KIT_NO_NAMES, .coarse = rise_coarse};
+  const rise_setting setting = {.ends = THR_PULL_BOTH};
+  const thr_limits limits = cli_limits(0);
+  thr_plan *plan = &work->entry[i].plan;
+  thr_err err = {0}, why = {0};
+  work->first[i] = -1;
+
+  const int code = rise_apply_physics(&work->args->physics, plan);
+  if (code) return code;
+
+  work->made[i] = true;
+  if (rise_pieces_make(&work->pieces[i], plan, &kit, &setting, &limits, &why)) {
+    cli_progress_end();
+    thr_fail(&err, why.code, "%s: %s", work->entry[i].path, why.text);
+    return cli_fail(&err);
+  }
+  rise_foretell(&work->pieces[i], &limits);
+  work->entry[i].rise.stands = work->pieces[i].stands;
+
+  work->first[i] = work->n_jobs;
+  for (int k = 0; k < work->asked->seeds; k++) {
+    rise_job *job = &work->job[work->n_jobs++];
+    job->structure = &work->pieces[i].made.structure;
+    job->options =
+        (thr_rise_options){.start = work->asked->start,
+                           .seed = (cli_given("seed") ? work->args->options.seed : 1) + (uint64_t)k,
+                           .pull = work->args->newtons > 0 ? work->args->newtons : rise_hand,
+                           .let_down = work->asked->let_down,
+                           .time_step = work->args->options.time_step};
+  }
+  return EXIT_SUCCESS;
+}
+
+/* Finds the pass with the widest gap in most of the runs that did not come up. */
+static void find_jam(const rise_job *job, int n, const rise_pieces *pieces, compare_rise *rise)
+{
+  const char *name[2] = {"", ""};
+  int jam = -1;
+  for (int i = 0; i < n; i++) {
+    int same = 0;
+    if (!job[i].done || job[i].record.came_up >= 0) continue;
+    for (int k = 0; k < n; k++)
+      same += job[k].done && job[k].record.came_up < 0 &&
+              job[k].record.loosest == job[i].record.loosest;
+    if (same < rise->jams || (same == rise->jams && job[i].record.loosest > jam)) continue;
+    rise->jams = same;
+    jam = job[i].record.loosest;
+  }
+  if (jam < 0) return;
+  rise_pass_names(pieces, jam, name);
+  for (int side = 0; side < 2; side++)
+    snprintf(rise->jam[side], sizeof rise->jam[side], "%s", name[side]);
+}
+
+/* Sums up the runs of plan i. Returns an exit code: of the first run that failed. */
+static int sum_up(const comparison *work, int i)
+{
+  const int n = work->asked->seeds;
+  const rise_job *job = &work->job[work->first[i]];
+  compare_rise *rise = &work->entry[i].rise;
+  double pull[RISE_MOST_SEEDS], closed[RISE_MOST_SEEDS], fall[RISE_MOST_SEEDS];
+  int code = EXIT_SUCCESS;
+
+  for (int k = 0; k < n; k++) {
+    thr_err err = {0};
+    if (job[k].status && !code) {
+      thr_fail(&err, job[k].status, "%s: %s", work->entry[i].path, job[k].why.text);
+      code = cli_fail(&err);
+    }
+    if (!job[k].done) continue;
+    rise->faces = job[k].record.n_passes;
+    closed[rise->runs++] = job[k].record.most_closed;
+    if (job[k].record.came_up < 0) continue;
+    pull[rise->up++] = rise_pull_up(&job[k].record);
+    if (job[k].record.fell >= 0) fall[rise->fell++] = rise_pull_down(&job[k].record);
+  }
+
+  if (rise->runs > 0) rise_spread(closed, rise->runs, rise->closed);
+  if (rise->up > 0) rise_spread(pull, rise->up, rise->pull);
+  if (rise->fell > 0) rise_spread(fall, rise->fell, rise->fall);
+  find_jam(job, n, &work->pieces[i], rise);
+  return code;
+}
+
+/* Prepares all plans, does the runs of all of them together, and sums up. Returns an exit code. */
+static int run(comparison *work)
+{
+  const thr_limits limits = cli_limits(0);
+  thr_err err = {0};
+  int code = EXIT_SUCCESS;
+  for (int i = 0; i < work->n; i++) {
+    const int failed = prepare(work, i);
+    if (failed == EXIT_LIMIT) return failed;
+    if (!code) code = failed;
+  }
+  if (work->n_jobs == 0) return code;
+
+  const thr_status st = rise_jobs_run(work->job, work->n_jobs, &limits, &err);
+  cli_progress_end();
+  for (int i = 0; i < work->n; i++) {
+    const int failed = work->first[i] >= 0 ? sum_up(work, i) : EXIT_SUCCESS;
+    if (!code) code = failed;
+  }
+  return st == THR_ELIMIT ? EXIT_LIMIT : st ? cli_fail(&err) : code;
+}
+
+int compare_rise_all(const pull_args *args, const compare_rise_asked *asked, compare_entry *entry,
+                     int n)
+{
+  thr_err err = {0};
+  thr_scratch own = {0};
+  comparison work = {.args = args, .asked = asked, .entry = entry, .n = n};
+  work.pieces = thr_scratch_array(&own, (size_t)n, sizeof *work.pieces);
+  work.made = thr_scratch_array(&own, (size_t)n, sizeof *work.made);
+  work.first = thr_scratch_array(&own, (size_t)n, sizeof *work.first);
+  work.job = thr_scratch_array(&own, (size_t)n * (size_t)asked->seeds, sizeof *work.job);
+
+  const int code = thr_scratch_check(&own, &err) ? cli_fail(&err) : run(&work);
+
+  for (int k = 0; k < work.n_jobs; k++)
+    thr_rise_record_destroy(&work.job[k].record);
+  for (int i = 0; i < n && work.made; i++)
+    if (work.made[i]) rise_pieces_destroy(&work.pieces[i]);
+  thr_scratch_free(&own);
+  return code;
+}

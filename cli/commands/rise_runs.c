@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Runs rising structures in parallel processes, which Bullet may end, and sums up what several runs
+ * say: one run is no fact.
+ *
+ * A process sends its record, with the moments, but without the places of all pieces: those are
+ * wanted of one run at most, which `thread rise` does by itself.
+ *
+ * Example: three runs of data/dome7-lines.json come up at 1.28, 1.3 and 1.34 N: 1.3 (1.28 to 1.34).
+ */
+#include "cli/commands/rise_runs.h"
+#include "cli/cli.h"
+#include "eval/eval.h"
+#include "graph/arrays.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/physics.h"
+#include "graph/process/process.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const double rise_hand = 50, rise_coarse = 2.2;
+
+/* ---- the pieces ---- */
+
+thr_status rise_pieces_make(rise_pieces *pieces, const thr_plan *plan,
+                            const thr_kit_options *options, const rise_setting *setting,
+                            const thr_limits *limits, thr_err *err)
+{
+  thr_physics physics;
+  thr_pull *pull = thr_calloc((size_t)plan->n_cords, sizeof *pull);
+  const thr_physics *asked = setting->physics ? setting->physics : &plan->options.physics;
+  *pieces = (rise_pieces){.ends = setting->ends, .seated = NAN, .stands = NAN};
+  for (int c = 0; c < plan->n_cords && pull; c++)
+    pull[c] = setting->ends;
+
+  thr_status st = thr_kit_make(&pieces->kit, plan, options, NULL, true, limits, err);
+  if (!st && !pull) st = thr_nomem(err);
+  if (!st) st = thr_physics_resolve(asked, &plan->frame, &physics, err);
+  if (!st) st = thr_rise_kit_make(&pieces->made, &pieces->kit, pull, setting->feet, &physics, err);
+  free(pull);
+  return st;
+}
+
+void rise_pieces_destroy(rise_pieces *pieces)
+{
+  thr_rise_kit_destroy(&pieces->made);
+  thr_kit_destroy(&pieces->kit);
+}
+
+int rise_apply_physics(const cli_physics *physics, thr_plan *plan)
+{
+  const int code = cli_physics_apply(physics, &plan->options.physics);
+  if (!code && cli_given_of(cli_physics_options())) {
+    thr_evaluation_destroy(&plan->evaluation);
+    plan->evaluation = (thr_evaluation){0};
+  }
+  return code;
+}
+
+void rise_foretell(rise_pieces *pieces, const thr_limits *limits)
+{
+  const thr_plan *plan = pieces->kit.plan;
+  thr_err err = {0};
+  thr_bodies bodies;
+  const bool known = !thr_kit_bodies(&pieces->kit, &bodies, &err);
+  err = (thr_err){0};
+  for (int method = 0; method < 2; method++) {
+    thr_eval eval;
+    thr_eval_options options = thr_eval_options_default();
+    options.physics = pieces->made.structure.physics;
+    options.pull = pieces->ends;
+    if (method == 1 && (!known || plan->frame.n_nodes > THR_HOLDS_LARGEST)) break;
+    if (method == 1) options.bodies = &bodies;
+    if (!thr_eval_plan(&plan->frame, plan->cord, plan->n_cords,
+                       method ? THR_STRUCTURE : THR_CAPSTAN, &options, limits, &eval, &err)) {
+      if (method)
+        pieces->stands = eval.equal.present ? eval.equal.lower : eval.holding.lower;
+      else
+        pieces->seated = eval.record.largest;
+    }
+    thr_eval_destroy(&eval);
+    err = (thr_err){0};
+  }
+  thr_scratch_free(&bodies.own);
+}
+
+void rise_pass_names(const rise_pieces *pieces, int pass, const char *name[2])
+{
+  const thr_rise_structure *structure = &pieces->made.structure;
+  for (int c = 0; c < structure->n_cords; c++) {
+    const thr_rise_cord *cord = &structure->cord[c];
+    if (pass >= cord->n_passes) {
+      pass -= cord->n_passes;
+      continue;
+    }
+    name[0] = pieces->kit.name[cord->piece[pass]];
+    name[1] = pieces->kit.name[cord->piece[pass + 1]];
+    return;
+  }
+}
+
+/* ---- the runs ---- */
+
+/* What a process returns of a run. */
+typedef struct {
+  thr_status status;
+  thr_err why;
+  thr_rise_record record; /* without its arrays */
+  thr_rise_moment moment[RISE_MOST_MOMENTS];
+} run_result;
+
+/* Does a run. Signature of thr_work.run. */
+static thr_status run_job(void *user, int i, void *result, thr_err *err)
+{
+  const rise_job *job = (const rise_job *)user + i;
+  run_result *out = result;
+  thr_rise_record record;
+  (void)err;
+  out->status = thr_rise_simulate(job->structure, &job->options, NULL, &record, &out->why);
+  if (!out->status) {
+    out->record = record;
+    if (record.n_frames > RISE_MOST_MOMENTS) out->record.n_frames = RISE_MOST_MOMENTS;
+    memcpy(out->moment, record.moment, (size_t)out->record.n_frames * sizeof *out->moment);
+    out->record.moment = NULL;
+    out->record.pose = NULL;
+    out->record.tension = NULL;
+  }
+  thr_rise_record_destroy(&record);
+  return THR_OK;
+}
+
+thr_status rise_jobs_run(rise_job *job, int n, const thr_limits *limits, thr_err *err)
+{
+  const thr_work work = {.n_jobs = n,
+                         .result_size = sizeof(run_result),
+                         .run = run_job,
+                         .user = job,
+                         .what = "simulating",
+                         .advice = "fewer --seeds"};
+  run_result *result = thr_calloc((size_t)n, sizeof *result);
+  bool *finished = thr_calloc((size_t)n, sizeof *finished);
+  thr_status st = result && finished
+                      ? thr_workers_run(&work, cli_processes(), limits, result, finished, err)
+                      : thr_nomem(err);
+
+  for (int i = 0; i < n && result && finished; i++) {
+    if (!finished[i]) continue;
+    job[i].status = result[i].status;
+    job[i].why = result[i].why;
+    if (job[i].status) continue;
+    const size_t n_moments = (size_t)result[i].record.n_frames;
+    thr_rise_moment *moment = thr_calloc(n_moments, sizeof *moment);
+    if (!moment) {
+      st = thr_nomem(err);
+      break;
+    }
+    memcpy(moment, result[i].moment, n_moments * sizeof *moment);
+    job[i].record = result[i].record;
+    job[i].record.moment = moment;
+    job[i].done = true;
+  }
+  free(result);
+  free(finished);
+  return st;
+}
+
+/* ---- what several say ---- */
+
+double rise_pull_up(const thr_rise_record *record)
+{
+  double most = 0;
+  if (record->came_up < 0) return INFINITY;
+  for (int f = record->scheduled ? 0 : record->came_up; f <= record->came_up; f++)
+    most = fmax(most, record->moment[f].pull);
+  return most;
+}
+
+double rise_pull_down(const thr_rise_record *record)
+{
+  return record->fell >= 0 ? record->moment[record->fell].pull : 0;
+}
+
+static int ascending(const void *a, const void *b)
+{
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+void rise_spread(double *value, int n, double out[3])
+{
+  qsort(value, (size_t)n, sizeof *value, ascending);
+  out[0] = value[0];
+  out[1] = value[(n - 1) / 2];
+  out[2] = value[n - 1];
+}
