@@ -65,19 +65,22 @@ const char *thr_rise_start_name(int start);
 
 /* What hands do: pull all pulled ends, first gently, with up to `pull` N or until all faces have
  * been closed for a while; hold that; and let down, if they do, until the structure has fallen. A
- * hand may also lift a piece. */
+ * hand may also lift a piece, or dent the structure while the pull is held. */
 typedef struct {
   thr_rise_start start;
   uint64_t seed; /* of heaps, and of the small disorder of the others */
   double pull;   /* N, > 0 */
   double slower; /* factor on the time that hands take; 0 = 1 */
-  double hold;   /* s before they let down; 0 = 1 */
+  double hold;   /* s before they let down; 0 = 1, and 4 with a dent */
   bool let_down;
   double time_step; /* factor on the usual one; 0 = 1 */
   int iterations;   /* of Bullet's solver, in every step; 0 = 60 */
   double lift;      /* N upwards at lifted; 0: no hand lifts */
   int lifted;       /* piece */
   bool carried;     /* .. but no more than brings it to its drawn height */
+  double dent;      /* N at dented, towards the middle of all drawn nodes, where the
+ counterforce is shared by all pieces; 0: no hand dents */
+  int dented;       /* piece, which is pushed in the second quarter of holding */
 } thr_rise_options;
 
 /* ---- what was seen ---- */
@@ -107,10 +110,11 @@ typedef struct {
                           closed; -1: they never are */
   int most_closed;     /* the largest number of passes with closed faces */
   int loosest;         /* pass, counted over all cords, with the widest gap when most were closed */
-  double off; /* largest distance of a node from the drawn shape, after the best fit, at the
-                 end of holding */
-  int held;   /* frames until hands let down */
-  int fell;   /* first frame after these that is lower by a tenth of the height; -1 */
+  double off;    /* largest distance of a node from the drawn shape, after the best fit, at the
+                    end of holding */
+  double dented; /* the same while a hand dents it, at most */
+  int held;      /* frames until hands let down */
+  int fell;      /* first frame after these that is lower by a tenth of the height; -1 */
 } thr_rise_record;
 
 /* Lets a structure rise. progress and time limits come by limits; what was seen until then is kept
