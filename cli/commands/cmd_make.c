@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* thread make: makes an example framework: dome, geodesic dome, sphere, tube or honeycomb
- * (graph/framework/frame.h).
+/* thread make: makes an example framework: dome, geodesic dome, sphere, tube, honeycomb or a row of
+ * bends (graph/framework/frame.h).
  *
  * Example: `thread make dome --size 7 -o dome.json` makes a grid of 7 x 7 nodes with a foot at each
  * corner. */
@@ -23,7 +23,8 @@ static const char intro[] =
     "  geodesic   geodesic dome standing on its rim (frequency)\n"
     "  sphere     closed geodesic sphere (frequency)\n"
     "  tube       square grid rolled up, standing on its first ring (nodes around)\n"
-    "  honeycomb  hexagonal grid, domed (rings of hexagons)\n";
+    "  honeycomb  hexagonal grid, domed (rings of hexagons)\n"
+    "  alternating  a row of equal bends, each turned over from the last (nodes)\n";
 
 /* Returns the shape of that name; prints which ones there are, with the nearest name, and returns
  * -1 if there is none. */
@@ -39,8 +40,10 @@ static int find_shape(const char *name)
 
   /* No such shape: which one was meant? */
   thr_suggestion_ask(&suggestion, question);
-  cli_usage("make", "there is no shape %s; there are dome, geodesic, sphere, tube and honeycomb%s",
-            name, question);
+  cli_usage(
+      "make",
+      "there is no shape %s; there are dome, geodesic, sphere, tube, honeycomb and alternating%s",
+      name, question);
 
   return -1;
 }
@@ -63,16 +66,21 @@ static const cli_option own_options[] = {
     {"pitch", .value = "MM", .kind = CLI_AMOUNT, AT(wanted.pitch), .low = 1e-6, .high = 1e9,
      .help = "distance between neighbours in mm"},
     {"rise", .value = "R", .kind = CLI_AMOUNT, AT(wanted.rise), .high = 100,
-     .help = "dome, honeycomb: height over half span"},
+     .help = "dome, honeycomb: height over half span; alternating: tangent of half a bend"},
+    {"twist", .value = "DEG", .kind = CLI_AMOUNT, AT(wanted.twist), .low = 60, .high = 180,
+     .help = "alternating: from each bend to the next (default: 180, a zigzag)"},
     {"output", 'o', "FILE", output_help, .kind = CLI_TEXT, AT(output)},
     {0}};
 
 /* The usual values of a shape, and over them what was said. */
 static bool apply_options(const make_arguments *args, thr_make_options *options)
 {
-  const bool has_rise = options->shape == THR_MAKE_DOME || options->shape == THR_MAKE_HONEYCOMB;
+  const bool has_twist = options->shape == THR_MAKE_ALTERNATING,
+             has_rise = has_twist || options->shape == THR_MAKE_DOME ||
+                        options->shape == THR_MAKE_HONEYCOMB;
   const char *foreign = cli_given("rings") && options->shape != THR_MAKE_TUBE ? "--rings"
                         : cli_given("rise") && !has_rise                      ? "--rise"
+                        : cli_given("twist") && !has_twist                    ? "--twist"
                                                                               : NULL;
   if (foreign) {
     cli_usage("make", "a %s has no %s", thr_shape_name(options->shape), foreign);
@@ -82,6 +90,7 @@ static bool apply_options(const make_arguments *args, thr_make_options *options)
   if (cli_given("rings")) options->rings = args->wanted.rings;
   if (cli_given("pitch")) options->pitch = args->wanted.pitch;
   if (cli_given("rise")) options->rise = args->wanted.rise;
+  if (cli_given("twist")) options->twist = args->wanted.twist;
   return true;
 }
 
@@ -126,9 +135,10 @@ int cmd_make(int argc, char **argv)
 
   /* One operand: the shape. */
   if (optind + 1 != argc)
-    return cli_usage("make", optind == argc
-                                 ? "which shape? dome, geodesic, sphere, tube or honeycomb"
-                                 : "one shape at a time");
+    return cli_usage("make",
+                     optind == argc
+                         ? "which shape? dome, geodesic, sphere, tube, honeycomb or alternating"
+                         : "one shape at a time");
 
   /* The output's name says the format. */
   int shape = find_shape(argv[optind]);
