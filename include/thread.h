@@ -70,8 +70,8 @@ THREAD_API thread_status thread_frame_parse(const char *text, size_t n, const ch
 THREAD_API thread_status thread_frame_make(int n_nodes, const double *xyz, int n_edges,
                                            const int *ends, const char *units, thread_frame **out,
                                            thread_error *err);
-/* As thread make: "dome", "geodesic", "sphere", "tube", "honeycomb", "row", "arch"; size 0 = the
- * usual one. */
+/* As thread make: "dome", "geodesic", "sphere", "tube", "honeycomb", "row", "arch", "alternating";
+ * size 0 = the usual one. */
 THREAD_API thread_status thread_frame_shape(const char *shape, int size, thread_frame **out,
                                             thread_error *err);
 THREAD_API void thread_frame_free(thread_frame *frame); /* NULL ok */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* thread make: makes an example framework: dome, geodesic dome, sphere, tube, honeycomb, row
- * or arch (graph/framework/frame.h).
+/* thread make: makes an example framework: dome, geodesic dome, sphere, tube, honeycomb, row, arch
+ * or a row of bends (graph/framework/frame.h).
  *
  * Example: `thread make dome --size 7 -o dome.json` makes a grid of 7 x 7 nodes with a foot at each
  * corner. */
@@ -25,7 +25,8 @@ static const char intro[] =
     "  tube       square grid rolled up, standing on its first ring (nodes around)\n"
     "  honeycomb  hexagonal grid, domed (rings of hexagons)\n"
     "  row        straight, lying (nodes)\n"
-    "  arch       equal edges round a circle, standing on two feet (nodes)\n";
+    "  arch       equal edges round a circle, standing on two feet (nodes)\n"
+    "  alternating  a row of equal bends, each turned over from the last (nodes)\n";
 
 /* Returns the shape of that name; prints which ones there are, with the nearest name, and returns
  * -1 if there is none. */
@@ -43,7 +44,8 @@ static int find_shape(const char *name)
   thr_suggestion_ask(&suggestion, question);
   cli_usage(
       "make",
-      "there is no shape %s; there are dome, geodesic, sphere, tube, honeycomb, row and arch%s",
+      "there is no shape %s; there are dome, geodesic, sphere, tube, honeycomb, row, arch and "
+      "alternating%s",
       name, question);
 
   return -1;
@@ -67,17 +69,21 @@ static const cli_option own_options[] = {
     {"pitch", .value = "MM", .kind = CLI_AMOUNT, AT(wanted.pitch), .low = 1e-6, .high = 1e9,
      .help = "distance between neighbours in mm"},
     {"rise", .value = "R", .kind = CLI_AMOUNT, AT(wanted.rise), .high = 100,
-     .help = "dome, honeycomb, arch: height over half span"},
+     .help = "dome, honeycomb, arch: height over half span; alternating: tangent of half a bend"},
+    {"twist", .value = "DEG", .kind = CLI_AMOUNT, AT(wanted.twist), .low = 60, .high = 180,
+     .help = "alternating: from each bend to the next (default: 180, a zigzag)"},
     {"output", 'o', "FILE", output_help, .kind = CLI_TEXT, AT(output)},
     {0}};
 
 /* The usual values of a shape, and over them what was said. */
 static bool apply_options(const make_arguments *args, thr_make_options *options)
 {
-  const bool has_rise = options->shape == THR_MAKE_DOME || options->shape == THR_MAKE_HONEYCOMB ||
-                        options->shape == THR_MAKE_ARCH;
+  const bool has_twist = options->shape == THR_MAKE_ALTERNATING,
+             has_rise = has_twist || options->shape == THR_MAKE_DOME ||
+                        options->shape == THR_MAKE_HONEYCOMB || options->shape == THR_MAKE_ARCH;
   const char *foreign = cli_given("rings") && options->shape != THR_MAKE_TUBE ? "--rings"
                         : cli_given("rise") && !has_rise                      ? "--rise"
+                        : cli_given("twist") && !has_twist                    ? "--twist"
                                                                               : NULL;
   if (foreign) {
     cli_usage("make", "a %s has no %s", thr_shape_name(options->shape), foreign);
@@ -87,6 +93,7 @@ static bool apply_options(const make_arguments *args, thr_make_options *options)
   if (cli_given("rings")) options->rings = args->wanted.rings;
   if (cli_given("pitch")) options->pitch = args->wanted.pitch;
   if (cli_given("rise")) options->rise = args->wanted.rise;
+  if (cli_given("twist")) options->twist = args->wanted.twist;
   return true;
 }
 
@@ -132,8 +139,10 @@ int cmd_make(int argc, char **argv)
   /* One operand: the shape. */
   if (optind + 1 != argc)
     return cli_usage(
-        "make", optind == argc ? "which shape? dome, geodesic, sphere, tube, honeycomb, row or arch"
-                               : "one shape at a time");
+        "make",
+        optind == argc
+            ? "which shape? dome, geodesic, sphere, tube, honeycomb, row, arch or alternating"
+            : "one shape at a time");
 
   /* The output's name says the format. */
   int shape = find_shape(argv[optind]);

@@ -58,7 +58,7 @@ typedef struct {
   thr_rise_options rise;
   thr_kit_options kit;
   guard_limits guard;
-  const char *lift, *raise, *output, *plot, *film, *frames, *play, *booklet;
+  const char *lift, *raise, *dent, *output, *plot, *film, *frames, *play, *booklet;
   const char *path;
   const char *schedule;
   int seeds, first_seed, start, ends, feet, size[2], page;
@@ -130,6 +130,9 @@ static const cli_option own_options[] = {
      .help = "a counterweight lifts this piece with so many newtons"},
     {"raise", .value = "NODE", .kind = CLI_TEXT, AT(raise),
      .help = "a hand carries this piece to its height, and no higher"},
+    {"dent", .value = "NODE=N", .kind = CLI_TEXT, AT(dent),
+     .help = "while the pull is held, a hand pushes this piece inwards with so many newtons, and "
+             "lets it go: how far the shape was dented, and is afterwards"},
     {"seeds", .value = "N", .kind = CLI_COUNT, AT(seeds), .low = 1, .high = RISE_MOST_SEEDS,
      .help = "so many runs, each from another disorder: median and range (default: 1)"},
     {"seed", .value = "N", .kind = CLI_COUNT, AT(first_seed), .low = 0, .high = 1e9,
@@ -189,27 +192,42 @@ static int piece_named(const thr_kit *kit, const char *name)
   return thr_frame_find(&kit->plan->frame, name);
 }
 
-/* Reads which piece a hand lifts, and how. Returns -1, or an exit code. */
-static int take_lift(const rise_arguments *args, const thr_kit *kit, double weight,
-                     thr_rise_options *options)
+/* Reads a piece and, unless newton is NULL, a force from an option's "D4=2". Returns -1, or an exit
+ * code. */
+static int take_force(const char *option, const char *words, const thr_kit *kit, int *piece,
+                      double *newton)
 {
   char name[64];
-  const char *words = args->raise ? args->raise : args->lift;
-  if (!words) return -1;
-  const char *equals = args->raise ? words + strlen(words) : strrchr(words, '=');
-  if (!equals) return cli_usage("rise", "--lift %s: expected a piece and newtons, as D4=2", words);
+  const char *equals = newton ? strrchr(words, '=') : words + strlen(words);
+  if (!equals)
+    return cli_usage("rise", "--%s %s: expected a piece and newtons, as D4=2", option, words);
   snprintf(name, sizeof name, "%.*s", (int)(equals - words), words);
-  options->lifted = piece_named(kit, name);
-  options->carried = args->raise != NULL;
-  options->lift = LIFTING * weight;
-  if (options->lifted < 0) return cli_usage("rise", "%s: the plan has no such piece", name);
-  if (args->raise) return -1;
+  *piece = piece_named(kit, name);
+  if (*piece < 0) return cli_usage("rise", "%s: the plan has no such piece", name);
+  if (!newton) return -1;
 
   size_t n = strlen(equals + 1);
   if (n > 1 && equals[n] == 'N') n--;
-  if (!thr_number_parse(equals + 1, n, &options->lift) || !(options->lift > 0))
-    return cli_usage("rise", "--lift %s: expected newtons above 0 after the =, as D4=2", words);
+  if (!thr_number_parse(equals + 1, n, newton) || !(*newton > 0))
+    return cli_usage("rise", "--%s %s: expected newtons above 0 after the =, as D4=2", option,
+                     words);
   return -1;
+}
+
+/* Reads which pieces hands lift and push. weight: N. Returns -1, or an exit code. */
+static int take_hands(const rise_arguments *args, const thr_kit *kit, double weight,
+                      thr_rise_options *options)
+{
+  int code = -1;
+  options->carried = args->raise != NULL;
+  if (args->raise) {
+    options->lift = LIFTING * weight;
+    code = take_force("raise", args->raise, kit, &options->lifted, NULL);
+  }
+  if (args->lift) code = take_force("lift", args->lift, kit, &options->lifted, &options->lift);
+  if (code < 0 && args->dent)
+    code = take_force("dent", args->dent, kit, &options->dented, &options->dent);
+  return code;
 }
 
 /* ---- what is said ---- */
@@ -217,6 +235,11 @@ static int take_lift(const rise_arguments *args, const thr_kit *kit, double weig
 static double off_of(const thr_rise_record *record)
 {
   return record->off;
+}
+
+static double dented_of(const thr_rise_record *record)
+{
+  return record->dented;
 }
 
 /* How many runs came up. */
@@ -336,6 +359,11 @@ static void put_text(const rise_runs *runs, thr_text *text)
   if (runs->pieces.stands > 0 && isfinite(runs->pieces.stands))
     thr_text_printf(text, "; by limit analysis it stands from %.3g N on", runs->pieces.stands);
   if (runs->pieces.seated > 0) thr_text_append(text, "\n");
+  if (runs->args->dent) {
+    thr_text_append(text, "dented, it differed from the drawn shape by ");
+    put_spread(runs, dented_of, "mm at most", text);
+    thr_text_append(text, "; let go, it ");
+  }
   thr_text_append(text, "differs from the drawn shape by ");
   put_spread(runs, off_of, "mm at most", text);
   thr_text_append(text, "\n");
@@ -362,6 +390,7 @@ static void write_run(thr_writer *writer, const rise_runs *runs, int i, bool mot
   thr_write_int(writer, "most_closed", record->most_closed);
   thr_write_number(writer, "off", record->off);
   if (runs->args->schedule && record->finished) thr_write_bool(writer, "stands", record->stands);
+  if (runs->args->dent) thr_write_number(writer, "dented", record->dented);
 
   thr_write_array(writer, "moments");
   for (int f = 0; f < record->n_frames; f++) {
@@ -673,7 +702,7 @@ static int run_all(rise_runs *runs)
     weight += 1e-3 * runs->pieces.made.structure.piece[p].mass *
               runs->pieces.made.structure.physics.gravity;
   runs->options.seed = (uint64_t)args->first_seed;
-  int code = take_lift(args, &runs->pieces.kit, weight, &runs->options);
+  int code = take_hands(args, &runs->pieces.kit, weight, &runs->options);
   if (code >= 0) return code;
 
   rise_foretell(&runs->pieces, &limits);

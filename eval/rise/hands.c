@@ -13,6 +13,7 @@ static const double UP = 0.36;      /* s in which hands pull e times as much */
 static const double DOWN = 1;       /* s in which they let down by a factor e .. */
 static const double NOTHING = 1e-3; /* .. to so much of the pull */
 static const double HOLD = 1;       /* s */
+static const double DENTED = 4;     /* so many times as long where a hand dents */
 static const double SETTLING = 0.5; /* s before hands pull, so that what is dropped lies */
 static const double QUIET = 0.5; /* s that faces are closed, or nothing moves, before hands go on */
 static const double PATIENCE = 3; /* s after which they go on anyway */
@@ -83,7 +84,9 @@ thr_status thr_hands_make(thr_hands *hands, const thr_rise_structure *structure,
                   .friction = thr_friction_of(&structure->physics),
                   .edge = edge,
                   .settle = shape ? 0 : SETTLING * scale,
-                  .hold = scale * (options->hold > 0 ? options->hold : HOLD),
+                  .hold = scale * (options->hold > 0   ? options->hold
+                                   : options->dent > 0 ? DENTED * HOLD
+                                                       : HOLD),
                   .up = UP * slower,
                   .down = DOWN * slower,
                   .gentle = options->rate > 0 || (shape && !options->schedule)

@@ -28,6 +28,7 @@ enum { FRAMES_AFTER = 20 };     /* that are seen of a fall */
 static const double CLOSED = 0.02;  /* of an edge: a gap that is no gap */
 static const double STRAIGHT = 0.1; /* rad between the axes of closed faces */
 static const double FALLEN = 0.9;   /* of the height: what is lower has fallen */
+static const double DENT_FROM = 0.25, DENT_UNTIL = 0.5; /* of the hold, that a hand dents in */
 
 static const char *const start_names[] = {"flat", "heap", "shape"};
 
@@ -301,8 +302,9 @@ static thr_status keep_frame(const rise_run *run, double time, double pull, doub
   return THR_OK;
 }
 
-/* Measures how far the shape was from the drawn one when hands began to let down. */
-static thr_status measure_off(const rise_run *run, thr_rise_record *record, thr_err *err)
+/* Measures how far the shape is from the drawn one in a frame. */
+static thr_status measure_off(const rise_run *run, const thr_rise_record *record, int frame,
+                              double *off, thr_err *err)
 {
   const int n = record->n_pieces;
   thr_scratch work = {0};
@@ -310,13 +312,11 @@ static thr_status measure_off(const rise_run *run, thr_rise_record *record, thr_
   double(*last)[3] = thr_scratch_array(&work, (size_t)n, sizeof *last);
   thr_status st = thr_scratch_check(&work, err);
   for (int p = 0; p < n && !st; p++) {
-    const size_t frame = (size_t)record->held - 1;
     memcpy(drawn[p], run->structure->piece[p].centre, sizeof *drawn);
-    memcpy(last[p], record->pose[frame * (size_t)n + (size_t)p], sizeof *last);
+    memcpy(last[p], record->pose[(size_t)frame * (size_t)n + (size_t)p], sizeof *last);
   }
   if (!st)
-    record->off =
-        thr_fit_points((const double(*)[3])drawn, (const double(*)[3])last, n, NULL, NULL);
+    *off = thr_fit_points((const double(*)[3])drawn, (const double(*)[3])last, n, NULL, NULL);
   thr_scratch_free(&work);
   return st;
 }
@@ -341,14 +341,36 @@ static double lift_now(const rise_run *run)
   return options->carried ? options->lift * fmin(fmax(missing, 0), 1) : options->lift;
 }
 
-/* Takes one step. */
-static thr_status take_step(rise_run *run, double *lift, thr_err *err)
+/* Pushes the dented piece with so many N towards the middle of the drawn nodes. Equal parts of the
+ * counterforce act on all pieces, as by hands that hold the rest: nothing topples. */
+static void push_in(const rise_run *run, double dent)
+{
+  const thr_rise_structure *structure = run->structure;
+  const int dented = run->options->dented;
+  double inward[3] = {0, 0, 0};
+  for (int p = 0; p < structure->n_pieces; p++)
+    for (int k = 0; k < 3; k++)
+      inward[k] += (structure->piece[p].centre[k] - structure->piece[dented].centre[k]) /
+                   structure->n_pieces;
+  thr_normalize(inward);
+  for (int p = 0; p < structure->n_pieces; p++) {
+    const double share = (p == dented) - 1. / structure->n_pieces;
+    double force[3];
+    for (int k = 0; k < 3; k++)
+      force[k] = share * dent / run->bodies.force * inward[k];
+    thr_world_force(run->bodies.world, run->bodies.body[p], force);
+  }
+}
+
+/* Takes one step. dent: N. */
+static thr_status take_step(rise_run *run, double dent, double *lift, thr_err *err)
 {
   pull_cords(run);
   *lift = lift_now(run);
   if (*lift > 0)
     thr_world_force(run->bodies.world, run->bodies.body[run->options->lifted],
                     (const double[3]){0, 0, *lift / run->bodies.force});
+  if (dent > 0) push_in(run, dent);
   thr_status st = thr_world_step(run->bodies.world, err);
   if (st) return st;
   feel_cords(run);
@@ -411,6 +433,7 @@ static thr_status report(const rise_run *run, double time, double pull, double l
 static thr_status let_pass(rise_run *run, const thr_limits *limits, thr_rise_record *record,
                            thr_err *err)
 {
+  const thr_rise_options *options = run->options;
   thr_hands *hands = &run->hands;
   const long per_frame = lround(fmax(record->between / run->dt, 1));
   double lift = 0, time = 0;
@@ -433,7 +456,15 @@ static thr_status let_pass(rise_run *run, const thr_limits *limits, thr_rise_rec
       conclude(run, record);
       if (record->fell >= 0 && record->n_frames - record->fell > FRAMES_AFTER) break;
     }
-    if (!st) st = take_step(run, &lift, err);
+
+    const double part = (time - hands->full) / hands->hold;
+    const bool dents = part >= DENT_FROM && part < DENT_UNTIL;
+    if (step % per_frame == 0 && dents && options->dent > 0 && !st) {
+      double off;
+      st = measure_off(run, record, record->n_frames - 1, &off, err);
+      if (!st) record->dented = fmax(record->dented, off);
+    }
+    if (!st) st = take_step(run, dents ? options->dent : 0, &lift, err);
   }
 
   record->finished = !st;
@@ -442,7 +473,8 @@ static thr_status let_pass(rise_run *run, const thr_limits *limits, thr_rise_rec
   thr_err ignored = {0};
   if (record->held) {
     judge(run, record);
-    const thr_status measured = measure_off(run, record, st ? &ignored : err);
+    const thr_status measured =
+        measure_off(run, record, record->held - 1, &record->off, st ? &ignored : err);
     if (!st) st = measured;
   }
   return st;

@@ -69,7 +69,7 @@ const char *thr_rise_start_name(int start);
 /* What hands do: pull all pulled ends, first gently, with up to `pull` N or until all faces have
  * been closed for a while; hold that; and let down, if they do, until the structure has fallen. Or
  * they do what a schedule says (graph/plan/plan.h), with cords of a known stiffness. A hand may
- * also lift a piece. */
+ * also lift a piece, or dent the structure while the pull is held. */
 typedef struct {
   thr_rise_start start;
   uint64_t seed; /* of heaps, and of the small disorder of the others */
@@ -79,13 +79,16 @@ typedef struct {
   const thr_schedule *schedule; /* borrowed, of cords and passes that exist; NULL: none, all ends
                                    that cords are pulled at. Else any end can be pulled */
   double slower;                /* factor on the time that hands take; 0 = 1 */
-  double hold;                  /* s before they let down; 0 = 1 */
+  double hold;                  /* s before they let down; 0 = 1, and 4 with a dent */
   bool let_down;
   double time_step; /* factor on the usual one; 0 = 1 */
   int iterations;   /* of Bullet's solver, in every step; 0 = 60 */
   double lift;      /* N upwards at lifted; 0: no hand lifts */
   int lifted;       /* piece */
   bool carried;     /* .. but no more than brings it to its drawn height */
+  double dent;      /* N at dented, towards the middle of all drawn nodes, where the
+ counterforce is shared by all pieces; 0: no hand dents */
+  int dented;       /* piece, which is pushed in the second quarter of holding */
 } thr_rise_options;
 
 /* ---- what was seen ---- */
@@ -117,6 +120,7 @@ typedef struct {
   int loosest;         /* pass, counted over all cords, with the widest gap when most were closed */
   double off;     /* largest distance of a node from the drawn shape, after the best fit, at the
                      end of holding */
+  double dented;  /* the same while a hand dents it, at most */
   int held;       /* frames until hands let down */
   bool scheduled; /* it was pulled by a schedule .. */
   bool finished;  /* .. to its end; or all was seen that was asked for */

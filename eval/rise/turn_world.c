@@ -136,7 +136,7 @@ static void hold(const turn_world *turn, const double place[3])
   for (int i = 0; i < 3; i++) {
     const bool out = i == which && over > 0;
     thr_world_pull(turn->world, turn->cord[i], out ? FIRM : 0, CORRECTION * fmax(over, 0),
-                   out ? FIRM : 0);
+                   out ? FIRM : 0, 0);
   }
 }
 

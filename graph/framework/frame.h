@@ -350,6 +350,7 @@ typedef enum {
   THR_MAKE_HONEYCOMB,
   THR_MAKE_ROW,
   THR_MAKE_ARCH,
+  THR_MAKE_ALTERNATING,
   THR_N_SHAPES
 } thr_shape;
 const char *thr_shape_name(int shape); /* "dome", "geodesic", "tube", "sphere", .. */
@@ -357,11 +358,13 @@ const char *thr_shape_name(int shape); /* "dome", "geodesic", "tube", "sphere", 
 typedef struct {
   thr_shape shape;
   int size;  /* dome: nodes per side (>= 2); geodesic, sphere: frequency (>= 1); tube: nodes around
-                (>= 3);  honeycomb: rings of hexagons (>= 1); row, arch: nodes (>= 2, >= 3) */
+                (>= 3);  honeycomb: rings of hexagons (>= 1); row, arch: nodes (>= 2, >= 3);
+                alternating: nodes (>= 2) */
   int rings; /* tube: rings of nodes along the axis (>= 2) */
   double pitch; /* mm between neighbouring nodes (dome: in plan; others: nominal), > 0 */
   double rise; /* dome, honeycomb, arch: height of the crown over the feet as a fraction of the half
-                  span, >= 0 */
+                  span, >= 0; alternating: tangent of half a bend, at most 1 */
+  double twist; /* alternating: degrees from a bend to the next, 60 .. 180 */
 } thr_make_options;
 
 thr_make_options thr_make_options_default(thr_shape shape);

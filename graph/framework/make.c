@@ -8,27 +8,29 @@
  *
  * Example: the dome of size 2 has nodes A1 to B2, one at each corner of a square of one pitch, and
  * four edges. */
+#include "graph/arrays.h"
 #include "graph/framework/frame.h"
 #include "graph/number.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { MAX_NODES = 2000000 };
 
 const char *thr_shape_name(int shape)
 {
   static const char *const name[THR_N_SHAPES] = {"dome",      "geodesic", "tube", "sphere",
-                                                 "honeycomb", "row",      "arch"};
+                                                 "honeycomb", "row",      "arch", "alternating"};
   return name[shape];
 }
 
 thr_make_options thr_make_options_default(thr_shape shape)
 {
-  static const int size[] = {[THR_MAKE_DOME] = 7,   [THR_MAKE_GEODESIC] = 4,  [THR_MAKE_TUBE] = 12,
-                             [THR_MAKE_SPHERE] = 3, [THR_MAKE_HONEYCOMB] = 3, [THR_MAKE_ROW] = 9,
-                             [THR_MAKE_ARCH] = 9};
-  return (thr_make_options){shape, size[shape], 7, 20, 0.5};
+  static const int size[] = {[THR_MAKE_DOME] = 7,   [THR_MAKE_GEODESIC] = 4,   [THR_MAKE_TUBE] = 12,
+                             [THR_MAKE_SPHERE] = 3, [THR_MAKE_HONEYCOMB] = 3,  [THR_MAKE_ROW] = 9,
+                             [THR_MAKE_ARCH] = 9,   [THR_MAKE_ALTERNATING] = 8};
+  return (thr_make_options){shape, size[shape], 7, 20, 0.5, 180};
 }
 
 /* Writes what a node is called: "A1" for letter 0, number 0; after Z comes AA. */
@@ -146,6 +148,73 @@ static thr_status make_tube(thr_draft *draft, const thr_make_options *options, t
       if (!st && ring + 1 < options->rings) st = thr_draft_add_edge(draft, v, v + n, 0, err);
     }
 
+  return st;
+}
+
+/* ---- alternating: a row of equal bends along the x axis, each of them turned about the edge
+ * before it by the twist; the ends are feet ---- */
+
+/* Turns v about the unit vector axis (Rodrigues). */
+static void turn_about(const double axis[3], double cosine, double sine, double v[3])
+{
+  double across[3];
+  const double along = thr_dot(axis, v) * (1 - cosine);
+  thr_cross(axis, v, across);
+  for (int k = 0; k < 3; k++)
+    v[k] = cosine * v[k] + sine * across[k] + along * axis[k];
+}
+
+/* Fills the nodes of the row, wherever it leads. Lengths are in edges. */
+static void bend_row(const thr_make_options *options, double (*node)[3])
+{
+  /* The tangent of half a bend is the rise; half turns are exact. */
+  const double bend = 2 * atan(options->rise), angle = options->twist * THR_PI / 180;
+  const double cosine = options->twist == 180  ? -1
+                        : options->twist == 90 ? 0
+                                               : cos(angle),
+               sine = options->twist == 180 ? 0 : sin(angle);
+  double along[3] = {1, 0, 0}, about[3] = {0, 0, 1};
+  memset(node[0], 0, sizeof *node);
+  for (int i = 1; i < options->size; i++) {
+    for (int k = 0; k < 3; k++)
+      node[i][k] = node[i - 1][k] + along[k];
+    turn_about(about, cos(bend), sin(bend), along);
+    turn_about(along, cosine, sine, about);
+  }
+}
+
+static thr_status make_alternating(thr_draft *draft, const thr_make_options *options, thr_err *err)
+{
+  const int n = options->size;
+  thr_scratch work = {0};
+  double(*node)[3] = thr_scratch_array(&work, (size_t)n, sizeof *node);
+  thr_status st = thr_scratch_check(&work, err);
+  if (st) goto done;
+  bend_row(options, node);
+
+  /* The x axis leads from end to end, the first bend is as level as that leaves it, and the lowest
+   * node is on the ground. */
+  double axis[3][3] = {{0}, {0}, {0, 0, 1}}, low = INFINITY;
+  memcpy(axis[0], node[n - 1], sizeof axis[0]);
+  thr_normalize(axis[0]);
+  const double slope = thr_dot(axis[0], axis[2]);
+  for (int k = 0; k < 3; k++)
+    axis[2][k] -= slope * axis[0][k];
+  thr_normalize(axis[2]);
+  thr_cross(axis[2], axis[0], axis[1]);
+  for (int i = 0; i < n; i++)
+    low = fmin(low, thr_dot(axis[2], node[i]));
+
+  for (int i = 0; i < n && !st; i++)
+    st = add_node(draft, options->pitch * thr_dot(axis[0], node[i]),
+                  options->pitch * thr_dot(axis[1], node[i]),
+                  options->pitch * (thr_dot(axis[2], node[i]) - low), 0, i, i == 0 || i == n - 1,
+                  err);
+  for (int i = 1; i < n && !st; i++)
+    st = thr_draft_add_edge(draft, i - 1, i, 0, err);
+
+done:
+  thr_scratch_free(&work);
   return st;
 }
 
@@ -423,7 +492,7 @@ static thr_status check_options(const thr_make_options *options, thr_err *err)
   } size[] = {[THR_MAKE_DOME] = {2, 1414},          [THR_MAKE_GEODESIC] = {1, 630},
               [THR_MAKE_TUBE] = {3, MAX_NODES / 2}, [THR_MAKE_SPHERE] = {1, 447},
               [THR_MAKE_HONEYCOMB] = {1, 577},      [THR_MAKE_ROW] = {2, MAX_NODES},
-              [THR_MAKE_ARCH] = {3, MAX_NODES}};
+              [THR_MAKE_ARCH] = {3, MAX_NODES},     [THR_MAKE_ALTERNATING] = {2, MAX_NODES}};
 
   /* Which sizes are used depends on the shape. */
   thr_status st =
@@ -439,6 +508,14 @@ static thr_status check_options(const thr_make_options *options, thr_err *err)
     st =
         thr_fail(err, THR_EINPUT,
                  "rise is %g; it must be 0 or more, as a fraction of the half span", options->rise);
+
+  /* Bends that are sharper, or all to one side, would lead the row through itself. */
+  if (!st && options->shape == THR_MAKE_ALTERNATING &&
+      !(options->rise <= 1 && options->twist >= 60 && options->twist <= 180))
+    st = thr_fail(err, THR_EINPUT,
+                  "rise is %g and twist %g; they must be at most 1, and within 60 to 180 degrees, "
+                  "for this shape",
+                  options->rise, options->twist);
 
   return st;
 }
@@ -459,6 +536,7 @@ thr_status thr_make(thr_draft *draft, const thr_make_options *options, thr_err *
   case THR_MAKE_SPHERE: st = make_rows(draft, options, 3 * options->size, err); break;
   case THR_MAKE_ROW:
   case THR_MAKE_ARCH: st = make_path(draft, options, err); break;
+  case THR_MAKE_ALTERNATING: st = make_alternating(draft, options, err); break;
   default: st = make_honeycomb(draft, options, err);
   }
 

@@ -5,6 +5,7 @@
 #include "graph/io/read.h"
 #include "graph/status.h"
 #include "graph/text.h"
+#include "graph/number.h"
 #include "tests/support.h"
 
 #include <math.h>
@@ -13,7 +14,7 @@
 
 static thr_frame make(thr_shape shape, int size, int rings, double pitch, double rise)
 {
-  thr_make_options o = {shape, size, rings, pitch, rise};
+  thr_make_options o = {shape, size, rings, pitch, rise, 180};
   thr_draft d = {0};
   thr_frame f;
   thr_read_report r = {0};
@@ -255,27 +256,64 @@ START_TEST(row_and_arch)
 }
 END_TEST
 
+/* Equal edges and bends, each bend turned by the twist from the last, both ends on the x axis. */
+START_TEST(alternating)
+{
+  static const double twist[] = {180, 90, 120};
+  for (size_t i = 0; i < sizeof twist / sizeof *twist; i++) {
+    const thr_make_options o = {THR_MAKE_ALTERNATING, 9, 0, 20, 0.5, twist[i]};
+    thr_draft d = {0};
+    thr_err err = {0};
+    double before[3] = {0}, normal[3] = {0}, low = INFINITY;
+    assert_ok(thr_make(&d, &o, &err), &err);
+    ck_assert_int_eq(d.n_nodes, 9);
+    ck_assert_int_eq(d.n_edges, 8);
+    for (int v = 0; v < 9; v++) {
+      double along[3], across[3];
+      low = fmin(low, d.node[v].xyz[2]);
+      ck_assert_int_eq(d.node[v].foot, v == 0 || v == 8);
+      if (v == 0) continue;
+      for (int k = 0; k < 3; k++)
+        along[k] = d.node[v].xyz[k] - d.node[v - 1].xyz[k];
+      ck_assert_double_eq_tol(sqrt(thr_dot(along, along)), 20, 1e-9);
+      thr_cross(before, along, across);
+      if (v > 1) ck_assert_double_eq_tol(thr_angle_between(before, along), 2 * atan(0.5), 1e-9);
+      if (v > 2)
+        ck_assert_double_eq_tol(thr_degrees(thr_angle_between(normal, across)), twist[i], 1e-6);
+      memcpy(before, along, sizeof before);
+      memcpy(normal, across, sizeof normal);
+    }
+    ck_assert_double_eq_tol(low, 0, 1e-9);
+    ck_assert_double_eq_tol(d.node[8].xyz[1], 0, 1e-9);
+    ck_assert_double_eq_tol(d.node[8].xyz[2], d.node[0].xyz[2], 1e-9);
+    thr_draft_destroy(&d);
+  }
+}
+END_TEST
+
 START_TEST(refuses_sizes)
 {
   static const struct {
     thr_make_options o;
     const char *text;
   } bad[] = {
-      {{THR_MAKE_DOME, 1, 7, 20, 0.5}, "size"},
-      {{THR_MAKE_DOME, 1415, 7, 20, 0.5}, "size"},
-      {{THR_MAKE_SPHERE, 0, 7, 20, 0.5}, "size"},
-      {{THR_MAKE_SPHERE, 448, 7, 20, 0.5}, "size"},
-      {{THR_MAKE_GEODESIC, -3, 7, 20, 0.5}, "size"},
-      {{THR_MAKE_TUBE, 2, 7, 20, 0.5}, "size"},
-      {{THR_MAKE_TUBE, 12, 1, 20, 0.5}, "rings"},
-      {{THR_MAKE_TUBE, 1000, 2001, 20, 0.5}, "rings"},
-      {{THR_MAKE_HONEYCOMB, 0, 7, 20, 0.5}, "size"},
-      {{THR_MAKE_ROW, 1, 7, 20, 0.5}, "size"},
-      {{THR_MAKE_ARCH, 2, 7, 20, 0.5}, "size"},
-      {{THR_MAKE_DOME, 7, 7, 0, 0.5}, "pitch"},
-      {{THR_MAKE_DOME, 7, 7, NAN, 0.5}, "pitch"},
-      {{THR_MAKE_DOME, 7, 7, 20, -1}, "rise"},
-      {{THR_MAKE_DOME, 7, 7, 20, INFINITY}, "rise"},
+      {{THR_MAKE_DOME, 1, 7, 20, 0.5, 180}, "size"},
+      {{THR_MAKE_DOME, 1415, 7, 20, 0.5, 180}, "size"},
+      {{THR_MAKE_SPHERE, 0, 7, 20, 0.5, 180}, "size"},
+      {{THR_MAKE_SPHERE, 448, 7, 20, 0.5, 180}, "size"},
+      {{THR_MAKE_GEODESIC, -3, 7, 20, 0.5, 180}, "size"},
+      {{THR_MAKE_TUBE, 2, 7, 20, 0.5, 180}, "size"},
+      {{THR_MAKE_TUBE, 12, 1, 20, 0.5, 180}, "rings"},
+      {{THR_MAKE_TUBE, 1000, 2001, 20, 0.5, 180}, "rings"},
+      {{THR_MAKE_HONEYCOMB, 0, 7, 20, 0.5, 180}, "size"},
+      {{THR_MAKE_ROW, 1, 7, 20, 0.5, 180}, "size"},
+      {{THR_MAKE_ARCH, 2, 7, 20, 0.5, 180}, "size"},
+      {{THR_MAKE_DOME, 7, 7, 0, 0.5, 180}, "pitch"},
+      {{THR_MAKE_DOME, 7, 7, NAN, 0.5, 180}, "pitch"},
+      {{THR_MAKE_DOME, 7, 7, 20, -1, 180}, "rise"},
+      {{THR_MAKE_DOME, 7, 7, 20, INFINITY, 180}, "rise"},
+      {{THR_MAKE_ALTERNATING, 8, 7, 20, 1.1, 180}, "rise"},
+      {{THR_MAKE_ALTERNATING, 8, 7, 20, 0.5, 30}, "twist"},
   };
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
     thr_draft d = {0};
@@ -303,8 +341,8 @@ END_TEST
 
 START_TEST(every_allocation_may_fail)
 {
-  for (int shape = THR_MAKE_DOME; shape <= THR_MAKE_HONEYCOMB; shape++) {
-    thr_make_options o = {(thr_shape)shape, 3, 2, 20, 0.5};
+  for (int shape = THR_MAKE_DOME; shape < THR_N_SHAPES; shape++) {
+    thr_make_options o = {(thr_shape)shape, 3, 2, 20, 0.5, 180};
     thr_status st = THR_ENOMEM;
     for (int k = 1; st == THR_ENOMEM; k++) {
       thr_draft d = {0};
@@ -331,6 +369,7 @@ int main(void)
   ADD_TEST(s, 4, tube);
   ADD_TEST(s, 4, honeycomb);
   ADD_TEST(s, 4, row_and_arch);
+  ADD_TEST(s, 4, alternating);
   ADD_TEST(s, 4, refuses_sizes);
   ADD_TEST(s, 4, data_dome_is_the_default);
   ADD_TEST(s, 4, every_allocation_may_fail);
