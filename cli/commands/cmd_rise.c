@@ -53,7 +53,7 @@ typedef struct {
   thr_rise_options rise;
   thr_kit_options kit;
   guard_limits guard;
-  const char *lift, *raise, *output, *plot, *film, *frames, *play;
+  const char *lift, *raise, *lay, *held, *shape, *slack, *output, *plot, *film, *frames, *play;
   const char *path;
   int seeds, first_seed, start, size[2];
   double time_step, iterations;
@@ -75,10 +75,17 @@ static bool take_size(void *into, const cli_option *option, const char *value)
 }
 
 static const cli_option own_options[] = {
-    {"start", .kind = CLI_WORD, AT(start), .word = thr_rise_start_name,
-     .n_words = THR_RISE_N_STARTS,
+    {"start", .kind = CLI_WORD, AT(start), .word = thr_rise_start_name, .n_words = THR_RISE_LAID,
      .help = "where pieces begin: flat on the ground, slack (default), in a heap, or closed in "
              "their shape"},
+    {"lay", .value = "FRAME", .kind = CLI_TEXT, AT(lay),
+     .help = "pieces begin where this framework has the same nodes"},
+    {"held", .value = "NODE,..", .kind = CLI_TEXT, AT(held),
+     .help = "these pieces cannot move from where they begin"},
+    {"shape", .value = "CORD=FRAME,..", .kind = CLI_TEXT, AT(shape),
+     .help = "a cord closes its faces towards this framework, which has the same nodes at other "
+             "places"},
+    {"slack", .value = "CORD,..", .kind = CLI_TEXT, AT(slack), .help = "nobody pulls these cords"},
     {"pull", .value = "N", .kind = CLI_AMOUNT, AT(rise.pull), .low = CLI_ABOVE_0, .high = 1e6,
      .help = "hands pull every end with more and more, up to so much (default: 50, the most of a "
              "hand)"},
@@ -114,6 +121,8 @@ static const cli_option shape_options[] = {
      .help = "of the pieces' arms, as for thread kit (default: the bead diameter of the plan)"},
     {"profile", .kind = CLI_WORD, AT(kit.profile), .word = thr_kit_profile_name,
      .n_words = THR_KIT_N_PROFILES, .help = "cross-section of arms, as for thread kit"},
+    {"channels", .kind = CLI_WORD, AT(kit.channels), .word = thr_kit_channels_name,
+     .n_words = THR_KIT_N_CHANNELS, .help = "one bore, or a lane for each cord, as for thread kit"},
     {"density", .value = "G", .kind = CLI_AMOUNT, AT(kit.density), .low = CLI_ABOVE_0, .high = 100,
      .help = "of the material in g/cm3 (default: as the plan says)"},
     {0}};
@@ -138,7 +147,14 @@ typedef struct {
 typedef struct {
   thr_rise_record record; /* without its arrays */
   thr_rise_moment moment[MOST_MOMENTS];
+  double angle[]; /* [2 n_passes] kinks, twists */
 } rise_result;
+
+/* The size of such a result. */
+static size_t result_size(const rise_runs *runs)
+{
+  return sizeof(rise_result) + 2 * sizeof(double) * (size_t)runs->record[0].n_passes;
+}
 
 /* The piece with this name, as documents call it or as the framework does; -1. */
 static int piece_named(const thr_kit *kit, const char *name)
@@ -251,13 +267,15 @@ static void put_title(const rise_runs *runs, thr_text *text)
   const thr_rise_options *options = &runs->args->rise;
   int ends = 0;
   for (int c = 0; c < structure->n_cords; c++)
-    ends += structure->cord[c].pulled[0] + structure->cord[c].pulled[1];
+    ends +=
+        structure->cord[c].slack ? 0 : structure->cord[c].pulled[0] + structure->cord[c].pulled[1];
   thr_text_printf(text, "%d pieces, %.3g N in all, %d %s pulled at %d %s, %s", structure->n_pieces,
                   record->weight, structure->n_cords,
                   cli_plural(structure->n_cords, "cord", "cords"), ends,
                   cli_plural(ends, "end", "ends"),
                   options->start == THR_RISE_FLAT   ? "from flat on the ground"
                   : options->start == THR_RISE_HEAP ? "from a heap"
+                  : options->start == THR_RISE_LAID ? "from where it is laid"
                                                     : "from its shape");
 }
 
@@ -286,8 +304,8 @@ static void put_text(const rise_runs *runs, thr_text *text)
   put_outcome(runs, text);
   thr_text_printf(text,
                   "\n%d of %d faces closed, highest node at %.3g mm, %.3g mm of cord drawn in\n",
-                  record->most_closed, record->n_passes, last->height, last->drawn);
-  if (record->most_closed < record->n_passes) {
+                  record->most_closed, record->n_counted, last->height, last->drawn);
+  if (record->most_closed < record->n_counted) {
     const char *name[2] = {"", ""};
     pieces_of(runs, record->loosest, name);
     thr_text_printf(text, "the widest gap stays between %s and %s\n", name[0], name[1]);
@@ -310,6 +328,15 @@ static void put_text(const rise_runs *runs, thr_text *text)
   }
 }
 
+/* Writes angles in degrees. */
+static void write_degrees(thr_writer *writer, const char *key, const double *angle, int n)
+{
+  thr_write_row(writer, key);
+  for (int i = 0; i < n; i++)
+    thr_write_printf(writer, NULL, "%.4g", angle[i] * 180 / THR_PI);
+  thr_write_close(writer);
+}
+
 /* Writes the moments of a run, and with `motion` the place of every piece. */
 static void write_run(thr_writer *writer, const rise_runs *runs, int i, bool motion)
 {
@@ -321,6 +348,8 @@ static void write_run(thr_writer *writer, const rise_runs *runs, int i, bool mot
   if (record->fell >= 0) thr_write_number(writer, "pull_down", pull_down(record));
   thr_write_int(writer, "most_closed", record->most_closed);
   thr_write_number(writer, "off", record->off);
+  write_degrees(writer, "kink", record->kink, record->n_passes);
+  write_degrees(writer, "twist", record->twist, record->n_passes);
 
   thr_write_array(writer, "moments");
   for (int f = 0; f < record->n_frames; f++) {
@@ -356,9 +385,9 @@ static void put_json(const rise_runs *runs, bool motion, thr_text *text)
   const thr_rise_record *record = &runs->record[0];
   thr_writer writer = {.out = text};
   thr_write_object(&writer, NULL);
-  thr_write_string(&writer, "start", thr_rise_start_name(runs->args->start));
+  thr_write_string(&writer, "start", thr_rise_start_name(runs->args->rise.start));
   thr_write_int(&writer, "pieces", record->n_pieces);
-  thr_write_int(&writer, "faces", record->n_passes);
+  thr_write_int(&writer, "faces", record->n_counted);
   thr_write_number(&writer, "weight", record->weight);
   thr_write_number(&writer, "seconds_a_frame", record->between);
   thr_write_number(&writer, "closed_form", runs->seated);
@@ -389,7 +418,7 @@ static int write_plot(const rise_runs *runs, const char *name)
     for (size_t i = 0; i < n; i++) {
       value[i] = record->moment[i].drawn;
       value[n + i] = record->moment[i].pull;
-      value[2 * n + i] = (double)record->moment[i].closed / record->n_passes;
+      value[2 * n + i] = (double)record->moment[i].closed / record->n_counted;
     }
   }
   const thr_rise_chart chart = {
@@ -496,6 +525,11 @@ static thr_status run_job(void *user, int job, void *result, thr_err *err)
     out->record = record;
     if (record.n_frames > MOST_MOMENTS) out->record.n_frames = MOST_MOMENTS;
     memcpy(out->moment, record.moment, (size_t)out->record.n_frames * sizeof *out->moment);
+    for (int i = 0; i < record.n_passes; i++) {
+      out->angle[i] = record.kink[i];
+      out->angle[record.n_passes + i] = record.twist[i];
+    }
+    out->record.kink = out->record.twist = NULL;
     out->record.moment = NULL;
     out->record.pose = NULL;
     out->record.tension = NULL;
@@ -509,12 +543,12 @@ static thr_status run_others(rise_runs *runs, const thr_limits *limits, thr_err 
 {
   const int n = runs->args->seeds - 1;
   const thr_work work = {.n_jobs = n,
-                         .result_size = sizeof(rise_result),
+                         .result_size = result_size(runs),
                          .run = run_job,
                          .user = runs,
                          .what = "simulating",
                          .advice = "fewer --seeds"};
-  rise_result *result = thr_calloc((size_t)n, sizeof *result);
+  char *result = thr_calloc((size_t)n, result_size(runs));
   bool *finished = thr_calloc((size_t)n, sizeof *finished);
   thr_status st = result && finished
                       ? thr_workers_run(&work, cli_processes(), limits, result, finished, err)
@@ -522,14 +556,20 @@ static thr_status run_others(rise_runs *runs, const thr_limits *limits, thr_err 
   for (int i = 0; i < n && result && finished; i++) {
     thr_rise_record *record = &runs->record[runs->n_runs];
     if (!finished[i]) continue;
-    *record = result[i].record;
-    record->moment = thr_calloc((size_t)record->n_frames, sizeof *record->moment);
-    if (!record->moment) {
-      *record = (thr_rise_record){0};
+    const rise_result *seen = (const void *)(result + (size_t)i * result_size(runs));
+    const size_t frames = (size_t)seen->record.n_frames, passes = (size_t)seen->record.n_passes;
+    *record = seen->record;
+    record->moment = thr_calloc(frames, sizeof *record->moment);
+    record->kink = thr_calloc(passes, sizeof *record->kink);
+    record->twist = thr_calloc(passes, sizeof *record->twist);
+    if (!record->moment || !record->kink || !record->twist) {
+      thr_rise_record_destroy(record);
       st = thr_nomem(err);
       break;
     }
-    memcpy(record->moment, result[i].moment, (size_t)record->n_frames * sizeof *record->moment);
+    memcpy(record->moment, seen->moment, frames * sizeof *record->moment);
+    memcpy(record->kink, seen->angle, passes * sizeof *record->kink);
+    memcpy(record->twist, seen->angle + passes, passes * sizeof *record->twist);
     runs->n_runs++;
   }
   free(result);
@@ -594,6 +634,88 @@ static int run_all(rise_runs *runs, const thr_plan *plan)
   return code ? code : failed;
 }
 
+/* The next word of a list with commas, which is cut up; NULL: there is none. */
+static char *next_word(char **rest)
+{
+  char *word = *rest, *comma = word ? strchr(word, ',') : NULL;
+  if (comma) *comma = 0;
+  *rest = comma ? comma + 1 : NULL;
+  return word;
+}
+
+/* The cord of this name; -1, and prints so. */
+static int cord_named(const thr_plan *plan, const char *option, const char *name)
+{
+  char id[12];
+  for (int c = 0; c < plan->n_cords; c++) {
+    thr_cord_id(c, id);
+    if (strcmp(id, name) == 0) return c;
+  }
+  cli_usage("rise", "--%s %s: the plan has no such cord", option, name);
+  return -1;
+}
+
+/* Does one word of what --slack, --held, --shape or --lay lists. Returns EXIT_SUCCESS or prints and
+ * returns an exit code. */
+static int take_word(rise_runs *runs, const char *option, char *word)
+{
+  thr_err err = {0};
+  char *file = strcmp(option, "shape") == 0 ? strchr(word, '=') : NULL;
+  const bool lay = strcmp(option, "lay") == 0;
+  int which = 0;
+  if (file) *file++ = 0;
+  if (!file && strcmp(option, "shape") == 0)
+    return cli_usage("rise", "--shape %s: expected a cord and a framework, as B=corner.json", word);
+  if (strcmp(option, "held") == 0) {
+    which = piece_named(runs->kit, word);
+    if (which < 0) return cli_usage("rise", "--held %s: the plan has no such piece", word);
+    runs->made.piece[which].held = true;
+    return EXIT_SUCCESS;
+  }
+  if (!lay && (which = cord_named(runs->kit->plan, option, word)) < 0) return EXIT_USAGE;
+  if (!lay && !file) {
+    runs->made.cord[which].slack = true;
+    return EXIT_SUCCESS;
+  }
+
+  const cli_frame_args usual = cli_frame_args_default();
+  thr_frame frame;
+  const int code = cli_read_frame(lay ? word : file, &usual, &frame);
+  if (code) return code;
+  const thr_status st = lay ? thr_rise_kit_lay(&runs->made, runs->kit, &frame, &err)
+                            : thr_rise_kit_shape(&runs->made, runs->kit, which, &frame, &err);
+  thr_frame_destroy(&frame);
+  return st ? cli_fail(&err) : EXIT_SUCCESS;
+}
+
+/* Does what --slack, --held, --shape and --lay say of single cords and pieces. Returns EXIT_SUCCESS
+ * or prints and returns an exit code. */
+static int take_lists(rise_runs *runs)
+{
+  const struct {
+    const char *option, *text;
+  } list[] = {{"slack", runs->args->slack},
+              {"held", runs->args->held},
+              {"shape", runs->args->shape},
+              {"lay", runs->args->lay}};
+  int code = EXIT_SUCCESS;
+  for (size_t i = 0; i < sizeof list / sizeof *list && !code; i++) {
+    thr_text text = {0};
+    if (!list[i].text) continue;
+    thr_text_append(&text, list[i].text);
+    char *rest = text.data;
+    if (text.failed) {
+      thr_err err = {0};
+      thr_nomem(&err);
+      code = cli_fail(&err);
+    }
+    for (char *word = next_word(&rest); word && !code; word = next_word(&rest))
+      code = take_word(runs, list[i].option, word);
+    thr_text_destroy(&text);
+  }
+  return code;
+}
+
 /* Makes the kit of a plan, and what rises from it. Returns an exit code. */
 static int make_and_run(const rise_arguments *args, const thr_plan *plan)
 {
@@ -611,7 +733,8 @@ static int make_and_run(const rise_arguments *args, const thr_plan *plan)
   if (!st && (!pull || !runs.record)) st = thr_nomem(&err);
   if (!st) st = thr_physics_resolve(&plan->options.physics, &plan->frame, &physics, &err);
   if (!st) st = thr_rise_kit_make(&runs.made, &kit, pull, &physics, &err);
-  const int code = st ? cli_fail(&err) : run_all(&runs, plan);
+  int code = st ? cli_fail(&err) : take_lists(&runs);
+  if (!code) code = run_all(&runs, plan);
 
   for (int i = 0; i < args->seeds && runs.record; i++)
     thr_rise_record_destroy(&runs.record[i]);
@@ -642,7 +765,7 @@ int cmd_rise(int argc, char **argv)
     return cli_usage("rise", optind == argc ? "which plan?" : "one plan at a time");
   if (asked.lift && asked.raise) return cli_usage("rise", "--lift or --raise, not both");
   asked.path = argv[optind];
-  asked.rise.start = (thr_rise_start)asked.start;
+  asked.rise.start = asked.lay ? THR_RISE_LAID : (thr_rise_start)asked.start;
   asked.rise.iterations = (int)asked.iterations;
 
   /* The child does all of the work. */

@@ -33,7 +33,7 @@ static const double STRAIGHT = 0.1;   /* rad between the axes of closed faces */
 static const double FALLEN = 0.9;     /* of the height: what is lower has fallen */
 static const double QUIET = 0.5; /* s that all faces are closed before hands stop pulling more */
 
-static const char *const start_names[] = {"flat", "heap", "shape"};
+static const char *const start_names[] = {"flat", "heap", "shape", "laid"};
 
 const char *thr_rise_start_name(int start)
 {
@@ -42,7 +42,8 @@ const char *thr_rise_start_name(int start)
 
 /* A pass of a cord as it is now. */
 typedef struct {
-  int cord; /* in the world */
+  int cord;   /* in the world */
+  bool slack; /* its faces do not count */
   double direction[3];
   double gap;                     /* between the mouths along the cord, in the world's units */
   double first_gap;               /* at the start */
@@ -53,9 +54,9 @@ typedef struct {
   const thr_rise_structure *structure;
   const thr_rise_options *options;
   thr_rise_bodies bodies;
-  thr_cable *cable; /* [n_cords] */
-  rise_pass *pass;  /* [n_passes] cord after cord */
-  int n_passes;
+  thr_cable *cable;        /* [n_cords] */
+  rise_pass *pass;         /* [n_passes] cord after cord */
+  int n_passes, n_counted; /* .. of cords that are not slack */
   thr_friction friction;
   double dt, scale; /* s; and how much slower than with edges of TIME_EDGE everything is */
   double mu;
@@ -64,11 +65,24 @@ typedef struct {
 
 /* ---- the cords ---- */
 
+/* Fills in where pass k first touches the channels of its two pieces, mm from their nodes as drawn.
+ */
+static void inside_mouths(const thr_rise_structure *structure, const thr_rise_cord *cord, int k,
+                          double start[3], double end[3])
+{
+  double at[2][3];
+  for (int i = 0; i < 3; i++) {
+    at[0][i] = cord->mouth[k][i] - structure->mouth_depth * cord->along[k][i];
+    at[1][i] = cord->mouth[k][i] + structure->mouth_depth * cord->along[k][i];
+  }
+  thr_rise_drawn(structure, cord, cord->piece[k], at[0], start);
+  thr_rise_drawn(structure, cord, cord->piece[k + 1], at[1], end);
+}
+
 /* Gives every cord its arrays, and its passes their places in the world. */
 static thr_status make_cords(rise_run *run, thr_err *err)
 {
   const thr_rise_structure *structure = run->structure;
-  const double depth = structure->mouth_depth;
   thr_status st = THR_OK;
   rise_pass *pass = run->pass;
 
@@ -87,15 +101,12 @@ static thr_status make_cords(rise_run *run, thr_err *err)
 
     for (int k = 0; k < cord->n_passes && !st; k++, pass++) {
       const int from = cord->piece[k], to = cord->piece[k + 1];
+      pass->slack = cord->slack;
       double start[3], end[3];
+      inside_mouths(structure, cord, k, start, end);
       for (int i = 0; i < 3; i++) {
-        const thr_rise_piece *one = &structure->piece[from], *other = &structure->piece[to];
-        start[i] =
-            (cord->mouth[k][i] - depth * cord->along[k][i] - one->centre[i] - one->mass_centre[i]) /
-            run->bodies.length;
-        end[i] = (cord->mouth[k][i] + depth * cord->along[k][i] - other->centre[i] -
-                  other->mass_centre[i]) /
-                 run->bodies.length;
+        start[i] = (start[i] - structure->piece[from].mass_centre[i]) / run->bodies.length;
+        end[i] = (end[i] - structure->piece[to].mass_centre[i]) / run->bodies.length;
       }
       st = thr_world_add_cord(run->bodies.world, run->bodies.body[from], start,
                               run->bodies.body[to], end, &pass->cord, err);
@@ -109,17 +120,15 @@ static void look_at(const rise_run *run, const thr_rise_cord *cord, int k, rise_
 {
   const int from = cord->piece[k], to = cord->piece[k + 1];
   const double depth = run->structure->mouth_depth;
-  const thr_rise_piece *one = &run->structure->piece[from], *other = &run->structure->piece[to];
-  double inside[2][3], start[3], end[3];
+  double inside[2][3], axis[2][3], start[3], end[3];
 
-  for (int i = 0; i < 3; i++) {
-    inside[0][i] = cord->mouth[k][i] - depth * cord->along[k][i] - one->centre[i];
-    inside[1][i] = cord->mouth[k][i] + depth * cord->along[k][i] - other->centre[i];
-  }
+  inside_mouths(run->structure, cord, k, inside[0], inside[1]);
+  thr_rise_drawn_turn(cord, from, cord->along[k], axis[0]);
+  thr_rise_drawn_turn(cord, to, cord->along[k], axis[1]);
   thr_rise_carried(&run->bodies, from, inside[0], start);
   thr_rise_carried(&run->bodies, to, inside[1], end);
-  thr_rise_turned(&run->bodies, from, cord->along[k], pass->in_axis);
-  thr_rise_turned(&run->bodies, to, cord->along[k], pass->out_axis);
+  thr_rise_turned(&run->bodies, from, axis[0], pass->in_axis);
+  thr_rise_turned(&run->bodies, to, axis[1], pass->out_axis);
 
   for (int i = 0; i < 3; i++)
     pass->direction[i] = end[i] - start[i];
@@ -162,6 +171,11 @@ static void pull_cords(rise_run *run, double pull)
 
   for (int c = 0; c < run->structure->n_cords; c++) {
     thr_cable *cable = &run->cable[c];
+    if (run->structure->cord[c].slack) {
+      for (int k = 0; k < cable->n; k++, pass++)
+        thr_world_pull(run->bodies.world, pass->cord, 0, 0, 0);
+      continue;
+    }
     thr_cable_pull(cable, force, &run->friction);
     for (int k = 0; k < cable->n; k++, pass++) {
       const double speed =
@@ -179,14 +193,16 @@ static void feel_cords(rise_run *run)
   const rise_pass *pass = run->pass;
   for (int c = 0; c < run->structure->n_cords; c++)
     for (int k = 0; k < run->cable[c].n; k++, pass++)
-      thr_cable_felt(&run->cable[c], k,
-                     thr_world_cord_held(run->bodies.world, pass->cord) * run->bodies.force, false);
+      if (!run->structure->cord[c].slack)
+        thr_cable_felt(&run->cable[c], k,
+                       thr_world_cord_held(run->bodies.world, pass->cord) * run->bodies.force,
+                       false);
 }
 
 /* Have the faces of a pass met? */
 static bool is_closed(const rise_run *run, const rise_pass *pass)
 {
-  return pass->gap < CLOSED * run->bodies.edge / run->bodies.length &&
+  return !pass->slack && pass->gap < CLOSED * run->bodies.edge / run->bodies.length &&
          thr_angle_between(pass->in_axis, pass->out_axis) < STRAIGHT;
 }
 
@@ -208,6 +224,7 @@ static void see(const rise_run *run, double time, double pull, double lift, thr_
 
   for (int i = 0; i < run->n_passes; i++) {
     const rise_pass *pass = &run->pass[i];
+    if (pass->slack) continue;
     moment->closed += is_closed(run, pass);
     moment->widest = fmax(moment->widest, pass->gap * mm);
     moment->drawn += (pass->first_gap - pass->gap) * mm;
@@ -252,19 +269,34 @@ static thr_status keep_frame(const rise_run *run, double time, double pull, doub
   return THR_OK;
 }
 
-/* Measures how far the shape was from the drawn one when hands began to let down. */
-static thr_status measure_off(const rise_run *run, thr_rise_record *record, thr_err *err)
+/* Where the cords that are pulled have the pieces in their shape; NULL: as drawn. */
+static const double (*closed_places(const thr_rise_structure *structure))[7]
+{
+  for (int c = 0; c < structure->n_cords; c++)
+    if (!structure->cord[c].slack) return structure->cord[c].place;
+  return NULL;
+}
+
+/* Measures how far the shape was from that of the cords when hands began to let down, and how the
+ * faces were turned to each other. */
+static thr_status measure_shape(const rise_run *run, thr_rise_record *record, thr_err *err)
 {
   const int n = record->n_pieces;
+  const double(*place)[7] = closed_places(run->structure);
+  const double(*pose)[7] =
+      (const double(*)[7])record->pose + (size_t)(record->held - 1) * (size_t)n;
   thr_scratch work = {0};
   double(*drawn)[3] = thr_scratch_array(&work, (size_t)n, sizeof *drawn);
   double(*last)[3] = thr_scratch_array(&work, (size_t)n, sizeof *last);
   thr_status st = thr_scratch_check(&work, err);
   for (int p = 0; p < n && !st; p++) {
-    const size_t frame = (size_t)record->held - 1;
-    memcpy(drawn[p], run->structure->piece[p].centre, sizeof *drawn);
-    memcpy(last[p], record->pose[frame * (size_t)n + (size_t)p], sizeof *last);
+    memcpy(drawn[p], place ? place[p] : run->structure->piece[p].centre, sizeof *drawn);
+    memcpy(last[p], pose[p], sizeof *last);
   }
+  record->kink = thr_calloc((size_t)record->n_passes, sizeof *record->kink);
+  record->twist = thr_calloc((size_t)record->n_passes, sizeof *record->twist);
+  if (!st && !(record->kink && record->twist)) st = thr_nomem(err);
+  if (!st) thr_rise_kinks(run->structure, pose, record->kink, record->twist);
   if (!st)
     record->off =
         thr_fit_points((const double(*)[3])drawn, (const double(*)[3])last, n, NULL, NULL);
@@ -314,7 +346,8 @@ static int count_closed(const rise_run *run, int *widest)
   *widest = 0;
   for (int i = 0; i < run->n_passes; i++) {
     n += is_closed(run, &run->pass[i]);
-    if (run->pass[i].gap > run->pass[*widest].gap) *widest = i;
+    if (run->pass[i].slack) continue;
+    if (run->pass[*widest].slack || run->pass[i].gap > run->pass[*widest].gap) *widest = i;
   }
   return n;
 }
@@ -350,7 +383,7 @@ static void watch(rise_hands *hands, double time, bool closed)
 static void conclude(const rise_run *run, thr_rise_record *record)
 {
   record->came_up = record->fell = -1;
-  for (int i = record->held - 1; i >= 0 && record->moment[i].closed == run->n_passes; i--)
+  for (int i = record->held - 1; i >= 0 && record->moment[i].closed == run->n_counted; i--)
     record->came_up = i;
   for (int i = record->held; i < record->n_frames && record->fell < 0 && record->held > 0; i++)
     if (record->moment[i].height < FALLEN * record->moment[record->held - 1].height)
@@ -368,7 +401,7 @@ static thr_status report(const rise_run *run, double time, double pull, double l
   if (!st && limits && limits->advance) {
     char words[64];
     snprintf(words, sizeof words, "%d of %d faces closed",
-             record->moment[record->n_frames - 1].closed, run->n_passes);
+             record->moment[record->n_frames - 1].closed, run->n_counted);
     limits->advance(limits->user, words, fmin(time / all, 1));
   }
   return st;
@@ -380,13 +413,16 @@ static thr_status let_pass(rise_run *run, const thr_limits *limits, thr_rise_rec
 {
   const thr_rise_options *options = run->options;
   const double slower = run->scale * (options->slower > 0 ? options->slower : 1);
-  rise_hands hands = {.settle = options->start == THR_RISE_SHAPE ? 0 : SETTLING * run->scale,
+  /* What is closed has the whole pull at once; what is laid is not let fall. */
+  const bool closed_first = options->start == THR_RISE_SHAPE,
+             laid = options->start == THR_RISE_LAID;
+  rise_hands hands = {.settle = closed_first || laid ? 0 : SETTLING * run->scale,
                       .hold = run->scale * (options->hold > 0 ? options->hold : HOLD),
                       .up = UP * slower,
                       .down = DOWN * slower,
-                      .gentle = options->start == THR_RISE_SHAPE
+                      .gentle = closed_first
                                     ? options->pull
-                                    : fmin(GENTLE * record->weight, options->pull),
+                                    : fmin((laid ? 1 : GENTLE) * record->weight, options->pull),
                       .most = options->pull,
                       .quiet = QUIET * run->scale,
                       .closed_since = INFINITY};
@@ -402,7 +438,7 @@ static thr_status let_pass(rise_run *run, const thr_limits *limits, thr_rise_rec
     int widest;
     const int closed = count_closed(run, &widest);
     const double pull = pull_at(&hands, time);
-    watch(&hands, time, closed == run->n_passes);
+    watch(&hands, time, closed == run->n_counted);
     if (closed > record->most_closed && time >= hands.settle) {
       record->most_closed = closed;
       record->loosest = widest;
@@ -419,7 +455,7 @@ static thr_status let_pass(rise_run *run, const thr_limits *limits, thr_rise_rec
   /* What was seen counts where time ran out, too. */
   thr_err ignored = {0};
   if (record->held) {
-    const thr_status measured = measure_off(run, record, st ? &ignored : err);
+    const thr_status measured = measure_shape(run, record, st ? &ignored : err);
     if (!st) st = measured;
   }
   return st;
@@ -436,7 +472,8 @@ static thr_status check(const thr_rise_structure *structure, const thr_rise_opti
                     "rise: without gravity nothing lies on the ground: give a gravity above 0");
   bool pulled = false;
   for (int c = 0; c < structure->n_cords; c++)
-    pulled |= structure->cord[c].pulled[0] || structure->cord[c].pulled[1];
+    pulled |=
+        !structure->cord[c].slack && (structure->cord[c].pulled[0] || structure->cord[c].pulled[1]);
   if (!pulled) return thr_fail(err, THR_EINPUT, "rise: no cord has an end that is pulled");
   if (!(thr_rise_edge(structure) > 0))
     return thr_fail(err, THR_EINPUT, "rise: the cords join no two pieces at different places");
@@ -457,9 +494,12 @@ thr_status thr_rise_simulate(const thr_rise_structure *structure, const thr_rise
                   .options = options,
                   .mu = structure->physics.mu,
                   .friction = thr_friction_of(&structure->physics)};
-  for (int c = 0; c < structure->n_cords; c++)
+  for (int c = 0; c < structure->n_cords; c++) {
     run.n_passes += structure->cord[c].n_passes;
+    if (!structure->cord[c].slack) run.n_counted += structure->cord[c].n_passes;
+  }
   record->n_passes = run.n_passes;
+  record->n_counted = run.n_counted;
   run.cable = thr_scratch_array(&run.own, (size_t)structure->n_cords, sizeof *run.cable);
   run.pass = thr_scratch_array(&run.own, (size_t)run.n_passes, sizeof *run.pass);
   st = thr_scratch_check(&run.own, err);
@@ -495,5 +535,7 @@ void thr_rise_record_destroy(thr_rise_record *record)
   free(record->moment);
   free(record->pose);
   free(record->tension);
+  free(record->kink);
+  free(record->twist);
   *record = (thr_rise_record){0};
 }
