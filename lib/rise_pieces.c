@@ -198,7 +198,7 @@ thr_status thr_rise_movement(thr_movement *movement, const thr_kit *kit,
   if (st) return st;
   movement->seconds = record->between;
   movement->floor = 0;
-  movement->n_faces = record->n_passes;
+  movement->n_faces = record->n_counted;
   memcpy(movement->pose, record->pose,
          (size_t)record->n_frames * (size_t)record->n_pieces * sizeof *movement->pose);
 

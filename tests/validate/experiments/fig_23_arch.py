@@ -133,7 +133,7 @@ def section(program, folder):
     return "\n".join([
         "## Fig. 23: an arch that kinks", "",
         f"{PIECES} straight boxes of {PITCH} mm, {WIDTH} mm wide, between two that are held, nearer to each other than the row is long. They are laid as "
-        f"arches by chance ({SHAPES}, each {SEEDS} times, turned a little by chance), and the cord is drawn in with up to {PULL} N.", "", "```",
+        f"arches by chance ({SHAPES}, `chance-1.json` and so on, each {SEEDS} times, turned a little by chance), and the cord is drawn in with up to {PULL} N.", "", "```",
         *(f"$ {command}" for command in commands), f"$ {rise % 1}", "```", "",
         f"The thesis: rather than a smooth arc, it forms a limited number of kinks; the sum of squares of the angles is largest. {len(found)} runs "
         "beside 400 arches by chance with the same ends (median, and range):", "", "| | drawn in | by chance |", "|---|---|---|", *rows, "",
