@@ -241,11 +241,12 @@ bench: ## times of everything, beside other codes (half an hour), write docs/ben
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release all
 	@bench/run.py $(OUT)/release/thread $(or $(BENCH),--output docs/benchmarks.md)
 
-validate: ## measure the pull force against theory (a few minutes), write docs/validation.md
+validate: ## measure the pull force against theory, and the thesis's experiments (half an hour), write docs/validation.md, docs/experiments.md
 	+@tools/install-packages.sh $(BUILD_PACKAGES)
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release all $(OUT)/release/validate
 	@$(OUT)/release/validate docs/validation.md; first=$$?; \
-	tests/validate/claims.py $(OUT)/release/thread docs/validation.md docs/pictures && exit $$first
+	tests/validate/claims.py $(OUT)/release/thread docs/validation.md docs/pictures && \
+	tests/validate/experiments.py $(OUT)/release/thread docs/experiments.md docs/pictures && exit $$first
 
 memory: ## every command with an allocation of each distinct stack of calls failing (hours; SAMPLES=N: N of each command)
 	+@tools/install-packages.sh $(BUILD_PACKAGES)

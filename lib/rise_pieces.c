@@ -29,9 +29,7 @@ static int prism(const double along[3], const double up[3], const double side[3]
   return 2 * n;
 }
 
-/* The cross-section of arms: sides, radius of its corners as a part of the width, and where the
- * first one is. */
-static int section_of(thr_kit_profile profile, double *radius, double *first)
+int thr_rise_section(thr_kit_profile profile, double *radius, double *first)
 {
   *first = 0;
   switch (profile) {
@@ -50,7 +48,7 @@ static void make_piece(const thr_kit *kit, int p, int *n_corners, double (*corne
 {
   const thr_kit_piece *piece = &kit->piece[p];
   double radius, first, volume = 0, moment = 0, centre[3] = {0, 0, 0};
-  const int sides = section_of(piece->profile, &radius, &first);
+  const int sides = thr_rise_section(piece->profile, &radius, &first);
   int n = 0;
   *out = (thr_rise_piece){.n_corners = n_corners, .corner = (const double(*)[3])corner};
   memcpy(out->centre, piece->centre, sizeof out->centre);
@@ -60,6 +58,17 @@ static void make_piece(const thr_kit *kit, int p, int *n_corners, double (*corne
     n_corners[out->n_parts++] = 2 * sides;
     n += prism(arm->along, arm->up, arm->side, 0, arm->length, radius * arm->width, sides, first,
                corner + n);
+
+    /* Behind the node of a piece with one arm is half a ball, whose circle at 45 degrees stands for
+     * it: a box would fall over without it. There is room: it has no foot. */
+    if (piece->n_arms == 1 && !piece->foot && piece->profile == THR_KIT_SQUARE) {
+      const double back = sqrt(0.5) * piece->node_radius;
+      double ring[2 * MOST_SIDES][3];
+      prism(arm->along, arm->up, arm->side, -back, -back, back, sides, first, ring);
+      memcpy(corner + n, ring, (size_t)sides * sizeof *ring);
+      n_corners[out->n_parts - 1] += sides;
+      n += sides;
+    }
 
     /* An arm of length a and width w has, for its mass, a^2 / 3 + w^2 / 6 about the node. */
     const double length = arm->length, share = length * arm->width * arm->width;
@@ -176,6 +185,8 @@ thr_status thr_rise_kit_make(thr_rise_kit *made, const thr_kit *kit, const thr_p
     pass += (size_t)plan->cord[c].n_passes;
   }
 
+  made->piece = piece;
+  made->cord = cord;
   made->structure = (thr_rise_structure){.n_pieces = kit->n_pieces,
                                          .n_cords = plan->n_cords,
                                          .piece = piece,
@@ -200,7 +211,7 @@ thr_status thr_rise_movement(thr_movement *movement, const thr_kit *kit,
   if (st) return st;
   movement->seconds = record->between;
   movement->floor = 0;
-  movement->n_faces = record->n_passes;
+  movement->n_faces = record->n_counted;
   memcpy(movement->pose, record->pose,
          (size_t)record->n_frames * (size_t)record->n_pieces * sizeof *movement->pose);
 

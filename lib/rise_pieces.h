@@ -7,6 +7,7 @@
 #include "diagram/scene/movement.h"
 #include "eval/rise/rise.h"
 #include "graph/arrays.h"
+#include "graph/framework/frame.h"
 #include "graph/plan/physics.h"
 #include "graph/status.h"
 #include "kit/kit.h"
@@ -23,6 +24,8 @@ const char *thr_rise_feet_name(int feet);
 /* A structure with all that it points to. {0} is valid. */
 typedef struct {
   thr_rise_structure structure;
+  thr_rise_piece *piece; /* those of structure, to be held .. */
+  thr_rise_cord *cord;   /* .. or slack */
   thr_scratch own;
 } thr_rise_kit;
 
@@ -35,6 +38,25 @@ thr_status thr_rise_kit_make(thr_rise_kit *made, const thr_kit *kit, const thr_p
                              thr_rise_feet feet, const thr_physics *physics,
                              thr_err *err) THR_MUST_CHECK;
 void thr_rise_kit_destroy(thr_rise_kit *made);
+
+/* The section of arms as a polygon: returns its number of sides; *radius: of its corners, as a part
+ * of the width; *first: where the first one is, rad from arm.up towards arm.side. */
+int thr_rise_section(thr_kit_profile profile, double *radius, double *first);
+
+/* ---- rise_shapes.c: other shapes of the same pieces. shape: a framework with the nodes of the
+ * plan, in the same order and unit, at other places; it is not kept. */
+
+/* Lays pieces where the nodes of shape are, each turned along the edges there as well as can be,
+ * for THR_RISE_LAID. THR_EINPUT: it has other nodes, or no edge where a piece has an arm. O(arms).
+ */
+thr_status thr_rise_kit_lay(thr_rise_kit *made, const thr_kit *kit, const thr_frame *shape,
+                            thr_err *err) THR_MUST_CHECK;
+
+/* Lets a cord close its faces towards shape. Pieces have there as many of their arms as they can
+ * along the edges; a cord that takes no arm comes out of the side of one, which is the seat of the
+ * neighbour's face. THR_EINPUT: as above, or the faces of a pass do not meet. O(arms^2). */
+thr_status thr_rise_kit_shape(thr_rise_kit *made, const thr_kit *kit, int cord,
+                              const thr_frame *shape, thr_err *err) THR_MUST_CHECK;
 
 /* Makes of what was seen a movement that can be shown (kit/film.h). THR_ENOMEM. Release with
  * thr_movement_destroy, after a failure too. O(frames (pieces + passes)). */

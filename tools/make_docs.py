@@ -215,7 +215,7 @@ def forget_pictures():
     """Those that are made here; `make validate` and the tests of the page make the others."""
     os.makedirs(PICTURES, exist_ok=True)
     for name in os.listdir(PICTURES):
-        if not name.startswith(("validation-", "page-")):
+        if not name.startswith(("validation-", "page-", "experiments")):
             os.remove(os.path.join(PICTURES, name))
 
 

@@ -58,7 +58,8 @@ typedef struct {
   thr_rise_options rise;
   thr_kit_options kit;
   guard_limits guard;
-  const char *lift, *raise, *dent, *output, *plot, *film, *frames, *play, *booklet;
+  const char *lift, *raise, *dent, *lay, *held, *shape, *slack;
+  const char *output, *plot, *film, *frames, *play, *booklet;
   const char *path;
   const char *schedule;
   int seeds, first_seed, start, ends, feet, size[2], page;
@@ -96,10 +97,17 @@ static const char *feet_meaning(int feet)
 }
 
 static const cli_option own_options[] = {
-    {"start", .kind = CLI_WORD, AT(start), .word = thr_rise_start_name,
-     .n_words = THR_RISE_N_STARTS,
+    {"start", .kind = CLI_WORD, AT(start), .word = thr_rise_start_name, .n_words = THR_RISE_LAID,
      .help = "where pieces begin: flat on the ground, slack (default), in a heap, or closed in "
              "their shape"},
+    {"lay", .value = "FRAME", .kind = CLI_TEXT, AT(lay),
+     .help = "pieces begin where this framework has the same nodes"},
+    {"held", .value = "NODE,..", .kind = CLI_TEXT, AT(held),
+     .help = "these pieces cannot move from where they begin"},
+    {"shape", .value = "CORD=FRAME,..", .kind = CLI_TEXT, AT(shape),
+     .help = "a cord closes its faces towards this framework, which has the same nodes at other "
+             "places"},
+    {"slack", .value = "CORD,..", .kind = CLI_TEXT, AT(slack), .help = "nobody pulls these cords"},
     {"pull", .value = "N", .kind = CLI_AMOUNT, AT(rise.pull), .low = CLI_ABOVE_0, .high = 1e6,
      .help = "hands pull every end with more and more, up to so much (default: 50, the most of a "
              "hand)"},
@@ -165,6 +173,8 @@ static const cli_option shape_options[] = {
      .help = "of the pieces' arms, as for thread kit (default: the bead diameter of the plan)"},
     {"profile", .kind = CLI_WORD, AT(kit.profile), .word = thr_kit_profile_name,
      .n_words = THR_KIT_N_PROFILES, .help = "cross-section of arms, as for thread kit"},
+    {"channels", .kind = CLI_WORD, AT(kit.channels), .word = thr_kit_channels_name,
+     .n_words = THR_KIT_N_CHANNELS, .help = "one bore, or a lane for each cord, as for thread kit"},
     {"density", .value = "G", .kind = CLI_AMOUNT, AT(kit.density), .low = CLI_ABOVE_0, .high = 100,
      .help = "of the material in g/cm3 (default: as the plan says)"},
     {0}};
@@ -308,7 +318,8 @@ static void put_title(const rise_runs *runs, thr_text *text)
   const thr_rise_options *options = &runs->args->rise;
   int ends = 0;
   for (int c = 0; c < structure->n_cords; c++)
-    ends += structure->cord[c].pulled[0] + structure->cord[c].pulled[1];
+    ends +=
+        structure->cord[c].slack ? 0 : structure->cord[c].pulled[0] + structure->cord[c].pulled[1];
   thr_text_printf(text, "%d pieces, %.3g N in all, %d %s ", structure->n_pieces, record->weight,
                   structure->n_cords, cli_plural(structure->n_cords, "cord", "cords"));
   if (runs->args->schedule)
@@ -318,6 +329,7 @@ static void put_title(const rise_runs *runs, thr_text *text)
   thr_text_printf(text, ", %s",
                   options->start == THR_RISE_FLAT   ? "from flat on the ground"
                   : options->start == THR_RISE_HEAP ? "from a heap"
+                  : options->start == THR_RISE_LAID ? "from where it is laid"
                                                     : "from its shape");
 }
 
@@ -348,8 +360,8 @@ static void put_text(const rise_runs *runs, thr_text *text)
   put_outcome(runs, text);
   thr_text_printf(text,
                   "\n%d of %d faces closed, highest node at %.3g mm, %.3g mm of cord drawn in\n",
-                  record->most_closed, record->n_passes, last->height, last->drawn);
-  if (record->most_closed < record->n_passes) {
+                  record->most_closed, record->n_counted, last->height, last->drawn);
+  if (record->most_closed < record->n_counted) {
     const char *name[2] = {"", ""};
     rise_pass_names(&runs->pieces, record->loosest, name);
     thr_text_printf(text, "the widest gap stays between %s and %s\n", name[0], name[1]);
@@ -378,6 +390,15 @@ static void put_text(const rise_runs *runs, thr_text *text)
   }
 }
 
+/* Writes angles in degrees. */
+static void write_degrees(thr_writer *writer, const char *key, const double *angle, int n)
+{
+  thr_write_row(writer, key);
+  for (int i = 0; i < n; i++)
+    thr_write_printf(writer, NULL, "%.4g", angle[i] * 180 / THR_PI);
+  thr_write_close(writer);
+}
+
 /* Writes the moments of a run, and with `motion` the place of every piece. */
 static void write_run(thr_writer *writer, const rise_runs *runs, int i, bool motion)
 {
@@ -391,6 +412,8 @@ static void write_run(thr_writer *writer, const rise_runs *runs, int i, bool mot
   thr_write_number(writer, "off", record->off);
   if (runs->args->schedule && record->finished) thr_write_bool(writer, "stands", record->stands);
   if (runs->args->dent) thr_write_number(writer, "dented", record->dented);
+  write_degrees(writer, "kink", record->kink, record->n_passes);
+  write_degrees(writer, "twist", record->twist, record->n_passes);
 
   thr_write_array(writer, "moments");
   for (int f = 0; f < record->n_frames; f++) {
@@ -448,9 +471,9 @@ static void put_json(const rise_runs *runs, bool motion, thr_text *text)
   const thr_rise_record *record = &runs->record[0];
   thr_writer writer = {.out = text};
   thr_write_object(&writer, NULL);
-  thr_write_string(&writer, "start", thr_rise_start_name(runs->args->start));
+  thr_write_string(&writer, "start", thr_rise_start_name(runs->args->rise.start));
   thr_write_int(&writer, "pieces", record->n_pieces);
-  thr_write_int(&writer, "faces", record->n_passes);
+  thr_write_int(&writer, "faces", record->n_counted);
   thr_write_number(&writer, "weight", record->weight);
   thr_write_number(&writer, "seconds_a_frame", record->between);
   thr_write_number(&writer, "closed_form", runs->pieces.seated);
@@ -482,7 +505,7 @@ static int write_plot(const rise_runs *runs, const char *name)
     for (size_t i = 0; i < n; i++) {
       value[i] = record->moment[i].drawn;
       value[n + i] = record->moment[i].pull;
-      value[2 * n + i] = (double)record->moment[i].closed / record->n_passes;
+      value[2 * n + i] = (double)record->moment[i].closed / record->n_counted;
     }
   }
   const thr_rise_chart chart = {name,
@@ -563,7 +586,7 @@ static int find_stills(const thr_rise_record *record, int frame[STILLS])
   for (int f = 0; f < record->held && last < 0; f++)
     if (record->moment[f].closed == record->most_closed) last = f;
   for (int f = 0; f < last && thirds < 3; f++) {
-    if (3 * record->moment[f].closed < thirds * record->n_passes) continue;
+    if (3 * record->moment[f].closed < thirds * record->n_counted) continue;
     frame[n++] = f;
     while (3 * record->moment[f].closed >= thirds * record->n_passes)
       thirds++;
@@ -720,6 +743,89 @@ static int run_all(rise_runs *runs)
   return code ? code : failed;
 }
 
+/* The next word of a list with commas, which is cut up; NULL: there is none. */
+static char *next_word(char **rest)
+{
+  char *word = *rest, *comma = word ? strchr(word, ',') : NULL;
+  if (comma) *comma = 0;
+  *rest = comma ? comma + 1 : NULL;
+  return word;
+}
+
+/* The cord of this name; -1, and prints so. */
+static int cord_named(const thr_plan *plan, const char *option, const char *name)
+{
+  char id[12];
+  for (int c = 0; c < plan->n_cords; c++) {
+    thr_cord_id(c, id);
+    if (strcmp(id, name) == 0) return c;
+  }
+  cli_usage("rise", "--%s %s: the plan has no such cord", option, name);
+  return -1;
+}
+
+/* Does one word of what --slack, --held, --shape or --lay lists. Returns EXIT_SUCCESS or prints and
+ * returns an exit code. */
+static int take_word(rise_runs *runs, const char *option, char *word)
+{
+  thr_err err = {0};
+  char *file = strcmp(option, "shape") == 0 ? strchr(word, '=') : NULL;
+  const bool lay = strcmp(option, "lay") == 0;
+  int which = 0;
+  if (file) *file++ = 0;
+  if (!file && strcmp(option, "shape") == 0)
+    return cli_usage("rise", "--shape %s: expected a cord and a framework, as B=corner.json", word);
+  if (strcmp(option, "held") == 0) {
+    which = piece_named(&runs->pieces.kit, word);
+    if (which < 0) return cli_usage("rise", "--held %s: the plan has no such piece", word);
+    runs->pieces.made.piece[which].held = true;
+    return EXIT_SUCCESS;
+  }
+  if (!lay && (which = cord_named(runs->pieces.kit.plan, option, word)) < 0) return EXIT_USAGE;
+  if (!lay && !file) {
+    runs->pieces.made.cord[which].slack = true;
+    return EXIT_SUCCESS;
+  }
+
+  const cli_frame_args usual = cli_frame_args_default();
+  thr_frame frame;
+  const int code = cli_read_frame(lay ? word : file, &usual, &frame);
+  if (code) return code;
+  const thr_status st =
+      lay ? thr_rise_kit_lay(&runs->pieces.made, &runs->pieces.kit, &frame, &err)
+          : thr_rise_kit_shape(&runs->pieces.made, &runs->pieces.kit, which, &frame, &err);
+  thr_frame_destroy(&frame);
+  return st ? cli_fail(&err) : EXIT_SUCCESS;
+}
+
+/* Does what --slack, --held, --shape and --lay say of single cords and pieces. Returns EXIT_SUCCESS
+ * or prints and returns an exit code. */
+static int take_lists(rise_runs *runs)
+{
+  const struct {
+    const char *option, *text;
+  } list[] = {{"slack", runs->args->slack},
+              {"held", runs->args->held},
+              {"shape", runs->args->shape},
+              {"lay", runs->args->lay}};
+  int code = EXIT_SUCCESS;
+  for (size_t i = 0; i < sizeof list / sizeof *list && !code; i++) {
+    thr_text text = {0};
+    if (!list[i].text) continue;
+    thr_text_append(&text, list[i].text);
+    char *rest = text.data;
+    if (text.failed) {
+      thr_err err = {0};
+      thr_nomem(&err);
+      code = cli_fail(&err);
+    }
+    for (char *word = next_word(&rest); word && !code; word = next_word(&rest))
+      code = take_word(runs, list[i].option, word);
+    thr_text_destroy(&text);
+  }
+  return code;
+}
+
 /* Makes the pieces of a plan, and lets them rise. Returns an exit code. */
 static int make_and_run(const rise_arguments *args, const thr_plan *plan)
 {
@@ -739,7 +845,8 @@ static int make_and_run(const rise_arguments *args, const thr_plan *plan)
 
   thr_status st = rise_pieces_make(&runs.pieces, plan, &args->kit, &setting, &limits, &err);
   if (!st && !runs.record) st = thr_nomem(&err);
-  const int code = st ? cli_fail(&err) : run_all(&runs);
+  int code = st ? cli_fail(&err) : take_lists(&runs);
+  if (!code) code = run_all(&runs);
 
   for (int i = 0; i < args->seeds && runs.record; i++)
     thr_rise_record_destroy(&runs.record[i]);
@@ -815,7 +922,7 @@ int cmd_rise(int argc, char **argv)
     return cli_usage("rise", "--booklet %s: expected a name ending in .pdf or .html",
                      asked.booklet);
   asked.path = argv[optind];
-  asked.rise.start = (thr_rise_start)asked.start;
+  asked.rise.start = asked.lay ? THR_RISE_LAID : (thr_rise_start)asked.start;
   asked.rise.iterations = (int)asked.iterations;
   if (asked.progress) progress_begin();
 

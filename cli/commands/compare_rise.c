@@ -102,7 +102,7 @@ static int sum_up(const comparison *work, int i)
       code = cli_fail(&err);
     }
     if (!job[k].done) continue;
-    rise->faces = job[k].record.n_passes;
+    rise->faces = job[k].record.n_counted;
     closed[rise->runs++] = job[k].record.most_closed;
     if (job[k].record.came_up < 0) continue;
     pull[rise->up++] = rise_pull_up(&job[k].record);

@@ -108,6 +108,7 @@ typedef struct {
   thr_err why;
   thr_rise_record record; /* without its arrays */
   thr_rise_moment moment[RISE_MOST_MOMENTS];
+  double angle[]; /* [2 n_passes] kinks, twists */
 } run_result;
 
 /* Does a run. Signature of thr_work.run. */
@@ -122,6 +123,11 @@ static thr_status run_job(void *user, int i, void *result, thr_err *err)
     out->record = record;
     if (record.n_frames > RISE_MOST_MOMENTS) out->record.n_frames = RISE_MOST_MOMENTS;
     memcpy(out->moment, record.moment, (size_t)out->record.n_frames * sizeof *out->moment);
+    for (int k = 0; k < record.n_passes; k++) {
+      out->angle[k] = record.kink[k];
+      out->angle[record.n_passes + k] = record.twist[k];
+    }
+    out->record.kink = out->record.twist = NULL;
     out->record.moment = NULL;
     out->record.pose = NULL;
     out->record.tension = NULL;
@@ -130,36 +136,51 @@ static thr_status run_job(void *user, int i, void *result, thr_err *err)
   return THR_OK;
 }
 
+/* Takes over what a process returned. THR_ENOMEM. */
+static thr_status take_over(rise_job *job, const run_result *result, thr_err *err)
+{
+  job->status = result->status;
+  job->why = result->why;
+  if (job->status) return THR_OK;
+  const size_t n_moments = (size_t)result->record.n_frames,
+               n_passes = (size_t)result->record.n_passes;
+  job->record = result->record;
+  job->record.moment = thr_calloc(n_moments, sizeof *job->record.moment);
+  job->record.kink = thr_calloc(n_passes, sizeof *job->record.kink);
+  job->record.twist = thr_calloc(n_passes, sizeof *job->record.twist);
+  if (!job->record.moment || !job->record.kink || !job->record.twist) return thr_nomem(err);
+  memcpy(job->record.moment, result->moment, n_moments * sizeof *job->record.moment);
+  memcpy(job->record.kink, result->angle, n_passes * sizeof *job->record.kink);
+  memcpy(job->record.twist, result->angle + n_passes, n_passes * sizeof *job->record.twist);
+  job->done = true;
+  return THR_OK;
+}
+
 thr_status rise_jobs_run(rise_job *job, int n, const thr_limits *limits, thr_err *err)
 {
+  int most = 0; /* passes */
+  for (int i = 0; i < n; i++) {
+    int passes = 0;
+    for (int c = 0; c < job[i].structure->n_cords; c++)
+      passes += job[i].structure->cord[c].n_passes;
+    if (passes > most) most = passes;
+  }
+  const size_t size = sizeof(run_result) + 2 * sizeof(double) * (size_t)most;
   const thr_work work = {.n_jobs = n,
-                         .result_size = sizeof(run_result),
+                         .result_size = size,
                          .run = run_job,
                          .user = job,
                          .what = "simulating",
                          .advice = "fewer --seeds"};
-  run_result *result = thr_calloc((size_t)n, sizeof *result);
+  char *result = thr_calloc((size_t)n, size);
   bool *finished = thr_calloc((size_t)n, sizeof *finished);
   thr_status st = result && finished
                       ? thr_workers_run(&work, cli_processes(), limits, result, finished, err)
                       : thr_nomem(err);
 
-  for (int i = 0; i < n && result && finished; i++) {
-    if (!finished[i]) continue;
-    job[i].status = result[i].status;
-    job[i].why = result[i].why;
-    if (job[i].status) continue;
-    const size_t n_moments = (size_t)result[i].record.n_frames;
-    thr_rise_moment *moment = thr_calloc(n_moments, sizeof *moment);
-    if (!moment) {
-      st = thr_nomem(err);
-      break;
-    }
-    memcpy(moment, result[i].moment, n_moments * sizeof *moment);
-    job[i].record = result[i].record;
-    job[i].record.moment = moment;
-    job[i].done = true;
-  }
+  for (int i = 0; i < n && result && finished; i++)
+    if (finished[i] && take_over(&job[i], (const void *)(result + (size_t)i * size), err))
+      st = THR_ENOMEM;
   free(result);
   free(finished);
   return st;

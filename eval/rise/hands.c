@@ -75,7 +75,8 @@ thr_status thr_hands_make(thr_hands *hands, const thr_rise_structure *structure,
                           double edge, double weight, thr_scratch *own, thr_err *err)
 {
   const double slower = scale * (options->slower > 0 ? options->slower : 1);
-  const bool shape = options->start == THR_RISE_SHAPE;
+  /* What is closed has the whole pull at once; what is laid is not let fall. */
+  const bool shape = options->start == THR_RISE_SHAPE, laid = options->start == THR_RISE_LAID;
   *hands =
       (thr_hands){.structure = structure,
                   .options = options,
@@ -83,7 +84,7 @@ thr_status thr_hands_make(thr_hands *hands, const thr_rise_structure *structure,
                   .cord = thr_scratch_array(own, (size_t)structure->n_cords, sizeof *hands->cord),
                   .friction = thr_friction_of(&structure->physics),
                   .edge = edge,
-                  .settle = shape ? 0 : SETTLING * scale,
+                  .settle = shape || laid ? 0 : SETTLING * scale,
                   .hold = scale * (options->hold > 0   ? options->hold
                                    : options->dent > 0 ? DENTED * HOLD
                                                        : HOLD),
@@ -91,7 +92,7 @@ thr_status thr_hands_make(thr_hands *hands, const thr_rise_structure *structure,
                   .down = DOWN * slower,
                   .gentle = options->rate > 0 || (shape && !options->schedule)
                                 ? options->pull
-                                : fmin(GENTLE * weight, options->pull),
+                                : fmin((laid ? 1 : GENTLE) * weight, options->pull),
                   .most = options->pull,
                   .quiet = QUIET * scale,
                   .patience = PATIENCE * slower,

@@ -123,7 +123,9 @@ static thr_status lay_out(thr_rise_bodies *bodies, const thr_rise_options *optio
 {
   const thr_rise_structure *structure = bodies->structure;
   const int n = structure->n_pieces;
-  const bool flat = options->start != THR_RISE_SHAPE, heap = options->start == THR_RISE_HEAP;
+  const bool laid = options->start == THR_RISE_LAID, heap = options->start == THR_RISE_HEAP,
+             flat = options->start != THR_RISE_SHAPE && !laid;
+  double low = INFINITY; /* of what is laid, in the world's units */
   const double ground = lowest(structure), clear = CLEAR * UNIT_EDGE;
   uint64_t state = options->seed;
 
@@ -142,19 +144,34 @@ static thr_status lay_out(thr_rise_bodies *bodies, const thr_rise_options *optio
     const thr_rise_piece *piece = &structure->piece[p];
     double below, *pose = bodies->pose[p];
     memcpy(pose + 3, (const double[4]){0, 0, 0, 1}, 4 * sizeof *pose);
-    if (flat && !piece->held) turn_by_chance(&state, heap ? DROPPED : JITTER, pose + 3);
+    if (options->start != THR_RISE_SHAPE && !piece->held)
+      turn_by_chance(&state, heap ? DROPPED : JITTER, pose + 3);
+    if (laid) {
+      double chance[4];
+      memcpy(chance, pose + 3, sizeof chance);
+      memcpy(pose, structure->laid[p], 3 * sizeof *pose);
+      thr_rise_multiply(chance, structure->laid[p] + 3, pose + 3);
+    }
     thr_quaternion_turn(pose + 3, bodies->turn[p]);
     reach_of(bodies, p, &below, &around[p]);
     order[p] = p;
 
+    double arm[3] = {0};
+    if (laid) thr_rise_turned(bodies, p, piece->mass_centre, arm);
     for (int k = 0; k < 3; k++)
-      pose[k] = (piece->centre[k] + piece->mass_centre[k] - (k < 2 ? middle[k] : ground)) /
+      pose[k] = (laid ? pose[k] + arm[k]
+                      : piece->centre[k] + piece->mass_centre[k] - (k < 2 ? middle[k] : ground)) /
                 bodies->length;
+    low = fmin(low, pose[2] - below);
     if (!flat || piece->held) continue;
     for (int k = 0; k < 2; k++)
       pose[k] *= heap ? CROWDED : SPREAD;
     pose[2] = below + clear;
   }
+
+  /* What is laid touches the ground, as the drawn shape does. */
+  for (int p = 0; p < n && laid; p++)
+    bodies->pose[p][2] -= low;
 
   /* A heap is dropped in an order by chance (Fisher and Yates). */
   for (int i = n - 1; i > 0 && heap; i--) {

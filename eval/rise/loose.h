@@ -37,6 +37,22 @@ void thr_rise_bodies_destroy(thr_rise_bodies *bodies);
 /* Reads where all pieces are now. */
 void thr_rise_look(thr_rise_bodies *bodies);
 
+/* Multiplies rotations, x y z w: first b, then a; out may be either. */
+void thr_rise_multiply(const double a[4], const double b[4], double out[4]);
+
+/* Fills out with a point of the shape that a cord closes, mm, from the node of one of its pieces
+ * where that was drawn. */
+void thr_rise_drawn(const thr_rise_structure *structure, const thr_rise_cord *cord, int piece,
+                    const double at[3], double out[3]);
+
+/* Turns a direction of the shape that a cord closes to where its piece was drawn. */
+void thr_rise_drawn_turn(const thr_rise_cord *cord, int piece, const double v[3], double out[3]);
+
+/* Fills kink and twist, [passes of all cords] rad as in thr_rise_record, for pieces at pose
+ * [n_pieces], each its node and its rotation from where it was drawn. O(passes). */
+void thr_rise_kinks(const thr_rise_structure *structure, const double (*pose)[7], double *kink,
+                    double *twist);
+
 /* Where a point of a piece is now, in the world's units; at: mm from the piece's node, as drawn. */
 void thr_rise_carried(const thr_rise_bodies *bodies, int piece, const double at[3], double out[3]);
 

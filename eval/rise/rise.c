@@ -30,7 +30,7 @@ static const double STRAIGHT = 0.1; /* rad between the axes of closed faces */
 static const double FALLEN = 0.9;   /* of the height: what is lower has fallen */
 static const double DENT_FROM = 0.25, DENT_UNTIL = 0.5; /* of the hold, that a hand dents in */
 
-static const char *const start_names[] = {"flat", "heap", "shape"};
+static const char *const start_names[] = {"flat", "heap", "shape", "laid"};
 
 const char *thr_rise_start_name(int start)
 {
@@ -39,7 +39,8 @@ const char *thr_rise_start_name(int start)
 
 /* A pass of a cord as it is now. */
 typedef struct {
-  int cord; /* in the world */
+  int cord;   /* in the world */
+  bool slack; /* its faces do not count */
   double direction[3];
   double gap;                     /* between the mouths along the cord, in the world's units */
   double first_gap;               /* at the start */
@@ -52,10 +53,10 @@ typedef struct {
   thr_rise_bodies bodies;
   thr_cable *cable; /* [n_cords] */
   thr_hands hands;
-  double *drawn;   /* [n_cords] mm that each has given out since the start */
-  rise_pass *pass; /* [n_passes] cord after cord */
-  int *tie;        /* [n_pieces] of a piece that stays down, the cord in the world; -1 */
-  int n_passes;
+  double *drawn;           /* [n_cords] mm that each has given out since the start */
+  rise_pass *pass;         /* [n_passes] cord after cord */
+  int *tie;                /* [n_pieces] of a piece that stays down, the cord in the world; -1 */
+  int n_passes, n_counted; /* .. of cords that are not slack */
   thr_friction friction;
   double dt, scale; /* s; and how much slower than with edges of TIME_EDGE everything is */
   double mu;
@@ -64,11 +65,24 @@ typedef struct {
 
 /* ---- the cords ---- */
 
+/* Fills in where pass k first touches the channels of its two pieces, mm from their nodes as drawn.
+ */
+static void inside_mouths(const thr_rise_structure *structure, const thr_rise_cord *cord, int k,
+                          double start[3], double end[3])
+{
+  double at[2][3];
+  for (int i = 0; i < 3; i++) {
+    at[0][i] = cord->mouth[k][i] - structure->mouth_depth * cord->along[k][i];
+    at[1][i] = cord->mouth[k][i] + structure->mouth_depth * cord->along[k][i];
+  }
+  thr_rise_drawn(structure, cord, cord->piece[k], at[0], start);
+  thr_rise_drawn(structure, cord, cord->piece[k + 1], at[1], end);
+}
+
 /* Gives every cord its arrays, and its passes their places in the world. */
 static thr_status make_cords(rise_run *run, thr_err *err)
 {
   const thr_rise_structure *structure = run->structure;
-  const double depth = structure->mouth_depth;
   thr_status st = THR_OK;
   rise_pass *pass = run->pass;
 
@@ -90,16 +104,13 @@ static thr_status make_cords(rise_run *run, thr_err *err)
 
     for (int k = 0; k < cord->n_passes && !st; k++, pass++) {
       const int from = cord->piece[k], to = cord->piece[k + 1];
+      pass->slack = cord->slack;
       double start[3], end[3];
       length[k] = thr_distance(structure->piece[from].centre, structure->piece[to].centre);
+      inside_mouths(structure, cord, k, start, end);
       for (int i = 0; i < 3; i++) {
-        const thr_rise_piece *one = &structure->piece[from], *other = &structure->piece[to];
-        start[i] =
-            (cord->mouth[k][i] - depth * cord->along[k][i] - one->centre[i] - one->mass_centre[i]) /
-            run->bodies.length;
-        end[i] = (cord->mouth[k][i] + depth * cord->along[k][i] - other->centre[i] -
-                  other->mass_centre[i]) /
-                 run->bodies.length;
+        start[i] = (start[i] - structure->piece[from].mass_centre[i]) / run->bodies.length;
+        end[i] = (end[i] - structure->piece[to].mass_centre[i]) / run->bodies.length;
       }
       st = thr_world_add_cord(run->bodies.world, run->bodies.body[from], start,
                               run->bodies.body[to], end, &pass->cord, err);
@@ -134,17 +145,15 @@ static void look_at(const rise_run *run, const thr_rise_cord *cord, int k, rise_
 {
   const int from = cord->piece[k], to = cord->piece[k + 1];
   const double depth = run->structure->mouth_depth;
-  const thr_rise_piece *one = &run->structure->piece[from], *other = &run->structure->piece[to];
-  double inside[2][3], start[3], end[3];
+  double inside[2][3], axis[2][3], start[3], end[3];
 
-  for (int i = 0; i < 3; i++) {
-    inside[0][i] = cord->mouth[k][i] - depth * cord->along[k][i] - one->centre[i];
-    inside[1][i] = cord->mouth[k][i] + depth * cord->along[k][i] - other->centre[i];
-  }
+  inside_mouths(run->structure, cord, k, inside[0], inside[1]);
+  thr_rise_drawn_turn(cord, from, cord->along[k], axis[0]);
+  thr_rise_drawn_turn(cord, to, cord->along[k], axis[1]);
   thr_rise_carried(&run->bodies, from, inside[0], start);
   thr_rise_carried(&run->bodies, to, inside[1], end);
-  thr_rise_turned(&run->bodies, from, cord->along[k], pass->in_axis);
-  thr_rise_turned(&run->bodies, to, cord->along[k], pass->out_axis);
+  thr_rise_turned(&run->bodies, from, axis[0], pass->in_axis);
+  thr_rise_turned(&run->bodies, to, axis[1], pass->out_axis);
 
   for (int i = 0; i < 3; i++)
     pass->direction[i] = end[i] - start[i];
@@ -191,6 +200,11 @@ static void pull_cords(rise_run *run)
 
   for (int c = 0; c < run->structure->n_cords; c++) {
     thr_cable *cable = &run->cable[c];
+    if (run->structure->cord[c].slack) {
+      for (int k = 0; k < cable->n; k++, pass++)
+        thr_world_pull(run->bodies.world, pass->cord, 0, 0, 0, 0);
+      continue;
+    }
     thr_cable_pull(cable, &run->friction);
     for (int k = 0; k < cable->n; k++, pass++) {
       const double tension = fmax(cable->tension[k], 0);
@@ -219,14 +233,16 @@ static void feel_cords(rise_run *run)
   const rise_pass *pass = run->pass;
   for (int c = 0; c < run->structure->n_cords; c++)
     for (int k = 0; k < run->cable[c].n; k++, pass++)
-      thr_cable_felt(&run->cable[c], k,
-                     thr_world_cord_held(run->bodies.world, pass->cord) * run->bodies.force, false);
+      if (!run->structure->cord[c].slack)
+        thr_cable_felt(&run->cable[c], k,
+                       thr_world_cord_held(run->bodies.world, pass->cord) * run->bodies.force,
+                       false);
 }
 
 /* Have the faces of a pass met? */
 static bool is_closed(const rise_run *run, const rise_pass *pass)
 {
-  return pass->gap < CLOSED * run->bodies.edge / run->bodies.length &&
+  return !pass->slack && pass->gap < CLOSED * run->bodies.edge / run->bodies.length &&
          thr_angle_between(pass->in_axis, pass->out_axis) < STRAIGHT;
 }
 
@@ -260,6 +276,7 @@ static void see(const rise_run *run, double time, double pull, double lift, thr_
 
   for (int i = 0; i < run->n_passes; i++) {
     const rise_pass *pass = &run->pass[i];
+    if (pass->slack) continue;
     moment->closed += is_closed(run, pass);
     moment->widest = fmax(moment->widest, pass->gap * mm);
     moment->drawn += (pass->first_gap - pass->gap) * mm;
@@ -302,23 +319,46 @@ static thr_status keep_frame(const rise_run *run, double time, double pull, doub
   return THR_OK;
 }
 
-/* Measures how far the shape is from the drawn one in a frame. */
+/* Where the cords that are pulled have the pieces in their shape; NULL: as drawn. */
+static const double (*closed_places(const thr_rise_structure *structure))[7]
+{
+  for (int c = 0; c < structure->n_cords; c++)
+    if (!structure->cord[c].slack) return structure->cord[c].place;
+  return NULL;
+}
+
+/* Measures how far the shape is from that of the cords in a frame. */
 static thr_status measure_off(const rise_run *run, const thr_rise_record *record, int frame,
                               double *off, thr_err *err)
 {
   const int n = record->n_pieces;
+  const double(*place)[7] = closed_places(run->structure);
+  const double(*pose)[7] = (const double(*)[7])record->pose + (size_t)frame * (size_t)n;
   thr_scratch work = {0};
   double(*drawn)[3] = thr_scratch_array(&work, (size_t)n, sizeof *drawn);
   double(*last)[3] = thr_scratch_array(&work, (size_t)n, sizeof *last);
   thr_status st = thr_scratch_check(&work, err);
   for (int p = 0; p < n && !st; p++) {
-    memcpy(drawn[p], run->structure->piece[p].centre, sizeof *drawn);
-    memcpy(last[p], record->pose[(size_t)frame * (size_t)n + (size_t)p], sizeof *last);
+    memcpy(drawn[p], place ? place[p] : run->structure->piece[p].centre, sizeof *drawn);
+    memcpy(last[p], pose[p], sizeof *last);
   }
   if (!st)
     *off = thr_fit_points((const double(*)[3])drawn, (const double(*)[3])last, n, NULL, NULL);
   thr_scratch_free(&work);
   return st;
+}
+
+/* Measures the shape when hands began to let down, and how the faces were turned to each other. */
+static thr_status measure_shape(const rise_run *run, thr_rise_record *record, thr_err *err)
+{
+  const int frame = record->held - 1;
+  record->kink = thr_calloc((size_t)record->n_passes, sizeof *record->kink);
+  record->twist = thr_calloc((size_t)record->n_passes, sizeof *record->twist);
+  if (!record->kink || !record->twist) return thr_nomem(err);
+  thr_rise_kinks(run->structure,
+                 (const double(*)[7])record->pose + (size_t)frame * (size_t)record->n_pieces,
+                 record->kink, record->twist);
+  return measure_off(run, record, frame, &record->off, err);
 }
 
 /* ---- time passes ---- */
@@ -385,7 +425,8 @@ static int count_closed(const rise_run *run, int *widest)
   *widest = 0;
   for (int i = 0; i < run->n_passes; i++) {
     n += is_closed(run, &run->pass[i]);
-    if (run->pass[i].gap > run->pass[*widest].gap) *widest = i;
+    if (run->pass[i].slack) continue;
+    if (run->pass[*widest].slack || run->pass[i].gap > run->pass[*widest].gap) *widest = i;
   }
   return n;
 }
@@ -394,7 +435,7 @@ static int count_closed(const rise_run *run, int *widest)
 static void conclude(const rise_run *run, thr_rise_record *record)
 {
   record->came_up = record->fell = -1;
-  for (int i = record->held - 1; i >= 0 && record->moment[i].closed == run->n_passes; i--)
+  for (int i = record->held - 1; i >= 0 && record->moment[i].closed == run->n_counted; i--)
     record->came_up = i;
   for (int i = record->held; i < record->n_frames && record->fell < 0 && record->held > 0; i++)
     if (record->moment[i].height < FALLEN * record->moment[record->held - 1].height)
@@ -406,10 +447,10 @@ static void judge(const rise_run *run, thr_rise_record *record)
 {
   const thr_rise_moment *last = &record->moment[record->held - 1];
   int first = 0;
-  while (record->moment[first].closed < run->n_passes && first < record->held - 1)
+  while (record->moment[first].closed < run->n_counted && first < record->held - 1)
     first++;
   record->stands =
-      last->closed == run->n_passes && last->height >= FALLEN * record->moment[first].height;
+      last->closed == run->n_counted && last->height >= FALLEN * record->moment[first].height;
 }
 
 /* Writes down what is seen, and tells how far the simulation is. */
@@ -423,7 +464,7 @@ static thr_status report(const rise_run *run, double time, double pull, double l
   if (!st && limits && limits->advance) {
     char words[64];
     snprintf(words, sizeof words, "%d of %d faces closed",
-             record->moment[record->n_frames - 1].closed, run->n_passes);
+             record->moment[record->n_frames - 1].closed, run->n_counted);
     limits->advance(limits->user, words, thr_hands_part(&run->hands, time));
   }
   return st;
@@ -443,7 +484,7 @@ static thr_status let_pass(rise_run *run, const thr_limits *limits, thr_rise_rec
     time = (double)step * run->dt;
     int widest;
     const int closed = count_closed(run, &widest);
-    thr_hands_watch(hands, time, closed == run->n_passes,
+    thr_hands_watch(hands, time, closed == run->n_counted,
                     run->options->schedule ? fastest(run) : 0);
     const double pull = thr_hands_pull(hands, time, run->dt, run->drawn);
     if (closed > record->most_closed && time >= hands->settle) {
@@ -473,8 +514,7 @@ static thr_status let_pass(rise_run *run, const thr_limits *limits, thr_rise_rec
   thr_err ignored = {0};
   if (record->held) {
     judge(run, record);
-    const thr_status measured =
-        measure_off(run, record, record->held - 1, &record->off, st ? &ignored : err);
+    const thr_status measured = measure_shape(run, record, st ? &ignored : err);
     if (!st) st = measured;
   }
   return st;
@@ -493,6 +533,12 @@ static thr_status check(const thr_rise_structure *structure, const thr_rise_opti
   if (structure->physics.gravity < 0 || structure->physics.stiffness < 0)
     return thr_fail(err, THR_EINPUT, "rise: %s is below 0",
                     structure->physics.gravity < 0 ? "gravity" : "the stiffness of cords");
+  bool pulled = false;
+  for (int c = 0; c < structure->n_cords; c++)
+    pulled |=
+        !structure->cord[c].slack && (structure->cord[c].pulled[0] || structure->cord[c].pulled[1]);
+  if (!pulled && !options->schedule)
+    return thr_fail(err, THR_EINPUT, "rise: no cord has an end that is pulled");
   const thr_status st = thr_hands_check(structure, options, err);
   if (st) return st;
   if (!(thr_rise_edge(structure) > 0))
@@ -520,9 +566,12 @@ thr_status thr_rise_simulate(const thr_rise_structure *structure, const thr_rise
                   .options = options,
                   .mu = structure->physics.mu,
                   .friction = thr_friction_of(&structure->physics)};
-  for (int c = 0; c < structure->n_cords; c++)
+  for (int c = 0; c < structure->n_cords; c++) {
     run.n_passes += structure->cord[c].n_passes;
+    if (!structure->cord[c].slack) run.n_counted += structure->cord[c].n_passes;
+  }
   record->n_passes = run.n_passes;
+  record->n_counted = run.n_counted;
   run.cable = thr_scratch_array(&run.own, (size_t)structure->n_cords, sizeof *run.cable);
   run.drawn = thr_scratch_array(&run.own, (size_t)structure->n_cords, sizeof *run.drawn);
   run.pass = thr_scratch_array(&run.own, (size_t)run.n_passes, sizeof *run.pass);
@@ -570,5 +619,7 @@ void thr_rise_record_destroy(thr_rise_record *record)
   free(record->moment);
   free(record->pose);
   free(record->tension);
+  free(record->kink);
+  free(record->twist);
   *record = (thr_rise_record){0};
 }

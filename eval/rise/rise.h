@@ -4,9 +4,10 @@
  *
  * Reading order: loose.c (pieces in Bullet, and where they begin), cable.c (how tension spreads
  * along a cord whose pieces move), hands.c (who pulls when, and the steps of a schedule), rise.c
- * (time passes: hands pull, pieces move, what is seen is written down), fit.c (how far the shape is
- * from the drawn one). Contacts and friction are those of Bullet's own solver, the bodies are
- * convex parts, and nothing is known of the limit analysis: a second opinion.
+ * (time passes: hands pull, pieces move, what is seen is written down), kinks.c (where faces are,
+ * and their kinks), fit.c (how far the shape is from the drawn one). Contacts and friction are
+ * those of Bullet's own solver, the bodies are convex parts, and nothing is known of the limit
+ * analysis: a second opinion.
  *
  * Lengths are in mm, masses in g, forces in N, times in s, angles in rad; up is +z, and the ground
  * is z = 0. */
@@ -44,16 +45,21 @@ typedef struct {
   const double (*along)[3]; /* [n_passes] unit: the way the cord takes there */
   const double *wobble;     /* [n_passes - 1] exponents beside those of turns; NULL: none */
   bool pulled[2];           /* at its start, at its end; an end that is not is tied to its piece */
+  bool slack;               /* nobody pulls it: it exerts nothing, and its faces do not count */
+  const double (*place)[7]; /* [n_pieces] the node of each piece, and its rotation from where it was
+                               drawn, x y z w, in the shape that this cord closes, which is that of
+                               mouth and along; NULL: as drawn */
 } thr_rise_cord;
 
 typedef struct {
   int n_pieces, n_cords;
   const thr_rise_piece *piece;
   const thr_rise_cord *cord;
-  double width;        /* of a typical face */
-  double mouth_depth;  /* how far inside the mouth the cord first touches its channel */
-  thr_physics physics; /* resolved: mu, mu_bead, mu_ground, gravity, stiffness and the law of
-                          friction count */
+  const double (*laid)[7]; /* [n_pieces] as thr_rise_cord.place: where THR_RISE_LAID begins */
+  double width;            /* of a typical face */
+  double mouth_depth;      /* how far inside the mouth the cord first touches its channel */
+  thr_physics physics;     /* resolved: mu, mu_bead, mu_ground, gravity, stiffness and the law of
+                              friction count */
 } thr_rise_structure;
 
 /* ---- how it is made to rise ---- */
@@ -62,6 +68,7 @@ typedef enum {
   THR_RISE_FLAT,  /* pressed flat on the ground and spread, as laid out for threading */
   THR_RISE_HEAP,  /* dropped in a heap, turned by chance */
   THR_RISE_SHAPE, /* closed, as drawn */
+  THR_RISE_LAID,  /* where structure->laid has them */
   THR_RISE_N_STARTS
 } thr_rise_start;
 const char *thr_rise_start_name(int start);
@@ -106,6 +113,7 @@ typedef struct {
 
 typedef struct {
   int n_pieces, n_passes, n_frames, room;
+  int n_counted;           /* passes of cords that are not slack */
   double between;          /* s between frames */
   thr_rise_moment *moment; /* [n_frames] */
   double (*pose)[7];       /* [n_frames][n_pieces] where the node is, and the piece's rotation from
@@ -118,12 +126,14 @@ typedef struct {
                           closed; -1: they never are */
   int most_closed;     /* the largest number of passes with closed faces */
   int loosest;         /* pass, counted over all cords, with the widest gap when most were closed */
-  double off;     /* largest distance of a node from the drawn shape, after the best fit, at the
-                     end of holding */
-  double dented;  /* the same while a hand dents it, at most */
-  int held;       /* frames until hands let down */
-  bool scheduled; /* it was pulled by a schedule .. */
-  bool finished;  /* .. to its end; or all was seen that was asked for */
+  double off;    /* largest distance of a node from the drawn shape, after the best fit, at the
+                    end of holding */
+  double dented; /* the same while a hand dents it, at most */
+  double *kink, *twist; /* [n_passes] then, rad: between the axes of the two faces of a pass, and
+                           how far the one that it enters is turned about them, -pi to pi */
+  int held;             /* frames until hands let down */
+  bool scheduled;       /* it was pulled by a schedule .. */
+  bool finished;        /* .. to its end; or all was seen that was asked for */
   bool stands; /* at the last of these all faces are closed, and none is lower than when they were
                   first, by a tenth of the height */
   int fell;    /* first frame after these that is lower by a tenth of the height; -1 */

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cords that pull pieces that move, against closed forms: the capstan law over fixed pulleys, a
- * pendulum, momentum, the best fit of two sets of points. */
+ * pendulum, momentum, the best fit of two sets of points, faces that are off by known angles. */
 #include "eval/joint/world.h"
 #include "eval/rise/cable.h"
+#include "eval/rise/loose.h"
 #include "eval/rise/rise.h"
 #include "graph/arrays.h"
 #include "graph/number.h"
@@ -460,6 +461,58 @@ START_TEST(best_fit)
 }
 END_TEST
 
+/* ---- faces ---- */
+
+static void rotation(const double axis[3], double angle, double q[4])
+{
+  for (int k = 0; k < 3; k++)
+    q[k] = sin(angle / 2) * axis[k];
+  q[3] = cos(angle / 2);
+}
+
+/* Two pieces whose faces are twisted and then kinked by known angles, in a shape of the cord's own
+ * which as a whole is turned: these angles are found, and a point of the shape is carried back. */
+START_TEST(kinks_and_twists)
+{
+  const double x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, z[3] = {0, 0, 1};
+  const int visited[2] = {0, 1};
+  for (int run = 0; run < 60; run++) {
+    const double kink = 0.05 * (run % 30), twist = 3.1 * (run / 15 - 1.5) / 1.5;
+    double place[2][7] = {{1, 2, 3}, {41, 2, 3}}, pose[2][7] = {{0}}, off[4], bent[4], whole[4];
+
+    /* The cord leads along x in its shape, in which the second piece is turned about z. */
+    rotation(z, 0, place[0] + 3);
+    rotation(z, THR_PI / 2, place[1] + 3);
+    const double mouth[1][3] = {{21, 2, 3}}, along[1][3] = {{1, 0, 0}};
+    const thr_rise_piece piece[2] = {{.centre = {1, 2, 3}}, {.centre = {41, 2, 3}}};
+    const thr_rise_cord cord = {.n_passes = 1,
+                                .piece = visited,
+                                .mouth = mouth,
+                                .along = along,
+                                .place = (const double(*)[7])place};
+    const thr_rise_structure structure = {
+        .n_pieces = 2, .n_cords = 1, .piece = piece, .cord = &cord};
+
+    rotation(x, twist, off);
+    rotation(y, kink, bent);
+    thr_rise_multiply(bent, off, off);
+    rotation((const double[3]){0.6, 0, 0.8}, 0.1 * run, whole);
+    thr_rise_multiply(whole, place[0] + 3, pose[0] + 3);
+    thr_rise_multiply(off, place[1] + 3, pose[1] + 3);
+    thr_rise_multiply(whole, pose[1] + 3, pose[1] + 3);
+    double found[2];
+    thr_rise_kinks(&structure, (const double(*)[7])pose, &found[0], &found[1]);
+    ck_assert_double_eq_tol(found[0], kink, 1e-7);
+    ck_assert_double_eq_tol(found[1], twist, 1e-7);
+
+    double drawn[3];
+    thr_rise_drawn(&structure, &cord, 1, mouth[0], drawn); /* -20 x, turned back about z */
+    ck_assert_double_eq_tol(drawn[0], 0, 1e-12);
+    ck_assert_double_eq_tol(drawn[1], 20, 1e-12);
+  }
+}
+END_TEST
+
 /* What cannot be simulated is refused in one line. */
 START_TEST(refusals)
 {
@@ -510,6 +563,7 @@ int main(void)
   ADD_TEST(s, 20, pendulum);
   ADD_TEST(s, 20, momentum);
   ADD_TEST(s, 20, best_fit);
+  ADD_TEST(s, 10, kinks_and_twists);
   ADD_TEST(s, 20, refusals);
   return run_suite(s);
 }
