@@ -19,8 +19,9 @@ typedef struct {
 
 /* Makes the structure of a kit of a plan with solid joints. Every arm is a convex part, a foot is
  * one more; masses and their centres are those of the meshes if the kit has them, else of the
- * parts. pull: [n_cords] which ends are pulled. physics: resolved. THR_EINPUT: the plan has tubes.
- * Release with thr_rise_kit_destroy, after a failure too. O(pieces + passes). */
+ * parts. pull: [n_cords] which ends are pulled. physics: resolved. THR_EINPUT: the plan has tubes,
+ * or pieces that overlap when all is closed. Release with thr_rise_kit_destroy, after a failure
+ * too. O(pieces + passes). */
 thr_status thr_rise_kit_make(thr_rise_kit *made, const thr_kit *kit, const thr_pull *pull,
                              const thr_physics *physics, thr_err *err) THR_MUST_CHECK;
 void thr_rise_kit_destroy(thr_rise_kit *made);

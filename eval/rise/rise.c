@@ -19,6 +19,7 @@ static const double TIME_STEP = 5e-4; /* s, for edges of ..  */
 static const double TIME_EDGE = 40;   /* .. so many mm */
 static const double CLOSING = 0.02;   /* s that a gap takes to close at least, in such steps */
 static const double FASTEST = 2.5;    /* edges in such a second, of a gap that closes */
+static const double UNCUT = 1e6;      /* in the world's units: more than any cord takes */
 static const double SLOWEST = 2.5e-3; /* .. of one that is closed: so that the cord still pulls */
 static const double GENTLE = 0.02;    /* of the weight, that hands begin to pull with */
 static const double UP = 0.36;        /* s in which hands pull e times as much */
@@ -164,11 +165,15 @@ static void pull_cords(rise_run *run, double pull)
     thr_cable *cable = &run->cable[c];
     thr_cable_pull(cable, force, &run->friction);
     for (int k = 0; k < cable->n; k++, pass++) {
+      /* What is dropped hangs on its cords, none of which gets longer. */
+      const bool hangs =
+          run->options->start == THR_RISE_HEAP && pull == 0 && pass->gap > pass->first_gap;
       const double speed =
           fmin(fmax(pass->gap / (CLOSING * run->scale), SLOWEST * edge / run->scale),
                FASTEST * edge / run->scale);
       thr_world_pull(run->bodies.world, pass->cord, cable->tension[k] / run->bodies.force, speed,
-                     fmin(cable->high[k] - cable->tension[k], 1e6) / run->bodies.force);
+                     hangs ? UNCUT
+                           : fmin(cable->high[k] - cable->tension[k], 1e6) / run->bodies.force);
     }
   }
 }
