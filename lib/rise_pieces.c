@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Makes of a kit what can rise (rise_pieces.h). */
 #include "lib/rise_pieces.h"
+#include "diagram/layout/layout.h"
 #include "eval/cord/profile.h"
 #include "graph/framework/frame.h"
 #include "graph/number.h"
@@ -12,6 +13,7 @@
 #include <math.h>
 #include <string.h>
 
+static const double SPREAD = 1.15; /* of the shortest edges of what lies flat: faces are apart */
 enum { ROUND = 8, MOST_SIDES = ROUND }; /* corners of what stands for a circle */
 
 /* Fills the corners of a prism with n sides round an axis, from one end to the other. Corners are
@@ -141,11 +143,93 @@ const char *thr_rise_feet_name(int feet)
   return feet >= 0 && feet < THR_RISE_N_FEET ? name[feet] : NULL;
 }
 
-thr_status thr_rise_kit_make(thr_rise_kit *made, const thr_kit *kit, const thr_pull *pull,
-                             thr_rise_feet feet, const thr_physics *physics, thr_err *err)
+/* Turns piece p from how it is drawn so that its edges lie on paper as well as they can. */
+static thr_status turn_flat(const thr_kit *kit, const thr_layout *layout, int p, double q[4],
+                            thr_err *err)
+{
+  const thr_frame *frame = &kit->plan->frame;
+  const int n = frame->first[p + 1] - frame->first[p];
+  thr_scratch work = {0};
+  double(*drawn)[3] = thr_scratch_array(&work, 2 * ((size_t)n + 1), sizeof *drawn);
+  double(*flat)[3] = thr_scratch_array(&work, 2 * ((size_t)n + 1), sizeof *flat);
+  thr_status st = thr_scratch_check(&work, err);
+
+  /* Edges both ways, so that the piece turns about its node; what they leave open stays upright. */
+  for (int i = 0; i <= n && !st; i++) {
+    double *one = drawn[2 * i], *other = flat[2 * i];
+    one[2] = other[2] = 1e-3;
+    if (i < n) {
+      const int half = frame->half[frame->first[p] + i], head = thr_head(frame, half);
+      for (int k = 0; k < 3; k++) {
+        one[k] = kit->piece[head].centre[k] - kit->piece[p].centre[k];
+        other[k] = k < 2 ? layout->xy[head][k] - layout->xy[p][k] : 0;
+      }
+      thr_normalize(one);
+      thr_normalize(other);
+    }
+    for (int k = 0; k < 3; k++) {
+      drawn[2 * i + 1][k] = -one[k];
+      flat[2 * i + 1][k] = -other[k];
+    }
+  }
+  if (!st)
+    thr_fit_points((const double(*)[3])drawn, (const double(*)[3])flat, 2 * (n + 1), q, NULL);
+  thr_scratch_free(&work);
+  return st;
+}
+
+/* Do all places lie on a straight line? */
+static bool is_row(const double (*laid)[7], int n)
+{
+  double mean[2] = {0, 0}, xx = 0, xy = 0, yy = 0;
+  for (int p = 0; p < n; p++)
+    for (int k = 0; k < 2; k++)
+      mean[k] += laid[p][k] / n;
+  for (int p = 0; p < n; p++) {
+    const double x = laid[p][0] - mean[0], y = laid[p][1] - mean[1];
+    xx += x * x;
+    xy += x * y;
+    yy += y * y;
+  }
+  return xx * yy - xy * xy < 1e-6 * (xx + yy) * (xx + yy);
+}
+
+/* Fills where pieces lie when all is laid out as the overview of a plan shows it, so large that no
+ * edge is shorter than SPREAD times what it is when it is closed. *known: false for what is shown
+ * from the side or in a row, as an arch, whose pieces stand in their places on the ground. */
+static thr_status lay_flat(const thr_kit *kit, double (*laid)[7], bool *known, thr_err *err)
+{
+  const thr_frame *frame = &kit->plan->frame;
+  thr_layout layout = {0};
+  double largest = 0, middle[2] = {0, 0};
+  thr_status st = thr_layout_choose(&layout, frame, NULL, 0, err);
+  for (int e = 0; e < frame->n_edges && !st; e++) {
+    const int *end = frame->edge[e];
+    const double *one = layout.xy[end[0]], *other = layout.xy[end[1]],
+                 paper = hypot(one[0] - other[0], one[1] - other[1]);
+    if (paper > 0)
+      largest =
+          fmax(largest, thr_distance(kit->piece[end[0]].centre, kit->piece[end[1]].centre) / paper);
+  }
+  for (int p = 0; p < frame->n_nodes && !st; p++)
+    for (int k = 0; k < 2; k++)
+      middle[k] += layout.xy[p][k] / frame->n_nodes;
+  for (int p = 0; p < frame->n_nodes && !st; p++) {
+    for (int k = 0; k < 2; k++)
+      laid[p][k] = SPREAD * largest * (layout.xy[p][k] - middle[k]);
+    st = turn_flat(kit, &layout, p, laid[p] + 3, err);
+  }
+  *known = !st && layout.kind != THR_LAYOUT_FRONT && layout.kind != THR_LAYOUT_SIDE &&
+           layout.kind != THR_LAYOUT_PLANE && !is_row((const double(*)[7])laid, frame->n_nodes);
+  thr_layout_destroy(&layout);
+  return st;
+}
+
+/* Fills made, whether or not its pieces overlap. */
+static thr_status make_all(thr_rise_kit *made, const thr_kit *kit, const thr_pull *pull,
+                           thr_rise_feet feet, const thr_physics *physics, thr_err *err)
 {
   const thr_plan *plan = kit->plan;
-  *made = (thr_rise_kit){0};
   if (plan->options.joint != THR_JOINT_SOLID)
     return thr_fail(err, THR_EINPUT,
                     "rise: pieces that are tubes cannot be simulated: solid "
@@ -154,6 +238,7 @@ thr_status thr_rise_kit_make(thr_rise_kit *made, const thr_kit *kit, const thr_p
   /* All arrays, one after the other. */
   size_t parts = 0, passes = 0, next = 0, pass = 0;
   int n_feet = 0;
+  bool known = false;
   for (int p = 0; p < kit->n_pieces; p++)
     parts += (size_t)kit->piece[p].n_arms + 1;
   for (int c = 0; c < plan->n_cords; c++)
@@ -166,7 +251,9 @@ thr_status thr_rise_kit_make(thr_rise_kit *made, const thr_kit *kit, const thr_p
   double(*mouth)[3] = thr_scratch_array(&made->own, passes, sizeof *mouth);
   double(*along)[3] = thr_scratch_array(&made->own, passes, sizeof *along);
   double *wobble = thr_scratch_array(&made->own, passes, sizeof *wobble);
+  double(*laid)[7] = thr_scratch_array(&made->own, (size_t)kit->n_pieces, sizeof *laid);
   thr_status st = thr_scratch_check(&made->own, err);
+  if (!st) st = lay_flat(kit, laid, &known, err);
   if (st) return st;
 
   for (int p = 0; p < kit->n_pieces; p++) {
@@ -191,10 +278,62 @@ thr_status thr_rise_kit_make(thr_rise_kit *made, const thr_kit *kit, const thr_p
                                          .n_cords = plan->n_cords,
                                          .piece = piece,
                                          .cord = cord,
+                                         .mat = known ? (const double(*)[7])laid : NULL,
                                          .width = kit->options.width,
                                          .mouth_depth = kit->cord,
                                          .physics = *physics};
   return THR_OK;
+}
+
+/* Finds the widest arms with which the pieces of a kit do not overlap, mm, by bisection; 0: none
+ * found. */
+static double width_that_fits(const thr_kit *kit, const thr_pull *pull, thr_rise_feet feet,
+                              const thr_physics *physics)
+{
+  enum { STEPS = 7 };
+  double fits = 0, narrow = 0, wide = kit->options.width;
+  for (int i = 0; i < STEPS; i++) {
+    const double width = 0.5 * (narrow + wide);
+    int ignored[2];
+    double depth = INFINITY;
+    thr_err err = {0};
+    thr_kit thin;
+    thr_rise_kit trial = {0};
+    thr_kit_options options = kit->options;
+    options.width = width;
+    thr_status st = thr_kit_make(&thin, kit->plan, &options, NULL, false, NULL, &err);
+    if (!st) st = make_all(&trial, &thin, pull, feet, physics, &err);
+    if (!st) st = thr_rise_overlap(&trial.structure, ignored, &depth, &err);
+    thr_rise_kit_destroy(&trial);
+    thr_kit_destroy(&thin);
+
+    /* What has no room for its channels is too thin. */
+    if (st == THR_ENOMEM) return 0;
+    *(depth == 0 || st ? &narrow : &wide) = width;
+    if (!st && depth == 0) fits = width;
+  }
+
+  /* Three digits, and no more than was tried. */
+  const double digit = fits > 0 ? pow(10, floor(log10(fits)) - 2) : 1;
+  return digit * floor(fits / digit);
+}
+
+thr_status thr_rise_kit_make(thr_rise_kit *made, const thr_kit *kit, const thr_pull *pull,
+                             thr_rise_feet feet, const thr_physics *physics, thr_err *err)
+{
+  int piece[2] = {0, 0};
+  double depth = 0;
+  *made = (thr_rise_kit){0};
+  thr_status st = make_all(made, kit, pull, feet, physics, err);
+  if (!st) st = thr_rise_overlap(&made->structure, piece, &depth, err);
+  if (st || depth == 0) return st;
+
+  const double width = width_that_fits(kit, pull, feet, physics);
+  return thr_fail(err, THR_EINPUT,
+                  width > 0 ? "rise: pieces %s and %s are %.2g mm in each other when closed: "
+                              "--width %.3g fits"
+                            : "rise: pieces %s and %s are %.2g mm in each other when closed",
+                  kit->name[piece[0]], kit->name[piece[1]], depth, width);
 }
 
 void thr_rise_kit_destroy(thr_rise_kit *made)

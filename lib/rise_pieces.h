@@ -32,8 +32,8 @@ typedef struct {
 /* Makes the structure of a kit of a plan with solid joints. Every arm is a convex part, a foot is
  * one more; masses and their centres are those of the meshes if the kit has them, else of the
  * parts. pull: [n_cords] which ends are pulled. Feet are the plan's. physics: resolved. THR_EINPUT:
- * the plan has tubes, or no feet where these are to be held or to stay down. Release with
- * thr_rise_kit_destroy, after a failure too. O(pieces + passes). */
+ * the plan has tubes, pieces that overlap when all is closed, or no feet where these are to be held
+ * or to stay down. Release with thr_rise_kit_destroy, after a failure too. O(pieces + passes). */
 thr_status thr_rise_kit_make(thr_rise_kit *made, const thr_kit *kit, const thr_pull *pull,
                              thr_rise_feet feet, const thr_physics *physics,
                              thr_err *err) THR_MUST_CHECK;

@@ -498,6 +498,24 @@ thr_status thr_world_step(thr_world *world, thr_err *err)
   return THR_OK;
 }
 
+double thr_world_deepest(thr_world *world, int body[2])
+{
+  world->dynamics->performDiscreteCollisionDetection();
+  double depth = 0;
+  for (int i = 0; i < world->dispatcher->getNumManifolds(); i++) {
+    const btPersistentManifold *manifold = world->dispatcher->getManifoldByIndexInternal(i);
+    for (int k = 0; k < manifold->getNumContacts(); k++) {
+      if (-manifold->getContactPoint(k).getDistance() <= depth) continue;
+      depth = -manifold->getContactPoint(k).getDistance();
+      for (int j = 0; j < world->n_bodies; j++) {
+        if (world->body[j] == manifold->getBody0()) body[0] = j;
+        if (world->body[j] == manifold->getBody1()) body[1] = j;
+      }
+    }
+  }
+  return depth;
+}
+
 void thr_world_position(const thr_world *world, int body, double at[3])
 {
   copy_out(world->body[body]->getCenterOfMassPosition(), at);

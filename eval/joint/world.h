@@ -84,6 +84,10 @@ void thr_world_force_at(thr_world *world, int body, const double force[3],
 /* Takes a step. THR_ESOLVER: the simulation diverged. */
 thr_status thr_world_step(thr_world *world, thr_err *err) THR_MUST_CHECK;
 
+/* Finds the two bodies that are deepest in each other where they are now: body[2], and how deep
+ * (> 0), or 0 if none are. Of worlds with faces. */
+double thr_world_deepest(thr_world *world, int body[2]);
+
 void thr_world_position(const thr_world *world, int body, double at[3]);
 void thr_world_pose(const thr_world *world, int body, double pose[7]);
 void thr_world_velocity(const thr_world *world, int body, double linear[3], double angular[3]);

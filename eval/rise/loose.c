@@ -9,9 +9,12 @@
 static const double UNIT_EDGE = 4; /* units in a mean edge */
 static const double SPREAD = 1.15; /* of what lies flat, so that faces are apart */
 static const double JITTER = 0.05; /* rad, by which pieces are turned by chance */
-static const double DROPPED = 1; /* rad, the same in a heap: cords keep pieces from turning over */
-static const double CROWDED = 0.8; /* of what lies in a heap, where pieces lie on each other */
+static const double DROPPED = 0.5; /* rad, the same in a heap: as slack cords let them */
+static const double SLACK = 1.3;   /* of what is dropped into a heap: its gaps are open so far .. */
+static const double ASTRAY = 0.1;  /* .. but for so many edges, by chance */
 static const double CLEAR = 0.02;  /* of an edge, over the ground and between pieces */
+static const double BESIDE = 0.95; /* of the balls round pieces that are kept apart on the ground */
+static const double DEEP = 0.01;   /* of an edge: so far in each other, pieces overlap */
 static const double DAMPING = 0.2; /* part of a velocity that air takes in a second */
 
 /* A rotation by up to `most` rad about an axis by chance. */
@@ -101,14 +104,14 @@ static double lowest(const thr_rise_structure *structure)
   return low;
 }
 
-/* Raises piece p, which is in its place but for the height, until its ball is clear of those of the
- * pieces before it in `order`. */
-static void stack(thr_rise_bodies *bodies, const int *order, int i, const double *around)
+/* Raises piece p, which is in its place but for the height, until its ball, a little smaller, is
+ * clear of those of the pieces before it: those that lie beside each other stay on the ground. */
+static void stack(thr_rise_bodies *bodies, int p, const double *around)
 {
-  double *at = bodies->pose[order[i]];
-  for (int j = 0; j < i; j++) {
-    const double *other = bodies->pose[order[j]];
-    const double apart = around[order[i]] + around[order[j]],
+  double *at = bodies->pose[p];
+  for (int j = 0; j < p; j++) {
+    const double *other = bodies->pose[j];
+    const double apart = BESIDE * (around[p] + around[j]),
                  beside = hypot(at[0] - other[0], at[1] - other[1]);
     if (beside < apart && fabs(at[2] - other[2]) < sqrt(apart * apart - beside * beside)) {
       /* Above this one it may meet another that was clear. */
@@ -118,69 +121,83 @@ static void stack(thr_rise_bodies *bodies, const int *order, int i, const double
   }
 }
 
+/* Where piece p is laid or held before anything moves: its node, mm, and how it is turned. */
+static void start_of(const thr_rise_bodies *bodies, int p, thr_rise_start start,
+                     const double middle[3], uint64_t *state, double node[3], double q[4])
+{
+  const thr_rise_structure *structure = bodies->structure;
+  const thr_rise_piece *piece = &structure->piece[p];
+  double chance[4];
+  memcpy(q, (const double[4]){0, 0, 0, 1}, 4 * sizeof *q);
+  for (int k = 0; k < 3; k++)
+    node[k] = start == THR_RISE_LAID ? structure->laid[p][k] : piece->centre[k] - middle[k];
+  if (start == THR_RISE_LAID) memcpy(q, structure->laid[p] + 3, 4 * sizeof *q);
+  if (start == THR_RISE_SHAPE || piece->held) return;
+
+  turn_by_chance(state, start == THR_RISE_HEAP ? DROPPED : JITTER, chance);
+  if (start == THR_RISE_LAID) {
+    thr_rise_multiply(chance, structure->laid[p] + 3, q);
+    return;
+  }
+  if (start == THR_RISE_HEAP) {
+    for (int k = 0; k < 3; k++)
+      node[k] = SLACK * node[k] + ASTRAY * bodies->edge * thr_random_disorder(state);
+    memcpy(q, chance, 4 * sizeof *q);
+  } else if (structure->mat) {
+    for (int k = 0; k < 2; k++)
+      node[k] = structure->mat[p][k];
+    thr_rise_multiply(chance, structure->mat[p] + 3, q);
+  } else {
+    for (int k = 0; k < 2; k++)
+      node[k] *= SPREAD;
+    memcpy(q, chance, 4 * sizeof *q);
+  }
+}
+
 /* Fills pose and turn of every piece with where it begins. */
 static thr_status lay_out(thr_rise_bodies *bodies, const thr_rise_options *options, thr_err *err)
 {
   const thr_rise_structure *structure = bodies->structure;
   const int n = structure->n_pieces;
-  const bool laid = options->start == THR_RISE_LAID, heap = options->start == THR_RISE_HEAP,
-             flat = options->start != THR_RISE_SHAPE && !laid;
-  double low = INFINITY; /* of what is laid, in the world's units */
-  const double ground = lowest(structure), clear = CLEAR * UNIT_EDGE;
+  const bool flat = options->start == THR_RISE_FLAT;
+  const double clear = CLEAR * UNIT_EDGE;
+  double middle[3] = {0, 0, lowest(structure)}, under = 0, low = INFINITY;
   uint64_t state = options->seed;
 
   thr_scratch work = {0};
-  int *order = thr_scratch_array(&work, (size_t)n, sizeof *order);
   double *around = thr_scratch_array(&work, (size_t)n, sizeof *around);
   thr_status st = thr_scratch_check(&work, err);
   if (st) goto done;
 
-  double middle[2] = {0, 0};
   for (int p = 0; p < n; p++)
     for (int k = 0; k < 2; k++)
       middle[k] += structure->piece[p].centre[k] / n;
 
   for (int p = 0; p < n; p++) {
     const thr_rise_piece *piece = &structure->piece[p];
-    double below, *pose = bodies->pose[p];
-    memcpy(pose + 3, (const double[4]){0, 0, 0, 1}, 4 * sizeof *pose);
-    if (options->start != THR_RISE_SHAPE && !piece->held)
-      turn_by_chance(&state, heap ? DROPPED : JITTER, pose + 3);
-    if (laid) {
-      double chance[4];
-      memcpy(chance, pose + 3, sizeof chance);
-      memcpy(pose, structure->laid[p], 3 * sizeof *pose);
-      thr_rise_multiply(chance, structure->laid[p] + 3, pose + 3);
-    }
+    double below, node[3], arm[3], *pose = bodies->pose[p];
+    start_of(bodies, p, options->start, middle, &state, node, pose + 3);
     thr_quaternion_turn(pose + 3, bodies->turn[p]);
     reach_of(bodies, p, &below, &around[p]);
-    order[p] = p;
-
-    double arm[3] = {0};
-    if (laid) thr_rise_turned(bodies, p, piece->mass_centre, arm);
+    thr_rise_turned(bodies, p, piece->mass_centre, arm);
     for (int k = 0; k < 3; k++)
-      pose[k] = (laid ? pose[k] + arm[k]
-                      : piece->centre[k] + piece->mass_centre[k] - (k < 2 ? middle[k] : ground)) /
-                bodies->length;
+      pose[k] = (node[k] + arm[k]) / bodies->length;
     low = fmin(low, pose[2] - below);
-    if (!flat || piece->held) continue;
-    for (int k = 0; k < 2; k++)
-      pose[k] *= heap ? CROWDED : SPREAD;
-    pose[2] = below + clear;
+    if (piece->held) continue;
+    if (flat) {
+      pose[2] = below + clear;
+      stack(bodies, p, around);
+    }
+    under = fmax(under, below + clear - pose[2]);
   }
+
+  /* What is dropped begins over the ground. */
+  for (int p = 0; p < n && options->start == THR_RISE_HEAP; p++)
+    if (!structure->piece[p].held) bodies->pose[p][2] += under;
 
   /* What is laid touches the ground, as the drawn shape does. */
-  for (int p = 0; p < n && laid; p++)
+  for (int p = 0; p < n && options->start == THR_RISE_LAID; p++)
     bodies->pose[p][2] -= low;
-
-  /* A heap is dropped in an order by chance (Fisher and Yates). */
-  for (int i = n - 1; i > 0 && heap; i--) {
-    const int j = thr_random_below(&state, i + 1), other = order[j];
-    order[j] = order[i];
-    order[i] = other;
-  }
-  for (int i = 1; i < n && heap; i++)
-    if (!structure->piece[order[i]].held) stack(bodies, order, i, around);
 
 done:
   thr_scratch_free(&work);
@@ -258,6 +275,24 @@ thr_status thr_rise_bodies_make(thr_rise_bodies *bodies, const thr_rise_structur
     st = add_piece(bodies, p, points, err);
 
   thr_scratch_free(&work);
+  return st;
+}
+
+thr_status thr_rise_overlap(const thr_rise_structure *structure, int piece[2], double *depth,
+                            thr_err *err)
+{
+  const thr_rise_options closed = {.start = THR_RISE_SHAPE};
+  thr_rise_bodies bodies = {0};
+  int body[2] = {0, 0};
+  *depth = 0;
+  if (!(thr_rise_edge(structure) > 0)) return THR_OK;
+  thr_status st = thr_rise_bodies_make(&bodies, structure, &closed, 1, err);
+  if (!st) *depth = thr_world_deepest(bodies.world, body) * bodies.length;
+  if (*depth < DEEP * bodies.edge) *depth = 0;
+  for (int p = 0; p < structure->n_pieces && !st; p++)
+    for (int k = 0; k < 2; k++)
+      if (bodies.body[p] == body[k]) piece[k] = p;
+  thr_rise_bodies_destroy(&bodies);
   return st;
 }
 

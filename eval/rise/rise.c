@@ -58,6 +58,7 @@ typedef struct {
   int *tie;                /* [n_pieces] of a piece that stays down, the cord in the world; -1 */
   int n_passes, n_counted; /* .. of cords that are not slack */
   thr_friction friction;
+  double pull;      /* N, of the hand that pulls hardest */
   double dt, scale; /* s; and how much slower than with edges of TIME_EDGE everything is */
   double mu;
   thr_scratch own;
@@ -219,6 +220,9 @@ static void pull_cords(rise_run *run)
         speed = fmin(speed, tension / stiffness / bodies->length / run->dt);
         hold = tension > 0 ? ANY : 0;
       }
+      /* What is dropped hangs on its cords, none of which gets longer. */
+      if (run->options->start == THR_RISE_HEAP && run->pull == 0 && pass->gap > pass->first_gap)
+        hold = ANY;
       thr_world_pull(bodies->world, pass->cord, tension / bodies->force, speed,
                      hold / bodies->force, stiffness * bodies->length / bodies->force);
     }
@@ -486,7 +490,7 @@ static thr_status let_pass(rise_run *run, const thr_limits *limits, thr_rise_rec
     const int closed = count_closed(run, &widest);
     thr_hands_watch(hands, time, closed == run->n_counted,
                     run->options->schedule ? fastest(run) : 0);
-    const double pull = thr_hands_pull(hands, time, run->dt, run->drawn);
+    const double pull = run->pull = thr_hands_pull(hands, time, run->dt, run->drawn);
     if (closed > record->most_closed && time >= hands->settle) {
       record->most_closed = closed;
       record->loosest = widest;

@@ -56,6 +56,8 @@ typedef struct {
   const thr_rise_piece *piece;
   const thr_rise_cord *cord;
   const double (*laid)[7]; /* [n_pieces] as thr_rise_cord.place: where THR_RISE_LAID begins */
+  const double (*mat)[7];  /* [n_pieces] where nodes lie when all is laid out flat, and how pieces
+                              are  turned there, x y z w; NULL: as they are drawn; z is not read */
   double width;            /* of a typical face */
   double mouth_depth;      /* how far inside the mouth the cord first touches its channel */
   thr_physics physics;     /* resolved: mu, mu_bead, mu_ground, gravity, stiffness and the law of
@@ -65,8 +67,8 @@ typedef struct {
 /* ---- how it is made to rise ---- */
 
 typedef enum {
-  THR_RISE_FLAT,  /* pressed flat on the ground and spread, as laid out for threading */
-  THR_RISE_HEAP,  /* dropped in a heap, turned by chance */
+  THR_RISE_FLAT,  /* flat on the ground, spread as laid out for threading */
+  THR_RISE_HEAP,  /* threaded with slack, and dropped: pieces lie as chance has them */
   THR_RISE_SHAPE, /* closed, as drawn */
   THR_RISE_LAID,  /* where structure->laid has them */
   THR_RISE_N_STARTS
@@ -138,6 +140,12 @@ typedef struct {
                   first, by a tenth of the height */
   int fell;    /* first frame after these that is lower by a tenth of the height; -1 */
 } thr_rise_record;
+
+/* Finds the two pieces that overlap most in the closed structure, where faces only touch: piece[2],
+ * and *depth, mm; 0 if no two are in each other by more than a part in a hundred of an edge.
+ * THR_ENOMEM. O(parts^2) at most. */
+thr_status thr_rise_overlap(const thr_rise_structure *structure, int piece[2], double *depth,
+                            thr_err *err) THR_MUST_CHECK;
 
 /* Lets a structure rise. progress and time limits come by limits; what was seen until then is kept
  * where they stop it (THR_ELIMIT). THR_EINPUT says what cannot be simulated, and what to do.

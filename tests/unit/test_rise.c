@@ -425,6 +425,45 @@ START_TEST(momentum)
 }
 END_TEST
 
+/* ---- pieces that overlap ---- */
+
+/* Of four cubes in a row the last two are 0.5 mm in each other; where they only touch, none are. */
+START_TEST(overlap)
+{
+  enum { N = 4 };
+  double corner[CORNERS][3], mouth[N - 1][3] = {{0}}, along[N - 1][3] = {{0}};
+  int eight = CORNERS, pair[2] = {-1, -1};
+  const int visited[N] = {0, 1, 2, 3};
+  thr_rise_piece piece[N];
+  for (int i = 0; i < CORNERS; i++)
+    for (int k = 0; k < 3; k++)
+      corner[i][k] = (i >> k & 1 ? 1 : -1) * HALF;
+  for (int i = 0; i < N; i++) {
+    const double back = _i && i == N - 1 ? 0.5 : 0;
+    piece[i] = (thr_rise_piece){.centre = {2 * HALF * i - back, 3, 40},
+                                .mass = 1,
+                                .moment = 1,
+                                .n_parts = 1,
+                                .n_corners = &eight,
+                                .corner = (const double(*)[3])corner};
+  }
+  const thr_rise_cord cord = {.n_passes = N - 1,
+                              .piece = visited,
+                              .mouth = (const double(*)[3])mouth,
+                              .along = (const double(*)[3])along};
+  const thr_rise_structure structure = {.n_pieces = N,
+                                        .n_cords = 1,
+                                        .piece = piece,
+                                        .cord = &cord,
+                                        .physics = {.mu_bead = 0.3, .gravity = G}};
+  thr_err err = {0};
+  double depth;
+  assert_ok(thr_rise_overlap(&structure, pair, &depth, &err), &err);
+  ck_assert_double_eq_tol(depth, _i ? 0.5 : 0, 1e-6);
+  if (_i) ck_assert(pair[0] + pair[1] == 5 && abs(pair[0] - pair[1]) == 1);
+}
+END_TEST
+
 /* ---- the best fit ---- */
 
 /* A rotated, shifted set fits exactly; with one point moved by d, the largest distance is below d.
@@ -562,6 +601,7 @@ int main(void)
   ADD_LOOP(s, 60, sag_of_a_tied_cord, 0, 4);
   ADD_TEST(s, 20, pendulum);
   ADD_TEST(s, 20, momentum);
+  ADD_LOOP(s, 10, overlap, 0, 2);
   ADD_TEST(s, 20, best_fit);
   ADD_TEST(s, 10, kinks_and_twists);
   ADD_TEST(s, 20, refusals);
