@@ -196,29 +196,6 @@ void advice_put_holding(thr_text *text, const thr_plan *plan)
   thr_eval_destroy(&eval);
 }
 
-/* ---- one line ---- */
-
-void advice_put_line(thr_text *text, const thr_advice_row *row, double length, const char *command)
-{
-  char pull[64];
-  double more = 100 * (row->length / length - 1);
-
-  thr_text_append(text, "         ");
-  advice_put_cords(text, row);
-  thr_text_printf(text, " %s about %s", cli_plural(row->cords, "needs", "need"),
-                  plain_both(row->other, row->pull[THR_ADVICE_MU], pull));
-
-  /* What the row costs in cord, against a plan of the given length. */
-  if (fabs(more) < 0.05)
-    thr_text_append(text, " with as much cord");
-  else
-    thr_text_printf(text, " with %.1f %% %s cord", fabs(more), more > 0 ? "more" : "less");
-
-  thr_text_append(text, ":\n         ");
-  thr_text_append_clean(text, command);
-  thr_text_append(text, "\n");
-}
-
 /* ---- JSON ---- */
 
 /* Writes a row: lengths in units, turning in rad, pulls in N. */

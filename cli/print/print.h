@@ -389,10 +389,6 @@ void advice_put_word(thr_text *text, const char *word);
 /* Appends "4 cords to the feet", "1 closed cord", "12 cords with ends anywhere". */
 void advice_put_cords(thr_text *text, const thr_advice_row *row);
 
-/* Appends the last lines of `thread plan` where a hand cannot pull the cords: what a hand can pull,
- * with more or less cord than `length`, units, and the command. */
-void advice_put_line(thr_text *text, const thr_advice_row *row, double length, const char *command);
-
 /* ---- symmetry_table.c: Prints the table of groups, and how the cords of a symmetric plan are
  * copies of each other. */
 
