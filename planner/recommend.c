@@ -22,8 +22,8 @@
 
 enum { MOST_TRIED = 5000 /* edges */, MOST_TRIALS = 8 };
 
-/* Counted work of a trial, s, what it takes more for each edge, and the most. */
-static const double work_of_trial = 0.05, work_of_edge = 5e-4, most_work = 0.4;
+/* Counted work of a trial, s. */
+static const double work_of_trial = 0.3;
 
 /* Times as many cords as could do by their turning are tried where cutting leaves no bound. */
 static const int most_times = 4;
@@ -49,7 +49,7 @@ static bool is_within(const recommendation *of, const thr_plan *plan)
 static thr_status try_number(const recommendation *of, int cords, thr_plan *plan,
                              thr_report *report, thr_err *err)
 {
-  double work = fmin(most_work, work_of_trial + work_of_edge * of->frame->n_edges);
+  double work = work_of_trial;
   thr_limits little = thr_limits_counted(of->limits, &work);
   thr_request request = of->request;
   thr_err why = {0};
