@@ -63,7 +63,7 @@ def make_plans(program, folder, only):
             continue
         frame, plan = os.path.join(folder, "frame.json"), os.path.join(folder, name.replace(" ", "-") + ".json")
         subprocess.run([program, "make", *shlex.split(shape), "-o", frame], check=True)
-        subprocess.run([program, "plan", frame, *shlex.split(options), "-q", "-o", plan], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        subprocess.run([program, "plan", frame, *shlex.split(options or "--cords 1"), "-q", "-o", plan], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         made.append((name, plan))
     return made
 
