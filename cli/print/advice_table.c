@@ -40,11 +40,17 @@ void advice_put_word(thr_text *text, const char *word)
   thr_text_append(text, "'");
 }
 
-void advice_put_command(thr_text *text, const char *path, const char *options,
+void advice_put_command(thr_text *text, const char *path, const char *options, double hand,
                         const thr_advice_row *row)
 {
   thr_text_append(text, "thread plan ");
   advice_put_word(text, path);
+
+  /* What a hand always manages is what the command makes unasked. */
+  if (hand == thr_hand_always) {
+    thr_text_append(text, options);
+    return;
+  }
 
   /* Where each component has a number of cords of its own, no --cords says that: a limit on the
    * pull makes the same plan, rounded up at the fourth digit so that the row's own pull keeps to

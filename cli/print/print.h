@@ -378,9 +378,11 @@ void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *
 void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advice *advice,
                      const char *command, const thr_plan *chosen);
 
-/* Appends "thread plan PATH --cords 4 --ends feet --objective tortuosity --minimize pull", with the
- * options that FRAME was read with (each with a blank before it), for a shell. */
-void advice_put_command(thr_text *text, const char *path, const char *options,
+/* Appends the command that makes the plan of a row that was recommended for a hand, N: "thread plan
+ * PATH" for thr_hand_always, else "thread plan PATH --cords 4 --ends feet --objective tortuosity
+ * --minimize pull", with the options that FRAME was read with (each with a blank before it), for a
+ * shell. */
+void advice_put_command(thr_text *text, const char *path, const char *options, double hand,
                         const thr_advice_row *row);
 
 /* Appends a word as a shell reads it: in quotes where it needs them. */
