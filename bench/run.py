@@ -132,7 +132,7 @@ class Bench:
         return best
 
     def plan(self, frame, *options, to="plan.json"):
-        return [self.thread, "plan", frame, *options, "-q", "-o", self.path(to)]
+        return [self.thread, "plan", frame, *(options or ("--cords", "1")), "-q", "-o", self.path(to)]
 
     def frame(self, family, edges):
         """Path and number of edges of a framework of this family, made once."""

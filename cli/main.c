@@ -38,7 +38,8 @@ static void help(FILE *to)
       "thread plans how cord is threaded through bead structures.\n\n"
       "Examples:\n"
       "  thread make dome --size 7 -o dome.json        a 7 x 7 dome to try things on\n"
-      "  thread plan dome.json                         shortest cord: plan and diagrams in dome/\n"
+      "  thread plan dome.json                         as few cords as a hand can pull: plan, "
+      "pictures\n"
       "  thread check dome/plan.json                   verify the plan and its proof\n"
       "  thread eval dome/plan.json --method joint     how hard to pull, measured in simulation\n\n"
       "Commands:\n",

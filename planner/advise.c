@@ -740,6 +740,78 @@ static thr_status find_by_components(const thr_components *components, const thr
   return st;
 }
 
+/* ---- what is promised ---- */
+
+/* Makes the plan that the command for the recommended row makes: within what a hand always manages
+ * the plan of `thread plan` alone (recommend.c), else the one of least pull with as many cords, in
+ * the work that is usual for it. */
+static thr_status make_promised(const advice_search *adviser, thr_plan *plan, thr_err *err)
+{
+  const thr_advice *out = adviser->out;
+  thr_limits limits = *adviser->limits;
+  thr_request request = adviser->request;
+  thr_report report = {0};
+  thr_err why = {0};
+  thr_status st = THR_OK;
+
+  /* Nothing was counted before the command, and nobody hears of its cords. */
+  limits.work = NULL;
+  limits.usual = true;
+  limits.found = NULL;
+
+  if (out->hand == thr_hand_always) {
+    st = thr_plan_recommended(adviser->frame, &request, out->hand, &limits, plan, &report, &why);
+  } else if (out->chosen >= 0) {
+    const thr_advice_row *row = &out->row[out->chosen];
+    request.aims = (thr_aims){1, {THR_AIM_PULL}};
+    request.ends = row->ends;
+    request.cords = request.cords_least = row->cords;
+    double work = thr_dispatch_work(&request);
+    const thr_limits counted = thr_limits_counted(&limits, &work);
+    st = thr_plan_make(adviser->frame, &request, &counted, plan, &report, &why);
+  }
+
+  thr_report_destroy(&report);
+  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails promises nothing */
+}
+
+/* Puts what the command's plan measures in the place of the recommended row. */
+static thr_status promise(advice_search *adviser, thr_err *err)
+{
+  thr_advice *out = adviser->out;
+  thr_plan plan = {0};
+  thr_status st = make_promised(adviser, &plan, err);
+
+  if (st || plan.n_cords == 0 || plan.options.ends == THR_ENDS_CLOSED) {
+    thr_plan_destroy(&plan);
+    return st;
+  }
+  const ends_kind kind = {.ends = plan.options.ends};
+  const int cords = plan.options.cords;
+  adviser->room = out->n;
+  thr_advice_row *row = find_row(adviser, &kind, cords);
+  if (!row) st = new_row(adviser, &row, err);
+  if (!st) {
+    const double bound = row->bound, base_length = out->base_length;
+    *row = (thr_advice_row){.bound = bound, .searched = adviser->frame->n_edges <= MOST_SEARCHED};
+    measure_row(adviser, &kind, &plan, row);
+    row->optimal = row->turning <= row->bound * (1 + 1e-9);
+    out->base_length = base_length;
+    if (adviser->options->row) adviser->options->row(adviser->options->user, row, &plan);
+  }
+
+  /* The rows in order, with the promised one, which is kept whatever it buys. */
+  const thr_advice_row promised = st ? (thr_advice_row){0} : *row;
+  if (!st) thr_advice_settle(out);
+  row = st ? NULL : find_row(adviser, &kind, cords);
+  adviser->room = out->n;
+  if (!st && !row && !(st = new_row(adviser, &row, err))) *row = promised;
+  if (!st) out->chosen = thr_advice_within(out, row) ? (int)(row - out->row) : -1;
+
+  thr_plan_destroy(&plan);
+  return st;
+}
+
 thr_status thr_advise(const thr_frame *frame, const thr_request *request,
                       const thr_advise_options *options, const thr_limits *limits, thr_advice *out,
                       thr_err *err)
@@ -755,6 +827,19 @@ thr_status thr_advise(const thr_frame *frame, const thr_request *request,
     st = find_by_components(&components, request, options, limits, out, err);
 
   if (!st) thr_advice_settle(out);
+
+  /* What is recommended is what its command makes. */
+  advice_search promising = {.frame = frame,
+                             .request = thr_request_default(),
+                             .limits = limits,
+                             .options = options,
+                             .out = out};
+  promising.request.cover = request->cover;
+  promising.request.capacity = request->capacity;
+  promising.request.physics = request->physics;
+  if (!st && frame->n_edges <= MOST_SEARCHED) st = find_group(&promising, err);
+  if (!st) st = promise(&promising, err);
+  thr_group_destroy(&promising.group);
   thr_components_destroy(&components);
   if (st) thr_advice_destroy(out);
   return st;

@@ -128,7 +128,7 @@ thr_status thr_even_turning(const thr_frame *frame, const thr_plan *seed, double
   thr_max_turning found;
   thr_status st = exchange(frame, seed, enough, &share, least, &found, err);
 
-  return st || is_done(frame, least, &found, enough, limits)
+  return st || limits->unpriced || is_done(frame, least, &found, enough, limits)
              ? st
              : thr_max_turning_walks(frame, enough, thr_planner_near_motions, limits, least, &found,
                                      err);

@@ -9,8 +9,8 @@
  * shares of the time; then the planners: length.c with short_few.c and even_length.c,
  * least_turning.c with even_turning.c and mixed.c, symmetric.c, distinct.c, and pull_limit.c with
  * the other files pull_*.c. Afterwards come the steps that serve every plan: trim.c, uncross.c with
- * recut.c and channel_search.c, order.c with starts.c and order_reverse.c, and prove.c. advise.c
- * and rivals.c make many plans and compare them. */
+ * recut.c and channel_search.c, order.c with starts.c and order_reverse.c, and prove.c. recommend.c
+ * chooses where nobody says which plan; advise.c and rivals.c make many plans and compare them. */
 #ifndef THR_PLANNER_H
 #define THR_PLANNER_H
 
@@ -227,6 +227,19 @@ thr_status thr_plan_uncross(thr_plan *plan, bool *others, thr_err *err) THR_MUST
 
 /* metrics.crossings, if the request asks for anything but any number of them. O(n log n). */
 thr_status thr_plan_count_crossings(thr_plan *plan, thr_err *err) THR_MUST_CHECK;
+
+/* ---- recommend.c: The plan where nobody says which. */
+
+/* Plans as few cords as stay within hand, N, at the upper end of the band of mu, with ends at the
+ * feet where these take at most 1.5 times as much cord as ends anywhere; of so many cords the
+ * shortest that are found, and of these ones that are easily pulled. Of the request aims, ends,
+ * cords and slack do not count; plan->options says what was chosen. Work is counted: the same plan
+ * on every machine. Where no number of cords stays within the hand: the shortest closed cord.
+ * THR_OK: a plan, whatever is proved of it, which its claims say. Otherwise as thr_plan_make. The
+ * report must be released in any case. */
+thr_status thr_plan_recommended(const thr_frame *frame, const thr_request *request, double hand,
+                                const thr_limits *limits, thr_plan *plan, thr_report *report,
+                                thr_err *err) THR_MUST_CHECK;
 
 /* ---- advise.c: How many cords, and from where: a plan for every number of cords and kind of ends
  * that may be worth it, and a choice among them. */

@@ -159,5 +159,5 @@ thr_status thr_planner_pull_least(const thr_frame *frame, const thr_request *req
 
   thr_status st = choose_cut(&bounding, err);
   if (!st) st = claim_few(&bounding, err);
-  return st ? st : price_walks(&bounding, limits, err);
+  return st || limits->unpriced ? st : price_walks(&bounding, limits, err);
 }

@@ -158,13 +158,12 @@ static thr_status verdict(const thr_symmetries *symmetries, const char *group, t
 
   /* Threadings were found, but their proofs are missing; else some rows are open. */
   if (loose == unsolved && asked == 1)
-    return thr_fail(err, THR_ELIMIT,
-                    "the group is solved, but not optimal by the solver's word: %s",
+    return thr_fail(err, THR_ELIMIT, "copies were found; that none are better is not proved: %s",
                     none->why.text);
   if (loose == unsolved)
     return thr_fail(err, THR_ELIMIT,
-                    "%d of %d groups are solved, but not optimal by the solver's word: %s", loose,
-                    asked, none->why.text);
+                    "copies were found for %d of %d groups; that none are better is not proved: %s",
+                    loose, asked, none->why.text);
   return thr_fail(err, THR_ELIMIT, "%d of %d %s not solved to the end: %s", unsolved - loose, asked,
                   asked == 1 ? "group was" : "groups were", open->why.text);
 }

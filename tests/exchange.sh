@@ -53,9 +53,9 @@ both() { # NAME WHAT: every file of the plan
 
 "$program" make dome --size 5 -o "$work/dome.obj"
 "$program" make sphere --size 1 -o "$work/sphere.obj"
-"$program" plan -q "$work/dome.obj" -o "$work/one.json" || exit 1
+"$program" plan -q "$work/dome.obj" --cords 1 -o "$work/one.json" || exit 1
 "$program" plan -q "$work/dome.obj" --cords 4 --ends any -o "$work/four.json" || exit 1
-"$program" plan -q "$work/sphere.obj" --cover 2 -o "$work/twice.json" || exit 1
+"$program" plan -q "$work/sphere.obj" --cords 1 --cover 2 -o "$work/twice.json" || exit 1
 both one 'one cord'
 both four 'four cords'
 both twice 'every edge twice'

@@ -151,8 +151,9 @@ int request_args_apply(const request_args *a, const thr_frame *frame, thr_reques
 /* Is the pull of cords limited? */
 bool request_args_limits_pull(const request_args *a);
 
-/* Was nothing asked for but a short cord? */
-bool request_args_usual(const request_args *a);
+/* Is nothing said of what the plan is to be, but for the passes of edges and the order of work?
+ * Then it is the recommended one (planner/recommend.c). */
+bool request_args_unsaid(const request_args *a);
 
 /* ---- end_counts.c: `--ends NAME:N,..`: how many cord ends there are at each node. */
 

@@ -157,13 +157,17 @@ static bool take_frontier(void *into, const cli_option *option, const char *valu
 static const cli_option own_planned[] = {
     {"objective", .kind = CLI_OTHER, .take = take_objective, .word = thr_dispatch_name,
      .n_words = THR_N_OBJECTIVES,
-     .help = "what the plan is to have little of: cord (length, the default), paths to learn "
+     .help = "what the plan is to have little of: cord (length, the default if anything below is "
+             "said), paths to learn "
              "(symmetry), or turning, which makes cords hard to pull (tortuosity)"},
     {"cords", .value = "K", .kind = CLI_OTHER, .take = take_cords,
-     .help = "K cords in every component, 1 to 1000 (default: 1); A..B, ..B: at most B; auto: as "
-             "many as --max-length or --max-pull takes"},
+     .help =
+         "K cords in every component, 1 to 1000, of much the same length (default: as few as a "
+         "hand can pull, from the best ends, if nothing is said of the plan, else 1); A..B, ..B: "
+         "at most B; auto: as many as --max-length or --max-pull takes"},
     {"ends", .value = "closed|any|feet|FILE|NAME,..", .kind = CLI_TEXT, AT(ends),
-     .help = "both ends of a cord at one node (default), or anywhere, at feet, at these nodes; "
+     .help = "both ends of a cord at one node (default, with --cords), or anywhere, at feet, at "
+             "these nodes; "
              "NAME:N,..: exactly so many cord ends at each of these nodes"},
     {"balance", .kind = CLI_FLAG, AT(balance),
      .help = "of several cords: make the longest as short as can be"},
@@ -295,14 +299,6 @@ static bool takes_few(const request_args *args)
 static int cover_of(const request_args *args)
 {
   return cli_given("cover") ? args->asked.cover : args->asked.distinct ? args->asked.distinct : 1;
-}
-
-bool request_args_usual(const request_args *args)
-{
-  const request_args usual = request_args_default();
-  return args->most == 0 && args->asked.max_length == 0 && strcmp(args->ends, usual.ends) == 0 &&
-         !cli_given("cover") && args->asked.distinct == 0 && args->asked.capacity == 0 &&
-         !pull_limit(args) && args->asked.joint == THR_JOINT_SOLID;
 }
 
 /* Returns whether the cord that turns most is minimized before the sum over all cords. This is the
@@ -451,6 +447,15 @@ static const char *turning_given(void)
 {
   const char *given = cli_given_of(request_options(REQUEST_TURNING));
   return given ? given : cli_given("nodes");
+}
+
+bool request_args_unsaid(const request_args *args)
+{
+  const thr_request *asked = &args->asked;
+  return !cli_given_of(own_planned) && !turning_given() && !cli_given_of(cli_symmetry_options) &&
+         !cli_given_of(request_options(REQUEST_TUNED)) && asked->joint == THR_JOINT_SOLID &&
+         asked->distinct == 0 && asked->max_length == 0 && asked->gap < 0 &&
+         asked->crossings == THR_CROSSINGS_ALLOW;
 }
 
 /* Returns the set of facts that hold of what was asked for. wanted holds the aims, args all else.

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Prints advice beside a plan: that a hand cannot pull its cords, and which number of cords it can,
- * with the command that makes that plan.
+/* Prints beside a plan whether a hand can pull its cords, and which plan it can.
  *
- * A pull beyond 50 N at the hardest end is too hard (thr_hand_most). Advice is what `thread advise`
- * recommends, found with the same counted work, so that both say the same.
+ * A pull beyond 50 N at the hardest end is too hard (thr_hand_most). The plan that is made where
+ * nothing is said of it (planner/recommend.c) stays within 10 N (thr_hand_always) even at the upper
+ * end of the band of mu.
  *
- * Example, of the 7 x 7 dome with one cord, pulled with 181 N: "4 cords to the feet need about 3.21
- * and 3.27 N with as much cord: thread plan dome.json --cords 4 --ends feet --objective tortuosity
- * --minimize pull". */
+ * Example, of the 7 x 7 dome: "4 cords to the feet, 3.45 N each at most (6.42 N at mu = 0.3): as
+ * few as were found that a hand can pull time after time, with 10 N". */
 
 #include "cli/commands/commands.h"
 #include "cli/print/print.h"
-#include "graph/number.h"
+#include "graph/plan/physics.h"
 #include "graph/plan/plan_measures.h"
+#include "graph/plan/request.h"
 #include "planner/planner.h"
 
 static const double usual_work = 2; /* counted, in seconds */
@@ -48,24 +48,6 @@ static double largest_pull(const thr_plan *plan)
   return pull[THR_ADVICE_MU];
 }
 
-/* Appends the recommended row with its command. */
-static void put_line(const thr_advice *advice, const thr_plan *plan, const char *path,
-                     const cli_physics *physics, thr_text *text)
-{
-  const thr_advice_row *row = &advice->row[advice->chosen];
-  thr_text options = {0}, command = {0};
-  advice_command_options(physics, &options);
-  advice_put_command(&command, path, options.data ? options.data : "", row);
-
-  /* Without memory the line is left out, and whoever writes the text reports that. */
-  if (options.failed || command.failed)
-    text->failed = true;
-  else
-    advice_put_line(text, row, plan->metrics.length, command.data);
-  thr_text_destroy(&options);
-  thr_text_destroy(&command);
-}
-
 /* Appends that so much is beyond a hand; the line goes on. */
 static void put_too_hard(thr_text *text, double newton)
 {
@@ -74,39 +56,39 @@ static void put_too_hard(thr_text *text, double newton)
   plain_put_hand(text, newton);
 }
 
-void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_physics *physics,
-                           thr_text *text)
-{
-  const thr_advise_options options = {.hand = thr_hand_always, .plan = plan};
-  thr_advice advice = {0};
-  double newton = largest_pull(plan), work = 0;
-
-  if (newton <= thr_hand_most) return;
-
-  /* First that it is too hard, then what is not. */
-  put_too_hard(text, newton);
-  thr_text_append(text, ":\n");
-
-  /* As much work as for the table, so that the same row is recommended. */
-  thr_limits limits = advice_limits(-1, &work);
-  if (thr_advise(&plan->frame, &plan->options, &options, &limits, &advice, NULL))
-    advice.chosen = -1;
-  cli_progress_end();
-
-  if (advice.chosen >= 0)
-    put_line(&advice, plan, path, physics, text);
-  else
-    thr_text_append(
-        text, "         no number of cords was found that it can pull; thread advise says more\n");
-  thr_advice_destroy(&advice);
-}
-
-void advice_put_hint(const thr_plan *plan, thr_text *text)
+void advice_put_hint(const thr_plan *plan, bool unsaid, thr_text *text)
 {
   const double newton = largest_pull(plan);
   if (newton <= thr_hand_most || plan->options.max_pull > 0) return;
   put_too_hard(text, newton);
-  thr_text_printf(text, "; --max-pull %g takes as few cords as need no more\n", thr_hand_most);
+  thr_text_append(text, unsaid ? "; no number of cords was found that it can pull\n"
+                               : ";\n         thread plan without --objective, --cords and --ends "
+                                 "takes as few cords as it can pull\n");
+}
+
+void advice_put_recommended(const thr_plan *plan, thr_text *text)
+{
+  const thr_request *options = &plan->options;
+  const thr_advice_row row = {.ends = options->ends, .cords = options->cords, .all = plan->n_cords};
+  double pull[THR_ADVICE_PULLS];
+  char force[64], most[64], hand[64];
+  thr_physics physics;
+  thr_err err = {0};
+
+  /* The plan was made with this physics: it resolves. */
+  if (thr_physics_resolve(&options->physics, &plan->frame, &physics, &err)) return;
+  thr_advice_pulls(&physics, thr_cords_pulled_turning(&plan->frame, plan->cord, plan->n_cords),
+                   pull);
+
+  thr_text_append(text, "hand     ");
+  advice_put_cords(text, &row);
+  thr_text_printf(text, ", %s%s (%s at mu = %g): as few as were found\n",
+                  plain_newtons(pull[THR_ADVICE_MU], force),
+                  plan->n_cords > 1 ? " N each at most" : " N",
+                  plain_force(pull[THR_ADVICE_HIGH], most), physics.mu_high);
+  thr_text_printf(text,
+                  "         that a hand can pull time after time, with %s; --cords 1 is one cord\n",
+                  plain_force(thr_hand_always, hand));
 }
 
 thr_limits advice_limits(double seconds, double *work)

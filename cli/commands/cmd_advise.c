@@ -264,7 +264,7 @@ static int write_advice(const advise_arguments *args, const thr_frame *frame,
    * with. */
   advice_command_options(&args->physics, &options);
   if (advice->chosen >= 0)
-    advice_put_command(&command, args->path, options.data ? options.data : "",
+    advice_put_command(&command, args->path, options.data ? options.data : "", advice->hand,
                        &advice->row[advice->chosen]);
   const char *words = command.data ? command.data : "";
 

@@ -10,13 +10,16 @@
 #include "cli/cli.h"
 #include "graph/framework/frame.h"
 #include "graph/io/read.h"
+#include "graph/os.h"
 #include "graph/text.h"
 
 #include <stdio.h>
+#include <string.h>
 
 static const char intro[] =
-    "thread convert FRAME [options]: a framework, read and checked, in another format\n\n"
+    "thread convert FRAME [FILE] [options]: a framework, read and checked, in another format\n\n"
     "Examples:\n"
+    "  thread convert dome.json dome.dxf                 the name says the format\n"
     "  thread convert shell.stl --flat 1 -o shell.obj    without the diagonals of flat faces\n"
     "  thread convert dome.obj --scale 1000 --units mm --feet lowest -o dome.json\n"
     "  thread convert - -T csv < dome.json | wc -l\n";
@@ -37,6 +40,14 @@ static const cli_option own_options[] = {
     {"type", 'T', types, "the format, if the file's name does not say (default: json)",
      .kind = CLI_TEXT, .offset = offsetof(convert_arguments, type)},
     {0}};
+
+/* Tells whether the second of two files named may be meant to be read, too: a file of the same
+ * ending, as `thread convert *.obj` names it. */
+static bool is_input(const char *path, const char *second)
+{
+  const char *ending = strrchr(path, '.'), *other = strrchr(second, '.');
+  return ending && other && strcmp(ending, other) == 0 && thr_os_is_file(second);
+}
 
 /* Reads and writes. Returns an exit code. */
 static int convert(const char *path, const cli_frame_args *args, const thr_format *format,
@@ -75,9 +86,17 @@ int cmd_convert(int argc, char **argv)
   const int code = cli_options(argc, argv, &syntax, groups);
   if (code >= 0) return code;
 
-  /* One operand: the framework. */
-  if (optind + 1 != argc)
-    return cli_usage("convert", optind == argc ? "which framework?" : "one framework at a time");
+  /* The framework, and perhaps the file to write, which -o may say instead. */
+  const int operands = argc - optind;
+  if (operands == 0) return cli_usage("convert", "which framework?");
+  if (operands > 2) return cli_usage("convert", "one framework at a time, and one file to write");
+  if (operands == 2 && cli_given("output"))
+    return cli_usage("convert", "%s and --output %s: one file to write", argv[optind + 1],
+                     args.output);
+  if (operands == 2) args.output = argv[optind + 1];
+  if (operands == 2 && is_input(argv[optind], args.output))
+    return cli_usage("convert", "%s is there and of the format of %s; -o %s replaces it",
+                     args.output, argv[optind], args.output);
 
   /* The output's name and --type must agree. */
   const thr_format *format;

@@ -22,11 +22,14 @@
 #include <string.h>
 
 static const char intro[] =
-    "thread plan FRAME [options]: the threading that is shortest, turns least or is symmetric\n\n"
+    "thread plan FRAME [options]: as few cords as a hand can pull, from the best ends; or, as "
+    "asked, "
+    "the threading that is shortest, turns least or is symmetric\n\n"
     "Examples:\n"
     "  thread plan dome.obj                               plan, pictures, tables in the folder "
     "dome/\n"
     "  thread plan dome.obj --cover 2 -o plan.json        two passes per interface; the plan only\n"
+    "  thread plan dome.obj --cords 1                     one closed cord, the shortest\n"
     "  thread plan dome.obj --cords 4 --ends feet --feet lowest --balance   of much the same "
     "length\n"
     "  thread plan dome.obj --max-length 900 --ends any   as few cords as that takes\n"
@@ -138,6 +141,11 @@ void plan_ask(const plan_arguments *args, thr_objective objective, thr_request *
       args->guard.seconds < 0 ? thr_dispatch_usual_seconds(options) : args->guard.seconds;
 }
 
+bool plan_is_recommended(const plan_arguments *args)
+{
+  return request_args_unsaid(&args->request) && !args->compare;
+}
+
 thr_limits plan_limits(const plan_arguments *args, const thr_request *options, double seconds,
                        double *work)
 {
@@ -174,7 +182,11 @@ static thr_status make_plan(const plan_arguments *args, const thr_frame *framewo
   thr_limits limits = plan_limits(args, options, time_of_plan(args, options), &work);
   best_begin(framework, options);
   limits.found = best_found;
-  thr_status st = thr_plan_make(framework, options, &limits, &result->plan, &result->report, err);
+  thr_status st =
+      plan_is_recommended(args)
+          ? thr_plan_recommended(framework, options, thr_hand_always, &limits, &result->plan,
+                                 &result->report, err)
+          : thr_plan_make(framework, options, &limits, &result->plan, &result->report, err);
   cli_progress_end();
 
   if (cli_verbose) cli_note("search: ended, %.3f CPU s", thr_os_processor_seconds());
@@ -218,8 +230,9 @@ static int plan_frame(const plan_arguments *args, thr_frame *framework)
   int code = apply_physics(args, framework, &options);
   if (!code) code = request_args_apply(&args->request, framework, &options);
   if (code == EXIT_OK) {
-    /* The search, and one last chance for its cords to be kept. */
+    /* The search, and one last chance for its cords to be kept, with the options that they have. */
     thr_status st = make_plan(args, framework, &options, &result, &err);
+    if (result.plan.n_cords > 0) best_begin(&result.plan.frame, &result.plan.options);
     if (guard_deadline() > 0)
       best_found(NULL, result.plan.cord, result.plan.n_cords,
                  result.plan.symmetry.present ? &result.plan.symmetry : NULL);

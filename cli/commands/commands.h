@@ -31,15 +31,12 @@ void advice_command_options(const cli_physics *physics, thr_text *text);
  * becomes. *work stays while the limits are used. */
 thr_limits advice_limits(double seconds, double *work);
 
-/* The lines that say that the plan's pull is beyond a hand, and what is not, as `thread advise`
- * recommends it, which takes up to its usual seconds: nothing where it is not beyond a hand. path:
- * of the framework, as typed. */
-void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_physics *physics,
-                           thr_text *text);
+/* Appends that a hand cannot pull the cords of a plan, if it cannot, and which plan it can; unsaid:
+ * this was to be the one. */
+void advice_put_hint(const thr_plan *plan, bool unsaid, thr_text *text);
 
-/* Appends, where a plan that was asked for with options is beyond a hand, which option takes the
- * fewest cords that are not. Nothing where a limit on the pull was given. */
-void advice_put_hint(const thr_plan *plan, thr_text *text);
+/* Appends how many cords the recommended plan has, and what they are pulled with. */
+void advice_put_recommended(const thr_plan *plan, thr_text *text);
 
 /* ---- thread eval --calibrate: computes frictions from weights and tilted boards at the bench, and
  * draws the piece that the weights hang from. */

@@ -138,14 +138,6 @@ static int write_plan(const plan_arguments *args, thr_plan *plan, output_places 
   return written;
 }
 
-/* Returns whether nothing was said of what the plan is to be, and how long it may take: then the
- * summary ends with advice. */
-static bool is_usual(const plan_arguments *args, const thr_request *options)
-{
-  return thr_wants_length(options) && !thr_wants_balance(options) &&
-         request_args_usual(&args->request) && args->guard.seconds < 0 && !args->compare;
-}
-
 /* Appends the line about the order of work: the longest chain of pieces that is loose at a time. */
 static void put_order(const plan_arguments *args, const thr_plan *plan, thr_text *text)
 {
@@ -160,7 +152,7 @@ static void put_order(const plan_arguments *args, const thr_plan *plan, thr_text
 static int print_places(const plan_arguments *args, const thr_plan *plan, const char *plan_path,
                         const char *folder)
 {
-  const bool usual = is_usual(args, &plan->options);
+  const bool unsaid = plan_is_recommended(args);
   char names[DRAWINGS_NAMES];
   thr_text text = {0};
 
@@ -177,14 +169,10 @@ static int print_places(const plan_arguments *args, const thr_plan *plan, const 
 
   thr_text_append(&text, "\n");
 
-  /* Order of work, and a hint for plans that were asked for with options. */
+  /* Order of work, and whether a hand can pull the cords. */
   if (plan->options.order == THR_ORDER_HAND || cli_verbose) put_order(args, plan, &text);
-  if (!usual) advice_put_hint(plan, &text);
-  int code = cli_write(&text, "-");
-  if (code || !usual) return code;
-
-  /* Advice takes a search of its own, so what is known is printed first. */
-  advice_put_after_plan(plan, args->path, &args->pull.physics, &text);
+  if (unsaid && !thr_wants_length(&plan->options)) advice_put_recommended(plan, &text);
+  advice_put_hint(plan, unsaid, &text);
 
   return cli_write(&text, "-");
 }

@@ -46,6 +46,9 @@ typedef struct {
  * only one objective, and is left out of the others. */
 void plan_ask(const plan_arguments *args, thr_objective objective, thr_request *options);
 
+/* Is the plan the recommended one, as nothing was said of what it is to be? */
+bool plan_is_recommended(const plan_arguments *args);
+
 /* Returns limits for a search. Time that nobody asked for is no limit on work that is counted: such
  * a search ends at the same place on every machine, and the clock only ends it on a very busy one.
  * *work: what the limits count with; must stay while they are used. */

@@ -78,6 +78,12 @@ static int put_turning(thr_writer *writer, const plan_arguments *args, planned_r
 
   limits.deadline = deadline_of(args);
 
+  /* What nobody asked for is held against nothing on the first screen. */
+  if (plan_is_recommended(args) && !args->json && !cli_verbose) {
+    put_plan(writer, args, result, NULL);
+    return EXIT_OK;
+  }
+
   /* The shortest cords that the planner left are taken over. */
   thr_status st = thr_rivals_make(&result->plan, &result->report.shortest, args->request.compare,
                                   args->request.frontier, &limits, &rivals, &err);

@@ -40,11 +40,17 @@ void advice_put_word(thr_text *text, const char *word)
   thr_text_append(text, "'");
 }
 
-void advice_put_command(thr_text *text, const char *path, const char *options,
+void advice_put_command(thr_text *text, const char *path, const char *options, double hand,
                         const thr_advice_row *row)
 {
   thr_text_append(text, "thread plan ");
   advice_put_word(text, path);
+
+  /* What a hand always manages is what the command makes unasked. */
+  if (hand == thr_hand_always) {
+    thr_text_append(text, options);
+    return;
+  }
 
   /* Where each component has a number of cords of its own, no --cords says that: a limit on the
    * pull makes the same plan, rounded up at the fourth digit so that the row's own pull keeps to
@@ -194,29 +200,6 @@ void advice_put_holding(thr_text *text, const thr_plan *plan)
   }
   seated_put_holding(text, "  ", plan, &eval.record);
   thr_eval_destroy(&eval);
-}
-
-/* ---- one line ---- */
-
-void advice_put_line(thr_text *text, const thr_advice_row *row, double length, const char *command)
-{
-  char pull[64];
-  double more = 100 * (row->length / length - 1);
-
-  thr_text_append(text, "         ");
-  advice_put_cords(text, row);
-  thr_text_printf(text, " %s about %s", cli_plural(row->cords, "needs", "need"),
-                  plain_both(row->other, row->pull[THR_ADVICE_MU], pull));
-
-  /* What the row costs in cord, against a plan of the given length. */
-  if (fabs(more) < 0.05)
-    thr_text_append(text, " with as much cord");
-  else
-    thr_text_printf(text, " with %.1f %% %s cord", fabs(more), more > 0 ? "more" : "less");
-
-  thr_text_append(text, ":\n         ");
-  thr_text_append_clean(text, command);
-  thr_text_append(text, "\n");
 }
 
 /* ---- JSON ---- */

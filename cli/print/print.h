@@ -401,9 +401,11 @@ void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *
 void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advice *advice,
                      const char *command, const thr_plan *chosen);
 
-/* Appends "thread plan PATH --cords 4 --ends feet --objective tortuosity --minimize pull", with the
- * options that FRAME was read with (each with a blank before it), for a shell. */
-void advice_put_command(thr_text *text, const char *path, const char *options,
+/* Appends the command that makes the plan of a row that was recommended for a hand, N: "thread plan
+ * PATH" for thr_hand_always, else "thread plan PATH --cords 4 --ends feet --objective tortuosity
+ * --minimize pull", with the options that FRAME was read with (each with a blank before it), for a
+ * shell. */
+void advice_put_command(thr_text *text, const char *path, const char *options, double hand,
                         const thr_advice_row *row);
 
 /* Appends a word as a shell reads it: in quotes where it needs them. */
@@ -411,10 +413,6 @@ void advice_put_word(thr_text *text, const char *word);
 
 /* Appends "4 cords to the feet", "1 closed cord", "12 cords with ends anywhere". */
 void advice_put_cords(thr_text *text, const thr_advice_row *row);
-
-/* Appends the last lines of `thread plan` where a hand cannot pull the cords: what a hand can pull,
- * with more or less cord than `length`, units, and the command. */
-void advice_put_line(thr_text *text, const thr_advice_row *row, double length, const char *command);
 
 /* ---- symmetry_table.c: Prints the table of groups, and how the cords of a symmetric plan are
  * copies of each other. */

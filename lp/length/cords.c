@@ -142,11 +142,12 @@ static thr_status make_closed(thr_decomposition *decomposition, int n, bool even
 
   /* Circuits of the walks, then chords: paths that are passed twice more and split a walk. */
   thr_status st = thr_decomposition_circuits(decomposition, n, even, &enough, err);
-  if (!st && !enough && even) st = thr_decomposition_chords(decomposition, n, err);
-  if (st || enough || (even && decomposition->walks.n_walks >= must)) return st;
+  const bool balanced = even && thr_wants_balance(decomposition->o);
+  if (!st && !enough && balanced) st = thr_decomposition_chords(decomposition, n, err);
+  if (st || enough || (balanced && decomposition->walks.n_walks >= must)) return st;
 
   /* More passes than the shortest ones. */
-  st = make_more(decomposition, even ? must : n, err);
+  st = make_more(decomposition, balanced ? must : n, err);
   return st ? st : straighten(decomposition, scratch, err);
 }
 
@@ -416,8 +417,12 @@ static thr_status make(thr_decomposition *decomposition, shortest_known *known, 
   memcpy(decomposition->passes, known->best->passes,
          (size_t)decomposition->f->n_edges * sizeof *decomposition->passes);
   if (decomposition->o->max_length > 0) return grow(decomposition, known, err);
-  return share_out(decomposition, choose_number(decomposition), known->best->certificate,
-                   thr_wants_balance(decomposition->o), 0, err);
+
+  /* Several cords are of use if none is much longer than the others: they are evened out also
+   * where the length of all is the only aim, as far as that takes no more cord. */
+  const int n = choose_number(decomposition);
+  const bool even = thr_wants_balance(decomposition->o) || (n > 1 && !decomposition->limits->brief);
+  return share_out(decomposition, n, known->best->certificate, even, 0, err);
 }
 
 /* Says how far a value may be above the shortest possible one. why and colon come first, and may be

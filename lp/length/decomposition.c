@@ -340,14 +340,17 @@ static thr_status anneal(thr_decomposition *decomposition, double goal, thr_err 
                         err);
   if (!st) st = thr_walks_cords(&copy, frame, decomposition->o, &cord, &n, err);
 
-  /* First without further passes, as no cords are shorter together; then with them. */
+  /* First without further passes, as no cords are shorter together; then with them, if that may
+   * cost length. */
+  const thr_request *options = decomposition->o;
+  const int rounds = thr_wants_balance(options) || options->max_length > 0 ? 2 : 1;
   const double mean = thr_walks_length(walks) / n;
   const int steps = st ? 0 : STEPS + STEPS_PER_PASS * thr_cords_passes(cord, n);
   thr_anneal_task annealing = {.measure = THR_WALK_LENGTH,
                                .steps = steps < STEPS_MOST ? steps : STEPS_MOST,
                                .rounds = 1,
                                .enough = fmax(goal, mean * (1 + 1e-12))};
-  for (int i = 0; i < 2 && !st; i++) {
+  for (int i = 0; i < rounds && !st; i++) {
     bool fell;
     task.extra_limit = i == 0 ? 0 : -1;
     annealing.first = i;
@@ -365,6 +368,7 @@ static thr_status anneal(thr_decomposition *decomposition, double goal, thr_err 
 
 thr_status thr_decomposition_even(thr_decomposition *decomposition, double goal, thr_err *err)
 {
-  thr_status st = anneal(decomposition, goal, err);
-  return st ? st : make_exact(decomposition, goal, err);
+  const bool length_only = goal == 0 && !thr_wants_balance(decomposition->o);
+  const thr_status st = anneal(decomposition, goal, err);
+  return st || length_only ? st : make_exact(decomposition, goal, err);
 }

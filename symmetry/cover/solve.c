@@ -145,11 +145,10 @@ static thr_status restate(const thr_quotient *quotient, const thr_cover_options 
   if (!weaker || !cover->optimal) return THR_OK;
   return thr_fail(
       err, THR_ELIMIT, "%s",
-      claims.retraces ? "a cord that turns back over an edge in a mirror is learned both ways, in "
-                        "the search but once"
-      : claims.repeats
-          ? "cords may run alike, which the search tells apart and a plan does not"
-          : "a plan does not count the turn where a closed cord comes out, the search does");
+      claims.retraces  ? "a cord that turns back over an edge in a mirror is learned both ways, in "
+                         "the search but once"
+      : claims.repeats ? "cords may run alike, which the search tells apart and a plan does not"
+                       : "the search counts one turn more, where a closed cord comes out");
 }
 
 /* Removes cords that do not keep to what is asked of them. The values and bounds of the row stay.

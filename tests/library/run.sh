@@ -131,7 +131,7 @@ test_that 'the Python example prints the least length' python_example
 test_that 'C and Python draw the same picture' same_picture
 test_that 'the Python package does what it says' python_package
 test_that 'the wheel has the same files, and the same bytes twice' python_wheel
-test_that 'the program plans the dome' bash -c "'$usr/bin/thread' make dome | '$usr/bin/thread' plan - -o '$out/plan.json'"
+test_that 'the program plans the dome' bash -c "'$usr/bin/thread' make dome | '$usr/bin/thread' plan - --cords 1 -o '$out/plan.json'"
 test_that 'and draws the same picture' as_drawn
 for command in $("$usr/bin/thread" complete '' | cut -f 1 | grep -v help); do
   test_that "thread-$command(1) names every option" has_options "$command"

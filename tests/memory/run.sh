@@ -119,7 +119,7 @@ fits_into_40_mb() { # PLAN
   fi
 }
 
-"$program" plan "$data/jax_fdm/liew_dome.json" -q -o liew.json && "$program" plan "$data/jax_fdm/barrel.obj" -q -o barrel.json || exit 1
+"$program" plan "$data/jax_fdm/liew_dome.json" --cords 1 -q -o liew.json && "$program" plan "$data/jax_fdm/barrel.obj" --cords 1 -q -o barrel.json || exit 1
 for plan in "$data"/dome7-*.json liew.json barrel.json; do fits_into_40_mb "$plan"; done
 
 command_fails make dome --size 3 -o new.json

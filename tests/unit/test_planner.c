@@ -15,7 +15,9 @@
 #include <unistd.h>
 
 #include "graph/limits.h"
+#include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 
@@ -44,6 +46,43 @@ START_TEST(plans_for_every_objective_are_written_and_read)
   thr_text_destroy(&text);
   thr_plan_destroy(&again);
   thr_plan_destroy(&made);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* As few cords as a hand can pull even at the upper end of the band of mu, with ends at the feet;
+ * and the same ones again. */
+START_TEST(what_is_recommended_stays_within_the_hand)
+{
+  thr_frame f;
+  thr_read_report read;
+  thr_err e = {0};
+  const thr_read_options how = thr_read_options_default();
+  const thr_request o = thr_request_default();
+  const double hand = _i ? 0.5 : thr_hand_always;
+  double pull[THR_ADVICE_PULLS];
+  thr_plan p, again;
+  thr_report r, other;
+  thr_physics physics;
+  assert_ok(thr_frame_read(&f, &read, "data/dome7.json", &how, NULL, 0, &e), &e);
+  assert_ok(thr_plan_recommended(&f, &o, hand, &(thr_limits){0}, &p, &r, &e), &e);
+  assert_ok(thr_check_plan(&p, &e), &e);
+  assert_ok(thr_physics_resolve(&o.physics, &f, &physics, &e), &e);
+  thr_advice_pulls(&physics, thr_cords_pulled_turning(&p.frame, p.cord, p.n_cords), pull);
+
+  /* Nothing stays within less than the seating tension: the shortest closed cord. */
+  ck_assert_int_eq(p.options.ends, _i ? THR_ENDS_CLOSED : THR_ENDS_FEET);
+  ck_assert(_i ? p.n_cords == 1 && p.proof.optimal : pull[THR_ADVICE_HIGH] <= hand * (1 + 1e-9));
+
+  assert_ok(thr_plan_recommended(&f, &o, hand, &(thr_limits){.threads = 2}, &again, &other, &e),
+            &e);
+  ck_assert_int_eq(again.n_cords, p.n_cords);
+  ck_assert_double_eq(again.metrics.max_turning, p.metrics.max_turning);
+
+  thr_report_destroy(&other);
+  thr_plan_destroy(&again);
+  thr_report_destroy(&r);
+  thr_plan_destroy(&p);
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -364,6 +403,7 @@ int main(void)
   Suite *s = suite_create("planner");
   add_case(s, "objectives", 60, plans_for_every_objective_are_written_and_read, 0,
            THR_N_OBJECTIVES);
+  add_case(s, "recommended", 60, what_is_recommended_stays_within_the_hand, 0, 2);
   add_case(s, "proofs", 60, every_plan_comes_with_proofs, 0, 2 * THR_N_OBJECTIVES);
   add_case(s, "tours", 20, classical_tours_take_no_notice_of_time, 0, 4);
   add_case(s, "starts", 60, turning_begins_with_tours_and_the_shortest_cords, 0, 4);

@@ -381,7 +381,7 @@ def made_pieces(report, program, data):
             program.run(*source, "-o", "frame.json")
         if "lines" not in name and "stairs" not in name and "snake" not in name:
             thin = ("--cord-diameter", 0.7) if "robarch" in name else () # what its narrowest arm has room for
-            program.run("plan", plan, *thin, "-q", "-o", "made.json")
+            program.run("plan", plan, "--cords", 1, *thin, "-q", "-o", "made.json")
             plan = "made.json"
         asked = (plan, "--method", "structure")
         ideal = program.evaluate(*asked)["holding"]

@@ -20,7 +20,7 @@ const thread = (...words) => execFileSync(program, words, {encoding: 'utf8', std
 const file = (name) => path.join(scratch, name);
 
 function make(name, frame, ...options) {
-  thread('plan', frame, ...options, '-o', file(`${name}.json`));
+  thread('plan', frame, ...(options.length ? options : ['--cords', '1']), '-o', file(`${name}.json`));
   return draw(name);
 }
 
@@ -187,7 +187,7 @@ const tests = {
   async 'rising pieces are where the simulation had them'() {
     const plan = file('small.json'), url = file('rise.html'), record = file('rise.json');
     thread('make', 'dome', '--size', '3', '-o', file('d3.json'));
-    thread('plan', file('d3.json'), '-o', plan);
+    thread('plan', file('d3.json'), '--cords', '1', '-o', plan);
     thread('rise', plan, '--pull', '3', '-o', record, '--play', url);
     const {moments, frames} = JSON.parse(fs.readFileSync(record, 'utf8')).runs[0], last = frames.length - 1;
     const opened = await open({url: pathToFileURL(url).href}), {page} = opened;

@@ -148,7 +148,7 @@ const tests = {
 
   async 'its pieces to print: the same files as by the command, what does not fit, what is stopped'() {
     thread('make', 'dome', '--size', '3', '-o', file('three.json'));
-    thread('plan', file('three.json'), '-q', '-o', file('three-plan.json'));
+    thread('plan', file('three.json'), '--cords', '1', '-q', '-o', file('three-plan.json'));
     const {page, close} = await open({viewport: {width: 1280, height: 800}}), heard = await listen(page);
     await choose(page, file('three-plan.json'));
     await drawn(page);

@@ -1,0 +1,226 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Makes the plan that is recommended where nobody says which: as few cords as stay within a hand's
+ * force, with ends at the feet where these serve, and with so many cords the shortest ones that
+ * are found, and of these such that the hardest pull is small.
+ *
+ * The pull at the end of a cord is seating tension x exp(mu x reach) (graph/plan/physics.h); it is
+ * to stay within the hand even at the upper end of the band of mu. The turning of the shortest
+ * cord, shared out evenly, says how few cords could do (fewest_of); from there numbers are tried
+ * upwards in growing steps, and then by halves. A trial is a plan for the aims length, pull, of
+ * little counted work and without pricing walks (thr_limits.unpriced). The shortest cord cut into
+ * as few parts as stay within the hand (cut.c) ends the search from above, and is the plan where
+ * the framework is too large for trials.
+ *
+ * Example: the 7 x 7 dome. Its shortest cord turns by 3065 degrees, and a cord within 10 N at
+ * mu = 0.3 by 1060 at most: three cords at least. Three need 11.6 N, four 6.4 N: four cords. */
+#include "graph/number.h"
+#include "graph/plan/physics.h"
+#include "planner/planner_parts.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { MOST_TRIED = 5000 /* edges */, MOST_TRIALS = 8 };
+
+/* Counted work of a trial, s. */
+static const double work_of_trial = 0.3;
+
+/* Times as many cords as could do by their turning are tried where cutting leaves no bound. */
+static const int most_times = 4;
+
+/* As much cord as with ends anywhere, for ends at the feet (graph/plan/advice.c). */
+static const double most_for_feet = 1.5;
+
+typedef struct {
+  const thr_frame *frame;
+  thr_request request; /* with the ends, cords and aims of the trial */
+  const thr_limits *limits;
+  double reach; /* rad that an end may have to overcome within the hand */
+} recommendation;
+
+/* Does every end of the plan's cords stay within the hand? */
+static bool is_within(const recommendation *of, const thr_plan *plan)
+{
+  return plan->n_cords > 0 &&
+         thr_cords_pulled_turning(of->frame, plan->cord, plan->n_cords) <= of->reach * (1 + 1e-9);
+}
+
+/* Plans so many cords in every component; *plan stays empty where none are found. */
+static thr_status try_number(const recommendation *of, int cords, thr_plan *plan,
+                             thr_report *report, thr_err *err)
+{
+  double work = work_of_trial;
+  thr_limits little = thr_limits_counted(of->limits, &work);
+  thr_request request = of->request;
+  thr_err why = {0};
+
+  little.usual = little.unpriced = true;
+  little.found = NULL; /* another number of cords than was shown first */
+  request.cords = request.cords_least = cords;
+  const thr_status st = thr_plan_make(of->frame, &request, &little, plan, report, &why);
+
+  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves no plan */
+}
+
+/* Returns how few cords could share out the turning of the shortest cords: each turns by the reach
+ * of both its ends, and by one turn of at most 180 degrees between them. */
+static int fewest_of(const recommendation *of, const thr_plan *shortest)
+{
+  const double each = 2 * of->reach + THR_PI;
+  const double fewest = ceil(shortest->metrics.turning / shortest->n_cords / each);
+  return fewest < 1 ? 1 : fewest > THR_MOST_CORDS ? THR_MOST_CORDS : (int)fewest;
+}
+
+/* Cuts the shortest closed cords into as few as stay within the hand. *cut stays empty where they
+ * do not come by enough nodes for ends. */
+static thr_status cut_shortest(const recommendation *of, const thr_plan *shortest, thr_plan *cut,
+                               thr_err *err)
+{
+  thr_request few = of->request;
+  few.cords_least = 1;
+  few.cords = THR_MOST_CORDS;
+  few.max_pull = exp(few.physics.mu * of->reach);
+  return thr_cut_few(of->frame, &few, shortest, cut, err);
+}
+
+/* Takes a plan, with its report, in the place of another. */
+static void take(thr_plan *into, thr_report *into_report, thr_plan *plan, thr_report *report)
+{
+  thr_plan_destroy(into);
+  thr_report_destroy(into_report);
+  *into = *plan;
+  *into_report = *report;
+  *plan = (thr_plan){0};
+  *report = (thr_report){0};
+}
+
+/* Finds the fewest cords within the hand, between what the turning allows and `most`. */
+static thr_status try_numbers(const recommendation *of, int least, int most, thr_plan *plan,
+                              thr_report *report, thr_err *err)
+{
+  thr_status st = THR_OK;
+  int beyond = least - 1, within = most + 1, cords = least, step = 1;
+
+  for (int trial = 0; trial < MOST_TRIALS && !st && cords > beyond && cords < within; trial++) {
+    thr_plan tried = {0};
+    thr_report found = {0};
+
+    /* Fewer than the fewest so far that stay within the hand, more than those that do not. */
+    st = try_number(of, cords, &tried, &found, err);
+    const bool fits = !st && is_within(of, &tried);
+    if (fits) take(plan, report, &tried, &found);
+    if (fits) within = cords;
+    if (!fits) beyond = cords;
+    thr_plan_destroy(&tried);
+    thr_report_destroy(&found);
+
+    /* Growing steps until some stay within, then halves. */
+    cords = within > most && beyond + step < most ? beyond + step : (beyond + within) / 2;
+    step *= 2;
+  }
+  return st;
+}
+
+/* Plans with ends of one kind. */
+static thr_status with_ends(recommendation *of, thr_ends ends, const thr_plan *shortest,
+                            thr_plan *plan, thr_report *report, thr_err *err)
+{
+  thr_plan cut = {0};
+  of->request.ends = ends;
+
+  thr_status st = cut_shortest(of, shortest, &cut, err);
+  const int least = fewest_of(of, shortest);
+  int component,
+      most = cut.n_cords > 0 ? thr_planner_most_cords(&cut, &component) : most_times * least;
+  if (most > of->frame->n_edges) most = of->frame->n_edges;
+  if (most > THR_MOST_CORDS) most = THR_MOST_CORDS;
+
+  if (!st && of->frame->n_edges <= MOST_TRIED)
+    st = try_numbers(of, least < most ? least : most, most, plan, report, err);
+
+  /* As many as the cut cords, of any length, where no trial found any. */
+  if (!st && plan->n_cords == 0 && cut.n_cords > 0) {
+    of->request.turning.length_slack = -1;
+    st = try_number(of, most, plan, report, err);
+    of->request.turning.length_slack = 0;
+    if (!is_within(of, plan)) {
+      thr_plan_destroy(plan);
+      thr_report_destroy(report);
+    }
+  }
+
+  thr_plan_destroy(&cut);
+  return st;
+}
+
+/* May cords end at a foot in every component? */
+static thr_status has_feet(const thr_frame *frame, bool *has, thr_err *err)
+{
+  int *component = thr_calloc((size_t)frame->n_nodes, sizeof *component), n = 0, with = 0;
+  thr_status st = component ? thr_frame_components(frame, component, &n, err) : thr_nomem(err);
+  bool *seen = st ? NULL : thr_calloc((size_t)n + 1, sizeof *seen);
+  if (!st && !seen) st = thr_nomem(err);
+
+  for (int v = 0; v < frame->n_nodes && !st; v++)
+    if (frame->foot[v] && !seen[component[v]]) {
+      seen[component[v]] = true;
+      with++;
+    }
+  *has = !st && n > 0 && with == n;
+
+  free(component);
+  free(seen);
+  return st;
+}
+
+thr_status thr_plan_recommended(const thr_frame *frame, const thr_request *request, double hand,
+                                const thr_limits *limits, thr_plan *plan, thr_report *report,
+                                thr_err *err)
+{
+  recommendation of = {.frame = frame, .request = *request, .limits = limits};
+  thr_request closed = *request;
+  thr_plan shortest = {0}, any = {0};
+  thr_report report_any = {0};
+  thr_physics physics;
+  thr_err why = {0};
+  bool feet = false;
+  *plan = (thr_plan){0};
+  *report = (thr_report){0};
+
+  /* What an end may have to overcome at the upper end of the band of mu. */
+  thr_status st = thr_physics_resolve(&request->physics, frame, &physics, err);
+  if (st) return st;
+  of.reach = physics.mu_high > 0 ? log(hand / physics.seating) / physics.mu_high : INFINITY;
+
+  /* One closed cord in every component, the shortest: shown first, and cut. */
+  closed.aims = thr_aims_shortest;
+  closed.ends = THR_ENDS_CLOSED;
+  closed.cords = closed.cords_least = 1;
+  st = thr_planner_length(frame, &closed, limits, &shortest, NULL, &why);
+  if (st && (st != THR_ELIMIT || shortest.n_cords == 0)) return thr_fail(err, st, "%s", why.text);
+  thr_limits_found(limits, shortest.cord, shortest.n_cords, NULL);
+
+  /* The least length, and then an easy pull. */
+  of.request.aims = (thr_aims){1, {THR_AIM_PULL}};
+  of.request.turning.length_slack = 0;
+  st = has_feet(frame, &feet, err);
+  if (!st && feet && of.reach >= 0)
+    st = with_ends(&of, THR_ENDS_FEET, &shortest, plan, report, err);
+
+  /* Ends anywhere where there are no feet, or these take much more cord. */
+  const bool enough =
+      plan->n_cords > 0 && plan->metrics.length <= most_for_feet * plan->metrics.base_length;
+  if (!st && !enough && of.reach >= 0)
+    st = with_ends(&of, THR_ENDS_ANY, &shortest, &any, &report_any, err);
+  if (!st && any.n_cords > 0 &&
+      (plan->n_cords == 0 || plan->metrics.length > most_for_feet * any.metrics.length))
+    take(plan, report, &any, &report_any);
+
+  /* No number of cords stays within the hand: the shortest cord. */
+  if (!st && plan->n_cords == 0) st = thr_plan_make(frame, &closed, limits, plan, report, err);
+
+  thr_plan_destroy(&shortest);
+  thr_plan_destroy(&any);
+  thr_report_destroy(&report_any);
+  return st;
+}
