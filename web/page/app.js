@@ -454,11 +454,13 @@ async function makeKit(event) {
 
 // ---- 5: how they rise ----
 
+const RISE_FILES = ['rise.html', 'rise.png', 'rise.svg', 'booklet.html', 'rise.json'];
+
 // What the command line writes of a rise: {'rise.html': bytes ..}, and what it says.
 function showRise(files, lines = []) {
   rise = files;
   $('rise-said').textContent = sentences(lines);
-  listFiles($('rise-files'), Object.keys(files).map((file) => [file, () => files[file]]));
+  listFiles($('rise-files'), RISE_FILES.filter((file) => files[file]).map((file) => [file, () => files[file]]));
   if (!files['rise.html']) {
     $('rise-picture').replaceChildren(caption('The pieces rise here, pulled by their cords in simulation. Many of them take minutes.'));
     return;
