@@ -5,7 +5,7 @@ tools/make_docs.py THREAD           rewrites the pictures, the gallery and the o
 tools/make_docs.py THREAD --check   compares the outputs in the tutorial only: prints what differs, exit code 1
 
 docs/tutorial.md holds fenced blocks whose lines `$ thread ..` are commands, run one after another in one empty folder; what they
-print follows each of them. docs/gallery.md holds one row of numbers for each framework of GALLERY, and one for each kit of KITS.
+print follows each of them. docs/gallery.md holds a row for each framework of GALLERY, each kit of KITS and each rise of RISES.
 Pictures are PNG files in docs/pictures, made by rsvg-convert and pdftoppm from the drawings of the program; the first one of README.md
 is put together from several.
 """
@@ -22,6 +22,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PICTURES = os.path.join("docs", "pictures")
 BEGIN, END = "<!-- the table that make docs writes -->", "<!-- end -->"
 KITS_BEGIN = "<!-- the kits that make docs writes -->"
+RISES_BEGIN = "<!-- the rises that make docs writes -->"
 
 # What each row of the gallery is: its name, where the framework is from (a shape to make, or a file of data/), and the options
 # of the plan.
@@ -45,6 +46,13 @@ KITS = [
     ("sphere", None, None, "B3"),
     ("honeycomb-3", ["honeycomb", "--size", "3"], ["--cords", "8", "--ends", "any"], "C2"),
     ("voronoi", "assembly-instances/voronoi_S1_03-14-2019_w_layer.json", ["--cords", "6", "--ends", "any", "--objective", "length"], "13"),
+]
+
+# Rises: name, plan of data/, what is said of it, options. The first one is the film of README.md, too.
+RISES = [
+    ("rise-lines", "dome7-lines.json", "the dome on 14 straight cords", ["--pull", "3"]),
+    ("rise-snake-1", "dome7-snake.json", "the same dome on one cord through all rows and columns", ["--seed", "1"]),
+    ("rise-snake-2", "dome7-snake.json", "the same cord from another disorder", ["--seed", "2"]),
 ]
 
 # The first picture of README.md: three pieces, a page of the booklet, the dome; px.
@@ -170,9 +178,24 @@ def first_picture(run, pictures):
     svg_to_png(run.path("first.svg"), os.path.join(pictures, "first.png"), 1200)
 
 
-def film(run, pictures):
-    """A dome that rises, as README shows it."""
-    run.thread("rise", os.path.abspath("data/dome7-lines.json"), "--pull", "3", "--size", "480x300", "--film", os.path.abspath(os.path.join(pictures, "rise.png")))
+def rise_row(run, entry, pictures):
+    """The plan's pieces let rise, as a film for README if it is the first; its row of the table: the first picture, the last one."""
+    name, plan, what, options = entry
+    source = os.path.join("data", plan)
+    film = ["--film", os.path.abspath(os.path.join(pictures, "rise.png"))] if entry is RISES[0] else []
+    said = run.thread("rise", source, *options, "--size", "480x300", "--frames", name, *film).split("\n")
+    frames = sorted(os.listdir(run.path(name)))
+    for frame, at in ((frames[0], "begin"), (frames[-1], "end")):
+        shutil.copy(run.path(os.path.join(name, frame)), os.path.join(pictures, "%s-%s.png" % (name, at)))
+    show = "<img src=\"pictures/%s-%s.png\" width=\"360\" alt=\"%s\">"
+    return "| %s | %s | `thread rise %s`<br><br>%s: %s; %s |" % (
+        show % (name, "begin", what + ", flat on the ground"), show % (name, "end", what + ", pulled"), " ".join([source, *options]), what,
+        *said[1:3])
+
+
+def rises(run, page, pictures):
+    """The page with the table of what rises made anew."""
+    return with_table(page, RISES_BEGIN, "flat on the ground | pulled | made by", [rise_row(run, entry, pictures) for entry in RISES])
 
 
 def with_outputs(run, page):
@@ -234,9 +257,8 @@ def main():
         same &= put(pages["tutorial.md"], with_outputs(run, text["tutorial.md"]), check)
         if not check:
             tutorial_pictures(run, PICTURES)
-            put(pages["gallery.md"], gallery(run, text["gallery.md"], PICTURES), check)
+            put(pages["gallery.md"], rises(run, gallery(run, text["gallery.md"], PICTURES), PICTURES), check)
             first_picture(run, PICTURES)
-            film(run, PICTURES)
     finally:
         shutil.rmtree(run.folder)
     sys.exit(0 if same or not check else 1)

@@ -207,6 +207,75 @@ const tests = {
     await close();
   },
 
+  async 'how it rises: the same files as by the command, played; what jams, what does not rise, what is stopped'() {
+    fs.writeFileSync(file('ring.obj'), 'v 0 0 0\nv 40 0 0\nv 20 35 0\nl 1 2 3 1\n');
+    fs.writeFileSync(file('arch.obj'), 'v 0 0 0\nv 40 0 25\nv 80 0 0\nl 1 2 3\n');
+    thread('make', 'dome', '--size', '3', '-o', file('dome3.obj'));
+    for (const name of ['ring', 'arch', 'dome3']) thread('plan', file(`${name}.obj`), '--ends', 'any', '--units', 'mm', '-q', '-o', file(`${name}.json`));
+    const {page, close} = await open({viewport: {width: 1280, height: 800}}), heard = await listen(page);
+    const part5 = part(page, 'Watch it rise'), listed = part5.getByRole('list', {name: 'Files of the rise, one by one'});
+    const watch = () => part5.getByRole('button', {name: 'Watch it rise'}).click();
+    const pull = page.getByLabel('How hard does a hand pull each end, in newtons, at most?'), lifted = page.getByLabel('Which piece does another hand lift to its height?');
+    await choose(page, file('ring.json'));
+    await drawn(page);
+
+    // What the command says, in words that the page has; by keyboard: the files that the command writes.
+    await lifted.fill('Z9');
+    await watch();
+    await page.getByRole('alert').filter({hasText: 'no such piece'}).waitFor({timeout: 120000});
+    assert.equal(await trouble(page), 'Z9: the plan has no such piece');
+    await lifted.fill('');
+    await tabTo(page, 'How hard does a hand pull each end, in newtons, at most?');
+    await page.keyboard.type('1');
+    await tabTo(page, 'Watch it rise');
+    await page.keyboard.press('Enter');
+    await listed.getByRole('listitem').first().waitFor({timeout: 120000});
+    const own = (name) => path.join(file('rise'), name);
+    fs.mkdirSync(file('rise'));
+    fs.copyFileSync(file('ring.json'), own('plan.json')); // the plot names the plan
+    const written = ['--play', 'rise.html', '--film', 'rise.png', '--plot', 'rise.svg', '--booklet', 'booklet.html', '-o', 'rise.json'];
+    const said = execFileSync(program, ['rise', 'plan.json', '--pull', '1', ...written], {cwd: file('rise'), encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe']});
+    assert.deepEqual((await listed.getByRole('listitem').allInnerTexts()).sort(), ['booklet.html', 'rise.html', 'rise.json', 'rise.png', 'rise.svg']);
+    assert.match(await part5.innerText(), new RegExp(said.split('\n')[1], 'i'), 'what the command says');
+    for (const name of ['rise.html', 'rise.json', 'rise.png', 'rise.svg'])
+      assert.ok(fs.readFileSync(await download(page, name)).equals(fs.readFileSync(own(name))), `${name} differs`);
+    const stills = (name) => fs.readFileSync(name, 'utf8').split('How it comes up')[1].split('Knots')[0]; // steps before may be drawn in another order
+    assert.equal(stills(await download(page, 'booklet.html')), stills(own('booklet.html')));
+    assert.match(await heard(), /Pulling the cords[^]*[Cc]omes up at /);
+
+    // The player: it plays, and stops at the end; wide enough on a telephone.
+    const player = page.frameLocator('iframe[title="The pieces as they rise"]');
+    await until(async () => Number(await player.locator('#slider').inputValue()) > 0, 'it plays by itself');
+    await page.screenshot({path: file('rise-1280x800.png')});
+    await page.setViewportSize({width: 390, height: 844});
+    await part5.screenshot({path: file('rise-390x844.png')});
+    assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 390, 'wider than a telephone');
+
+    // An arch falls over; with a hand at its middle it comes up. Stopped on the way nothing is left.
+    await choose(page, file('arch.json'));
+    await part(page, 'Your framework').getByText(/^arch: /).waitFor();
+    await drawn(page);
+    assert.equal(await listed.getByRole('listitem').count(), 0);
+    await pull.fill('2');
+    await watch();
+    await part5.getByText(/Does not come up[^]*The widest gap stays between/).waitFor({timeout: 120000});
+    await lifted.fill('2');
+    await watch();
+    await part5.getByText(/Comes up at /).waitFor({timeout: 120000});
+    await choose(page, file('dome3.json'));
+    await part(page, 'Your framework').getByText(/^dome3: /).waitFor();
+    await drawn(page);
+    await page.getByLabel('How do the pieces begin?').selectOption('heap');
+    await pull.fill('');
+    await lifted.fill('');
+    await watch();
+    await part(page, 'Pulling the cords').getByText(/ faces closed \.\. \d+ %$/).waitFor({timeout: 60000});
+    await page.getByRole('button', {name: 'Stop', exact: true}).click();
+    await page.getByRole('alert').filter({hasText: 'Stopped: nothing was seen.'}).waitFor();
+    assert.equal(await listed.getByRole('listitem').count(), 0);
+    await close();
+  },
+
   async 'bad files get the line of the command line'() {
     const bad = {
       'bad.obj': 'v 0 0 0\nv 1 0\nl 1 2\n', 'cut.json': '{"nodes": [[0, 0, 0], [1, 0', 'empty.csv': '', 'picture.svg': '<svg xmlns="http://www.w3.org/2000/svg"/>',

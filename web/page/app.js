@@ -4,7 +4,7 @@ const $ = (id) => document.getElementById(id);
 const sources = [$('worker').textContent, $('wasm').textContent];
 const engine = new EngineClient(...sources), adviser = new EngineClient(...sources); // advice does not wait for a search
 const QUESTIONS = ['pull', 'cords', 'ends', 'aim', 'joint', 'seconds'];
-const KIT_QUESTIONS = ['width', 'bed', 'names', 'key'];
+const LATER_QUESTIONS = ['width', 'bed', 'names', 'key', 'start', 'most', 'raised']; // about its pieces
 const text = (bytes) => new TextDecoder().decode(bytes);
 
 let frame = null; // thread-frame, as JSON
@@ -13,6 +13,7 @@ let plan = ''; // text of plan.json
 let best = ''; // the same, while the search runs
 let said = ''; // what the program said of the plan when it was made
 let kit = {}; // files of its pieces, once they are made
+let rise = {}; // files of how they rose
 let past = []; // states before, for Undo
 const sketch = new Sketch($('sketch'), (node) => changeFeet(toggled(node)));
 
@@ -30,11 +31,11 @@ const notesOf = (stderr) => stderr.split('\n').filter((line) => /^thread: note:/
 
 // ---- state: undo, reload, link ----
 
-const answers = () => Object.fromEntries([...QUESTIONS, ...KIT_QUESTIONS].map((id) => [id, $(id).value]));
+const answers = () => Object.fromEntries([...QUESTIONS, ...LATER_QUESTIONS].map((id) => [id, $(id).value]));
 
 // Numbers of cords that are not in the list, which advice and links may bring, are added to it.
 function setAnswers(given) {
-  for (const id of KIT_QUESTIONS) if (given[id] !== undefined) $(id).value = given[id];
+  for (const id of LATER_QUESTIONS) if (given[id] !== undefined) $(id).value = given[id];
   for (const id of QUESTIONS) {
     const value = given[id], known = [...$(id).options].some((option) => option.value === value);
     if (value === undefined) continue;
@@ -264,7 +265,7 @@ function wanted() {
 
 // stop: what the button says that ends the work; none without it.
 function busy(words, stop = '', title = 'At work') {
-  for (const id of ['frame-part', 'question-part', 'result-part', 'kit-part']) $(id).inert = Boolean(words); // a search is for what is shown
+  for (const id of ['frame-part', 'question-part', 'result-part', 'kit-part', 'rise-part']) $(id).inert = Boolean(words); // a search is for what is shown
   $('work-part').hidden = !words;
   $('work-title').textContent = title;
   $('work').textContent = words;
@@ -282,7 +283,7 @@ function progressWords(line) {
   if (!line.startsWith('{')) return {};
   const {what, best: value, bound, gap, length, cords, done} = JSON.parse(line);
   if (what === 'plan') return {plan: `Found: ${plural(cords, 'cord')}, ${length.toPrecision(4)} ${frame.units || ''}.`};
-  if (done !== undefined) return {done};
+  if (done !== undefined) return {done, what};
   if (!(bound > 0)) return {};
   const better = gap >= 0.005 ? `Nothing can be more than ${gap.toPrecision(2)} % better` : 'Nothing is better';
   if (what !== 'turning') return {proved: `${better}.`};
@@ -333,10 +334,11 @@ async function draw(type, file) {
 }
 
 async function showResult() {
-  $('result-part').hidden = $('kit-part').hidden = !plan;
+  $('result-part').hidden = $('kit-part').hidden = $('rise-part').hidden = !plan;
   $('viewer').srcdoc = '';
   $('files').replaceChildren();
   showKit({});
+  showRise({});
   if (!plan) return;
   const shown = plan, check = await engine.run(['check', 'plan.json'], {'plan.json': plan});
   if (shown !== plan) return;
@@ -386,7 +388,7 @@ async function saveAll() {
     if (bytes) files[file] = bytes;
   }
   busy('');
-  save(zip({...files, ...kit}), `${name || 'plan'}.zip`);
+  save(zip({...files, ...kit, ...rise}), `${name || 'plan'}.zip`);
 }
 
 async function openBooklet() {
@@ -403,11 +405,23 @@ async function openBooklet() {
 // A line of the program in the words of the page, which has no options: "--width 4" is "width 4".
 const inWords = (line) => line.replace(/ \(plan --scale\)| \(see `[^`]*`\)/g, '').replace(/--([a-z-]+)/g, (_, option) => option.replaceAll('-', ' '));
 
+const capital = (words) => words[0].toUpperCase() + words.slice(1);
+const sentences = (lines) => lines.map((line) => `${capital(line)}.`).join(' ');
+
+// Hears of a part of the work that is done: the bar, and words, those of the program if none are given, with a percentage.
+const showDone = (words) => (line) => {
+  const {done, what} = progressWords(line);
+  if (!(done > 0)) return;
+  $('bar').value = done;
+  $('work').textContent = `${words ?? capital(what)} .. ${Math.floor(100 * done)} %`;
+  hear($('work').textContent, true);
+};
+
 // What the command line writes of a kit: {'kit/kit.3mf': bytes ..}, and what it says.
 function showKit(files, lines = []) {
   const figure = $('kit-picture'), picture = files['kit/kit.png'], parts = Object.entries(files).filter(([file]) => /\.stl$/.test(file));
   kit = files;
-  $('kit-said').textContent = lines.map((line) => `${line[0].toUpperCase()}${line.slice(1)}. `).join('').trim();
+  $('kit-said').textContent = sentences(lines);
   figure.replaceChildren(caption('The pieces appear here. Many of them take minutes.'));
   listFiles($('kit-files'), [...Object.keys(files).filter((file) => !/\.stl$/.test(file)).map((file) => [file.replace('kit/', ''), () => files[file]]),
     ...(parts.length ? [['stl.zip', () => zip(Object.fromEntries(parts.map(([file, bytes]) => [file.replace('kit/', ''), bytes])))]] : [])]);
@@ -424,14 +438,7 @@ async function makeKit(event) {
   busy('Making the pieces ..', 'Stop', 'Making the pieces');
   const {width, bed, names, key} = answers(), args = ['kit', 'plan.json', '--bed', bed.replaceAll(' ', '').replace('×', 'x'), '--names', names, '--key', key];
   if (width) args.push('--width', width);
-  const onLine = (line) => {
-    const {done} = progressWords(line);
-    if (!(done > 0)) return;
-    $('bar').value = done;
-    $('work').textContent = `Making the pieces .. ${Math.floor(100 * done)} %`;
-    hear($('work').textContent, true);
-  };
-  const {exit, stderr, files} = await engine.run([...args, '--stl', '--progress', '-o', 'kit'], {'plan.json': plan}, {onLine});
+  const {exit, stderr, files} = await engine.run([...args, '--stl', '--progress', '-o', 'kit'], {'plan.json': plan}, {onLine: showDone('Making the pieces')});
   busy('');
   if (exit !== 0) {
     showKit({});
@@ -443,6 +450,47 @@ async function makeKit(event) {
   $('viewer').srcdoc = text(files['kit/kit.html']); // the same steps, with these pieces
   hear($('kit-said').textContent);
   $('kit-title').scrollIntoView({block: 'start'});
+}
+
+// ---- 5: how they rise ----
+
+const RISE_FILES = ['rise.html', 'rise.png', 'rise.svg', 'booklet.html', 'rise.json'];
+
+// What the command line writes of a rise: {'rise.html': bytes ..}, and what it says.
+function showRise(files, lines = []) {
+  rise = files;
+  $('rise-said').textContent = sentences(lines);
+  listFiles($('rise-files'), RISE_FILES.filter((file) => files[file]).map((file) => [file, () => files[file]]));
+  if (!files['rise.html']) {
+    $('rise-picture').replaceChildren(caption('The pieces rise here, pulled by their cords in simulation. Many of them take minutes.'));
+    return;
+  }
+  const player = document.createElement('iframe');
+  player.title = 'The pieces as they rise';
+  player.srcdoc = text(files['rise.html']);
+  $('rise-picture').replaceChildren(player);
+}
+
+// The pieces are as wide as those to print.
+async function makeRise(event) {
+  event.preventDefault();
+  complain('');
+  busy('Pulling the cords ..', 'Stop', 'Pulling the cords');
+  const {start, most, raised, width} = answers(), args = ['rise', 'plan.json', '--start', start];
+  if (most) args.push('--pull', most);
+  if (raised.trim()) args.push('--raise', raised.trim());
+  if (width) args.push('--width', width);
+  const outputs = ['--play', 'rise.html', '--film', 'rise.png', '--plot', 'rise.svg', '--booklet', 'booklet.html', '--page', $('paper').value, '-o', 'rise.json'];
+  const {exit, stdout, stderr, files} = await engine.run([...args, ...outputs, '--progress'], {'plan.json': plan}, {onLine: showDone()});
+  busy('');
+  if (exit !== 0) {
+    showRise({});
+    complain(exit === -1 ? 'Stopped: nothing was seen.' : inWords(lastLine(stderr)));
+    return;
+  }
+  showRise(files, stdout.trim().split('\n'));
+  hear($('rise-said').textContent);
+  $('rise-title').scrollIntoView({block: 'start'});
 }
 
 // ---- events ----
@@ -466,8 +514,10 @@ async function begin() {
     remember();
     if (event.target.id === 'pull') advise();
   });
-  $('kit-questions').addEventListener('submit', makeKit);
-  $('kit-questions').addEventListener('change', remember);
+  for (const [form, make] of [['kit-questions', makeKit], ['rise-questions', makeRise]]) {
+    $(form).addEventListener('submit', make);
+    $(form).addEventListener('change', remember);
+  }
   $('stop').addEventListener('click', () => engine.stop());
   $('undo').addEventListener('click', undo);
   $('link').addEventListener('click', copyLink);
