@@ -305,6 +305,7 @@ void thr_planner_tell_first(const thr_frame *frame, const thr_request *options,
 
   /* Plan the shortest cords in a part of the time, without confirmation. */
   share.found = NULL;
+  share.brief = true; /* not evened out: it is the first plan to tell of, no more */
   length.aims = thr_aims_shortest;
   length.turning = thr_request_default().turning;
   length.confirm = THR_CONFIRM_NEVER;

@@ -8,6 +8,7 @@
 #include "cli/cli.h"
 #include "eval/rise/rise.h"
 #include "graph/limits.h"
+#include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
 #include "kit/kit.h"

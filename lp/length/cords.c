@@ -421,7 +421,8 @@ static thr_status make(thr_decomposition *decomposition, shortest_known *known, 
   /* Several cords are of use if none is much longer than the others: they are evened out also
    * where the length of all is the only aim, as far as that takes no more cord. */
   const int n = choose_number(decomposition);
-  const bool even = thr_wants_balance(decomposition->o) || (n > 1 && !decomposition->limits->brief);
+  const bool even = thr_wants_balance(decomposition->o) ||
+                    (n > 1 && thr_wants_length(decomposition->o) && !decomposition->limits->brief);
   return share_out(decomposition, n, known->best->certificate, even, 0, err);
 }
 
