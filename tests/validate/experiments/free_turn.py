@@ -57,7 +57,7 @@ def section(program, folder):
             note = f"jumps from {below:.0f} to {above:.0f} degrees about {side:.3g} mm"
         folded = next(cord for cord, closed, _ in angles if closed > 180 - 1e-6)
         lines.append(f"| {figure} | `thread {' '.join(command)}` | below {folded:.3g} mm | {off:.1f} degrees | {folded_off:.1f} degrees | {note} |")
-        pictures.append(f"![{shape}: largest angle against free cord]({name})")
+        pictures.append(f"![{shape}: largest angle against free cord](pictures/experiments/{name})")
     return "\n".join([*lines, "", *pictures, ""])
 
 
