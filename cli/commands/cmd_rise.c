@@ -344,9 +344,10 @@ static void put_outcome(const rise_runs *runs, thr_text *text)
   if (2 * up > runs->n_runs) {
     thr_text_append(text, runs->args->rise.start == THR_RISE_SHAPE ? ": it stands at " : " at ");
     put_spread(runs, rise_pull_up, "N", text);
-    thr_text_append(text, runs->args->schedule        ? ", the largest pull by then"
-                          : runs->args->rise.rate > 0 ? " at the end that is pulled hardest"
-                                                      : " at every end");
+    thr_text_append(text, runs->args->schedule                ? ", the largest pull by then"
+                          : runs->args->rise.rate > 0         ? " at the end that is pulled hardest"
+                          : runs->args->ends == THR_PULL_BOTH ? " at every end"
+                                                              : " at one end of every cord");
   }
 }
 
@@ -628,7 +629,7 @@ static int write_booklet(const rise_runs *runs)
       for (int k = 0; k < 3; k++)
         own[v][k] /= runs->pieces.kit.mm;
     snprintf(caption[i], sizeof *caption, "%d of %d faces closed, %.3g N at every end",
-             moment->closed, record->n_passes, moment->pull);
+             moment->closed, record->n_counted, moment->pull);
     panel[i] = (thr_still_panel){id[i], caption[i], (const double(*)[7])own};
   }
 
