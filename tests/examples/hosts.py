@@ -56,7 +56,7 @@ class Mesh:
 
 
 lines = [(tuple(DOME["nodes"][a]), tuple(DOME["nodes"][b])) for a, b in DOME["edges"]]
-cords, summary, _ = thread_lines(lines, "", PROGRAM)
+cords, summary, _ = thread_lines(lines, "--cords 1", PROGRAM)
 holds("Grasshopper: one closed cord", len(cords) == 1 and cords[0][0] == cords[0][-1])
 holds("Grasshopper: the least length", abs(length(cords[0]) - LENGTH) < 5e-7 and abs(summary["length"] - LENGTH) < 5e-7)
 holds("Grasshopper: every line has cord", {frozenset(l) for l in lines} == {frozenset(s) for s in zip(cords[0], cords[0][1:])})
@@ -72,7 +72,7 @@ xyz = {key: [graph.node_attribute(key, axis) for axis in "xyz"] for key in graph
 holds("COMPAS: four cords between feet", len(keys) == 4 and {cord[i] for cord in keys for i in (0, -1)} <= {"A1", "A7", "G1", "G7"})
 holds("COMPAS: every edge has cord", {frozenset(e) for e in graph.edges()} == {frozenset(s) for c in keys for s in zip(c, c[1:])})
 holds("COMPAS: the length", abs(sum(length([xyz[k] for k in cord]) for cord in keys) - summary["length"]) < 1e-6)
-keys, summary = thread(Mesh(), PROGRAM)
+keys, summary = thread(Mesh(), PROGRAM, cords=1)
 holds("COMPAS: a mesh", abs(length([Mesh().vertex_coordinates(k) for k in keys[0]]) - LENGTH) < 5e-7)
 
 print("%d passed, %d failed" % (counts[True], counts[False]))
