@@ -320,7 +320,7 @@ static void put_title(const rise_runs *runs, thr_text *text)
   for (int c = 0; c < structure->n_cords; c++)
     ends +=
         structure->cord[c].slack ? 0 : structure->cord[c].pulled[0] + structure->cord[c].pulled[1];
-  thr_text_printf(text, "%d pieces, %.3g N in all, %d %s ", structure->n_pieces, record->weight,
+  thr_text_printf(text, "%d pieces that weigh %.3g N, %d %s ", structure->n_pieces, record->weight,
                   structure->n_cords, cli_plural(structure->n_cords, "cord", "cords"));
   if (runs->args->schedule)
     thr_text_append(text, "pulled by a schedule");
@@ -359,18 +359,22 @@ static void put_text(const rise_runs *runs, thr_text *text)
   put_title(runs, text);
   thr_text_append(text, "\n");
   put_outcome(runs, text);
-  thr_text_printf(text,
-                  "\n%d of %d faces closed, highest node at %.3g mm, %.3g mm of cord drawn in\n",
-                  record->most_closed, record->n_counted, last->height, last->drawn);
+  thr_text_printf(
+      text,
+      "\n%d of %d faces closed, one a pass, highest node at %.3g mm, %.3g mm of cord drawn in\n",
+      record->most_closed, record->n_counted, last->height, last->drawn);
   if (record->most_closed < record->n_counted) {
     const char *name[2] = {"", ""};
     rise_pass_names(&runs->pieces, record->loosest, name);
     thr_text_printf(text, "the widest gap stays between %s and %s\n", name[0], name[1]);
   }
   if (runs->pieces.seated > 0 && isfinite(runs->pieces.seated))
-    thr_text_printf(text, "by the closed form %.3g N seat every pass", runs->pieces.seated);
+    thr_text_printf(text, "beside that: %.3g N leave %.3g N in every pass (closed form)",
+                    runs->pieces.seated, runs->pieces.made.structure.physics.seating);
   if (runs->pieces.stands > 0 && isfinite(runs->pieces.stands))
-    thr_text_printf(text, "; by limit analysis it stands from %.3g N on", runs->pieces.stands);
+    thr_text_printf(text,
+                    "; below %.3g N it cannot stand while cords are drawn in (limit analysis)",
+                    runs->pieces.stands);
   if (runs->pieces.seated > 0) thr_text_append(text, "\n");
   if (runs->args->dent) {
     thr_text_append(text, "dented, it differed from the drawn shape by ");
