@@ -28,6 +28,7 @@ const FRAMES = {
 
 // A framework and options: a plan each.
 const PLANS = [
+  ['dome3', '--cords 1'],
   ['dome3', ''],
   ['dome3', '--ends A1,B1 --cover 2 --capacity 4 --crossings price'],
   ['dome3', '--ends A1:2,B1:2 --cords 2 --tune confirm=always --preset pla-braid'],
@@ -109,7 +110,9 @@ function makePlans(program, scratch) {
   noted.options.physics.note = 'from the bench';
   const open = structuredClone(plans[0].plan);
   open.proof.length.slack = 'open';
-  plans.push({name: 'note', plan: noted}, {name: 'slack', plan: open});
+  const filmed = structuredClone(plans.find(({plan}) => plan.evaluation?.structure).plan);
+  filmed.evaluation.structure.stills = [{pull: 1}];
+  plans.push({name: 'note', plan: noted}, {name: 'slack', plan: open}, {name: 'stills', plan: filmed});
   return plans;
 }
 

@@ -64,7 +64,7 @@ const TABLES = {
   'symmetry, member': ['symmetry'], 'metrics, member': ['metrics'],
   'evaluation, member': ['evaluation'], 'evaluation, member of a cord': ['evaluatedCord'],
   'evaluation, member of a step': ['step'], 'evaluation, member of `structure`': ['structure'],
-  'evaluation, member of a still': ['still'], 'evaluation, member of an answer': ['answer'],
+  'evaluation, member of an answer': ['answer'],
   'proof, length, member': ['lengthProof', 'certificate'],
   'proof, length, member of a cut': ['cut'], 'proof, cords, member': ['cordsProof'],
   'proof, pull, member': ['pullOfOne', 'pullOfParts'], 'proof, turning, member': ['turningProof'],

@@ -609,7 +609,7 @@ function plans() {
     symmetric: make('symmetric', file('d6.json'), '--objective', 'symmetry'),
     evaluated: draw('evaluated'),
     tubes: asTubes('several'),
-    space: make('space', path.join(data, 'assembly-instances/voronoi_S1_03-14-2019_w_layer.json'), '--time-limit', '3'),
+    space: make('space', path.join(data, 'assembly-instances/voronoi_S1_03-14-2019_w_layer.json'), '--cords', '1'),
     hostile: make('hostile', file('hostile-frame.json'), '--objective', 'length', '--ends', 'closed'),
   };
 }
