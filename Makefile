@@ -291,7 +291,7 @@ $(DIR)/man/thread-%.1: $(PROGRAM) tools/man_page.awk
 	@$(PROGRAM) $* --help | awk -v command=$* -v version=$(VERSION) -f tools/man_page.awk > $@
 
 install: all library man ## install program, library, man pages, completions, docs, examples under $(DESTDIR)$(PREFIX)
-	install -d "$(PACKAGE)" "$(BIN)" "$(LIB)/pkgconfig" "$(DESTDIR)$(PREFIX)/include" "$(SHARE)/man/man1" "$(SHARE)/doc/thread/pictures"
+	install -d "$(PACKAGE)" "$(BIN)" "$(LIB)/pkgconfig" "$(DESTDIR)$(PREFIX)/include" "$(SHARE)/man/man1" "$(SHARE)/doc/thread/pictures/experiments"
 	install -m 755 $(PROGRAM) "$(BIN)/thread"
 	install -m 755 $(SHARED) "$(LIB)/$(notdir $(SHARED))"
 	ln -sf $(notdir $(SHARED)) "$(LIB)/$(SONAME)"
@@ -302,7 +302,8 @@ install: all library man ## install program, library, man pages, completions, do
 	install -m 644 python/thread_plan/*.py python/thread_plan/py.typed "$(PACKAGE)/"
 	install -m 644 docs/thread.1 $(MAN_PAGES) "$(SHARE)/man/man1/"
 	install -m 644 README.md CHANGELOG.md docs/*.md docs/plan.schema.json "$(SHARE)/doc/thread/"
-	install -m 644 docs/pictures/* "$(SHARE)/doc/thread/pictures/"
+	install -m 644 docs/pictures/*.* "$(SHARE)/doc/thread/pictures/"
+	install -m 644 docs/pictures/experiments/* "$(SHARE)/doc/thread/pictures/experiments/"
 	cp -R examples "$(SHARE)/doc/thread/"
 	@if [ -z "$(DESTDIR)" ] && [ "$$(id -u)" = 0 ]; then ldconfig; else echo "thread: run ldconfig as root if the linker does not find libthread.so.0" >&2; fi
 	install -D -m 644 completions/thread.bash "$(SHARE)/bash-completion/completions/thread"
