@@ -537,14 +537,14 @@ static thr_status check(const thr_rise_structure *structure, const thr_rise_opti
   if (structure->physics.gravity < 0 || structure->physics.stiffness < 0)
     return thr_fail(err, THR_EINPUT, "rise: %s is below 0",
                     structure->physics.gravity < 0 ? "gravity" : "the stiffness of cords");
+  const thr_status st = thr_hands_check(structure, options, err);
+  if (st) return st;
   bool pulled = false;
   for (int c = 0; c < structure->n_cords; c++)
     pulled |=
         !structure->cord[c].slack && (structure->cord[c].pulled[0] || structure->cord[c].pulled[1]);
   if (!pulled && !options->schedule)
     return thr_fail(err, THR_EINPUT, "rise: no cord has an end that is pulled");
-  const thr_status st = thr_hands_check(structure, options, err);
-  if (st) return st;
   if (!(thr_rise_edge(structure) > 0))
     return thr_fail(err, THR_EINPUT, "rise: the cords join no two pieces at different places");
   bool loose = false;
