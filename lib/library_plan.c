@@ -178,8 +178,8 @@ static void destroy(thread_plan *plan)
   free(plan);
 }
 
-/* Works out the pulls and tensions by the closed form. A plan whose pulls are more than numbers
- * hold has none. */
+/* Works out the pulls and tensions by the closed form, unless the plan has an evaluation of its
+ * own. A plan whose pulls are more than numbers hold has none. */
 static thr_status pull_by_closed_form(thread_plan *plan, thr_err *err)
 {
   const thr_plan *made = &plan->plan;
@@ -188,6 +188,7 @@ static thr_status pull_by_closed_form(thread_plan *plan, thr_err *err)
   thr_eval found = {0};
   thr_eval_options options = thr_eval_options_default();
   options.physics = made->options.physics;
+  if (made->evaluation.present) return THR_OK;
 
   thr_status st = thr_eval_plan(&made->frame, made->cord, made->n_cords, THR_CAPSTAN, &options,
                                 &limits, &found, &overflow);

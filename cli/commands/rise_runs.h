@@ -28,8 +28,8 @@ typedef struct {
   thr_rise_kit made;
   thr_pull ends; /* which ends of every cord are pulled */
   double seated; /* N at every end that seat every pass, by the closed form; NAN: not known */
-  double stands; /* N at every end from which on it stands, by the limit analysis of these very
-                    pieces in their closed shape; NAN: not known */
+  double stands; /* N at every end below which nothing stands while cords are drawn in, by the limit
+                    analysis of these very pieces in their closed shape; NAN: not known */
 } rise_pieces;
 
 /* What else counts: {THR_PULL_BOTH} is usual. */

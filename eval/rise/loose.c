@@ -231,6 +231,18 @@ static thr_status add_piece(thr_rise_bodies *bodies, int p, double (*points)[3],
   return st;
 }
 
+thr_world_options thr_rise_world_options(double time_step, int iterations)
+{
+  return (thr_world_options){.time_step = time_step,
+                             .iterations = iterations,
+                             .erp = -1,
+                             .erp2 = -1,
+                             .cfm = -1,
+                             .split_impulse = true,
+                             .warm_start = true,
+                             .faces = true};
+}
+
 thr_status thr_rise_bodies_make(thr_rise_bodies *bodies, const thr_rise_structure *structure,
                                 const thr_rise_options *options, double time_step, thr_err *err)
 {
@@ -256,16 +268,9 @@ thr_status thr_rise_bodies_make(thr_rise_bodies *bodies, const thr_rise_structur
   if (!st) st = thr_scratch_check(&bodies->own, err);
   if (!st) st = lay_out(bodies, options, err);
 
-  const thr_world_options world_options = {
-      .time_step = time_step,
-      .iterations = options->iterations ? options->iterations : 60,
-      .gravity = {0, 0, -1e3 * physics->gravity / bodies->length},
-      .erp = -1,
-      .erp2 = -1,
-      .cfm = -1,
-      .split_impulse = true,
-      .warm_start = true,
-      .faces = true};
+  thr_world_options world_options =
+      thr_rise_world_options(time_step, options->iterations ? options->iterations : 60);
+  world_options.gravity[2] = -1e3 * physics->gravity / bodies->length;
   if (!st) st = thr_world_create(&bodies->world, &world_options, err);
   if (!st)
     st =

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The pieces of a rising structure as bodies in Bullet. Only rise.c uses this.
+/* The pieces of a rising structure as bodies in Bullet. Only rise.c and turn_world.c use this.
  *
  * Units in the world: UNIT_EDGE units are a mean distance of neighbouring nodes, since Bullet's
  * tolerances are meant for bodies of that size; the mean piece weighs 1; seconds are seconds. */
@@ -26,6 +26,9 @@ typedef struct {
 
 /* The mean distance of pieces that follow each other on cords, mm; 0 without a pass. */
 double thr_rise_edge(const thr_rise_structure *structure);
+
+/* Options of a world of pieces whose flat faces meet, without gravity. */
+thr_world_options thr_rise_world_options(double time_step, int iterations);
 
 /* Makes ground and pieces, where options->start has them. Release with thr_rise_bodies_destroy,
  * after a failure too. O(pieces^2) for heaps, else O(pieces). */

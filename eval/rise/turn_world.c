@@ -7,6 +7,7 @@
  * depends on where the second body begins: it is tried from several places, and the largest angle
  * counts. */
 #include "eval/joint/world.h"
+#include "eval/rise/loose.h"
 #include "eval/rise/turn.h"
 #include "graph/number.h"
 
@@ -75,14 +76,7 @@ static int make_body(const thr_turn_piece *piece, int way, int n_points[FACETS],
 static thr_status make_world(const thr_turn_piece *piece, double cord, int start, turn_world *turn,
                              thr_err *err)
 {
-  const thr_world_options options = {.time_step = TIME_STEP,
-                                     .iterations = 100,
-                                     .erp = -1,
-                                     .erp2 = -1,
-                                     .cfm = -1,
-                                     .split_impulse = true,
-                                     .warm_start = true,
-                                     .faces = true};
+  const thr_world_options options = thr_rise_world_options(TIME_STEP, 100);
   static const double side[STARTS] = {0, -0.99, 0.99};
   const double away = side[start] * (piece->shape == THR_TURN_CONE ? piece->tip : THR_PI / 2);
   thr_status st = thr_world_create(&turn->world, &options, err);

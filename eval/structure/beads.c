@@ -342,15 +342,6 @@ void thr_beads_destroy(thr_beads *beads)
   *beads = (thr_beads){0};
 }
 
-/* Returns the weight of all beads that are not held, N. */
-double thr_beads_weight(const thr_beads *beads, const thr_physics *physics)
-{
-  double weight = 0;
-  for (int v = 0; v < beads->n_beads; v++)
-    if (!beads->fixed[v]) weight += beads->mass[v] * physics->gravity;
-  return weight;
-}
-
 /* Holds beads in place, without ground. */
 void thr_beads_clamp(thr_beads *beads, const bool *fixed)
 {

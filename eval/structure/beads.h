@@ -98,9 +98,6 @@ int thr_beads_corners(const thr_beads *beads);
  * outside, round it. Ideal faces are both. */
 void thr_beads_corner(const thr_beads *beads, int face, int i, bool outside, double at[3]);
 
-/* Returns the weight, N, of all beads that are not fixed. */
-double thr_beads_weight(const thr_beads *beads, const thr_physics *physics);
-
 /* Holds the beads with fixed[n_beads] true in place and takes the ground away (n_feet = 0): for
  * cantilevers and the like. */
 void thr_beads_clamp(thr_beads *beads, const bool *fixed);
