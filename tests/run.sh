@@ -66,7 +66,7 @@ format() { # LOG
 
 # A program of tests runs one of so many of its examples; -8: what 8 leaves out.
 share() { # NAME
-  case $TIER/$1 in
+  case ${TIER-}/$1 in
   fast/* | rest/asan/unit/*) echo 10 ;;
   test/release/property/* | rest/asan/property/*) echo 8 ;;
   rest/release/property/test_circuits) echo 1 ;;

@@ -148,9 +148,6 @@ void request_args_ask(const request_args *a, const symmetry_args *symmetry, thr_
  * request->end_node and request->end_count. */
 int request_args_apply(const request_args *a, const thr_frame *frame, thr_request *request);
 
-/* Is the pull of cords limited? */
-bool request_args_limits_pull(const request_args *a);
-
 /* Is nothing said of what the plan is to be, but for the passes of edges and the order of work?
  * Then it is the recommended one (planner/recommend.c). */
 bool request_args_unsaid(const request_args *a);

@@ -283,11 +283,6 @@ static const char *pull_limit(const request_args *args)
                               : NULL;
 }
 
-bool request_args_limits_pull(const request_args *args)
-{
-  return pull_limit(args) != NULL;
-}
-
 /* Returns whether a limit was given within which as few cords as possible are asked for. */
 static bool takes_few(const request_args *args)
 {

@@ -38,19 +38,6 @@ void thr_guide_place(const thr_guide *guide, int v, thr_text *text)
   thr_text_printf(text, " (node %s)", name);
 }
 
-/* Writes an ordinal: "1st" by digits, but "second" and "third" in words. 11 to 13 end in "th". */
-void thr_guide_ordinal(int n, char word[16])
-{
-  static const char *const end[] = {"th", "st", "nd", "rd"};
-  int last = n % 10 < 4 && n / 10 % 10 != 1 ? n % 10 : 0;
-
-  /* Only 2 and 3 have words of their own. */
-  if (n == 2 || n == 3)
-    snprintf(word, 16, n == 2 ? "second" : "third");
-  else
-    snprintf(word, 16, "%d%s", n, end[last]);
-}
-
 /* ---- sides ---- */
 
 /* Computes the unit vector along half-edge h in space; returns false if the edge has no length. */
@@ -249,17 +236,4 @@ thr_way thr_guide_way(const thr_guide *guide, int in, int out)
    * told. */
   if (fabs(turn) < AHEAD) return THR_WAY_OVER;
   return fabs(turn) > THR_PI - AHEAD ? THR_WAY_TURN : turn > 0 ? THR_WAY_LEFT : THR_WAY_RIGHT;
-}
-
-/* Appends a turn in words, with its angle in space. */
-void thr_guide_say(const thr_guide *guide, int in, int out, thr_text *text)
-{
-  static const char *const word[] = {"straight on",    "turn left", "turn right",
-                                     "over the curve", "turn",      "turn back"};
-
-  thr_way way = thr_guide_way(guide, in, out);
-  thr_text_append(text, word[way]);
-
-  if (way != THR_WAY_STRAIGHT && way != THR_WAY_BACK)
-    thr_text_printf(text, " %.0f degrees", thr_turn_angle(guide->f, in, out) * 180 / THR_PI);
 }

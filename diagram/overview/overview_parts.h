@@ -225,12 +225,6 @@ typedef enum {
 /* Returns which way the turn goes. */
 thr_way thr_guide_way(const thr_guide *guide, int in, int out);
 
-/* Appends "straight on", "turn left 90 degrees", "over the curve 24 degrees", "turn back". */
-void thr_guide_say(const thr_guide *guide, int in, int out, thr_text *text);
-
-/* Writes an ordinal: "second", "third", "4th", "21st". */
-void thr_guide_ordinal(int n, char word[16]);
-
 /* ---- legend.c: What is written around the overview picture: heading, key, one line per cord,
  * scale bar. */
 
