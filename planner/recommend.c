@@ -6,10 +6,11 @@
  * The pull at the end of a cord is seating tension x exp(mu x reach) (graph/plan/physics.h); it is
  * to stay within the hand even at the upper end of the band of mu. The turning of the shortest
  * cord, shared out evenly, says how few cords could do (fewest_of); from there numbers are tried
- * upwards in growing steps, and then by halves. A trial is a plan for the aims length, pull, of
- * little counted work and without pricing walks (thr_limits.unpriced). The shortest cord cut into
- * as few parts as stay within the hand (cut.c) ends the search from above, and is the plan where
- * the framework is too large for trials.
+ * upwards in growing steps, and then by halves. Where there are several components, each takes as
+ * few as it needs, as with a limit on the pull (pull_few.c). A trial is a plan for the aims length,
+ * pull, of little counted work and without pricing walks (thr_limits.unpriced). The shortest cord
+ * cut into as few parts as stay within the hand (cut.c) ends the search from above, and is the plan
+ * where the framework is too large for trials.
  *
  * Example: the 7 x 7 dome. Its shortest cord turns by 3065 degrees, and a cord within 10 N at
  * mu = 0.3 by 1060 at most: three cords at least. Three need 11.6 N, four 6.4 N: four cords. */
@@ -24,6 +25,9 @@ enum { MOST_TRIED = 5000 /* edges */, MOST_TRIALS = 8 };
 
 /* Counted work of a trial, s. */
 static const double work_of_trial = 0.3;
+
+/* Counted work of several components, s. */
+static const double work_of_components = 2;
 
 /* Times as many cords as could do by their turning are tried where cutting leaves no bound. */
 static const int most_times = 4;
@@ -71,16 +75,38 @@ static int fewest_of(const recommendation *of, const thr_plan *shortest)
   return fewest < 1 ? 1 : fewest > THR_MOST_CORDS ? THR_MOST_CORDS : (int)fewest;
 }
 
-/* Cuts the shortest closed cords into as few as stay within the hand. *cut stays empty where they
- * do not come by enough nodes for ends. */
-static thr_status cut_shortest(const recommendation *of, const thr_plan *shortest, thr_plan *cut,
-                               thr_err *err)
+/* As many cords as every component takes for itself, within the hand. */
+static thr_request as_few(const recommendation *of)
 {
   thr_request few = of->request;
   few.cords_least = 1;
   few.cords = THR_MOST_CORDS;
   few.max_pull = exp(few.physics.mu * of->reach);
+  return few;
+}
+
+/* Cuts the shortest closed cords into as few as stay within the hand. *cut stays empty where they
+ * do not come by enough nodes for ends. */
+static thr_status cut_shortest(const recommendation *of, const thr_plan *shortest, thr_plan *cut,
+                               thr_err *err)
+{
+  const thr_request few = as_few(of);
   return thr_cut_few(of->frame, &few, shortest, cut, err);
+}
+
+/* Plans several components, which take different numbers of cords, as a limit on the pull does. */
+static thr_status try_components(const recommendation *of, thr_plan *plan, thr_report *report,
+                                 thr_err *err)
+{
+  double work = work_of_components;
+  const thr_limits little = thr_limits_counted(of->limits, &work);
+  thr_request few = as_few(of);
+  thr_err why = {0};
+
+  few.aims = thr_aims_shortest;
+  few.turning.length_slack = -1; /* fewest first */
+  const thr_status st = thr_plan_make(of->frame, &few, &little, plan, report, &why);
+  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
 }
 
 /* Takes a plan, with its report, in the place of another. */
@@ -135,7 +161,8 @@ static thr_status with_ends(recommendation *of, thr_ends ends, const thr_plan *s
   if (most > of->frame->n_edges) most = of->frame->n_edges;
   if (most > THR_MOST_CORDS) most = THR_MOST_CORDS;
 
-  if (!st && of->frame->n_edges <= MOST_TRIED)
+  if (!st && shortest->n_cords > 1) st = try_components(of, plan, report, err);
+  if (!st && plan->n_cords == 0 && of->frame->n_edges <= MOST_TRIED)
     st = try_numbers(of, least < most ? least : most, most, plan, report, err);
 
   /* As many as the cut cords, of any length, where no trial found any. */

@@ -87,6 +87,31 @@ START_TEST(what_is_recommended_stays_within_the_hand)
 }
 END_TEST
 
+/* A grid takes several cords, and one edge beside it, a component for itself, only one. */
+START_TEST(what_is_recommended_counts_cords_in_every_component)
+{
+  thr_frame grid = grid_make(7, 7), edge = path_make(2), f = side_by_side(&grid, &edge);
+  const thr_request o = thr_request_default();
+  thr_plan p;
+  thr_report r;
+  thr_err e = {0};
+  int of_grid = 0;
+  assert_ok(thr_plan_recommended(&f, &o, thr_hand_always, &(thr_limits){0}, &p, &r, &e), &e);
+  assert_ok(thr_check_plan(&p, &e), &e);
+  for (int i = 0; i < p.n_cords; i++)
+    of_grid += p.cord[i].component == 0;
+  ck_assert_int_gt(of_grid, 1);
+  ck_assert_int_eq(p.n_cords, of_grid + 1);
+  ck_assert_double_le(thr_cords_pulled_turning(&p.frame, p.cord, p.n_cords),
+                      log(thr_hand_always) / 0.3 * (1 + 1e-9)); /* 1 N seats, mu up to 0.3 */
+  thr_report_destroy(&r);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+  thr_frame_destroy(&edge);
+  thr_frame_destroy(&grid);
+}
+END_TEST
+
 START_TEST(every_plan_comes_with_proofs)
 {
   const thr_joint joint = _i % 2 ? THR_JOINT_TUBE : THR_JOINT_SOLID;
@@ -404,6 +429,8 @@ int main(void)
   add_case(s, "objectives", 60, plans_for_every_objective_are_written_and_read, 0,
            THR_N_OBJECTIVES);
   add_case(s, "recommended", 60, what_is_recommended_stays_within_the_hand, 0, 2);
+  add_case(s, "recommended by parts", 60, what_is_recommended_counts_cords_in_every_component, 0,
+           1);
   add_case(s, "proofs", 60, every_plan_comes_with_proofs, 0, 2 * THR_N_OBJECTIVES);
   add_case(s, "tours", 20, classical_tours_take_no_notice_of_time, 0, 4);
   add_case(s, "starts", 60, turning_begins_with_tours_and_the_shortest_cords, 0, 4);
