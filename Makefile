@@ -1,5 +1,7 @@
 # thread: build, test and install. `make help` lists the targets.
 VERSION := 0.1.0
+# of this version, for the man pages
+DATE := 2026-11-23
 
 # Choices, as `make BUILD=asan` or in the environment
 BUILD ?= release
@@ -22,8 +24,8 @@ DEMO = plan data/dome7.json --objective length -o $(DEMO_OUT)/plan.json --draw $
 
 # Debian 12 packages
 BUILD_PACKAGES := build-essential pkg-config libglpk-dev libigraph-dev libnauty2-dev libbullet-dev \
-	libsuitesparse-dev libfontconfig-dev zlib1g-dev fonts-dejavu-core
-TEST_PACKAGES := check clang clang-format libclang-rt-14-dev librsvg2-bin libxml2-utils poppler-utils python3 python3-pil apngdis time
+	libsuitesparse-dev libfontconfig-dev zlib1g-dev fonts-dejavu-core python3
+TEST_PACKAGES := check clang clang-format libclang-rt-14-dev librsvg2-bin libxml2-utils poppler-utils python3 python3-pil apngdis time cmake man-db mandoc
 # npm from elsewhere than Debian serves as well
 VIEWER_PACKAGES = chromium $(if $(shell command -v npm),,nodejs npm)
 LINT_PACKAGES := clang-format clang-tidy cppcheck
@@ -140,7 +142,8 @@ quote = '$(subst ','\'',$(1))'
 all: $(PROGRAM) ## build the program (BUILD=release|debug|asan|cov)
 
 shared: $(SHARED)
-library: $(SHARED) $(STATIC) $(DIR)/thread.pc ## build libthread, shared and static
+FOUND_BY := $(addprefix $(DIR)/,thread.pc thread-config.cmake thread-config-version.cmake)
+library: $(SHARED) $(STATIC) $(FOUND_BY) ## build libthread, shared and static
 
 demo: ## install what is missing, build, plan a dome, check the plan
 	+@tools/install-packages.sh $(BUILD_PACKAGES)
@@ -277,60 +280,75 @@ test-deps: ## install the packages that building, testing and linting need
 
 # What `make install` installs where: source and place below DESTDIR.
 COMMANDS := plan advise symmetries check eval compare draw kit rise info convert make
-MAN_PAGES := $(COMMANDS:%=$(DIR)/man/thread-%.1)
+MAN_PAGES := $(addprefix $(DIR)/man/,thread.1 $(COMMANDS:%=thread-%.1) libthread.3 thread-plan.5)
+# each function's page is libthread(3)
+FUNCTIONS = ${shell grep -o 'thread_[a-z_]*(' include/thread.h | tr -d '(' | sort -u}
 BIN = $(DESTDIR)$(PREFIX)/bin
 SHARE = $(DESTDIR)$(PREFIX)/share
+MAN_FOLDERS = $(foreach n,1 3 5,"$(SHARE)/man/man$n")
 LIB = $(DESTDIR)$(LIBDIR)
 # where the python3 of this system looks for packages below PREFIX
 PYTHON_DIR ?= $(or $(shell python3 -c 'import site; print(next(d for d in site.getsitepackages() if d.startswith("$(PREFIX)/lib/python")))' 2>/dev/null),$(PREFIX)/lib/python3/dist-packages)
 PACKAGE = $(DESTDIR)$(PYTHON_DIR)/thread_plan
 
-man: $(MAN_PAGES) ## man pages of the commands, from their help
+man: $(MAN_PAGES) ## man pages of the commands, of the library and of plan.json
+MAN_PAGE = mkdir -p $(@D) && python3 tools/man_page.py $(VERSION) $(DATE)
+$(MAN_PAGES): tools/man_page.py Makefile
 $(DIR)/man/thread-%.1: $(PROGRAM) tools/man_page.awk
-	@mkdir -p $(@D)
-	@$(PROGRAM) $* --help | awk -v command=$* -v version=$(VERSION) -f tools/man_page.awk > $@
+	@$(PROGRAM) $* --help | awk -v command=$* -f tools/man_page.awk > $(DIR)/thread-$*.page
+	@$(MAN_PAGE) $(DIR)/thread-$*.page > $@
+$(DIR)/man/thread.1: docs/thread.1
+	@$(MAN_PAGE) $< > $@
+$(DIR)/man/libthread.3: include/thread.h
+	@$(MAN_PAGE) $< > $@
+$(DIR)/man/thread-plan.5: docs/plan-format.md
+	@$(MAN_PAGE) $< > $@
 
 install: all library man ## install program, library, man pages, completions, docs, examples under $(DESTDIR)$(PREFIX)
-	install -d "$(PACKAGE)" "$(BIN)" "$(LIB)/pkgconfig" "$(DESTDIR)$(PREFIX)/include" "$(SHARE)/man/man1" "$(SHARE)/doc/thread/pictures/experiments"
+	install -d "$(PACKAGE)" "$(BIN)" "$(LIB)/pkgconfig" "$(LIB)/cmake/thread" "$(DESTDIR)$(PREFIX)/include" "$(SHARE)/doc/thread" $(MAN_FOLDERS)
 	install -m 755 $(PROGRAM) "$(BIN)/thread"
 	install -m 755 $(SHARED) "$(LIB)/$(notdir $(SHARED))"
 	ln -sf $(notdir $(SHARED)) "$(LIB)/$(SONAME)"
 	ln -sf $(SONAME) "$(LIB)/libthread.so"
 	install -m 644 $(STATIC) "$(LIB)/libthread.a"
-	install -m 644 $(DIR)/thread.pc "$(LIB)/pkgconfig/thread.pc"
+	install -m 644 $(filter %.pc,$(FOUND_BY)) "$(LIB)/pkgconfig/"
+	install -m 644 $(filter %.cmake,$(FOUND_BY)) "$(LIB)/cmake/thread/"
 	install -m 644 include/thread.h "$(DESTDIR)$(PREFIX)/include/thread.h"
 	install -m 644 python/thread_plan/*.py python/thread_plan/py.typed "$(PACKAGE)/"
-	install -m 644 docs/thread.1 $(MAN_PAGES) "$(SHARE)/man/man1/"
-	install -m 644 README.md CHANGELOG.md docs/*.md docs/plan.schema.json "$(SHARE)/doc/thread/"
-	install -m 644 docs/pictures/*.* "$(SHARE)/doc/thread/pictures/"
-	install -m 644 docs/pictures/experiments/* "$(SHARE)/doc/thread/pictures/experiments/"
-	cp -R examples "$(SHARE)/doc/thread/"
+	$(foreach n,1 3 5,install -m 644 $(filter %.$n,$(MAN_PAGES)) "$(SHARE)/man/man$n/" &&) :
+	@for name in $(FUNCTIONS); do ln -sf libthread.3 "$(SHARE)/man/man3/$$name.3"; done
+	tools/install_docs.sh "$(SHARE)/doc/thread"
 	@if [ -z "$(DESTDIR)" ] && [ "$$(id -u)" = 0 ]; then ldconfig; else echo "thread: run ldconfig as root if the linker does not find libthread.so.0" >&2; fi
 	install -D -m 644 completions/thread.bash "$(SHARE)/bash-completion/completions/thread"
 	install -D -m 644 completions/_thread "$(SHARE)/zsh/site-functions/_thread"
 	install -D -m 644 completions/thread.fish "$(SHARE)/fish/vendor_completions.d/thread.fish"
 
 uninstall: ## remove what `make install` installed
-	rm -f "$(BIN)/thread" "$(LIB)"/libthread.so "$(LIB)"/libthread.so.* "$(LIB)/libthread.a" "$(LIB)/pkgconfig/thread.pc"
-	rm -f "$(DESTDIR)$(PREFIX)/include/thread.h" "$(SHARE)/man/man1/thread.1" $(COMMANDS:%="$(SHARE)/man/man1/thread-%.1")
+	rm -f "$(BIN)/thread" "$(LIB)"/libthread.so "$(LIB)"/libthread.so.* "$(LIB)/libthread.a" "$(LIB)/pkgconfig/thread.pc" "$(DESTDIR)$(PREFIX)/include/thread.h"
+	rm -rf "$(LIB)/cmake/thread"
+	rm -f $(foreach n,1 3 5,$(patsubst $(DIR)/man/%,"$(SHARE)/man/man$n/%",$(filter %.$n,$(MAN_PAGES)))) $(FUNCTIONS:%="$(SHARE)/man/man3/%.3")
 	rm -f "$(SHARE)/bash-completion/completions/thread" "$(SHARE)/zsh/site-functions/_thread" "$(SHARE)/fish/vendor_completions.d/thread.fish"
 	rm -rf "$(SHARE)/doc/thread" "$(PACKAGE)"
 
 TARBALL := $(OUT)/thread-$(VERSION).tar.gz
-DEB_PACKAGES := debhelper fakeroot lintian
+DEB_PACKAGES := debhelper dh-python fakeroot lintian
 
 dist: ## pack the sources that git has: $(OUT)/thread-VERSION.tar.gz
 	@mkdir -p $(OUT)
 	git archive --prefix=thread-$(VERSION)/ HEAD | gzip -9n > $(TARBALL)
 	@echo $(TARBALL)
 
-deb: dist ## build the Debian packages thread, libthread0, libthread-dev below $(OUT)/deb, and look at them with lintian
+# The page is a package if `make web` has built it. Who builds is the maintainer of what is built: DEBFULLNAME and DEBEMAIL.
+DEB_PAGE = $(abspath $(wildcard $(OUT)/web/thread.html))
+deb: dist ## build the Debian packages below $(OUT)/deb, with thread.html if `make web` was run, and look at them with lintian
 	+@tools/install-packages.sh $(BUILD_PACKAGES) $(DEB_PACKAGES)
 	rm -rf $(OUT)/deb
 	mkdir -p $(OUT)/deb
 	tar -xzf $(TARBALL) -C $(OUT)/deb
-	cd $(OUT)/deb/thread-$(VERSION) && env -u MAKEFLAGS -u MAKELEVEL -u OUT -u BUILD -u CC -u CXX dpkg-buildpackage -b -us -uc
-	lintian --fail-on error $(OUT)/deb/*.changes
+	$(if $(DEBEMAIL),sed -i 's/thread maintainers <[^>]*>/$(or $(DEBFULLNAME),$(DEBEMAIL)) <$(DEBEMAIL)>/' $(OUT)/deb/thread-$(VERSION)/debian/c[oh]*)
+	cd $(OUT)/deb/thread-$(VERSION) && env -u MAKEFLAGS -u MAKELEVEL -u OUT -u BUILD -u CC -u CXX THREAD_HTML="$(DEB_PAGE)" \
+	  dpkg-buildpackage -b -us -uc $(if $(DEB_PAGE),--build-profiles=pkg.thread.html)
+	lintian --fail-on error $(if $(DEBEMAIL),,--suppress-tags bogus-mail-host) $(OUT)/deb/*.changes
 	@ls $(OUT)/deb/*.deb
 
 clean: ## remove everything made
@@ -349,7 +367,7 @@ GOLDEN_JOBS := $(patsubst tests/%,run/$(BUILD)/%,$(wildcard tests/golden/*.case)
 $(TEST_PROGRAMS:$(DIR)/tests/%=run/$(BUILD)/%): run/$(BUILD)/%: $(DIR)/tests/%
 $(FUZZ_PROGRAMS:$(DIR)/tests/%=run/%): run/%: $(DIR)/tests/%
 run/$(BUILD)/property/test_cross run/$(BUILD)/property/test_cross_known: $(PROGRAM)
-run/library/install: $(PROGRAM) $(SHARED) $(STATIC) $(DIR)/thread.pc $(MAN_PAGES)
+run/library/install: $(PROGRAM) $(SHARED) $(STATIC) $(FOUND_BY) $(MAN_PAGES)
 $(GOLDEN_JOBS) run/documents run/readme run/formats/mutants run/examples run/web run/static run/windows run/second/plans run/schema run/slicers run/viewer/browser run/bench/smallest: $(PROGRAM)
 run/second/json: $(DIR)/tests/second/dump_json
 run/$(BUILD)/memory: $(PROGRAM) $(DIR)/tests/memory/fail_malloc.so
@@ -409,9 +427,13 @@ $(STATIC): $(OBJECTS) $(DIR)/objects.list
 	$(Q)rm -f $@
 	$(Q)ar rcs $@ $(DIR)/libthread.o
 
-$(DIR)/thread.pc: lib/thread.pc.in Makefile FORCE
+# What pkg-config and CMake read says where things are beside itself, so that what is installed can be moved. Both lie two folders
+# below $(LIBDIR) or one.
+PREFIX_FROM = $(shell realpath -ms --relative-to="$(LIBDIR)/$1" "$(PREFIX)")
+$(DIR)/thread.pc: WITHIN = pkgconfig
+$(FOUND_BY): $(DIR)/%: lib/%.in Makefile FORCE
 	@mkdir -p $(@D)
-	@sed -e 's|@PREFIX@|$(PREFIX)|; s|@LIBDIR@|$(LIBDIR)|; s|@VERSION@|$(VERSION)|; s|@LIBS@|$(THR_LIBS) -lstdc++ -ldl|' $< > $@
+	@sed -e 's|@PREFIX_FROM_HERE@|$(call PREFIX_FROM,$(or $(WITHIN),cmake/thread))|; s|@SONAME@|$(SONAME)|; s|@VERSION@|$(VERSION)|; s|@LIBS@|$(THR_LIBS) -lstdc++ -ldl|' $< > $@
 
 $(DIR)/modules.a: $(OBJECTS) $(DIR)/objects.list
 	@echo "  AR    $@"

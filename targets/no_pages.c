@@ -11,6 +11,11 @@ bool thr_pages_exist(void)
   return false;
 }
 
+thr_status thr_pages_find_fonts(thr_err *err)
+{
+  return thr_fail(err, THR_ESOLVER, "this program makes no PDF");
+}
+
 thr_status thr_pages_open(thr_pages **pages, const char *name, thr_page_size size,
                           const char *title, const thr_limits *limits, thr_err *err)
 {

@@ -1,4 +1,4 @@
-# Makes a man page of what `thread COMMAND --help` prints: awk -v command=plan -v version=0.1.0 -f man_page.awk help.txt
+# Makes a man page of what `thread COMMAND --help` prints: awk -v command=plan -f man_page.awk help.txt; man_page.py folds it
 # The first line is "usage: what it does"; a line that ends with a colon at the left margin begins a section; lines with options
 # begin with blanks and a dash; lines that begin with three times as many blanks go on with the one above; all else is prose.
 function plain(s) { gsub(/\\/, "\\e", s); gsub(/-/, "\\-", s); if (s ~ /^[.']/) s = "\\&" s; return s }
@@ -23,7 +23,7 @@ function options(s,    at) { # several may stand in one line
 NR == 1 {
   at = index($0, ": ")
   usage = substr($0, 1, at - 1); summary = substr($0, at + 2)
-  printf ".TH THREAD-%s 1 \"\" \"thread %s\" \"User commands\"\n.SH NAME\nthread-%s \\- %s\n.SH SYNOPSIS\n.B %s\n", toupper(command), version, command, plain(summary), plain(usage)
+  printf ".TH THREAD-%s 1 \"\" \"thread\" \"User commands\"\n.SH NAME\nthread-%s \\- %s\n.SH SYNOPSIS\n.B %s\n", toupper(command), command, plain(summary), plain(usage)
   next
 }
 /^[A-Z].*:$/ {

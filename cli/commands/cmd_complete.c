@@ -64,11 +64,25 @@ static void show_rows(const cli_option *option)
   }
 }
 
+/* Shows all rows; those for developers are values of --tune. */
 static void show_groups(const cli_group *groups)
 {
+  const char tune[] = "--tune";
+  const bool tuned = wanted && strcmp(wanted, tune) == 0;
+  bool any = false;
+
   for (const cli_group *group = groups; group->option; group++) {
-    if (group->heading != cli_tuned) show_rows(group->option);
+    if (group->heading != cli_tuned) {
+      show_rows(group->option);
+      continue;
+    }
+    any = true;
+    for (const cli_option *option = group->option; tuned && option->name; option++) {
+      found = true;
+      printf("%s=\n", option->name);
+    }
   }
+  if (any && !wanted) printf("%s\t%s\n", tune, cli_tuned);
   show_rows(cli_common_options);
 }
 
@@ -127,6 +141,7 @@ int cmd_complete(int argc, char **argv)
   if (argc <= 2 || strcmp(argv[1], "help") == 0) {
     put_commands();
     if (argc <= 2) puts("help\twhat a command does");
+    if (argc <= 2 && last[0] == '-') puts("--help\n--version");
     return EXIT_OK;
   }
 

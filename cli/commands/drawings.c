@@ -79,13 +79,10 @@ static void note_pages(const char *file, int n)
   cli_note("%s: %d %s", file, n, cli_plural(n, "page", "pages"));
 }
 
-/* Makes document i and writes it to path. layout: of the plan's framework, shared by all documents;
- * NULL = of its own. Returns an exit code. */
-static int write_one(const thr_plan *plan, int i, const thr_layout *layout, const char *path,
-                     const drawings_args *args)
+/* Makes document i. layout: of the plan's framework, shared by all documents; NULL = of its own. */
+static thr_status make_one(const thr_plan *plan, int i, const thr_layout *layout,
+                           const drawings_args *args, thr_text *text, thr_err *err)
 {
-  thr_err err = {0};
-  thr_text text = {0};
   const thr_document_options options = {.pitch_mm = args->pitch_mm,
                                         .lines = args->lines,
                                         .layout = layout,
@@ -104,8 +101,19 @@ static int write_one(const thr_plan *plan, int i, const thr_layout *layout, cons
   if (thr_limits_stop(&limits)) limits.interrupted = NULL;
 
   /* What cannot be drawn in time or memory leaves no half of a file. */
-  thr_status st = thr_document_make(plan, i, &options, &limits, &text, &err);
+  thr_status st = thr_document_make(plan, i, &options, &limits, text, err);
   cli_progress_end();
+
+  return st;
+}
+
+/* Makes document i and writes it to path. Returns an exit code. */
+static int write_one(const thr_plan *plan, int i, const thr_layout *layout, const char *path,
+                     const drawings_args *args)
+{
+  thr_err err = {0};
+  thr_text text = {0};
+  const thr_status st = make_one(plan, i, layout, args, &text, &err);
 
   return cli_write_drawn(st, &text, path, &err);
 }
@@ -120,8 +128,12 @@ bool drawings_no_sheets(const thr_plan *plan, const drawings_args *args)
   return args->quick && thr_pieces_count(plan) > DRAWINGS_SHEETS_PIECES;
 }
 
+/* Was the booklet written for browsers, since there are no fonts for a PDF? */
+static bool is_without_fonts;
+
 void drawings_names(const thr_plan *plan, const drawings_args *args, char names[DRAWINGS_NAMES])
 {
+  const int html = thr_document_find("sheets.html");
   int n = 0;
 
   names[0] = '\0';
@@ -130,14 +142,14 @@ void drawings_names(const thr_plan *plan, const drawings_args *args, char names[
   for (int i = 0; i < thr_documents_count() && n < DRAWINGS_NAMES; i++)
     if (thr_document_usual(i) && (i != thr_document_sheets() || !drawings_no_sheets(plan, args)))
       n += snprintf(names + n, (size_t)(DRAWINGS_NAMES - n), "%s%s", n ? " " : "",
-                    thr_document_file(i));
+                    thr_document_file(i == thr_document_sheets() && is_without_fonts ? html : i));
 }
 
-/* Returns whether document i is one of those that are asked for: asked itself, or with -1 all usual
- * ones. */
+/* Returns whether document i may be written where `asked` is, or with -1 all usual ones: among them
+ * the step sheets for browsers, which stand for the PDF where there are no fonts. */
 static bool is_asked(int asked, int i)
 {
-  return asked < 0 ? thr_document_usual(i) : i == asked;
+  return asked < 0 ? thr_document_usual(i) || i == thr_document_find("sheets.html") : i == asked;
 }
 
 /* Formats folder/file. */
@@ -169,7 +181,7 @@ bool drawings_would_lose(const char *folder)
   char path[1200];
 
   for (int k = 0; k < thr_documents_count(); k++) {
-    if (!thr_document_usual(k)) continue;
+    if (!is_asked(-1, k)) continue;
 
     /* Every document that drawings_write_all may write. */
     join_path(folder, thr_document_file(k), path);
@@ -199,6 +211,33 @@ static bool too_late(int k)
   return true;
 }
 
+/* Writes the step sheets into the folder. Where no fonts for a PDF are found, as in a container
+ * that has nothing but this program, browsers print them. Returns an exit code. */
+static int write_sheets(const thr_plan *plan, const thr_layout *layout, const char *folder,
+                        const drawings_args *args)
+{
+  int i = thr_document_sheets();
+  char path[1200];
+  thr_err err = {0}, reason = {0};
+  thr_text text = {0};
+
+  thr_status st = make_one(plan, i, layout, args, &text, &err);
+  if (st == THR_ESOLVER && thr_pages_find_fonts(&reason) == THR_ESOLVER) {
+    is_without_fonts = true;
+    i = thr_document_find("sheets.html");
+    cli_note("%s; until then %s stands for %s", reason.text, thr_document_file(i),
+             thr_document_file(thr_document_sheets()));
+    thr_text_destroy(&text);
+    err = (thr_err){0};
+    st = make_one(plan, i, layout, args, &text, &err);
+  }
+
+  const int code = cli_in_folder(folder, thr_document_file(i), path, sizeof path);
+  if (!code) return cli_write_drawn(st, &text, path, &err);
+  thr_text_destroy(&text);
+  return code;
+}
+
 /* Writes all usual documents into the folder; stops at the first that fails. Returns an exit
  * code. */
 static int write_all(const thr_plan *plan, const thr_layout *layout, const char *folder,
@@ -219,6 +258,10 @@ static int write_all(const thr_plan *plan, const thr_layout *layout, const char 
     /* Documents that are there already stay if the time is over. */
     if (too_late(k)) return EXIT_LIMIT;
 
+    if (i == thr_document_sheets()) {
+      code = write_sheets(plan, layout, folder, args);
+      continue;
+    }
     code = cli_in_folder(folder, thr_document_file(i), path, sizeof path);
     if (!code) code = write_one(plan, i, layout, path, args);
   }

@@ -11,6 +11,7 @@
 #include "graph/process/process.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 enum { BATCH = 32, BYTES = 32 << 20 }; /* pages that are drawn together, and bytes of their SVG */
 
@@ -29,6 +30,17 @@ struct thr_pages {
 bool thr_pages_exist(void)
 {
   return true;
+}
+
+thr_status thr_pages_find_fonts(thr_err *err)
+{
+  thr_font font[THR_FACES];
+  memset(font, 0, sizeof font);
+  const thr_status st = thr_fonts_find(font, err);
+
+  for (int i = 0; i < THR_FACES; i++)
+    thr_font_destroy(&font[i]);
+  return st;
 }
 
 thr_status thr_pages_open(thr_pages **out, const char *name, thr_page_size size, const char *title,

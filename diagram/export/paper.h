@@ -161,6 +161,9 @@ typedef struct thr_pages thr_pages;
  * thr_pages_open is THR_ESOLVER there. */
 bool thr_pages_exist(void);
 
+/* Looks for the fonts that a PDF takes: THR_OK, or THR_ESOLVER and what to install; THR_ENOMEM. */
+thr_status thr_pages_find_fonts(thr_err *err) THR_MUST_CHECK;
+
 /* Begins a document without pages. name, as "step sheets", is for messages, title (ASCII) for the
  * file's metadata. All is borrowed. Pages are drawn in limits->threads threads. Release with
  * thr_pages_destroy (NULL ok), after a failure too. */

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What `make install` leaves is complete: the library's names, the examples in C and Python with nothing but what is installed, man
-# pages and completions. tests/library/run.sh BUILD_FOLDER OUT; closes with "N passed, N failed".
+# What `make install` leaves is complete, also where it was moved afterwards: the library's names, the examples in C and Python with
+# nothing but what is installed, documents, man pages and completions. tests/library/run.sh BUILD_FOLDER OUT; closes with "N passed, N failed".
 set -u
 [ $# -eq 2 ] || { echo "usage: tests/library/run.sh BUILD_FOLDER OUT" >&2; exit 2; }
 build=$(realpath "$1")
@@ -22,10 +22,14 @@ test_that() { # WORDS COMMAND ..
   sed 's/^/    /' "$out/said"
 }
 
-rm -rf "$root"
-"${MAKE:-make}" -s OUT="$(dirname "$build")" BUILD="$(basename "$build")" DESTDIR="$root" PREFIX=/usr install \
-  >"$out/install.log" 2>&1 || { cat "$out/install.log"; echo "0 passed, 1 failed"; exit 1; }
-export PKG_CONFIG_PATH=$usr/lib/pkgconfig PKG_CONFIG_SYSROOT_DIR=$root PKG_CONFIG_ALLOW_SYSTEM_CFLAGS=1 PKG_CONFIG_ALLOW_SYSTEM_LIBS=1
+rm -rf "$root" "$out/staged"
+make_quietly() { # TARGET: into $out/staged
+  "${MAKE:-make}" -s OUT="$(dirname "$build")" BUILD="$(basename "$build")" DESTDIR="$out/staged" PREFIX=/usr "$1"
+}
+make_quietly install >"$out/install.log" 2>&1 || { cat "$out/install.log"; echo "0 passed, 1 failed"; exit 1; }
+cp -R "$out/staged" "$root"
+uninstalled() { make_quietly uninstall && ! find "$out/staged" ! -type d | grep .; }
+export PKG_CONFIG_PATH=$usr/lib/pkgconfig
 examples=$usr/share/doc/thread/examples
 
 only_ours() { [ -z "$(nm -D --defined-only "$usr/lib/libthread.so" | awk '$3 !~ /^thread_/')" ]; }
@@ -42,6 +46,17 @@ c_example() { cc -Wall -Wextra -Werror -std=c99 "$examples/c/dome.c" $(pkg-confi
 c_static() { g++ "$out/dome.o" "$usr/lib/libthread.a" $(pkg-config --static --libs thread | sed 's/-lthread//') -o "$out/dome-static"; }
 # shellcheck disable=SC2046
 c_object() { cc -c "$examples/c/dome.c" $(pkg-config --cflags thread) -o "$out/dome.o"; }
+c_by_cmake() {
+  rm -rf "$out/cmake" && cmake -S "$examples/c" -B "$out/cmake" -DCMAKE_PREFIX_PATH="$usr" -DCMAKE_C_FLAGS='-Wall -Werror' && cmake --build "$out/cmake"
+}
+refused_by_cmake() { # a version that is newer, and one of another soname
+  local version
+  for version in 0.99 1.0; do
+    mkdir -p "$out/cmake-$version" && sed "s/thread 0.1 /thread $version /" "$examples/c/CMakeLists.txt" >"$out/cmake-$version/CMakeLists.txt" || return
+    touch "$out/cmake-$version/dome.c"
+    ! cmake -S "$out/cmake-$version" -B "$out/cmake-$version" -DCMAKE_PREFIX_PATH="$usr" || return
+  done
+}
 # shellcheck disable=SC2046
 cplusplus() { echo '#include <thread.h>
 int main() { return thread_version() != THREAD_VERSION; }' | g++ -Wall -Wextra -Werror -x c++ - $(pkg-config --cflags --libs thread) -o "$out/version" && "$out/version"; }
@@ -72,7 +87,33 @@ has_options() { # the man page of a command names every option that the command 
   echo "$missing"
   [ -z "$missing" ]
 }
-opens() { ! man --warnings -l "$usr/share/man/man1/$1" 2>&1 >/dev/null | grep .; }
+is_offered() { # every option in the help of a command is offered by the program, and so by the three shells
+  diff <("$usr/bin/thread" "$1" --help | grep -oE '^ +(-[a-zA-Z], +)?--[a-z0-9-]+' | grep -oE -e '--.*' | sort -u) \
+    <("$usr/bin/thread" complete "$1" - | cut -f 1 | sort -u)
+}
+bash_offers_all() { completes "$("$usr/bin/thread" complete plan -- | cut -f 1 | tr '\n' ' ' | sed 's/ $//')" plan --; }
+opens() { ! MANPATH=$usr/share/man LC_ALL=C.UTF-8 man --warnings "${1##*.}" "${1%.*}" 2>&1 >/dev/null | grep .; }
+is_clean() { ! mandoc -T lint "$1" | grep .; }
+linked() { # what documents link to is installed
+  local file target missing=
+  while IFS=: read -r file target; do
+    [ -e "$(dirname "$file")/${target%%#*}" ] || missing+=" $file:$target"
+  done < <(grep -roE --include='*.md' '\]\([^)#][^)]*\)|src="[^"]*"' "$usr/share/doc/thread" | grep -v '://' | sed -E 's/\]\((.*)\)$/\1/; s/src="(.*)"$/\1/')
+  echo "$missing"
+  [ -z "$missing" ]
+}
+names_pages() { # thread(1) names the page of every command, and nothing that is not installed
+  local name section missing=
+  for name in "$usr"/share/man/man1/thread-*.1; do
+    name=$(basename "$name" .1)
+    grep -q "^\.BR ${name/-/\\\\-} (1)" "$usr/share/man/man1/thread.1" || missing+=" $name"
+  done
+  for name in $(sed -n 's|^\.I \(.*\.md\)$|\1|p' "$usr/share/man/man1/thread.1"); do
+    [ -e "$usr/share/doc/thread/${name//\\/}" ] || missing+=" $name"
+  done
+  echo "$missing"
+  [ -z "$missing" ]
+}
 completes() { # WANTED WORDS: bash completes the last of the words so
   local wanted=$1
   shift
@@ -109,7 +150,7 @@ one_version() { # of header, pkg-config, package and citation
   local major minor patch
   IFS=. read -r major minor patch <<<"$version"
   grep -qxF "version = \"$version\"" python/pyproject.toml && grep -q "^#define THREAD_VERSION $((10000 * major + 100 * minor + patch)) " include/thread.h && [ "$(pkg-config --modversion thread)" = "$version" ] &&
-    head -n 1 debian/changelog | grep -qF "($version)" && grep -qx "version: $version" CITATION.cff
+    head -n 1 debian/changelog | grep -qF "($version)" && [ "$(date -u -d "$(sed -n 's/^ -- .*>  //p' debian/changelog | head -n 1)" +%F)" = "$(sed -n 's/^DATE := //p' Makefile)" ] && grep -qx "version: $version" CITATION.cff
 }
 
 export LD_LIBRARY_PATH=$usr/lib
@@ -122,6 +163,11 @@ test_that 'the soname is libthread.so.0' soname
 test_that 'the header has at most 220 lines' short
 test_that 'the C example compiles with pkg-config alone' c_example
 test_that 'the C example prints the least length' prints_length "$out/dome" "$out/c.svg"
+if command -v cmake >/dev/null; then
+  test_that 'and by CMake alone' c_by_cmake
+  test_that 'which prints the same' prints_length "$out/cmake/dome" "$out/cmake.svg"
+  test_that 'CMake refuses other versions' refused_by_cmake
+fi
 test_that 'the C example is compiled' c_object
 test_that 'and linked with the static library' c_static
 test_that 'the static example prints the least length' env -u LD_LIBRARY_PATH bash -c "[ \"\$('$out/dome-static')\" = $length ]"
@@ -135,8 +181,16 @@ test_that 'the program plans the dome' bash -c "'$usr/bin/thread' make dome | '$
 test_that 'and draws the same picture' as_drawn
 for command in $("$usr/bin/thread" complete '' | cut -f 1 | grep -v help); do
   test_that "thread-$command(1) names every option" has_options "$command"
-  if command -v man >/dev/null; then test_that "thread-$command(1) opens without warnings" opens "thread-$command.1"; fi
+  test_that "every option of thread $command is offered" is_offered "$command"
 done
+for page in "$usr"/share/man/man[135]/*; do
+  if command -v man >/dev/null; then test_that "$(basename "$page") opens without warnings" opens "$(basename "$page")"; fi
+  if command -v mandoc >/dev/null; then test_that "$(basename "$page") is clean" is_clean "$page"; fi
+done
+test_that 'every function has a page' diff <(cd "$usr/share/man/man3" && printf '%s\n' thread_*) <(grep -o 'thread_[a-z_]*(' "$usr/include/thread.h" | sed 's/($/.3/' | sort -u)
+test_that 'thread(1) names the other pages, and documents that are installed' names_pages
+test_that 'installed documents link to what is installed' linked
+test_that 'bash offers every option' bash_offers_all
 test_that 'bash completes a command' completes plan pla
 test_that 'bash completes an option' completes --objective plan --objec
 test_that 'bash completes values' completes 'tortuosity' plan --objective t
@@ -146,14 +200,16 @@ test_that 'bash leaves files to itself' completes '' check pl
 if command -v zsh >/dev/null; then
   test_that 'zsh reads its completion' zsh -n "$usr/share/zsh/site-functions/_thread"
   test_that 'zsh offers commands' zsh_offers 'check' thread ch
-  test_that 'zsh offers values' zsh_offers 'length tortuosity symmetry' thread plan x --objective ''
+  test_that 'zsh offers values' zsh_offers 'length symmetry tortuosity' thread plan x --objective ''
   test_that 'zsh leaves files to itself' zsh_offers 'files' thread check ''
 fi
 if command -v fish >/dev/null; then
   test_that 'fish reads its completion' fish -n "$usr/share/fish/vendor_completions.d/thread.fish"
   test_that 'fish offers commands' fish_offers 'check' 'thread ch'
-  test_that 'fish offers values' fish_offers 'length tortuosity symmetry' 'thread plan x --objective '
+  test_that 'fish offers values' fish_offers 'length symmetry tortuosity' 'thread plan x --objective '
 fi
+
+test_that 'uninstalled, nothing is left' uninstalled
 
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]
