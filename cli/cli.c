@@ -258,18 +258,21 @@ int cli_read_frame_report(const char *path, const cli_frame_args *args, thr_fram
     return cli_fail(&err);
   }
 
-  /* --feet replaces the feet of the file: the lowest nodes, or those named. */
-  if (args->feet && strcmp(args->feet, "lowest") == 0) {
-    thr_frame_feet_lowest(frame);
-  } else if (args->feet) {
-    memset(frame->foot, 0, (size_t)frame->n_nodes * sizeof *frame->foot);
-    if (!cli_mark_nodes(frame, args->feet, "--feet", frame->foot)) {
-      thr_frame_destroy(frame);
-      return EXIT_INPUT;
+  /* --feet replaces the feet of the file: by words for some of them, or by those named. */
+  if (!args->feet) return EXIT_OK;
+  int code = EXIT_OK;
+  if (thr_feet_is_word(args->feet)) {
+    if (thr_frame_feet_where(frame, args->feet, &err)) {
+      cli_error("--feet %s", err.text);
+      code = EXIT_INPUT;
     }
+  } else {
+    memset(frame->foot, 0, (size_t)frame->n_nodes * sizeof *frame->foot);
+    if (!cli_mark_nodes(frame, args->feet, "--feet", frame->foot)) code = EXIT_INPUT;
   }
+  if (code) thr_frame_destroy(frame);
 
-  return EXIT_OK;
+  return code;
 }
 
 bool cli_is_folder(const char *path)

@@ -103,7 +103,8 @@ bool cli_choose(const char *command, const char *option, const char *value,
 /* --edges, --weld, --up, .., --feet: how to read FRAME. */
 typedef struct {
   thr_read_options read;
-  const char *feet; /* NULL: as the file says; "lowest", a file's name, or node names with commas */
+  const char *feet; /* NULL: as the file says; words of thr_frame_feet_where, a file's name, or node
+                       names with commas */
 } cli_frame_args;
 
 extern const cli_option cli_frame_options[];

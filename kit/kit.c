@@ -146,26 +146,6 @@ static thr_status set_bores(maker *work, thr_err *err)
   return st;
 }
 
-/* Marks the nodes that stand on the ground: the framework's feet, else its lowest nodes. */
-static void find_feet(const thr_frame *frame, bool *foot)
-{
-  bool any = false;
-  double lowest = INFINITY;
-  for (int v = 0; v < frame->n_nodes; v++) {
-    any |= frame->foot[v];
-    lowest = fmin(lowest, frame->xyz[v][2]);
-  }
-  double near = lowest + 1e-6 * thr_frame_diagonal(frame);
-  int n = 0;
-  for (int v = 0; v < frame->n_nodes; v++) {
-    foot[v] = any ? frame->foot[v] : frame->xyz[v][2] <= near;
-    n += foot[v];
-  }
-  /* What lies flat stands on nothing in particular. */
-  for (int v = 0; v < frame->n_nodes && 2 * n > frame->n_nodes; v++)
-    foot[v] = false;
-}
-
 /* ---- the shape of a piece ---- */
 
 /* Sets an arm from its edge, as seen from the tail of the half-edge. */
@@ -911,7 +891,10 @@ thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_option
   if (!st)
     st = thr_kit_edges_make(&kit->edges, plan, &kit->options, &work.sizes,
                             (const char(*)[THR_LABEL])work.guide.label, &kit->notes, err);
-  if (!st) find_feet(frame, work.foot);
+
+  /* What lies flat stands on nothing in particular. */
+  if (!st && 2 * thr_frame_standing(frame, work.foot) > frame->n_nodes)
+    memset(work.foot, 0, (size_t)frame->n_nodes * sizeof *work.foot);
   if (!st) kit->options.wall = work.sizes.wall;
 
   /* Their shapes, kinds and names; then their meshes. */

@@ -281,6 +281,13 @@ thread_status thread_frame_set_feet(thread_frame *frame, int n, const int *node,
   return thr_library_status(st, &why, err);
 }
 
+/* Makes those nodes the feet that words say. */
+thread_status thread_frame_set_feet_where(thread_frame *frame, const char *where, thread_error *err)
+{
+  thr_err why = {0};
+  return thr_library_status(thr_frame_feet_where(&frame->frame, where, &why), &why, err);
+}
+
 /* Returns an array of one number for each edge, which is made with the usual number if there is
  * none yet; NULL if memory runs out. */
 static int *array_of(int **array, int n, int usual)

@@ -51,37 +51,6 @@ static thr_status allocate(thr_beads *beads, thr_err *err)
   return thr_scratch_check(&beads->own, err);
 }
 
-/* Returns whether a node stands on the ground: a foot of the framework, or one of its lowest nodes
- * if the framework has no foot. */
-static bool is_foot(const thr_frame *frame, int v, bool any, double lowest, double tolerance)
-{
-  return any ? frame->foot[v] : frame->xyz[v][2] <= lowest + tolerance;
-}
-
-/* Says where the framework stands, in its units. */
-typedef struct {
-  bool any_foot;
-  double lowest, tolerance; /* z of the lowest node; nodes that much above count as lowest */
-  double ground;            /* z of the lowest foot's node */
-} footing;
-
-/* Finds where the framework stands. */
-static footing find_footing(const thr_frame *frame)
-{
-  footing standing = {
-      .lowest = INFINITY, .tolerance = 1e-6 * thr_frame_diagonal(frame), .ground = INFINITY};
-  for (int v = 0; v < frame->n_nodes; v++) {
-    if (frame->foot[v]) standing.ground = fmin(standing.ground, frame->xyz[v][2]);
-    standing.any_foot = standing.any_foot || frame->foot[v];
-    standing.lowest = fmin(standing.lowest, frame->xyz[v][2]);
-  }
-
-  /* Without feet, the lowest nodes stand. */
-  if (!standing.any_foot) standing.ground = standing.lowest;
-
-  return standing;
-}
-
 /* Places the corners of a regular polygon on the edge of a foot's disc, m below the node, the first
  * half a side from the level direction. */
 static void place_foot(thr_beads *beads, int foot, double radius, double below)
@@ -100,11 +69,11 @@ static void place_foot(thr_beads *beads, int foot, double radius, double below)
 }
 
 /* Lists the feet, with discs as wide as an arm, half a width below the node. */
-static void place_feet(thr_beads *beads, const thr_frame *frame, const footing *standing)
+static void place_feet(thr_beads *beads, const bool *stands)
 {
   int n = 0;
-  for (int v = 0; v < frame->n_nodes; v++) {
-    if (!is_foot(frame, v, standing->any_foot, standing->lowest, standing->tolerance)) continue;
+  for (int v = 0; v < beads->n_beads; v++) {
+    if (!stands[v]) continue;
     beads->foot[n] = v;
     place_foot(beads, n++, 0.5 * beads->width, 0.5 * beads->width);
   }
@@ -215,21 +184,25 @@ static void compute_mass(thr_beads *beads, const thr_frame *frame, const thr_phy
     beads->mass_centre[v][k] = beads->centre[v][k] + moment[k] / volume;
 }
 
-/* Computes everything but the sizes. unit: m per unit of the framework. */
+/* Computes everything but the sizes. unit: m per unit of the framework. stands: [n_nodes] feet. */
 static thr_status fill(thr_beads *beads, const thr_frame *frame, const thr_physics *physics,
-                       double unit, const footing *standing, thr_err *err)
+                       double unit, const bool *stands, thr_err *err)
 {
+  double ground = INFINITY;
+  for (int v = 0; v < frame->n_nodes; v++)
+    if (stands[v]) ground = fmin(ground, frame->xyz[v][2]);
+
   /* Nodes in m; z = 0 is the underside of the lowest foot. */
   for (int v = 0; v < frame->n_nodes; v++) {
     beads->centre[v][0] = unit * frame->xyz[v][0];
     beads->centre[v][1] = unit * frame->xyz[v][1];
-    beads->centre[v][2] = unit * (frame->xyz[v][2] - standing->ground) + 0.5 * beads->width;
+    beads->centre[v][2] = unit * (frame->xyz[v][2] - ground) + 0.5 * beads->width;
   }
 
   /* Feet need the level direction, faces the nodes. */
   beads->size = unit * thr_frame_diagonal(frame);
   find_level(beads, frame);
-  place_feet(beads, frame, standing);
+  place_feet(beads, stands);
 
   for (int e = 0; e < frame->n_edges; e++) {
     thr_status st = place_face(beads, frame, e, err);
@@ -262,20 +235,19 @@ thr_status thr_beads_make(const thr_frame *frame, const thr_physics *physics, th
     return thr_fail(err, THR_EINPUT, "bead_diameter %g mm: must be wider than the bore, %g mm",
                     physics->bead_diameter, physics->bore);
 
-  /* Count feet first: the arrays depend on their number. */
-  footing standing = find_footing(frame);
   thr_beads beads = {.n_beads = frame->n_nodes,
                      .n_faces = frame->n_edges,
                      .width = 1e-3 * physics->bead_diameter,
                      .bore = 1e-3 * physics->bore};
   beads.play = fmax(0, 0.5e-3 * (physics->bore - physics->cord_diameter));
 
-  for (int v = 0; v < frame->n_nodes; v++)
-    beads.n_feet += is_foot(frame, v, standing.any_foot, standing.lowest, standing.tolerance);
+  /* Count feet first: the arrays depend on their number. */
+  bool *stands = thr_scratch_array(&beads.own, (size_t)frame->n_nodes, sizeof *stands);
+  if (stands) beads.n_feet = thr_frame_standing(frame, stands);
 
   /* Nothing is left allocated after a failure. */
   st = allocate(&beads, err);
-  if (st == THR_OK) st = fill(&beads, frame, physics, 1e-3 * unit, &standing, err);
+  if (st == THR_OK) st = fill(&beads, frame, physics, 1e-3 * unit, stands, err);
   if (st != THR_OK) {
     thr_beads_destroy(&beads);
     return st;

@@ -49,28 +49,10 @@ typedef struct {
 static void place_nodes(bead_bodies *bodies)
 {
   const thr_frame *frame = &bodies->plan->frame;
-  double lowest = INFINITY, low[3] = {INFINITY, INFINITY, INFINITY},
-         high[3] = {-INFINITY, -INFINITY, -INFINITY};
-  bool any = false;
-
-  /* Convert to metres and find the bounding box. */
-  for (int v = 0; v < frame->n_nodes; v++) {
-    for (int k = 0; k < 3; k++) {
-      bodies->centre[v][k] = bodies->unit * frame->xyz[v][k];
-      low[k] = fmin(low[k], bodies->centre[v][k]);
-      high[k] = fmax(high[k], bodies->centre[v][k]);
-    }
-
-    lowest = fmin(lowest, bodies->centre[v][2]);
-    any |= frame->foot[v];
-  }
-
-  /* Nodes within a millionth of the diagonal above the lowest one stand on the ground. */
-  const double size =
-      sqrt((high[0] - low[0]) * (high[0] - low[0]) + (high[1] - low[1]) * (high[1] - low[1]) +
-           (high[2] - low[2]) * (high[2] - low[2]));
   for (int v = 0; v < frame->n_nodes; v++)
-    bodies->foot[v] = any ? frame->foot[v] : bodies->centre[v][2] <= lowest + 1e-6 * size;
+    for (int k = 0; k < 3; k++)
+      bodies->centre[v][k] = bodies->unit * frame->xyz[v][k];
+  thr_frame_standing(frame, bodies->foot);
 }
 
 static bool is_vertical(const double axis[3])

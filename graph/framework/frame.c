@@ -1000,16 +1000,6 @@ double thr_frame_diagonal(const thr_frame *frame)
   return diagonal_of((const double(*)[3])frame->xyz, frame->n_nodes, sizeof *frame->xyz);
 }
 
-void thr_frame_feet_lowest(thr_frame *frame)
-{
-  double lowest = frame->n_nodes ? frame->xyz[0][2] : 0,
-         tolerance = 1e-6 * thr_frame_diagonal(frame);
-  for (int v = 0; v < frame->n_nodes; v++)
-    if (frame->xyz[v][2] < lowest) lowest = frame->xyz[v][2];
-  for (int v = 0; v < frame->n_nodes; v++)
-    frame->foot[v] = frame->xyz[v][2] <= lowest + tolerance;
-}
-
 double thr_frame_total_length(const thr_frame *frame)
 {
   double sum = 0;

@@ -7,7 +7,8 @@
  *
  * Read first this file and frame.c (from draft to framework: welding, indices, names, hash), which
  * everything else builds on. Then, in any order: near.c (what a drawing nearly says), components.c
- * (components as frameworks of their own), units.c (units of length), make.c (example frameworks),
+ * (components as frameworks of their own), feet.c (on which nodes they stand), units.c (units of
+ * length, numbers with units), make.c (example frameworks),
  * procrustes.c (isometries near to a permutation), igraph.c (cuts, flows, automorphisms, drawings),
  * bore.c (cords in a bore). */
 #ifndef THR_FRAME_H
@@ -186,9 +187,6 @@ bool thr_frame_names_are_indices(const thr_frame *frame);
 /* Edge between two nodes, or -1. O(degree). */
 int thr_frame_edge_between(const thr_frame *frame, int a, int b);
 
-/* Marks as feet the nodes within 1e-6 of the diagonal of the lowest z, and no others. */
-void thr_frame_feet_lowest(thr_frame *frame);
-
 /* Direction of a half-edge, from tail to head, with its largest component scaled to 1 or -1:
  * products neither overflow nor vanish. */
 void thr_direction(const thr_frame *frame, int half, double d[3]);
@@ -215,6 +213,24 @@ thr_status thr_frame_components(const thr_frame *frame, int *component, int *cou
 /* Marks bridges (edges whose removal disconnects their component) in is_bridge[n_edges]. Iterative
  * DFS, O(n + m). */
 thr_status thr_frame_bridges(const thr_frame *frame, bool *is_bridge, thr_err *err) THR_MUST_CHECK;
+
+/* ---- feet.c: Feet: the nodes on which a framework stands, by height or as the rim of a shell. */
+
+/* Marks in foot[n_nodes] on which nodes the framework stands: on its feet or, if it has none, on
+ * the nodes within 1e-6 of the diagonal of the lowest z. Returns how many. */
+int thr_frame_standing(const thr_frame *frame, bool *foot);
+
+/* Makes the nodes within 1e-6 of the diagonal of the lowest z the feet, and no others. */
+void thr_frame_feet_lowest(thr_frame *frame);
+
+/* Do the words say which nodes thr_frame_feet_where is to take, and do not name them? */
+bool thr_feet_is_word(const char *words);
+
+/* Makes the feet, and no others: "lowest", as above; "rim", all nodes on an edge of a shell, level
+ * or not; "below=HEIGHT", all up to that z, with its unit or in the framework's. THR_EINPUT, and
+ * nothing changes: the framework is no shell, or has no rim; no node is so low; other words. O(n),
+ * of a shell with small panels. */
+thr_status thr_frame_feet_where(thr_frame *frame, const char *words, thr_err *err) THR_MUST_CHECK;
 
 /* ---- bore.c: Round bores: how many cords are drawn with ease through one, and how wide one has to
  * be for so many. */
@@ -317,7 +333,8 @@ void thr_procrustes(const thr_frame *frame, const int *image, thr_motion *out);
 thr_status thr_automorphism_count(int n, int m, const int (*edge)[2], const int *colour,
                                   char **digits, thr_err *err) THR_MUST_CHECK;
 
-/* ---- Units of length: which words a file may use for them, and how long they are. */
+/* ---- Units of length: which words a file may use for them, and how long they are; and numbers
+ * with units. */
 
 /* The usual short name ("mm") of a unit called by that name, by its names in full ("Millimeters")
  * or by another short name, in either case; NULL if the word is none. "unit" is a length that
@@ -337,6 +354,13 @@ void thr_units_in_comment(const char *text, size_t n, const char **name, const c
 /* Millimetres in one unit, by its short name or any other; THR_EINPUT if it is none whose length is
  * known. */
 thr_status thr_units_in_mm(const char *units, double *mm, thr_err *err) THR_MUST_CHECK;
+
+/* Reads a number with or without a unit behind it, "200", "20cm", "1.5 kN", as one of `unit`: any
+ * unit of length, or N, s, deg, g, g/cm3, MPa, mm/s, m/s2, rad/m, %; "": no unit may follow. A kg
+ * of force is a weight on earth. THR_EINPUT without the text: not a finite number, or a unit of
+ * another kind, or of no known length. */
+thr_status thr_quantity_read(const char *text, const char *unit, double *value,
+                             thr_err *err) THR_MUST_CHECK;
 
 /* ---- Makes example frameworks, shapes by name; and draws graphs in the plane. */
 

@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Units of length. */
+/* Units of length, and numbers with units: "90cm", "50 N", "5min". */
 #include "graph/framework/frame.h"
+#include "graph/number.h"
 
 #include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -76,6 +79,85 @@ thr_status thr_units_in_mm(const char *word, double *mm, thr_err *err)
   return thr_fail(err, THR_EINPUT,
                   "units: how long is one \"%.40s\"? Expected " KNOWN "; set them with --units",
                   word);
+}
+
+/* ---- numbers with units ---- */
+
+/* Units of other kinds, in the first one of their row. */
+static const struct {
+  const char *kind;
+  struct {
+    const char *name;
+    double factor;
+  } unit[9];
+} others[] = {{"force",
+               {{"N", 1},
+                {"kN", 1e3},
+                {"mN", 1e-3},
+                {"kg", 9.80665},
+                {"kgf", 9.80665},
+                {"lbf", 4.4482216152605}}},
+              {"time", {{"s", 1}, {"ms", 1e-3}, {"min", 60}, {"h", 3600}}},
+              {"angle", {{"deg", 1}, {"degrees", 1}, {"\302\260", 1}, {"rad", 180 / THR_PI}}},
+              {"mass", {{"g", 1}, {"mg", 1e-3}, {"kg", 1e3}, {"lb", 453.59237}}},
+              {"density", {{"g/cm3", 1}, {"kg/m3", 1e-3}}},
+              {"pressure", {{"MPa", 1}, {"N/mm2", 1}, {"GPa", 1e3}, {"kPa", 1e-3}, {"Pa", 1e-6}}},
+              {"speed", {{"mm/s", 1}, {"cm/s", 10}, {"m/s", 1e3}}},
+              {"acceleration", {{"m/s2", 1}, {"mm/s2", 1e-3}}},
+              {"turning", {{"rad/m", 1}, {"rad/mm", 1e3}}},
+              {"a part", {{"%", 1}}}};
+
+enum { N_OTHERS = sizeof others / sizeof *others, MOST_OF_KIND = 9 };
+
+/* Returns how many of the one unit are in the other, which is called `word`; 0 if that is no unit
+ * of the same kind, and *kind and the text `some` say what could be. */
+static double factor_of(const char *unit, const char *word, const char **kind, char some[64])
+{
+  size_t length = 0;
+
+  /* The row in which the unit comes first. */
+  for (int i = 0; i < N_OTHERS; i++) {
+    if (strcmp(others[i].unit[0].name, unit) != 0) continue;
+    *kind = others[i].kind;
+    for (int k = 0; k < MOST_OF_KIND && others[i].unit[k].name; k++) {
+      if (strcmp(word, others[i].unit[k].name) == 0) return others[i].unit[k].factor;
+      length += (size_t)snprintf(some + length, 64 - length, "%s%s", k ? ", " : "",
+                                 others[i].unit[k].name);
+    }
+    return 0;
+  }
+
+  /* Else a length. */
+  double of = 0, in = 0;
+  *kind = "length";
+  snprintf(some, 64, "%s", KNOWN);
+  if (strcmp(word, unit) == 0) return 1;
+  if (thr_units_in_mm(word, &of, NULL) || thr_units_in_mm(unit, &in, NULL)) return 0;
+  return of / in;
+}
+
+thr_status thr_quantity_read(const char *text, const char *unit, double *value, thr_err *err)
+{
+  char *word, some[64];
+  const char *kind;
+  const double number = strtod(text, &word);
+
+  if (word == text || !isfinite(number))
+    return thr_fail(err, THR_EINPUT, "expected a number%s%s", *unit ? " of " : "", unit);
+  *value = number;
+  while (*word == ' ')
+    word++;
+  if (!*word) return THR_OK;
+
+  /* What stands behind the number is a unit, if there can be any. */
+  const double factor = *unit ? factor_of(unit, word, &kind, some) : 0;
+  if (!*unit) return thr_fail(err, THR_EINPUT, "expected a number and nothing behind it");
+  if (!(factor > 0))
+    return thr_fail(err, THR_EINPUT,
+                    "\"%.20s\" is no unit of %s here; expected a number of %s (%s)", word, kind,
+                    unit, some);
+  *value = number * factor;
+  return THR_OK;
 }
 
 /* ---- comments ---- */

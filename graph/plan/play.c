@@ -12,32 +12,6 @@
 
 #include "graph/arrays.h"
 
-#include <math.h>
-
-/* Puts the feet into the queue, with distance 0, and marks all other nodes as not reached. Without
- * feet the lowest nodes are taken. Returns the number of feet. */
-static int start_at_feet(const thr_frame *frame, int *queue, int *distance)
-{
-  double lowest = INFINITY;
-  bool any = false;
-  int n = 0;
-
-  /* Is there a foot, and how low are the lowest nodes? */
-  for (int v = 0; v < frame->n_nodes; v++) {
-    any |= frame->foot[v];
-    lowest = fmin(lowest, frame->xyz[v][2]);
-  }
-
-  const double near = lowest + 1e-6 * thr_frame_diagonal(frame);
-  for (int v = 0; v < frame->n_nodes; v++) {
-    const bool foot = any ? frame->foot[v] : frame->xyz[v][2] <= near;
-    distance[v] = foot ? 0 : -1;
-    if (foot) queue[n++] = v;
-  }
-
-  return n;
-}
-
 /* Measures, for every piece, the fewest gaps to a foot by breadth-first search; the shift is at
  * most gaps x (bore - cord diameter), in mm. */
 thr_status thr_play_find(const thr_frame *frame, const thr_physics *physics, thr_play *out,
@@ -46,10 +20,17 @@ thr_status thr_play_find(const thr_frame *frame, const thr_physics *physics, thr
   thr_scratch own = {0};
   const size_t nodes = (size_t)frame->n_nodes;
   int *queue = thr_scratch_array(&own, nodes, sizeof *queue),
-      *distance = thr_scratch_array(&own, nodes, sizeof *distance);
+      *distance = thr_scratch_array(&own, nodes, sizeof *distance), n = 0;
+  bool *foot = thr_scratch_array(&own, nodes, sizeof *foot);
   thr_status st = thr_scratch_check(&own, err);
   *out = (thr_play){.gap = physics->bore - physics->cord_diameter, .piece = -1};
-  int n = st ? 0 : start_at_feet(frame, queue, distance);
+
+  /* All feet are at distance 0, other nodes not reached. */
+  if (!st) thr_frame_standing(frame, foot);
+  for (int v = 0; v < frame->n_nodes && !st; v++) {
+    distance[v] = foot[v] ? 0 : -1;
+    if (foot[v]) queue[n++] = v;
+  }
 
   /* Breadth-first search: nodes leave the queue in the order of their distance. */
   for (int i = 0; i < n; i++)

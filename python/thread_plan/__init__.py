@@ -163,11 +163,14 @@ class Frame(_Owner):
         """What reading merged, dropped or found odd."""
         return _library.lib.thread_frame_notes(self._open()).decode().splitlines()
 
-    def set_feet(self, nodes: Optional[Iterable[int]] = None) -> "Frame":
-        """Says where cord ends may come out with ends="feet"; None: the lowest nodes. Returns the frame."""
-        feet = [] if nodes is None else [int(v) for v in nodes]
-        _library.call(_library.lib.thread_frame_set_feet, self._open(), c_int(-1 if nodes is None else len(feet)),
-                      (c_int * len(feet))(*feet))
+    def set_feet(self, nodes: Union[str, Iterable[int]] = "lowest") -> "Frame":
+        """Says where cord ends may come out with ends="feet": at these nodes, at the "lowest" ones, all round the "rim" of a
+        shell, or up to a height, "below=200mm". Returns the frame."""
+        if isinstance(nodes, str):
+            _library.call(_library.lib.thread_frame_set_feet_where, self._open(), nodes.encode())
+            return self
+        feet = [int(v) for v in nodes]
+        _library.call(_library.lib.thread_frame_set_feet, self._open(), c_int(len(feet)), (c_int * len(feet))(*feet))
         return self
 
     def set_passes(self, edge: int, cover: int, capacity: int = 0) -> None:

@@ -53,6 +53,8 @@ assert plan.summary.pull == max(cord.pull_start, cord.pull_end)
 # From one odd node to the other, from given nodes, several cords.
 assert abs(frame.plan(ends="any").summary.length - 190) < 1e-9
 assert set(frame.plan(ends=[1, 3]).cords[0].ends) <= {1, 3}
+assert set(Frame.shape("dome", 3).set_feet("rim").plan(ends="feet").cords[0].ends) <= {0, 1, 2, 3, 5, 6, 7, 8}
+refused(thread_plan.BadInput, "closed", lambda: Frame.shape("sphere", 1).set_feet("rim"))
 assert len(Frame.shape("dome", 5).set_feet().plan(cords=2, ends="feet").cords) == 2
 
 # Written, read, drawn.

@@ -315,6 +315,184 @@ START_TEST(finds_the_lowest_feet)
 }
 END_TEST
 
+START_TEST(stands_on_feet_or_on_the_lowest_nodes)
+{
+  thr_frame f = ring_frame(5); /* z = 0 .. 4 */
+  bool foot[5];
+  ck_assert_int_eq(thr_frame_standing(&f, foot), 1);
+  ck_assert(foot[0] && !foot[1]);
+  f.foot[3] = f.foot[4] = true;
+  ck_assert_int_eq(thr_frame_standing(&f, foot), 2);
+  ck_assert(!foot[0] && foot[3] && foot[4]);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+static thr_frame make_shape(thr_shape shape, int size)
+{
+  thr_draft d = {0};
+  thr_read_report r = {0};
+  thr_err err = {0};
+  thr_make_options options = thr_make_options_default(shape);
+  options.size = size;
+  assert_ok(thr_make(&d, &options, &err), &err);
+  return build(&d, -1, &r);
+}
+
+static int count_feet(const thr_frame *frame)
+{
+  int n = 0;
+  for (int v = 0; v < frame->n_nodes; v++)
+    n += frame->foot[v];
+  return n;
+}
+
+/* Domes of squares: all nodes outside; tubes: both ends, if they are no smaller than hexagons;
+ * honeycombs of 2 rings: 6 corners of each of 3 on each side, 30 in all; a geodesic dome: its ring.
+ * However the shape is bent. */
+START_TEST(finds_the_rim_of_shells)
+{
+  static const struct {
+    thr_shape shape;
+    int size, feet;
+  } shells[] = {{THR_MAKE_DOME, 3, 8},   {THR_MAKE_DOME, 7, 24},      {THR_MAKE_TUBE, 6, 12},
+                {THR_MAKE_TUBE, 12, 24}, {THR_MAKE_HONEYCOMB, 3, 30}, {THR_MAKE_GEODESIC, 4, 20}};
+  thr_err err = {0};
+
+  for (size_t i = 0; i < sizeof shells / sizeof *shells; i++) {
+    thr_frame f = make_shape(shells[i].shape, shells[i].size);
+    for (int v = 0; v < f.n_nodes; v++)
+      f.xyz[v][2] += 7 * sin(v);
+    assert_ok(thr_frame_feet_where(&f, "rim", &err), &err);
+    ck_assert_int_eq(count_feet(&f), shells[i].feet);
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
+/* A hole in a shell has a rim, too, and an edge that sticks out ends in a foot. */
+START_TEST(holes_have_a_rim)
+{
+  thr_draft d = {0};
+  thr_read_report r = {0};
+  thr_err err = {0};
+  for (int y = 0; y < 7; y++)
+    for (int x = 0; x < 7; x++)
+      node(&d, x, y, 0);
+  for (int v = 0; v < 49; v++) {
+    if (v == 24) continue; /* the middle */
+    if (v % 7 < 6 && v + 1 != 24) edge(&d, v, v + 1);
+    if (v / 7 < 6 && v + 7 != 24) edge(&d, v, v + 7);
+  }
+  node(&d, 0, -1, 0);
+  edge(&d, 0, 49);
+
+  thr_frame f = build(&d, -1, &r);
+  assert_ok(thr_frame_feet_where(&f, "rim", &err), &err);
+  ck_assert_int_eq(count_feet(&f), 24 + 8 + 1);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(no_rim_where_there_is_no_shell)
+{
+  static const struct {
+    thr_shape shape;
+    int size;
+    const char *says;
+  } frames[] = {{THR_MAKE_ROW, 4,
+                 "rim: this is no shell, as the edge B1-C1 is a side of 0 panels, not of one or "
+                 "two; name the feet, or take lowest"},
+                {THR_MAKE_ROW, 3,
+                 "rim: this is no shell, as it has no panels; name the feet, or take lowest"},
+                {THR_MAKE_TUBE, 4,
+                 "rim: this is no shell, as the edge B1-B2 is a side of 3 panels, not of one or "
+                 "two; name the feet, or take lowest"},
+                {THR_MAKE_SPHERE, 1,
+                 "rim: this shell is closed, as every edge is a side of two panels; name the "
+                 "feet, or take lowest"}};
+
+  for (size_t i = 0; i < sizeof frames / sizeof *frames; i++) {
+    thr_err err = {0};
+    thr_frame f = make_shape(frames[i].shape, frames[i].size);
+    f.foot[1] = true;
+    const int before = count_feet(&f);
+    ck_assert_int_eq(thr_frame_feet_where(&f, "rim", &err), THR_EINPUT);
+    ck_assert_str_eq(err.text, frames[i].says);
+    ck_assert_int_eq(count_feet(&f), before);
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
+START_TEST(feet_up_to_a_height)
+{
+  thr_frame f = ring_frame(5); /* z = 0 .. 4 mm */
+  thr_err err = {0};
+  static const struct {
+    const char *words;
+    int feet;
+  } good[] = {{"below=2", 3}, {"below 0.3cm", 4}, {"below=1e-3 m", 2}, {"lowest", 1}};
+  static const char *const bad[][2] = {
+      {"below=-1", "below -1: the lowest node is at 0 mm"},
+      {"below=2N",
+       "below 2N: \"N\" is no unit of length here; expected a number of mm (um, mm, cm, "
+       "dm, m, km, in, ft or yd)"},
+      {"below=", "below : expected a number of mm"},
+      {"top", "top: expected lowest, rim or below=HEIGHT"}};
+
+  for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+    assert_ok(thr_frame_feet_where(&f, good[i].words, &err), &err);
+    ck_assert_int_eq(count_feet(&f), good[i].feet);
+  }
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    err = (thr_err){0};
+    ck_assert_int_eq(thr_frame_feet_where(&f, bad[i][0], &err), THR_EINPUT);
+    ck_assert_str_eq(err.text, bad[i][1]);
+    ck_assert_int_eq(count_feet(&f), 1);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(quantities_have_units)
+{
+  static const struct {
+    const char *text, *unit;
+    double value;
+  } good[] = {
+      {"200", "mm", 200},        {"90cm", "mm", 900},      {"90 cm", "m", 0.9},
+      {"2", "unit", 2},          {"2unit", "unit", 2},     {"50N", "N", 50},
+      {"1 kg", "N", 9.80665},    {"1kg", "g", 1000},       {"5s", "s", 5},
+      {"2min", "s", 120},        {"90deg", "deg", 90},     {"3.141592653589793rad", "deg", 180},
+      {"30\302\260", "deg", 30}, {"1e3kg/m3", "g/cm3", 1}, {"7%", "%", 7},
+      {"0.5", "", 0.5}};
+  static const char *const bad[][3] = {
+      {"5s", "N",
+       "\"s\" is no unit of force here; expected a number of N (N, kN, mN, kg, kgf, lbf)"},
+      {"5mm", "unit",
+       "\"mm\" is no unit of length here; expected a number of unit (um, mm, cm, dm, "
+       "m, km, in, ft or yd)"},
+      {"5mm", "", "expected a number and nothing behind it"},
+      {"mm", "mm", "expected a number of mm"},
+      {"nan", "", "expected a number"},
+      {"inf s", "s", "expected a number of s"}};
+
+  for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+    double value = -1;
+    thr_err err = {0};
+    assert_ok(thr_quantity_read(good[i].text, good[i].unit, &value, &err), &err);
+    ck_assert_double_eq_tol(value, good[i].value, 1e-12 * good[i].value);
+  }
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    double value;
+    thr_err err = {0};
+    ck_assert_int_eq(thr_quantity_read(bad[i][0], bad[i][1], &value, &err), THR_EINPUT);
+    ck_assert_str_eq(err.text, bad[i][2]);
+  }
+}
+END_TEST
+
 START_TEST(hash_tells_frames_apart)
 {
   thr_frame f = path_frame(4), g = {0};
@@ -435,6 +613,15 @@ static thr_status everything(thr_err *err)
   thr_draft_destroy(&d);
   thr_frame_destroy(&f);
   thr_frame_destroy(&g);
+
+  /* Feet on a rim: a dome of four squares. */
+  thr_make_options options = thr_make_options_default(THR_MAKE_DOME);
+  options.size = 3;
+  if (!st) st = thr_make(&d, &options, err);
+  if (!st) st = thr_draft_build(&d, -1, &f, &r, err);
+  if (!st) st = thr_frame_feet_where(&f, "rim", err);
+  thr_draft_destroy(&d);
+  thr_frame_destroy(&f);
   return st;
 }
 
@@ -468,6 +655,12 @@ int main(void)
   ADD_TEST(s, 4, refuses_bad_drafts);
   ADD_TEST(s, 4, half_edges_leave_and_arrive);
   ADD_TEST(s, 4, finds_the_lowest_feet);
+  ADD_TEST(s, 4, stands_on_feet_or_on_the_lowest_nodes);
+  ADD_TEST(s, 4, finds_the_rim_of_shells);
+  ADD_TEST(s, 4, holes_have_a_rim);
+  ADD_TEST(s, 4, no_rim_where_there_is_no_shell);
+  ADD_TEST(s, 4, feet_up_to_a_height);
+  ADD_TEST(s, 4, quantities_have_units);
   ADD_TEST(s, 4, hash_tells_frames_apart);
   ADD_TEST(s, 4, components_and_bridges);
   ADD_TEST(s, 4, bridges_agree_with_deletion);

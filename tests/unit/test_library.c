@@ -210,6 +210,9 @@ START_TEST(frames_are_written_and_read)
   thread_error err;
   thread_frame *frame = square(), *again;
   ck_assert_str_eq(thread_frame_notes(frame), "");
+  ck_assert_int_eq((int)thread_frame_set_feet_where(frame, "below=1km", &err), THREAD_OK);
+  ck_assert_int_eq((int)thread_frame_set_feet_where(frame, "top", &err), THREAD_BAD_INPUT);
+  ck_assert_str_eq(err.text, "top: expected lowest, rim or below=HEIGHT");
   ck_assert_int_eq((int)thread_frame_set_feet(frame, 2, (const int[]){0, 2}, &err), THREAD_OK);
   ck_assert_int_eq((int)thread_frame_set_passes(frame, 4, 2, 3, &err), THREAD_OK);
   for (int i = 0; i < 4; i++) {
