@@ -210,3 +210,39 @@ thr_status thr_eval_plan(const thr_frame *frame, const thr_cord *cord, int n_cor
   *out = eval;
   return st;
 }
+
+/* Evaluates a plan by the closed form; see eval.h. */
+thr_status thr_eval_closed_form(const thr_plan *plan, double seating, thr_eval *out, thr_err *err)
+{
+  const thr_limits none = {0};
+  thr_eval_options options = thr_eval_options_default();
+  options.physics = plan->options.physics;
+  options.physics.seating = seating;
+  return thr_eval_plan(&plan->frame, plan->cord, plan->n_cords, THR_CAPSTAN, &options, &none, out,
+                       err);
+}
+
+/* Computes from which multiple of the pulls the pieces hold; see eval.h. */
+thr_status thr_eval_holding_factor(const thr_plan *plan, const thr_evaluation *evaluation,
+                                   double *times, thr_err *err)
+{
+  const thr_limits none = {0};
+  bool feet = false;
+  *times = NAN;
+
+  /* Tubes have no shape in the limit analysis; method structure and schedules have answers of their
+   * own. */
+  if (plan->options.joint == THR_JOINT_TUBE || evaluation->method == THR_STRUCTURE ||
+      evaluation->schedule.n > 0)
+    return THR_OK;
+
+  for (int i = 0; i < evaluation->n_cords; i++)
+    if (!evaluation->cord[i].known) return THR_OK;
+
+  thr_status st = thr_eval_holds_from(&plan->frame, plan->cord, evaluation, &none, times, err);
+  for (int v = 0; v < plan->frame.n_nodes; v++)
+    feet |= plan->frame.foot[v];
+  if (!st && isinf(*times) && !feet) *times = NAN;
+
+  return st;
+}

@@ -126,6 +126,12 @@ thr_status thr_eval_plan(const thr_frame *frame, const thr_cord *cord, int n_cor
                          const thr_limits *limits, thr_eval *out, thr_err *err) THR_MUST_CHECK;
 void thr_eval_destroy(thr_eval *eval);
 
+/* Evaluates a plan by the closed form, with the physics that were asked for, all ends pulled until
+ * `seating` N are left where each cord is slackest. THR_EINPUT for pulls that are more than numbers
+ * hold. Release with thr_eval_destroy. */
+thr_status thr_eval_closed_form(const thr_plan *plan, double seating, thr_eval *out,
+                                thr_err *err) THR_MUST_CHECK;
+
 /* Beyond so many pieces the limit analysis takes longer than half a second. */
 enum { THR_HOLDS_LARGEST = 500 };
 
@@ -137,6 +143,12 @@ enum { THR_HOLDS_LARGEST = 500 };
 thr_status thr_eval_holds_from(const thr_frame *frame, const thr_cord *cord,
                                const thr_evaluation *evaluation, const thr_limits *limits,
                                double *times, thr_err *err) THR_MUST_CHECK;
+
+/* Computes the same of an evaluation of a plan's solid pieces without a schedule; NAN also where
+ * there is nothing to say: what falls over on its lowest pieces, without feet, was perhaps not
+ * meant to stand there. THR_ENOMEM. */
+thr_status thr_eval_holding_factor(const thr_plan *plan, const thr_evaluation *evaluation,
+                                   double *times, thr_err *err) THR_MUST_CHECK;
 
 /* ---- The three methods, called by thr_eval_plan with resolved physics (out->record.physics) and
  * record.cord allocated. Private to eval/. */

@@ -10,10 +10,12 @@
 #include "diagram/mat/mat.h"
 #include "diagram/sheets/sheets.h"
 #include "diagram/tables/tables.h"
+#include "eval/eval.h"
 #include "kit/files.h"
 #include "kit/kit.h"
 #include "kit/picture.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Numbers the documents. Those before MAT are made by "all", but for one of SHEETS and PAGES. */
@@ -182,35 +184,48 @@ static thr_sheets_options sheets_options(const thr_plan *plan, const thr_documen
   return options;
 }
 
-/* Makes the step sheets as HTML. */
-static thr_status sheets_html(const thr_plan *plan, const thr_document_options *asked,
-                              const char *const *motion, const thr_limits *limits, thr_text *out,
-                              thr_err *err)
+/* Finds what the step sheets say of forces: as the plan was evaluated, else by the closed form,
+ * into *eval, and from which pull on its pieces hold. Pulls that are more than numbers hold are not
+ * said.
+ */
+static thr_status find_pulls(const thr_plan *plan, thr_eval *eval, thr_sheets_options *options,
+                             thr_err *err)
 {
-  thr_sheets *pages = NULL;
-  const thr_sheets_options options = sheets_options(plan, asked, motion);
+  thr_err absurd = {0};
+  const thr_evaluation *pulls = &plan->evaluation;
+  options->holding = NAN;
 
-  /* The caller hears how many pages there are. */
-  thr_status st = thr_sheets_make(&pages, plan, &options, limits, err);
-  if (!st && asked->pages) asked->pages(documents[PAGES].file, thr_sheets_pages(pages));
-  if (!st) st = thr_sheets_html(pages, out, err);
+  if (!pulls->present) {
+    thr_status st = thr_eval_closed_form(plan, plan->options.physics.seating, eval, &absurd);
+    if (st) return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
+    pulls = options->pulls = &eval->record;
+  }
 
-  thr_sheets_destroy(pages);
-  return st;
+  return thr_eval_holding_factor(plan, pulls, &options->holding, err);
 }
 
-/* Makes the step sheets as PDF. */
+/* Makes the step sheets, as HTML or as PDF. */
 static thr_status sheets(const thr_plan *plan, const thr_document_options *asked,
-                         const char *const *motion, const thr_limits *limits, thr_text *out,
-                         thr_err *err)
+                         const char *const *motion, bool html, const thr_limits *limits,
+                         thr_text *out, thr_err *err)
 {
+  thr_sheets *pages = NULL;
+  thr_sheets_options options = sheets_options(plan, asked, motion);
+  thr_eval eval = {0};
+  thr_status st = find_pulls(plan, &eval, &options, err);
   int n = 0;
 
-  /* The pages are counted while they are written. */
-  const thr_sheets_options options = sheets_options(plan, asked, motion);
-  thr_status st = thr_sheets_write(plan, &options, limits, &n, out, err);
-  if (!st && asked->pages) asked->pages(documents[SHEETS].file, n);
+  /* A PDF is written page by page as it is laid out. */
+  if (!st && !html) st = thr_sheets_write(plan, &options, limits, &n, out, err);
+  if (!st && html) st = thr_sheets_make(&pages, plan, &options, limits, err);
+  if (!st && html) n = thr_sheets_pages(pages);
 
+  /* The caller hears how many pages there are. */
+  if (!st && asked->pages) asked->pages(documents[html ? PAGES : SHEETS].file, n);
+  if (!st && html) st = thr_sheets_html(pages, out, err);
+
+  thr_sheets_destroy(pages);
+  thr_eval_destroy(&eval);
   return st;
 }
 
@@ -242,9 +257,9 @@ static thr_status describe(const thr_plan *plan, document which, const thr_docum
   /* Drawings and sheets. */
   switch (which) {
   case OVERVIEW: st = overview(plan, asked, copies.motion, out, err); break;
-  case SHEETS: st = sheets(plan, asked, copies.motion, limits, out, err); break;
+  case SHEETS:
+  case PAGES: st = sheets(plan, asked, copies.motion, which == PAGES, limits, out, err); break;
   case POSTER: st = poster(plan, asked, copies.motion, limits, out, err); break;
-  case PAGES: st = sheets_html(plan, asked, copies.motion, limits, out, err); break;
 
   /* Text of the steps, and the viewer. */
   case STEPS:

@@ -183,15 +183,11 @@ static void destroy(thread_plan *plan)
 static thr_status pull_by_closed_form(thread_plan *plan, thr_err *err)
 {
   const thr_plan *made = &plan->plan;
-  const thr_limits limits = {0};
   thr_err overflow = {0};
   thr_eval found = {0};
-  thr_eval_options options = thr_eval_options_default();
-  options.physics = made->options.physics;
   if (made->evaluation.present) return THR_OK;
 
-  thr_status st = thr_eval_plan(&made->frame, made->cord, made->n_cords, THR_CAPSTAN, &options,
-                                &limits, &found, &overflow);
+  thr_status st = thr_eval_closed_form(made, made->options.physics.seating, &found, &overflow);
   if (!st) {
     plan->closed_form = found.record;
     found.record = (thr_evaluation){0};

@@ -194,7 +194,7 @@ void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *
 void advice_put_holding(thr_text *text, const thr_plan *plan)
 {
   thr_eval eval;
-  if (!turning_seat(plan, plan->options.physics.seating, &eval)) {
+  if (thr_eval_closed_form(plan, plan->options.physics.seating, &eval, NULL)) {
     thr_eval_destroy(&eval);
     return;
   }

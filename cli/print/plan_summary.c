@@ -488,7 +488,7 @@ void plan_put_summary(thr_text *text, const thr_plan *plan, const thr_rivals *ri
 {
   double largest, *pull = compute_pulls(text, plan, &largest);
   thr_eval seated;
-  const bool known = turning_seat(plan, plan->options.physics.seating, &seated);
+  const bool known = !thr_eval_closed_form(plan, plan->options.physics.seating, &seated, NULL);
   if (pull) put_text(text, plan, pull, largest, known ? &seated : NULL, rivals, word);
   thr_eval_destroy(&seated);
   free(pull);

@@ -446,11 +446,6 @@ static const double turning_right_angle = 1.57079632679489661923;
  * beyond 1e300. */
 double turning_capstan(double mu, double turning);
 
-/* Evaluates a plan by the closed form, pulled at both ends until so many N are left where it is
- * slackest. Returns false if the pulls are more than a number holds. Release with thr_eval_destroy.
- */
-bool turning_seat(const thr_plan *plan, double seating, thr_eval *eval);
-
 /* Writes what the other end of the hardest cord takes, "other_pull", and what holding does,
  * "holds_from" (seated.c), both in N. */
 void turning_put_ends_json(thr_writer *writer, const thr_plan *plan);

@@ -107,28 +107,14 @@ static bool has_feet(const thr_frame *frame)
   return false;
 }
 
-/* Returns the factor on the pulls below which nothing holds the pieces, as the limit analysis
- * proves; NAN if there is nothing to say. What falls over on its lowest pieces, without feet, was
- * perhaps not meant to stand there. */
+/* Returns the factor on the pulls below which nothing holds the pieces (thr_eval_holding_factor).
+ */
 static double compute_holding_factor(thr_text *text, const thr_plan *plan,
                                      const thr_evaluation *evaluation)
 {
-  const thr_limits none = {0};
-  double times = NAN;
-
-  /* Tubes have no shape in the limit analysis; method structure and schedules have answers of their
-   * own. */
-  if (plan->options.joint == THR_JOINT_TUBE || evaluation->method == THR_STRUCTURE ||
-      evaluation->schedule.n > 0)
-    return NAN;
-
-  for (int i = 0; i < evaluation->n_cords; i++)
-    if (!evaluation->cord[i].known) return NAN;
-
-  if (thr_eval_holds_from(&plan->frame, plan->cord, evaluation, &none, &times, NULL))
-    text->failed = true;
-
-  return isinf(times) && !has_feet(&plan->frame) ? NAN : times;
+  double times;
+  if (thr_eval_holding_factor(plan, evaluation, &times, NULL)) text->failed = true;
+  return times;
 }
 
 void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,

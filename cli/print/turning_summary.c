@@ -84,20 +84,10 @@ double turning_capstan(double mu, double turning)
   return factor > 1e300 ? INFINITY : factor;
 }
 
-bool turning_seat(const thr_plan *plan, double seating, thr_eval *eval)
-{
-  const thr_limits none = {0};
-  thr_eval_options options = thr_eval_options_default();
-  options.physics = plan->options.physics;
-  options.physics.seating = seating;
-  return thr_eval_plan(&plan->frame, plan->cord, plan->n_cords, THR_CAPSTAN, &options, &none, eval,
-                       NULL) == THR_OK;
-}
-
 void turning_put_ends_json(thr_writer *writer, const thr_plan *plan)
 {
   thr_eval seated;
-  if (turning_seat(plan, plan->options.physics.seating, &seated)) {
+  if (!thr_eval_closed_form(plan, plan->options.physics.seating, &seated, NULL)) {
     thr_write_number(writer, "other_pull", thr_evaluation_hardest(&seated.record)->other_force);
     seated_put_holding_json(writer, plan, &seated.record);
   }
@@ -107,7 +97,7 @@ void turning_put_ends_json(thr_writer *writer, const thr_plan *plan)
 double turning_pull(const thr_plan *plan, double *cord)
 {
   thr_eval eval;
-  bool known = turning_seat(plan, 1, &eval);
+  bool known = !thr_eval_closed_form(plan, 1, &eval, NULL);
   double largest = known ? eval.record.largest : NAN;
 
   /* With a seating tension of 1 N pulls are factors. If the evaluation failed because a factor is

@@ -263,16 +263,17 @@ static void put_path(steps_list *list, int c, int n_paths)
 
 /* ---- the whole ---- */
 
-/* Explains how kinds and names are told apart, by a piece that has both; nothing if every kind has
- * one member. */
+/* Explains how kinds and names are told apart, by a piece that has both; nothing if every kind is
+ * called by its shape. */
 static void put_example(steps_list *list)
 {
   thr_text words = {0};
   char name[24];
 
-  /* The first piece that is picked up of a kind with several members. */
+  /* The first piece that is picked up of a kind that is called by its number. */
   int i = 0;
-  while (i < list->n_visits && list->pieces.members[list->pieces.kind[list->visit[i].piece]] == 1)
+  while (i < list->n_visits &&
+         thr_pieces_alone(&list->pieces, list->pieces.kind[list->visit[i].piece]))
     i++;
   if (i == list->n_visits) return;
 

@@ -103,6 +103,8 @@ static thr_status order_kinds(thr_pieces *pieces, thr_err *err)
     pieces->kind[i] = number[pieces->kind[i]];
     pieces->members[pieces->kind[i]]++;
   }
+  for (int k = 1; k <= n && !st; k++)
+    pieces->single += pieces->members[k] == 1;
 
   free(shapes);
   free(number);
@@ -134,6 +136,11 @@ void thr_pieces_destroy(thr_pieces *pieces)
 
 /* ---- names ---- */
 
+bool thr_pieces_alone(const thr_pieces *pieces, int kind)
+{
+  return pieces->solid && pieces->members[kind] == 1 && pieces->single > THR_PIECES_SINGLE;
+}
+
 void thr_pieces_kind_name(const thr_pieces *pieces, int kind, char name[24])
 {
   /* Tubes have no letter; five arms and more are a number. */
@@ -162,11 +169,11 @@ void thr_pieces_pick(const thr_pieces *pieces, const char (*label)[THR_LABEL], i
                      thr_text *text)
 {
   char name[24], letter = thr_pieces_letter(pieces, piece);
-  bool alone = pieces->members[pieces->kind[piece]] == 1;
+  bool alone = thr_pieces_alone(pieces, pieces->kind[piece]);
 
   thr_pieces_kind_name(pieces, pieces->kind[piece], name);
 
-  /* A kind with one member needs no number to be found in the box. */
+  /* Of very many kinds with one member no number helps to find it in the box. */
   if (!alone) thr_text_printf(text, "%s%s (", pieces->solid ? "" : "tube ", name);
   thr_pieces_name(pieces, label, piece, text);
 
@@ -176,7 +183,7 @@ void thr_pieces_pick(const thr_pieces *pieces, const char (*label)[THR_LABEL], i
   else if (letter)
     thr_text_printf(text, " (%s %c)", letter == 'P' || letter == 'T' || letter == 'Y' ? "a" : "an",
                     letter);
-  else if (pieces->solid)
+  else
     thr_text_printf(text, " (with %d arms)", thr_pieces_arms(pieces, piece));
 }
 

@@ -398,7 +398,12 @@ typedef struct {
   int *kind;    /* [n] from 1 */
   int *members; /* [n_kinds + 1] pieces of a kind */
   int *model;   /* [n_kinds + 1] its first piece */
+  int single;   /* kinds of one member */
 } thr_pieces;
+
+enum {
+  THR_PIECES_SINGLE = 12 /* more solid kinds of one member than these are called by their shapes */
+};
 
 static const double THR_PIECES_IN_LINE = 2.6179938779914943654; /* rad, 150 degrees */
 
@@ -416,6 +421,10 @@ int thr_pieces_arms(const thr_pieces *pieces, int piece); /* of a tube: 2 */
 char thr_pieces_letter(const thr_pieces *pieces,
                        int piece); /* of its shape; 0 = none: a tube, or five arms and more */
 
+/* Returns whether a kind is one of very many that have one member each: those are called by their
+ * places and their shapes, and counted together. */
+bool thr_pieces_alone(const thr_pieces *pieces, int kind);
+
 /* "X-10", "6-14"; of tubes "3". */
 void thr_pieces_kind_name(const thr_pieces *pieces, int kind, char name[24]);
 
@@ -424,8 +433,8 @@ void thr_pieces_kind_name(const thr_pieces *pieces, int kind, char name[24]);
 void thr_pieces_name(const thr_pieces *pieces, const char (*label)[THR_LABEL], int piece,
                      thr_text *text);
 
-/* Appends it with its kind, as it is looked for in the box: "X-10 (B5)"; of a kind with one member
- * "24 (an X)". */
+/* Appends it with its kind, as it is looked for in the box: "X-10 (B5)"; of a kind that is called
+ * by its shape (thr_pieces_alone) "24 (an X)". */
 void thr_pieces_pick(const thr_pieces *pieces, const char (*label)[THR_LABEL], int piece,
                      thr_text *text);
 

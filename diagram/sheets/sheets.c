@@ -3,9 +3,9 @@
  * PDF.
  *
  * Order of the pages: a title page with the picture of the whole; how pieces are handled; what to
- * prepare; each path in steps of about twenty passes, with its copies; what to do at the end; names
- * to stick on. The title page says on which page each part begins. Therefore this page is laid out
- * last, and is counted and drawn first: page i > 0 of the booklet is flow->page[i - 1].
+ * prepare, with names to stick on; each path in steps of about twenty passes, with its copies; what
+ * to do at the end. The title page says on which page each part begins. Therefore this page is laid
+ * out last, and is counted and drawn first: page i > 0 of the booklet is flow->page[i - 1].
  *
  * A PDF gets each page as soon as it is full, and the feet "page 3 of 41" when the number of pages
  * is known. */
@@ -43,6 +43,8 @@ void thr_sheets_destroy(thr_sheets *sheets)
   free(sheets->known.move);
   free(sheets->step);
   free(sheets->known.first_visit);
+  free(sheets->known.joined);
+  free(sheets->known.joins);
   free(sheets->known.threaded);
   free(sheets->known.first_pass);
   free(sheets->known.visited);
@@ -74,6 +76,7 @@ static thr_status prepare(thr_sheets *sheets, thr_err *err)
   if (!st) st = thr_pieces_make(&sheets->known.pieces, plan, sheets->known.o.kind_tolerance, err);
   if (!st) st = thr_guide_make(&sheets->known.guide, sheets->known.f, sheets->known.o.layout, err);
   if (!st) st = thr_sheets_follow(&sheets->known, err);
+  if (!st) st = thr_sheets_join(&sheets->known, err);
   if (st) return st;
   sheets->step = thr_calloc((size_t)sheets->known.n_visits, sizeof *sheets->step);
   if (!sheets->step) return thr_nomem(err);
@@ -102,6 +105,7 @@ static void put_pages(thr_sheets *sheets)
   thr_sheets_making(&sheets->flow, &sheets->known);
   thr_sheets_prepare(&sheets->flow, &sheets->known);
   thr_sheets_key(sheets);
+  thr_sheets_name_tags(&sheets->flow, &sheets->known);
 
   /* Copies are not divided into steps: one page says how each repeats its path. */
   first[THR_SHEET_STEPS] = sheets->flow.n_pages;
@@ -115,7 +119,6 @@ static void put_pages(thr_sheets *sheets)
   thr_sheets_flush(sheets);
   first[THR_SHEET_LAST] = sheets->flow.n_pages;
   thr_sheets_last(&sheets->flow, &sheets->known);
-  thr_sheets_name_tags(&sheets->flow, &sheets->known);
 
   /* Every part's first page is known now. */
   thr_sheets_front(sheets, first);
@@ -139,6 +142,8 @@ static thr_status make(thr_sheets **out, const thr_plan *plan, const thr_sheets_
   sheets->known.plan = plan;
   sheets->known.f = &plan->frame;
   sheets->known.o = *options;
+  sheets->known.evaluation =
+      options->pulls && !plan->evaluation.present ? options->pulls : &plan->evaluation;
   flow->limits = limits;
   thr_page_mm(options->page, flow->size);
 

@@ -20,6 +20,7 @@
 #include "diagram/layout/layout.h"
 #include "diagram/overview/overview.h"
 #include "graph/limits.h"
+#include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
 #include "graph/text.h"
@@ -34,8 +35,12 @@ typedef struct {
   double kind_tolerance;     /* as in thr_pieces_make */
   const char *const *motion; /* as in thr_overview_options; borrowed */
   const thr_layout *layout;  /* the same */
-  const thr_still *rise;     /* how the pieces come up as the cords are pulled, with its title and
-                                note, for the page "Last"; NULL: not shown; borrowed */
+  const thr_evaluation *pulls; /* what is said of forces where the plan has no evaluation; NULL:
+                                  nothing; borrowed */
+  double holding;              /* times the pulls, from where the pieces hold while the cords are
+                                  drawn in (eval/eval.h); at most 1, or NAN: not said */
+  const thr_still *rise;       /* how the pieces come up as the cords are pulled, with its title and
+                                  note, for the page "Last"; NULL: not shown; borrowed */
 } thr_sheets_options;
 
 static const double THR_SHEETS_WORKING = 2000; /* mm: somewhat more than both arms reach */

@@ -65,28 +65,53 @@ static void put_proof(thr_flow *flow, const char *goal, const char *of_what, boo
     thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
                    "Goal: %s; proved: with these options no plan has less %s.", goal, of_what);
   else
-    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH, "Goal: %s; at most %.3g %% of its %s could be saved.",
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH, "Goal: %s; at most %.3g %% less %s is not ruled out.",
                    goal, 100 * gap, of_what);
 }
 
-/* Writes the goal: turning, which has a proof of its own in the plan, cord under symmetry, or cord;
- * both others have a proof of length. */
+/* Writes the goal that was asked for, and what is proved of it: of the turning or the pull of the
+ * cord that has most, of all turning, of the longest cord, of the cord that symmetry or nothing
+ * else asks for; then the limits that no cord may exceed. */
 static void put_goal(thr_flow *flow, const thr_known *known)
 {
   const thr_plan *plan = known->plan;
+  const thr_request *asked = &plan->options;
+  const thr_turning_claim *turning = &plan->turning;
+  const thr_cords_claim *cords = &plan->cords_claim;
   const int paths = thr_copies_paths(known->copy, plan->n_cords), copies = plan->n_cords - paths;
-  char goal[128] = "as little cord as possible";
+  char goal[128];
 
-  if (thr_wants_turning(&plan->options)) {
-    put_proof(flow, "as little turning as possible", "turning", plan->turning.present,
-              plan->turning.optimal, plan->turning.gap);
-    return;
-  }
-
-  if (thr_wants_symmetry(&plan->options))
+  if (thr_wants_turning(asked) && thr_wants_largest(asked))
+    put_proof(flow,
+              thr_wants_pull(asked)
+                  ? "as little to overcome as possible at the end that is hardest "
+                    "to pull"
+                  : "as little turning as possible of the cord that turns most",
+              thr_wants_pull(asked) ? "to overcome there" : "turning of a cord", turning->present,
+              turning->largest_optimal,
+              turning->largest > 0 ? 1 - turning->largest_bound / turning->largest : 0);
+  else if (thr_wants_turning(asked))
+    put_proof(flow, "as little turning as possible", "turning", turning->present, turning->optimal,
+              turning->gap);
+  else if (thr_wants_symmetry(asked)) {
     snprintf(goal, sizeof goal, "cords that repeat each other: %d path%s to learn, %d cop%s", paths,
              plural(paths), copies, copies == 1 ? "y" : "ies");
-  put_proof(flow, goal, "cord", plan->proof.present, plan->proof.optimal, plan->proof.gap);
+    put_proof(flow, goal, "cord", plan->proof.present, plan->proof.optimal, plan->proof.gap);
+  } else if (thr_wants_balance(asked))
+    put_proof(flow, "the longest cord as short as possible", "cord in its longest one",
+              cords->present, cords->longest_optimal,
+              cords->longest > 0 ? 1 - cords->longest_bound / cords->longest : 0);
+  else
+    put_proof(flow, "as little cord as possible", "cord", plan->proof.present, plan->proof.optimal,
+              plan->proof.gap);
+
+  if (asked->max_length > 0)
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH, "No cord is longer than %g %s, as was asked.",
+                   asked->max_length, known->f->units);
+  if (asked->max_pull > 0)
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                   "No end is pulled by more than %g N to seat its cord, as was asked.",
+                   asked->max_pull * asked->physics.seating);
 }
 
 void thr_sheets_front(thr_sheets *sheets, const int *first)

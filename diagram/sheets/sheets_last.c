@@ -43,16 +43,22 @@ static double turning_of(const thr_known *known, int c)
 /* Returns what the evaluation says of cord c, or NULL if it says nothing. */
 static const thr_eval_cord *evaluation_of(const thr_known *known, int c)
 {
-  const thr_evaluation *evaluation = &known->plan->evaluation;
+  const thr_evaluation *evaluation = known->evaluation;
   return evaluation->present && evaluation->cord[c].known ? &evaluation->cord[c] : NULL;
+}
+
+double thr_sheets_pull(const thr_known *known, int c)
+{
+  const thr_eval_cord *found = &known->evaluation->cord[c];
+  const double times = known->o.holding;
+  return fmax(found->force, found->other_force) * (isfinite(times) ? fmax(times, 1) : 1);
 }
 
 /* Returns how hard cord c is to pull. */
 static cord_pull pull_of(const thr_known *known, int c)
 {
-  const thr_eval_cord *found = evaluation_of(known, c);
-  double force = found ? fmax(found->force, found->other_force) : turning_of(known, c);
-  return (cord_pull){c, found != NULL, force};
+  const bool is_known = evaluation_of(known, c) != NULL;
+  return (cord_pull){c, is_known, is_known ? thr_sheets_pull(known, c) : turning_of(known, c)};
 }
 
 int thr_sheets_hardest(const thr_known *known)
@@ -136,7 +142,7 @@ static void put_cord(thr_flow *flow, const thr_known *known, int c, const double
     snprintf(lost, sizeof lost, "%.1f %%", 100 * found->loss);
     snprintf(slackest, sizeof slackest, "pass %d, %.20s - %.20s", found->slackest + 1,
              label[thr_tail(known->f, h)], label[thr_head(known->f, h)]);
-  } else if (known->plan->evaluation.present) {
+  } else if (known->evaluation->present) {
     /* A plan may be evaluated while one of its cords could not be. */
     snprintf(forces, sizeof forces, "not known");
   }
@@ -146,12 +152,33 @@ static void put_cord(thr_flow *flow, const thr_known *known, int c, const double
                    slackest, thr_degrees(turning_of(known, c)));
 }
 
+/* Writes from which pull on the pieces hold together while the cords are drawn in, if the pulls of
+ * the table do not do. */
+static void put_holding(thr_flow *flow, const thr_known *known)
+{
+  const double times = known->o.holding;
+  char hardest[32];
+  if (!(times > 1)) return;
+
+  thr_svg_force(thr_sheets_pull(known, thr_sheets_hardest(known)), hardest);
+  if (isfinite(times))
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                   "These forces seat the cords, but while they are drawn in the pieces hold only "
+                   "from %.3g times that, %s at the hardest end: pull that much.",
+                   times, hardest);
+  else
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                   "These forces seat the cords, but no pull holds the pieces while they are drawn "
+                   "in: support what gives way (thread eval --method structure) until all knots "
+                   "are tied.");
+}
+
 /* Writes in which order and how the cords are pulled tight. pulls: [n_cords], receives the
  * cords in this order. */
 static void put_pulling(thr_flow *flow, const thr_known *known, cord_pull *pulls)
 {
   static const double column[] = {0, 38, -116, -130, 134, -186};
-  const thr_evaluation *evaluation = &known->plan->evaluation;
+  const thr_evaluation *evaluation = known->evaluation;
   int n = known->plan->n_cords;
 
   /* Sort the cords by hardness. */
@@ -188,6 +215,7 @@ static void put_pulling(thr_flow *flow, const thr_known *known, cord_pull *pulls
   for (int i = 0; i < n; i++)
     put_cord(flow, known, pulls[i].cord, column);
 
+  put_holding(flow, known);
   put_too_hard(flow, known, pulls);
 }
 
@@ -217,7 +245,7 @@ static void put_knots(thr_flow *flow, const thr_known *known)
 
   thr_sheets_put(flow, THR_BLOCK_TITLE, "Knots");
   if (known->supplies.mm > 0)
-    snprintf(taken, sizeof taken, "; it takes %.0f mm of this cord.",
+    snprintf(taken, sizeof taken, "; it takes %.0f mm of the tail.",
              ceil(THR_SUPPLIES_KNOT * known->supplies.cord));
   thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
                  "An overhand knot at each end, drawn up to its piece%s Cut the tails only when "

@@ -5,7 +5,8 @@
  * With one needle, pass k draws the whole rest of the cord through a piece: the sum over passes
  * grows with the square of the cord's length. Folding the cord halves both parts, and so about
  * halves the sum. A maker who works with lengths of working_mm joins a new one at the last foot
- * that the length reaches, where a knot keeps no faces apart.
+ * that the length reaches, where a knot keeps no faces apart. Each length has a tail and a knot at
+ * both of its ends, so that joins take cord: two tails each.
  *
  * Example: 4 passes of 100 mm draw 300 + 200 + 100 + 0 = 600 mm from the end; from the fold 2 *
  * (100 + 0) = 200 mm. */
@@ -13,8 +14,6 @@
 #include "diagram/sheets/sheets_parts.h"
 
 #include <stdio.h>
-
-enum { MOST_NAMED = 8 }; /* rows to join at that are named */
 
 /* Returns the sum over all rows of the cord that the needle has yet to use then, in units. */
 static double drawn_by_needles(const thr_known *known)
@@ -54,51 +53,114 @@ static int place_of(const thr_known *known, int i)
   return visit->number ? thr_head(known->f, visit->in) : visit->piece;
 }
 
-/* Appends the joins of the part that begins with visit `first`: each at the last foot that a length
- * of `working` units reaches. Returns the visit behind the part. *said counts joins; *late is set
- * if a stretch without a foot is longer than a length. */
-static int put_joins(const thr_known *known, int first, double working, int *said, bool *late,
-                     thr_text *words)
+double thr_sheets_tails(const thr_known *known)
 {
-  double from = 0;
-  int i = first, foot = -1;
+  return 2 * thr_supplies_tail(&known->supplies) / known->supplies.mm;
+}
 
-  for (; i < known->n_visits && known->move[i].part == known->move[first].part; i++) {
+thr_status thr_sheets_join(thr_known *known, thr_err *err)
+{
+  const double working = known->o.working_mm > 0 ? known->o.working_mm : THR_SHEETS_WORKING,
+               mm = known->supplies.mm;
+  double from = 0;
+  int foot = -1;
+
+  known->joined = thr_calloc((size_t)known->n_visits, sizeof *known->joined);
+  known->joins = thr_calloc((size_t)known->plan->n_cords, sizeof *known->joins);
+  if (!known->joined || !known->joins) return thr_nomem(err);
+
+  /* Without a size in mm no length of cord can be compared with an arm's reach. */
+  for (int i = 0; mm > 0 && i < known->n_visits; i++) {
+    if (i == 0 || known->move[i].part != known->move[i - 1].part) from = 0, foot = -1;
+
     /* The last foot behind the last join at which a length could end. */
-    bool more = i + 1 < known->n_visits && known->move[i + 1].part == known->move[i].part;
+    const bool more = i + 1 < known->n_visits && known->move[i + 1].part == known->move[i].part;
     if (known->move[i].used > from && known->f->foot[place_of(known, i)]) foot = i;
 
     /* The length still reaches the end of the next pass. */
-    if (!more || known->move[i + 1].used - from <= working) continue;
+    if (!more || known->move[i + 1].used - from <= working / mm) continue;
 
     /* No foot within reach: nothing can be joined before the next one. */
     if (foot < 0) {
-      *late = true;
+      known->late = true;
       continue;
     }
 
     /* The new length begins at that foot. */
     from = known->move[foot].used;
-    if ((*said)++ < MOST_NAMED)
-      thr_text_printf(words, "%scord %s after row %d (foot %s)", *said > 1 ? ", " : "",
-                      known->plan->cord[known->visit[foot].cord].id, known->visit[foot].number,
-                      known->guide.label[place_of(known, foot)]);
+    known->joined[foot] = true;
+    known->joins[known->visit[foot].cord]++;
     foot = -1;
   }
-  return i;
+  return THR_OK;
+}
+
+/* Returns how far the length that begins behind visit i, or with a part, reaches along its part, in
+ * units of the framework. */
+static double way_from(const thr_known *known, int i, bool with_part)
+{
+  const int part = known->move[i].part;
+  const double from = with_part ? 0 : known->move[i].used;
+  int last = with_part ? i : i + 1;
+
+  while (last + 1 < known->n_visits && known->move[last + 1].part == part && !known->joined[last])
+    last++;
+  return known->move[last].used - from;
+}
+
+/* Returns how long a length of cord c is cut whose way is so long: with its share of what turns
+ * take, and its tails. */
+static double cut_of(const thr_known *known, int c, double way)
+{
+  const thr_cut_length cut = thr_supplies_cut(&known->supplies, c);
+  return way * (1 + (cut.length > 0 ? cut.turns / cut.length : 0)) + thr_sheets_tails(known);
+}
+
+double thr_sheets_joined_length(const thr_known *known, int i)
+{
+  return cut_of(known, known->visit[i].cord, way_from(known, i, false));
+}
+
+/* Appends the lengths of cord c in the order of work: the first one, and those that are joined on,
+ * each after a row. */
+static void put_joins(const thr_known *known, int c, thr_text *words)
+{
+  enum { MOST_NAMED = 100 };
+  const int first = known->first_visit[c], end = thr_sheets_end(known, c);
+  double way = way_from(known, first, true), fold = 0;
+  char length[64];
+  int said = 0;
+
+  /* Of a folded cord the first length reaches both ways from the fold. */
+  for (int i = first + 1; i < end && known->fold[c]; i++)
+    if (known->move[i].part != known->move[i - 1].part) fold = way_from(known, i, true);
+
+  thr_svg_length(cut_of(known, c, way + fold), known->f->units, length);
+  thr_text_printf(words, "Cord %s in %d lengths: %s", known->plan->cord[c].id, known->joins[c] + 1,
+                  length);
+  if (known->fold[c]) {
+    thr_svg_length(cut_of(known, c, fold) - 0.5 * thr_sheets_tails(known), known->f->units, length);
+    thr_text_printf(words, " (fold at %s)", length);
+  }
+
+  for (int i = first; i < end && said < MOST_NAMED; i++) {
+    if (!known->joined[i]) continue;
+    thr_svg_length(thr_sheets_joined_length(known, i), known->f->units, length);
+    thr_text_printf(words, "%s %s after row %d (foot %s)", said++ ? "," : "; joined on:", length,
+                    known->visit[i].number, known->guide.label[place_of(known, i)]);
+  }
+  thr_text_append(words, said < known->joins[c] ? ", and so on (the rows say it). " : ". ");
 }
 
 void thr_sheets_lengths(thr_flow *flow, const thr_known *known)
 {
-  double mm = known->supplies.mm,
-         working = known->o.working_mm > 0 ? known->o.working_mm : THR_SHEETS_WORKING;
-  thr_text words = {0}, joins = {0};
+  const double mm = known->supplies.mm,
+               working = known->o.working_mm > 0 ? known->o.working_mm : THR_SHEETS_WORKING;
+  thr_text words = {0};
   char now[64], one[64];
+  bool joined = false;
 
-  int said = 0;
-  bool late = false;
-
-  /* Without a size in mm no length of cord can be compared with an arm's reach. */
+  /* Without a size in mm nothing is known of an arm's reach. */
   if (!(mm > 0)) return;
 
   /* What is drawn through in all, and what a single needle would draw. */
@@ -109,26 +171,27 @@ void thr_sheets_lengths(thr_flow *flow, const thr_known *known)
   if (known->n_parts > known->plan->n_cords)
     thr_text_printf(&words, ", with two needles from the fold; %s with one from the end", one);
   thr_text_append(&words, ". ");
-
-  /* Part by part, since each begins with a new end of cord. */
-  for (int i = 0; i < known->n_visits;)
-    i = put_joins(known, i, working / mm, &said, &late, &joins);
   snprintf(now, sizeof now, "%g m", working / 1000);
 
   /* Where lengths are joined, or why not. */
-  if (said)
-    thr_text_printf(&words, "With lengths of %s a new one is joined on: %s%s. ", now,
-                    joins.data ? joins.data : "", said > MOST_NAMED ? ", .." : "");
+  for (int c = 0; c < known->plan->n_cords; c++)
+    joined |= known->joins[c] > 0;
+  if (joined)
+    thr_text_printf(
+        &words,
+        "Lengths are joined on at feet (panel 6), for needles to work with %s; each has "
+        "a tail at both ends. ",
+        now);
+  for (int c = 0; c < known->plan->n_cords; c++)
+    if (known->joins[c]) put_joins(known, c, &words);
 
-  if (late)
+  if (known->late)
     thr_text_printf(&words,
                     "Where no foot comes within %s nothing is joined: keep what the needle does "
                     "not need yet in a coil, and pull it through.",
                     now);
-  else if (!said)
+  else if (!joined)
     thr_text_printf(&words, "No needle has more than %s of cord: nothing is joined on.", now);
 
-  words.failed |= joins.failed;
   thr_sheets_put_text(flow, THR_BLOCK_PARAGRAPH, &words);
-  thr_text_destroy(&joins);
 }

@@ -6,7 +6,7 @@
  * tightening, knots. Lengths, names of places and forces come from the plan, so that every sentence
  * is true of the framework at hand.
  *
- * Example: "8 Knots .. an overhand knot at each end (it takes 17 mm of this cord)", as a tight
+ * Example: "8 Knots .. an overhand knot at each end (it takes 17 mm of the tail)", as a tight
  * overhand knot takes THR_SUPPLIES_KNOT = 16.4 diameters of a cord, here one of 1 mm. */
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
@@ -285,8 +285,9 @@ static void put_need(instruction_panel *panel, thr_text *words)
 
   /* Shortest and longest cord to cut; where sizes in mm are unknown, without tails and knots. */
   for (int c = 0; c < n; c++) {
-    double cut = thr_supplies_cut(&known->supplies, c).cut;
-    if (!(known->supplies.mm > 0)) cut = thr_supplies_cut(&known->supplies, c).length;
+    const thr_cut_length length = thr_supplies_cut(&known->supplies, c);
+    double cut = length.cut + known->joins[c] * (length.tails + length.knots);
+    if (!(known->supplies.mm > 0)) cut = length.length;
     least = fmin(least, cut);
     most = fmax(most, cut);
   }
@@ -377,13 +378,16 @@ static void put_start(instruction_panel *panel, thr_text *words)
 {
   const thr_known *known = panel->known;
   const thr_part *part = &known->part[0];
+  char tail[32];
+
   /* The picture: a piece on the cord between stopper and needle. */
   put_row(panel, -2, 0, "n", 0);
   put_cord(panel, -34, 0, 18, 0);
   put_stopper(panel, -5, 0);
   put_needle(panel, 18, 0, 18);
   put_label(panel, -5, -5, "stopper");
-  put_label(panel, -24, 5, known->fold[part->cord] ? "other half" : "tail 150 mm");
+  snprintf(tail, sizeof tail, "tail %.0f mm", thr_supplies_tail(&known->supplies));
+  put_label(panel, -24, 5, known->fold[part->cord] ? "other half" : tail);
   put_label(panel, 27, 5, "needle");
 
   /* The text. A cord that is threaded from its fold has no tail yet: its other half waits there. */
@@ -396,8 +400,10 @@ static void put_start(instruction_panel *panel, thr_text *words)
   else {
     thr_text_printf(
         words,
-        "Put the stopper %.0f mm from the other end: that tail is for the knot. Cord %s starts at ",
-        THR_SUPPLIES_TAIL, known->plan->cord[part->cord].id);
+        "Put the stopper %.0f mm from the other end%s: that tail is to hold and for the knot. Cord "
+        "%s starts at ",
+        thr_supplies_tail(&known->supplies), known->supplies.mm > 0 ? "" : " and a knot's length",
+        known->plan->cord[part->cord].id);
     thr_guide_place(&known->guide, thr_cord_start(known->f, &known->plan->cord[part->cord]), words);
     thr_text_append(words, "; the first piece goes up to the stopper.");
   }
@@ -503,7 +509,7 @@ static void put_pull(const instruction_panel *panel, double side, const char *pl
 static void put_schedule(const thr_known *known, int c, thr_text *words)
 {
   enum { FEW = 4 };
-  const thr_schedule *schedule = &known->plan->evaluation.schedule;
+  const thr_schedule *schedule = &known->evaluation->schedule;
   const thr_cord *cord = &known->plan->cord[c];
   const int grips = thr_schedule_grips(schedule, c);
   char force[32];
@@ -538,7 +544,7 @@ static void put_tighten(instruction_panel *panel, thr_text *words)
   const thr_known *known = panel->known;
   int c = thr_sheets_hardest(known);
   const thr_cord *cord = &known->plan->cord[c];
-  const thr_evaluation *evaluation = &known->plan->evaluation;
+  const thr_evaluation *evaluation = known->evaluation;
   const char *start = known->guide.label[thr_cord_start(known->f, cord)],
              *end = known->guide.label[thr_cord_end(known->f, cord)];
 
@@ -591,7 +597,7 @@ static void put_tighten(instruction_panel *panel, thr_text *words)
   /* How hard: the larger pull of both ends. */
   if (evaluated) {
     char force[32];
-    double pull = fmax(evaluation->cord[c].force, evaluation->cord[c].other_force);
+    double pull = thr_sheets_pull(known, c);
     thr_svg_force(pull, force);
     thr_text_printf(words, ", with %s at most", force);
     thr_sheets_too_hard(pull, words);
@@ -619,7 +625,7 @@ static void put_knot(instruction_panel *panel, thr_text *words)
 
   /* How much cord it takes, if the cord's diameter is known. */
   if (panel->known->supplies.mm > 0)
-    thr_text_printf(words, " (it takes %.0f mm of this cord)",
+    thr_text_printf(words, " (it takes %.0f mm of the tail)",
                     ceil(THR_SUPPLIES_KNOT * panel->known->supplies.cord));
 
   thr_text_append(words,

@@ -41,9 +41,10 @@ static void put_cord(thr_flow *flow, const thr_known *known, int c, const double
 {
   const thr_cord *cord = &known->plan->cord[c];
   const thr_cut_length cut = thr_supplies_cut(&known->supplies, c);
-  const double allowance[4] = {cut.tails, cut.knots, cut.turns, cut.cut};
+  const double tails = cut.tails + cut.knots, joins = known->joins[c] * tails;
+  const double allowance[4] = {tails, cut.turns, joins, cut.cut + joins};
   char words[96], length[32], allowed[4][32], folded[32] = "";
-  double fold = cut.tails / 2 + cut.knots / 2;
+  double fold = tails / 2;
 
   /* Allowances are in mm of cord and bore: without a size they stay open. */
   for (int i = 0; i < 4; i++)
@@ -53,10 +54,10 @@ static void put_cord(thr_flow *flow, const thr_known *known, int c, const double
       snprintf(allowed[i], sizeof allowed[i], "-");
 
   /* The fold lies between two passes: count tail, knot and all passes before. Only cords that are
-   * threaded from their middle have one to mark. */
+   * threaded from their middle have one to mark, and if they are cut in one. */
   for (int k = 0; k < known->fold[c]; k++)
     fold += known->f->length[cord->half[k] >> 1];
-  if (known->fold[c]) length_cell(known, fold, folded);
+  if (known->fold[c] && !known->joins[c]) length_cell(known, fold, folded);
 
   thr_sheets_cord_words(known, c, words);
   thr_sheets_cells(flow, column, false, "%s\t%d\t%s\t%s\t%s\t%s\t%s\t%s\t%.30s - %.30s", words,
@@ -78,7 +79,7 @@ static void put_cords(thr_flow *flow, const thr_known *known)
 
   /* The column of folds stays empty where no cord has one. */
   thr_sheets_cells(flow, column, true,
-                   "cord\tpasses\tlength\ttails\tknots\tturns\tcut\t%s\tfrom - to",
+                   "cord\tpasses\tlength\ttails\tturns\tjoins\tcut\t%s\tfrom - to",
                    some_folded(known) ? "fold at" : "");
   for (int c = 0; c < known->plan->n_cords; c++)
     put_cord(flow, known, c, column);
@@ -88,10 +89,11 @@ static void put_cords(thr_flow *flow, const thr_known *known)
   if (known->supplies.mm > 0)
     thr_sheets_put(
         flow, THR_BLOCK_PARAGRAPH,
-        "Cut = length through the middles of the pieces + a tail of %.0f mm to hold at each end + "
-        "an overhand knot at each end + what turns take at most where the cord lies at the outside "
-        "of its bores.%s",
-        THR_SUPPLIES_TAIL,
+        "Cut = length through the middles of the pieces + a tail of %.0f mm at each end, %.0f mm "
+        "to "
+        "hold and the rest for an overhand knot + what turns take at most where the cord lies at "
+        "the outside of its bores + two tails for each join.%s",
+        thr_supplies_tail(&known->supplies), THR_SUPPLIES_TAIL,
         some_folded(known)
             ? " Fold at: from the end that comes out at the first place of the last column."
             : "");
@@ -129,10 +131,6 @@ typedef struct {
   int cords;     /* the most in one arm of a piece, or in a tube */
   double bore;   /* the widest that a piece needs, in cord diameters */
 } kind_row;
-
-/* More kinds of a single piece than this are counted together: no step calls them by their
- * numbers. */
-enum { MOST_SINGLE = 12 };
 
 /* Writes the five cells of a row of the table of kinds. */
 static void put_kind(const thr_known *known, const kind_row *kind, char cells[160])
@@ -173,19 +171,16 @@ static void put_kinds(thr_flow *flow, const thr_known *known, const kind_row *ro
 }
 
 /* Fills row[k - 1] for every kind k = 1, 2, ..: its pieces, and the most cords and the widest bore
- * that one of them needs, so that all pieces of a kind can be made alike. Returns how many kinds
- * have a single piece. */
-static int find_kinds(const thr_known *known, kind_row *row)
+ * that one of them needs, so that all pieces of a kind can be made alike. */
+static void find_kinds(const thr_known *known, kind_row *row)
 {
   const thr_pieces *pieces = &known->pieces;
-  int single = 0;
 
   /* What a kind is by itself. */
   for (int k = 0; k < pieces->n_kinds; k++) {
     thr_pieces_kind_name(pieces, k + 1, row[k].name);
     row[k].model = pieces->model[k + 1];
     row[k].pieces = pieces->members[k + 1];
-    single += row[k].pieces == 1;
   }
 
   /* What its pieces need: the maximum over all of them. */
@@ -198,8 +193,6 @@ static int find_kinds(const thr_known *known, kind_row *row)
     kind->cords = cords > kind->cords ? cords : kind->cords;
     kind->bore = fmax(kind->bore, bore);
   }
-
-  return single;
 }
 
 /* Merges the rows of kinds that have a single piece where letter, cords and bore agree. Returns how
@@ -241,8 +234,9 @@ static void put_pieces(thr_flow *flow, const thr_known *known)
     return;
   }
 
-  /* Tubes have no letter by which they could be counted. */
-  bool together = find_kinds(known, row) > MOST_SINGLE && pieces->solid;
+  /* Kinds that no step calls by their numbers are counted by their letters. */
+  find_kinds(known, row);
+  const bool together = pieces->solid && pieces->single > THR_PIECES_SINGLE;
 
   /* The heading counts pieces and kinds, before any are merged. */
   if (!pieces->solid) snprintf(unit, sizeof unit, " (lengths in %s)", known->f->units);

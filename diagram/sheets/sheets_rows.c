@@ -53,8 +53,8 @@ static void put_beginning(const thr_known *known, int i, thr_text *text)
   if (needle == THR_NEEDLE_ONLY) {
     thr_text_append(text, "Begin at ");
     thr_guide_place(&known->guide, place_before(known, i), text);
-    thr_text_printf(text, ": leave a tail of %.0f mm there and a knot's length.",
-                    THR_SUPPLIES_TAIL);
+    thr_text_printf(text, ": leave a tail of %.0f mm there%s.", thr_supplies_tail(&known->supplies),
+                    known->supplies.mm > 0 ? "" : " and a knot's length");
   } else {
     thr_text_printf(text, needle == THR_NEEDLE_RIGHT
                               ? "Right needle first: the fold of the cord lies at "
@@ -135,11 +135,21 @@ double thr_step_words_height(double rows_height, int lines_before, int lines_aft
          THR_SHEET_LINE + 1.5;
 }
 
-int thr_step_row_lines(thr_sheets *sheets, int visit)
+/* Appends the row of a visit: what the needle does, and the length that is joined on then. */
+static void put_words_of(const thr_sheets *sheets, int visit, thr_text *row)
 {
   const thr_known *known = &sheets->known;
+  char length[64];
+  thr_pieces_say(&known->pieces, thr_sheets_labels(known), known->visit, visit, sheets->step, row);
+  if (!known->joined[visit]) return;
+  thr_svg_length(thr_sheets_joined_length(known, visit), known->f->units, length);
+  thr_text_printf(row, "; join on %s", length);
+}
+
+int thr_step_row_lines(thr_sheets *sheets, int visit)
+{
   thr_text row = {0};
-  thr_pieces_say(&known->pieces, thr_sheets_labels(known), known->visit, visit, sheets->step, &row);
+  put_words_of(sheets, visit, &row);
 
   int lines =
       count_lines(&sheets->flow, &row, column_width(&sheets->flow) - BOX - COUNT, THR_SHEET_SMALL);
@@ -157,7 +167,7 @@ void thr_step_find_text(thr_sheets *sheets, thr_step *step)
   for (int i = step->first; i < step->end && !flow->why.code; i++) {
     thr_text *row = &step->row[step->n_rows];
     *row = (thr_text){0};
-    thr_pieces_say(&known->pieces, thr_sheets_labels(known), known->visit, i, sheets->step, row);
+    put_words_of(sheets, i, row);
     step->lines[step->n_rows++] =
         count_lines(flow, row, column_width(flow) - BOX - COUNT, THR_SHEET_SMALL);
   }

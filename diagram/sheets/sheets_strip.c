@@ -223,8 +223,8 @@ static void put_name(thr_flow *flow, const thr_known *known, int visit, double x
 
   thr_pieces_name(pieces, thr_sheets_labels(known), stay->piece, &name);
 
-  /* A kind with a single piece tells the maker nothing more than the place. */
-  if (new && pieces->solid && pieces->members[pieces->kind[stay->piece]] > 1)
+  /* The kind, if it is one of those that are called by their numbers. */
+  if (new && pieces->solid && !thr_pieces_alone(pieces, pieces->kind[stay->piece]))
     thr_pieces_kind_name(pieces, pieces->kind[stay->piece], kind);
 
   snprintf(words, sizeof words, "%s%s%.90s", kind, *kind ? " " : "", name.data ? name.data : "");

@@ -123,6 +123,11 @@ static double in_turns(const thr_supplies *supplies, const thr_cord *cord)
   return sum;
 }
 
+double thr_supplies_tail(const thr_supplies *supplies)
+{
+  return THR_SUPPLIES_TAIL + (supplies->mm > 0 ? THR_SUPPLIES_KNOT * supplies->cord : 0);
+}
+
 thr_cut_length thr_supplies_cut(const thr_supplies *supplies, int c)
 {
   const thr_cord *cord = &supplies->plan->cord[c];

@@ -128,6 +128,10 @@ typedef struct {
 /* Returns how much of cord c to cut. */
 thr_cut_length thr_supplies_cut(const thr_supplies *supplies, int c);
 
+/* Returns the tail that is left at each end of a cord, mm: to hold it by and for the knot; without
+ * the knot where the cord's size in mm is not known. */
+double thr_supplies_tail(const thr_supplies *supplies);
+
 /* Adds to visits[n_nodes] how often cords run through each node, start or end in it. */
 void thr_supplies_visits(const thr_plan *p, int *visits);
 

@@ -9,6 +9,7 @@
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets.h"
 #include "graph/limits.h"
+#include "graph/plan/evaluation.h"
 #include "graph/number.h"
 #include "tests/frameworks.h"
 #include "tests/sample_plans.h"
@@ -219,7 +220,7 @@ static int read_piece(const reader *r, const char **s)
   return e;
 }
 
-/* "X-10 (B5): ", "tube 2 (A1-A2): ", or of a kind with one member "24 (an X): ", "A1-A2: ". */
+/* "X-10 (B5): ", "tube 2 (A1-A2): ", or of very many kinds with one member "24 (an X): ". */
 static int read_new(reader *r, const char **s, int c, int row)
 {
   const char *open = strstr(*s, " ("), *colon = strstr(*s, ": "), *inside = open + 2;
@@ -265,9 +266,11 @@ static int read_held(reader *r, const char **s, int c)
 
 /* "4 pick up X-10 (B5): in from A5, out to C5": with the piece before and the arm by which it was
  * left, a pass. */
-static void read_row(reader *r, int c, const char *line, bool left)
+static void read_row(reader *r, int c, char *line, bool left)
 {
   const char *s = line;
+  char *join = strstr(line, "; join on ");
+  if (join) *join = '\0';
   int row = skip(&s, "S ") ? 0 : (int)strtol(s, (char **)&s, 10);
   s += *s == ' ';
   bool starts = strncmp(s, "start", 5) == 0;
@@ -296,6 +299,7 @@ static void read_row(reader *r, int c, const char *line, bool left)
   }
   r->at = piece;
   r->due = skip(&s, "out to ") ? read_name(r, &s, "") : -1;
+  ck_assert(!join || r->p->frame.foot[piece]);
   ck_assert_msg(*s == '\0' || strcmp(s, "here the end comes out") == 0, "%s", s);
 }
 
@@ -691,6 +695,71 @@ START_TEST(making_is_told)
 }
 END_TEST
 
+/* Lengths of a metre of a cord of 3.4 m: what is cut for it is what its lengths are cut to, and
+ * rows say where each is joined on. */
+START_TEST(lengths_add_up_to_what_is_cut)
+{
+  thr_plan p = plan_of(shape_make(THR_MAKE_TUBE, 12, 7), THR_ENDS_CLOSED, 1);
+  thr_sheets_options o = options_of(THR_PAGE_A4, _i);
+  thr_text pdf = {0};
+  double cut, sum, more;
+  int n, joins = 0, rows = 0;
+  o.working_mm = 1000;
+  ck_assert_int_eq(thr_sheets_write(&p, &o, &none, &n, &pdf, NULL), THR_OK);
+  thr_text told = told_by("pdftotext -raw", &pdf);
+  for (char *c = told.data; *c; c++)
+    if (*c == '\n' || *c == '\f') *c = ' ';
+  ck_assert_int_eq(sscanf(strstr(told.data, "Cord A 1"), "Cord A %*d %*f %*f %*f %*f %lf", &cut),
+                   1);
+  const char *s = strstr(told.data, "Cord A in "), *end = strstr(s, "). ");
+  ck_assert_int_eq(sscanf(s, "Cord A in %d lengths: %lf mm", &n, &sum), 2);
+  for (s = strstr(s, "; joined on: ") + 12; s && s < end; s = strchr(s + 1, ','), joins++) {
+    ck_assert_int_eq(sscanf(s + 1, "%lf mm after row", &more), 1);
+    sum += more;
+  }
+  for (s = told.data; (s = strstr(s, "; join on ")); s++)
+    rows++;
+  ck_assert_int_gt(n, 1);
+  ck_assert_int_eq(joins, n - 1);
+  ck_assert_int_eq(rows, n - 1);
+  ck_assert_double_eq_tol(sum, cut, 0.5 * n);
+  thr_text_destroy(&told);
+  thr_text_destroy(&pdf);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* The goal is the one that was asked for; forces that are given are told, and more where the pieces
+ * hold only from more. */
+START_TEST(goal_and_forces_are_told)
+{
+  thr_plan p = plan_of(shape_make(THR_MAKE_DOME, 4, 0), THR_ENDS_FEET, 1);
+  thr_eval_cord cord = {.known = true, .pull = THR_PULL_BOTH, .force = 2.5, .other_force = 2};
+  const thr_evaluation pulls = {
+      .present = true, .physics = p.options.physics, .n_cords = 1, .cord = &cord, .largest = 2.5};
+  thr_sheets_options o = options_of(THR_PAGE_A4, false);
+  int n;
+  o.pulls = &pulls;
+  o.holding = _i ? 4 : NAN;
+  p.options.aims = (thr_aims){1, {_i ? THR_AIM_MAX_TURNING : THR_AIM_PULL}};
+  thr_text pdf = {0};
+  thr_err err = {0};
+  assert_ok(thr_sheets_write(&p, &o, &none, &n, &pdf, &err), &err);
+  thr_text told = told_by("pdftotext", &pdf);
+  for (char *c = told.data; *c; c++)
+    if (*c == '\n') *c = ' ';
+  ck_assert_ptr_nonnull(
+      strstr(told.data, _i ? "Goal: as little turning as possible of the cord"
+                           : "Goal: as little to overcome as possible at the end"));
+  ck_assert_ptr_nonnull(strstr(told.data, "2.50 N"));
+  ck_assert_int_eq(strstr(told.data, "only from 4 times that, 10.0 N") != NULL, _i);
+  ck_assert_ptr_null(strstr(told.data, "Forces are not known"));
+  thr_text_destroy(&told);
+  thr_text_destroy(&pdf);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 START_TEST(a_pdf_tells_no_time_and_no_place)
 {
   thr_plan p = plan_of(ring_make(5), THR_ENDS_CLOSED, 1);
@@ -930,6 +999,8 @@ int main(void)
   ADD_EXAMPLES(s, 60, odd_plans_are_read_back, 10);
   ADD_LARGE(s, 120, a_large_plan_is_read_back, 0, 1);
   ADD_TEST(s, 20, making_is_told);
+  ADD_EXAMPLES(s, 20, lengths_add_up_to_what_is_cut, 2);
+  ADD_EXAMPLES(s, 20, goal_and_forces_are_told, 2);
   ADD_TEST(s, 20, what_fits_no_room_is_drawn_at_the_smallest_scale);
   ADD_TEST(s, 20, a_pdf_tells_no_time_and_no_place);
   ADD_TEST(s, 20, an_interrupt_stops_the_layout);
