@@ -14,6 +14,7 @@
 #include <string.h>
 
 static const double SPREAD = 1.15; /* of the shortest edges of what lies flat: faces are apart */
+static const double UP = 0.1;      /* of the width: so much higher is up */
 enum { ROUND = 8, MOST_SIDES = ROUND }; /* corners of what stands for a circle */
 
 /* Fills the corners of a prism with n sides round an axis, from one end to the other. Corners are
@@ -225,6 +226,21 @@ static thr_status lay_flat(const thr_kit *kit, double (*laid)[7], bool *known, t
   return st;
 }
 
+/* Do feet below all else carry the shape, so that it has a side that is up? Rows and flat grids
+ * have none. */
+static bool stands_up(const thr_kit *kit, const bool *foot)
+{
+  /* The least and the largest height of feet, and of other pieces. */
+  double height[2][2] = {{INFINITY, -INFINITY}, {INFINITY, -INFINITY}};
+  for (int p = 0; p < kit->n_pieces; p++) {
+    double *range = height[!foot[p]];
+    range[0] = fmin(range[0], kit->piece[p].centre[2]);
+    range[1] = fmax(range[1], kit->piece[p].centre[2]);
+  }
+  const double over = UP * kit->options.width;
+  return height[0][0] <= height[1][0] + over && height[0][1] < height[1][1] - over;
+}
+
 /* Fills made, whether or not its pieces overlap. */
 static thr_status make_all(thr_rise_kit *made, const thr_kit *kit, const thr_pull *pull,
                            thr_rise_feet feet, const thr_physics *physics, thr_err *err)
@@ -280,6 +296,7 @@ static thr_status make_all(thr_rise_kit *made, const thr_kit *kit, const thr_pul
                                          .cord = cord,
                                          .mat = known ? (const double(*)[7])laid : NULL,
                                          .width = kit->options.width,
+                                         .stands_up = stands_up(kit, plan->frame.foot),
                                          .mouth_depth = kit->cord,
                                          .physics = *physics};
   return THR_OK;

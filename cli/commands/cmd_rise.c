@@ -275,6 +275,32 @@ static void put_spread(const rise_runs *runs, double (*of)(const thr_rise_record
     thr_text_printf(text, "%.3g %s (%.3g to %.3g)", spread[1], unit, spread[0], spread[2]);
 }
 
+/* Appends how what has closed, but not come up, lies there; nothing if there is no such run. */
+static void put_lying(const rise_runs *runs, thr_text *text)
+{
+  double tilt[RISE_MOST_SEEDS], spread[3];
+  int n = 0;
+  for (int i = 0; i < runs->n_runs; i++) {
+    const thr_rise_record *record = &runs->record[i];
+    if (record->closed >= 0 && record->came_up < 0)
+      tilt[n++] = record->moment[record->held - 1].tilt * 180 / THR_PI;
+  }
+  if (n == 0) return;
+  rise_spread(tilt, n, spread);
+  if (runs->n_runs > 1)
+    thr_text_printf(text, "in %d %s all faces closed, but it does not stand upright: ", n,
+                    cli_plural(n, "run", "runs"));
+  else
+    thr_text_printf(text, "all its faces closed, but it %s, ",
+                    spread[0] < 60    ? "leans over"
+                    : spread[0] < 120 ? "lies on its side"
+                                      : "lies upside down");
+  if (n == 1)
+    thr_text_printf(text, "%.0f degrees over\n", spread[0]);
+  else
+    thr_text_printf(text, "%.0f (%.0f to %.0f) degrees over\n", spread[1], spread[0], spread[2]);
+}
+
 /* Appends whether it stands after the schedule, and what tension is left in each cord, beside what
  * the closed form says. */
 static void put_after(const rise_runs *runs, thr_text *text)
@@ -363,6 +389,7 @@ static void put_text(const rise_runs *runs, thr_text *text)
       text,
       "\n%d of %d faces closed, one a pass, highest node at %.3g mm, %.3g mm of cord drawn in\n",
       record->most_closed, record->n_counted, last->height, last->drawn);
+  put_lying(runs, text);
   if (record->most_closed < record->n_counted) {
     const char *name[2] = {"", ""};
     rise_pass_names(&runs->pieces, record->loosest, name);
@@ -415,6 +442,8 @@ static void write_run(thr_writer *writer, const rise_runs *runs, int i, bool mot
   if (record->fell >= 0) thr_write_number(writer, "pull_down", rise_pull_down(record));
   thr_write_int(writer, "most_closed", record->most_closed);
   thr_write_number(writer, "off", record->off);
+  if (runs->pieces.made.structure.stands_up && record->held > 0)
+    thr_write_printf(writer, "tilt", "%.4g", record->moment[record->held - 1].tilt * 180 / THR_PI);
   if (runs->args->schedule && record->finished) thr_write_bool(writer, "stands", record->stands);
   if (runs->args->dent) thr_write_number(writer, "dented", record->dented);
   write_degrees(writer, "kink", record->kink, record->n_passes);

@@ -65,17 +65,17 @@ static int prepare(comparison *work, int i)
   return EXIT_SUCCESS;
 }
 
-/* Finds the pass with the widest gap in most of the runs that did not come up. */
+/* Finds the pass with the widest gap in most of the runs that did not close. */
 static void find_jam(const rise_job *job, int n, const rise_pieces *pieces, compare_rise *rise)
 {
   const char *name[2] = {"", ""};
   int jam = -1;
   for (int i = 0; i < n; i++) {
     int same = 0;
-    if (!job[i].done || job[i].record.came_up >= 0) continue;
+    if (!job[i].done || job[i].record.closed >= 0) continue;
     for (int k = 0; k < n; k++)
-      same += job[k].done && job[k].record.came_up < 0 &&
-              job[k].record.loosest == job[i].record.loosest;
+      same +=
+          job[k].done && job[k].record.closed < 0 && job[k].record.loosest == job[i].record.loosest;
     if (same < rise->jams || (same == rise->jams && job[i].record.loosest > jam)) continue;
     rise->jams = same;
     jam = job[i].record.loosest;

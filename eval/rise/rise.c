@@ -25,9 +25,10 @@ static const double FRAME = 0.05;     /* s between frames */
 static const double DEEP = 1e4; /* edges under the ground, that feet which stay down are tied to */
 static const double ANY = 1e6;  /* N: whatever pulls */
 enum { FRAMES_AFTER = 20 };     /* that are seen of a fall */
-static const double CLOSED = 0.02;  /* of an edge: a gap that is no gap */
-static const double STRAIGHT = 0.1; /* rad between the axes of closed faces */
-static const double FALLEN = 0.9;   /* of the height: what is lower has fallen */
+static const double CLOSED = 0.02;        /* of an edge: a gap that is no gap */
+static const double STRAIGHT = 0.1;       /* rad between the axes of closed faces */
+static const double UPRIGHT = THR_PI / 6; /* rad that what stands on feet is tilted at most */
+static const double FALLEN = 0.9;         /* of the height: what is lower has fallen */
 static const double DENT_FROM = 0.25, DENT_UNTIL = 0.5; /* of the hold, that a hand dents in */
 
 static const char *const start_names[] = {"flat", "heap", "shape", "laid"};
@@ -292,6 +293,39 @@ static void see(const rise_run *run, double time, double pull, double lift, thr_
   }
 }
 
+/* Where the cords that are pulled have the pieces in their shape; NULL: as drawn. */
+static const double (*closed_places(const thr_rise_structure *structure))[7]
+{
+  for (int c = 0; c < structure->n_cords; c++)
+    if (!structure->cord[c].slack) return structure->cord[c].place;
+  return NULL;
+}
+
+/* Measures how far the shape is from that of the cords in a frame, mm, and how far up is tilted by
+ * the best fit, rad. */
+static thr_status fit_shape(const rise_run *run, const thr_rise_record *record, int frame,
+                            double *off, double *tilt, thr_err *err)
+{
+  double q[4];
+  const int n = record->n_pieces;
+  const double(*place)[7] = closed_places(run->structure);
+  const double(*pose)[7] = (const double(*)[7])record->pose + (size_t)frame * (size_t)n;
+  thr_scratch work = {0};
+  double(*drawn)[3] = thr_scratch_array(&work, (size_t)n, sizeof *drawn);
+  double(*last)[3] = thr_scratch_array(&work, (size_t)n, sizeof *last);
+  thr_status st = thr_scratch_check(&work, err);
+  for (int p = 0; p < n && !st; p++) {
+    memcpy(drawn[p], place ? place[p] : run->structure->piece[p].centre, sizeof *drawn);
+    memcpy(last[p], pose[p], sizeof *last);
+  }
+  if (!st) {
+    *off = thr_fit_points((const double(*)[3])drawn, (const double(*)[3])last, n, q, NULL);
+    *tilt = acos(fmax(-1, 1 - 2 * (q[0] * q[0] + q[1] * q[1])));
+  }
+  thr_scratch_free(&work);
+  return st;
+}
+
 /* Makes room for another frame and fills it. */
 static thr_status keep_frame(const rise_run *run, double time, double pull, double lift,
                              thr_rise_record *record, thr_err *err)
@@ -320,36 +354,11 @@ static thr_status keep_frame(const rise_run *run, double time, double pull, doub
     for (int k = 0; k < run->cable[c].n; k++)
       *tension++ = fmax(run->cable[c].tension[k], 0);
   record->n_frames++;
-  return THR_OK;
-}
 
-/* Where the cords that are pulled have the pieces in their shape; NULL: as drawn. */
-static const double (*closed_places(const thr_rise_structure *structure))[7]
-{
-  for (int c = 0; c < structure->n_cords; c++)
-    if (!structure->cord[c].slack) return structure->cord[c].place;
-  return NULL;
-}
-
-/* Measures how far the shape is from that of the cords in a frame. */
-static thr_status measure_off(const rise_run *run, const thr_rise_record *record, int frame,
-                              double *off, thr_err *err)
-{
-  const int n = record->n_pieces;
-  const double(*place)[7] = closed_places(run->structure);
-  const double(*pose)[7] = (const double(*)[7])record->pose + (size_t)frame * (size_t)n;
-  thr_scratch work = {0};
-  double(*drawn)[3] = thr_scratch_array(&work, (size_t)n, sizeof *drawn);
-  double(*last)[3] = thr_scratch_array(&work, (size_t)n, sizeof *last);
-  thr_status st = thr_scratch_check(&work, err);
-  for (int p = 0; p < n && !st; p++) {
-    memcpy(drawn[p], place ? place[p] : run->structure->piece[p].centre, sizeof *drawn);
-    memcpy(last[p], pose[p], sizeof *last);
-  }
-  if (!st)
-    *off = thr_fit_points((const double(*)[3])drawn, (const double(*)[3])last, n, NULL, NULL);
-  thr_scratch_free(&work);
-  return st;
+  double ignored;
+  return run->structure->stands_up ? fit_shape(run, record, record->n_frames - 1, &ignored,
+                                               &record->moment[record->n_frames - 1].tilt, err)
+                                   : THR_OK;
 }
 
 /* Measures the shape when hands began to let down, and how the faces were turned to each other. */
@@ -362,7 +371,8 @@ static thr_status measure_shape(const rise_run *run, thr_rise_record *record, th
   thr_rise_kinks(run->structure,
                  (const double(*)[7])record->pose + (size_t)frame * (size_t)record->n_pieces,
                  record->kink, record->twist);
-  return measure_off(run, record, frame, &record->off, err);
+  double ignored;
+  return fit_shape(run, record, frame, &record->off, &ignored, err);
 }
 
 /* ---- time passes ---- */
@@ -435,12 +445,16 @@ static int count_closed(const rise_run *run, int *widest)
   return n;
 }
 
-/* Reads off the record when the structure came up and when it fell. */
+/* Reads off the record when all faces closed, when the structure came up, and when it fell. */
 static void conclude(const rise_run *run, thr_rise_record *record)
 {
-  record->came_up = record->fell = -1;
+  record->closed = record->came_up = record->fell = -1;
   for (int i = record->held - 1; i >= 0 && record->moment[i].closed == run->n_counted; i--)
+    record->closed = i;
+  for (int i = record->held - 1; record->closed >= 0 && i >= record->closed; i--) {
+    if (record->moment[i].tilt > UPRIGHT) break;
     record->came_up = i;
+  }
   for (int i = record->held; i < record->n_frames && record->fell < 0 && record->held > 0; i++)
     if (record->moment[i].height < FALLEN * record->moment[record->held - 1].height)
       record->fell = i;
@@ -453,8 +467,8 @@ static void judge(const rise_run *run, thr_rise_record *record)
   int first = 0;
   while (record->moment[first].closed < run->n_counted && first < record->held - 1)
     first++;
-  record->stands =
-      last->closed == run->n_counted && last->height >= FALLEN * record->moment[first].height;
+  record->stands = last->closed == run->n_counted && last->tilt <= UPRIGHT &&
+                   last->height >= FALLEN * record->moment[first].height;
 }
 
 /* Writes down what is seen, and tells how far the simulation is. */
@@ -505,8 +519,8 @@ static thr_status let_pass(rise_run *run, const thr_limits *limits, thr_rise_rec
     const double part = (time - hands->full) / hands->hold;
     const bool dents = part >= DENT_FROM && part < DENT_UNTIL;
     if (step % per_frame == 0 && dents && options->dent > 0 && !st) {
-      double off;
-      st = measure_off(run, record, record->n_frames - 1, &off, err);
+      double off, ignored;
+      st = fit_shape(run, record, record->n_frames - 1, &off, &ignored, err);
       if (!st) record->dented = fmax(record->dented, off);
     }
     if (!st) st = take_step(run, dents ? options->dent : 0, &lift, err);
@@ -560,6 +574,7 @@ thr_status thr_rise_simulate(const thr_rise_structure *structure, const thr_rise
                              const thr_limits *limits, thr_rise_record *record, thr_err *err)
 {
   *record = (thr_rise_record){.n_pieces = structure->n_pieces,
+                              .closed = -1,
                               .came_up = -1,
                               .fell = -1,
                               .scheduled = options->schedule != NULL};

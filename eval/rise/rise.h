@@ -59,6 +59,7 @@ typedef struct {
   const double (*mat)[7];  /* [n_pieces] where nodes lie when all is laid out flat, and how pieces
                               are  turned there, x y z w; NULL: as they are drawn; z is not read */
   double width;            /* of a typical face */
+  bool stands_up;          /* on feet, below all else: what lies on its side has not come up */
   double mouth_depth;      /* how far inside the mouth the cord first touches its channel */
   thr_physics physics;     /* resolved: mu, mu_bead, mu_ground, gravity, stiffness and the law of
                               friction count */
@@ -110,6 +111,7 @@ typedef struct {
   double lift;       /* N */
   double widest;     /* gap */
   double speed;      /* mm/s of the fastest piece */
+  double tilt;       /* rad of up, after the best fit of the shape; 0 without stands_up */
   int closed;        /* passes whose faces have met */
 } thr_rise_moment;
 
@@ -124,8 +126,9 @@ typedef struct {
 
   double weight;       /* N, of all pieces that are not held */
   double drawn_height; /* of the highest node over the lowest */
-  int came_up;         /* first frame from which on, while the cords were drawn, all faces are
+  int closed;          /* first frame from which on, while the cords were drawn, all faces are
                           closed; -1: they never are */
+  int came_up;         /* first one of these from which on it is upright, too; -1 */
   int most_closed;     /* the largest number of passes with closed faces */
   int loosest;         /* pass, counted over all cords, with the widest gap when most were closed */
   double off;    /* largest distance of a node from the drawn shape, after the best fit, at the
@@ -136,8 +139,8 @@ typedef struct {
   int held;             /* frames until hands let down */
   bool scheduled;       /* it was pulled by a schedule .. */
   bool finished;        /* .. to its end; or all was seen that was asked for */
-  bool stands; /* at the last of these all faces are closed, and none is lower than when they were
-                  first, by a tenth of the height */
+  bool stands; /* at the last of these all faces are closed, it is upright, and it is not lower
+                  than when they were first, by a tenth of the height */
   int fell;    /* first frame after these that is lower by a tenth of the height; -1 */
 } thr_rise_record;
 
