@@ -19,6 +19,7 @@
 #include "cli/args/options.h"
 #include "diagram/overview/overview.h"
 #include "graph/framework/frame.h"
+#include "graph/io/json.h"
 #include "graph/io/read.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
@@ -308,6 +309,11 @@ bool progress_wanted(void);
 
 /* Sets the functions of limits that tell of progress; their user may be any. */
 void progress_listen(thr_limits *limits);
+
+/* Begins a line, whose members the caller writes; ends it with the seconds since the beginning,
+ * writes it at once and releases the text. */
+thr_writer progress_open(thr_text *text, const char *what);
+void progress_close(thr_writer *writer);
 
 /* A plan that is better than the last one. */
 void progress_plan(const thr_plan *plan);

@@ -42,8 +42,7 @@ bool progress_wanted(void)
   return last_line.wanted;
 }
 
-/* Begins a line; the caller writes its members. */
-static thr_writer open_line(thr_text *text, const char *what)
+thr_writer progress_open(thr_text *text, const char *what)
 {
   thr_writer writer = {.out = text, .compact = true};
   thr_write_object(&writer, NULL);
@@ -51,8 +50,7 @@ static thr_writer open_line(thr_text *text, const char *what)
   return writer;
 }
 
-/* Ends a line with the seconds since the beginning, and writes it at once. */
-static void end_line(thr_writer *writer)
+void progress_close(thr_writer *writer)
 {
   thr_write_printf(writer, "seconds", "%.3f", thr_clock() - last_line.began);
   thr_write_close(writer);
@@ -107,13 +105,13 @@ static void tell_bound(void *user, const char *what, double best, double bound)
   last_line.bound = fmax(bound, last_line.bound);
 
   /* The gap in per cent of the best value. */
-  thr_writer writer = open_line(&text, what);
+  thr_writer writer = progress_open(&text, what);
   thr_write_number(&writer, "best", last_line.best);
   thr_write_number(&writer, "bound", last_line.bound);
   thr_write_printf(
       &writer, "gap", "%.3g",
       last_line.best > 0 ? 100 * fmax(0, last_line.best - last_line.bound) / last_line.best : 0.);
-  end_line(&writer);
+  progress_close(&writer);
 }
 
 /* Tells which part of the work is done if that is more. Signature of thr_limits.advance. */
@@ -128,9 +126,9 @@ static void tell_part(void *user, const char *what, double done)
   if ((!other && done <= last_line.done) || !is_due(other)) return;
   last_line.done = done;
 
-  thr_writer writer = open_line(&text, what);
+  thr_writer writer = progress_open(&text, what);
   thr_write_printf(&writer, "done", "%.3f", done);
-  end_line(&writer);
+  progress_close(&writer);
 }
 
 void progress_listen(thr_limits *limits)
@@ -142,9 +140,9 @@ void progress_listen(thr_limits *limits)
 void progress_plan(const thr_plan *plan)
 {
   thr_text text = {0};
-  thr_writer writer = open_line(&text, "plan");
+  thr_writer writer = progress_open(&text, "plan");
   thr_write_number(&writer, "length", plan->metrics.length);
   thr_write_number(&writer, "turning", plan->metrics.turning);
   thr_write_int(&writer, "cords", plan->n_cords);
-  end_line(&writer);
+  progress_close(&writer);
 }

@@ -775,30 +775,37 @@ static thr_status make_promised(const advice_search *adviser, thr_plan *plan, th
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails promises nothing */
 }
 
+static bool is_promise(const thr_plan *plan)
+{
+  return plan->n_cords > 0 && plan->options.ends != THR_ENDS_CLOSED;
+}
+
+/* Fills a row with what the command's plan measures, keeps the bound that the row had, and tells
+ * it. */
+static void tell_promised(advice_search *adviser, const thr_plan *plan, thr_advice_row *row)
+{
+  const ends_kind kind = {.ends = plan->options.ends};
+  const double bound = row->bound, base_length = adviser->out->base_length;
+
+  *row = (thr_advice_row){.bound = bound, .searched = adviser->frame->n_edges <= MOST_SEARCHED};
+  measure_row(adviser, &kind, plan, row);
+  row->optimal = row->turning <= row->bound * (1 + 1e-9);
+  adviser->out->base_length = base_length;
+  if (adviser->options->row) adviser->options->row(adviser->options->user, row, plan);
+}
+
 /* Puts what the command's plan measures in the place of the recommended row. */
-static thr_status promise(advice_search *adviser, thr_err *err)
+static thr_status promise(advice_search *adviser, const thr_plan *plan, thr_err *err)
 {
   thr_advice *out = adviser->out;
-  thr_plan plan = {0};
-  thr_status st = make_promised(adviser, &plan, err);
+  if (!is_promise(plan)) return THR_OK;
 
-  if (st || plan.n_cords == 0 || plan.options.ends == THR_ENDS_CLOSED) {
-    thr_plan_destroy(&plan);
-    return st;
-  }
-  const ends_kind kind = {.ends = plan.options.ends};
-  const int cords = plan.options.cords;
+  const ends_kind kind = {.ends = plan->options.ends};
+  const int cords = plan->options.cords;
   adviser->room = out->n;
   thr_advice_row *row = find_row(adviser, &kind, cords);
-  if (!row) st = new_row(adviser, &row, err);
-  if (!st) {
-    const double bound = row->bound, base_length = out->base_length;
-    *row = (thr_advice_row){.bound = bound, .searched = adviser->frame->n_edges <= MOST_SEARCHED};
-    measure_row(adviser, &kind, &plan, row);
-    row->optimal = row->turning <= row->bound * (1 + 1e-9);
-    out->base_length = base_length;
-    if (adviser->options->row) adviser->options->row(adviser->options->user, row, &plan);
-  }
+  thr_status st = row ? THR_OK : new_row(adviser, &row, err);
+  if (!st) tell_promised(adviser, plan, row);
 
   /* The rows in order, with the promised one, which is kept whatever it buys. */
   const thr_advice_row promised = st ? (thr_advice_row){0} : *row;
@@ -807,8 +814,6 @@ static thr_status promise(advice_search *adviser, thr_err *err)
   adviser->room = out->n;
   if (!st && !row && !(st = new_row(adviser, &row, err))) *row = promised;
   if (!st) out->chosen = thr_advice_within(out, row) ? (int)(row - out->row) : -1;
-
-  thr_plan_destroy(&plan);
   return st;
 }
 
@@ -821,12 +826,6 @@ thr_status thr_advise(const thr_frame *frame, const thr_request *request,
 
   thr_status st = thr_physics_resolve(&request->physics, frame, &out->physics, err);
   if (!st) st = thr_components_init(&components, frame, request, err);
-  if (!st && components.n == 1)
-    st = find_rows(frame, request, options, true, limits, out, err);
-  else if (!st)
-    st = find_by_components(&components, request, options, limits, out, err);
-
-  if (!st) thr_advice_settle(out);
 
   /* What is recommended is what its command makes. */
   advice_search promising = {.frame = frame,
@@ -838,7 +837,23 @@ thr_status thr_advise(const thr_frame *frame, const thr_request *request,
   promising.request.capacity = request->capacity;
   promising.request.physics = request->physics;
   if (!st && frame->n_edges <= MOST_SEARCHED) st = find_group(&promising, err);
-  if (!st) st = promise(&promising, err);
+
+  /* Within what a hand always manages it does not depend on the rows: it is told first. */
+  const bool first = out->hand == thr_hand_always;
+  thr_advice_row row = {0};
+  thr_plan plan = {0};
+  if (!st && first) st = make_promised(&promising, &plan, err);
+  if (!st && is_promise(&plan)) tell_promised(&promising, &plan, &row);
+
+  if (!st && components.n == 1)
+    st = find_rows(frame, request, options, true, limits, out, err);
+  else if (!st)
+    st = find_by_components(&components, request, options, limits, out, err);
+
+  if (!st) thr_advice_settle(out);
+  if (!st && !first) st = make_promised(&promising, &plan, err);
+  if (!st) st = promise(&promising, &plan, err);
+  thr_plan_destroy(&plan);
   thr_group_destroy(&promising.group);
   thr_components_destroy(&components);
   if (st) thr_advice_destroy(out);

@@ -248,7 +248,8 @@ typedef struct {
   double hand;          /* N: what the pull is to stay within */
   const thr_plan *plan; /* NULL; or the shortest closed cords, for a framework that is too large for
                            searches. Borrowed */
-  /* Hears of every row as soon as it is there or better, before any is dropped; NULL = nobody.
+  /* Hears of every row as soon as it is there or better, before any is dropped; NULL = nobody. The
+   * first row, where `hand` is thr_hand_always, is of the plan that is recommended (recommend.c).
    * plan: whose cords the row measures, NULL if the row measures those that it did before, or its
    * cords were never laid out. Borrowed. */
   void (*row)(void *user, const thr_advice_row *row, const thr_plan *plan);

@@ -59,7 +59,8 @@ static thr_status try_number(const recommendation *of, int cords, thr_plan *plan
   thr_err why = {0};
 
   little.usual = little.unpriced = true;
-  little.found = NULL; /* another number of cords than was shown first */
+  little.found = NULL;   /* another number of cords than was shown first */
+  little.advance = NULL; /* a part of this trial */
   request.cords = request.cords_least = cords;
   const thr_status st = thr_plan_make(of->frame, &request, &little, plan, report, &why);
 
@@ -132,6 +133,8 @@ static thr_status try_numbers(const recommendation *of, int least, int most, thr
     thr_report found = {0};
 
     /* Fewer than the fewest so far that stay within the hand, more than those that do not. */
+    if (of->limits->advance)
+      of->limits->advance(of->limits->user, "numbers of cords", (trial + 0.5) / MOST_TRIALS);
     st = try_number(of, cords, &tried, &found, err);
     const bool fits = !st && is_within(of, &tried);
     if (fits) take(plan, report, &tried, &found);

@@ -55,7 +55,7 @@ typedef struct {
   const char *path, *output;
   double hand;
   int type;
-  bool json;
+  bool json, progress;
 } advise_arguments;
 
 static const char *type_name(int type)
@@ -77,6 +77,9 @@ static const cli_option own_options[] = {
     {"output", 'o', "FILE", "(default: stdout)", .kind = CLI_OUTPUT, AT(output)},
     {"json", .kind = CLI_FLAG, AT(json),
      .help = "the table as JSON, with -T svg on stdout beside the picture in -o"},
+    {"progress", .kind = CLI_FLAG, AT(progress),
+     .help = "a line of JSON on stderr each time a row is found or better, the recommended one "
+             "first where --hand is as usual"},
     {"hand", .value = "N", .kind = CLI_OTHER, .take = take_hand,
      .help = "what the pull is to stay within, in newton, even at the upper end of the band of mu "
              "(default: 10, what a hand manages time after time; one: 50, the most; two: 100)"},
@@ -107,6 +110,8 @@ static int parse(int argc, char **argv, advise_arguments *args)
                               {NULL}};
   const int code = cli_options(argc, argv, &syntax, groups);
   if (code >= 0) return code;
+
+  if (args->progress) progress_begin();
 
   /* One operand: the framework. */
   if (optind + 1 != argc)
@@ -201,6 +206,11 @@ static void show_row(void *user, const thr_advice_row *row, const thr_plan *plan
   thr_text text = {0};
 
   if (plan) keep_cords(state, row, plan);
+  if (progress_wanted()) {
+    thr_writer writer = progress_open(&text, "row");
+    advice_put_members(&writer, row);
+    progress_close(&writer);
+  }
   if (!state->shown) return;
 
   /* The head comes with the first row, and takes four lines. */

@@ -204,10 +204,8 @@ void advice_put_holding(thr_text *text, const thr_plan *plan)
 
 /* ---- JSON ---- */
 
-/* Writes a row: lengths in units, turning in rad, pulls in N. */
-static void put_row_json(thr_writer *writer, const thr_advice_row *row)
+void advice_put_members(thr_writer *writer, const thr_advice_row *row)
 {
-  thr_write_object(writer, NULL);
   thr_write_int(writer, "cords", row->cords);
   if (row->all > row->cords) thr_write_int(writer, "cords_in_all", row->all);
 
@@ -233,6 +231,12 @@ static void put_row_json(thr_writer *writer, const thr_advice_row *row)
   /* What is to be threaded and learned. */
   thr_write_int(writer, "passes", row->passes);
   thr_write_int(writer, "steps", row->steps);
+}
+
+static void put_row_json(thr_writer *writer, const thr_advice_row *row)
+{
+  thr_write_object(writer, NULL);
+  advice_put_members(writer, row);
   thr_write_bool(writer, "frontier", row->frontier);
   thr_write_close(writer);
 }

@@ -397,6 +397,10 @@ void advice_put_holding(thr_text *text, const thr_plan *plan);
 void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *advice,
                       const char *command);
 
+/* Writes the members of a row into an object that is open: lengths in units, turning in rad, pulls
+ * in N. */
+void advice_put_members(thr_writer *writer, const thr_advice_row *row);
+
 /* Writes the table as an object. chosen: a plan with the recommended cords, or NULL. */
 void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advice *advice,
                      const char *command, const thr_plan *chosen);
