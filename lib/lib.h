@@ -12,6 +12,7 @@
 #include "graph/limits.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/request.h"
 #include "graph/status.h"
 #include "graph/text.h"
 #include "include/thread.h"
@@ -58,6 +59,23 @@ thr_status thr_library_options(void *own, size_t own_size, const void *theirs, c
 
 /* Makes a text the caller's, and leaves it empty. THR_ENOMEM if an append failed. */
 thr_status thr_library_give(thr_text *text, char **bytes, size_t *n, thr_err *err) THR_MUST_CHECK;
+
+/* ---- incumbent.c: The best cords of a search so far, as a plan that claims nothing. */
+
+/* What cords must be, what was kept last, and who is told. Begin with value = INFINITY. */
+typedef struct {
+  const thr_frame *frame; /* borrowed, as options; NULL = nothing is kept */
+  const thr_request *options;
+  int n;            /* kept so far */
+  double value, at; /* of the last one: what is minimized, thr_clock() */
+  void (*keep)(void *user, const thr_plan *plan, const thr_text *text); /* the plan, and as JSON */
+  void *user;
+} thr_incumbent;
+
+/* For thr_limits.found: keeps the cords if they pass the checker and are better than the last ones,
+ * a few times a second at most. O(size of a plan). */
+void thr_incumbent_found(thr_incumbent *best, const thr_cord *cord, int n_cords,
+                         const thr_symmetry_record *symmetry);
 
 /* ---- motions.c: What takes a unique path of a symmetric plan to its copies, in words for who
  * threads. */

@@ -17,7 +17,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static const double WATCH = 0.1;     /* s between two looks at the limits */
+static const double WATCH = 0.05;    /* s between two looks at the limits */
 static const double GRACE = 1.0 / 3; /* s that a child has to stop by itself */
 
 /* Kinds of messages. Bytes: the answer, what is being done, or the text of a failure; value: best
@@ -165,7 +165,9 @@ static bool receive(watched_child *child)
   double wait = child->grace.from > 0 ? WATCH : thr_limits_left(child->limits, WATCH);
 
   /* No news: does the child do anything at all? */
-  if (poll(&news, 1, (int)ceil(1000 * fmin(wait, WATCH))) <= 0) {
+  const int ready = poll(&news, 1, (int)ceil(1000 * fmin(wait, WATCH)));
+  if (child->job->look) child->job->look(child->job->user);
+  if (ready <= 0) {
     child->stuck = thr_process_stuck(&child->process);
     return true;
   }

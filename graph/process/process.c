@@ -30,9 +30,9 @@ enum { BLOCK = 1 << 16 };     /* bytes read at once */
  * child of a sanitizer's build is now and then born with the allocator locked (fork does not wait
  * for other threads there), and nothing else sleeps so long in the tests. */
 #if defined __SANITIZE_ADDRESS__
-enum { STUCK = 30 };
+enum { STUCK = 60 };
 #else
-enum { STUCK = 200 };
+enum { STUCK = 400 };
 #endif
 
 /* Writes n bytes, in spite of signals. */

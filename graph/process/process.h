@@ -71,12 +71,12 @@ typedef struct {
 } thr_grace;
 
 /* Returns whether this time is over: at the latest after five times `seconds`, and when the process
- * has done nothing but sleep for `seconds`. To be called every 0.1 s or so. */
+ * has done nothing but sleep for `seconds`. To be called every 0.05 s or so. */
 bool thr_grace_over(thr_grace *grace, pid_t pid, double seconds);
 
 /* Returns whether a child has slept without any work for some 20 s (3 s under sanitizers) of such
- * calls, one every 0.1 s. A library that waits for itself where memory is out while it holds a lock
- * never ends. */
+ * calls, one every 0.05 s. A library that waits for itself where memory is out while it holds a
+ * lock never ends. */
 bool thr_process_stuck(thr_process *process);
 
 /* Ends a child at once, whatever it does, and closes the pipes; nothing if there is no child. */
@@ -96,6 +96,8 @@ typedef struct {
    * the parent's reaches it too. What it sends last is the answer. Returns a failure, whose text is
    * carried back, or THR_ELIMIT with the best so far sent. */
   thr_status (*run)(void *user, const thr_limits *limits, thr_sender *to, thr_err *err);
+  /* NULL; or called in the parent while it waits, every 0.05 s at least */
+  void (*look)(void *user);
   void *user;
 } thr_child;
 

@@ -329,8 +329,8 @@ static bool found_stuck(bool (*run)(void *user, int fd), int looks, long pause)
 
 START_TEST(a_child_that_waits_for_itself_is_found)
 {
-  ck_assert(found_stuck(sleep_on, 202, 1));
-  ck_assert(!found_stuck(spin, 210, 3));
+  ck_assert(found_stuck(sleep_on, 402, 1));
+  ck_assert(!found_stuck(spin, 410, 3));
 }
 END_TEST
 
