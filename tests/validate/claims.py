@@ -397,7 +397,7 @@ def made_pieces(report, program, data):
 
 # ---- loose pieces that rise ----
 
-RISES = 6 # runs of each plan, of about a minute each
+RISES = 10 # runs of each plan, of about two minutes each
 
 
 def middle(values):
