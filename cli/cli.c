@@ -133,17 +133,29 @@ int cli_usage(const char *command, const char *format, ...)
 bool cli_double(const char *command, const char *option, const char *text, double low, double high,
                 double *out)
 {
-  char *end;
-  errno = 0;
+  return cli_quantity(command, option, text, "", low, high, out);
+}
 
-  /* Text behind the number, NaN and infinities are refused as well. */
-  double number = strtod(text, &end);
-  if (end != text && *end == '\0' && isfinite(number) && number >= low && number <= high) {
+bool cli_quantity(const char *command, const char *option, const char *text, const char *unit,
+                  double low, double high, double *out)
+{
+  double number;
+  thr_err err = {0};
+
+  /* NaN and infinities are refused as well. */
+  thr_status st = thr_quantity_read(text, unit, &number, &err);
+  if (!st && number >= low && number <= high) {
     *out = number;
     return true;
   }
 
-  cli_usage(command, "%s %s: expected a number from %g to %g", option, text, low, high);
+  /* A number with a wrong unit, or no number that is wanted. */
+  const size_t digits = strspn(text, "0123456789.+-");
+  if (st && *unit && digits > 0 && text[digits])
+    cli_usage(command, "%s %s: %s", option, text, err.text);
+  else
+    cli_usage(command, "%s %s: expected a number from %g to %g%s%s", option, text, low, high,
+              *unit ? " " : "", unit);
 
   return false;
 }
@@ -152,7 +164,6 @@ bool cli_hand(const char *command, const char *text, double *newtons)
 {
   const double one = thr_hand_most, two = 2 * thr_hand_most, least = 1e-6, most = 1e9; /* N */
   const bool is_one = strcmp(text, "one") == 0;
-  char *end;
 
   /* What one hand, or two, pull again and again. */
   if (is_one || strcmp(text, "two") == 0) {
@@ -160,14 +171,14 @@ bool cli_hand(const char *command, const char *text, double *newtons)
     return true;
   }
 
-  /* Any other text is a force in newtons. */
-  const double force = strtod(text, &end);
-  if (end == text || !(force > 0)) {
+  /* Any other text is a force. */
+  const double force = strtod(text, NULL);
+  if (!(force > 0)) {
     cli_usage(command, "--hand %s: expected one, two or a force in newtons", text);
     return false;
   }
 
-  return cli_double(command, "--hand", text, least, most, newtons);
+  return cli_quantity(command, "--hand", text, "N", least, most, newtons);
 }
 
 bool cli_int(const char *command, const char *option, const char *text, int low, int high, int *out)
@@ -256,6 +267,12 @@ int cli_read_frame_report(const char *path, const cli_frame_args *args, thr_fram
   if (note_read(frame, report, &err)) {
     thr_frame_destroy(frame);
     return cli_fail(&err);
+  }
+
+  /* Lengths in options, which are in the framework's units from now on. */
+  if (!cli_lengths_in_units(frame->units)) {
+    thr_frame_destroy(frame);
+    return EXIT_USAGE;
   }
 
   /* --feet replaces the feet of the file: by words for some of them, or by those named. */

@@ -88,6 +88,17 @@ int cli_processes(void);
 /* Numbers in options, checked against a range: false prints why (a usage error). */
 bool cli_double(const char *command, const char *option, const char *text, double low, double high,
                 double *out);
+
+/* The same of a quantity, with its unit behind it or in `unit` (thr_quantity_read); the range
+ * counts in `unit`. "": a number without one. */
+bool cli_quantity(const char *command, const char *option, const char *text, const char *unit,
+                  double low, double high, double *out);
+
+/* Converts the lengths among the options that are in the framework's units and were given with
+ * another, as they are read before the framework. Prints why not: nobody knows how long its unit
+ * is. Once. */
+bool cli_lengths_in_units(const char *units);
+
 bool cli_int(const char *command, const char *option, const char *text, int low, int high,
              int *out);
 

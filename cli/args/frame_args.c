@@ -37,7 +37,8 @@ static bool take_flat(void *into, const cli_option *option, const char *value)
   cli_frame_args *args = into;
   const double least = 1e-6, most = 179; /* degrees */
   (void)option;
-  if (!cli_double(cli_command_name(), "--flat", value, least, most, &args->read.flat)) return false;
+  if (!cli_quantity(cli_command_name(), "--flat", value, "deg", least, most, &args->read.flat))
+    return false;
   args->read.flat *= THR_PI / 180;
   return true;
 }
@@ -100,8 +101,8 @@ const cli_option cli_frame_options[] = {
      .help = "merge nodes closer than TOL (default: 1e-6 of the bounding box)"},
     {"units", .value = "NAME", .kind = CLI_OTHER, .take = take_units,
      .help = "what one unit of the coordinates is called (default: as the file says, or mm)"},
-    {"scale", .value = "S", .kind = CLI_AMOUNT, AT(read.scale), .low = 1e-9, .high = 1e9,
-     .help = "coordinates times S: 1000 for a file in metres whose dome is built in mm"},
+    {"scale", .value = "X", .kind = CLI_AMOUNT, AT(read.scale), .low = 1e-9, .high = 1e9,
+     .help = "coordinates times X: 1000 for a file in metres whose dome is built in mm"},
     {"up", .value = "y|z", .kind = CLI_WORD, AT(read.up), .word = thr_up_name,
      .n_words = THR_UP_Z + 1,
      .help = "which coordinate points up (default: z, but y in OBJ files by Blender)"},

@@ -10,6 +10,7 @@
 #include "cli/args/options.h"
 #include "cli/args/args.h"
 #include "cli/cli.h"
+#include "graph/framework/frame.h"
 #include "graph/os.h"
 #include "graph/text.h"
 
@@ -20,7 +21,13 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MOST_OPTIONS = 160, FIRST_VALUE = 256, NAME_SIZE = 40 };
+enum { MOST_OPTIONS = 160, FIRST_VALUE = 256, NAME_SIZE = 40, MOST_LENGTHS = 8 };
+
+/* A length that was given with its unit, in mm. */
+typedef struct {
+  const char *name, *text;
+  double *to;
+} given_length;
 
 const char cli_tuned[] = "for developers";
 void (*cli_show_options)(const cli_group *groups);
@@ -36,6 +43,8 @@ static struct {
   bool tuned[MOST_OPTIONS], given[MOST_OPTIONS];
   const char *value[MOST_OPTIONS]; /* as typed */
   char dashed[MOST_OPTIONS][NAME_SIZE], letters[MOST_OPTIONS];
+  given_length length[MOST_LENGTHS];
+  int n_lengths;
 } parser;
 
 /* ---- the options of every command ---- */
@@ -186,17 +195,66 @@ static bool take_word(const cli_option *option, const char *name, const char *va
   return true;
 }
 
+/* Returns the unit in which a row's number is stored, by what its value is called; "": none. */
+static const char *unit_of(const cli_option *option)
+{
+  static const char *const units[][2] = {{"MM", "mm"},   {"N", "N"},       {"S", "s"},
+                                         {"DEG", "deg"}, {"MM/S", "mm/s"}, {"M/S2", "m/s2"},
+                                         {"G", "g/cm3"}, {"PERCENT", "%"}};
+
+  for (size_t i = 0; option->value && i < sizeof units / sizeof *units; i++) {
+    if (strcmp(option->value, units[i][0]) == 0) return units[i][1];
+  }
+  return "";
+}
+
+/* Reads a length in the framework's units, which nobody knows yet: one with a unit of its own is
+ * kept in mm until cli_lengths_in_units. Returns false if the text is no such length. */
+static bool take_length(const char *name, const char *text, double *to)
+{
+  double number;
+
+  /* A plain number is in the framework's units. */
+  if (thr_quantity_read(text, "", &number, NULL) == THR_OK) return false;
+  if (thr_quantity_read(text, "mm", &number, NULL) || number <= 0) return false;
+
+  assert(parser.n_lengths < MOST_LENGTHS);
+  parser.length[parser.n_lengths++] = (given_length){name, text, to};
+  *to = number;
+  return true;
+}
+
+bool cli_lengths_in_units(const char *units)
+{
+  for (int i = 0; i < parser.n_lengths; i++) {
+    const given_length *length = &parser.length[i];
+    double mm;
+    if (thr_units_in_mm(units, &mm, NULL)) {
+      cli_usage(parser.command,
+                "%s %s: nobody knows how long one %s of the framework is; set --units",
+                length->name, length->text, units);
+      return false;
+    }
+    *length->to /= mm;
+  }
+  parser.n_lengths = 0;
+  return true;
+}
+
 /* Stores a number within the range of its row. */
 static bool take_amount(const cli_option *option, const char *name, const char *value, double *to)
 {
   const double most = 1e100; /* of what has no limit, to say a number */
   const double low = option->low == CLI_ABOVE_0 ? 0 : option->low;
 
+  if (option->value && strcmp(option->value, "L") == 0 && take_length(name, value, to)) return true;
+
   /* Infinite limits are not printed as numbers. */
-  if (!cli_double(parser.command, name, value, low, isinf(option->high) ? most : option->high, to))
+  if (!cli_quantity(parser.command, name, value, unit_of(option), low,
+                    isinf(option->high) ? most : option->high, to))
     return false;
 
-  /* cli_double allows the lower limit 0, which CLI_ABOVE_0 excludes. */
+  /* The range allows the lower limit 0, which CLI_ABOVE_0 excludes. */
   if (*to >= option->low) return true;
   cli_usage(parser.command, "%s %s: expected a number above 0", name, value);
 

@@ -102,7 +102,8 @@ static bool take_quantity(void *into, const cli_option *option, const char *valu
   double quantity;
 
   snprintf(name, sizeof name, "--%s", option->name);
-  if (!cli_double(cli_command_name(), name, value, field->low, field->high, &quantity))
+  if (!cli_quantity(cli_command_name(), name, value, field->unit, field->low, field->high,
+                    &quantity))
     return false;
 
   /* Setting a trial finds values that must be above 0. */
@@ -193,7 +194,9 @@ int cli_physics_apply(const cli_physics *args, thr_physics *physics)
   for (int i = 0; i < args->n && !st; i++) {
     const cli_option *option = args->given[i].option;
     if (option->take == take_quantity) {
-      st = thr_physics_set(physics, field_of(option), strtod(args->given[i].value, NULL), &err);
+      double quantity;
+      st = thr_quantity_read(args->given[i].value, field_of(option)->unit, &quantity, &err);
+      if (!st) st = thr_physics_set(physics, field_of(option), quantity, &err);
     }
   }
 

@@ -91,7 +91,9 @@ static bool take_max_pull(void *into, const cli_option *option, const char *valu
   /* The last letter tells a factor from newtons. */
   args->pull_is_factor = n > 1 && value[n - 1] == 'x';
   snprintf(number, sizeof number, "%.*s", (int)(args->pull_is_factor ? n - 1 : n), value);
-  if (!cli_double("plan", "--max-pull", number, 0, 1e100, &args->max_pull)) return false;
+  if (!cli_quantity("plan", "--max-pull", number, args->pull_is_factor ? "" : "N", 0, 1e100,
+                    &args->max_pull))
+    return false;
 
   /* No cord can be drawn in without any force. */
   if (args->max_pull == 0) {
