@@ -331,20 +331,24 @@ uninstall: ## remove what `make install` installed
 	rm -rf "$(SHARE)/doc/thread" "$(PACKAGE)"
 
 TARBALL := $(OUT)/thread-$(VERSION).tar.gz
-DEB_PACKAGES := debhelper fakeroot lintian
+DEB_PACKAGES := debhelper dh-python fakeroot lintian
 
 dist: ## pack the sources that git has: $(OUT)/thread-VERSION.tar.gz
 	@mkdir -p $(OUT)
 	git archive --prefix=thread-$(VERSION)/ HEAD | gzip -9n > $(TARBALL)
 	@echo $(TARBALL)
 
-deb: dist ## build the Debian packages thread, libthread0, libthread-dev below $(OUT)/deb, and look at them with lintian
+# The page is a package if `make web` has built it. Who builds is the maintainer of what is built: DEBFULLNAME and DEBEMAIL.
+DEB_PAGE = $(abspath $(wildcard $(OUT)/web/thread.html))
+deb: dist ## build the Debian packages below $(OUT)/deb, with thread.html if `make web` was run, and look at them with lintian
 	+@tools/install-packages.sh $(BUILD_PACKAGES) $(DEB_PACKAGES)
 	rm -rf $(OUT)/deb
 	mkdir -p $(OUT)/deb
 	tar -xzf $(TARBALL) -C $(OUT)/deb
-	cd $(OUT)/deb/thread-$(VERSION) && env -u MAKEFLAGS -u MAKELEVEL -u OUT -u BUILD -u CC -u CXX dpkg-buildpackage -b -us -uc
-	lintian --fail-on error $(OUT)/deb/*.changes
+	$(if $(DEBEMAIL),sed -i 's/thread maintainers <[^>]*>/$(or $(DEBFULLNAME),$(DEBEMAIL)) <$(DEBEMAIL)>/' $(OUT)/deb/thread-$(VERSION)/debian/c[oh]*)
+	cd $(OUT)/deb/thread-$(VERSION) && env -u MAKEFLAGS -u MAKELEVEL -u OUT -u BUILD -u CC -u CXX THREAD_HTML="$(DEB_PAGE)" \
+	  dpkg-buildpackage -b -us -uc $(if $(DEB_PAGE),--build-profiles=pkg.thread.html)
+	lintian --fail-on error $(if $(DEBEMAIL),,--suppress-tags bogus-mail-host) $(OUT)/deb/*.changes
 	@ls $(OUT)/deb/*.deb
 
 clean: ## remove everything made
