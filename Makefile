@@ -348,8 +348,14 @@ deb: dist ## build the Debian packages below $(OUT)/deb, with thread.html if `ma
 	$(if $(DEBEMAIL),sed -i 's/thread maintainers <[^>]*>/$(or $(DEBFULLNAME),$(DEBEMAIL)) <$(DEBEMAIL)>/' $(OUT)/deb/thread-$(VERSION)/debian/c[oh]*)
 	cd $(OUT)/deb/thread-$(VERSION) && env -u MAKEFLAGS -u MAKELEVEL -u OUT -u BUILD -u CC -u CXX THREAD_HTML="$(DEB_PAGE)" \
 	  dpkg-buildpackage -b -us -uc $(if $(DEB_PAGE),--build-profiles=pkg.thread.html)
-	lintian --fail-on error $(if $(DEBEMAIL),,--suppress-tags bogus-mail-host) $(OUT)/deb/*.changes
+	lintian --fail-on error $(if $(DEBEMAIL),,--suppress-tags bogus-mail-host,bogus-mail-host-in-debian-changelog) $(OUT)/deb/*.changes
 	@ls $(OUT)/deb/*.deb
+
+# one after another: each shares its jobs
+release: export SOURCE_DATE_EPOCH = $(shell git log -1 --format=%ct)
+release: ## everything that is handed on, in one folder, with checksums: $(OUT)/thread-VERSION (all of static, windows, web, wheel, deb)
+	+@for target in static windows web wheel deb; do $(MAKE) --no-print-directory $$target || exit 1; done
+	@tools/release.sh $(VERSION) $(OUT)
 
 clean: ## remove everything made
 	rm -rf $(OUT)
@@ -369,6 +375,8 @@ $(FUZZ_PROGRAMS:$(DIR)/tests/%=run/%): run/%: $(DIR)/tests/%
 run/$(BUILD)/property/test_cross run/$(BUILD)/property/test_cross_known: $(PROGRAM)
 run/library/install: $(PROGRAM) $(SHARED) $(STATIC) $(FOUND_BY) $(MAN_PAGES)
 $(GOLDEN_JOBS) run/documents run/readme run/formats/mutants run/examples run/web run/static run/windows run/second/plans run/schema run/slicers run/viewer/browser run/bench/smallest: $(PROGRAM)
+# which build what it takes
+run/release: run/static run/windows run/web
 run/second/json: $(DIR)/tests/second/dump_json
 run/$(BUILD)/memory: $(PROGRAM) $(DIR)/tests/memory/fail_malloc.so
 run/$(BUILD)/watchdog: $(PROGRAM) $(WATCHDOG)
@@ -489,6 +497,6 @@ $(OUT)/packages.ok:
 	@touch $@
 
 FORCE:
-.PHONY: web web-pictures web-files static shared wheel windows all library man dist deb demo docs formats test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
+.PHONY: release web web-pictures web-files static shared wheel windows all library man dist deb demo docs formats test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
 .PHONY: suite-release suite-asan suite-fuzz test-programs fuzz-programs list-tests list-fuzz list-flags list-c FORCE
 -include $(wildcard $(DIR)/*/*.d $(DIR)/*/*/*.d)

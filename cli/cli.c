@@ -588,7 +588,7 @@ static void keep_alive(int signal)
   line[length++] = 's';
 
   /* A terminal that is gone needs no more lines. */
-  if (write(STDERR_FILENO, line, (size_t)length) < 0) waiting.began = 0;
+  if (write(STDERR_FILENO, line, (unsigned)length) < 0) waiting.began = 0;
   errno = error;
 }
 

@@ -1,8 +1,8 @@
 # BUILD=static: the program with everything that it needs in it, as $(OUT)/static/thread. `make static` begins it when
-# targets/libraries.sh has put the libraries into LIBRARIES; Debian's own archives are there for fontconfig and zlib. The interfaces
-# that are implemented a second time here:
-#   graph/process/lazy.c (the libraries are linked)   eval/structure/beads.h (SuiteSparse wants BLAS and Fortran's runtime)
-SOURCES := $(filter-out graph/process/lazy.c eval/structure/spqr.c,$(SOURCES)) targets/linked.c targets/householder.c
+# targets/libraries.sh has put the libraries into LIBRARIES; Debian's own archives are there for fontconfig and zlib. The interface
+# that is implemented a second time here:
+#   eval/structure/beads.h (SuiteSparse wants BLAS and Fortran's runtime)
+SOURCES := $(filter-out eval/structure/spqr.c,$(SOURCES)) targets/householder.c
 OBJECTS = $(addsuffix .o,$(basename $(SOURCES:%=$(DIR)/%)))
 
 PKG_CFLAGS = -isystem $(LIBRARIES)/linux/include -isystem $(LIBRARIES)/linux/include/nauty -isystem /usr/include/igraph -DTHR_LINKED

@@ -1,13 +1,13 @@
 # BUILD=windows: the program for Windows, by MinGW, as $(OUT)/windows/thread.exe, which needs nothing but Windows 10 or later (64 bits).
 # `make windows` begins it when targets/libraries.sh has put the libraries into LIBRARIES. The interfaces that are implemented a
 # second time, in targets/ and targets/windows/:
-#   graph/os.h   graph/process/child.c, workers.h, lazy.h   cli/guard.c   diagram/export/pages.c, letters.h   eval/structure/beads.h   <math.h>
+#   graph/os.h   graph/process/child.c, workers.h   cli/guard.c   diagram/export/pages.c, letters.h   eval/structure/beads.h   <math.h>
 CC := x86_64-w64-mingw32-gcc-posix
 CXX := x86_64-w64-mingw32-g++-posix
 AR := x86_64-w64-mingw32-ar
 WINDRES := x86_64-w64-mingw32-windres
 
-WINDOWS_REPLACED := graph/os.c $(patsubst %,graph/process/%.c,child workers process lazy) \
+WINDOWS_REPLACED := graph/os.c $(patsubst %,graph/process/%.c,child workers process) \
 	$(patsubst %,diagram/export/%.c,pages paper pdf font font_outline font_find letters svg_page) eval/structure/spqr.c
 SOURCES := $(filter-out $(WINDOWS_REPLACED),$(SOURCES)) $(wildcard targets/*.c targets/windows/*.c)
 OBJECTS = $(addsuffix .o,$(basename $(SOURCES:%=$(DIR)/%)))
@@ -23,8 +23,8 @@ LAZY_NAMES = -DTHR_LIBRARY_IGRAPH='"igraph"' -DTHR_LIBRARY_Z='"zlib"'
 WINDOWS_LIBRARIES := $(patsubst %,$(LIBRARIES)/windows/lib/%.a,igraph nauty glpk bullet)
 $(PROGRAM): $(WINDOWS_LIBRARIES)
 THR_LIBS = -lm $(LDLIBS)
-# --wrap: targets/libm.c
-LINK += -static -s -Wl,--gc-sections,--wrap=sin,--wrap=cos,--wrap=tan,--wrap=asin,--wrap=acos,--wrap=atan2,--wrap=hypot
+# --wrap: targets/libm.c; without the time of linking the bytes are the same
+LINK += -static -s -Wl,--gc-sections,--no-insert-timestamp,--wrap=sin,--wrap=cos,--wrap=tan,--wrap=asin,--wrap=acos,--wrap=atan2,--wrap=hypot
 
 $(DIR)/targets/windows/manifest.o: targets/windows/thread.manifest
 	@mkdir -p $(@D)

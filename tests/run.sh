@@ -114,6 +114,7 @@ run() { # NAME LOG: runs the job; its exit code, 77 = skipped
   examples) tests/examples/run.sh "$OUT/release/thread" ;;
   web) tests/web.sh "$OUT/release/thread" "$OUT/web" "$OUT/web-test" ;;
   static) tests/targets.sh static "$OUT/release/thread" "$OUT/static/thread" ;;
+  release) tests/release.sh "$OUT" ;;
   windows) tests/targets.sh windows "$OUT/release/thread" "$OUT/windows/thread.exe" ;;
   exchange) tests/exchange.sh "$OUT/release/thread" ;;
   viewer/browser) tests/viewer/run.sh "$OUT/release/thread" "$OUT/viewer-test" ;;
@@ -127,7 +128,7 @@ job() { # NAME
   : >"$log"
   spent=$( { time run "$name" "$log" 7>&-; } 2>&1) || code=$?
   case $name in
-  */golden/* | */memory | */watchdog | second/* | schema | viewer/browser | library/* | readme | slicers | film | examples | exchange | web | static | windows | formats/*) counts=$(count_lines "$log" "$code") ;;
+  */golden/* | */memory | */watchdog | second/* | schema | viewer/browser | library/* | readme | slicers | film | examples | exchange | web | static | windows | release | formats/*) counts=$(count_lines "$log" "$code") ;;
   asan/* | release/*) counts=$(count_check "$log" "$code") ;;
   *) if [ "$code" -eq 0 ]; then counts='1 0 0'; else counts='0 1 0'; fi ;;
   esac
@@ -168,7 +169,7 @@ case $TIER in
 test) left=$rest ;;
 fast) tree='layers documents format' programs='' ;;
 rest) builds=asan tree='' programs='' fuzz=yes whole="$rest slicers film $(sweeps)" MEMORY_SAMPLES=16 ;;
-all) builds='release asan' slow=asan/figures.case whole='release/watchdog release/memory slicers film exchange web static windows' fuzz=yes MUTANTS=2000 FUZZ_RUNS=1000000 ;;
+all) builds='release asan' slow=asan/figures.case whole='release/watchdog release/memory slicers film exchange web static windows release' fuzz=yes MUTANTS=2000 FUZZ_RUNS=1000000 ;;
 fuzz) builds='' tree='' programs='' fuzz=yes FUZZ_RUNS=0 ;;
 *) echo "tests/run.sh: $TIER is none of test, fast, rest, all and fuzz" >&2 && exit 2 ;;
 esac

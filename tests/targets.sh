@@ -109,6 +109,10 @@ done < <(cd "$here/out" && find . -type f ! -name 'sheets.*')
 report $ok 'the outputs differ'
 if [ "$target" = static ]; then
   if cmp "$here/out/dome/sheets.pdf" "$there/out/dome/sheets.pdf"; then report yes; else report no 'sheets.pdf differs'; fi
+  rm -rf "$there/etc" "$there/usr"
+  ok=no
+  other plan dome.json -q -o bare.json --draw bare && "$program" draw "$there/bare.json" -T sheets.html -q -o - | cmp - "$there/bare/sheets.html" && ok=yes
+  report $ok 'without fonts the booklet is sheets.html'
 else
   ok=no
   other plan dome.json -q -o 'out\Grüße.json' --draw 'new\folder' && [ -s "$there/out/Grüße.json" ] &&

@@ -1,13 +1,13 @@
 # BUILD=web: the program for wasm, by Emscripten, as $(OUT)/web/thread-engine.js and .wasm. `make web` begins it
 # when targets/libraries.sh has put the libraries into LIBRARIES. Of the interfaces that a browser cannot keep as they are, web/ and targets/ have the other implementation:
-#   graph/process/child.c, workers.h, lazy.h   cli/guard.c   diagram/export/pages.c, letters.h   eval/structure/beads.h   the viewer's page   <math.h>
+#   graph/process/child.c, workers.h   cli/guard.c   diagram/export/pages.c, letters.h   eval/structure/beads.h   the viewer's page   <math.h>
 CC := emcc
 CXX := em++
 AR := emar
 # Debian's modules, which a node from elsewhere does not find by itself
 export NODE_PATH := /usr/share/nodejs
 
-WEB_REPLACED := graph/process/child.c graph/process/workers.c graph/process/process.c graph/process/lazy.c \
+WEB_REPLACED := graph/process/child.c graph/process/workers.c graph/process/process.c \
 	diagram/export/pages.c $(patsubst %,diagram/export/%.c,paper pdf font font_outline font_find letters svg_page) diagram/export/viewer_page.S eval/structure/spqr.c
 SOURCES := $(filter-out $(WEB_REPLACED),$(SOURCES)) $(wildcard web/*.c targets/*.c)
 OBJECTS = $(addsuffix .o,$(basename $(SOURCES:%=$(DIR)/%))) $(DIR)/web/viewer_page.o

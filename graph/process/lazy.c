@@ -4,13 +4,19 @@
  * pointers, which are listed once (THR_LAZY_POINTER, THR_LAZY_SYMBOL in process.h).
  *
  * Example: eval/structure/spqr.c lists five functions of CHOLMOD and SuiteSparseQR, and calls
- * lib.SuiteSparseQR_C(..). */
+ * lib.SuiteSparseQR_C(..).
+ *
+ * Where all libraries are linked with the program (THR_LINKED, in targets/ and web/) nothing is
+ * loaded, and there need be no dlopen. */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/process/process.h"
 
+#ifndef THR_LINKED
 #include <dlfcn.h>
+#endif
 #include <string.h>
 
+#ifndef THR_LINKED
 /* Records why a library is not loaded. */
 static thr_status failed(const char *library, thr_err *err)
 {
@@ -20,6 +26,7 @@ static thr_status failed(const char *library, thr_err *err)
                   "with, or free memory",
                   library, reason ? reason : "no reason given");
 }
+#endif
 
 /* Loads a library and fills the pointers; see process.h. */
 thr_status thr_lazy_load(bool *loaded, const char *library, const thr_lazy_symbol *symbol, size_t n,
@@ -35,6 +42,9 @@ thr_status thr_lazy_load(bool *loaded, const char *library, const thr_lazy_symbo
     return THR_OK;
   }
 
+#ifdef THR_LINKED
+  return thr_fail(err, THR_ESOLVER, "%s is not linked with this program", library);
+#else
   /* Functions of the libraries that it needs itself are found, too. */
   void *handle = dlopen(library, RTLD_NOW | RTLD_LOCAL);
   if (!handle) return failed(library, err);
@@ -50,4 +60,5 @@ thr_status thr_lazy_load(bool *loaded, const char *library, const thr_lazy_symbo
 
   *loaded = true;
   return THR_OK;
+#endif
 }

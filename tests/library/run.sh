@@ -103,7 +103,7 @@ linked() { # what documents link to is installed
   [ -z "$missing" ]
 }
 names_pages() { # thread(1) names the page of every command, and nothing that is not installed
-  local name section missing=
+  local name missing=
   for name in "$usr"/share/man/man1/thread-*.1; do
     name=$(basename "$name" .1)
     grep -q "^\.BR ${name/-/\\\\-} (1)" "$usr/share/man/man1/thread.1" || missing+=" $name"
