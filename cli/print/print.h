@@ -430,10 +430,6 @@ void symmetry_put_table(thr_text *text, const thr_request *options,
  * C4^3", and the learned steps of all. */
 void symmetry_put_paths(thr_text *text, const thr_plan *plan);
 
-/* Writes the table as members of an open object. */
-void symmetry_put_table_json(thr_writer *writer, const thr_request *options,
-                             const thr_symmetries *symmetries);
-
 /* Writes group and paths of a plan as members of an open object. */
 void symmetry_put_json(thr_writer *writer, const thr_plan *plan);
 
