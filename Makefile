@@ -349,6 +349,7 @@ GOLDEN_JOBS := $(patsubst tests/%,run/$(BUILD)/%,$(wildcard tests/golden/*.case)
 $(TEST_PROGRAMS:$(DIR)/tests/%=run/$(BUILD)/%): run/$(BUILD)/%: $(DIR)/tests/%
 $(FUZZ_PROGRAMS:$(DIR)/tests/%=run/%): run/%: $(DIR)/tests/%
 run/$(BUILD)/property/test_cross run/$(BUILD)/property/test_cross_known: $(PROGRAM)
+run/examples: $(SHARED)
 run/library/install: $(PROGRAM) $(SHARED) $(STATIC) $(DIR)/thread.pc $(MAN_PAGES)
 $(GOLDEN_JOBS) run/documents run/readme run/formats/mutants run/examples run/web run/static run/windows run/second/plans run/schema run/slicers run/viewer/browser run/bench/smallest: $(PROGRAM)
 run/second/json: $(DIR)/tests/second/dump_json
