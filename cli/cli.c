@@ -647,7 +647,7 @@ static bool is_time_to_show(progress_watch *watch)
 }
 
 /* Returns whether `what` is the search for the least turning, which reports prices of turns; all
- * other searches report the weight of extra cord. */
+ * other searches report extra cord, in units. */
 static bool is_turning(const char *what)
 {
   return strcmp(what, "turning") == 0;
@@ -665,8 +665,8 @@ static void show_progress(void *user, const char *what, double best, double boun
 {
   if (!is_time_to_show(user)) return;
 
-  snprintf(waiting.says, sizeof waiting.says, "thread: %.40s%s within %.3g %% of the least", what,
-           is_turning(what) ? "" : ": extra cord", progress_gap(best, bound));
+  snprintf(waiting.says, sizeof waiting.says, "thread: %.40s within %.3g %% of the least", what,
+           progress_gap(best, bound));
   put_line();
 }
 
@@ -715,8 +715,7 @@ static void log_progress(void *user, const char *what, double best, double bound
     cli_note("turning: price of all turns %.9g, at least %.9g, gap %.3g %%, %.3f CPU s", best,
              fmax(bound, 0), progress_gap(best, bound), thr_os_processor_seconds());
   else
-    cli_note("%s: best join %.0f, bound %.1f (integer weights), %.3f CPU s", what, best, bound,
-             thr_os_processor_seconds());
+    cli_note("%s: %.9g, at least %.9g, %.3f CPU s", what, best, bound, thr_os_processor_seconds());
 }
 
 bool cli_is_terminal(int file)

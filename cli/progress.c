@@ -10,7 +10,7 @@
  *        work whose amount is known, and the part that is done
  *
  * best and bound are prices of turns (rad, or as --turn-cost has it) where what is turning, else
- * weights of extra cord; length is in the framework's units, turning in rad, seconds since the
+ * extra cord; lengths are in the framework's units, turning in rad, seconds since the
  * search began. */
 #include "cli/cli.h"
 

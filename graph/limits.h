@@ -27,6 +27,8 @@ typedef struct {
   double gap; /* as a part of the bound: what is to be least may be so much above it for a search to
                  end; 0: to the proof */
   bool brief; /* so little work is counted that cords are not annealed */
+  double weight; /* units of the framework that a weight of a minimum join is worth; 0 = none that
+                    anybody is told */
   bool unpriced; /* no walks are priced for a better bound or better cords, which takes seconds */
   /* called now and then with what is being done and the best value and proven bound so far (same
    * unit) */

@@ -5,9 +5,9 @@
  * text; its outputs are then NULL, 0 or empty. Nothing prints, exits or changes the locale. Text is
  * UTF-8, lengths are in units of the frame, angles in rad, forces in N. Calls on different objects
  * may run in different threads; planning waits for planning (nauty and GLPK are not reentrant).
- * Some libraries run in forked children, which the library waits for: do not set SIGCHLD to
- * SIG_IGN. Structs begin with their size: thread_*_init fills in the usual values, and a program
- * built with an older header goes on working.
+ * A call with a progress function, and some libraries, run in forked children, which the library
+ * waits for: do not set SIGCHLD to SIG_IGN. Structs begin with their size: thread_*_init fills in
+ * the usual values, and a program built with an older header goes on working.
  */
 #ifndef THREAD_H
 #define THREAD_H
@@ -102,20 +102,29 @@ THREAD_API thread_status thread_frame_write(const thread_frame *frame, const cha
 
 /* ---- plans ---- */
 
-typedef enum { THREAD_CLOSED, THREAD_ANY, THREAD_FEET, THREAD_NODES } thread_ends;
+typedef enum {
+  THREAD_UNSAID = -1, /* the best ones if cords and aims are not said either; else closed */
+  THREAD_CLOSED,      /* both ends of a cord at one node */
+  THREAD_ANY,
+  THREAD_FEET,
+  THREAD_NODES, /* at nodes of end_node */
+  THREAD_COUNTS /* exactly end_count[v] at node v */
+} thread_ends;
 typedef struct {
   size_t size;
-  const char *aims;    /* as --aims: "length", "turning", "length+5%,turning", "overlap,steps", ..;
-                          NULL = "length" */
+  const char *aims;    /* "length", "turning", "length+5%,turning", "overlap,steps", ..: first,
+                          second, ..; NULL = "length" */
   const char *request; /* all that is asked for, as "options" of a plan's JSON; then what is above
                           and below down to physics does not count; NULL = none */
-  int cords_least, cords; /* in every component, from .. to */
+  int cords_least, cords; /* in every component, from .. to; cords_least 0 = exactly so many; cords
+                             0 = as few as a hand can pull, from the best ends, the shortest first,
+                             if neither aims nor ends are said: as thread plan FRAME; else 1 */
   int cover, capacity;    /* passes of every edge, from .. to; 0 = no capacity */
   int distinct;           /* cords that pass every edge; 0 = any */
   double max_length;      /* of a cord; 0 = any */
   double max_pull;        /* of a cord at its ends, times the seating tension; 0 = any */
   int tube;               /* 1: only edges are pieces, and the cord ties them at every node */
-  thread_ends ends;       /* where cords end: both at one node, anywhere, at feet, at end_node */
+  thread_ends ends;       /* where cords end */
   int n_end_nodes;
   const int *end_node; /* of THREAD_NODES */
   const char *physics; /* of cord and beads, as the file of --physics: "{\"mu\": 0.3, \"seating\":
@@ -123,11 +132,16 @@ typedef struct {
   double seconds; /* for the search; 0 = until it is proved; < 0 = as thread plan: 20, but 0 for the
                      shortest cords */
   int threads;    /* change no result but of a search that time ends */
-  int (*progress)(void *user, const char *what, double best,
-                  double bound); /* from any thread; not 0 = stop; NULL = nobody */
+  /* Hears, in the caller's thread and at least every 0.1 s, what is being done, the best value so
+   * far (units, or rad of turning; INFINITY = none yet) and what it cannot be less than. Not 0 =
+   * stop: the call returns within 0.5 s. NULL = nobody */
+  int (*progress)(void *user, const char *what, double best, double bound);
   void *user;
   double gap; /* %, 0 to 100: the search ends when the plan is so near to its bound, which is
                  THREAD_OK; < 0 = as thread plan */
+  const int *end_count; /* of THREAD_COUNTS: [nodes] */
+  double hand; /* N that an end may need where cords are not said, and of advice; 0 = 10, which a
+                  hand manages time after time */
 } thread_plan_options;
 THREAD_API void thread_plan_options_init(thread_plan_options *options, size_t size);
 
@@ -157,6 +171,8 @@ typedef struct {
   double length, turning;      /* without tails and knots; of all its turns on the way */
   double pull_start, pull_end; /* N; 0 = not pulled there, INFINITY = beyond all numbers */
   const double *tension;       /* N, [passes]; NULL = not known; borrowed until thread_eval */
+  const int *node;             /* [passes + 1] from, .., to; borrowed */
+  int grips; /* on the way, the fewest by which a hand of 10 N seats every pass; -1 = not known */
 } thread_cord;
 /* Fills in what is known of cord i, from 0. THREAD_BAD_INPUT: no such cord. */
 THREAD_API thread_status thread_plan_cord_summary(const thread_plan *plan, int i, thread_cord *out,
@@ -179,10 +195,22 @@ THREAD_API thread_status thread_check(const thread_plan *plan, thread_error *err
  * "structure". */
 THREAD_API thread_status thread_eval(thread_plan *plan, const char *method, double seconds,
                                      thread_error *err);
-/* A document as by thread draw --type: "svg", "pdf", "html", "steps", "cords.csv", "obj", .. Free
- * *bytes with thread_free. */
+/* A document as by thread draw --type: "svg", "pdf", "html", "steps", "cords.csv", "obj", "kit", ..
+ * Free *bytes with thread_free. */
 THREAD_API thread_status thread_draw(const thread_plan *plan, const char *type, char **bytes,
                                      size_t *n, thread_error *err);
+/* The same two with what options say of time, threads and progress (NULL = the usual ones). */
+THREAD_API thread_status thread_eval_with(thread_plan *plan, const char *method,
+                                          const thread_plan_options *options, thread_error *err);
+THREAD_API thread_status thread_draw_with(const thread_plan *plan, const char *type,
+                                          const thread_plan_options *options, char **bytes,
+                                          size_t *n, thread_error *err);
+/* What is known of a frame, as JSON: "advice": plans for every number of cords and kind of ends
+ * that may be worth it, and which is recommended; "symmetries": its groups, and the best threading
+ * under each. THREAD_NOT_PROVED: *bytes is the table as far as it came, or NULL. */
+THREAD_API thread_status thread_report(const thread_frame *frame, const char *what,
+                                       const thread_plan_options *options, char **bytes, size_t *n,
+                                       thread_error *err);
 #ifdef __cplusplus
 }
 #endif

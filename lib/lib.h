@@ -17,13 +17,17 @@
 #include "graph/text.h"
 #include "include/thread.h"
 #include "kit/picture.h"
+#include "graph/io/json.h"
+#include "graph/plan/plan_measures.h"
+#include "symmetry/symmetry.h"
 
 /* ---- libthread, the library that other programs link (include/thread.h), and what its users and
  * the commands both need: the table of documents, the notes on reading, the names of motions.
  *
- * Read include/thread.h first, then library.c (versions, lock, statuses), library_frame.c and
- * library_plan.c (a call is checked, translated, and handed to graph/, planner/, eval/ or
- * diagram/). documents.c, notes.c and motions.c stand by themselves; cli/ uses the first two, too.
+ * Read include/thread.h first, then library.c (versions, lock, statuses), library_frame.c,
+ * library_request.c (options), library_plan.c and library_report.c (a call is checked, translated,
+ * and handed to graph/, planner/, eval/ or diagram/, by heard.c). documents.c, notes.c and
+ * motions.c stand by themselves; cli/ uses the first two, too.
  *
  * This header says what the files of libthread share. */
 
@@ -41,7 +45,8 @@ struct thread_plan {
   thr_plan plan;
   thread_frame lent;          /* the plan's framework, for thread_plan_frame: a shallow copy */
   int **node;                 /* [n_cords] where each cord runs; owned */
-  thr_evaluation closed_form; /* both ends pulled, until the plan has an evaluation of its own */
+  int *grips;                 /* [n_cords] as in thread_cord; owned */
+  thr_evaluation closed_form; /* both ends pulled: what is known without an evaluation, and grips */
 };
 
 /* Lets calls that use what is not reentrant come one after another. */
@@ -56,6 +61,29 @@ thread_status thr_library_status(thr_status st, const thr_err *from, thread_erro
  * what: the name of the struct. */
 thr_status thr_library_options(void *own, size_t own_size, const void *theirs, const char *what,
                                thr_err *err) THR_MUST_CHECK;
+
+/* ---- heard.c: Long calls, of which the caller hears how far they are, and which it may end. */
+
+/* Takes the answer of a job. */
+typedef struct thr_reply thr_reply;
+
+/* What a call does: run sends its answer, or the best so far again and again, in words that another
+ * process can read. It sees an interrupt and progress functions in limits, but neither time nor
+ * threads. */
+typedef struct {
+  const char *what; /* for the caller until there is news */
+  thr_status (*run)(void *user, const thr_limits *limits, thr_reply *reply, thr_err *err);
+  void *user;
+} thr_job;
+
+/* Sends an answer in place of the one before. THR_ENOMEM; THR_ESOLVER: nobody takes it. */
+thr_status thr_reply_send(thr_reply *reply, const thr_text *answer, thr_err *err) THR_MUST_CHECK;
+
+/* Does a job, in a child if options have a progress function. *answer, empty before, is what was
+ * sent last, whatever the status, and the caller's to destroy. THR_ELIMIT: ended by progress, or as
+ * run says. */
+thr_status thr_library_do(const thr_job *job, const thread_plan_options *options, thr_text *answer,
+                          thr_err *err) THR_MUST_CHECK;
 
 /* Makes a text the caller's, and leaves it empty. THR_ENOMEM if an append failed. */
 thr_status thr_library_give(thr_text *text, char **bytes, size_t *n, thr_err *err) THR_MUST_CHECK;
@@ -76,6 +104,49 @@ typedef struct {
  * a few times a second at most. O(size of a plan). */
 void thr_incumbent_found(thr_incumbent *best, const thr_cord *cord, int n_cords,
                          const thr_symmetry_record *symmetry);
+
+/* ---- library_request.c: What the options of a program ask for. */
+
+/* Makes the request of options; the caller frees out->end_node and out->end_count, also after a
+ * failure. THR_EINPUT, THR_EINFEASIBLE: a member is wrong, which is named. */
+thr_status thr_library_request(const thread_plan_options *options, const thr_frame *frame,
+                               thr_request *out, thr_err *err) THR_MUST_CHECK;
+
+/* Do options leave to the program which plan it is (thr_plan_recommended)? */
+bool thr_library_recommends(const thread_plan_options *options);
+
+/* Returns limits with the time or the counted work of the options; they tell whom `given` tells.
+ * work: is borrowed by them. */
+thr_limits thr_library_limits(const thread_plan_options *options, const thr_request *request,
+                              const thr_limits *given, double *work);
+
+/* Counts the cords in every component that end at counts[n_nodes] of the nodes: the least number
+ * and the most. THR_EINFEASIBLE: an odd number of ends, or none. O(nodes + edges). */
+thr_status thr_end_counts_cords(const thr_frame *frame, const int *counts, int *least, int *most,
+                                thr_err *err) THR_MUST_CHECK;
+
+/* ---- report_json.c: What is known of a framework as JSON, as members of an open object. */
+
+/* Writes the members of a row of advice: lengths in units, turning in rad, pulls in N. */
+void thr_advice_put_row(thr_writer *writer, const thr_advice_row *row);
+
+/* Writes the rows of advice, and the recommended one with the command that makes it (NULL: no such
+ * member). */
+void thr_advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advice *advice,
+                         const char *command);
+
+/* Writes the groups, and the best threading under each; before them what the frame is and what was
+ * asked for, or the table alone. */
+void thr_symmetries_put_json(thr_writer *writer, const thr_frame *frame, const thr_request *options,
+                             const thr_symmetries *symmetries);
+void thr_symmetries_put_table(thr_writer *writer, const thr_request *options,
+                              const thr_symmetries *symmetries);
+
+/* Appends the order of a group, mantissa x 10^exponent: "8", "1.2e+40". */
+void thr_order_put(thr_text *text, double mantissa, int exponent);
+
+/* Returns the pull at the hardest end of the cords of a row, N. */
+double thr_symmetry_row_pull(const thr_request *options, const thr_symmetry_row *row);
 
 /* ---- motions.c: What takes a unique path of a symmetric plan to its copies, in words for who
  * threads. */

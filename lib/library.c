@@ -58,7 +58,41 @@ void thread_free(void *bytes)
   free(bytes);
 }
 
-/* Translates status and text; see handles.h. */
+/* What texts for the command line call otherwise than a member of the options that is named alike.
+ */
+static const struct {
+  const char *option, *member;
+} members[] = {{"--feet (try --feet lowest)", "thread_frame_set_feet"},
+               {"; `thread eval --help` lists them (here with _ for -)", ""},
+               {"--objective tortuosity", "turning among the aims"},
+               {"--objective", "aims"},
+               {"--balance", "longest among the aims"},
+               {"--length-slack", "length+P% among the aims"},
+               {"--tune ", ""}};
+
+/* Copies a text for programs: options are called by members, --max-length is max_length. */
+static void copy_text(char *to, size_t size, const char *from)
+{
+  size_t n = 0;
+  while (*from && n + 1 < size) {
+    size_t known = 0, i = 0;
+    for (; i < sizeof members / sizeof *members && !known; i++)
+      if (strncmp(from, members[i].option, strlen(members[i].option)) == 0)
+        known = strlen(members[i].option);
+    if (known) {
+      n += (size_t)snprintf(to + n, size - n, "%s", members[i - 1].member);
+      if (n >= size) n = size - 1;
+      from += known;
+    } else if (from[0] == '-' && from[1] == '-' && from[2] >= 'a' && from[2] <= 'z') {
+      for (from += 2; (*from >= 'a' && *from <= 'z') || *from == '-'; from++)
+        if (n + 1 < size) to[n++] = *from == '-' ? '_' : *from;
+    } else
+      to[n++] = *from++;
+  }
+  to[n] = '\0';
+}
+
+/* Translates status and text; see lib.h. */
 thread_status thr_library_status(thr_status st, const thr_err *from, thread_error *err)
 {
   static const thread_status same[] = {[THR_OK] = THREAD_OK,
@@ -72,14 +106,14 @@ thread_status thr_library_status(thr_status st, const thr_err *from, thread_erro
 
   /* A text of one line, in UTF-8 even if a file was not. */
   if (err) {
-    snprintf(err->text, sizeof err->text, "%s", st ? from->text : "");
+    copy_text(err->text, sizeof err->text, st ? from->text : "");
     thr_text_clean(err->text);
   }
 
   return same[st];
 }
 
-/* Copies a program's options over the usual ones; see handles.h. */
+/* Copies a program's options over the usual ones; see lib.h. */
 thr_status thr_library_options(void *own, size_t own_size, const void *theirs, const char *what,
                                thr_err *err)
 {
@@ -97,7 +131,7 @@ thr_status thr_library_options(void *own, size_t own_size, const void *theirs, c
   return THR_OK;
 }
 
-/* Makes a text the caller's; see handles.h. */
+/* Makes a text the caller's; see lib.h. */
 thr_status thr_library_give(thr_text *text, char **bytes, size_t *n, thr_err *err)
 {
   /* An empty text has a NUL, too. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Implements the plans of libthread (include/thread.h): options become a request, which the planner
- * answers; a plan is parsed, described, checked, evaluated and drawn.
+/* Implements the plans of libthread (include/thread.h): the planner makes a plan, or its JSON is
+ * parsed; then it is described, checked, evaluated and drawn.
  *
  * Planning, evaluating and drawing may use libraries that are not reentrant, so that these calls
  * wait for each other (thr_library_lock). Statuses and texts of the program become those of the
@@ -9,11 +9,10 @@
  *   thread_plan_options_init(&options, sizeof options);
  *   options.cords = 4;
  *   status = thread_plan_make(frame, &options, &plan, &error); */
+#include "eval/cord/profile.h"
 #include "eval/eval.h"
 #include "graph/check/check.h"
-#include "graph/io/json.h"
 #include "graph/plan/evaluation.h"
-#include "graph/plan/physics.h"
 #include "graph/plan/plan_fields.h"
 #include "graph/plan/request.h"
 #include "lib/lib.h"
@@ -24,148 +23,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- what is asked for ---- */
-
-/* Fills in the usual options, of which a program knows the first `size` bytes. */
-void thread_plan_options_init(thread_plan_options *options, size_t size)
-{
-  const thread_plan_options usual = {.size = size,
-                                     .cords_least = 1,
-                                     .cords = 1,
-                                     .cover = 1,
-                                     .seconds = -1,
-                                     .threads = 1,
-                                     .gap = -1};
-  memset(options, 0, size);
-  memcpy(options, &usual, size < sizeof usual ? size : sizeof usual);
-}
-
-/* Reads a request given as JSON, as the "options" of a plan. The reader knows whole plans, so that
- * a document is made around the text. */
-static thr_status parse_request(const char *text, const thr_frame *frame, thr_request *out,
-                                thr_err *err)
-{
-  /* The text as the "options" member of a document. */
-  thr_text whole = {0};
-  thr_json *doc = NULL;
-  const thr_field_reader reader = {.name = "request", .code = THR_EINPUT, .err = err};
-  thr_text_printf(&whole, "{\"options\":%s}", text);
-
-  /* The framework tells which names of nodes there are. */
-  thr_status st = whole.failed ? thr_nomem(err)
-                               : thr_json_parse(&doc, whole.data, whole.length, "request", err);
-  if (!st) st = thr_plan_read_options(&reader, doc, frame, out);
-
-  thr_json_destroy(doc);
-  thr_text_destroy(&whole);
-  return st;
-}
-
-/* Reads the physics given as JSON. */
-static thr_status parse_physics(const char *text, thr_physics *out, thr_err *err)
-{
-  thr_json *doc = NULL;
-  thr_status st = thr_json_parse(&doc, text, strlen(text), "physics", err);
-  if (!st) st = thr_physics_from_json(out, doc, "physics", err);
-  thr_json_destroy(doc);
-  return st;
-}
-
-/* Checks the ranges of options that are numbers. */
-static thr_status check_ranges(const thread_plan_options *options, thr_err *err)
-{
-  /* Cords, from .. to, and the passes of every edge. */
-  if (options->cords < 1 || options->cords > THR_MOST_CORDS || options->cords_least < 1 ||
-      options->cords_least > options->cords)
-    return thr_fail(err, THR_EINPUT, "cords: not 1 to %d, or cords_least is no less number",
-                    THR_MOST_CORDS);
-  if (options->cover < 1 || options->cover > 100 || options->capacity < 0 ||
-      (options->capacity && options->capacity < options->cover))
-    return thr_fail(err, THR_EINPUT, "cover: not 1 to 100, or capacity leaves no room for it");
-
-  /* What limits a cord: edges passed by different ones, length, pull. */
-  if (options->distinct < 0 || options->distinct == 1 || options->distinct > options->cover ||
-      options->distinct > options->cords_least)
-    return thr_fail(err, THR_EINPUT,
-                    "distinct: not 0 or from 2 to the least of cover and cords_least");
-  if (!(options->max_length >= 0 && options->max_length < INFINITY))
-    return thr_fail(err, THR_EINPUT, "max_length: not 0 or a length");
-  if (!(options->max_pull == 0 || (options->max_pull >= 1 && options->max_pull < INFINITY)))
-    return thr_fail(err, THR_EINPUT, "max_pull: neither 0 nor 1 or more");
-
-  /* Where cords end. */
-  if ((int)options->ends < THREAD_CLOSED || options->ends > THREAD_NODES)
-    return thr_fail(err, THR_EINPUT, "ends: no thread_ends");
-
-  return THR_OK;
-}
-
-/* Marks the nodes where cords may end. */
-static thr_status read_end_nodes(const thread_plan_options *options, const thr_frame *frame,
-                                 thr_request *out, thr_err *err)
-{
-  if (!(out->end_node = thr_calloc((size_t)frame->n_nodes, sizeof *out->end_node)))
-    return thr_nomem(err);
-
-  /* Indices are the caller's, and may be anything. */
-  for (int i = 0; i < options->n_end_nodes; i++) {
-    if (options->end_node[i] < 0 || options->end_node[i] >= frame->n_nodes)
-      return thr_fail(err, THR_EINPUT, "end_node[%d]: there is no node %d, only 0 to %d", i,
-                      options->end_node[i], frame->n_nodes - 1);
-    out->end_node[options->end_node[i]] = true;
-  }
-
-  return THR_OK;
-}
-
-/* Translates the options into a request. The caller frees out->end_node and out->end_count, also
- * after a failure. */
-static thr_status read_request(const thread_plan_options *options, const thr_frame *frame,
-                               thr_request *out, thr_err *err)
-{
-  *out = thr_request_default();
-
-  /* A request as JSON has precedence over the other options. */
-  if (options->request) return parse_request(options->request, frame, out, err);
-
-  /* Aims and physics have texts of their own. */
-  thr_status st = check_ranges(options, err);
-  if (!st && options->aims) st = thr_aims_parse(options->aims, out, err);
-  if (!st && options->physics) st = parse_physics(options->physics, &out->physics, err);
-  if (st) return st;
-
-  /* The rest is copied. */
-  out->cords_least = options->cords_least;
-  out->cords = options->cords;
-
-  /* Of several cords that are to be symmetric, the number counts, too. */
-  out->symmetry.counted = thr_wants_symmetry(out) && options->cords > 1;
-  out->cover = options->cover;
-  out->capacity = options->capacity;
-  out->distinct = options->distinct;
-  out->max_length = options->max_length;
-  out->max_pull = options->max_pull;
-  out->joint = options->tube ? THR_JOINT_TUBE : THR_JOINT_SOLID;
-  out->ends = (thr_ends)options->ends;
-
-  return options->ends == THREAD_NODES ? read_end_nodes(options, frame, out, err) : THR_OK;
-}
-
 /* ---- making ---- */
-
-/* Connects the caller's progress function with the search: its answer becomes the flag that the
- * search looks at. */
-typedef struct {
-  const thread_plan_options *options;
-  volatile sig_atomic_t stop;
-} listener;
-
-/* Tells the caller, who may stop the search. */
-static void tell(void *user, const char *what, double best, double bound)
-{
-  listener *search = user;
-  if (search->options->progress(search->options->user, what, best, bound)) search->stop = 1;
-}
 
 /* Frees a plan and what it lends. */
 static void destroy(thread_plan *plan)
@@ -173,19 +31,19 @@ static void destroy(thread_plan *plan)
   for (int i = 0; plan->node && i < plan->plan.n_cords; i++)
     free(plan->node[i]);
   free(plan->node);
+  free(plan->grips);
   thr_evaluation_destroy(&plan->closed_form);
   thr_plan_destroy(&plan->plan);
   free(plan);
 }
 
-/* Works out the pulls and tensions by the closed form, unless the plan has an evaluation of its
- * own. A plan whose pulls are more than numbers hold has none. */
+/* Works out the pulls and tensions by the closed form. A plan whose pulls are more than numbers
+ * hold has none. */
 static thr_status pull_by_closed_form(thread_plan *plan, thr_err *err)
 {
   const thr_plan *made = &plan->plan;
   thr_err overflow = {0};
   thr_eval found = {0};
-  if (made->evaluation.present) return THR_OK;
 
   thr_status st = thr_eval_closed_form(made, made->options.physics.seating, &found, &overflow);
   if (!st) {
@@ -197,12 +55,40 @@ static thr_status pull_by_closed_form(thread_plan *plan, thr_err *err)
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
 }
 
+/* What is known of the forces in a plan: of its own evaluation, else of the closed form. */
+static const thr_evaluation *forces_of(const thread_plan *plan)
+{
+  return plan->plan.evaluation.present ? &plan->plan.evaluation : &plan->closed_form;
+}
+
+/* Counts the grips that a hand needs on the way along each cord, by the closed form; -1 where the
+ * seating tension is more than a hand's. */
+static thr_status count_grips(thread_plan *plan, thr_err *err)
+{
+  const thr_evaluation *forces = &plan->closed_form;
+  thr_schedule schedule = {0};
+  thr_err why = {0};
+  thr_status st = THR_EINPUT;
+
+  if (forces->n_cords > 0)
+    st = thr_history_grips(plan->plan.cord, thr_hand_always, forces, &schedule, &why);
+  for (int i = 0; i < plan->plan.n_cords; i++)
+    plan->grips[i] = st ? -1 : 0;
+  for (int k = 0; k < schedule.n; k++)
+    if (schedule.step[k].deed == THR_DEED_GRIP) plan->grips[schedule.step[k].cord]++;
+
+  thr_schedule_destroy(&schedule);
+  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
+}
+
 /* Prepares what a plan lends: the nodes along each cord, the framework, and the pulls. */
 static thr_status describe(thread_plan *plan, thr_err *err)
 {
   const thr_plan *made = &plan->plan;
   plan->lent.frame = made->frame;
-  if (!(plan->node = thr_calloc((size_t)made->n_cords, sizeof *plan->node))) return thr_nomem(err);
+  plan->node = thr_calloc((size_t)made->n_cords, sizeof *plan->node);
+  plan->grips = thr_calloc((size_t)made->n_cords, sizeof *plan->grips);
+  if (!plan->node || !plan->grips) return thr_nomem(err);
 
   /* The node where a cord starts, then the head of every pass. */
   for (int i = 0; i < made->n_cords; i++) {
@@ -215,7 +101,8 @@ static thr_status describe(thread_plan *plan, thr_err *err)
       node[k + 1] = thr_head(&made->frame, cord->half[k]);
   }
 
-  return pull_by_closed_form(plan, err);
+  const thr_status st = pull_by_closed_form(plan, err);
+  return st ? st : count_grips(plan, err);
 }
 
 /* Ends a call that makes a plan: a plan with cords becomes the caller's, whatever is proved of it,
@@ -239,43 +126,84 @@ static thread_status hand_over(thr_status st, thread_plan *made, thread_plan **o
   return thr_library_status(st, why, err);
 }
 
-/* Makes a plan with the limits that the options ask for. */
-static thr_status make(const thread_plan_options *options, const thr_frame *frame, thr_plan *plan,
-                       thr_err *err)
+/* Plans in the process where the search runs: what it was asked, and where its cords go. */
+typedef struct {
+  const thread_plan_options *options;
+  const thr_frame *frame;
+  const thr_limits *given; /* whom the search tells how far it is */
+  thr_incumbent best;
+  thr_reply *reply;
+} search;
+
+/* Passes progress on, as searches have one user for all that they tell. */
+static void pass_progress(void *user, const char *what, double best, double bound)
 {
+  const thr_limits *given = ((const search *)user)->given;
+  given->progress(given->user, what, best, bound);
+}
+static void pass_advance(void *user, const char *what, double done)
+{
+  const thr_limits *given = ((const search *)user)->given;
+  given->advance(given->user, what, done);
+}
+
+/* Takes cords that the search has found. Signature of thr_limits.found. */
+static void take_found(void *user, const thr_cord *cord, int n_cords,
+                       const thr_symmetry_record *symmetry)
+{
+  thr_incumbent_found(&((search *)user)->best, cord, n_cords, symmetry);
+}
+
+/* Sends a plan that may be the last. Signature of thr_incumbent.keep. */
+static void send_found(void *user, const thr_plan *plan, const thr_text *text)
+{
+  (void)plan;
+  if (thr_reply_send(((search *)user)->reply, text, NULL)) return; /* the end says why */
+}
+
+/* Makes a plan and sends it. Signature of thr_job.run. */
+static thr_status search_and_send(void *user, const thr_limits *given, thr_reply *reply,
+                                  thr_err *err)
+{
+  search *job = user;
+  const thread_plan_options *options = job->options;
   thr_request request;
+  thr_plan plan = {0};
+  thr_report report = {0};
+  thr_text text = {0};
+  double work;
 
-  /* The search hears from the caller. */
-  listener search = {.options = options};
-  thr_limits limits = {.threads = options->threads,
-                       .interrupted = &search.stop,
-                       .user = &search,
-                       .progress = options->progress ? tell : NULL};
+  thr_status st = thr_library_request(options, job->frame, &request, err);
+  if (!st) {
+    thr_limits limits = thr_library_limits(options, &request, given, &work);
+    job->given = given;
+    job->reply = reply;
+    job->best = (thr_incumbent){.frame = job->frame,
+                                .options = &request,
+                                .value = INFINITY,
+                                .keep = send_found,
+                                .user = job};
+    limits.user = job;
+    limits.progress = given->progress ? pass_progress : NULL;
+    limits.advance = given->advance ? pass_advance : NULL;
+    limits.found = given->progress ? take_found : NULL;
+    st = thr_library_recommends(options)
+             ? thr_plan_recommended(job->frame, &request,
+                                    options->hand > 0 ? options->hand : thr_hand_always, &limits,
+                                    &plan, &report, err)
+             : thr_plan_make(job->frame, &request, &limits, &plan, &report, err);
+  }
 
-  /* The request; a gap counts beside a request in JSON, too, which may have one of its own. */
-  thr_status st = read_request(options, frame, &request, err);
-  if (!st && !(options->gap <= 100))
-    st = thr_fail(err, THR_EINPUT, "gap: neither below 0 nor from 0 to 100 percent");
-  if (!st && options->gap >= 0) request.gap = options->gap;
+  /* A plan without cords is no plan. */
+  if ((st == THR_OK || st == THR_ELIMIT) && plan.n_cords > 0) {
+    thr_plan_write(&plan, &text);
+    const thr_status sent = thr_reply_send(reply, &text, err);
+    if (sent) st = sent;
+  }
 
-  /* The time for the search, s: as the options say, or as thread plan takes. */
-  if (!st && !options->request)
-    request.time_limit =
-        options->seconds < 0 ? thr_dispatch_usual_seconds(&request) : options->seconds;
-  double seconds = st ? 0 : options->seconds < 0 ? request.time_limit : options->seconds;
-  double work = thr_dispatch_work(&request);
-
-  /* If nobody has said how long it may take, counted work ends the search rather than the clock. */
-  const bool unsaid = !st && options->seconds < 0 && seconds > 0;
-  limits.usual = unsaid;
-  if (unsaid) seconds *= thr_dispatch_patience(&request);
-  if (unsaid && work > 0) limits = thr_limits_counted(&limits, &work);
-
-  /* The clock, counted from now on. */
-  if (seconds > 0) limits.deadline = thr_clock() + seconds;
-  if (!st) st = thr_plan_make(frame, &request, &limits, plan, NULL, err);
-
-  /* The request owns what was read for it. */
+  thr_text_destroy(&text);
+  thr_report_destroy(&report);
+  thr_plan_destroy(&plan);
   free(request.end_node);
   free(request.end_count);
   return st;
@@ -287,6 +215,8 @@ thread_status thread_plan_make(const thread_frame *frame, const thread_plan_opti
 {
   thr_err why = {0};
   thread_plan_options own;
+  thr_text json = {0};
+  search job = {.options = &own, .frame = &frame->frame};
 
   *out = NULL;
 
@@ -298,7 +228,18 @@ thread_status thread_plan_make(const thread_frame *frame, const thread_plan_opti
   thread_plan_options_init(&own, sizeof own);
   thr_status st = made ? thr_library_options(&own, sizeof own, options, "thread_plan_options", &why)
                        : thr_nomem(&why);
-  if (!st) st = make(&own, &frame->frame, &made->plan, &why);
+  if (!st) st = thr_library_do(&(thr_job){"planning", search_and_send, &job}, &own, &json, &why);
+
+  /* The answer is the plan as JSON, whoever has made it. */
+  if ((st == THR_OK || st == THR_ELIMIT) && json.length > 0) {
+    thr_err unread = {0};
+    const thr_status read = thr_plan_parse(&made->plan, json.data, json.length, "plan", &unread);
+    if (read) {
+      st = read;
+      why = unread;
+    }
+  }
+  thr_text_destroy(&json);
 
   /* Describing the plan is under the lock, too. */
   return hand_over(st, made, out, &why, err);
@@ -364,12 +305,6 @@ int thread_plan_cord(const thread_plan *plan, int i, const int **node)
   return known ? plan->plan.cord[i].n_passes : 0;
 }
 
-/* What is known of the forces in a plan: of its own evaluation, else of the closed form. */
-static const thr_evaluation *forces_of(const thread_plan *plan)
-{
-  return plan->plan.evaluation.present ? &plan->plan.evaluation : &plan->closed_form;
-}
-
 /* Describes a cord, of which a program knows the first `size` bytes. */
 thread_status thread_plan_cord_summary(const thread_plan *plan, int i, thread_cord *out,
                                        size_t size, thread_error *err)
@@ -394,7 +329,9 @@ thread_status thread_plan_cord_summary(const thread_plan *plan, int i, thread_co
                      .length = thr_cord_length(&stated->frame, cord),
                      .turning = thr_cord_turning(&stated->frame, cord, false),
                      .pull_start = INFINITY,
-                     .pull_end = INFINITY};
+                     .pull_end = INFINITY,
+                     .node = plan->node[i],
+                     .grips = plan->grips[i]};
 
   /* An end that is pulled has the tension of its first pass. */
   const thr_eval_cord *force = i < forces->n_cords ? &forces->cord[i] : NULL;
@@ -458,47 +395,120 @@ static int method_of(const char *name)
   return m;
 }
 
-/* Evaluates a plan by a method and puts the result into the plan. */
-thread_status thread_eval(thread_plan *plan, const char *method, double seconds, thread_error *err)
+/* Fills in the options of a call; NULL: the usual ones. */
+static thr_status take_options(const thread_plan_options *options, thread_plan_options *own,
+                               thr_err *err)
 {
-  thr_err why = {0};
+  thread_plan_options_init(own, sizeof *own);
+  return thr_library_options(own, sizeof *own, options, "thread_plan_options", err);
+}
+
+/* The limits of a call that is no search. */
+static thr_limits limits_of(const thread_plan_options *options, const thr_limits *given)
+{
+  thr_limits limits = *given;
+  limits.threads = options->threads;
+  if (options->seconds > 0) limits.deadline = thr_clock() + options->seconds;
+  return limits;
+}
+
+/* What is done with a plan, and how. */
+typedef struct {
+  const thr_plan *plan;
+  int which; /* method or document */
+  const thread_plan_options *options;
+} deed;
+
+/* Evaluates a plan, and sends it with the evaluation. Signature of thr_job.run. */
+static thr_status evaluate_and_send(void *user, const thr_limits *given, thr_reply *reply,
+                                    thr_err *err)
+{
+  const deed *job = user;
+  thr_plan evaluated = *job->plan;
   thr_eval found = {0};
-  thr_plan *evaluated = &plan->plan;
-  thr_status st = THR_OK;
-  int which = method_of(method);
+  thr_text text = {0};
 
   /* As thread eval does by default, with the physics of the plan. */
-  thr_limits limits = {.deadline = seconds > 0 ? thr_clock() + seconds : 0};
+  const thr_limits limits = limits_of(job->options, given);
   thr_eval_options options = thr_eval_options_default();
-  options.physics = evaluated->options.physics;
+  options.physics = evaluated.options.physics;
+  if (job->options->threads > 1) options.processes = job->options->threads;
+
+  thr_status st = thr_eval_plan(&evaluated.frame, evaluated.cord, evaluated.n_cords,
+                                (thr_method)job->which, &options, &limits, &found, err);
+  if (!st) {
+    evaluated.evaluation = found.record;
+    thr_plan_write(&evaluated, &text);
+    st = thr_reply_send(reply, &text, err);
+  }
+
+  thr_text_destroy(&text);
+  thr_eval_destroy(&found);
+  return st;
+}
+
+/* Evaluates a plan by a method and puts the result into the plan. */
+thread_status thread_eval_with(thread_plan *plan, const char *method,
+                               const thread_plan_options *options, thread_error *err)
+{
+  thr_err why = {0};
+  thr_text json = {0};
+  thr_plan evaluated = {0};
+  thread_plan_options own;
+  deed job = {.plan = &plan->plan, .which = method_of(method), .options = &own};
 
   /* Evaluating waits for its turn, as planning does. */
   thr_library_lock();
-  if (which == THR_N_METHODS) st = thr_fail(&why, THR_EINPUT, "there is no method %s", method);
+  thr_status st = take_options(options, &own, &why);
+  if (!st && job.which == THR_N_METHODS)
+    st = thr_fail(&why, THR_EINPUT, "there is no method %s", method);
   if (!st)
-    st = thr_eval_plan(&evaluated->frame, evaluated->cord, evaluated->n_cords, (thr_method)which,
-                       &options, &limits, &found, &why);
+    st = thr_library_do(&(thr_job){"evaluating", evaluate_and_send, &job}, &own, &json, &why);
+  if (!st) st = thr_plan_parse(&evaluated, json.data, json.length, "plan", &why);
 
   /* The plan takes the record over; what it leaves is freed. */
-  if (!st) (void)thr_plan_take_evaluation(evaluated, &found.record);
-  thr_eval_destroy(&found);
+  if (!st) (void)thr_plan_take_evaluation(&plan->plan, &evaluated.evaluation);
+  thr_plan_destroy(&evaluated);
+  thr_text_destroy(&json);
   thr_library_unlock();
 
   return thr_library_status(st, &why, err);
 }
 
-/* Draws a document of a plan. */
-thread_status thread_draw(const thread_plan *plan, const char *type, char **bytes, size_t *n,
-                          thread_error *err)
+/* The same with the time alone. */
+thread_status thread_eval(thread_plan *plan, const char *method, double seconds, thread_error *err)
 {
-  thr_err why = {0};
+  thread_plan_options options;
+  thread_plan_options_init(&options, sizeof options);
+  options.seconds = seconds;
+  return thread_eval_with(plan, method, &options, err);
+}
+
+/* Draws a document, and sends it. Signature of thr_job.run. */
+static thr_status draw_and_send(void *user, const thr_limits *given, thr_reply *reply, thr_err *err)
+{
+  const deed *job = user;
+  const thr_limits limits = limits_of(job->options, given);
+  const thr_document_options usual = {0};
   thr_text text = {0};
 
   /* As thread draw does by default. */
-  const thr_limits limits = {0};
-  const thr_document_options usual = {0};
-  int i = thr_document_find(type);
-  thr_status st = i < 0 ? thr_fail(&why, THR_EINPUT, "there is no document %s", type) : THR_OK;
+  thr_status st = thr_document_make(job->plan, job->which, &usual, &limits, &text, err);
+  if (!st) st = thr_reply_send(reply, &text, err);
+
+  thr_text_destroy(&text);
+  return st;
+}
+
+/* Draws a document of a plan. */
+thread_status thread_draw_with(const thread_plan *plan, const char *type,
+                               const thread_plan_options *options, char **bytes, size_t *n,
+                               thread_error *err)
+{
+  thr_err why = {0};
+  thr_text text = {0};
+  thread_plan_options own;
+  deed job = {.plan = &plan->plan, .which = thr_document_find(type), .options = &own};
 
   /* Outputs are empty after a failure. */
   *bytes = NULL;
@@ -506,7 +516,9 @@ thread_status thread_draw(const thread_plan *plan, const char *type, char **byte
 
   /* Drawing waits for its turn, as planning does. */
   thr_library_lock();
-  if (!st) st = thr_document_make(&plan->plan, i, &usual, &limits, &text, &why);
+  thr_status st = take_options(options, &own, &why);
+  if (!st && job.which < 0) st = thr_fail(&why, THR_EINPUT, "there is no document %s", type);
+  if (!st) st = thr_library_do(&(thr_job){"drawing", draw_and_send, &job}, &own, &text, &why);
   thr_library_unlock();
 
   /* The bytes become the caller's. */
@@ -514,4 +526,11 @@ thread_status thread_draw(const thread_plan *plan, const char *type, char **byte
 
   thr_text_destroy(&text);
   return thr_library_status(st, &why, err);
+}
+
+/* The same as usual. */
+thread_status thread_draw(const thread_plan *plan, const char *type, char **bytes, size_t *n,
+                          thread_error *err)
+{
+  return thread_draw_with(plan, type, NULL, bytes, n, err);
 }

@@ -6,6 +6,7 @@
 #include "cli/args/args.h"
 #include "cli/cli.h"
 #include "graph/status.h"
+#include "lib/lib.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -67,36 +68,5 @@ int end_counts_parse(const thr_frame *frame, const char *ends, int *counts)
 int end_counts_cords(const thr_frame *frame, const int *counts, int *least, int *most)
 {
   thr_err err = {0};
-  int n, code = EXIT_OK, *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
-  int *sum = thr_calloc((size_t)frame->n_nodes, sizeof *sum),
-      *first = thr_calloc((size_t)frame->n_nodes, sizeof *first);
-  thr_status st = component && sum && first ? thr_frame_components(frame, component, &n, &err)
-                                            : thr_nomem(&err);
-
-  /* Add up the ends of each component, and remember its first node for messages. */
-  *least = THR_MOST_CORDS;
-  *most = 0;
-  for (int v = frame->n_nodes - 1; v >= 0 && !st; v--) {
-    sum[component[v]] += counts[v];
-    first[component[v]] = v;
-  }
-
-  /* Every cord has two ends, and every component needs a cord. */
-  for (int k = 0; !st && !code && k < n; k++) {
-    if (sum[k] % 2 || sum[k] == 0) {
-      cli_error("--ends: the component with node %s has %d %s; cords have two each, and every "
-                "component needs one",
-                frame->name[first[k]], sum[k], cli_plural(sum[k], "cord end", "cord ends"));
-      code = EXIT_INFEASIBLE;
-    }
-
-    if (sum[k] / 2 < *least) *least = sum[k] / 2;
-    if (sum[k] / 2 > *most) *most = sum[k] / 2;
-  }
-
-  free(component);
-  free(sum);
-  free(first);
-
-  return st ? cli_fail(&err) : code;
+  return thr_end_counts_cords(frame, counts, least, most, &err) ? cli_fail(&err) : EXIT_OK;
 }

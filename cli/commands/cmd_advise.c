@@ -22,6 +22,7 @@
 #include "graph/plan/plan_measures.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/request.h"
+#include "lib/lib.h"
 #include "planner/planner.h"
 
 #include <stdio.h>
@@ -208,7 +209,7 @@ static void show_row(void *user, const thr_advice_row *row, const thr_plan *plan
   if (plan) keep_cords(state, row, plan);
   if (progress_wanted()) {
     thr_writer writer = progress_open(&text, "row");
-    advice_put_members(&writer, row);
+    thr_advice_put_row(&writer, row);
     progress_close(&writer);
   }
   if (!state->shown) return;

@@ -22,6 +22,7 @@
 #include "graph/plan/request.h"
 #include "graph/status.h"
 #include "graph/text.h"
+#include "lib/lib.h"
 #include "symmetry/symmetry.h"
 
 #include <inttypes.h>
@@ -131,19 +132,7 @@ static void put_json(thr_text *text, const symmetries_arguments *args, const thr
   thr_writer writer = {.out = text};
 
   thr_write_object(&writer, NULL);
-
-  /* Of which framework. */
-  thr_write_hash(&writer, "framework", thr_frame_hash(framework));
-  thr_write_int(&writer, "nodes", framework->n_nodes);
-  thr_write_int(&writer, "edges", framework->n_edges);
-  thr_write_string(&writer, "units", framework->units);
-
-  /* What was asked for. */
-  thr_write_string(&writer, "ends", thr_ends_name(args->plan.ends));
-  thr_write_int(&writer, "cover", args->plan.cover);
-  thr_write_string(&writer, "joint", thr_joint_name(args->plan.joint));
-
-  symmetry_put_table_json(&writer, &args->plan, symmetries);
+  thr_symmetries_put_json(&writer, framework, &args->plan, symmetries);
   thr_write_close(&writer);
   thr_text_append(text, "\n");
 }

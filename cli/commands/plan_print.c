@@ -6,6 +6,7 @@
 #include "diagram/overview/charts.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan_measures.h"
+#include "lib/lib.h"
 
 #include <stdlib.h>
 
@@ -121,7 +122,7 @@ static void put_symmetry(thr_writer *writer, const plan_arguments *args,
   put_plan(writer, args, result, NULL);
   if (!args->json) return;
   thr_write_object(writer, "symmetries");
-  symmetry_put_table_json(writer, &plan->options, &result->report.symmetries);
+  thr_symmetries_put_table(writer, &plan->options, &result->report.symmetries);
   thr_write_close(writer);
 }
 

@@ -204,76 +204,11 @@ void advice_put_holding(thr_text *text, const thr_plan *plan)
 
 /* ---- JSON ---- */
 
-void advice_put_members(thr_writer *writer, const thr_advice_row *row)
-{
-  thr_write_int(writer, "cords", row->cords);
-  if (row->all > row->cords) thr_write_int(writer, "cords_in_all", row->all);
-
-  /* As for --ends. */
-  thr_write_string(writer, "ends", thr_ends_name((int)row->ends));
-  thr_write_number(writer, "length", row->length);
-  thr_write_number(writer, "longest", row->longest);
-
-  /* The cord that turns most, and what is proved of it. */
-  thr_write_number(writer, "max_turning", row->turning);
-  thr_write_number(writer, "max_turning_bound", row->bound > 0 ? row->bound : NAN);
-  thr_write_string(writer, "max_turning_status",
-                   row->optimal     ? "optimal"
-                   : row->bound > 0 ? "bound"
-                                    : "unknown");
-
-  /* Pulls at the harder and the other end at mu, and at the harder one over the band. */
-  thr_write_number(writer, "pull", row->pull[THR_ADVICE_MU]);
-  thr_write_number(writer, "other_pull", row->other);
-  thr_write_number(writer, "pull_low", row->pull[THR_ADVICE_LOW]);
-  thr_write_number(writer, "pull_high", row->pull[THR_ADVICE_HIGH]);
-
-  /* What is to be threaded and learned. */
-  thr_write_int(writer, "passes", row->passes);
-  thr_write_int(writer, "steps", row->steps);
-}
-
-static void put_row_json(thr_writer *writer, const thr_advice_row *row)
-{
-  thr_write_object(writer, NULL);
-  advice_put_members(writer, row);
-  thr_write_bool(writer, "frontier", row->frontier);
-  thr_write_close(writer);
-}
-
 void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advice *advice,
                      const char *command, const thr_plan *chosen)
 {
   thr_write_object(writer, NULL);
-  thr_write_hash(writer, "framework", thr_frame_hash(frame));
-  thr_write_int(writer, "nodes", frame->n_nodes);
-  thr_write_int(writer, "edges", frame->n_edges);
-  thr_write_string(writer, "units", frame->units);
-
-  /* What all rows have in common. */
-  thr_write_number(writer, "base_length", advice->base_length);
-  thr_write_number(writer, "mu", advice->physics.mu);
-  thr_write_number(writer, "mu_low", advice->physics.mu_low);
-  thr_write_number(writer, "mu_high", advice->physics.mu_high);
-  thr_write_number(writer, "seating", advice->physics.seating);
-  thr_write_number(writer, "hand", advice->hand);
-  thr_write_bool(writer, "complete", advice->complete);
-  thr_write_int(writer, "left_out", advice->left_out);
-
-  thr_write_array(writer, "rows");
-  for (int i = 0; i < advice->n; i++)
-    put_row_json(writer, &advice->row[i]);
-  thr_write_close(writer);
-
-  /* The recommended row, counted from 0. */
-  if (advice->chosen < 0) {
-    thr_write_null(writer, "recommended");
-    thr_write_null(writer, "command");
-  } else {
-    thr_write_int(writer, "recommended", advice->chosen);
-    thr_write_string(writer, "command", command);
-  }
-
+  thr_advice_put_json(writer, frame, advice, command);
   if (chosen) turning_put_ends_json(writer, chosen);
   thr_write_close(writer);
 }

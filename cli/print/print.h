@@ -397,10 +397,6 @@ void advice_put_holding(thr_text *text, const thr_plan *plan);
 void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *advice,
                       const char *command);
 
-/* Writes the members of a row into an object that is open: lengths in units, turning in rad, pulls
- * in N. */
-void advice_put_members(thr_writer *writer, const thr_advice_row *row);
-
 /* Writes the table as an object. chosen: a plan with the recommended cords, or NULL. */
 void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advice *advice,
                      const char *command, const thr_plan *chosen);
@@ -433,10 +429,6 @@ void symmetry_put_table(thr_text *text, const thr_request *options,
 /* Appends the unique paths of a plan with their copies, "A: unique; B, C, D: copies of A by C4, C2,
  * C4^3", and the learned steps of all. */
 void symmetry_put_paths(thr_text *text, const thr_plan *plan);
-
-/* Writes the table as members of an open object. */
-void symmetry_put_table_json(thr_writer *writer, const thr_request *options,
-                             const thr_symmetries *symmetries);
 
 /* Writes group and paths of a plan as members of an open object. */
 void symmetry_put_json(thr_writer *writer, const thr_plan *plan);

@@ -23,16 +23,6 @@
 
 /* ---- words ---- */
 
-/* Appends the order of a group, mantissa x 10^exponent: "8", "1.2e+40". */
-static void put_order(thr_text *text, double mantissa, int exponent)
-{
-  double digits = floor(log10(mantissa));
-  if (exponent == 0 && mantissa < 1e15)
-    thr_text_printf(text, "%.0f", mantissa);
-  else
-    thr_text_printf(text, "%.3ge+%d", mantissa / pow(10, digits), exponent + (int)digits);
-}
-
 /* Appends how many elements of each kind a group has: "3 rotations, 4 mirrors"; of the trivial
  * group "identity". */
 static void put_kinds(thr_text *text, const thr_symmetry_row *row)
@@ -114,7 +104,7 @@ void symmetry_put_head(thr_text *text, const thr_frame *frame, const thr_request
   if (shape)
     thr_text_printf(text, "%.0f %s of the shape within %g, of ", symmetries->mantissa,
                     symmetries->mantissa == 1 ? "motion" : "motions", options->symmetry.geometric);
-  put_order(text, kept, exponent);
+  thr_order_put(text, kept, exponent);
   thr_text_printf(text, " %s to map the framework onto itself%s", ways,
                   shape ? " with edges as long" : "");
   if (cli_verbose) thr_text_printf(text, " (automorphisms by nauty %s)", thr_nauty_version());
@@ -141,12 +131,6 @@ void symmetry_put_head(thr_text *text, const thr_frame *frame, const thr_request
       symmetries->shortest_optimal ? "" : " (not proved)");
 }
 
-/* Returns the pull at the hardest end of the cords of a row, N. */
-static double row_pull(const thr_request *options, const thr_symmetry_row *row)
-{
-  return options->physics.seating * turning_capstan(options->physics.mu, row->pulled);
-}
-
 /* Appends row i of the table. */
 static void put_row(thr_text *text, const thr_request *options, const thr_symmetries *symmetries,
                     int i)
@@ -161,11 +145,11 @@ static void put_row(thr_text *text, const thr_request *options, const thr_symmet
   /* A threading, or why there is none. */
   if (row->n_cords > 0) {
     format_copies(row, copies);
-    thr_text_printf(text, "%7.1f %% %14s %8.6g %5d %6d %8.0f deg %8.0f deg %12s %11s",
-                    100 * metrics->overlap / metrics->base_length, copies, row->record.steps,
-                    row->instructions, row->n_cords, thr_degrees(metrics->turning),
-                    thr_degrees(metrics->max_turning), plain_newtons(row_pull(options, row), force),
-                    find_unproved_aim(options, row));
+    thr_text_printf(
+        text, "%7.1f %% %14s %8.6g %5d %6d %8.0f deg %8.0f deg %12s %11s",
+        100 * metrics->overlap / metrics->base_length, copies, row->record.steps, row->instructions,
+        row->n_cords, thr_degrees(metrics->turning), thr_degrees(metrics->max_turning),
+        plain_newtons(thr_symmetry_row_pull(options, row), force), find_unproved_aim(options, row));
   } else {
     /* Not in time, or a failure; a row without a threading has none, or was not asked for. */
     bool open = row->why.code == THR_ELIMIT || row->why.code == THR_ESOLVER;
@@ -350,16 +334,6 @@ void symmetry_put_paths(thr_text *text, const thr_plan *plan)
 
 /* ---- JSON ---- */
 
-/* Writes the order of a group as a number of any size. */
-static void put_order_json(thr_writer *writer, const char *key, double mantissa, int exponent)
-{
-  thr_text digits = {0};
-  put_order(&digits, mantissa, exponent);
-  thr_write_printf(writer, key, "%s", digits.data ? digits.data : "0");
-  writer->out->failed |= digits.failed;
-  thr_text_destroy(&digits);
-}
-
 /* Writes the name of a group, or null if it has none. */
 static void put_name_json(thr_writer *writer, const char *name)
 {
@@ -367,119 +341,6 @@ static void put_name_json(thr_writer *writer, const char *name)
     thr_write_string(writer, "name", name);
   else
     thr_write_null(writer, "name");
-}
-
-/* Returns the JSON word for what is known of a row. */
-static const char *row_status(const thr_symmetry_row *row)
-{
-  switch (row->why.code) {
-  /* A row without cords was left out, or was not asked for. */
-  case THR_OK:
-    return row->n_cords > 0 ? "optimal by the solver's word"
-           : row->behind    ? "not chosen"
-                            : "not asked for";
-  case THR_ELIMIT: return row->n_cords > 0 ? "bound" : "stopped";
-  case THR_EINFEASIBLE: return "infeasible";
-  default: return "failed";
-  }
-}
-
-/* Writes the threading of a row: cord, paths, turning (rad), the largest pull (N), and the bound on
- * each aim. */
-static void put_threading_json(thr_writer *writer, const thr_request *options,
-                               const thr_symmetry_row *row)
-{
-  const thr_metrics *metrics = &row->metrics;
-
-  thr_write_number(writer, "overlap", metrics->overlap);
-  thr_write_number(writer, "overlap_percent", 100 * metrics->overlap / metrics->base_length);
-  thr_write_number(writer, "length", metrics->length);
-
-  /* What is to be learned. */
-  thr_write_int(writer, "unique_paths", row->record.unique_paths);
-  thr_write_int(writer, "least_copies", row->least_copies);
-  thr_write_int(writer, "most_copies", row->most_copies);
-  thr_write_int(writer, "cords", row->n_cords);
-  thr_write_number(writer, "steps", row->record.steps);
-  thr_write_int(writer, "instructions", row->instructions);
-
-  /* How hard the cords are to pull. */
-  thr_write_number(writer, "turning", metrics->turning);
-  thr_write_number(writer, "max_turning", metrics->max_turning);
-  thr_write_number(writer, "max_capstan",
-                   turning_capstan(options->physics.mu, metrics->max_turning));
-  thr_write_number(writer, "pull", row_pull(options, row));
-
-  thr_write_object(writer, "bound");
-  for (int a = 0; a < THR_N_AIMS; a++)
-    thr_write_number(writer, thr_aim_name(a), row->bound[a]);
-  thr_write_close(writer);
-}
-
-/* Writes row i as an object; members of a threading only if there is one. */
-static void put_row_json(thr_writer *writer, const thr_request *options,
-                         const thr_symmetries *symmetries, int i)
-{
-  static const char *const kind[] = {[THR_ISO_IDENTITY] = "identity",
-                                     [THR_ISO_ROTATION] = "rotation",
-                                     [THR_ISO_MIRROR] = "mirror",
-                                     [THR_ISO_INVERSION] = "inversion",
-                                     [THR_ISO_ROTOREFLECTION] = "rotoreflection",
-                                     [THR_ISO_NONE] = "none"};
-  const thr_symmetry_row *row = &symmetries->row[i];
-
-  thr_write_line(writer, 1);
-  thr_write_object(writer, NULL);
-  thr_write_int(writer, "number", i + 1);
-  thr_write_int(writer, "order", row->order);
-  put_name_json(writer, row->name);
-
-  /* 0: the number of groups in its class is not known. */
-  thr_write_number(writer, "conjugates", row->conjugates > 0 ? (double)row->conjugates : NAN);
-  thr_write_number(writer, "residual", row->residual);
-
-  /* Elements by kind, the identity among them. */
-  thr_write_object(writer, "elements");
-  for (int k = 0; k <= THR_ISO_NONE; k++)
-    thr_write_int(writer, kind[k], row->kinds[k]);
-  thr_write_close(writer);
-
-  /* The best threading, or why there is none. */
-  thr_write_string(writer, "status", row_status(row));
-  if (row->why.code) thr_write_string(writer, "why", row->why.text);
-  if (row->behind) thr_write_int(writer, "behind", row->behind);
-  if (row->n_cords > 0) put_threading_json(writer, options, row);
-  thr_write_close(writer);
-}
-
-void symmetry_put_table_json(thr_writer *writer, const thr_request *options,
-                             const thr_symmetries *symmetries)
-{
-  const bool geometric = options->symmetry.geometric >= 0;
-
-  /* The group that all rows are subgroups of. */
-  put_order_json(writer, "order", symmetries->mantissa, symmetries->exponent);
-  thr_write_int(writer, "node_orbits", symmetries->node_orbits);
-  thr_write_int(writer, "edge_orbits", symmetries->edge_orbits);
-  thr_write_bool(writer, "listed", symmetries->listed);
-  thr_write_string(writer, "note", symmetries->note);
-  thr_write_number(writer, "geometric", geometric ? options->symmetry.geometric : NAN);
-  if (geometric)
-    put_order_json(writer, "length_keeping", symmetries->keep_lengths[0],
-                   (int)symmetries->keep_lengths[1]);
-
-  /* What rows are compared by, and which one is chosen, counted from 1. */
-  thr_write_number(writer, "mu", options->physics.mu);
-  thr_write_number(writer, "shortest", symmetries->shortest);
-  thr_write_string(writer, "shortest_status", symmetries->shortest_optimal ? "optimal" : "bound");
-  thr_write_number(writer, "chosen",
-                   symmetries->chosen >= 0 ? (double)symmetries->chosen + 1 : NAN);
-  thr_write_bool(writer, "within_slack", symmetries->within);
-
-  thr_write_array(writer, "groups");
-  for (int i = 0; i < symmetries->n; i++)
-    put_row_json(writer, options, symmetries, i);
-  thr_write_close(writer);
 }
 
 void symmetry_put_json(thr_writer *writer, const thr_plan *plan)

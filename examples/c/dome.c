@@ -19,11 +19,15 @@ int main(int argc, char **argv) /* dome [PICTURE.svg] */
   thread_frame *dome;
   thread_plan *plan = NULL;
   thread_summary summary;
+  thread_plan_options options;
   char *svg = NULL;
   size_t n;
 
+  thread_plan_options_init(&options, sizeof options);
+  options.cords = 1; /* the one shortest; without a number, what a hand can pull */
+
   thread_status st = thread_frame_shape("dome", 7, &dome, &err);
-  if (!st) st = thread_plan_make(dome, NULL, &plan, &err);
+  if (!st) st = thread_plan_make(dome, &options, &plan, &err);
   if (!st) st = thread_check(plan, &err);
   if (!st) st = thread_plan_summary(plan, &summary, sizeof summary, &err);
   if (!st) printf("%.6f\n", summary.length);

@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: MIT
-"""Cords through a COMPAS network, graph or mesh, by the program thread.
+"""Cords through a COMPAS network, graph or mesh, by the package thread_plan.
 
     from compas.datastructures import Mesh
     from compas_thread import thread
-    cords, summary = thread(Mesh.from_obj("shell.obj"), cords=4, ends="feet", feet="lowest")
+    mesh = Mesh.from_obj("shell.obj")
+    cords, plan = thread(mesh, units="m", cords=4, ends="feet")
     lines = [[mesh.vertex_coordinates(key) for key in cord] for cord in cords]
+    plan.draw("pdf", "sheets.pdf")
 
-Keyword arguments are options of `thread plan`: max_length=900 is --max-length 900, balance=True is --balance.
+Keyword arguments are those of Frame.plan: aims="turning", max_length=0.9 (in units), seconds=5, progress=print, .. Without any the plan
+is the recommended one. ends="feet" are the lowest nodes, or those that feet= lists by their keys.
 """
 import json
-import os
-import subprocess
-import tempfile
+
+import thread_plan
 
 
 def _parts(structure):
@@ -24,22 +26,15 @@ def _parts(structure):
     return keys, xyz, list(structure.edges())
 
 
-def thread(structure, program="thread", **options):
-    """(keys along each cord, summary). RuntimeError: there is no plan; its text says why."""
+def thread(structure, units="mm", feet=None, **options):
+    """(keys along each cord, the thread_plan.Plan). thread_plan.Error: there is no plan; its text says why."""
     keys, xyz, edges = _parts(structure)
     index = {key: i for i, key in enumerate(keys)}
-    frame = {"format": "thread-frame", "version": 1, "nodes": xyz, "edges": [[index[u], index[v]] for u, v in edges]}
-    words = [program, "plan", "-", "--json"]
-    for name, value in options.items():
-        if value is not False and value is not None:
-            words.append("--" + name.replace("_", "-") + ("" if value is True else "=" + str(value)))
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "plan.json")
-        run = subprocess.run(words + ["-o", path], input=json.dumps(frame), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        if not os.path.exists(path):  # exit code 5 with a plan: not all is proved
-            raise RuntimeError(run.stderr.strip())
-        with open(path) as file:
-            plan = json.load(file)
-    # Nodes are called by their number in the list that thread was given; some may have been merged or dropped.
-    names = plan["framework"].get("names") or range(len(plan["framework"]["nodes"]))
-    return [[keys[int(names[v])] for v in cord["nodes"]] for cord in plan["cords"]], json.loads(run.stdout)
+    given = {"format": "thread-frame", "version": 1, "units": units, "nodes": xyz, "edges": [[index[u], index[v]] for u, v in edges]}
+    given["names"] = ["n%d" % i for i in range(len(keys))]
+    frame = thread_plan.parse(json.dumps(given), "structure.json")
+    # Nodes are called by their place in the list that was given; some may have been merged or dropped.
+    place = [int(name[1:]) for name in frame.names]
+    frame.set_feet(None if feet is None else [place.index(index[key]) for key in feet])
+    plan = frame.plan(**options)
+    return [[keys[place[v]] for v in cord.nodes] for cord in plan.cords], plan

@@ -5,7 +5,7 @@ import sys
 
 import thread_plan
 
-plan = thread_plan.Frame.shape("dome", 7).plan()
+plan = thread_plan.Frame.shape("dome", 7).plan(cords=1)
 plan.check()
 print("%.6f" % plan.summary.length)
 if len(sys.argv) > 1:

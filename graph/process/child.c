@@ -177,6 +177,14 @@ static bool receive(watched_child *child)
   return n > 0 || (n < 0 && (errno == EINTR || errno == EAGAIN));
 }
 
+/* Returns whether the child has had its time to stop by itself: where somebody looks on, and waits,
+ * it is no longer on a busy machine. */
+static bool is_grace_over(watched_child *child)
+{
+  if (!child->job->look) return thr_grace_over(&child->grace, child->process.pid, GRACE);
+  return child->grace.from > 0 && thr_clock() - child->grace.from >= GRACE;
+}
+
 /* Takes messages until the child has closed its pipe. Returns false if it has not stopped in time.
  */
 static bool watch(watched_child *child)
@@ -188,7 +196,7 @@ static bool watch(watched_child *child)
       kill(child->process.pid, SIGUSR1);
     }
 
-    if (thr_grace_over(&child->grace, child->process.pid, GRACE)) return false;
+    if (is_grace_over(child)) return false;
   }
 
   return true;

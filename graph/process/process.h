@@ -96,7 +96,8 @@ typedef struct {
    * the parent's reaches it too. What it sends last is the answer. Returns a failure, whose text is
    * carried back, or THR_ELIMIT with the best so far sent. */
   thr_status (*run)(void *user, const thr_limits *limits, thr_sender *to, thr_err *err);
-  /* NULL; or called in the parent while it waits, every 0.05 s at least */
+  /* NULL; or called in the parent while it waits, every 0.05 s at least. A child that is to stop is
+   * then killed after a third of a second by the clock */
   void (*look)(void *user);
   void *user;
 } thr_child;

@@ -246,6 +246,14 @@ static void take_join(postman_problem *postman, const domain_problem *domain, co
     }
 }
 
+/* Returns limits that tell of weights in units of length. */
+static thr_limits limits_of(const postman_problem *postman, const thr_certificate *certificate)
+{
+  thr_limits limits = *postman->limits;
+  limits.weight = 1 / certificate->scale;
+  return limits;
+}
+
 /* Solves a domain where no cord may end freely: a minimum T-join. */
 static thr_status solve_closed(postman_problem *postman, int number, const domain_problem *domain,
                                thr_certificate *certificate, thr_err *err)
@@ -255,8 +263,8 @@ static thr_status solve_closed(postman_problem *postman, int number, const domai
       domain->n_nodes, domain->n_edges, (const int(*)[2])domain->edge,
       domain->weight,  domain->odd,     0};
 
-  thr_status st = thr_tjoin_minimum(&tjoin_problem, postman->request->engine, postman->limits,
-                                    &tjoin, err),
+  const thr_limits limits = limits_of(postman, certificate);
+  thr_status st = thr_tjoin_minimum(&tjoin_problem, postman->request->engine, &limits, &tjoin, err),
              taken = THR_OK;
   if (!st) st = thr_confirmations_add(counter(postman), &tjoin_problem, &tjoin, err);
 
@@ -286,7 +294,8 @@ static thr_status solve_open(postman_problem *postman, int number, const domain_
 
   thr_status st = radius(postman, number, certificate, &endjoin_problem.far, err), taken = THR_OK;
   endjoin_problem.far++;
-  if (!st) st = thr_endjoin_solve(&endjoin_problem, postman->limits, &endjoin, err);
+  const thr_limits limits = limits_of(postman, certificate);
+  if (!st) st = thr_endjoin_solve(&endjoin_problem, &limits, &endjoin, err);
 
   /* A join that is not proved is taken, too, with what its cuts prove. */
   if (!st || st == THR_ELIMIT) {

@@ -191,9 +191,9 @@ static thr_status solve_rounds(moat_solver *solver, thr_err *err)
     if (!st) st = flood_moats(solver, err);
     if (!st) st = price(solver, err);
 
-    if (!st && solver->limits->progress)
-      solver->limits->progress(solver->limits->user, "matching", (double)solver->matching.weight,
-                               0);
+    if (!st && solver->limits->progress && solver->limits->weight > 0)
+      solver->limits->progress(solver->limits->user, "extra cord",
+                               (double)solver->matching.weight * solver->limits->weight, 0);
   }
   return st;
 }

@@ -235,13 +235,14 @@ static thr_status certify(tjoin_solver *solver, const double *dual, bool greedy,
 
 /* ---- the search ---- */
 
-/* Reports the best join and bound. */
-static void report(const tjoin_solver *solver, const char *what)
+/* Reports the best join and bound, as cord. */
+static void report(const tjoin_solver *solver)
 {
-  if (!solver->limits->progress) return;
+  const thr_limits *limits = solver->limits;
+  if (!limits->progress || limits->weight == 0) return;
   double denominator = THR_DUAL_DENOMINATOR;
-  solver->limits->progress(solver->limits->user, what, (double)solver->best.length,
-                           (double)solver->best.sum / denominator);
+  limits->progress(limits->user, "extra cord", (double)solver->best.length * limits->weight,
+                   (double)solver->best.sum / denominator * limits->weight);
 }
 
 /* Computes the reduced costs. The exact method works on the weights themselves, so its
@@ -266,7 +267,7 @@ static thr_status look(void *user, thr_err *err)
   reduce_costs(solver);
   thr_status st = round_to_join(solver, err);
   if (!st) st = certify(solver, solver->search.dual, false, err);
-  if (!st) report(solver, "odd cuts");
+  if (!st) report(solver);
 
   solver->search.enough = solver->best.optimal;
   return st;

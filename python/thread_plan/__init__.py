@@ -4,7 +4,7 @@
     import thread_plan
 
     frame = thread_plan.Frame.shape("dome", 7)          # or Frame(xyz, edges), read("shell.obj"), parse(bytes, "a.dxf")
-    plan = frame.plan(cords=4, ends="feet", aims="turning")
+    plan = frame.plan()                                  # what is recommended, or cords=4, ends="feet", aims="turning"
     for cord in plan.cords:
         print(cord.name, cord.length, cord.pull_start, cord.tension)
     plan.check()
@@ -18,10 +18,11 @@ NotProved, Violated, OSError, MemoryError, or Error.
 """
 from __future__ import annotations
 
+import json
 import os
 from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_size_t, c_void_p, sizeof
 from dataclasses import dataclass
-from typing import Any, Callable, Iterable, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _library
 from ._library import BadInput, Error, Infeasible, NotProved, Violated
@@ -30,6 +31,7 @@ __all__ = ["BadInput", "Cord", "Error", "Frame", "Infeasible", "NotProved", "Pla
            "read", "version"]
 
 Heard = Callable[[str, float, float], Optional[bool]]
+Ends = Union[str, Iterable[int], Mapping[int, int]]
 _ends = {"closed": 0, "any": 1, "feet": 2}
 
 
@@ -44,6 +46,8 @@ class Cord:
     pull_start: float
     pull_end: float
     tension: Optional[List[float]]
+    grips: Optional[int] = None
+    """On the way, the fewest by which a hand of 10 N seats every pass; None: not known."""
 
     @property
     def ends(self) -> Tuple[int, int]:
@@ -181,45 +185,60 @@ class Frame(_Owner):
         """The frame as "json", "obj", "csv", "ply", "dxf" or "graphml"; it is also written to path, if there is one."""
         return _kept(_library.received(_library.lib.thread_frame_write, self._open(), format.encode()), path)
 
-    def plan(self, ends: Union[str, Iterable[int]] = "closed", cords: Union[int, Tuple[int, int]] = 1,
+    def plan(self, ends: Optional[Ends] = None, cords: Optional[Union[int, Tuple[int, int]]] = None,
              progress: Optional[Heard] = None, **options: Any) -> "Plan":
         """Makes the best plan that the time allows; Plan.proved says whether nothing is better.
 
-        ends: "closed", "any", "feet", or a list of nodes. cords: so many, or (least, most). progress hears what is done, the best
-        value and the bound, and stops the search by returning True; an exception in it does so, too, and is raised here. options are
-        those of thread_plan_options in thread.h: aims="length,turning", cover, capacity, max_length, max_pull, physics, seconds, ..
+        ends: "closed", "any", "feet", a list of nodes, or {node: number of ends}. cords: exactly so many, or (least, most). If
+        neither these nor aims are said, it is the recommended plan, as of `thread plan FRAME`. progress hears, in this thread and
+        at least every 0.1 s, what is done, the best value and the bound, and stops the search by returning True; an exception in
+        it does so, too, and is raised here. options are those of thread_plan_options in thread.h: aims="length,turning", cover,
+        capacity, max_length, max_pull, physics, seconds, hand, ..
         """
-        given = _library.filled(_library.PlanOptions(), _library.lib.thread_plan_options_init, options)
-        given.cords_least, given.cords = (cords, cords) if isinstance(cords, int) else cords
-        if isinstance(ends, str):
-            if ends not in _ends:
-                raise BadInput(_library.BAD_INPUT, 'ends: %r is not "closed", "any", "feet" or a list of nodes' % ends)
-            given.ends = _ends[ends]
-        else:
-            node = [int(v) for v in ends]
-            given.ends, given.n_end_nodes, given.end_node = 3, len(node), (c_int * len(node))(*node)
-
-        raised: List[BaseException] = []
-
-        def heard(_: Any, what: bytes, best: float, bound: float) -> int:
-            try:
-                return 1 if raised or progress(what.decode(), best, bound) else 0  # type: ignore[misc]
-            except BaseException as reason:
-                raised.append(reason)
-                return 1
-
-        if progress is not None:
-            given.progress = _library.Progress(heard)
+        given = self._asked(ends, cords, options)
         plan = Plan.__new__(Plan)
         plan._handle = c_void_p()
-        error = _library.Text()
-        status = _library.lib.thread_plan_make(self._open(), byref(given), byref(plan._handle), byref(error))
-        if raised:
-            raise raised[0]
+        status, error = _heard(given, progress, lambda text: _library.lib.thread_plan_make(
+            self._open(), byref(given), byref(plan._handle), byref(text)))
         if not plan._handle:
             raise _library.failure(status, error)
         plan.proved = status == _library.OK
         return plan
+
+    def advice(self, progress: Optional[Heard] = None, **options: Any) -> Dict[str, Any]:
+        """Plans for every number of cords and kind of ends that may be worth it, in numbers, and which row is recommended, as
+        `thread advise --json` says it. options: hand, cover, physics, seconds, ..
+        """
+        return self._report("advice", None, progress, options)
+
+    def symmetries(self, ends: Optional[Ends] = None, progress: Optional[Heard] = None, **options: Any) -> Dict[str, Any]:
+        """The groups of the frame's symmetries and the best threading under each, as `thread symmetries --json` says it."""
+        return self._report("symmetries", ends, progress, options)
+
+    def _asked(self, ends: Optional[Ends], cords: Optional[Union[int, Tuple[int, int]]], options: Dict[str, Any]) -> Any:
+        given = _library.filled(_library.PlanOptions(), _library.lib.thread_plan_options_init, options)
+        if cords is not None:
+            given.cords_least, given.cords = (cords, cords) if isinstance(cords, int) else cords
+        if isinstance(ends, str):
+            if ends not in _ends:
+                raise BadInput(_library.BAD_INPUT, 'ends: %r is not "closed", "any", "feet", a list of nodes or numbers of ends' % ends)
+            given.ends = _ends[ends]
+        elif isinstance(ends, Mapping):
+            count = [int(ends.get(v, 0)) for v in range(len(self.nodes))]
+            given.ends, given.end_count = 4, (c_int * len(count))(*count)
+        elif ends is not None:
+            node = [int(v) for v in ends]
+            given.ends, given.n_end_nodes, given.end_node = 3, len(node), (c_int * len(node))(*node)
+        return given
+
+    def _report(self, what: str, ends: Optional[Ends], progress: Optional[Heard], options: Dict[str, Any]) -> Dict[str, Any]:
+        given = self._asked(ends, None, options)
+        data, n = c_void_p(), c_size_t()
+        status, error = _heard(given, progress, lambda text: _library.lib.thread_report(
+            self._open(), what.encode(), byref(given), byref(data), byref(n), byref(text)))
+        if not data:
+            raise _library.failure(status, error)
+        return json.loads(_library.taken(data, n))
 
 
 class Plan(_Owner):
@@ -252,11 +271,11 @@ class Plan(_Owner):
         return [self._cord(i) for i in range(_library.lib.thread_plan_cords(self._open()))]
 
     def _cord(self, i: int) -> Cord:
-        node, facts = POINTER(c_int)(), _library.CordFacts()
-        passes = _library.lib.thread_plan_cord(self._open(), c_int(i), byref(node))
-        _library.call(_library.lib.thread_plan_cord_summary, self._handle, c_int(i), byref(facts), c_size_t(sizeof(facts)))
-        return Cord(name=facts.name.decode(), nodes=node[:passes + 1], length=facts.length, turning=facts.turning,
-                    pull_start=facts.pull_start, pull_end=facts.pull_end, tension=facts.tension[:passes] if facts.tension else None)
+        facts = _library.CordFacts()
+        _library.call(_library.lib.thread_plan_cord_summary, self._open(), c_int(i), byref(facts), c_size_t(sizeof(facts)))
+        return Cord(name=facts.name.decode(), nodes=facts.node[:facts.passes + 1], length=facts.length, turning=facts.turning,
+                    pull_start=facts.pull_start, pull_end=facts.pull_end,
+                    tension=facts.tension[:facts.passes] if facts.tension else None, grips=facts.grips if facts.grips >= 0 else None)
 
     @property
     def summary(self) -> Summary:
@@ -270,9 +289,13 @@ class Plan(_Owner):
         """Verifies every claim of the plan without a solver; raises Violated, which says what is not true."""
         _library.call(_library.lib.thread_check, self._open())
 
-    def eval(self, method: str = "capstan", seconds: float = 0.0) -> "Plan":
+    def eval(self, method: str = "capstan", seconds: float = 0.0, progress: Optional[Heard] = None) -> "Plan":
         """Puts pulls and tensions by "capstan", "joint" or "structure" into the plan; seconds 0 = as long as it takes."""
-        _library.call(_library.lib.thread_eval, self._open(), method.encode(), c_double(seconds))
+        given = _library.filled(_library.PlanOptions(), _library.lib.thread_plan_options_init, {"seconds": float(seconds)})
+        status, error = _heard(given, progress, lambda text: _library.lib.thread_eval_with(
+            self._open(), method.encode(), byref(given), byref(text)))
+        if status != _library.OK:
+            raise _library.failure(status, error)
         return self
 
     def json(self) -> bytes:
@@ -283,9 +306,36 @@ class Plan(_Owner):
         """Writes the plan to a file."""
         _kept(self.json(), path)
 
-    def draw(self, type: str = "svg", path: Optional[Union[str, "os.PathLike[str]"]] = None) -> bytes:
+    def draw(self, type: str = "svg", path: Optional[Union[str, "os.PathLike[str]"]] = None,
+             progress: Optional[Heard] = None) -> bytes:
         """A document as `thread draw --type` makes it: "svg", "pdf", "html", "kit", "obj", ..; it is also written to path."""
-        return _kept(_library.received(_library.lib.thread_draw, self._open(), type.encode()), path)
+        given = _library.filled(_library.PlanOptions(), _library.lib.thread_plan_options_init, {})
+        data, n = c_void_p(), c_size_t()
+        status, error = _heard(given, progress, lambda text: _library.lib.thread_draw_with(
+            self._open(), type.encode(), byref(given), byref(data), byref(n), byref(text)))
+        if status != _library.OK:
+            raise _library.failure(status, error)
+        return _kept(_library.taken(data, n), path)
+
+
+def _heard(given: Any, progress: Optional[Heard], call: Callable[[Any], int]) -> Tuple[int, Any]:
+    """Status and text of a call with these options, while progress hears how far it is. Raises what that raised."""
+    raised: List[BaseException] = []
+
+    def hear(_: Any, what: bytes, best: float, bound: float) -> int:
+        try:
+            return 1 if raised or progress(what.decode(), best, bound) else 0  # type: ignore[misc]
+        except BaseException as reason:
+            raised.append(reason)
+            return 1
+
+    if progress is not None:
+        given.progress = _library.Progress(hear)
+    error = _library.Text()
+    status = call(error)
+    if raised:
+        raise raised[0]
+    return status, error
 
 
 def _kept(data: bytes, path: Optional[Union[str, "os.PathLike[str]"]]) -> bytes:

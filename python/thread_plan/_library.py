@@ -58,13 +58,14 @@ class PlanOptions(ctypes.Structure):
                 ("cover", c_int), ("capacity", c_int), ("distinct", c_int), ("max_length", c_double),
                 ("max_pull", c_double), ("tube", c_int), ("ends", c_int), ("n_end_nodes", c_int),
                 ("end_node", POINTER(c_int)), ("physics", c_char_p), ("seconds", c_double), ("threads", c_int),
-                ("progress", Progress), ("user", c_void_p), ("gap", c_double)]
+                ("progress", Progress), ("user", c_void_p), ("gap", c_double),
+                ("end_count", POINTER(c_int)), ("hand", c_double)]
 
 
 class CordFacts(ctypes.Structure):
     _fields_ = [("size", c_size_t), ("name", c_char_p), ("passes", c_int), ("start", c_int), ("end", c_int),
                 ("length", c_double), ("turning", c_double), ("pull_start", c_double), ("pull_end", c_double),
-                ("tension", POINTER(c_double))]
+                ("tension", POINTER(c_double)), ("node", POINTER(c_int)), ("grips", c_int)]
 
 
 class SummaryFacts(ctypes.Structure):
@@ -114,6 +115,11 @@ def received(function: Any, handle: c_void_p, *args: Any) -> bytes:
     """The bytes that a function gives to be freed."""
     data, n = c_void_p(), c_size_t()
     call(function, handle, *args, byref(data), byref(n))
+    return taken(data, n)
+
+
+def taken(data: c_void_p, n: c_size_t) -> bytes:
+    """A copy of bytes that the library gave, which are freed."""
     try:
         return ctypes.string_at(data, n.value)
     finally:

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The examples that run the program: tests/examples/run.sh PROGRAM; closes with "N passed, N failed". Those of libthread are run by
-# tests/library/run.sh.
+# The examples that run in other programs, and sweeps: tests/examples/run.sh PROGRAM, with the shared library beside it; closes with
+# "N passed, N failed". The other examples of libthread are run by tests/library/run.sh.
 set -u
 [ $# -eq 1 ] || { echo "usage: tests/examples/run.sh PROGRAM" >&2; exit 2; }
 program=$(realpath "$1")
@@ -10,6 +10,8 @@ trap 'rm -rf "$work"' EXIT
 mkdir "$work/bin"
 ln -s "$program" "$work/bin/thread"
 export PATH=$work/bin:$PATH LC_ALL=C
+LIBTHREAD=$(find "$(dirname "$program")" -maxdepth 1 -name 'libthread.so.*' | head -n 1)
+export LIBTHREAD
 passed=0 failed=0
 holds() { # WORDS COMMAND ..
   if "${@:2}" >"$work/said" 2>&1; then passed=$((passed + 1)); return; fi
@@ -63,7 +65,7 @@ holds 'with the same results' cmp "$work/whole/results.jsonl" "$work/array/resul
 
 if command -v blender >/dev/null; then
   thread make dome -o "$work/dome.obj"
-  holds 'the add-on runs in Blender' blender -b --factory-startup --python-exit-code 1 --python tests/examples/in_blender.py -- "$program" "$work/dome.obj"
+  holds 'the add-on runs in Blender' blender -b --factory-startup --python-exit-code 1 --python tests/examples/in_blender.py -- "$work/dome.obj"
 fi
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

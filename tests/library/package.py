@@ -32,7 +32,7 @@ frame = Frame(SQUARE, SIDES)
 assert frame.nodes == [tuple(map(float, p)) for p in SQUARE] and frame.edges == SIDES and len(set(frame.names)) == 4 and frame.notes == []
 
 # The diagonal twice: 140 + 2 x 50.
-plan = frame.plan()
+plan = frame.plan(cords=1)
 assert plan.proved and plan.summary.shortest and abs(plan.summary.length - 240) < 1e-9 and plan.summary.passes == 6
 plan.check()
 (cord,) = plan.cords
@@ -57,6 +57,17 @@ assert set(Frame.shape("dome", 3).set_feet("rim").plan(ends="feet").cords[0].end
 refused(thread_plan.BadInput, "closed", lambda: Frame.shape("sphere", 1).set_feet("rim"))
 assert len(Frame.shape("dome", 5).set_feet().plan(cords=2, ends="feet").cords) == 2
 
+# What is not said is chosen: cords that a hand can pull without a grip on the way.
+dome = Frame.shape("dome", 7)
+chosen = dome.plan()
+assert len(chosen.cords) > 1 and all(c.pull_start <= 10 and c.pull_end <= 10 and c.grips == 0 for c in chosen.cords)
+assert len(dome.plan(cords=4).cords) == 4
+counted = dome.plan(ends={0: 1, 6: 1, 42: 2})
+assert sorted(v for c in counted.cords for v in c.ends) == [0, 6, 42, 42]
+advice = dome.advice()
+assert advice["rows"][advice["recommended"]]["cords"] == len(chosen.cords), advice
+assert dome.symmetries(ends="any", seconds=1)["groups"][0]["order"] == 8
+
 # Written, read, drawn.
 with tempfile.TemporaryDirectory() as folder:
     path = os.path.join(folder, "plan.json")
@@ -74,7 +85,9 @@ refused((thread_plan.Violated, thread_plan.BadInput), "length", lambda: thread_p
 heard = []
 dome = Frame.shape("dome", 7).set_feet()
 stopped = dome.plan(cords=4, ends="feet", aims="turning", progress=lambda what, best, bound: heard.append((what, best, bound)) or best < 1e9)
-assert heard and all(isinstance(what, str) and bound <= best for what, best, bound in heard), heard
+assert heard and all(isinstance(what, str) and 0 <= bound <= best for what, best, bound in heard), heard
+assert chosen.eval("structure", progress=lambda what, best, bound: heard.append(what)) is chosen and isinstance(heard[-1], str)
+assert chosen.draw("svg", progress=lambda *_: False) == chosen.draw("svg")
 stopped.check()
 refused(ZeroDivisionError, "", lambda: dome.plan(cords=4, ends="feet", aims="turning", progress=lambda *_: 1 / 0))
 
@@ -101,4 +114,4 @@ except ImportError:
 if numpy is not None:
     arrays = Frame(numpy.array(SQUARE, dtype=float), numpy.array(SIDES))
     assert arrays.array().shape == (4, 3) and (arrays.edge_array() == numpy.array(SIDES)).all()
-    assert arrays.plan().json() == plan.json()
+    assert arrays.plan(cords=1).json() == plan.json()

@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 static const double DOME = 1995.248611; /* mm, the least length of dome7.json (data/README.md) */
 
@@ -26,6 +27,15 @@ static thread_frame *square(void)
   ck_assert_msg(thread_frame_make(4, square_xyz, 5, square_ends, NULL, &frame, &err) == THREAD_OK,
                 "%s", err.text);
   return frame;
+}
+
+/* The one shortest closed cord. */
+static thread_plan_options one_cord(void)
+{
+  thread_plan_options o;
+  thread_plan_options_init(&o, sizeof o);
+  o.cords = 1;
+  return o;
 }
 
 static void assert_refused(thread_status st, thread_status want, const thread_error *err,
@@ -81,8 +91,9 @@ START_TEST(a_dome_is_planned_checked_and_drawn)
   thread_summary s;
   char *svg;
   size_t n;
+  const thread_plan_options one = one_cord();
   ck_assert_msg(thread_frame_shape("dome", 7, &dome, &err) == THREAD_OK, "%s", err.text);
-  ck_assert_msg(thread_plan_make(dome, NULL, &plan, &err) == THREAD_OK, "%s", err.text);
+  ck_assert_msg(thread_plan_make(dome, &one, &plan, &err) == THREAD_OK, "%s", err.text);
   thread_frame_free(dome); /* the plan has its own */
   ck_assert_int_eq((int)thread_check(plan, &err), THREAD_OK);
   ck_assert_int_eq((int)thread_plan_summary(plan, &s, sizeof s, &err), THREAD_OK);
@@ -149,8 +160,8 @@ START_TEST(by_hand)
   thread_plan *plan;
   thread_summary s;
   thread_frame *frame = square();
-  thread_plan_options o;
-  ck_assert_int_eq((int)thread_plan_make(frame, NULL, &plan, &err), THREAD_OK);
+  thread_plan_options o = one_cord();
+  ck_assert_int_eq((int)thread_plan_make(frame, &o, &plan, &err), THREAD_OK);
   ck_assert_int_eq((int)thread_plan_summary(plan, &s, sizeof s, &err), THREAD_OK);
   assert_covers(plan, 240);
   ck_assert_int_eq(s.passes, 6);
@@ -182,7 +193,8 @@ START_TEST(plans_are_written_and_read)
   thread_frame *frame = square();
   char *json, *second;
   size_t n, m;
-  ck_assert_int_eq((int)thread_plan_make(frame, NULL, &plan, &err), THREAD_OK);
+  const thread_plan_options one = one_cord();
+  ck_assert_int_eq((int)thread_plan_make(frame, &one, &plan, &err), THREAD_OK);
   ck_assert_int_eq((int)thread_eval(plan, "capstan", 0, &err), THREAD_OK);
   ck_assert_int_eq((int)thread_check(plan, &err), THREAD_OK);
   ck_assert_int_eq((int)thread_plan_write(plan, &json, &n, &err), THREAD_OK);
@@ -320,8 +332,16 @@ START_TEST(what_is_wrong_is_said)
   o.gap = (double)NAN;
   assert_refused(thread_plan_make(good, &o, &plan, &err), THREAD_BAD_INPUT, &err, plan, "gap");
   o.gap = -1;
+  o.cords = 1;
   o.cover = o.capacity = 1; /* the odd nodes need an extra pass */
   assert_refused(thread_plan_make(good, &o, &plan, &err), THREAD_INFEASIBLE, &err, plan, "");
+  ck_assert_ptr_null(strstr(err.text, "--"));
+  o.cover = 1;
+  o.capacity = 0;
+  o.ends = THREAD_FEET; /* the frame has none */
+  assert_refused(thread_plan_make(good, &o, &plan, &err), THREAD_INFEASIBLE, &err, plan,
+                 "thread_frame_set_feet");
+  ck_assert_ptr_null(strstr(err.text, "--"));
   assert_refused(thread_plan_parse("{}", 2, "p.json", &plan, &err), THREAD_BAD_INPUT, &err, plan,
                  "p.json");
   assert_refused(thread_frame_write(good, "step", &bytes, NULL, &err), THREAD_BAD_INPUT, &err,
@@ -356,6 +376,7 @@ START_TEST(programs_of_older_and_newer_headers_go_on_working)
   memset(&older, 0xAA, sizeof older); /* what such a program has behind its own struct */
   thread_plan_options_init(&older, small);
   ck_assert_int_eq(older.cover, (int)0xAAAAAAAA);
+  older.cords = 1;
   ck_assert_msg(thread_plan_make(frame, &older, &plan, &err) == THREAD_OK, "%s", err.text);
   assert_covers(plan, 240);
   memset(&part, 0xAA, sizeof part);
@@ -365,6 +386,7 @@ START_TEST(programs_of_older_and_newer_headers_go_on_working)
   ck_assert_int_eq(part.passes, (int)0xAAAAAAAA);
   thread_plan_free(plan);
   thread_plan_options_init(&newer.known, sizeof newer);
+  newer.known.cords = 1;
   ck_assert_msg(thread_plan_make(frame, &newer.known, &plan, &err) == THREAD_OK, "%s", err.text);
   thread_plan_free(plan);
   thread_frame_free(frame);
@@ -486,6 +508,250 @@ START_TEST(a_listener_may_stop)
 }
 END_TEST
 
+/* The longest silence, s; a call from another thread, or values that cannot be, fail. */
+typedef struct {
+  pthread_t caller;
+  double at, gap;
+  int calls, stop_at; /* the call that ends it, from 1; 0 = none */
+} hearing;
+
+static double seconds_now(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static int hear(void *user, const char *what, double best, double bound)
+{
+  hearing *h = user;
+  const double now = seconds_now();
+  ck_assert(pthread_equal(h->caller, pthread_self()) && *what && bound <= best && bound >= 0);
+  h->gap = fmax(h->gap, now - h->at);
+  h->at = now;
+  return ++h->calls == h->stop_at;
+}
+
+/* Searches whose time goes into simplex pivots, blossoms, groups, exchanges and walks. The bound on
+ * the silence is generous, as machines are busy; a search that tells nothing takes longer. */
+START_TEST(whoever_listens_hears_of_every_search)
+{
+  static const struct {
+    const char *aims;
+    int cords, tube;
+    thread_ends ends;
+    double max_pull, max_length;
+  } search[] = {{.cords = 0, .ends = THREAD_UNSAID},
+                {"turning", 4, .ends = THREAD_FEET},
+                {"max-turning", 4, .ends = THREAD_FEET},
+                {"pull", 3, .ends = THREAD_ANY},
+                {"longest", 20, .ends = THREAD_ANY},
+                {"overlap,steps", .ends = THREAD_ANY},
+                {"length", 1, .tube = 1, .ends = THREAD_ANY},
+                {NULL, 6, .ends = THREAD_ANY, .max_length = 600}};
+  thread_error err;
+  thread_frame *frame;
+  ck_assert_int_eq((int)thread_frame_shape("dome", 7, &frame, &err), THREAD_OK);
+  ck_assert_int_eq((int)thread_frame_set_feet(frame, -1, NULL, &err), THREAD_OK);
+  for (size_t i = 0; i < sizeof search / sizeof *search; i++) {
+    hearing h = {.caller = pthread_self(), .at = seconds_now()};
+    thread_plan_options o;
+    thread_plan *plan;
+    thread_plan_options_init(&o, sizeof o);
+    o.aims = search[i].aims;
+    o.cords = search[i].cords;
+    o.cords_least = search[i].max_length > 0;
+    o.tube = search[i].tube;
+    o.ends = search[i].ends;
+    o.max_length = search[i].max_length;
+    o.seconds = 1.5;
+    o.progress = hear;
+    o.user = &h;
+    const double began = seconds_now();
+    const thread_status st = thread_plan_make(frame, &o, &plan, &err);
+    const double took = seconds_now() - began;
+    ck_assert_msg(st == THREAD_OK || st == THREAD_NOT_PROVED || st == THREAD_INFEASIBLE, "%zu: %s",
+                  i, err.text);
+    if (plan) ck_assert_msg(thread_check(plan, &err) == THREAD_OK, "%zu: %s", i, err.text);
+    ck_assert_msg(h.calls >= 1 + (int)(took / 1) && h.gap < 1, "%zu: %d calls in %g s, gap %g s", i,
+                  h.calls, took, h.gap);
+    thread_plan_free(plan);
+  }
+  thread_frame_free(frame);
+}
+END_TEST
+
+/* Whoever listens gets the same plan as whoever does not. */
+START_TEST(listening_changes_nothing)
+{
+  thread_error err;
+  thread_frame *frame;
+  char *json[2], *svg[2];
+  ck_assert_int_eq((int)thread_frame_shape("dome", 5, &frame, &err), THREAD_OK);
+  for (int listens = 0; listens < 2; listens++) {
+    hearing h = {.caller = pthread_self(), .at = seconds_now()};
+    thread_plan_options o;
+    thread_plan *plan;
+    thread_plan_options_init(&o, sizeof o);
+    o.progress = listens ? hear : NULL;
+    o.user = &h;
+    ck_assert_msg(thread_plan_make(frame, &o, &plan, &err) == THREAD_OK, "%s", err.text);
+    ck_assert_msg(thread_eval_with(plan, "structure", &o, &err) == THREAD_OK, "%s", err.text);
+    ck_assert_int_eq((int)thread_plan_write(plan, &json[listens], NULL, &err), THREAD_OK);
+    ck_assert_int_eq((int)thread_draw_with(plan, "svg", &o, &svg[listens], NULL, &err), THREAD_OK);
+    ck_assert_int_eq(h.calls > 0, listens);
+    thread_plan_free(plan);
+  }
+  ck_assert_str_eq(json[0], json[1]);
+  ck_assert_str_eq(svg[0], svg[1]);
+  for (int i = 0; i < 2; i++) {
+    thread_free(json[i]);
+    thread_free(svg[i]);
+  }
+  thread_frame_free(frame);
+}
+END_TEST
+
+/* A search that would take minutes ends soon after the call that says so. */
+START_TEST(a_listener_may_stop_at_any_call)
+{
+  static const int stop_at[] = {1, 2, 5, 20};
+  thread_error err;
+  thread_frame *frame;
+  ck_assert_int_eq((int)thread_frame_shape("dome", 8, &frame, &err), THREAD_OK);
+  ck_assert_int_eq((int)thread_frame_set_feet(frame, -1, NULL, &err), THREAD_OK);
+  for (int i = 0; i < 4; i++) {
+    hearing h = {.caller = pthread_self(), .at = seconds_now(), .stop_at = stop_at[i]};
+    thread_plan_options o;
+    thread_plan *plan;
+    thread_plan_options_init(&o, sizeof o);
+    o.aims = "max-turning";
+    o.cords = 4;
+    o.ends = THREAD_FEET;
+    o.seconds = 0;
+    o.progress = hear;
+    o.user = &h;
+    ck_assert_int_eq((int)thread_plan_make(frame, &o, &plan, &err), THREAD_NOT_PROVED);
+    ck_assert_msg(strstr(err.text, "stopped by progress") != NULL, "%s", err.text);
+    ck_assert_msg(h.calls >= stop_at[i] && seconds_now() - h.at < 10, "%d calls", h.calls);
+    if (plan) ck_assert_msg(thread_check(plan, &err) == THREAD_OK, "%s", err.text);
+    thread_plan_free(plan);
+  }
+  thread_frame_free(frame);
+}
+END_TEST
+
+/* Nothing said: what a hand can pull, from the best ends. A number of cords alone: exactly so many.
+ */
+START_TEST(what_is_not_said_is_chosen_well)
+{
+  thread_error err;
+  thread_frame *frame;
+  thread_plan *plan;
+  thread_cord cord;
+  thread_plan_options o;
+  ck_assert_int_eq((int)thread_frame_shape("dome", 7, &frame, &err), THREAD_OK);
+  ck_assert_msg(thread_plan_make(frame, NULL, &plan, &err) == THREAD_OK, "%s", err.text);
+  ck_assert_int_gt(thread_plan_cords(plan), 1);
+  for (int i = 0; i < thread_plan_cords(plan); i++) {
+    const int *node;
+    ck_assert_int_eq((int)thread_plan_cord_summary(plan, i, &cord, sizeof cord, &err), THREAD_OK);
+    ck_assert(cord.pull_start <= 10 && cord.pull_end <= 10 && cord.grips == 0);
+    ck_assert_int_eq(thread_plan_cord(plan, i, &node), cord.passes);
+    ck_assert_ptr_eq(node, cord.node);
+  }
+  thread_plan_free(plan);
+
+  thread_plan_options_init(&o, sizeof o);
+  o.cords = 4;
+  ck_assert_msg(thread_plan_make(frame, &o, &plan, &err) == THREAD_OK, "%s", err.text);
+  ck_assert_int_eq(thread_plan_cords(plan), 4);
+  thread_plan_free(plan);
+
+  /* A hand of one end a cord at four nodes. */
+  int n = thread_frame_nodes(frame, NULL), *count = calloc((size_t)n, sizeof *count);
+  ck_assert_ptr_nonnull(count);
+  count[0] = count[6] = 1;
+  count[n - 1] = 2;
+  thread_plan_options_init(&o, sizeof o);
+  o.ends = THREAD_COUNTS;
+  o.end_count = count;
+  ck_assert_msg(thread_plan_make(frame, &o, &plan, &err) == THREAD_OK, "%s", err.text);
+  ck_assert_int_eq(thread_plan_cords(plan), 2);
+  for (int i = 0; i < 2; i++) {
+    thread_plan_cord_summary(plan, i, &cord, sizeof cord, &err);
+    count[cord.from]--;
+    count[cord.to]--;
+  }
+  ck_assert(count[0] == 0 && count[6] == 0 && count[n - 1] == 0);
+  thread_plan_free(plan);
+  count[0] = 1;
+  plan = NULL;
+  assert_refused(thread_plan_make(frame, &o, &plan, &err), THREAD_INFEASIBLE, &err, plan, "ends: ");
+  o.end_count = NULL;
+  assert_refused(thread_plan_make(frame, &o, &plan, &err), THREAD_BAD_INPUT, &err, plan,
+                 "end_count");
+  free(count);
+  thread_frame_free(frame);
+}
+END_TEST
+
+/* What is said of a plan is of its last evaluation. */
+START_TEST(a_summary_is_of_the_last_evaluation)
+{
+  static const char *const method[] = {"capstan", "structure", "capstan"};
+  thread_error err;
+  thread_frame *frame;
+  thread_plan *plan;
+  double pull[3];
+  ck_assert_int_eq((int)thread_frame_shape("dome", 4, &frame, &err), THREAD_OK);
+  ck_assert_msg(thread_plan_make(frame, NULL, &plan, &err) == THREAD_OK, "%s", err.text);
+  for (int m = 0; m < 3; m++) {
+    thread_summary s;
+    double largest = 0;
+    ck_assert_msg(thread_eval(plan, method[m], 0, &err) == THREAD_OK, "%s", err.text);
+    ck_assert_int_eq((int)thread_plan_summary(plan, &s, sizeof s, &err), THREAD_OK);
+    for (int i = 0; i < thread_plan_cords(plan); i++) {
+      thread_cord cord;
+      thread_plan_cord_summary(plan, i, &cord, sizeof cord, &err);
+      largest = fmax(largest, fmax(cord.pull_start, cord.pull_end));
+    }
+    ck_assert_double_eq_tol(s.pull, largest, 1e-9 * largest);
+    pull[m] = s.pull;
+  }
+  ck_assert_double_eq(pull[0], pull[2]);
+  thread_plan_free(plan);
+  thread_frame_free(frame);
+}
+END_TEST
+
+START_TEST(reports_say_what_a_frame_allows)
+{
+  static const char *const what[] = {"advice", "symmetries"}, *const word[] = {"\"recommended\": ",
+                                                                               "\"groups\": ["};
+  thread_error err;
+  thread_frame *frame;
+  thread_plan_options o;
+  char *bytes;
+  size_t n;
+  ck_assert_int_eq((int)thread_frame_shape("dome", 4, &frame, &err), THREAD_OK);
+  thread_plan_options_init(&o, sizeof o);
+  for (int i = 0; i < 2; i++) {
+    const thread_status st = thread_report(frame, what[i], &o, &bytes, &n, &err);
+    ck_assert_msg(st == THREAD_OK || (i && st == THREAD_NOT_PROVED), "%s", err.text);
+    ck_assert_ptr_nonnull(bytes);
+    o.seconds = 2;
+    ck_assert(strlen(bytes) == n && strstr(bytes, word[i]) && strstr(bytes, "\"edges\": 24"));
+    ck_assert_ptr_null(strstr(bytes, "command"));
+    thread_free(bytes);
+  }
+  bytes = NULL;
+  assert_refused(thread_report(frame, "weather", NULL, &bytes, &n, &err), THREAD_BAD_INPUT, &err,
+                 bytes, "weather");
+  thread_frame_free(frame);
+}
+END_TEST
+
 static void *plan_a_dome(void *user)
 {
   thread_frame *frame;
@@ -523,6 +789,7 @@ START_TEST(memory_may_run_out)
 {
   thread_status st = THREAD_NO_MEMORY;
   long k = 0;
+  const thread_plan_options one = one_cord();
   while (st == THREAD_NO_MEMORY) {
     thread_frame *frame = NULL;
     thread_plan *plan = NULL;
@@ -530,7 +797,7 @@ START_TEST(memory_may_run_out)
     char *bytes = NULL;
     thr_alloc_fail_once(++k);
     st = thread_frame_make(4, square_xyz, 5, square_ends, NULL, &frame, &err);
-    if (!st) st = thread_plan_make(frame, NULL, &plan, &err);
+    if (!st) st = thread_plan_make(frame, &one, &plan, &err);
     if (!st) st = thread_draw(plan, "cords.csv", &bytes, NULL, &err);
     thr_alloc_fail_at(0);
     ck_assert_msg(st == THREAD_OK || st == THREAD_NO_MEMORY, "allocation %ld: %d %s", k, (int)st,
@@ -554,6 +821,12 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("library");
+  ADD_TEST(s, 60, whoever_listens_hears_of_every_search);
+  ADD_TEST(s, 60, listening_changes_nothing);
+  ADD_TEST(s, 60, a_listener_may_stop_at_any_call);
+  ADD_TEST(s, 20, what_is_not_said_is_chosen_well);
+  ADD_TEST(s, 20, a_summary_is_of_the_last_evaluation);
+  ADD_TEST(s, 100, reports_say_what_a_frame_allows);
   ADD_TEST(s, 20, a_dome_is_planned_checked_and_drawn);
   ADD_TEST(s, 20, cords_say_what_they_are);
   ADD_TEST(s, 20, by_hand);
