@@ -391,6 +391,7 @@ const tests = {
     await shown(page);
     await page.getByLabel('Where may they end?').selectOption('any');
     await page.getByLabel('How many cords?').selectOption('3');
+    await page.getByLabel('How long may it search?').selectOption('5');
     await made(page);
     assert.match(await result(page), /3 cords/);
     await page.getByLabel('How many cords?').selectOption('1');
