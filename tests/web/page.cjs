@@ -90,6 +90,12 @@ const choose = (page, name) => page.getByLabel('Choose a file').setInputFiles(na
 const shown = (page) => part(page, 'Your framework').getByText(/ pieces? that meet at \d+ interfaces?/).innerText();
 const trouble = (page) => page.getByRole('alert').innerText();
 
+async function takeExample(page, words) {
+  await page.getByLabel('or take an example').selectOption(words);
+  await page.getByRole('button', {name: 'Take it'}).click();
+  await page.waitForSelector('#shown:not([hidden])', {timeout: 60000});
+}
+
 async function made(page) {
   await page.getByRole('button', {name: 'Thread it'}).click();
   await drawn(page, 120000);
@@ -109,11 +115,12 @@ const tests = {
     assert.match(await shown(page), /25 pieces that meet at 40 interfaces/);
     await page.getByRole('button', {name: 'the lowest ones'}).click();
     await until(async () => (await page.getByLabel('Feet, where cord may come out').inputValue()).split(',').length === 4, 'four feet');
-    await page.getByRole('button', {name: /^Take \d+ cords?/}).click({timeout: 60000});
+    await page.getByRole('button', {name: /^Take \d+ cords?.*recommended/}).click({timeout: 60000});
     await page.screenshot({path: file('questions.png'), fullPage: true});
     await made(page);
     assert.match(await result(page), /Every claim of this plan was verified/);
-    assert.match(await result(page), /25 pieces, 40 interfaces/);
+    await part(page, 'Your plan').getByText(/^The booklet has /).waitFor({timeout: 60000});
+    assert.match(await result(page), /\d cords?, [^]*m; pull [\d.]+ N at both ends[^]*Print 25 pieces[^]*The booklet has \d+ pages/);
     await part(page, 'Your plan').screenshot({path: file('result.png')});
     const plan = await download(page, 'plan.json');
     assert.match(thread('check', plan), /: holds: /, 'the installed program agrees');
@@ -384,6 +391,7 @@ const tests = {
     await shown(page);
     await page.getByLabel('Where may they end?').selectOption('any');
     await page.getByLabel('How many cords?').selectOption('3');
+    await page.getByLabel('How long may it search?').selectOption('5');
     await made(page);
     assert.match(await result(page), /3 cords/);
     await page.getByLabel('How many cords?').selectOption('1');
@@ -391,12 +399,12 @@ const tests = {
     await page.getByLabel('How long may it search?').selectOption('600');
     await page.getByRole('button', {name: 'Thread it'}).click();
     await part(page, 'Searching').getByText(/Found: 1 cord/).waitFor({timeout: 60000});
-    assert.notEqual(await part(page, 'Your framework').getAttribute('inert'), null, 'what is searched for is not changed meanwhile');
+    assert.notEqual(await page.locator('#begin').getAttribute('inert'), null, 'what is searched for is not changed meanwhile');
     const other = await own.newPage(); // as if the first were closed
     await other.goto(pathToFileURL(html).href);
     await drawn(other, 60000);
     assert.match(await result(other), /verified/);
-    assert.match(await result(other), /holds: 1 cord,/);
+    assert.match(await result(other), /1 cord, /);
     await other.getByRole('button', {name: 'Undo'}).click();
     await part(other, 'Your plan').getByText(/3 cords/).first().waitFor();
     await other.close();
@@ -454,6 +462,116 @@ const tests = {
     await close();
   },
 
+  async 'unasked it makes what the command makes unasked: as few cords as a hand can pull'() {
+    thread('make', 'dome', '--size', '5', '-o', file('unasked.json'));
+    thread('plan', file('unasked.json'), '-q', '-o', file('unasked-plan.json'));
+    const {page, close} = await open();
+    await choose(page, file('unasked.json'));
+    await page.getByText(/^Makes what is recommended: \d cords? with ends at the feet, [\d.]+ N to pull\.$/).waitFor({timeout: 60000});
+    await made(page);
+    const cords = (name) => JSON.parse(fs.readFileSync(name, 'utf8')).cords;
+    assert.deepEqual(cords(await download(page, 'plan.json')), cords(file('unasked-plan.json')));
+    await close();
+  },
+
+  async 'how a file is read is asked in words, and kept when feet change'() {
+    fs.writeFileSync(file('wide.obj'), 'v 0 0 0\nv 8 0 0\nv 8 4 0\nv 0 4 0\nv 4 2 3\nl 1 2 3 4 1\nl 1 5 3\nl 2 5 4\n');
+    const {page, close} = await open();
+    await choose(page, file('wide.obj'));
+    assert.match(await shown(page), /^wide: 5 pieces/);
+    await page.getByText('Is it as it was meant?').click();
+    await page.getByLabel('How wide is it?').selectOption('8 metres');
+    await until(() => page.evaluate(() => frame.units === 'm'), 'metres');
+    await page.getByLabel('Feet, where cord may come out').fill('1 2 3');
+    await page.keyboard.press('Tab');
+    await until(() => page.evaluate(() => String(frame.feet) === '0,1,2'), 'three feet, with blanks between them');
+    await page.getByLabel('How wide shall it be built').fill('2');
+    await page.keyboard.press('Tab');
+    await until(() => page.evaluate(() => Math.abs(Math.max(...frame.nodes.map(([x]) => x)) - 2) < 1e-9), 'a quarter as wide');
+    assert.deepEqual(await page.evaluate(() => [frame.units, frame.feet]), ['m', [0, 1, 2]]);
+    await page.getByLabel('Which part of the file?').fill('7');
+    await page.keyboard.press('Tab');
+    await page.getByRole('alert').waitFor();
+    assert.doesNotMatch(await trouble(page), /--/);
+    await close();
+  },
+
+  async 'a click that drops a plan says so, and it can be brought back'() {
+    thread('make', 'dome', '--size', '3', '-o', file('drop.json'));
+    const {page, close} = await open();
+    await choose(page, file('drop.json'));
+    await made(page);
+    await page.getByLabel('Feet, where cord may come out').fill('A1 C3');
+    await page.keyboard.press('Tab');
+    await page.getByRole('button', {name: 'Bring it back'}).click();
+    await drawn(page);
+    assert.equal((await page.getByLabel('Feet, where cord may come out').inputValue()).split(', ').length, 4);
+    assert.doesNotMatch(await page.evaluate(() => document.body.innerText), /--[a-z]/, 'no option of the command line');
+    await close();
+  },
+
+  async 'a large booklet: how many pages, its first part'() {
+    thread('make', 'dome', '--size', '16', '-o', file('large.json'));
+    thread('plan', file('large.json'), '--cords', '1', '-q', '-o', file('large-plan.json'));
+    const {page, own, close} = await open();
+    await choose(page, file('large-plan.json'));
+    await drawn(page, 120000);
+    await page.getByRole('button', {name: 'Open the booklet to print'}).click();
+    const first = page.getByRole('button', {name: /^Open the first \d+ pages$/});
+    await first.waitFor({timeout: 120000});
+    const pages = Number(/\d+/.exec(await first.innerText())[0]);
+    const [booklet] = await Promise.all([own.waitForEvent('page'), first.click()]);
+    await booklet.locator('.page').first().waitFor();
+    assert.equal(await booklet.locator('.page').count(), pages);
+    await close();
+  },
+
+  async 'a finger turns and scrolls, and picks feet by a long press or where that is ticked'() {
+    const {page, own, close} = await open({viewport: {width: 390, height: 844}, hasTouch: true, isMobile: true});
+    await takeExample(page, 'dome, 7 x 7 pieces');
+    const picture = page.getByRole('img', {name: /^The framework/}), feet = page.getByLabel('Feet, where cord may come out');
+    await picture.scrollIntoViewIfNeeded();
+    const box = await picture.boundingBox(), [x, y] = await page.evaluate(() => sketch.place(frame.nodes[frame.names.indexOf('D1')]));
+    const session = await own.newCDPSession(page), at = [{x: box.x + x, y: box.y + y, id: 0}];
+    const press = async (ms) => {
+      await session.send('Input.dispatchTouchEvent', {type: 'touchStart', touchPoints: at});
+      await page.waitForTimeout(ms);
+      await session.send('Input.dispatchTouchEvent', {type: 'touchEnd', touchPoints: []});
+    };
+    await press(0);
+    assert.doesNotMatch(await feet.inputValue(), /D1/);
+    await press(1500);
+    await until(async () => /D1/.test(await feet.inputValue()), 'a long press picks');
+    await page.getByLabel('a tap picks feet').check();
+    await picture.scrollIntoViewIfNeeded();
+    const now = await picture.boundingBox();
+    at[0] = {x: now.x + x, y: now.y + y, id: 0};
+    await press(0);
+    await until(async () => !/D1/.test(await feet.inputValue()), 'a tap picks');
+    await close();
+  },
+
+  async 'nothing serious for those who do not see it as it is drawn, in light and dark'() {
+    const source = fs.readFileSync(createRequire(path.join(packages, 'package.json')).resolve('axe-core/axe.min.js'), 'utf8');
+    for (const colorScheme of ['light', 'dark']) {
+      const {page, close} = await open({colorScheme});
+      const look = async (stage) => {
+        await page.evaluate(source);
+        const found = await page.evaluate(() => axe.run(document, {iframes: false, rules: {'target-size': {enabled: true}}}));
+        const serious = found.violations.filter(({impact}) => ['serious', 'critical'].includes(impact));
+        assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 1100, `${stage}: wider than the window`);
+        assert.deepEqual(serious.map(({id, nodes}) => [stage, colorScheme, id, nodes[0].html.slice(0, 200), nodes[0].failureSummary]), []);
+      };
+      await look('start');
+      await takeExample(page, 'dome, 7 x 7 pieces');
+      await page.getByRole('button', {name: /recommended$/}).waitFor({timeout: 120000});
+      await look('questions');
+      await made(page);
+      await look('result');
+      await close();
+    }
+  },
+
   async 'memory is given back between runs'() {
     const {page, close} = await open();
     const renderers = () => fs.readdirSync('/proc').filter((id) => /^\d+$/.test(id)).reduce((sum, id) => {
@@ -465,7 +583,7 @@ const tests = {
       }
     }, 0);
     const used = [];
-    await page.getByLabel('or take an example').selectOption('dome 12');
+    await takeExample(page, 'dome 12');
     await shown(page);
     for (let run = 0; run < 5; run++) {
       await made(page);
@@ -479,7 +597,7 @@ const tests = {
 
   async 'a link brings the answers; a telephone in the dark; two fingers enlarge the framework; feet by keyboard'() {
     const {page, own, close} = await open({viewport: {width: 360, height: 740}, hasTouch: true, isMobile: true, colorScheme: 'dark', hash: '#cords=5&ends=any&pull=50'});
-    await page.getByLabel('or take an example').selectOption('tube');
+    await takeExample(page, 'tube');
     assert.match(await shown(page), /interfaces/);
     assert.equal(await page.getByLabel('How many cords?').inputValue(), '5');
     assert.equal(await page.getByLabel('How hard can you pull?').inputValue(), '50');

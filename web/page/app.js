@@ -4,24 +4,37 @@ const $ = (id) => document.getElementById(id);
 const sources = [$('worker').textContent, $('wasm').textContent];
 const engine = new EngineClient(...sources), adviser = new EngineClient(...sources); // advice does not wait for a search
 const QUESTIONS = ['pull', 'cords', 'ends', 'aim', 'joint', 'seconds'];
+const READING_QUESTIONS = ['units', 'wide', 'up', 'weld', 'split', 'flat', 'pick', 'layers']; // about the file
 const LATER_QUESTIONS = ['width', 'bed', 'names', 'key', 'start', 'most', 'raised']; // about its pieces
 const text = (bytes) => new TextDecoder().decode(bytes);
 
 let frame = null; // thread-frame, as JSON
+let source = null; // {bytes, path, shownName, more}: the file that the framework was read from; null: of a plan
 let name = ''; // of the file, without its ending
 let plan = ''; // text of plan.json
 let best = ''; // the same, while the search runs
+let made = null; // of that plan: the command and, as JSON, what it said
 let said = ''; // what the program said of the plan when it was made
 let kit = {}; // files of its pieces, once they are made
 let rise = {}; // files of how they rose
 let past = []; // states before, for Undo
-const sketch = new Sketch($('sketch'), (node) => changeFeet(toggled(node)));
+let working = false; // a search is for what is shown
+const sketch = new Sketch($('sketch'), (node) => working || changeFeet(toggled(node)));
 
 // ---- words ----
 
+// A line of the program in the words of the page, which has no options: "--width 4" is "width 4".
+const inWords = (line) => line.replace(/ \(plan --scale\)| \(see `[^`]*`\)/g, '').replace(/(^|[^\w-])--([a-z][a-z-]*)/g, (_, before, option) => before + option.replaceAll('-', ' '));
+
 function complain(line) {
   $('trouble').hidden = !line;
-  $('trouble').textContent = line;
+  $('trouble').textContent = inWords(line);
+}
+
+// What appeared gets the focus, and so the eye.
+function goTo(id) {
+  $(id).focus({preventScroll: true});
+  $(id).scrollIntoView({block: 'start'});
 }
 
 // The line that the command line would print, without the name of the program.
@@ -31,11 +44,12 @@ const notesOf = (stderr) => stderr.split('\n').filter((line) => /^thread: note:/
 
 // ---- state: undo, reload, link ----
 
-const answers = () => Object.fromEntries([...QUESTIONS, ...LATER_QUESTIONS].map((id) => [id, $(id).value]));
+const answers = () => Object.fromEntries([...QUESTIONS, ...READING_QUESTIONS, ...LATER_QUESTIONS].map((id) => [id, $(id).value]));
 
 // Numbers of cords that are not in the list, which advice and links may bring, are added to it.
 function setAnswers(given) {
   for (const id of LATER_QUESTIONS) if (given[id] !== undefined) $(id).value = given[id];
+  setReading(given);
   for (const id of QUESTIONS) {
     const value = given[id], known = [...$(id).options].some((option) => option.value === value);
     if (value === undefined) continue;
@@ -45,7 +59,7 @@ function setAnswers(given) {
   }
 }
 
-const state = () => ({frame, name, plan, said, answers: answers()});
+const state = () => ({frame, source, name, plan, made, said, answers: answers()});
 let settled = null; // the state that Undo comes back to
 
 function remember() {
@@ -57,7 +71,8 @@ function remember() {
 }
 
 function restore(before) {
-  ({frame, name, plan, said} = before);
+  ({frame, source = null, name, plan, made = null, said} = before);
+  $('dropped').hidden = true;
   setAnswers(before.answers);
   settled = state();
   showFrame();
@@ -71,7 +86,7 @@ function undo() {
   if (before) restore(before);
 }
 
-const hashOf = () => new URLSearchParams(answers()).toString();
+const hashOf = () => new URLSearchParams(Object.entries(answers()).filter(([, value]) => value)).toString();
 
 async function copyLink() {
   const link = `${location.href.split('#')[0]}#${hashOf()}`;
@@ -126,23 +141,91 @@ async function readRhino(bytes, shownName) {
   }
 }
 
+// ---- how the file is read ----
+
+function setReading(given) {
+  for (const id of READING_QUESTIONS) {
+    if (given[id] === undefined) continue;
+    if (id === 'units' && given[id] && ![...$(id).options].some((option) => option.value === given[id])) $(id).add(new Option(given[id], given[id]));
+    $(id).value = given[id];
+  }
+}
+
+const UNITS = {mm: 'millimetres', cm: 'centimetres', m: 'metres', in: 'inches', ft: 'feet'};
+const widthOf = (shown) => Math.max(...[0, 1].map((k) => shown.nodes.reduce((most, p) => Math.max(most, p[k]), -Infinity) - shown.nodes.reduce((least, p) => Math.min(least, p[k]), Infinity)));
+
+// The question how wide it is, in numbers of this framework.
+function askWidth() {
+  const chosen = $('units').value, wide = Number(widthOf(frame).toPrecision(4));
+  const options = Object.entries(UNITS).map(([unit, words]) => new Option(`${wide} ${words}`, unit));
+  $('units').replaceChildren(new Option(`as the file says: ${wide} ${frame.units || 'mm'}`, ''), ...options);
+  setReading({units: chosen});
+  $('wide').placeholder = `${wide}`;
+}
+
+// Options of the program that say how the file is to be read. width: of the framework as it was read without them.
+function readingArgs(width) {
+  const {units, wide, up, weld, split, flat, pick, layers} = answers(), args = [];
+  const scale = Number(wide) > 0 && width > 0 ? Number(wide) / width : 1;
+  if (units) args.push('--units', units);
+  if (scale !== 1) args.push('--scale', String(scale));
+  if (up) args.push('--up', up);
+  if (weld) args.push('--weld', String(Number(weld) * width * scale));
+  if (split) args.push('--split');
+  if (flat) args.push('--flat', flat);
+  if (pick.trim()) args.push('--pick', pick.trim());
+  if (layers) args.push('--layers', layers);
+  return args;
+}
+
+const convert = (given, args) => engine.run(['convert', given.path, ...args, '-T', 'json', '-o', 'frame.json'], {[given.path]: given.bytes});
+
+// The same file once more, by other answers; feet that were chosen stay where the pieces are the same.
+async function readAgain() {
+  if (!source) return;
+  complain('');
+  const before = frame, given = source;
+  const {exit, stderr, files} = await convert(given, readingArgs(given.width));
+  if (exit !== 0 || !files['frame.json']) {
+    complain(lastLine(stderr).replaceAll(given.path, given.shownName));
+    setReading(settled?.answers || {});
+    return;
+  }
+  putPlanAside();
+  frame = JSON.parse(text(files['frame.json']));
+  if (frame.nodes.length === before.nodes.length && before.feet) frame.feet = before.feet;
+  remember();
+  showFrame(notesOf(stderr).map((note) => note.replaceAll(given.path, given.shownName)));
+  showResult();
+}
+
+// What is there without a plan for it: the plan comes back by a button, or by Undo.
+function putPlanAside() {
+  $('dropped').hidden = !plan;
+  plan = said = '';
+  made = null;
+}
+
 async function readBytes(bytes, title, path, shownName, more = []) {
   complain('');
   busy(`Reading ${shownName} ..`);
   const isPlan = /^\s*\{\s*"format"\s*:\s*"thread-plan"/.test(text(bytes.subarray(0, 200)));
-  const {exit, stderr, files} = await engine.run(['convert', path, '-T', 'json', '-o', 'frame.json'], {[path]: bytes});
+  const given = {bytes, path, shownName}, {exit, stderr, files} = await convert(given, []);
   busy('');
   if (exit !== 0 || !files['frame.json']) {
     complain(lastLine(stderr).replaceAll(path, shownName));
     return;
   }
+  putPlanAside();
   frame = JSON.parse(text(files['frame.json']));
   name = title;
-  plan = said = '';
-  if (!frame.feet?.length) $('ends').value = 'any';
+  source = isPlan ? null : {...given, width: widthOf(frame)};
+  setReading(Object.fromEntries(READING_QUESTIONS.map((id) => [id, ''])));
+  if (!frame.feet?.length && $('ends').value === 'feet') $('ends').value = '';
   if (isPlan) plan = text(bytes);
   remember();
   showFrame([...more, ...notesOf(stderr)].map((note) => note.replaceAll(path, shownName)));
+  if (!isPlan) goTo('frame-title');
   await showResult();
 }
 
@@ -165,11 +248,15 @@ const plural = (n, word) => `${n} ${word}${n === 1 ? '' : 's'}`;
 
 function showFrame(notes = []) {
   $('shown').hidden = $('question-part').hidden = !frame;
+  document.querySelector('main').classList.toggle('open', Boolean(frame));
   if (!frame) return;
-  const said = [`${name}: ${plural(frame.nodes.length, 'piece')} that meet at ${plural(frame.edges.length, 'interface')}`, ...notes];
+  const said = [`${name}: ${plural(frame.nodes.length, 'piece')} that meet at ${plural(frame.edges.length, 'interface')}`, ...notes.map(inWords)];
   $('counts').textContent = `${said.join('. ')}.`;
   hear($('counts').textContent);
   $('feet').value = (frame.feet || []).map(nameOf).join(', ');
+  $('reading').hidden = !source;
+  $('reading').open = Boolean(source) && (notes.length > 0 || $('reading').open);
+  askWidth();
   sketch.show(frame);
   advise();
 }
@@ -184,19 +271,21 @@ function toggled(node) {
 
 function changeFeet(feet) {
   frame = {...frame, feet};
-  plan = said = '';
-  if (!feet.length && $('ends').value === 'feet') $('ends').value = 'any';
+  putPlanAside();
+  if (!feet.length && $('ends').value === 'feet') $('ends').value = '';
   remember();
   showFrame();
   showResult();
 }
 
+// Names between commas, semicolons or blanks; a name that has blanks itself needs commas.
 function typedFeet() {
-  const wanted = $('feet').value.split(/[,;]\s*/).map((word) => word.trim()).filter(Boolean);
-  const found = wanted.map((word) => frame.nodes.findIndex((_, node) => nameOf(node).toLowerCase() === word.toLowerCase()));
-  const lost = wanted.filter((_, i) => found[i] < 0);
+  const numbered = new Map(frame.nodes.map((_, node) => [nameOf(node).toLowerCase(), node]));
+  const words = $('feet').value.split(/[,;]/).map((word) => word.trim()).filter(Boolean);
+  const wanted = words.flatMap((word) => (numbered.has(word.toLowerCase()) ? [word] : word.split(/\s+/)));
+  const lost = wanted.filter((word) => !numbered.has(word.toLowerCase()));
   complain(lost.length ? `There is no piece ${lost.join(', ')}; the first is ${nameOf(0)}.` : '');
-  if (!lost.length) changeFeet([...new Set(found)].sort((a, b) => a - b));
+  if (!lost.length) changeFeet([...new Set(wanted.map((word) => numbered.get(word.toLowerCase())))].sort((a, b) => a - b));
 }
 
 async function lowestFeet() {
@@ -211,40 +300,100 @@ const frameFile = () => `${name.replace(/[^\w.-]+/g, '-').replace(/^[-.]+/, '') 
 // ---- 2: the questions ----
 
 let asked = 0;
+let advised = []; // rows, in the order of the table
+let recommended = null; // one of them
 
-// The row that the program recommends as a button, and the picture.
+const ENDS = {feet: 'at the feet', any: 'anywhere', closed: 'in loops'};
+const newtons = (force) => `${force < 100 ? Number(force.toPrecision(2)) : Math.round(force)} N`;
+
+// A length in the framework's units, in m where it is known how many there are.
+const METRES = {mm: 0.001, cm: 0.01, m: 1, in: 0.0254, ft: 0.3048};
+const lengthWords = (length) => {
+  const metres = length * (METRES[frame.units || 'mm'] ?? NaN);
+  return Number.isNaN(metres) ? `${length.toPrecision(3)} ${frame.units}` : `${metres.toFixed(metres < 10 ? 2 : 1)} m`;
+};
+
+const hand = () => ({'': '10', any: '10'})[$('pull').value] ?? $('pull').value;
+
+// The rows as they are found, the recommended one first; it is what the page makes unless another answer is given.
 async function advise() {
-  const mine = ++asked, figure = $('advice');
-  figure.replaceChildren(caption('Looking how many cords a hand can pull ..'));
+  const mine = ++asked, found = new Map();
+  advised = [];
+  recommended = null;
+  showAdvice('Looking how many cords a hand can pull ..');
   adviser.stop();
-  const args = ['advise', frameFile(), '--hand', $('pull').value || '10', '--json', '-T', 'svg', '-o', 'advice.svg'];
-  const {exit, stdout, stderr, files} = await adviser.run(args, {[frameFile()]: frameText()});
+  const onLine = (line) => {
+    if (mine !== asked || !line.startsWith('{')) return;
+    const row = JSON.parse(line);
+    if (row.what !== 'row') return;
+    if (!found.size && row.pull_high <= Number(hand())) recommended = row;
+    if (recommended && keyOf(row) === keyOf(recommended)) recommended = row;
+    found.set(keyOf(row), row);
+    advised = [...found.values()];
+    showAdvice('Looking further ..');
+  };
+  const {exit, stdout, stderr} = await adviser.run(['advise', frameFile(), '--hand', hand(), '--json', '--progress'], {[frameFile()]: frameText()}, {onLine});
   if (mine !== asked || exit === -1) return;
-  if (stdout) figure.prepend(takeButton(JSON.parse(stdout))); // without a recommended row, too
-  const picture = files['advice.svg'];
-  if (!picture) {
-    figure.lastChild.replaceWith(caption(lastLine(stderr) || 'No advice for this framework.'));
-    return;
-  }
-  const image = new Image();
-  image.alt = 'Pull and length of cord against the number of cords';
-  image.src = URL.createObjectURL(new Blob([picture], {type: 'image/svg+xml'}));
-  figure.lastChild.replaceWith(image);
+  if (!stdout) return showAdvice(inWords(lastLine(stderr)) || 'No advice for this framework.');
+  const {rows, recommended: best, command} = JSON.parse(stdout);
+  advised = rows;
+  recommended = rows[best] || null;
+  showAdvice(recommended ? 'The fewest cords that a hand can pull again and again are marked.' : 'No number of cords is easy enough for this hand.');
+  $('advice-more').hidden = !command;
+  $('advice-command').textContent = command || '';
 }
 
-const ENDS = {feet: 'to the feet', any: 'ending anywhere', closed: 'in loops'};
+const keyOf = ({cords, ends}) => `${cords} ${ends}`;
+const ORDER = ['feet', 'any', 'closed'];
 
-function takeButton({rows, recommended}) {
-  const row = rows[recommended], button = document.createElement('button');
+function showAdvice(words) {
+  $('advice-said').textContent = words;
+  $('advice-table').hidden = !advised.length;
+  $('advice-more').hidden = true;
+  const rows = [...advised].sort((a, b) => (b === recommended) - (a === recommended) || ORDER.indexOf(a.ends) - ORDER.indexOf(b.ends) || a.cords - b.cords);
+  $('advice-table').tBodies[0].replaceChildren(...rows.map(adviceRow));
+  showPromise();
+}
+
+function adviceRow(row) {
+  const line = document.createElement('tr'), button = document.createElement('button');
+  line.className = row === recommended ? 'best' : '';
+  line.append(...cells([row.cords, ENDS[row.ends], newtons(row.pull), lengthWords(row.length), lengthWords(row.longest)], true));
   button.type = 'button';
-  button.textContent = row ? `Take ${plural(row.cords, 'cord')} ${ENDS[row.ends]}, ${row.pull.toPrecision(2)} N to pull` : 'No number of cords is easy enough';
-  button.disabled = !row;
-  button.addEventListener('click', () => {
-    setAnswers({cords: String(row.cords), ends: row.ends, aim: 'tortuosity', pull: ''});
-    remember();
-    $('go').focus();
+  button.textContent = 'Take';
+  button.setAttribute('aria-label', `Take ${plural(row.cords, 'cord')} ${ENDS[row.ends]}, ${newtons(row.pull)} to pull${row === recommended ? ', recommended' : ''}`);
+  button.addEventListener('click', () => takeRow(row));
+  line.insertCell().append(button);
+  return line;
+}
+
+// Cells of a row of a table; the first is the row's head.
+function cells(words, head) {
+  return words.map((word, i) => {
+    const cell = document.createElement(head && i === 0 ? 'th' : 'td');
+    if (head && i === 0) cell.scope = 'row';
+    cell.append(word);
+    return cell;
   });
-  return button;
+}
+
+const PLAIN = {pull: '', cords: '', ends: '', aim: '', joint: 'solid', seconds: ''};
+
+// What is recommended for the usual hand is what the plain answers make.
+function takeRow(row) {
+  setAnswers(row === recommended && hand() === '10' ? PLAIN : {cords: String(row.cords), ends: row.ends, aim: ''});
+  remember();
+  showPromise();
+  $('go').focus();
+}
+
+function isPlain() {
+  const given = answers();
+  return ['pull', 'cords', 'ends', 'aim', 'joint'].every((id) => given[id] === PLAIN[id]);
+}
+
+function showPromise() {
+  $('promise').textContent = isPlain() && recommended ? `Makes what is recommended: ${plural(recommended.cords, 'cord')} with ends ${ENDS[recommended.ends]}, ${newtons(recommended.pull)} to pull.` : '';
 }
 
 function caption(words) {
@@ -253,27 +402,50 @@ function caption(words) {
   return node;
 }
 
-// The command line that the answers stand for.
+// The command line that the answers stand for. Plain answers are no options: as few cords as a hand can pull.
 function wanted() {
-  const {pull, cords, ends, aim, joint, seconds} = answers(), args = ['plan', frameFile(), '--objective', aim, '--ends', ends, '--joint', joint];
-  if (pull) args.push('--max-pull', pull);
-  if (cords) args.push('--cords', cords);
-  return [...args, '--time-limit', seconds, '--progress', '-o', 'plan.json'];
+  const {pull, cords, ends, aim, joint, seconds} = answers(), args = ['plan', frameFile()];
+  if (!isPlain()) {
+    args.push('--ends', ends || (frame.feet?.length ? 'feet' : 'any'), '--joint', joint);
+    if (cords) args.push('--cords', cords);
+    if (aim) args.push('--objective', aim);
+    else if (cords && joint === 'solid' && ends !== 'closed') args.push('--objective', 'tortuosity', '--minimize', 'pull');
+    if (pull !== 'any' && (pull || (!cords && joint === 'solid' && aim !== 'symmetry' && ends !== 'closed'))) args.push('--max-pull', pull || '10');
+  }
+  return [...args, ...(seconds ? ['--time-limit', seconds] : []), '--json', '--progress', '-o', 'plan.json'];
 }
 
 // ---- the search ----
 
-// stop: what the button says that ends the work; none without it.
-function busy(words, stop = '', title = 'At work') {
-  for (const id of ['frame-part', 'question-part', 'result-part', 'kit-part', 'rise-part']) $(id).inert = Boolean(words); // a search is for what is shown
+let ticking = 0;
+
+// stop: what the button says that ends the work; none without it. seconds: its limit, 0: none. Over the picture for what is seen there.
+function busy(words, stop = '', title = 'At work', seconds = 0, inPicture = true) {
+  working = Boolean(words);
+  for (const node of [$('begin'), ...$('shown').children, ...document.querySelectorAll('main > section:not(#frame-part, #work-part)')])
+    if (node.id !== 'stage') node.inert = working;
+  const visible = inPicture && !$('shown').hidden, before = $('work-part').hidden;
   $('work-part').hidden = !words;
+  $('work-part').classList.toggle('fixed', !visible);
+  if ($('shown').hidden !== !$('work-part').closest('#shown')) (visible ? $('stage') : document.querySelector('main')).append($('work-part'));
   $('work-title').textContent = title;
   $('work').textContent = words;
   if (words) hear(words);
   $('bar').removeAttribute('value');
+  $('clock').textContent = '';
   $('stop').hidden = !stop;
   $('stop').textContent = stop;
-  $('go').disabled = Boolean(words);
+  $('go').disabled = working;
+  clearInterval(ticking);
+  if (!working) return;
+  if (before && stop) $('stop').focus({preventScroll: true});
+  if (visible && stop) $('stage').scrollIntoView({block: 'nearest'});
+  const begun = performance.now();
+  ticking = setInterval(() => {
+    const passed = (performance.now() - begun) / 1000;
+    $('clock').textContent = seconds ? `${Math.floor(passed)} of ${seconds} s` : `${Math.floor(passed)} s`;
+    if (seconds) $('bar').value = Math.min(1, passed / seconds);
+  }, 250);
 }
 
 const degrees = (rad) => `${((rad * 180) / Math.PI).toFixed(0)} degrees`;
@@ -282,7 +454,7 @@ const degrees = (rad) => `${((rad * 180) / Math.PI).toFixed(0)} degrees`;
 function progressWords(line) {
   if (!line.startsWith('{')) return {};
   const {what, best: value, bound, gap, length, cords, done} = JSON.parse(line);
-  if (what === 'plan') return {plan: `Found: ${plural(cords, 'cord')}, ${length.toPrecision(4)} ${frame.units || ''}.`};
+  if (what === 'plan') return {plan: `Found: ${plural(cords, 'cord')}, ${lengthWords(length)} in all.`};
   if (done !== undefined) return {done, what};
   if (!(bound > 0)) return {};
   const better = gap >= 0.005 ? `Nothing can be more than ${gap.toPrecision(2)} % better` : 'Nothing is better';
@@ -293,7 +465,8 @@ function progressWords(line) {
 async function search(event) {
   event.preventDefault();
   complain('');
-  busy('Searching ..', 'Stop and keep the best', 'Searching');
+  const seconds = Number(answers().seconds), command = wanted();
+  busy('Searching ..', 'Stop and keep the best', 'Searching', seconds);
   best = '';
   const told = {};
   let heardPlan;
@@ -302,27 +475,31 @@ async function search(event) {
     $('work').textContent = ['Searching ..', told.plan, told.proved].filter(Boolean).join(' ');
     hear($('work').textContent, told.plan === heardPlan);
     heardPlan = told.plan;
-    if (told.done > 0) $('bar').value = told.done;
+    if (told.done > 0 && !seconds) $('bar').value = told.done;
   };
   const onPlan = (found) => {
     best = found;
+    sketch.showCords(cordsOf(found));
     keep('search', {...state(), plan: best, said: ''}); // closing the page loses nothing that was found
   };
-  const {exit, stdout, stderr, files} = await engine.run(wanted(), {[frameFile()]: frameText()}, {onLine, onPlan});
+  const {exit, stdout, stderr, files} = await engine.run(command, {[frameFile()]: frameText()}, {onLine, onPlan});
   busy('');
   keep('search', null);
   const found = files['plan.json'] ? text(files['plan.json']) : best;
   if (!found) {
     complain(exit === -1 ? 'Stopped before anything was found.' : lastLine(stderr));
+    sketch.showCords(plan ? cordsOf(plan) : []);
     return;
   }
   plan = found;
-  said = stdout.replace(/^plan +plan\.json\n/m, '').trim();
+  said = '';
+  made = {command: ['thread', ...command.filter((word) => !/^--(json|progress)$/.test(word))].join(' '), told: stdout.trim().startsWith('{') ? JSON.parse(stdout) : null};
+  $('dropped').hidden = true;
   remember();
   await showResult();
   if (exit === -1) $('verdict').textContent += ` The search was stopped. ${told.proved || 'Nothing was proved by then'}`.replace(/\.?$/, '.');
-  else if (exit !== 0) $('verdict').textContent += ` Of the search: ${lastLine(stderr)}.`;
-  hear($('verdict').textContent);
+  else if (exit !== 0) $('verdict').textContent += ` Of the search: ${inWords(lastLine(stderr))}.`;
+  hear(`${$('headline').textContent} ${$('verdict').textContent}`);
 }
 
 // ---- 3: the result ----
@@ -333,26 +510,104 @@ async function draw(type, file) {
   return files[file];
 }
 
+const cordsOf = (words) => JSON.parse(words).cords.map(({nodes}) => nodes);
+
+// A table as it is written: of each row {name of the column: word}.
+function rowsOf(csv) {
+  const [head, ...rows] = csv.trim().split('\n').map((line) => [...line.matchAll(/(?:^|,)(?:"((?:[^"]|"")*)"|([^,]*))/g)].map(([, quoted, plain]) => (quoted !== undefined ? quoted.replaceAll('""', '"') : plain)));
+  return rows.map((row) => Object.fromEntries(head.map((column, i) => [column, row[i]])));
+}
+
+const range = (values, words) => {
+  const [least, most] = [Math.min(...values), Math.max(...values)].map(words);
+  return least === most ? most : `${least} to ${most}`;
+};
+
+// The headline, the cords, and what to do.
+function showCords(rows, pulls, kit, first) {
+  const lengths = rows.map((row) => Number(row.length)), cuts = rows.map((row) => Number(row.cut)), known = pulls.filter((pull) => pull?.known);
+  const most = Math.max(...known.map((pull) => pull.force));
+  $('headline').textContent = `${plural(rows.length, 'cord')}, ${rows.length > 1 ? 'each ' : ''}${range(lengths, lengthWords)}${known.length ? `; pull ${newtons(most)} at both ends` : ''}`;
+  $('cord-table').tBodies[0].replaceChildren(...rows.map((row, i) => {
+    const line = document.createElement('tr'), swatch = document.createElement('span'), pull = pulls[i];
+    swatch.className = 'swatch';
+    swatch.style.background = CORD_COLOURS[i % CORD_COLOURS.length];
+    const force = pull?.known ? (Math.abs(pull.force - pull.other_force) < 0.05 * pull.force ? newtons(pull.force) : `${newtons(pull.other_force)} and ${newtons(pull.force)}`) : '';
+    line.append(...cells([row.cord, lengthWords(Number(row.cut)), lengthWords(Number(row.length)), row.start, row.end, force], true));
+    line.cells[0].prepend(swatch);
+    return line;
+  }));
+  const steps = [`Cut ${plural(rows.length, 'cord')} of ${range(cuts, lengthWords)}: ends to hold and knots are in it.`,
+    kit ? `Print ${plural(kit.pieces, 'piece')} of ${plural(kit.kinds, 'kind')}, about ${Math.round(kit.volume_cm3)} cm³ of material: part 4 below makes the files.` : 'Print the pieces: part 4 below makes the files.',
+    'Print the booklet, or open the steps below on a telephone.', first ? `Begin: ${first}.` : ''].filter(Boolean);
+  $('to-do').replaceChildren(...steps.map((words) => {
+    const item = document.createElement('li');
+    item.textContent = words;
+    return item;
+  }));
+}
+
+// "cord A: start, pick up L-1 (G7): out to G6", out of the steps in words.
+function firstStep(words) {
+  const cord = /^Cord (\S+?),/m.exec(words), row = /^\[ \] +S +(.*)$/m.exec(words);
+  return cord && row ? `cord ${cord[1]}, ${row[1]}` : '';
+}
+
+const LARGE = 40; // pages of a booklet: its first part is offered alone
+const FEW_PASSES = 400; // whose booklet is drawn at once
+
 async function showResult() {
   $('result-part').hidden = $('kit-part').hidden = $('rise-part').hidden = !plan;
   $('viewer').srcdoc = '';
   $('files').replaceChildren();
+  $('first-step').replaceChildren(caption('The first step appears here.'));
+  $('booklet-said').textContent = '';
   showKit({});
   showRise({});
+  sketch.showCords(plan ? cordsOf(plan) : []);
   if (!plan) return;
-  const shown = plan, check = await engine.run(['check', 'plan.json'], {'plan.json': plan});
+  const shown = plan, given = {'plan.json': plan}, check = await engine.run(['check', 'plan.json'], given);
   if (shown !== plan) return;
-  $('summary').textContent = said || check.stdout.replace(/^plan\.json: /, '').trim() || lastLine(check.stderr);
   $('verdict').textContent = check.exit === 0 ? 'Every claim of this plan was verified on this device.' : lastLine(check.stderr);
+  $('summary').textContent = said || check.stdout.replace(/^plan\.json: /, '').trim() || lastLine(check.stderr);
+  $('command').textContent = made?.command || '';
+  const {stdout: cords} = await engine.run(['draw', 'plan.json', '-T', 'cords.csv', '-o', '-'], given);
+  const evaluated = await engine.run(['eval', 'plan.json', '--json'], given);
+  const {stdout: steps} = await engine.run(['draw', 'plan.json', '-T', 'steps', '-o', '-'], given);
+  if (shown !== plan) return;
+  const pulls = evaluated.stdout.startsWith('{') ? JSON.parse(evaluated.stdout).evaluation.cords : [];
+  showCords(rowsOf(cords), pulls, made?.told?.kit, firstStep(steps));
+  goTo('result-title');
   const viewer = await draw('html', 'viewer.html');
   if (viewer && shown === plan) $('viewer').srcdoc = text(viewer);
-  listFiles($('files'), FILES.map(([type, file]) => [file, () => contentOf(type, file)]));
-  $('result-title').scrollIntoView({block: 'start'});
+  listFiles($('files'), FILES.map(([type, file, what]) => [file, () => contentOf(type, file), what]));
+  if (cordsOf(plan).flat().length <= FEW_PASSES) showFirstPages(await draw('sheets.html', 'sheets.html'), shown);
 }
 
-const FILES = [['plan', 'plan.json'], ['svg', 'overview.svg'], ['steps', 'steps.txt'], ['sheets.html', 'sheets.html'], ['html', 'viewer.html'],
-  ['cords.csv', 'cords.csv'], ['beads.csv', 'beads.csv'], ['steps.csv', 'steps.csv'], ['channels.csv', 'channels.csv'], ['obj', 'cords.obj'],
-  ['gltf', 'cords.gltf'], ['dxf', 'cords.dxf']];
+// The booklet as [what stands before its pages, its pages].
+function pagesOf(bytes) {
+  const [head, ...pages] = text(bytes).split(/(?=<section class="page")/);
+  return [head, pages];
+}
+
+// Its first page, and the first with a step, as pictures.
+function showFirstPages(bytes, shown) {
+  if (!bytes || shown !== plan) return;
+  const [, pages] = pagesOf(bytes), at = Number(/Steps: from page (\d+)/.exec(pages[0])?.[1] || 2);
+  $('booklet-said').textContent = `The booklet has ${plural(pages.length, 'page')}.`;
+  $('first-step').replaceChildren(...[[1, 'The first page of the booklet'], [at, 'The first step']].filter(([page]) => pages[page - 1]).map(([page, words]) => {
+    const image = new Image(), svg = /<svg[^]*<\/svg>/.exec(pages[page - 1])[0];
+    image.alt = `${words}, page ${page}`;
+    image.src = URL.createObjectURL(new Blob([svg], {type: 'image/svg+xml'}));
+    return image;
+  }), caption(`The first page of the booklet, and the first step, on page ${at}.`));
+}
+
+// Its type, its name, what it is for.
+const FILES = [['plan', 'plan.json', 'the plan; drop it here again'], ['svg', 'overview.svg', 'a picture of all cords'], ['steps', 'steps.txt', 'the steps in words'],
+  ['sheets.html', 'sheets.html', 'the booklet to print'], ['html', 'viewer.html', 'the steps in space'], ['cords.csv', 'cords.csv', 'what to cut'],
+  ['beads.csv', 'beads.csv', 'which pieces'], ['steps.csv', 'steps.csv', 'the steps as a table'], ['channels.csv', 'channels.csv', 'the ways through pieces'],
+  ['obj', 'cords.obj', 'the cords for CAD'], ['gltf', 'cords.gltf', 'the cords in colours'], ['dxf', 'cords.dxf', 'the cords for CAD']];
 
 const contentOf = async (type, file) => (type === 'plan' ? new TextEncoder().encode(plan) : draw(type, file));
 
@@ -364,9 +619,9 @@ function save(blob, title) {
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);
 }
 
-// named: [[name, what gives its bytes] ..]
+// named: [[name, what gives its bytes, what it is for] ..]
 function listFiles(list, named) {
-  list.replaceChildren(...named.map(([file, content]) => {
+  list.replaceChildren(...named.map(([file, content, what]) => {
     const item = document.createElement('li'), link = document.createElement('a');
     link.href = '#';
     link.textContent = file;
@@ -376,13 +631,18 @@ function listFiles(list, named) {
       if (bytes) save(new Blob([bytes]), file);
     });
     item.append(link);
+    if (what) {
+      const words = document.createElement('span');
+      words.textContent = what;
+      item.append(words);
+    }
     return item;
   }));
 }
 
 async function saveAll() {
   const files = {};
-  busy('Drawing everything ..');
+  busy('Drawing everything ..', '', 'Drawing', 0, false);
   for (const [type, file] of FILES) {
     const bytes = await contentOf(type, file);
     if (bytes) files[file] = bytes;
@@ -391,19 +651,50 @@ async function saveAll() {
   save(zip({...files, ...kit, ...rise}), `${name || 'plan'}.zip`);
 }
 
+// A large one is made while its number of pages is shown, and its first part can be had alone.
 async function openBooklet() {
-  const page = window.open('', '_blank');
-  const bytes = await draw('sheets.html', 'sheets.html');
-  if (!bytes) return page?.close();
-  const url = URL.createObjectURL(new Blob([bytes], {type: 'text/html'}));
-  if (page) page.location = url;
-  else save(new Blob([bytes], {type: 'text/html'}), 'sheets.html');
+  const page = window.open('', '_blank'), given = {'plan.json': plan};
+  busy('Drawing the booklet ..', 'Stop', 'Drawing the booklet', 0, false);
+  const onLine = (line) => {
+    const pages = /: (\d+ pages)/.exec(line)?.[1];
+    if (pages) $('work').textContent = `Drawing the booklet: ${pages} ..`;
+  };
+  const {exit, stderr, files} = await engine.run(['draw', 'plan.json', '-T', 'sheets.html', '--page', $('paper').value, '-o', 'sheets.html'], given, {onLine});
+  busy('');
+  const bytes = files['sheets.html'];
+  if (exit !== 0 || !bytes) {
+    complain(exit === -1 ? 'Stopped: no booklet was drawn.' : lastLine(stderr));
+    return page?.close();
+  }
+  const [head, pages] = pagesOf(bytes), show = (shown) => {
+    const blob = new Blob([head, ...shown, '</body></html>'], {type: 'text/html'});
+    if (page && !page.closed) page.location = URL.createObjectURL(blob);
+    else save(blob, 'sheets.html');
+  };
+  if (pages.length <= LARGE) return show(pages);
+  const first = firstPart(pages), words = $('booklet-said');
+  const choices = [[`Open the first ${first} pages`, first], [`Open all ${pages.length} pages`, pages.length]].map(([title, n]) => {
+    const button = document.createElement('button');
+    button.type = 'button';
+    button.textContent = title;
+    button.addEventListener('click', () => {
+      const opened = window.open(URL.createObjectURL(new Blob([head, ...pages.slice(0, n), '</body></html>'], {type: 'text/html'})), '_blank');
+      if (!opened) save(new Blob([head, ...pages.slice(0, n), '</body></html>'], {type: 'text/html'}), 'sheets.html');
+    });
+    return button;
+  });
+  page?.close();
+  words.replaceChildren(`The booklet has ${pages.length} pages. `, ...choices);
+  choices[0].focus();
+}
+
+// How many pages come before the second section; without sections LARGE of them.
+function firstPart(pages) {
+  const second = pages.findIndex((page) => />Section 2\b/.test(page));
+  return second > 0 ? second : LARGE;
 }
 
 // ---- 4: the pieces ----
-
-// A line of the program in the words of the page, which has no options: "--width 4" is "width 4".
-const inWords = (line) => line.replace(/ \(plan --scale\)| \(see `[^`]*`\)/g, '').replace(/--([a-z-]+)/g, (_, option) => option.replaceAll('-', ' '));
 
 const capital = (words) => words[0].toUpperCase() + words.slice(1);
 const sentences = (lines) => lines.map((line) => `${capital(line)}.`).join(' ');
@@ -435,7 +726,7 @@ function showKit(files, lines = []) {
 async function makeKit(event) {
   event.preventDefault();
   complain('');
-  busy('Making the pieces ..', 'Stop', 'Making the pieces');
+  busy('Making the pieces ..', 'Stop', 'Making the pieces', 0, false);
   const {width, bed, names, key} = answers(), args = ['kit', 'plan.json', '--bed', bed.replaceAll(' ', '').replace('×', 'x'), '--names', names, '--key', key];
   if (width) args.push('--width', width);
   const {exit, stderr, files} = await engine.run([...args, '--stl', '--progress', '-o', 'kit'], {'plan.json': plan}, {onLine: showDone('Making the pieces')});
@@ -449,7 +740,7 @@ async function makeKit(event) {
   showKit(files, lines.map((line) => inWords(line.replace(/^thread: /, ''))));
   $('viewer').srcdoc = text(files['kit/kit.html']); // the same steps, with these pieces
   hear($('kit-said').textContent);
-  $('kit-title').scrollIntoView({block: 'start'});
+  goTo('kit-title');
 }
 
 // ---- 5: how they rise ----
@@ -475,7 +766,7 @@ function showRise(files, lines = []) {
 async function makeRise(event) {
   event.preventDefault();
   complain('');
-  busy('Pulling the cords ..', 'Stop', 'Pulling the cords');
+  busy('Pulling the cords ..', 'Stop', 'Pulling the cords', 0, false);
   const {start, most, raised, width} = answers(), args = ['rise', 'plan.json', '--start', start];
   if (most) args.push('--pull', most);
   if (raised.trim()) args.push('--raise', raised.trim());
@@ -490,7 +781,7 @@ async function makeRise(event) {
   }
   showRise(files, stdout.trim().split('\n'));
   hear($('rise-said').textContent);
-  $('rise-title').scrollIntoView({block: 'start'});
+  goTo('rise-title');
 }
 
 // ---- events ----
@@ -502,9 +793,12 @@ function listenForFiles() {
     document.addEventListener(kind, (event) => {
       event.preventDefault();
       drop.classList.toggle('over', kind === 'dragover');
-      if (kind === 'drop' && event.dataTransfer.files[0] && !$('frame-part').inert) openFile(event.dataTransfer.files[0]);
+      if (kind === 'drop' && event.dataTransfer.files[0] && !working) openFile(event.dataTransfer.files[0]);
     });
-  $('example').addEventListener('change', () => $('example').value && example($('example').value).then(() => ($('example').value = '')));
+  $('examples').addEventListener('submit', (event) => {
+    event.preventDefault();
+    example($('example').value);
+  });
 }
 
 async function begin() {
@@ -512,7 +806,15 @@ async function begin() {
   $('questions').addEventListener('submit', search);
   $('questions').addEventListener('change', (event) => {
     remember();
+    showPromise();
     if (event.target.id === 'pull') advise();
+  });
+  $('reading-questions').addEventListener('change', readAgain);
+  $('reading-questions').addEventListener('submit', (event) => event.preventDefault());
+  $('picking').addEventListener('change', () => (sketch.picksByTap = $('picking').checked));
+  $('back').addEventListener('click', () => {
+    do undo();
+    while (!plan && past.length);
   });
   for (const [form, make] of [['kit-questions', makeKit], ['rise-questions', makeRise]]) {
     $(form).addEventListener('submit', make);
@@ -526,7 +828,7 @@ async function begin() {
   $('booklet').addEventListener('click', openBooklet);
   $('all').addEventListener('click', saveAll);
   document.addEventListener('keydown', (event) => {
-    if ((event.ctrlKey || event.metaKey) && event.key === 'z' && event.target.tagName !== 'INPUT' && !$('frame-part').inert) undo();
+    if ((event.ctrlKey || event.metaKey) && event.key === 'z' && event.target.tagName !== 'INPUT' && !working) undo();
   });
   const {now: before, search: cut} = await kept();
   if (before?.frame) restore(before);

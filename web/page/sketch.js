@@ -1,4 +1,7 @@
-// The framework as a picture that turns: arms from every piece to the middles of its edges, feet as squares.
+// The framework as a picture that turns: arms from every piece to the middles of its edges, feet as squares, and the cords of a plan.
+
+const CORD_COLOURS = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', '#56B4E9', '#E69F00']; // as in the overview
+const LONG_PRESS = 500; // ms
 
 class Sketch {
   constructor(canvas, onPick) {
@@ -6,12 +9,21 @@ class Sketch {
     this.onPick = onPick;
     this.turn = [-0.6, 0.95];
     this.zoom = 1;
+    this.cords = []; // of each the nodes that it comes to
+    this.picksByTap = false; // a finger picks without waiting
     new ResizeObserver(() => this.draw()).observe(canvas);
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.draw());
     this.listen();
   }
 
+  // cords: of each the nodes that it comes to, in their order.
+  showCords(cords) {
+    this.cords = cords;
+    this.draw();
+  }
+
   show(frame) {
+    this.cords = [];
     const all = [0, 1, 2].map((k) => frame.nodes.map((p) => p[k]));
     this.frame = frame;
     this.middle = all.map((list) => (list.reduce((a, b) => Math.min(a, b)) + list.reduce((a, b) => Math.max(a, b))) / 2);
@@ -52,8 +64,28 @@ class Sketch {
           pen.stroke();
         }
       }
+    this.drawCords(pen, at);
     pen.fillStyle = colour('--foot');
     for (const v of feet) pen.fillRect(at[v][0] - wide / 2 - 2, at[v][1] - wide / 2 - 2, wide + 4, wide + 4);
+  }
+
+  // Every pass in a lane of its own: the first in the middle of its edge, others left and right of it.
+  drawCords(pen, at) {
+    const lanes = new Map(), apart = 3.2;
+    pen.lineWidth = 2.2;
+    this.cords.forEach((nodes, i) => {
+      pen.strokeStyle = CORD_COLOURS[i % CORD_COLOURS.length];
+      pen.beginPath();
+      for (let k = 1; k < nodes.length; k++) {
+        const [a, b] = [Math.min(nodes[k - 1], nodes[k]), Math.max(nodes[k - 1], nodes[k])], key = `${a} ${b}`, lane = lanes.get(key) || 0;
+        lanes.set(key, lane + 1);
+        const [x, y] = [at[b][0] - at[a][0], at[b][1] - at[a][1]], far = Math.hypot(x, y) || 1;
+        const aside = apart * Math.ceil(lane / 2) * (lane % 2 ? 1 : -1), [dx, dy] = [(-y / far) * aside, (x / far) * aside];
+        pen.moveTo(at[a][0] + dx, at[a][1] + dy);
+        pen.lineTo(at[b][0] + dx, at[b][1] + dy);
+      }
+      pen.stroke();
+    });
   }
 
   pick(x, y) {
@@ -72,11 +104,22 @@ class Sketch {
       const [one, other = one] = fingers.values();
       return Math.hypot(one[0] - other[0], one[1] - other[1]);
     };
-    let moved = 0;
+    let moved = 0, press = 0;
+    const choose = (x, y) => {
+      const v = this.frame ? this.pick(x, y) : -1;
+      if (v >= 0) this.onPick(v);
+    };
     canvas.addEventListener('pointerdown', (event) => {
+      const {offsetX: x, offsetY: y} = event;
       fingers.set(event.pointerId, [event.clientX, event.clientY]);
       moved = fingers.size === 1 ? 0 : Infinity; // two fingers pick nothing
       canvas.setPointerCapture(event.pointerId);
+      clearTimeout(press);
+      if (event.pointerType === 'touch' && !this.picksByTap)
+        press = setTimeout(() => {
+          if (moved < 6) choose(x, y);
+          moved = Infinity;
+        }, LONG_PRESS);
     });
     canvas.addEventListener('pointermove', (event) => {
       const from = fingers.get(event.pointerId);
@@ -88,14 +131,17 @@ class Sketch {
       if (fingers.size === 2 && before) this.enlarge(apart() / before);
     });
     canvas.addEventListener('pointerup', (event) => {
-      if (fingers.has(event.pointerId) && moved < 6 && this.frame) {
-        const v = this.pick(event.offsetX, event.offsetY);
-        if (v >= 0) this.onPick(v);
-      }
+      clearTimeout(press);
+      if (fingers.has(event.pointerId) && moved < 6 && (event.pointerType !== 'touch' || this.picksByTap)) choose(event.offsetX, event.offsetY);
       fingers.delete(event.pointerId);
     });
-    canvas.addEventListener('pointercancel', (event) => fingers.delete(event.pointerId));
+    canvas.addEventListener('contextmenu', (event) => event.preventDefault()); // of a long press
+    canvas.addEventListener('pointercancel', (event) => {
+      clearTimeout(press); // the finger scrolls the page
+      fingers.delete(event.pointerId);
+    });
     canvas.addEventListener('wheel', (event) => {
+      if (!event.ctrlKey && document.activeElement !== canvas) return; // it scrolls the page
       event.preventDefault();
       this.enlarge(Math.exp(-0.001 * event.deltaY));
     }, {passive: false});
