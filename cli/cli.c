@@ -55,15 +55,16 @@ static void shorten_words(char *line)
   }
 }
 
-/* Prints a message and a text after it as one line, whatever line breaks the names in it hold.
- * Allocates nothing, and so also works when memory runs out. */
-static void say(const char *format, va_list args, const char *after)
+/* Prints a message and a text after it as one line, whatever line breaks the names in it hold, and
+ * takes it down if it is an error. Allocates nothing, and so also works when memory runs out. */
+static void say(const char *format, va_list args, const char *after, bool error)
 {
   char line[8192];
   vsnprintf(line, sizeof line, format, args);
   thr_text_clean(line);
   shorten_words(line);
   fprintf(stderr, "thread: %s%s\n", line, after);
+  if (error) answer_error_is(line);
 }
 
 /* Whether the progress line stands on the terminal. */
@@ -81,7 +82,7 @@ void cli_note(const char *format, ...)
   va_list args;
   cli_progress_wipe();
   va_start(args, format);
-  say(format, args, "");
+  say(format, args, "", false);
   va_end(args);
 }
 
@@ -90,7 +91,7 @@ void cli_error(const char *format, ...)
   va_list args;
   va_start(args, format);
   cli_progress_end();
-  say(format, args, "");
+  say(format, args, "", true);
   va_end(args);
 }
 
@@ -122,7 +123,7 @@ int cli_usage(const char *command, const char *format, ...)
   snprintf(where, sizeof where, " (%s%.300s%ssee `thread %s --help`)", config ? "in " : "",
            config ? config : "", config ? "; " : "", command);
   va_start(args, format);
-  say(format, args, where);
+  say(format, args, where, true);
   va_end(args);
 
   return EXIT_USAGE;
@@ -315,6 +316,11 @@ bool cli_output_format(const char *command, const char *output, const char *type
     return false;
   }
 
+  if (cli_json && strcmp(output, "-") == 0) {
+    cli_usage(command, "--json and the framework both want stdout; -o FILE takes the framework");
+    return false;
+  }
+
   return true;
 }
 
@@ -487,6 +493,13 @@ int cli_write(thr_text *text, const char *path)
   int code = files_may_write(path);
   if (!code && thr_text_write(text, path, &err)) code = cli_fail(&err);
   thr_text_destroy(text);
+
+  /* What programs read is out, and no failure after it writes there. */
+  if (!code && strcmp(path, "-") == 0) {
+    answer_given();
+    guard_answered();
+  }
+
   return code;
 }
 
@@ -603,7 +616,7 @@ static void on_interrupt(int signal)
 {
   static double first;
   double now = thr_clock();
-  if (interrupted && now - first > 0.3 && signal != THR_OS_HANGUP) _exit(130);
+  if (interrupted && now - first > 0.3 && signal != THR_OS_HANGUP) _exit(EXIT_SECOND_SIGNAL);
   if (!interrupted) first = now;
   interrupted = 1;
 }

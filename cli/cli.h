@@ -11,6 +11,7 @@
  *   cli.c                      messages, reading and writing, the progress line
  *   files.c                    which files a command reads and writes
  *   guard.c, guard_process.c   limits of time and memory, by a child process
+ *   answer.c                   what programs hear: files, failures, exit codes
  *   best.c, progress.c         the best cords found so far; progress for other programs
  *   print/                     reports of results */
 #ifndef THR_CLI_H
@@ -19,6 +20,7 @@
 #include "cli/args/options.h"
 #include "diagram/overview/overview.h"
 #include "graph/framework/frame.h"
+#include "graph/io/json.h"
 #include "graph/io/read.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
@@ -39,7 +41,8 @@ enum {
   EXIT_INPUT = 3,
   EXIT_INFEASIBLE = 4,
   EXIT_LIMIT = 5,
-  EXIT_INTERNAL = 70
+  EXIT_INTERNAL = 70,
+  EXIT_SECOND_SIGNAL = 130
 };
 
 int cmd_plan(int argc, char **argv);
@@ -63,6 +66,49 @@ typedef struct {
 } cli_command;
 extern const cli_command cli_commands[];
 extern const int cli_n_commands;
+
+/* ---- answer.c: Answers programs: which files a command wrote, and why it failed. */
+
+extern bool cli_json; /* --json: the answer is JSON on stdout */
+
+/* What each exit code means: for `thread help exit-codes` and the documents. */
+typedef struct {
+  int code;
+  const char *meaning;
+} cli_exit_code;
+extern const cli_exit_code cli_exit_codes[];
+extern const int cli_n_exit_codes;
+
+/* Prints them. Returns an exit code. */
+int answer_exit_codes(void);
+
+/* Takes down the message of an error: the last one is the answer of a command that fails. */
+void answer_error_is(const char *message);
+
+/* Returns this message, and "" if there is none or stdout has an answer. */
+const char *answer_error(void);
+
+/* Takes down that stdout has an answer. */
+void answer_given(void);
+
+/* Writes {"error": .., "code": ..} to stdout if that is wanted and nothing else was the answer. */
+void answer_failure(int code);
+
+/* Takes down that a file is written, and what it is; both are copied. */
+void answer_file(const char *path, const char *what);
+
+/* Writes these files as member "files". */
+void answer_put_files(thr_writer *writer);
+
+/* Closes the object, and writes its text to stdout. Returns an exit code. */
+int answer_close(thr_writer *writer);
+
+/* Writes the whole answer of a command that has written a framework to path. Returns an exit
+ * code. */
+int answer_frame(const thr_frame *frame, const char *path);
+
+/* Releases what was taken down. */
+void answer_tidy(void);
 
 /* ---- messages ---- */
 
@@ -285,13 +331,15 @@ void guard_allow(double seconds);
 
 /* In the child; nothing without one. kept: replaces what was handed over before. Between writing
  * and written nothing ends the child but a second signal. No memory: what the parent is to say if
- * the child fails now; false if there is no parent. Ending: the child exits with this code by
- * itself, not a library. */
+ * the child fails now; false if there is no parent. Answered: stdout has what programs read.
+ * Ending: the child exits with this code by itself, not a library, and its last error was this;
+ * false if there is no parent to tell it. */
 void guard_keep(const thr_text *text);
 void guard_writing(void);
 void guard_written(int code);
 bool guard_no_memory(void);
-void guard_ending(int code);
+void guard_answered(void);
+bool guard_ending(int code, const char *error);
 
 /* What a command does that has nothing to hand over: prints why it ended and returns the exit code.
  */

@@ -55,7 +55,6 @@ typedef struct {
   const char *path, *output;
   double hand;
   int type;
-  bool json;
 } advise_arguments;
 
 static const char *type_name(int type)
@@ -75,8 +74,6 @@ static const cli_option own_options[] = {
     {"type", 'T', NULL, "a table (default), or a picture", .kind = CLI_WORD, AT(type),
      .word = type_name, .n_words = N_TYPES},
     {"output", 'o', "FILE", "(default: stdout)", .kind = CLI_OUTPUT, AT(output)},
-    {"json", .kind = CLI_FLAG, AT(json),
-     .help = "the table as JSON, with -T svg on stdout beside the picture in -o"},
     {"hand", .value = "N", .kind = CLI_OTHER, .take = take_hand,
      .help = "what the pull is to stay within, in newton, even at the upper end of the band of mu "
              "(default: 10, what a hand manages time after time; one: 50, the most; two: 100)"},
@@ -114,7 +111,7 @@ static int parse(int argc, char **argv, advise_arguments *args)
   args->path = argv[optind];
 
   /* Outputs. */
-  if (args->json && args->type == TYPE_SVG && strcmp(args->output, "-") == 0)
+  if (cli_json && args->type == TYPE_SVG && strcmp(args->output, "-") == 0)
     return cli_usage("advise",
                      "--json and the picture both want stdout; -o FILE takes the picture");
 
@@ -273,15 +270,15 @@ static int write_advice(const advise_arguments *args, const thr_frame *frame,
     st = thr_nomem(&err);
   else if (args->type == TYPE_SVG)
     st = draw(args, frame, advice, words, &text, &err);
-  else if (!args->json)
+  else if (!cli_json)
     advice_put_table(&text, frame, advice, words);
 
   /* From which pull on the recommended cords hold the pieces. */
-  if (!st && !args->json && args->type != TYPE_SVG && laid_out) advice_put_holding(&text, &chosen);
-  if (!st && args->json) code = write_json(args, frame, advice, words, laid_out ? &chosen : NULL);
+  if (!st && !cli_json && args->type != TYPE_SVG && laid_out) advice_put_holding(&text, &chosen);
+  if (!st && cli_json) code = write_json(args, frame, advice, words, laid_out ? &chosen : NULL);
 
   /* With --json text on stdout is the table; a picture goes to its file all the same. */
-  if (!code && (st || !args->json || args->type == TYPE_SVG))
+  if (!code && (st || !cli_json || args->type == TYPE_SVG))
     code = cli_write_drawn(st, &text, args->output, &err);
 
   thr_text_destroy(&text);
@@ -306,7 +303,7 @@ static int advise(advise_arguments *args, const thr_frame *frame)
   table_state state = {.frame = frame,
                        .physics = &resolved,
                        .base_length = args->request.cover * thr_frame_total_length(frame)};
-  state.shown = args->type == TYPE_TEXT && !args->json && !cli_quiet &&
+  state.shown = args->type == TYPE_TEXT && !cli_json && !cli_quiet &&
                 strcmp(args->output, "-") == 0 && cli_is_terminal(STDOUT_FILENO);
 
   /* The search, whose work is counted unless a time was given. */

@@ -52,7 +52,6 @@ typedef struct {
   thr_request plan;
   const char *path, *ends;
   double row_work; /* counted, for each row; 0: not said */
-  bool json;
 } symmetries_arguments;
 
 #define AT(member) .offset = offsetof(symmetries_arguments, member)
@@ -62,7 +61,6 @@ static const cli_option own_options[] = {
      .help = "where cord ends may be, as for thread plan (default: closed)"},
     {"mu", .value = "X", .kind = CLI_AMOUNT, AT(plan.physics.mu), .high = 10,
      .help = "friction, cord on bead, for the pull in the table (default: 0.2)"},
-    {"json", .kind = CLI_FLAG, AT(json), .help = "as JSON"},
     {0}};
 
 static const cli_option time_options[] = {
@@ -156,7 +154,7 @@ static int print(const symmetries_arguments *args, const thr_frame *framework,
   thr_text text = {0};
 
   /* As text every row is shown, not only those round the chosen one. */
-  if (args->json) {
+  if (cli_json) {
     put_json(&text, args, framework, symmetries);
   } else {
     symmetry_put_head(&text, framework, &args->plan, symmetries);

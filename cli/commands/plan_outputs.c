@@ -203,15 +203,19 @@ int plan_write_outputs(const plan_arguments *args, planned_result *result, int *
 
   if (!places.plan) return written; /* there is none */
 
+  /* The summary for programs comes before the drawings, and names them. */
+  answer_file(places.plan, "the plan");
+  if (places.folder && !written) drawings_foretell(plan, places.folder, &args->drawings);
+
   /* A plan on stdout leaves no place for a summary. */
   const bool is_silent =
-      strcmp(places.plan, "-") == 0 || (cli_quiet && !args->json && !args->request.plot);
+      strcmp(places.plan, "-") == 0 || (cli_quiet && !cli_json && !args->request.plot);
   int code = is_silent ? EXIT_OK : plan_print_summary(args, result);
 
   /* Drawings are made only of a plan that is where it was to be. */
   const int drawn = written ? EXIT_OK : write_drawings(args, plan, &places);
   if (!code) code = drawn;
-  if (!code && !is_silent && !args->json && !cli_quiet)
+  if (!code && !is_silent && !cli_json && !cli_quiet)
     code = print_places(args, plan, places.plan, written ? NULL : places.folder);
 
   return written ? written : code;

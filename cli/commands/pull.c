@@ -155,7 +155,6 @@ const cli_option pull_options[] = {
     {"seed", .value = "N", .kind = CLI_OTHER, .take = take_seed,
      .help = "number of the small disorder that a simulation begins with, 0 to 2^53 (default: 0; "
              "rise: 1, of the first run)"},
-    {"json", .kind = CLI_FLAG, AT(json), .help = "everything as JSON"},
     {0}};
 
 /* Factors on the simulation's validated time step and iterations. */
