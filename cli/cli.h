@@ -8,7 +8,8 @@
  * Read in this order:
  *   main.c, commands/          the commands
  *   args/                      their options (args/args.h, args/options.h)
- *   cli.c                      messages, reading and writing, the progress line
+ *   cli.c                      messages, reading and writing
+ *   status_line.c                   the status line of a terminal
  *   files.c                    which files a command reads and writes
  *   guard.c, guard_process.c   limits of time and memory, by a child process
  *   answer.c                   what programs hear: files, failures, exit codes
@@ -223,15 +224,29 @@ void cli_heed_signals(void);
  * time left. */
 thr_limits cli_limits(double seconds);
 
-/* Wipes the progress line, which from now on is not kept up: from cli_limits on it tells every
+/* ---- status_line.c: The status line of a terminal: what a command is doing, and for how long. */
+
+/* Shows a step from now on, "reading dome.json": its words, and what it is done to ("": nothing).
+ * The line is first written when the step has taken a second. */
+void cli_step(const char *what, const char *of);
+
+/* Says that a search has found so many cords. */
+void cli_status_found(int n_cords);
+
+/* Sets the functions of limits through which a search tells how far it is, and their user. */
+void status_listen(thr_limits *limits);
+
+/* Wipes the line, which from now on is not kept up: from cli_step or cli_limits on it tells every
  * second that work goes on. */
 void cli_progress_end(void);
 void cli_progress_wipe(void); /* wipes it for what is printed now */
 void cli_wipe_line(void);     /* the same for one that another process has left */
 
-/* Is it a terminal that understands more than lines? Not with TERM=dumb. There are no colours
- * (NO_COLOR). */
+/* Is it a terminal that understands more than lines? Not with TERM=dumb. */
 bool cli_is_terminal(int file);
+
+/* Is it one that has colours, of which NO_COLOR wants none? */
+bool cli_is_coloured(int file);
 
 /* ---- tables ---- */
 

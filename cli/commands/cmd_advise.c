@@ -19,6 +19,7 @@
 #include "diagram/overview/charts.h"
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"
+#include "graph/os.h"
 #include "graph/plan/plan_measures.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/request.h"
@@ -127,6 +128,9 @@ typedef struct {
   thr_cord *cord; /* [n] owned */
 } kept_cords;
 
+/* Columns that a terminal has at least on which rows are shown as they are found. */
+enum { WIDE = 125 };
+
 /* What is known while rows are found. */
 typedef struct {
   const thr_frame *frame;
@@ -209,6 +213,7 @@ static void show_row(void *user, const thr_advice_row *row, const thr_plan *plan
 
   /* Printed at once: the next row may take seconds. */
   advice_put_row(&text, row, state->base_length, "");
+  print_fit(&text, 0);
   if (!text.failed) fputs(text.data, stdout);
   fflush(stdout);
   state->lines++;
@@ -277,6 +282,9 @@ static int write_advice(const advise_arguments *args, const thr_frame *frame,
   if (!st && !cli_json && args->type != TYPE_SVG && laid_out) advice_put_holding(&text, &chosen);
   if (!st && cli_json) code = write_json(args, frame, advice, words, laid_out ? &chosen : NULL);
 
+  if (!st && args->type == TYPE_TEXT)
+    print_fit(&text, strcmp(args->output, "-") == 0 ? thr_os_columns(STDOUT_FILENO) : 0);
+
   /* With --json text on stdout is the table; a picture goes to its file all the same. */
   if (!code && (st || !cli_json || args->type == TYPE_SVG))
     code = cli_write_drawn(st, &text, args->output, &err);
@@ -299,12 +307,13 @@ static int advise(advise_arguments *args, const thr_frame *frame)
   if (code) return code;
   if (thr_physics_resolve(&args->request.physics, frame, &resolved, &err)) return cli_fail(&err);
 
-  /* On a terminal rows are shown as they are found. */
+  /* On a wide terminal rows are shown as they are found. */
   table_state state = {.frame = frame,
                        .physics = &resolved,
                        .base_length = args->request.cover * thr_frame_total_length(frame)};
-  state.shown = args->type == TYPE_TEXT && !cli_json && !cli_quiet &&
-                strcmp(args->output, "-") == 0 && cli_is_terminal(STDOUT_FILENO);
+  const int columns = thr_os_columns(STDOUT_FILENO); /* 0: the terminal does not say */
+  state.shown = (columns == 0 || columns >= WIDE) && args->type == TYPE_TEXT && !cli_json &&
+                !cli_quiet && strcmp(args->output, "-") == 0 && cli_is_terminal(STDOUT_FILENO);
 
   /* The search, whose work is counted unless a time was given. */
   const thr_advise_options options = {.hand = args->hand, .row = show_row, .user = &state};

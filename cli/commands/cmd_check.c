@@ -75,7 +75,7 @@ static int put_one(const char *name, const thr_plan *plan, const thr_err *err, i
   else if (!cli_quiet)
     verdict_put(&text, name, plan);
 
-  int written = cli_write(&text, "-");
+  int written = print_text(&text);
 
   return code ? code : written;
 }
@@ -91,6 +91,7 @@ static int check_one(const char *path, bool timed)
 {
   thr_plan plan;
   thr_err err = {0}, found = {0};
+  cli_step("checking", name_of(path));
   thr_status st = thr_plan_read(&plan, path, &err);
 
   /* A stream's time begins when its size is known: some 200 bytes an edge. */

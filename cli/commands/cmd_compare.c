@@ -203,7 +203,7 @@ static int print(const pull_args *args, const entry *entries, int n)
     ranking_destroy(&rankings[i]);
   free(name);
 
-  return st ? cli_fail(&err) : cli_write(&text, "-");
+  return st ? cli_fail(&err) : print_text(&text);
 }
 
 /* Does the work of the command. plot: where the picture goes, NULL = nowhere. Returns the exit

@@ -283,7 +283,7 @@ static int write_outputs(const eval_arguments *args, const thr_plan *plan, const
     eval_put_json(&text, &view, plan, eval);
   else
     eval_put_text(&text, &view, plan, eval);
-  int printed = cli_write(&text, "-");
+  int printed = print_text(&text);
 
   return code ? code : printed;
 }

@@ -170,7 +170,7 @@ static int print_facts(const char *path, const info_arguments *args)
     code = cli_fail(&err);
   } else if (!code) {
     (cli_json ? facts_put_json : facts_put)(&text, &frame, &info);
-    code = cli_write(&text, "-");
+    code = print_text(&text);
   }
 
   free(info.untied);

@@ -9,6 +9,7 @@
 #include "cli/args/args.h"
 #include "cli/cli.h"
 #include "cli/commands/commands.h"
+#include "cli/print/print.h"
 #include "cli/commands/rise_runs.h"
 #include "diagram/export/paper.h"
 #include "diagram/overview/charts.h"
@@ -681,7 +682,7 @@ static int tell(const rise_runs *runs)
     put_json(runs, false, &text);
   else
     put_text(runs, &text);
-  return cli_write(&text, "-");
+  return print_text(&text);
 }
 
 /* ---- the runs ---- */

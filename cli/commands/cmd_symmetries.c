@@ -40,9 +40,11 @@ static const char outro[] =
     "* marks the default choice of thread plan --objective symmetry. A step, what is to be "
     "learned, is a pass of a unique path or, with --ends any, an end of it. Read: the instructions "
     "for that; beads straight on are one, and so is what comes again turned, mirrored or moved "
-    "along.\n"
-    "Exit codes: 0 every row optimal by the solver's word, 2 usage, 3 bad input, 4 infeasible, 5 "
-    "some rows not in time (table printed)";
+    "along. May be less: the first value of which it is not proved that no threading under this "
+    "group has less.\n"
+    "Exit codes: 0 every row proved, 2 usage, 3 bad input, 4 infeasible, 5 some rows not proved, "
+    "or "
+    "not in time (table printed)";
 
 /* The command line. Strings point into argv. */
 typedef struct {
@@ -161,7 +163,7 @@ static int print(const symmetries_arguments *args, const thr_frame *framework,
     symmetry_put_table(&text, &args->plan, symmetries, symmetries->n);
   }
 
-  return cli_write(&text, "-");
+  return print_text(&text);
 }
 
 /* Finds and prints the table. Returns an exit code; a table that is not proved is printed all the

@@ -102,6 +102,7 @@ static int write_one(const thr_plan *plan, int i, const thr_layout *layout, cons
   thr_limits limits = cli_limits(0);
 
   if (thr_limits_stop(&limits)) limits.interrupted = NULL;
+  cli_step("drawing", thr_document_file(i));
 
   /* What cannot be drawn in time or memory leaves no half of a file. */
   thr_status st = thr_document_make(plan, i, &options, &limits, &text, &err);

@@ -129,5 +129,5 @@ int turn_print(const turn_arguments *args)
   }
   thr_text text = {0};
   (cli_json ? put_json : put_text)(&piece, dot, &text);
-  return cli_write(&text, "-");
+  return print_text(&text);
 }

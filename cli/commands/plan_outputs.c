@@ -122,6 +122,7 @@ static int write_plan(const plan_arguments *args, thr_plan *plan, output_places 
   thr_plan_write(plan, &text);
 
   int refused = plan_find_places(args, &text, places);
+  cli_step("checking the plan", "");
   if (!refused) refused = check_text(&text, places->plan, plan, code);
 
   if (refused) {
@@ -174,7 +175,7 @@ static int print_places(const plan_arguments *args, const thr_plan *plan, const 
   if (unsaid && !thr_wants_length(&plan->options)) advice_put_recommended(plan, &text);
   advice_put_hint(plan, unsaid, &text);
 
-  return cli_write(&text, "-");
+  return print_text(&text);
 }
 
 /* Draws everything into the folder. Drawings are always whole: a limit on the time is the search's.
@@ -210,6 +211,7 @@ int plan_write_outputs(const plan_arguments *args, planned_result *result, int *
   /* A plan on stdout leaves no place for a summary. */
   const bool is_silent =
       strcmp(places.plan, "-") == 0 || (cli_quiet && !cli_json && !args->request.plot);
+  cli_step("measuring the cords", "");
   int code = is_silent ? EXIT_OK : plan_print_summary(args, result);
 
   /* Drawings are made only of a plan that is where it was to be. */

@@ -155,7 +155,7 @@ int plan_print_summary(const plan_arguments *args, planned_result *result)
   if (cli_quiet && !cli_json)
     thr_text_destroy(&text);
   else
-    written = cli_write(&text, "-");
+    written = print_text(&text);
 
   return code ? code : written;
 }

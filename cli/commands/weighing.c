@@ -11,6 +11,7 @@
  * mu_bead = 0.306. */
 
 #include "cli/commands/commands.h"
+#include "cli/print/print.h"
 #include "graph/io/read.h"
 #include "diagram/export/paper.h"
 #include "eval/cord/profile.h"
@@ -197,7 +198,7 @@ static int weigh(const char *value, const char *output)
   if (!output) thr_text_destroy(&file);
   if (code) thr_text_destroy(&said);
 
-  return code ? code : cli_write(&said, "-");
+  return code ? code : print_text(&said);
 }
 
 int calibrate_run(const char *value, double bore, const char *output)

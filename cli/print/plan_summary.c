@@ -64,18 +64,18 @@ static void put_cord(thr_text *text, const thr_plan *plan, const thr_cord *cord,
 
   /* The sharpest turn matters for least turning, the capstan factor for those who ask. */
   plain_both(seated ? fmin(seated->force, seated->other_force) : newton, newton, force);
-  thr_text_printf(text, "%-5s %7d %14.3f %6.0f deg ", cord->id, cord->n_passes,
+  thr_text_printf(text, "%-5s\v4 %7d\v2 %14.3f\v0 %6.0f deg", cord->id, cord->n_passes,
                   thr_cord_length(&plan->frame, cord), thr_degrees(turns.turning));
-  if (minimizes_turning(plan)) thr_text_printf(text, "%6.0f deg ", thr_degrees(turns.sharpest));
-  thr_text_printf(text, "%8d ", turns.u_turns);
+  if (minimizes_turning(plan)) thr_text_printf(text, "\v5 %6.0f deg", thr_degrees(turns.sharpest));
+  thr_text_printf(text, "\v6 %8d", turns.u_turns);
   if (cli_verbose)
     thr_text_printf(
-        text, "%12s ",
+        text, "\v7 %12s",
         turning_factor(turning_capstan(plan->options.physics.mu, turns.turning), factor));
 
   /* A closed cord begins and ends at the same node. */
-  thr_text_printf(text, "%18s", force);
-  thr_text_printf(text, cord->closed ? "  both at %s\n" : "  %s and %s\n", from, to);
+  thr_text_printf(text, "\v0 %18s", force);
+  thr_text_printf(text, cord->closed ? "\v1  both at %s\n" : "\v1  %s and %s\n", from, to);
 }
 
 /* Appends the table of at most 12 cords. pull: of each, as a factor on the seating tension. */
@@ -84,11 +84,11 @@ static void put_cords(thr_text *text, const thr_plan *plan, const double *pull,
 {
   enum { MOST = 12 };
 
-  thr_text_printf(text, "%-5s %7s %14s %10s ", "cord", "passes", "length", "turning");
-  if (minimizes_turning(plan)) thr_text_printf(text, "%10s ", "sharpest");
-  thr_text_printf(text, "%8s ", "U-turns");
-  if (cli_verbose) thr_text_printf(text, "%12s ", "capstan");
-  thr_text_printf(text, "%18s  %s\n", "pull", "ends");
+  thr_text_printf(text, "%-5s\v4 %7s\v2 %14s\v0 %10s", "cord", "passes", "length", "turning");
+  if (minimizes_turning(plan)) thr_text_printf(text, "\v5 %10s", "sharpest");
+  thr_text_printf(text, "\v6 %8s", "U-turns");
+  if (cli_verbose) thr_text_printf(text, "\v7 %12s", "capstan");
+  thr_text_printf(text, "\v0 %18s\v1  %s\n", "pull", "ends");
 
   /* A line per cord, the first twelve. */
   for (int i = 0; i < plan->n_cords && i < MOST; i++)
