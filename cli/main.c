@@ -162,6 +162,7 @@ static int dispatch(int argc, char **argv)
 int main(int argc, char **argv)
 {
   int code = dispatch(argc, argv);
+  cli_progress_end();
 
   /* A full disk shows only now. */
   bool written = fflush(stdout) == 0 && !ferror(stdout);

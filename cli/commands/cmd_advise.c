@@ -319,6 +319,7 @@ static int advise(advise_arguments *args, const thr_frame *frame)
   const thr_advise_options options = {.hand = args->hand, .row = show_row, .user = &state};
   double work = 0;
   thr_limits limits = advice_limits(args->guard.seconds, &work);
+  cli_step("trying numbers of cords", "");
   thr_status st = thr_advise(frame, &args->request, &options, &limits, &advice, &err);
   cli_progress_end();
 

@@ -164,6 +164,7 @@ static int print_facts(const char *path, const info_arguments *args)
 
   thr_text text = {0};
   thr_err err = {0};
+  cli_step("finding out what can move", "");
 
   /* A file that is a plan has more to say than a framework. */
   if (!code && (find_facts(&frame, &info, &err) || find_untied(path, &info, &err))) {

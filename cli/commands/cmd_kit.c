@@ -221,6 +221,7 @@ static int write_all(const thr_kit *kit, const kit_arguments *args, const char *
   thr_err err = {0};
   thr_text text = {0};
   thr_kit_plates plates;
+  cli_step("writing the pieces", "");
   thr_status st = thr_kit_plates_make(&plates, kit, &err);
   if (st) {
     thr_kit_plates_destroy(&plates);
@@ -299,6 +300,7 @@ int cmd_kit(int argc, char **argv)
   thr_kit kit;
   thr_limits limits = cli_limits(0);
   limits.threads = asked.jobs ? asked.jobs : thr_os_processors();
+  cli_step("making the pieces", "");
   thr_status st = thr_kit_make(&kit, &plan, &asked.kit, NULL, true, &limits, &err);
   cli_progress_end();
   code = st ? cli_fail(&err) : write_all(&kit, &asked, folder);

@@ -179,6 +179,7 @@ static thr_status make_plan(const plan_arguments *args, const thr_frame *framewo
 
   /* From here on the best cords go to the parent. */
   thr_limits limits = plan_limits(args, options, time_of_plan(args, options), &work);
+  cli_step("planning", "");
   best_begin(framework, options);
   limits.found = best_found;
   thr_status st =

@@ -838,6 +838,7 @@ static int make_and_run(const rise_arguments *args, const thr_plan *plan)
   const thr_limits limits = cli_limits(0);
   rise_runs runs = {.args = args, .options = args->rise};
   thr_schedule schedule = {0};
+  cli_step("laying out the pieces", "");
   const int read = pull_read_schedule(args->schedule, plan, &schedule);
   if (read) return read;
   if (args->schedule) runs.options.schedule = &schedule;

@@ -178,6 +178,7 @@ static int list_symmetries(symmetries_arguments *args, const thr_frame *framewor
   if (code == EXIT_OK) {
     /* The time is that of all groups together. */
     const thr_limits limits = cli_limits(args->plan.time_limit);
+    cli_step("looking for symmetries", "");
     thr_status st = thr_symmetries_find(framework, &args->plan, false, &limits, &symmetries, &err);
     cli_progress_end();
 

@@ -57,6 +57,9 @@ int plan_try_places(const plan_arguments *args)
   char stem[256];
 
   cli_stem(args->path, stem, sizeof stem);
+
+  /* A folder of the name of a framework that is not there would be read in its place. */
+  if (strcmp(stem, args->path) == 0 && access(args->path, F_OK) != 0) return EXIT_OK;
   if (!args->draw && !args->output) return files_try_folder(stem);
   int code = args->draw ? drawings_claim("plan", args->draw, -1) : EXIT_OK;
   if (code || !args->draw || args->output) return code;

@@ -288,6 +288,7 @@ int pull_eval(const pull_args *args, const char *path, const thr_plan *plan, thr
   }
 
   thr_limits limits = cli_limits(0);
+  cli_step("measuring the pull of", path);
   thr_status st = thr_eval_plan(&plan->frame, plan->cord, plan->n_cords, method, &options, &limits,
                                 out, &found);
   free(pulls);
