@@ -9,7 +9,7 @@
  *   main.c, commands/          the commands
  *   args/                      their options (args/args.h, args/options.h)
  *   cli.c                      messages, reading and writing
- *   status_line.c                   the status line of a terminal
+ *   status_line.c              the status line of a terminal
  *   files.c                    which files a command reads and writes
  *   guard.c, guard_process.c   limits of time and memory, by a child process
  *   answer.c                   what programs hear: files, failures, exit codes
