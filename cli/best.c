@@ -15,6 +15,7 @@ static void keep(void *user, const thr_plan *plan, const thr_text *text)
 
   /* For programs and people that watch. */
   if (progress_wanted()) progress_plan(plan);
+  cli_status_found(plan->n_cords);
   if (cli_verbose)
     cli_note("plan: length %.10g, turning %.10g rad, %.3f CPU s", plan->metrics.length,
              plan->metrics.turning, thr_os_processor_seconds());

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Implements what the commands share: messages, values of options, reading of frameworks and plans,
- * writing of results, and the progress line of long computations. cli/ is the only folder that
- * prints or exits.
+ * and writing of results. cli/ is the only folder that prints or exits.
  *
  * Every message is one line on stderr that begins with "thread: ". A function that fails prints why
  * and returns the exit code, so that a command only passes the code on. */
@@ -55,24 +54,42 @@ static void shorten_words(char *line)
   }
 }
 
-/* Prints a message and a text after it as one line, whatever line breaks the names in it hold.
- * Allocates nothing, and so also works when memory runs out. */
-static void say(const char *format, va_list args, const char *after)
+/* Puts line ends in place of blanks, so that no line is wider than a terminal of so many columns. A
+ * word that is wider stays whole. */
+static void wrap(char *line, size_t columns)
 {
-  char line[8192];
-  vsnprintf(line, sizeof line, format, args);
-  thr_text_clean(line);
-  shorten_words(line);
-  fprintf(stderr, "thread: %s%s\n", line, after);
+  const size_t prefix = strlen("thread: ");
+  size_t width = prefix;
+  char *blank = NULL;
+
+  for (char *at = line; *at; at++) {
+    width += !thr_text_is_inside(*at);
+    if (*at == ' ') blank = at;
+    if (width <= columns || !blank) continue;
+    *blank = '\n';
+    width = (size_t)(at - blank);
+    blank = NULL;
+  }
 }
 
-/* Whether the progress line stands on the terminal. */
-static bool progress_shown;
-
-void cli_progress_wipe(void)
+/* Prints a message and a text after it as one line, whatever line breaks the names in it hold, but
+ * wrapped where a terminal is; and takes it down if it is an error. Allocates nothing, and so also
+ * works when memory runs out. */
+static void say(const char *format, va_list args, const char *after, bool error)
 {
-  if (progress_shown) fputs("\r\033[K", stderr);
-  progress_shown = false;
+  char line[8192 + 512];
+  const int columns = thr_os_columns(STDERR_FILENO);
+  const bool red = error && cli_is_coloured(STDERR_FILENO);
+
+  vsnprintf(line, 8192, format, args);
+  thr_text_clean(line);
+  shorten_words(line);
+  if (error) answer_error_is(line);
+
+  const size_t n = strlen(line);
+  snprintf(line + n, sizeof line - n, "%s", after);
+  if (columns > 0) wrap(line, (size_t)columns);
+  fprintf(stderr, "%sthread:%s %s\n", red ? "\033[1;31m" : "", red ? "\033[0m" : "", line);
 }
 
 void cli_note(const char *format, ...)
@@ -81,7 +98,7 @@ void cli_note(const char *format, ...)
   va_list args;
   cli_progress_wipe();
   va_start(args, format);
-  say(format, args, "");
+  say(format, args, "", false);
   va_end(args);
 }
 
@@ -90,7 +107,7 @@ void cli_error(const char *format, ...)
   va_list args;
   va_start(args, format);
   cli_progress_end();
-  say(format, args, "");
+  say(format, args, "", true);
   va_end(args);
 }
 
@@ -122,7 +139,7 @@ int cli_usage(const char *command, const char *format, ...)
   snprintf(where, sizeof where, " (%s%.300s%ssee `thread %s --help`)", config ? "in " : "",
            config ? config : "", config ? "; " : "", command);
   va_start(args, format);
-  say(format, args, where);
+  say(format, args, where, true);
   va_end(args);
 
   return EXIT_USAGE;
@@ -251,10 +268,12 @@ int cli_read_frame_report(const char *path, const cli_frame_args *args, thr_fram
   char pair[1024] = "";
 
   /* A table of nodes may have its edges in a second file beside it. */
+  cli_step("reading", strcmp(path, "-") == 0 ? "stdin" : path);
   thr_status st = thr_frame_read(frame, report, path, &args->read, pair, sizeof pair, &err);
   if (pair[0])
     cli_note("note: read together with %s", pair); /* before an error that may name that file */
   if (st) return cli_fail(&err);
+  cli_step("working", "");
 
   /* The second file must not be an output of this command. */
   const int taken = pair[0] ? files_also_read(pair) : EXIT_OK;
@@ -332,6 +351,11 @@ bool cli_output_format(const char *command, const char *output, const char *type
   if (ends && (!named || (type && named != *format))) {
     thr_formats_written(list, sizeof list, ".", ", ", " or ");
     cli_usage(command, "%s: the ending must be %s%s", output, type ? "." : "", type ? type : list);
+    return false;
+  }
+
+  if (cli_json && strcmp(output, "-") == 0) {
+    cli_usage(command, "--json and the framework both want stdout; -o FILE takes the framework");
     return false;
   }
 
@@ -424,10 +448,12 @@ int cli_resolve_ends(const char *ends, const thr_frame *frame, thr_request *opti
 int cli_read_plan(const char *path, thr_plan *plan)
 {
   thr_err err = {0}, found = {0};
+  cli_step("reading and checking", strcmp(path, "-") == 0 ? "stdin" : path);
   if (thr_plan_read(plan, path, &err)) return cli_fail(&err);
 
   /* A plan that does not hold is used nevertheless, with a warning. */
   thr_status st = thr_check_plan(plan, &found);
+  cli_step("working", "");
   if (st)
     cli_error(st == THR_EVIOLATED ? "warning: %s does not hold: %s"
                                   : "warning: %s could not be checked: %s",
@@ -505,8 +531,16 @@ int cli_write(thr_text *text, const char *path)
 {
   thr_err err = {0};
   int code = files_may_write(path);
+  if (strcmp(path, "-") == 0) cli_progress_end(); /* where both are one terminal */
   if (!code && thr_text_write(text, path, &err)) code = cli_fail(&err);
   thr_text_destroy(text);
+
+  /* What programs read is out, and no failure after it writes there. */
+  if (!code && strcmp(path, "-") == 0) {
+    answer_given();
+    guard_answered();
+  }
+
   return code;
 }
 
@@ -548,74 +582,6 @@ int cli_write_drawn(thr_status st, thr_text *text, const char *path, const thr_e
 /* Set by the signal handler; the computations look at this flag through thr_limits. */
 static volatile sig_atomic_t interrupted;
 
-/* The progress line on the terminal: its text, when it was written last, and since when the user
- * has waited, by thr_clock(). began is 0 while nobody waits. */
-static struct {
-  char says[144];
-  double written, began;
-} waiting;
-
-/* Writes the progress line once more, with the seconds passed so far, if nothing was written for
- * some time. Runs as a handler of a timer's signal, and so only calls what POSIX allows in handlers
- * (no printf); errno is kept. */
-static void keep_alive(int signal)
-{
-  const double patience = 0.9; /* s */
-  const double now = thr_clock();
-  const int seconds = (int)(now - waiting.began), error = errno;
-  char digits[12], line[192];
-  int n = 0, length = 0;
-  (void)signal;
-
-  /* Nothing to do while the line is fresh. */
-  if (waiting.began == 0 || now - waiting.written < patience) return;
-  waiting.written = now;
-  progress_shown = true;
-
-  /* Compose the line: erase, the text, then the seconds digit by digit. */
-  for (const char *from = "\r\033[K"; *from; from++)
-    line[length++] = *from;
-  for (const char *from = waiting.says; *from; from++)
-    line[length++] = *from;
-  line[length++] = ',';
-  line[length++] = ' ';
-
-  for (int left = seconds; n == 0 || left > 0; left /= 10)
-    digits[n++] = (char)('0' + left % 10);
-  while (n > 0)
-    line[length++] = digits[--n];
-  line[length++] = ' ';
-  line[length++] = 's';
-
-  /* A terminal that is gone needs no more lines. */
-  if (write(STDERR_FILENO, line, (unsigned)length) < 0) waiting.began = 0;
-  errno = error;
-}
-
-/* Starts the timer that keeps the progress line alive, unless it runs already. */
-static void begin_waiting(void)
-{
-  if (waiting.began > 0) return;
-  snprintf(waiting.says, sizeof waiting.says, "thread: working");
-  waiting.written = waiting.began = thr_clock();
-  thr_os_tick(1, keep_alive);
-}
-
-/* Stops the timer. */
-static void end_waiting(void)
-{
-  if (waiting.began > 0) thr_os_tick(0, NULL);
-  waiting.began = 0;
-}
-
-/* Writes the progress line in place of the last one. */
-static void put_line(void)
-{
-  waiting.written = thr_clock();
-  fprintf(stderr, "\r\033[K%s", waiting.says);
-  fflush(stderr);
-}
-
 /* Notes a signal to stop. A second signal, more than 0.3 s after the first, ends the process at
  * once: `timeout` sends its signal to the process and to its group, which counts as one. A further
  * SIGHUP ends nothing. */
@@ -623,105 +589,9 @@ static void on_interrupt(int signal)
 {
   static double first;
   double now = thr_clock();
-  if (interrupted && now - first > 0.3 && signal != THR_OS_HANGUP) _exit(130);
+  if (interrupted && now - first > 0.3 && signal != THR_OS_HANGUP) _exit(EXIT_SECOND_SIGNAL);
   if (!interrupted) first = now;
   interrupted = 1;
-}
-
-/* What the progress line of one computation knows: when it was shown last, which step of the work
- * runs and since when, and which part of the step is done. */
-typedef struct {
-  double shown, began;
-  char what[48];
-  double done;
-} progress_watch;
-
-/* Returns whether the line may be written again: at most ten times a second. */
-static bool is_time_to_show(progress_watch *watch)
-{
-  double now = thr_clock();
-  if (now - watch->shown < 0.1) return false;
-  watch->shown = now;
-  progress_shown = true;
-  return true;
-}
-
-/* Returns whether `what` is the search for the least turning, which reports prices of turns; all
- * other searches report extra cord, in units. */
-static bool is_turning(const char *what)
-{
-  return strcmp(what, "turning") == 0;
-}
-
-/* Returns the relative gap between incumbent and lower bound, per cent. Prices and weights are
- * never negative, and so 0 is a lower bound from the start. */
-static double progress_gap(double best, double bound)
-{
-  return best > 0 ? 100 * (best - fmax(bound, 0)) / best : 0;
-}
-
-/* Shows how close the incumbent of a search is to its lower bound (thr_limits.progress). */
-static void show_progress(void *user, const char *what, double best, double bound)
-{
-  if (!is_time_to_show(user)) return;
-
-  snprintf(waiting.says, sizeof waiting.says, "thread: %.40s within %.3g %% of the least", what,
-           progress_gap(best, bound));
-  put_line();
-}
-
-/* Shows a bar for the part of a step that is done, and the time left (thr_limits.advance). The
- * estimate is linear: the rest takes as long for its part as what is done. */
-static void show_advance(void *user, const char *what, double done)
-{
-  enum { WIDE = 24 };
-  progress_watch *watch = user;
-  double now = thr_clock();
-
-  /* A new step, or the same step once more, restarts the clock. */
-  if (strncmp(watch->what, what, sizeof watch->what - 1) != 0 || done < watch->done) {
-    snprintf(watch->what, sizeof watch->what, "%s", what);
-    watch->began = now;
-  }
-  watch->done = done;
-
-  if (!is_time_to_show(watch)) return;
-
-  /* The bar. */
-  char bar[WIDE + 1], left[48] = "";
-  for (int i = 0; i < WIDE; i++)
-    bar[i] = i < (int)(WIDE * done) ? '#' : '.';
-  bar[WIDE] = '\0';
-
-  /* The time left, once the estimate is not mere noise. */
-  double seconds = done > 0 ? (now - watch->began) * (1 - done) / done : 0;
-  if (done > 0.02 && now - watch->began > 1) {
-    if (seconds < 90)
-      snprintf(left, sizeof left, ", %.0f s left", ceil(seconds));
-    else
-      snprintf(left, sizeof left, ", %.0f min left", ceil(seconds / 60));
-  }
-
-  snprintf(waiting.says, sizeof waiting.says, "thread: %.40s [%s] %d %%%s", what, bar,
-           (int)(100 * done), left);
-  put_line();
-}
-
-/* Prints a line for every new incumbent or bound, with --verbose. */
-static void log_progress(void *user, const char *what, double best, double bound)
-{
-  (void)user;
-  if (is_turning(what)) /* in rad, or as --turn-cost prices them */
-    cli_note("turning: price of all turns %.9g, at least %.9g, gap %.3g %%, %.3f CPU s", best,
-             fmax(bound, 0), progress_gap(best, bound), thr_os_processor_seconds());
-  else
-    cli_note("%s: %.9g, at least %.9g, %.3f CPU s", what, best, bound, thr_os_processor_seconds());
-}
-
-bool cli_is_terminal(int file)
-{
-  const char *term = getenv("TERM");
-  return isatty(file) && term && *term && strcmp(term, "dumb") != 0;
 }
 
 void cli_heed_signals(void)
@@ -751,11 +621,9 @@ const cli_option cli_processes_options[] = {
 
 thr_limits cli_limits(double seconds)
 {
-  static progress_watch seen;
-  thr_limits limits = {.interrupted = &interrupted, .user = &seen, .threads = cli_processes()};
+  thr_limits limits = {.interrupted = &interrupted, .threads = cli_processes()};
 
-  /* Start afresh, with signals noted from here on. */
-  seen = (progress_watch){0};
+  /* Signals are noted from here on. */
   cli_heed_signals();
 
   /* The earlier of two deadlines: the caller's, and that of the child process. */
@@ -763,31 +631,11 @@ thr_limits cli_limits(double seconds)
   if (guard_deadline() > 0 && (limits.deadline == 0 || limits.deadline > guard_deadline()))
     limits.deadline = guard_deadline();
 
-  /* Verbose lines take the place of the progress line. A terminal also shows a bar. */
-  if (cli_verbose)
-    limits.progress = log_progress;
-  else if (!cli_quiet && cli_is_terminal(STDERR_FILENO))
-    limits.progress = show_progress;
-  if (!cli_quiet && cli_is_terminal(STDERR_FILENO)) {
-    limits.advance = show_advance;
-    if (!progress_wanted()) begin_waiting();
-  }
-
-  /* --progress writes JSON for programs. */
+  /* What is found on the way: for people, or as JSON for programs. */
+  status_listen(&limits);
   if (progress_wanted()) progress_listen(&limits);
 
   return limits;
-}
-
-void cli_wipe_line(void)
-{
-  if (cli_is_terminal(STDERR_FILENO)) fputs("\r\033[K", stderr);
-}
-
-void cli_progress_end(void)
-{
-  end_waiting();
-  cli_progress_wipe();
 }
 
 /* ---- tables ---- */

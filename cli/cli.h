@@ -8,9 +8,11 @@
  * Read in this order:
  *   main.c, commands/          the commands
  *   args/                      their options (args/args.h, args/options.h)
- *   cli.c                      messages, reading and writing, the progress line
+ *   cli.c                      messages, reading and writing
+ *   status_line.c              the status line of a terminal
  *   files.c                    which files a command reads and writes
  *   guard.c, guard_process.c   limits of time and memory, by a child process
+ *   answer.c                   what programs hear: files, failures, exit codes
  *   best.c, progress.c         the best cords found so far; progress for other programs
  *   print/                     reports of results */
 #ifndef THR_CLI_H
@@ -40,7 +42,8 @@ enum {
   EXIT_INPUT = 3,
   EXIT_INFEASIBLE = 4,
   EXIT_LIMIT = 5,
-  EXIT_INTERNAL = 70
+  EXIT_INTERNAL = 70,
+  EXIT_SECOND_SIGNAL = 130
 };
 
 int cmd_plan(int argc, char **argv);
@@ -64,6 +67,49 @@ typedef struct {
 } cli_command;
 extern const cli_command cli_commands[];
 extern const int cli_n_commands;
+
+/* ---- answer.c: Answers programs: which files a command wrote, and why it failed. */
+
+extern bool cli_json; /* --json: the answer is JSON on stdout */
+
+/* What each exit code means: for `thread help exit-codes` and the documents. */
+typedef struct {
+  int code;
+  const char *meaning;
+} cli_exit_code;
+extern const cli_exit_code cli_exit_codes[];
+extern const int cli_n_exit_codes;
+
+/* Prints them. Returns an exit code. */
+int answer_exit_codes(void);
+
+/* Takes down the message of an error: the last one is the answer of a command that fails. */
+void answer_error_is(const char *message);
+
+/* Returns this message, and "" if there is none or stdout has an answer. */
+const char *answer_error(void);
+
+/* Takes down that stdout has an answer. */
+void answer_given(void);
+
+/* Writes {"error": .., "code": ..} to stdout if that is wanted and nothing else was the answer. */
+void answer_failure(int code);
+
+/* Takes down that a file is written, and what it is; both are copied. */
+void answer_file(const char *path, const char *what);
+
+/* Writes these files as member "files". */
+void answer_put_files(thr_writer *writer);
+
+/* Closes the object, and writes its text to stdout. Returns an exit code. */
+int answer_close(thr_writer *writer);
+
+/* Writes the whole answer of a command that has written a framework to path. Returns an exit
+ * code. */
+int answer_frame(const thr_frame *frame, const char *path);
+
+/* Releases what was taken down. */
+void answer_tidy(void);
 
 /* ---- messages ---- */
 
@@ -190,15 +236,29 @@ void cli_heed_signals(void);
  * time left. */
 thr_limits cli_limits(double seconds);
 
-/* Wipes the progress line, which from now on is not kept up: from cli_limits on it tells every
+/* ---- status_line.c: The status line of a terminal: what a command is doing, and for how long. */
+
+/* Shows a step from now on, "reading dome.json": its words, and what it is done to ("": nothing).
+ * The line is first written when the step has taken a second. */
+void cli_step(const char *what, const char *of);
+
+/* Says that a search has found so many cords. */
+void cli_status_found(int n_cords);
+
+/* Sets the functions of limits through which a search tells how far it is, and their user. */
+void status_listen(thr_limits *limits);
+
+/* Wipes the line, which from now on is not kept up: from cli_step or cli_limits on it tells every
  * second that work goes on. */
 void cli_progress_end(void);
 void cli_progress_wipe(void); /* wipes it for what is printed now */
 void cli_wipe_line(void);     /* the same for one that another process has left */
 
-/* Is it a terminal that understands more than lines? Not with TERM=dumb. There are no colours
- * (NO_COLOR). */
+/* Is it a terminal that understands more than lines? Not with TERM=dumb. */
 bool cli_is_terminal(int file);
+
+/* Is it one that has colours, of which NO_COLOR wants none? */
+bool cli_is_coloured(int file);
 
 /* ---- tables ---- */
 
@@ -298,13 +358,15 @@ void guard_allow(double seconds);
 
 /* In the child; nothing without one. kept: replaces what was handed over before. Between writing
  * and written nothing ends the child but a second signal. No memory: what the parent is to say if
- * the child fails now; false if there is no parent. Ending: the child exits with this code by
- * itself, not a library. */
+ * the child fails now; false if there is no parent. Answered: stdout has what programs read.
+ * Ending: the child exits with this code by itself, not a library, and its last error was this;
+ * false if there is no parent to tell it. */
 void guard_keep(const thr_text *text);
 void guard_writing(void);
 void guard_written(int code);
 bool guard_no_memory(void);
-void guard_ending(int code);
+void guard_answered(void);
+bool guard_ending(int code, const char *error);
 
 /* What a command does that has nothing to hand over: prints why it ended and returns the exit code.
  */

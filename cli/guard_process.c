@@ -4,8 +4,8 @@
  *
  * The child tells its parent through a pipe what it would leave (KEEP), that it is writing its
  * result and has written it (WRITING, WRITTEN), how much time it has (ALLOW), that memory ran out,
- * and that it ends by itself. So the parent can tell a result from an accident, and write the last
- * KEEP if there is no result.
+ * that stdout has an answer for programs (ANSWERED), and that it ends by itself, with its error. So
+ * the parent can tell a result from an accident, and write the last KEEP if there is no result.
  *
  * Signals: the first SIGINT, SIGTERM or SIGHUP reaches the child as a request to end, the second
  * one ends both processes at once, but for a second SIGHUP. A child has half a second of grace
@@ -35,7 +35,7 @@ static const double LOOK = 0.1;
 /* ---- messages from the child ---- */
 
 /* Kinds of messages; code: the exit code; value[0] of ALLOW: s. */
-enum { KEEP, WRITING, WRITTEN, NO_MEMORY, ALLOW, ENDING };
+enum { KEEP, WRITING, WRITTEN, NO_MEMORY, ALLOW, ANSWERED, ENDING };
 
 static int to_parent = -1; /* in the child: where messages go */
 static double deadline;    /* thr_clock() */
@@ -68,9 +68,15 @@ bool guard_no_memory(void)
   return to_parent >= 0;
 }
 
-void guard_ending(int code)
+void guard_answered(void)
 {
-  send_to_parent((thr_message){.kind = ENDING, .code = code}, NULL);
+  send_to_parent((thr_message){.kind = ANSWERED}, NULL);
+}
+
+bool guard_ending(int code, const char *error)
+{
+  send_to_parent((thr_message){.kind = ENDING, .code = code, .length = strlen(error)}, error);
+  return to_parent >= 0;
 }
 
 void guard_allow(double seconds)
@@ -143,7 +149,16 @@ static void take_message(void *user, const thr_message *message, const char *byt
     child->end->code = message->code;
     break;
   case NO_MEMORY: child->out_of_memory = true; break;
-  case ENDING: child->by_itself = true; break;
+  case ANSWERED: answer_given(); break;
+
+  /* What it failed of is known here as well, and may be said better. */
+  case ENDING: {
+    char error[1024];
+    snprintf(error, sizeof error, "%.*s", (int)message->length, bytes);
+    child->by_itself = true;
+    answer_error_is(error);
+    break;
+  }
 
   /* After a signal no message gives more time. */
   case ALLOW:
@@ -172,7 +187,7 @@ static void heed_signals(guarded_child *child)
 
   if (child->first > 0 && now - child->first > 0.3) {
     kill(child->pid, SIGKILL);
-    _exit(130);
+    _exit(EXIT_SECOND_SIGNAL);
   }
 
   if (child->first > 0) return;

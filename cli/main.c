@@ -48,9 +48,10 @@ static void help(FILE *to)
   /* Commands with their summaries. */
   for (int i = 0; i < cli_n_commands; i++)
     fprintf(to, "  %-10s %s\n", cli_commands[i].name, cli_commands[i].summary);
-  fputs("\nOptions of every command: -h, --help; -q, --quiet; -v, --verbose; --config FILE: "
-        "options from a file.\n"
-        "`thread help COMMAND` and `man thread-COMMAND` say more; `man thread` says all.\n",
+  fputs("\nOptions of every command: -h, --help; -q, --quiet; -v, --verbose; --json: for programs; "
+        "--config FILE: options from a file.\n"
+        "`thread help COMMAND` and `man thread-COMMAND` say more, `thread help exit-codes` what "
+        "exit codes mean; `man thread` says all.\n",
         to);
 }
 
@@ -58,15 +59,28 @@ static void help(FILE *to)
 static int version(void)
 {
   int bullet = thr_bullet_version();
+  char simulation[24];
+  snprintf(simulation, sizeof simulation, "%d.%d", bullet / 100, bullet % 100);
+
+  if (cli_json) {
+    thr_text text = {0};
+    thr_writer writer = {.out = &text};
+    thr_write_object(&writer, NULL);
+    thr_write_string(&writer, "thread", THR_VERSION);
+    thr_write_string(&writer, "glpk", thr_glpk_version());
+    thr_write_string(&writer, "igraph", thr_igraph_version());
+    thr_write_string(&writer, "nauty", thr_nauty_version());
+    thr_write_string(&writer, "bullet", simulation);
+    return answer_close(&writer);
+  }
 
   /* Results may depend on the versions of these libraries. */
   printf("thread %s\n"
          "License GPLv3+: GNU GPL version 3 or later <https://gnu.org/licenses/gpl.html>\n"
          "This is free software: you are free to change and redistribute it. There is NO WARRANTY, "
          "to the extent permitted by law.\n"
-         "With GLPK %s, igraph %s, nauty %s, Bullet %d.%d.\n",
-         THR_VERSION, thr_glpk_version(), thr_igraph_version(), thr_nauty_version(), bullet / 100,
-         bullet % 100);
+         "With GLPK %s, igraph %s, nauty %s, Bullet %s.\n",
+         THR_VERSION, thr_glpk_version(), thr_igraph_version(), thr_nauty_version(), simulation);
 
   return EXIT_OK;
 }
@@ -96,6 +110,14 @@ static int report_unknown(const char *name)
   return EXIT_USAGE;
 }
 
+/* Returns whether a word is in a list that ends with NULL. */
+static bool is_one_of(const char *word, const char *const *list)
+{
+  while (*list && strcmp(word, *list) != 0)
+    list++;
+  return *list != NULL;
+}
+
 /* Finds the command and runs it. Returns its exit code. */
 static int dispatch(int argc, char **argv)
 {
@@ -108,8 +130,14 @@ static int dispatch(int argc, char **argv)
 
   /* What is no command in the list: version, completions, help. */
   const char *name = argv[1];
-  if (strcmp(name, "--version") == 0 || strcmp(name, "-V") == 0) return version();
   if (strcmp(name, "complete") == 0) return cmd_complete(argc - 1, argv + 1);
+  for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++)
+    cli_json = cli_json || strcmp(argv[i], "--json") == 0; /* for errors before it is parsed */
+  if (is_one_of(name, (const char *const[]){"version", "--version", "-V", "-v", NULL}))
+    return version();
+
+  if (strcmp(name, "help") == 0 && argc > 2 && strcmp(argv[2], "exit-codes") == 0)
+    return answer_exit_codes();
 
   /* `thread help plan` is `thread plan --help`. */
   if (strcmp(name, "help") == 0 && argc > 2) {
@@ -119,7 +147,7 @@ static int dispatch(int argc, char **argv)
     name = argv[1];
   }
 
-  if (strcmp(name, "-h") == 0 || strcmp(name, "--help") == 0 || strcmp(name, "help") == 0) {
+  if (is_one_of(name, (const char *const[]){"help", "--help", "-h", NULL})) {
     help(stdout);
     return EXIT_OK;
   }
@@ -134,6 +162,7 @@ static int dispatch(int argc, char **argv)
 int main(int argc, char **argv)
 {
   int code = dispatch(argc, argv);
+  cli_progress_end();
 
   /* A full disk shows only now. */
   bool written = fflush(stdout) == 0 && !ferror(stdout);
@@ -143,9 +172,11 @@ int main(int argc, char **argv)
     code = EXIT_INPUT;
   }
 
-  /* Folders that stayed empty go, and the parent hears that this is the end. */
+  /* Folders that stayed empty go, and the parent hears that this is the end. Whoever has no parent
+   * answers programs. */
   files_tidy();
-  guard_ending(code);
+  answer_tidy();
+  if (!guard_ending(code, answer_error())) answer_failure(code);
 
   return code;
 }

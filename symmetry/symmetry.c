@@ -130,24 +130,24 @@ static thr_status find_shortest(const thr_frame *frame, const thr_request *optio
   return st;
 }
 
-/* Tells what was asked for and could not be had. THR_OK: the rows that were asked for are
- * solved. */
+/* Tells what was asked for and could not be had, in words of the table. THR_OK: the rows that were
+ * asked for are solved. What stopped the search is in the rows (why). */
 static thr_status verdict(const thr_symmetries *symmetries, const char *group, thr_err *err)
 {
-  int unsolved = 0, loose = 0, asked = 0;
+  int unsolved = 0, threaded = 0, asked = 0;
   const thr_symmetry_row *none = NULL, *open = NULL;
 
-  /* Count the rows that are not solved, and among these the ones whose threading is only not proved
-   * best. */
+  /* Count the rows that are not solved, and among these the ones that have a threading, which is
+   * only not proved best. */
   for (int i = 0; i < symmetries->n; i++) {
-    thr_status why = symmetries->row[i].why.code;
-    if (!thr_symmetry_asked(symmetries, i, group) || symmetries->row[i].behind) continue;
+    const thr_symmetry_row *row = &symmetries->row[i];
+    const bool fails = row->why.code == THR_ELIMIT || row->why.code == THR_ESOLVER;
+    if (!thr_symmetry_asked(symmetries, i, group) || row->behind) continue;
     asked++;
-    unsolved += why == THR_ELIMIT || why == THR_ESOLVER;
-    loose += symmetries->row[i].solved && why == THR_ELIMIT;
-    if (!open && (why == THR_ESOLVER || (why == THR_ELIMIT && !symmetries->row[i].solved)))
-      open = &symmetries->row[i];
-    if (why) none = &symmetries->row[i];
+    unsolved += fails;
+    threaded += fails && row->n_cords > 0;
+    if (!open && fails && row->n_cords == 0) open = row;
+    if (row->why.code) none = row;
   }
 
   /* No row has a threading, and none is open: the last reason counts. */
@@ -156,16 +156,20 @@ static thr_status verdict(const thr_symmetries *symmetries, const char *group, t
 
   if (!unsolved) return THR_OK;
 
-  /* Threadings were found, but their proofs are missing; else some rows are open. */
-  if (loose == unsolved && asked == 1)
-    return thr_fail(err, THR_ELIMIT, "copies were found; that none are better is not proved: %s",
-                    none->why.text);
-  if (loose == unsolved)
+  /* Threadings were found, but their proofs are missing; else some rows have none. */
+  if (threaded == unsolved && asked == 1)
     return thr_fail(err, THR_ELIMIT,
-                    "copies were found for %d of %d groups; that none are better is not proved: %s",
-                    loose, asked, none->why.text);
-  return thr_fail(err, THR_ELIMIT, "%d of %d %s not solved to the end: %s", unsolved - loose, asked,
-                  asked == 1 ? "group was" : "groups were", open->why.text);
+                    "no better copies were found, and it is not proved that there are none: \"may "
+                    "be less\" says of what");
+  if (threaded == unsolved)
+    return thr_fail(err, THR_ELIMIT,
+                    "%d of %d groups are proved to have nothing better; of the others \"may be "
+                    "less\" says what is not proved",
+                    asked - unsolved, asked);
+  if (asked == 1)
+    return thr_fail(err, THR_ELIMIT, "no threading under this group: %s", open->why.text);
+  return thr_fail(err, THR_ELIMIT, "no threading under %d of %d groups: %s", unsolved - threaded,
+                  asked, open->why.text);
 }
 
 /* ---- cords without symmetry ---- */

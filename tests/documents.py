@@ -2,10 +2,11 @@
 """Holds the documents against each other and the program: tests/documents.py THREAD prints what differs, exit code 1.
 
 Every entry of the glossary occurs in another document or in the program's help, and every word that docs/method.md defines (in
-bold) is an entry. Entries are the words of the first column of the tables, parted by commas; case, a plural s and what stands in
+bold) is an entry. The guide and the man page have the exit codes of the program's table. Entries are the words of the first column of the tables, parted by commas; case, a plural s and what stands in
 brackets do not count. Files of the source that the documents name in backquotes exist.
 """
 import glob
+import json
 import os
 import re
 import subprocess
@@ -49,6 +50,16 @@ def explained(program):
     return plain("\n".join([read(page) for page in pages] + helps))
 
 
+def exit_codes_missing(program):
+    """(document, code) for every exit code that a document does not explain as `thread help exit-codes` does."""
+    told = subprocess.run([program, "help", "exit-codes", "--json"], capture_output=True, text=True, check=True).stdout
+    for code, meaning in json.loads(told).items():
+        for page, line in (("docs/guide.md", "| %s | %s |" % (code, meaning)),
+                           ("docs/thread.1", ".B %s\n%s\n" % (code, meaning.replace("-", "\\-")))):
+            if line not in read(page):
+                yield page, code
+
+
 def main():
     program = os.path.abspath(sys.argv[1])
     os.chdir(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -59,6 +70,7 @@ def main():
     bad += ["%s: '%s', which %s defines, is no entry" % (GLOSSARY, word, METHOD)
             for word in defined if word not in known and re.sub("s$", "", word) not in known]
     bad += ["%s: there is no %s" % each for each in files_that_are_not()]
+    bad += ["%s: exit code %s is not explained as by thread help exit-codes" % each for each in exit_codes_missing(program)]
     print("\n".join(bad) if bad else "documents: ok")
     return 1 if bad else 0
 

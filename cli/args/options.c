@@ -65,9 +65,19 @@ static bool be_verbose(void *into, const cli_option *option, const char *value)
   return true;
 }
 
+/* Takes --json. */
+static bool be_json(void *into, const cli_option *option, const char *value)
+{
+  (void)into, (void)option, (void)value;
+  cli_json = true;
+  return true;
+}
+
 const cli_option cli_common_options[] = {
     {"quiet", 'q', NULL, "no notes, no progress, no summary", .kind = CLI_OTHER, .take = be_quiet},
     {"verbose", 'v', NULL, "what is done on the way", .kind = CLI_OTHER, .take = be_verbose},
+    {"json", .kind = CLI_OTHER, .take = be_json,
+     .help = "the answer as JSON on stdout, of a failure {\"error\": .., \"code\": ..}"},
     {"config", .value = "FILE",
      .help = "options from a file, as if they stood before the others: thread(1)",
      .kind = CLI_TEXT},

@@ -59,9 +59,9 @@ typedef struct {
 } cli_syntax;
 
 /* Reads all options of the command line into the groups, prints help if that is asked for, and
- * compares the files that are named (cli/files.c). Operands begin at argv[optind]. -h, -q, -v and
- * --config are every command's. Returns -1 to go on; else what was wrong is printed, or what was
- * asked for is shown, and the exit code is returned. */
+ * compares the files that are named (cli/files.c). Operands begin at argv[optind]. -h, -q, -v,
+ * --json and --config are every command's. Returns -1 to go on; else what was wrong is printed, or
+ * what was asked for is shown, and the exit code is returned. */
 int cli_options(int argc, char **argv, const cli_syntax *syntax, const cli_group *groups);
 
 /* The option with its dashes if it was given in this command line, else NULL. */
@@ -83,7 +83,7 @@ extern void (*cli_show_options)(const cli_group *groups);
  * the current line stands. Line breaks in the text are kept. O(letters). */
 void cli_put_wrapped(thr_text *out, const char *words, int column, int at, int width);
 
-/* The rows of every command: -h, -q, -v, --config. */
+/* The rows of every command: -h, -q, -v, --json, --config. */
 extern const cli_option cli_common_options[];
 
 #endif

@@ -8,6 +8,7 @@
  * Example: `--mu 0.3 --preset NAME` sets mu = 0.3, and takes all else from the preset, which has a
  * mu as well. */
 #include "cli/args/args.h"
+#include "graph/io/json.h"
 #include "graph/status.h"
 
 #include <assert.h>
@@ -26,6 +27,31 @@ static void option_name(int field, char name[NAME_SIZE])
   }
 }
 
+/* Appends every preset as JSON: its quantities as plan.json calls them, and its source. */
+static void put_presets_json(thr_text *text)
+{
+  thr_writer writer = {.out = text};
+
+  thr_write_object(&writer, NULL);
+  thr_write_array(&writer, "presets");
+  for (int i = 0; i < thr_physics_n_presets; i++) {
+    const thr_physics_preset *preset = &thr_physics_presets[i];
+
+    thr_write_line(&writer, 1);
+    thr_write_object(&writer, NULL);
+    thr_write_string(&writer, "name", preset->name);
+    for (int k = 0; k < thr_physics_n_fields; k++) {
+      const double quantity = thr_physics_get(&preset->physics, &thr_physics_fields[k]);
+      if (quantity > 0) thr_write_number(&writer, thr_physics_fields[k].key, quantity);
+    }
+    thr_write_string(&writer, "source", preset->source);
+    thr_write_close(&writer);
+  }
+  thr_write_close(&writer);
+  thr_write_close(&writer);
+  thr_text_append(text, "\n");
+}
+
 /* Prints every preset with its quantities and its sources. */
 static bool show_presets(void *into, const cli_option *option, const char *value)
 {
@@ -33,7 +59,8 @@ static bool show_presets(void *into, const cli_option *option, const char *value
   thr_text text = {0};
   (void)into, (void)option, (void)value;
 
-  for (int i = 0; i < thr_physics_n_presets; i++) {
+  if (cli_json) put_presets_json(&text);
+  for (int i = 0; i < thr_physics_n_presets && !cli_json; i++) {
     const thr_physics_preset *preset = &thr_physics_presets[i];
     thr_text_printf(&text, "%s%s\n", i ? "\n" : "", preset->name);
 

@@ -749,6 +749,27 @@ static void copy_rows(const thr_request *asked, thr_request *request)
   }
 }
 
+/* Notes what was asked for and changes nothing, or costs cord for nothing. */
+static void note_useless(const request_args *args, const thr_frame *frame,
+                         const thr_request *request)
+{
+  int passes = 0;
+
+  for (int e = 0; e < frame->n_edges; e++)
+    passes += thr_plan_cover(frame, request, e);
+
+  /* More cords than passes: the others go where cords go already. A closed cord needs two passes.
+   */
+  if (args->least > passes)
+    cli_note("note: %d cords for %d %s: some only repeat what others pass; with %d or fewer none "
+             "has to",
+             args->least, passes, cli_plural(passes, "pass", "passes"), passes);
+  if (args->minimize && request->cords == 1 && thr_wants_largest(request) &&
+      !thr_wants_pull(request))
+    cli_note("note: one cord is the one that turns most: --minimize max-turning changes nothing; "
+             "--cords N makes several");
+}
+
 int request_args_apply(const request_args *args, const thr_frame *frame, thr_request *request)
 {
   copy_rows(&args->asked, request);
@@ -767,6 +788,7 @@ int request_args_apply(const request_args *args, const thr_frame *frame, thr_req
     cli_error("out of memory");
     return EXIT_INTERNAL;
   }
+  note_useless(args, frame, request);
   code = end_counts_parse(frame, args->ends, request->end_count);
   if (code == EXIT_OK) return apply_counts(args, frame, request);
   if (code > 0) return code;

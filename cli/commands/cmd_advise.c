@@ -19,6 +19,7 @@
 #include "diagram/overview/charts.h"
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"
+#include "graph/os.h"
 #include "graph/plan/plan_measures.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/request.h"
@@ -56,7 +57,7 @@ typedef struct {
   const char *path, *output;
   double hand;
   int type;
-  bool json, progress;
+  bool progress;
 } advise_arguments;
 
 static const char *type_name(int type)
@@ -76,8 +77,6 @@ static const cli_option own_options[] = {
     {"type", 'T', NULL, "a table (default), or a picture", .kind = CLI_WORD, AT(type),
      .word = type_name, .n_words = N_TYPES},
     {"output", 'o', "FILE", "(default: stdout)", .kind = CLI_OUTPUT, AT(output)},
-    {"json", .kind = CLI_FLAG, AT(json),
-     .help = "the table as JSON, with -T svg on stdout beside the picture in -o"},
     {"progress", .kind = CLI_FLAG, AT(progress),
      .help = "a line of JSON on stderr each time a row is found or better, the recommended one "
              "first where --hand is as usual"},
@@ -120,7 +119,7 @@ static int parse(int argc, char **argv, advise_arguments *args)
   args->path = argv[optind];
 
   /* Outputs. */
-  if (args->json && args->type == TYPE_SVG && strcmp(args->output, "-") == 0)
+  if (cli_json && args->type == TYPE_SVG && strcmp(args->output, "-") == 0)
     return cli_usage("advise",
                      "--json and the picture both want stdout; -o FILE takes the picture");
 
@@ -135,6 +134,9 @@ typedef struct {
   int cords, n;
   thr_cord *cord; /* [n] owned */
 } kept_cords;
+
+/* Columns that a terminal has at least on which rows are shown as they are found. */
+enum { WIDE = 125 };
 
 /* What is known while rows are found. */
 typedef struct {
@@ -223,6 +225,7 @@ static void show_row(void *user, const thr_advice_row *row, const thr_plan *plan
 
   /* Printed at once: the next row may take seconds. */
   advice_put_row(&text, row, state->base_length, "");
+  print_fit(&text, 0);
   if (!text.failed) fputs(text.data, stdout);
   fflush(stdout);
   state->lines++;
@@ -284,15 +287,18 @@ static int write_advice(const advise_arguments *args, const thr_frame *frame,
     st = thr_nomem(&err);
   else if (args->type == TYPE_SVG)
     st = draw(args, frame, advice, words, &text, &err);
-  else if (!args->json)
+  else if (!cli_json)
     advice_put_table(&text, frame, advice, words);
 
   /* From which pull on the recommended cords hold the pieces. */
-  if (!st && !args->json && args->type != TYPE_SVG && laid_out) advice_put_holding(&text, &chosen);
-  if (!st && args->json) code = write_json(args, frame, advice, words, laid_out ? &chosen : NULL);
+  if (!st && !cli_json && args->type != TYPE_SVG && laid_out) advice_put_holding(&text, &chosen);
+  if (!st && cli_json) code = write_json(args, frame, advice, words, laid_out ? &chosen : NULL);
+
+  if (!st && args->type == TYPE_TEXT)
+    print_fit(&text, strcmp(args->output, "-") == 0 ? thr_os_columns(STDOUT_FILENO) : 0);
 
   /* With --json text on stdout is the table; a picture goes to its file all the same. */
-  if (!code && (st || !args->json || args->type == TYPE_SVG))
+  if (!code && (st || !cli_json || args->type == TYPE_SVG))
     code = cli_write_drawn(st, &text, args->output, &err);
 
   thr_text_destroy(&text);
@@ -313,17 +319,19 @@ static int advise(advise_arguments *args, const thr_frame *frame)
   if (code) return code;
   if (thr_physics_resolve(&args->request.physics, frame, &resolved, &err)) return cli_fail(&err);
 
-  /* On a terminal rows are shown as they are found. */
+  /* On a wide terminal rows are shown as they are found. */
   table_state state = {.frame = frame,
                        .physics = &resolved,
                        .base_length = args->request.cover * thr_frame_total_length(frame)};
-  state.shown = args->type == TYPE_TEXT && !args->json && !cli_quiet &&
-                strcmp(args->output, "-") == 0 && cli_is_terminal(STDOUT_FILENO);
+  const int columns = thr_os_columns(STDOUT_FILENO); /* 0: the terminal does not say */
+  state.shown = (columns == 0 || columns >= WIDE) && args->type == TYPE_TEXT && !cli_json &&
+                !cli_quiet && strcmp(args->output, "-") == 0 && cli_is_terminal(STDOUT_FILENO);
 
   /* The search, whose work is counted unless a time was given. */
   const thr_advise_options options = {.hand = args->hand, .row = show_row, .user = &state};
   double work = 0;
   thr_limits limits = advice_limits(args->guard.seconds, &work);
+  cli_step("trying numbers of cords", "");
   thr_status st = thr_advise(frame, &args->request, &options, &limits, &advice, &err);
   cli_progress_end();
 

@@ -61,12 +61,12 @@ static void announce(const char *path, int i)
 
 /* Prints the verdict on one plan and returns the exit code, which is `code` unless printing
  * fails. */
-static int put_one(const char *name, bool json, const thr_plan *plan, const thr_err *err, int code)
+static int put_one(const char *name, const thr_plan *plan, const thr_err *err, int code)
 {
   thr_text text = {0};
 
   /* Errors other than violations were printed where they occurred. */
-  if (json)
+  if (cli_json)
     verdict_put_json(&text, name, plan, err);
   else if (code > EXIT_VIOLATION)
     ; /* said already */
@@ -75,7 +75,7 @@ static int put_one(const char *name, bool json, const thr_plan *plan, const thr_
   else if (!cli_quiet)
     verdict_put(&text, name, plan);
 
-  int written = cli_write(&text, "-");
+  int written = print_text(&text);
 
   return code ? code : written;
 }
@@ -87,10 +87,11 @@ static const char *name_of(const char *path)
 
 /* Reads and checks one plan and prints the verdict. timed: the time follows from the size. Returns
  * an exit code. */
-static int check_one(const char *path, bool json, bool timed)
+static int check_one(const char *path, bool timed)
 {
   thr_plan plan;
   thr_err err = {0}, found = {0};
+  cli_step("checking", name_of(path));
   thr_status st = thr_plan_read(&plan, path, &err);
 
   /* A stream's time begins when its size is known: some 200 bytes an edge. */
@@ -103,44 +104,34 @@ static int check_one(const char *path, bool json, bool timed)
   /* A claim that does not hold is a violation, anything else a failure of this run. */
   int code = st == THR_OK ? EXIT_OK : EXIT_VIOLATION;
   if (st && st != THR_EVIOLATED) code = cli_fail(&err);
-  code = put_one(name_of(path), json, &plan, &err, code);
+  code = put_one(name_of(path), &plan, &err, code);
   thr_plan_destroy(&plan);
 
   return code;
 }
 
 /* Checks plans one after the other and returns the largest of their exit codes. */
-static int check_all(char **path, int n, bool json, bool timed)
+static int check_all(char **path, int n, bool timed)
 {
   int code = EXIT_OK;
   for (int i = 0; i < n; i++) {
     if (timed) announce(path[i], i);
-    int one = check_one(path[i], json, timed);
+    int one = check_one(path[i], timed);
     if (one > code) code = one;
   }
   return code;
 }
 
 /* Prints that a plan was not judged, which is a failure, and returns its exit code. */
-static int put_unjudged(const char *name, bool json, const guard_end *end)
+static int put_unjudged(const char *name, const guard_end *end)
 {
   thr_err err = {0};
   const char *more = end->reason == GUARD_TIME ? " (--time-limit allows more)" : "";
   thr_fail(&err, THR_ELIMIT, "%s: not checked: %s%s", name, end->why, more);
   cli_error("%s", err.text);
-  return put_one(name, json, NULL, &err, end->reason == GUARD_DIED ? EXIT_INTERNAL : EXIT_LIMIT);
+  return put_one(name, NULL, &err, end->reason == GUARD_DIED ? EXIT_INTERNAL : EXIT_LIMIT);
 }
 
-/* What was asked. */
-typedef struct {
-  guard_limits guard;
-  bool json;
-} check_arguments;
-
-static const cli_option own_options[] = {{"json", .kind = CLI_FLAG,
-                                          .offset = offsetof(check_arguments, json),
-                                          .help = "one JSON line per plan"},
-                                         {0}};
 static const cli_option time_options[] = {
     {GUARD_TIME_LIMIT,
      .help = "give up after S seconds, 0 = never (default: 7 for each plan of up to 20 MB)"},
@@ -150,12 +141,10 @@ static const cli_option time_options[] = {
 int cmd_check(int argc, char **argv)
 {
   static const cli_syntax syntax = {"check", intro, outro};
-  check_arguments args = {.guard = guard_limits_default()};
+  guard_limits limits = guard_limits_default();
   guard_end end;
-  const cli_group groups[] = {{"Options", own_options, &args},
-                              {NULL, time_options, &args.guard},
-                              {NULL, guard_memory_options, &args.guard},
-                              {NULL}};
+  const cli_group groups[] = {
+      {"Options", time_options, &limits}, {NULL, guard_memory_options, &limits}, {NULL}};
   int code = cli_options(argc, argv, &syntax, groups);
   if (code >= 0) return code;
   code = EXIT_OK;
@@ -165,8 +154,7 @@ int cmd_check(int argc, char **argv)
   /* What cannot be judged in its time leaves the plans behind it to another process. */
   for (char **path = argv + optind, **last = argv + argc; path < last;) {
     /* A child for all plans that are left. */
-    if (!guard_fork(&args.guard, &end))
-      return check_all(path, (int)(last - path), args.json, args.guard.seconds < 0);
+    if (!guard_fork(&limits, &end)) return check_all(path, (int)(last - path), limits.seconds < 0);
 
     /* The child judged all plans that were left, or could not say which one it was at. */
     if (end.reason == GUARD_DONE || end.reason == GUARD_INTERRUPTED || end.kept.length == 0) {
@@ -176,7 +164,7 @@ int cmd_check(int argc, char **argv)
 
     /* It was ended at plan number end.kept; the ones before it were judged. */
     path += atoi(end.kept.data);
-    const int one = put_unjudged(name_of(*path++), args.json, &end);
+    const int one = put_unjudged(name_of(*path++), &end);
     if (one > code) code = one;
     thr_text_destroy(&end.kept);
   }

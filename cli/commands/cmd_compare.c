@@ -195,15 +195,15 @@ static int print(const pull_args *args, const entry *entries, int n)
   if (!st) {
     for (int i = 0; i < n; i++)
       name[i] = entries[i].path;
-    (args->json ? compare_put_json : compare_put_text)(&text, args, entries, n, rankings, count,
-                                                       name);
+    (cli_json ? compare_put_json : compare_put_text)(&text, args, entries, n, rankings, count,
+                                                     name);
   }
 
   for (int i = 0; i < COMPARE_RANKINGS; i++)
     ranking_destroy(&rankings[i]);
   free(name);
 
-  return st ? cli_fail(&err) : cli_write(&text, "-");
+  return st ? cli_fail(&err) : print_text(&text);
 }
 
 /* Does the work of the command. plot: where the picture goes, NULL = nowhere. Returns the exit
@@ -229,7 +229,7 @@ static int compare(const pull_args *args, const structure_actions *actions,
 
   for (int i = 0; i < n; i++)
     compare_measure(&entries[i]);
-  for (int i = 0; i < n && !args->json; i++)
+  for (int i = 0; i < n && !cli_json; i++)
     thr_text_clean(path[i]); /* the files are read; what follows is for people */
 
   /* A picture on stdout leaves no place for the table. */
@@ -337,7 +337,7 @@ int cmd_compare(int argc, char **argv)
   /* Every operand is a plan. */
   int n = argc - optind;
   if (n < 1) return cli_usage("compare", "which plans?");
-  if (asked.pull.json && asked.plot && strcmp(asked.plot, "-") == 0)
+  if (cli_json && asked.plot && strcmp(asked.plot, "-") == 0)
     return cli_usage("compare", "--json and --plot - both want stdout");
 
   code = pull_check(&asked.pull, "compare");

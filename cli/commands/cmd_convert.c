@@ -61,9 +61,11 @@ static int convert(const char *path, const cli_frame_args *args, const thr_forma
 
   /* The whole text is made first, so that a failure leaves no half of a file. */
   thr_frame_write(&frame, format, &text);
+  code = cli_write(&text, output);
+  if (!code && cli_json) code = answer_frame(&frame, output);
   thr_frame_destroy(&frame);
 
-  return cli_write(&text, output);
+  return code;
 }
 
 /* Runs `thread convert` and returns the exit code. */

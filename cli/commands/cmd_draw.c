@@ -13,8 +13,10 @@
  * Example: `thread draw plan.json -T all -o diagrams/` writes overview.svg, steps.txt, sheets.pdf
  * and more into diagrams/. */
 #include "cli/commands/commands.h"
+#include "graph/io/json.h"
 #include "graph/io/read.h"
 #include "graph/number.h"
+#include "graph/plan/plan_measures.h"
 #include "lib/lib.h"
 
 #include <math.h>
@@ -147,6 +149,24 @@ static void note_chains(const thr_plan *plan, const drawings_args *args)
   thr_text_destroy(&text);
 }
 
+/* Answers programs: the files, and the longest loose chain. Returns an exit code. */
+static int answer(const char *path, const thr_plan *plan, const drawings_args *args)
+{
+  thr_err err = {0};
+  thr_text text = {0};
+  thr_writer writer = {.out = &text};
+  thr_chains chains;
+
+  if (thr_plan_chains(plan, args->needles ? args->needles : plan->options.needles, &chains, &err))
+    return cli_fail(&err);
+
+  thr_write_object(&writer, NULL);
+  thr_write_string(&writer, "plan", path);
+  answer_put_files(&writer);
+  thr_write_int(&writer, "longest_loose_chain", chains.longest);
+  return answer_close(&writer);
+}
+
 /* Runs `thread draw` and returns the exit code: EXIT_LIMIT if not all was drawn in the time or
  * memory. */
 int cmd_draw(int argc, char **argv)
@@ -175,6 +195,9 @@ int cmd_draw(int argc, char **argv)
   if (!all && output && cli_misnamed(output, thr_document_file(type)))
     return cli_usage("draw", "%s: --type %s makes %s; say which type", output, type_name(type),
                      thr_document_file(type));
+
+  if (cli_json && output && strcmp(output, "-") == 0)
+    return cli_usage("draw", "--json and -o - both want stdout");
 
   /* One operand: the plan. */
   if (optind + 1 != argc)
@@ -205,6 +228,7 @@ int cmd_draw(int argc, char **argv)
 
   /* Documents that show how to thread also say how loose the work is meanwhile. */
   if (!code && (all || thr_document_threads(type))) note_chains(&plan, args);
+  if (!code && cli_json) code = answer(argv[optind], &plan, args);
   thr_plan_destroy(&plan);
 
   return code;

@@ -77,8 +77,7 @@ static int calibrate(const eval_arguments *args, bool with_plan)
   if (with_plan) return cli_usage("eval", "--calibrate takes no plan");
   int code = cli_physics_apply(&args->pull.physics, &physics);
   return code ? code
-              : calibrate_run(args->calibrate, physics.bore > 0 ? physics.bore : 2, args->output,
-                              args->pull.json);
+              : calibrate_run(args->calibrate, physics.bore > 0 ? physics.bore : 2, args->output);
 }
 
 static const char *method_meaning(int method)
@@ -216,7 +215,7 @@ static int parse(int argc, char **argv, eval_arguments *args)
 
   /* At most one of the outputs can have stdout. */
   const char *const out[] = {args->output, args->plot};
-  int to_stdout = args->pull.json;
+  int to_stdout = cli_json;
   for (int i = 0; i < 2; i++)
     to_stdout += out[i] && strcmp(out[i], "-") == 0;
   if (to_stdout > 1)
@@ -280,11 +279,11 @@ static int write_outputs(const eval_arguments *args, const thr_plan *plan, const
   for (int i = 0; i < 2; i++)
     if (out[i] && strcmp(out[i], "-") == 0) return code;
 
-  if (args->pull.json)
+  if (cli_json)
     eval_put_json(&text, &view, plan, eval);
   else
     eval_put_text(&text, &view, plan, eval);
-  int printed = cli_write(&text, "-");
+  int printed = print_text(&text);
 
   return code ? code : printed;
 }
@@ -341,12 +340,9 @@ int cmd_eval(int argc, char **argv)
 
   if (code >= 0) return code;
   if (args.pull.method == PULL_RISE) {
-    const rise_usual usual = {&args.pull.physics,
-                              &args.guard,
-                              args.pull.newtons,
+    const rise_usual usual = {&args.pull.physics, &args.guard, args.pull.newtons,
                               args.pull.options.time_step,
-                              cli_given("seed") ? (int)args.pull.options.seed : -1,
-                              args.pull.json};
+                              cli_given("seed") ? (int)args.pull.options.seed : -1};
     return rise_as_usual(args.path, &usual);
   }
 

@@ -142,7 +142,6 @@ typedef struct {
   guard_limits guard;
   motion_arguments motions;
   turn_arguments turn;
-  bool json;
 } info_arguments;
 
 /* Reads a framework, finds its facts and prints them. Returns an exit code. */
@@ -165,13 +164,14 @@ static int print_facts(const char *path, const info_arguments *args)
 
   thr_text text = {0};
   thr_err err = {0};
+  cli_step("finding out what can move", "");
 
   /* A file that is a plan has more to say than a framework. */
   if (!code && (find_facts(&frame, &info, &err) || find_untied(path, &info, &err))) {
     code = cli_fail(&err);
   } else if (!code) {
-    (args->json ? facts_put_json : facts_put)(&text, &frame, &info);
-    code = cli_write(&text, "-");
+    (cli_json ? facts_put_json : facts_put)(&text, &frame, &info);
+    code = print_text(&text);
   }
 
   free(info.untied);
@@ -181,17 +181,13 @@ static int print_facts(const char *path, const info_arguments *args)
   return code;
 }
 
-static const cli_option own_options[] = {
-    {"json", .kind = CLI_FLAG, .offset = offsetof(info_arguments, json), .help = "as JSON"}, {0}};
-
 /* Runs `thread info` and returns the exit code. */
 int cmd_info(int argc, char **argv)
 {
   static const cli_syntax syntax = {"info", intro, NULL};
   info_arguments args = {.frame = cli_frame_args_default(), .guard = guard_limits_default()};
   guard_end end;
-  const cli_group groups[] = {{"Options", own_options, &args},
-                              {NULL, guard_options, &args.guard},
+  const cli_group groups[] = {{"Options", guard_options, &args.guard},
                               {"Motions", motion_options, &args.motions},
                               {"Two pieces on a cord", turn_options, &args.turn},
                               {"Framework", cli_frame_options, &args.frame},
@@ -210,5 +206,5 @@ int cmd_info(int argc, char **argv)
   /* The child does all of the work. */
   if (guard_fork(&args.guard, &end)) return guard_conclude(&end, "nothing is known");
 
-  return args.turn.wanted ? turn_print(&args.turn, args.json) : print_facts(argv[optind], &args);
+  return args.turn.wanted ? turn_print(&args.turn) : print_facts(argv[optind], &args);
 }

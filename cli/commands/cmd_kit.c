@@ -8,6 +8,7 @@
  * Example: `thread kit plan.json -o kit/ --stl` also writes one file for each kind of piece. */
 #include "cli/cli.h"
 #include "cli/commands/commands.h"
+#include "graph/io/json.h"
 #include "graph/os.h"
 #include "graph/plan/plan.h"
 #include "graph/text.h"
@@ -122,9 +123,10 @@ static const cli_option print_options[] = {
              "(default: a hundredth of the median edge)"},
     {0}};
 
-/* Writes a text into the folder under a name, or the reason why there is none. */
+/* Writes a text into the folder under a name, or the reason why there is none. what: the file is,
+ * for programs. */
 static int write_file(thr_status st, thr_text *text, const char *folder, const char *name,
-                      const thr_err *err)
+                      const char *what, const thr_err *err)
 {
   char path[1200];
   if (!st) {
@@ -134,7 +136,10 @@ static int write_file(thr_status st, thr_text *text, const char *folder, const c
       return code;
     }
   }
-  return cli_write_drawn(st, text, path, err);
+  const int code = cli_write_drawn(st, text, path, err);
+  if (!code) answer_file(path, what);
+
+  return code;
 }
 
 /* Prints what the kit is: pieces, kinds, volume, what a maker should know. */
@@ -155,6 +160,34 @@ static void say(const thr_kit *kit, const thr_kit_plates *plates, const char *fo
     line += n + (line[n] != '\0');
   }
   cli_note("written to %s", folder);
+}
+
+/* Answers programs with the same. Returns an exit code. */
+static int answer(const thr_kit *kit, const thr_kit_plates *plates)
+{
+  thr_text text = {0};
+  thr_writer writer = {.out = &text};
+
+  thr_write_object(&writer, NULL);
+  answer_put_files(&writer);
+  thr_write_int(&writer, "pieces", kit->n_pieces);
+  thr_write_int(&writer, "kinds", kit->n_kinds);
+  thr_write_int(&writer, "plates", plates->n_plates);
+  thr_write_number(&writer, "volume_cm3", kit->volume / 1000);
+  thr_write_number(&writer, "mass_g", kit->mass);
+  thr_write_number(&writer, "width_mm", kit->options.width);
+  thr_write_number(&writer, "cord_mm", kit->cord);
+  thr_write_number(&writer, "wall_mm", kit->options.wall);
+  thr_write_array(&writer, "notes");
+  for (const char *line = kit->notes.data ? kit->notes.data : ""; *line;) {
+    const int n = (int)strcspn(line, "\n");
+    thr_text note = {0};
+    thr_text_append_bytes(&note, line, (size_t)n);
+    thr_write_words(&writer, NULL, &note);
+    line += n + (line[n] != '\0');
+  }
+  thr_write_close(&writer);
+  return answer_close(&writer);
 }
 
 /* Writes the viewer with the pieces as they are, but coarser and without names. */
@@ -178,7 +211,8 @@ static int write_viewer(const thr_kit *kit, const kit_arguments *args, const cha
   thr_kit_destroy(&shown);
   thr_text_destroy(&meshes);
 
-  return write_file(st, &page, folder, "kit.html", &err);
+  return write_file(st, &page, folder, "kit.html",
+                    "the pieces and the cords, step by step in any browser", &err);
 }
 
 /* Writes everything that was asked for. Returns an exit code. */
@@ -187,6 +221,7 @@ static int write_all(const thr_kit *kit, const kit_arguments *args, const char *
   thr_err err = {0};
   thr_text text = {0};
   thr_kit_plates plates;
+  cli_step("writing the pieces", "");
   thr_status st = thr_kit_plates_make(&plates, kit, &err);
   if (st) {
     thr_kit_plates_destroy(&plates);
@@ -194,33 +229,37 @@ static int write_all(const thr_kit *kit, const kit_arguments *args, const char *
   }
 
   st = thr_kit_3mf(&plates, &text, &err);
-  int code = write_file(st, &text, folder, "kit.3mf", &err);
+  int code =
+      write_file(st, &text, folder, "kit.3mf", "all pieces on the plates of a printer", &err);
   if (!code) {
     st = thr_kit_table(&plates, NULL, &text, &err);
-    code = write_file(st, &text, folder, "kit.csv", &err);
+    code = write_file(st, &text, folder, "kit.csv", "what the pieces measure", &err);
   }
   if (!code && kit->plan->options.joint != THR_JOINT_SOLID) {
     st = thr_kit_tubes_table(kit, &text, &err);
-    code = write_file(st, &text, folder, "tubes.csv", &err);
+    code = write_file(st, &text, folder, "tubes.csv", "what to cut tubes to", &err);
   }
   if (!code && args->scad) {
     thr_kit_scad(kit, &text);
-    code = write_file(THR_OK, &text, folder, "kit.scad", &err);
+    code = write_file(THR_OK, &text, folder, "kit.scad", "the pieces in the language of OpenSCAD",
+                      &err);
   }
   for (int p = 0; p < kit->n_pieces && !code && args->stl; p++) {
     char name[32];
     if (kit->piece[p].like != p) continue;
     thr_kit_stl_name(kit, p, name);
     thr_kit_stl(kit, p, &text);
-    code = write_file(THR_OK, &text, folder, name, &err);
+    code = write_file(THR_OK, &text, folder, name, "a piece of each kind", &err);
   }
   if (!code && !args->no_picture) {
     const thr_kit_view view = {0};
     st = thr_kit_picture(kit, &view, &text, &err);
-    code = write_file(st, &text, folder, "kit.png", &err);
+    code = write_file(st, &text, folder, "kit.png",
+                      "the pieces in their places, with the cords in them", &err);
   }
   if (!code && !args->no_picture) code = write_viewer(kit, args, folder);
   if (!code) say(kit, &plates, folder);
+  if (!code && cli_json) code = answer(kit, &plates);
   thr_kit_plates_destroy(&plates);
 
   return code;
@@ -261,6 +300,7 @@ int cmd_kit(int argc, char **argv)
   thr_kit kit;
   thr_limits limits = cli_limits(0);
   limits.threads = asked.jobs ? asked.jobs : thr_os_processors();
+  cli_step("making the pieces", "");
   thr_status st = thr_kit_make(&kit, &plan, &asked.kit, NULL, true, &limits, &err);
   cli_progress_end();
   code = st ? cli_fail(&err) : write_all(&kit, &asked, folder);

@@ -12,6 +12,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char intro[] =
     "thread make SHAPE [options]: an example framework\n\n"
@@ -112,13 +113,19 @@ static int make(const thr_make_options *options, const thr_format *format, const
   if (!st) st = thr_draft_build(&draft, -1, &frame, &report, &err);
   if (!st) thr_frame_write(&frame, format, &text);
 
+  /* Bad sizes are the user's, not a file's. */
+  int code = st == THR_EINPUT ? cli_usage("make", "%s", err.text)
+             : st             ? cli_fail(&err)
+                              : cli_write(&text, output);
+  if (!code && cli_json) code = answer_frame(&frame, output);
+  if (!code && strcmp(output, "-") == 0 && cli_is_terminal(STDOUT_FILENO))
+    cli_note("this is the framework as a file; -o dome.json keeps it, and thread plan dome.json "
+             "plans it");
+
   thr_draft_destroy(&draft);
   thr_frame_destroy(&frame);
 
-  /* Bad sizes are the user's, not a file's. */
-  if (st == THR_EINPUT) return cli_usage("make", "%s", err.text);
-
-  return st ? cli_fail(&err) : cli_write(&text, output);
+  return code;
 }
 
 /* Runs `thread make` and returns the exit code. */

@@ -66,7 +66,6 @@ static const cli_option output_options[] = {
     {"force", .kind = CLI_FLAG, AT(force),
      .help = "replace another plan in the folder that is named after FRAME (else FRAME-2, FRAME-3, "
              "..)"},
-    {"json", .kind = CLI_FLAG, AT(json), .help = "summary as JSON on stdout"},
     {"progress", .kind = CLI_FLAG, AT(progress),
      .help = "a line of JSON on stderr each time the plan or its bound is better"},
     {"compare-objectives", .kind = CLI_FLAG, AT(compare),
@@ -110,7 +109,7 @@ static int parse(int argc, char **argv, plan_arguments *args)
   /* Outputs: names that a file can have, and one text at most on stdout. */
   if (args->output && cli_no_plan_name("plan", args->output)) return EXIT_USAGE;
 
-  const char *wordy = args->json               ? "--json"
+  const char *wordy = cli_json                 ? "--json"
                       : args->compare          ? "--compare-objectives"
                       : args->request.frontier ? "--frontier"
                                                : NULL;
@@ -180,6 +179,7 @@ static thr_status make_plan(const plan_arguments *args, const thr_frame *framewo
 
   /* From here on the best cords go to the parent. */
   thr_limits limits = plan_limits(args, options, time_of_plan(args, options), &work);
+  cli_step("planning", "");
   best_begin(framework, options);
   limits.found = best_found;
   thr_status st =
@@ -193,27 +193,6 @@ static thr_status make_plan(const plan_arguments *args, const thr_frame *framewo
   if (args->guard.seconds < 0) guard_allow(0);
 
   return st;
-}
-
-/* Says why there is no plan: in one line, and with --json as an object, too. Returns the exit code
- * that belongs to err. */
-static int refuse(const plan_arguments *args, const thr_err *err)
-{
-  thr_text text = {0};
-  thr_writer writer = {.out = &text};
-  const int code = cli_fail(err);
-
-  if (!args->json || err->code == THR_ENOMEM) return code;
-
-  /* For programs. */
-  thr_write_object(&writer, NULL);
-  thr_write_string(&writer, "error", err->text);
-  thr_write_int(&writer, "exit_code", code);
-  thr_write_close(&writer);
-  thr_text_append(&text, "\n");
-  const int written = cli_write(&text, "-");
-
-  return written ? written : code;
 }
 
 /* Makes a plan for a framework and writes all that is asked for. Releases the framework, of which
@@ -244,7 +223,7 @@ static int plan_frame(const plan_arguments *args, thr_frame *framework)
     int planned_code = st ? EXIT_LIMIT : EXIT_OK;
     const bool is_plan = st == THR_OK || (st == THR_ELIMIT && result.plan.n_cords > 0);
     if (is_plan) code = plan_write_outputs(args, &result, &planned_code);
-    if (code == EXIT_OK) code = !is_plan ? refuse(args, &err) : st ? cli_fail(&err) : planned_code;
+    if (code == EXIT_OK) code = st ? cli_fail(&err) : planned_code;
   }
 
   free(options.end_node);

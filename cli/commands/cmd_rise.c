@@ -9,6 +9,7 @@
 #include "cli/args/args.h"
 #include "cli/cli.h"
 #include "cli/commands/commands.h"
+#include "cli/print/print.h"
 #include "cli/commands/rise_runs.h"
 #include "diagram/export/paper.h"
 #include "diagram/overview/charts.h"
@@ -65,7 +66,7 @@ typedef struct {
   int seeds, first_seed, start, ends, feet, size[2], page;
   double time_step, iterations;
   double stiffness, gravity; /* N, m/s2; NAN: as the plan says */
-  bool json, let_down, progress;
+  bool let_down, progress;
 } rise_arguments;
 
 #define AT(member) .offset = offsetof(rise_arguments, member)
@@ -163,7 +164,6 @@ static const cli_option own_options[] = {
          "FILE ends in .html"},
     {"page", .kind = CLI_WORD, AT(page), .word = thr_page_name, .n_words = THR_N_PAGES,
      .help = "paper of the booklet (default: a4)"},
-    {"json", .kind = CLI_FLAG, AT(json), .help = "print the answers as JSON"},
     {"progress", .kind = CLI_FLAG, AT(progress),
      .help = "a line of JSON on stderr each time more is simulated or drawn"},
     {0}};
@@ -707,11 +707,11 @@ static int tell(const rise_runs *runs)
     if (code) return code;
   }
   text = (thr_text){0};
-  if (runs->args->json)
+  if (cli_json)
     put_json(runs, false, &text);
   else
     put_text(runs, &text);
-  return cli_write(&text, "-");
+  return print_text(&text);
 }
 
 /* ---- the runs ---- */
@@ -867,6 +867,7 @@ static int make_and_run(const rise_arguments *args, const thr_plan *plan)
   const thr_limits limits = cli_limits(0);
   rise_runs runs = {.args = args, .options = args->rise};
   thr_schedule schedule = {0};
+  cli_step("laying out the pieces", "");
   const int read = pull_read_schedule(args->schedule, plan, &schedule);
   if (read) return read;
   if (args->schedule) runs.options.schedule = &schedule;
@@ -925,7 +926,6 @@ int rise_as_usual(const char *path, const rise_usual *asked)
   rise_arguments args = usual_arguments();
   args.path = path;
   args.guard = *asked->guard;
-  args.json = asked->json;
   args.rise.time_step = asked->time_step;
   if (asked->newtons > 0) args.rise.pull = asked->newtons;
   if (asked->seed >= 0) args.first_seed = asked->seed;

@@ -41,9 +41,11 @@ static const char outro[] =
     "* marks the default choice of thread plan --objective symmetry. A step, what is to be "
     "learned, is a pass of a unique path or, with --ends any, an end of it. Read: the instructions "
     "for that; beads straight on are one, and so is what comes again turned, mirrored or moved "
-    "along.\n"
-    "Exit codes: 0 every row optimal by the solver's word, 2 usage, 3 bad input, 4 infeasible, 5 "
-    "some rows not in time (table printed)";
+    "along. May be less: the first value of which it is not proved that no threading under this "
+    "group has less.\n"
+    "Exit codes: 0 every row proved, 2 usage, 3 bad input, 4 infeasible, 5 some rows not proved, "
+    "or "
+    "not in time (table printed)";
 
 /* The command line. Strings point into argv. */
 typedef struct {
@@ -53,7 +55,6 @@ typedef struct {
   thr_request plan;
   const char *path, *ends;
   double row_work; /* counted, for each row; 0: not said */
-  bool json;
 } symmetries_arguments;
 
 #define AT(member) .offset = offsetof(symmetries_arguments, member)
@@ -63,7 +64,6 @@ static const cli_option own_options[] = {
      .help = "where cord ends may be, as for thread plan (default: closed)"},
     {"mu", .value = "X", .kind = CLI_AMOUNT, AT(plan.physics.mu), .high = 10,
      .help = "friction, cord on bead, for the pull in the table (default: 0.2)"},
-    {"json", .kind = CLI_FLAG, AT(json), .help = "as JSON"},
     {0}};
 
 static const cli_option time_options[] = {
@@ -145,14 +145,14 @@ static int print(const symmetries_arguments *args, const thr_frame *framework,
   thr_text text = {0};
 
   /* As text every row is shown, not only those round the chosen one. */
-  if (args->json) {
+  if (cli_json) {
     put_json(&text, args, framework, symmetries);
   } else {
     symmetry_put_head(&text, framework, &args->plan, symmetries);
     symmetry_put_table(&text, &args->plan, symmetries, symmetries->n);
   }
 
-  return cli_write(&text, "-");
+  return print_text(&text);
 }
 
 /* Finds and prints the table. Returns an exit code; a table that is not proved is printed all the
@@ -167,6 +167,7 @@ static int list_symmetries(symmetries_arguments *args, const thr_frame *framewor
   if (code == EXIT_OK) {
     /* The time is that of all groups together. */
     const thr_limits limits = cli_limits(args->plan.time_limit);
+    cli_step("looking for symmetries", "");
     thr_status st = thr_symmetries_find(framework, &args->plan, false, &limits, &symmetries, &err);
     cli_progress_end();
 

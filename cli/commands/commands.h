@@ -42,7 +42,7 @@ void advice_put_recommended(const thr_plan *plan, thr_text *text);
  * draws the piece that the weights hang from. */
 
 /* value: of --calibrate; bore: mm, of the piece. Returns the exit code. */
-int calibrate_run(const char *value, double bore, const char *output, bool json);
+int calibrate_run(const char *value, double bore, const char *output);
 
 /* ---- Writes the documents that are made from a plan: one of them, or all into a folder, where
  * they have their usual names (lib/lib.h has the table). Shared by `thread draw` and `thread plan`.
@@ -86,6 +86,9 @@ int drawings_claim(const char *command, const char *folder, int i);
 /* Returns whether one of all documents, or the plan, would take the place of such a file. */
 bool drawings_would_lose(const char *folder);
 
+/* Takes down for programs what drawings_write_all is going to write (answer_file). */
+void drawings_foretell(const thr_plan *plan, const char *folder, const drawings_args *a);
+
 /* Appends how many pieces hang loose in a chain at most while the plan is threaded: "longest loose
  * chain: 8 pieces". */
 thr_status drawings_chains(const thr_plan *plan, const drawings_args *a, thr_text *text,
@@ -112,7 +115,7 @@ typedef struct {
   int method;               /* thr_method, PULL_RISE or PULL_ALL_METHODS */
   const char *pull;         /* which ends, as given */
   double newtons;           /* .. or, of PULL_RISE, the most that a hand pulls; 0 = not said */
-  bool json, no_cache;
+  bool no_cache;
   char cache[1024]; /* where options.cache points unless given */
 } pull_args;
 

@@ -99,6 +99,7 @@ static thr_status make_one(const thr_plan *plan, int i, const thr_layout *layout
   thr_limits limits = cli_limits(0);
 
   if (thr_limits_stop(&limits)) limits.interrupted = NULL;
+  cli_step("drawing", thr_document_file(i));
 
   /* What cannot be drawn in time or memory leaves no half of a file. */
   thr_status st = thr_document_make(plan, i, &options, &limits, text, err);
@@ -115,7 +116,10 @@ static int write_one(const thr_plan *plan, int i, const thr_layout *layout, cons
   thr_text text = {0};
   const thr_status st = make_one(plan, i, layout, args, &text, &err);
 
-  return cli_write_drawn(st, &text, path, &err);
+  const int code = cli_write_drawn(st, &text, path, &err);
+  if (!code) answer_file(path, thr_document_meaning(i));
+
+  return code;
 }
 
 int drawings_write(const thr_plan *plan, int i, const char *path, const drawings_args *args)
@@ -192,6 +196,18 @@ bool drawings_would_lose(const char *folder)
   join_path(folder, "plan.json", path);
 
   return lost || files_is_taken(path, NULL);
+}
+
+void drawings_foretell(const thr_plan *plan, const char *folder, const drawings_args *args)
+{
+  char path[1200];
+
+  for (int i = 0; i < thr_documents_count(); i++) {
+    if (!thr_document_usual(i)) continue;
+    if (i == thr_document_sheets() && drawings_no_sheets(plan, args)) continue;
+    join_path(folder, thr_document_file(i), path);
+    answer_file(path, thr_document_meaning(i));
+  }
 }
 
 /* Returns the document that is made as number k: all in the order of the table, but the step sheets

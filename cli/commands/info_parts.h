@@ -41,6 +41,6 @@ extern const cli_option turn_options[];
 
 /* Prints how far two pieces can turn, in closed form and in simulation, and draws the plot. Returns
  * an exit code. */
-int turn_print(const turn_arguments *args, bool json);
+int turn_print(const turn_arguments *args);
 
 #endif

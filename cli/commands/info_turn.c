@@ -107,7 +107,7 @@ static int write_plot(const thr_turn_piece *piece, double most, const thr_turn_m
   return cli_write_drawn(st, &svg, path, &err);
 }
 
-int turn_print(const turn_arguments *args, bool json)
+int turn_print(const turn_arguments *args)
 {
   thr_turn_piece piece = args->piece;
   thr_turn_mark dot[DOTS];
@@ -128,6 +128,6 @@ int turn_print(const turn_arguments *args, bool json)
     if (code) return code;
   }
   thr_text text = {0};
-  (json ? put_json : put_text)(&piece, dot, &text);
-  return cli_write(&text, "-");
+  (cli_json ? put_json : put_text)(&piece, dot, &text);
+  return print_text(&text);
 }

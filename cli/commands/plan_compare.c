@@ -56,7 +56,7 @@ static int put_objective(thr_writer *writer, const plan_arguments *args, thr_obj
   int code = pull_eval(&args->pull, thr_objective_name(objective), plan, THR_JOINT, &eval);
 
   /* A pull that is not known is told as such. */
-  if (args->json)
+  if (cli_json)
     put_pull_json(writer, objective, &eval, code);
   else
     put_pull(writer->out, args, objective, plan, &eval, code);
@@ -98,7 +98,7 @@ int plan_put_comparison(thr_writer *writer, const plan_arguments *args, const th
 {
   int code = EXIT_OK;
 
-  if (args->json)
+  if (cli_json)
     thr_write_array(writer, "objectives");
   else
     thr_text_append(writer->out, "\nlargest pull by objective, joints measured in simulation\n");
@@ -109,7 +109,7 @@ int plan_put_comparison(thr_writer *writer, const plan_arguments *args, const th
     if (!code) code = done;
   }
 
-  if (args->json) thr_write_close(writer);
+  if (cli_json) thr_write_close(writer);
 
   return code;
 }

@@ -57,6 +57,9 @@ int plan_try_places(const plan_arguments *args)
   char stem[256];
 
   cli_stem(args->path, stem, sizeof stem);
+
+  /* A folder of the name of a framework that is not there would be read in its place. */
+  if (strcmp(stem, args->path) == 0 && access(args->path, F_OK) != 0) return EXIT_OK;
   if (!args->draw && !args->output) return files_try_folder(stem);
   int code = args->draw ? drawings_claim("plan", args->draw, -1) : EXIT_OK;
   if (code || !args->draw || args->output) return code;
@@ -122,6 +125,7 @@ static int write_plan(const plan_arguments *args, thr_plan *plan, output_places 
   thr_plan_write(plan, &text);
 
   int refused = plan_find_places(args, &text, places);
+  cli_step("checking the plan", "");
   if (!refused) refused = check_text(&text, places->plan, plan, code);
 
   if (refused) {
@@ -174,7 +178,7 @@ static int print_places(const plan_arguments *args, const thr_plan *plan, const 
   if (unsaid && !thr_wants_length(&plan->options)) advice_put_recommended(plan, &text);
   advice_put_hint(plan, unsaid, &text);
 
-  return cli_write(&text, "-");
+  return print_text(&text);
 }
 
 /* Draws everything into the folder. Drawings are always whole: a limit on the time is the search's.
@@ -203,15 +207,20 @@ int plan_write_outputs(const plan_arguments *args, planned_result *result, int *
 
   if (!places.plan) return written; /* there is none */
 
+  /* The summary for programs comes before the drawings, and names them. */
+  answer_file(places.plan, "the plan");
+  if (places.folder && !written) drawings_foretell(plan, places.folder, &args->drawings);
+
   /* A plan on stdout leaves no place for a summary. */
   const bool is_silent =
-      strcmp(places.plan, "-") == 0 || (cli_quiet && !args->json && !args->request.plot);
+      strcmp(places.plan, "-") == 0 || (cli_quiet && !cli_json && !args->request.plot);
+  cli_step("measuring the cords", "");
   int code = is_silent ? EXIT_OK : plan_print_summary(args, result);
 
   /* Drawings are made only of a plan that is where it was to be. */
   const int drawn = written ? EXIT_OK : write_drawings(args, plan, &places);
   if (!code) code = drawn;
-  if (!code && !is_silent && !args->json && !cli_quiet)
+  if (!code && !is_silent && !cli_json && !cli_quiet)
     code = print_places(args, plan, places.plan, written ? NULL : places.folder);
 
   return written ? written : code;

@@ -24,7 +24,7 @@ typedef struct {
   thr_request wanted; /* aims, and what belongs to them */
   const char *path, *output, *draw;
   drawings_args drawings;
-  bool json, compare, force, progress;
+  bool compare, force, progress;
 } plan_arguments;
 
 /* What was planned: the plan, and what else the planner found. */

@@ -18,10 +18,9 @@ static double deadline_of(const plan_arguments *args)
 }
 
 /* Adds the summary of the plan, as text or JSON. */
-static void put_plan(thr_writer *writer, const plan_arguments *args, const planned_result *result,
-                     const thr_rivals *rivals)
+static void put_plan(thr_writer *writer, const planned_result *result, const thr_rivals *rivals)
 {
-  if (args->json)
+  if (cli_json)
     plan_put_json(writer, &result->plan, rivals, result->report.word);
   else
     plan_put_summary(writer->out, &result->plan, rivals, result->report.word);
@@ -80,8 +79,8 @@ static int put_turning(thr_writer *writer, const plan_arguments *args, planned_r
   limits.deadline = deadline_of(args);
 
   /* What nobody asked for is held against nothing on the first screen. */
-  if (plan_is_recommended(args) && !args->json && !cli_verbose) {
-    put_plan(writer, args, result, NULL);
+  if (plan_is_recommended(args) && !cli_json && !cli_verbose) {
+    put_plan(writer, result, NULL);
     return EXIT_OK;
   }
 
@@ -96,7 +95,7 @@ static int put_turning(thr_writer *writer, const plan_arguments *args, planned_r
              "for the cord that turns most");
   if (rivals.no_frontier.code) cli_note("no frontier: %s", rivals.no_frontier.text);
 
-  put_plan(writer, args, result, &rivals);
+  put_plan(writer, result, &rivals);
   int code = st ? cli_fail(&err) : EXIT_OK;
   if (!code && args->request.plot) code = write_frontier(args, &result->plan, &rivals);
   thr_rivals_destroy(&rivals);
@@ -106,21 +105,20 @@ static int put_turning(thr_writer *writer, const plan_arguments *args, planned_r
 
 /* Adds the table of groups and the summary of a symmetric plan. At most 8 rows as text; all of them
  * as JSON. */
-static void put_symmetry(thr_writer *writer, const plan_arguments *args,
-                         const planned_result *result)
+static void put_symmetry(thr_writer *writer, const planned_result *result)
 {
   enum { ROWS = 8 };
   const thr_plan *plan = &result->plan;
 
-  if (!args->json) {
+  if (!cli_json) {
     symmetry_put_head(writer->out, &plan->frame, &plan->options, &result->report.symmetries);
     symmetry_put_table(writer->out, &plan->options, &result->report.symmetries, ROWS);
     thr_text_append(writer->out, "\n");
   }
 
   /* The plan itself, and in JSON the table after it. */
-  put_plan(writer, args, result, NULL);
-  if (!args->json) return;
+  put_plan(writer, result, NULL);
+  if (!cli_json) return;
   thr_write_object(writer, "symmetries");
   thr_symmetries_put_table(writer, &plan->options, &result->report.symmetries);
   thr_write_close(writer);
@@ -132,32 +130,33 @@ int plan_print_summary(const plan_arguments *args, planned_result *result)
   thr_writer writer = {.out = &text};
   int code = EXIT_OK;
 
-  if (args->json) thr_write_object(&writer, NULL);
+  if (cli_json) thr_write_object(&writer, NULL);
 
   /* Each objective is compared with something else. */
   if (thr_wants_turning(&result->plan.options))
     code = put_turning(&writer, args, result);
   else if (thr_wants_symmetry(&result->plan.options))
-    put_symmetry(&writer, args, result);
+    put_symmetry(&writer, result);
   else
-    put_plan(&writer, args, result, NULL);
+    put_plan(&writer, result, NULL);
 
   if (args->compare) {
     int done = plan_put_comparison(&writer, args, &result->plan, deadline_of(args));
     if (!code) code = done;
   }
 
-  if (args->json) {
+  if (cli_json) {
+    answer_put_files(&writer);
     thr_write_close(&writer);
     thr_text_append(&text, "\n");
   }
 
   /* With --quiet the text was made only because a picture is made on the way. */
   int written = EXIT_OK;
-  if (cli_quiet && !args->json)
+  if (cli_quiet && !cli_json)
     thr_text_destroy(&text);
   else
-    written = cli_write(&text, "-");
+    written = print_text(&text);
 
   return code ? code : written;
 }

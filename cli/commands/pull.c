@@ -155,7 +155,6 @@ const cli_option pull_options[] = {
     {"seed", .value = "N", .kind = CLI_OTHER, .take = take_seed,
      .help = "number of the small disorder that a simulation begins with, 0 to 2^53 (default: 0; "
              "rise: 1, of the first run)"},
-    {"json", .kind = CLI_FLAG, AT(json), .help = "everything as JSON"},
     {0}};
 
 /* Factors on the simulation's validated time step and iterations. */
@@ -289,6 +288,7 @@ int pull_eval(const pull_args *args, const char *path, const thr_plan *plan, thr
   }
 
   thr_limits limits = cli_limits(0);
+  cli_step("measuring the pull of", path);
   thr_status st = thr_eval_plan(&plan->frame, plan->cord, plan->n_cords, method, &options, &limits,
                                 out, &found);
   free(pulls);

@@ -88,7 +88,6 @@ typedef struct {
   double newtons;   /* 0: as many as usual */
   double time_step; /* factor */
   int seed;         /* -1: the usual one */
-  bool json;
 } rise_usual;
 
 /* Lets the plan of this file rise once, in a guarded child, and prints what was seen. Returns the

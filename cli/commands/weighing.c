@@ -11,6 +11,7 @@
  * mu_bead = 0.306. */
 
 #include "cli/commands/commands.h"
+#include "cli/print/print.h"
 #include "graph/io/read.h"
 #include "diagram/export/paper.h"
 #include "eval/cord/profile.h"
@@ -164,7 +165,7 @@ static thr_status fit_frictions(const bench_results *results, thr_text *file, th
 
 /* Parses the results of the bench and writes the file, or to stdout what was found. Returns an exit
  * code. */
-static int weigh(const char *value, const char *output, bool json)
+static int weigh(const char *value, const char *output)
 {
   bench_results results = {0};
   thr_err err = {0};
@@ -186,7 +187,7 @@ static int weigh(const char *value, const char *output, bool json)
 
   /* On stdout there is either the file or what is said of it. */
   const bool to_stdout = output && strcmp(output, "-") == 0;
-  if (json || to_stdout) {
+  if (cli_json || to_stdout) {
     thr_text_destroy(&said);
     return cli_write(&file, "-");
   }
@@ -197,10 +198,10 @@ static int weigh(const char *value, const char *output, bool json)
   if (!output) thr_text_destroy(&file);
   if (code) thr_text_destroy(&said);
 
-  return code ? code : cli_write(&said, "-");
+  return code ? code : print_text(&said);
 }
 
-int calibrate_run(const char *value, double bore, const char *output, bool json)
+int calibrate_run(const char *value, double bore, const char *output)
 {
-  return strcmp(value, "piece") == 0 ? draw_piece(bore, output) : weigh(value, output, json);
+  return strcmp(value, "piece") == 0 ? draw_piece(bore, output) : weigh(value, output);
 }

@@ -99,9 +99,10 @@ void advice_put_head(thr_text *text, const thr_frame *frame, const thr_physics *
                   physics->mu_low, physics->mu_high);
 
   /* The columns of advice_put_row. */
-  thr_text_printf(text, "   cords  %-11s %14s %8s %10s %12s %13s %19s %6s  %s\n", "ends", units,
-                  "overlap", "longest", "most turning", "pull, N", "in the band of mu", "steps",
-                  "proved");
+  thr_text_printf(
+      text, "   cords\v0  %-11s\v3 %14s\v4 %8s\v7 %10s\v6 %12s\v0 %13s\v2 %19s\v5 %6s\v1  %s\n",
+      "ends", units, "overlap", "longest", "most turning", "pull, N", "in the band of mu", "steps",
+      "proved");
 }
 
 void advice_put_row(thr_text *text, const thr_advice_row *row, double base_length, const char *mark)
@@ -120,8 +121,10 @@ void advice_put_row(thr_text *text, const thr_advice_row *row, double base_lengt
     snprintf(proof, sizeof proof, "turning of at least %.0f deg", floor(thr_degrees(row->bound)));
 
   /* An overlap that rounds to 0 has no sign. */
-  thr_text_printf(text, "%-3s%5d  %-11s %14.3f %6.1f %% %10.4g %8.0f deg %13s %19s %6d  %s\n", mark,
-                  row->cords, thr_advice_ends(row->ends), row->length, over < 0.05 ? 0 : over,
+  thr_text_printf(text,
+                  "%-3s%5d\v0  %-11s\v3 %14.3f\v4 %6.1f %%\v7 %10.4g\v6 %8.0f deg\v0 %13s\v2 "
+                  "%19s\v5 %6d\v1  %s\n",
+                  mark, row->cords, thr_advice_ends(row->ends), row->length, over < 0.05 ? 0 : over,
                   row->longest, thr_degrees(row->turning),
                   plain_two(row->other, row->pull[THR_ADVICE_MU], pull), band, row->steps, proof);
 }

@@ -305,5 +305,5 @@ void compare_put_cell(thr_text *text, int row, double value, bool best)
   else
     snprintf(cell, sizeof cell, "%.*f", decimals, value);
 
-  thr_text_printf(text, " %16s%s", cell, best ? "*" : " ");
+  thr_text_printf(text, "\v0 %16s%s", cell, best ? "*" : " ");
 }

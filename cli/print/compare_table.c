@@ -25,7 +25,7 @@ static void put_names(thr_text *text, const compare_entry *entries, int n)
   for (int i = 0; i < n; i++) {
     char number[24];
     snprintf(number, sizeof number, "plan %d", i + 1);
-    thr_text_printf(text, " %16s ", wide ? number : entries[i].path);
+    thr_text_printf(text, "\v0 %16s ", wide ? number : entries[i].path);
   }
 }
 
@@ -36,19 +36,19 @@ static void put_head(thr_text *text, const compare_entry *entries, int n)
   put_names(text, entries, n);
   thr_text_printf(text, "\n%-32s", "objective");
   for (int i = 0; i < n; i++)
-    thr_text_printf(text, " %16s ",
+    thr_text_printf(text, "\v0 %16s ",
                     thr_objective_name(thr_aims_objective(&entries[i].plan.options)));
 
   /* Where cords may end: at the feet, anywhere, or nowhere. */
   thr_text_printf(text, "\n%-32s", "ends");
   for (int i = 0; i < n; i++)
-    thr_text_printf(text, " %16s ", thr_ends_name(entries[i].plan.options.ends));
+    thr_text_printf(text, "\v0 %16s ", thr_ends_name(entries[i].plan.options.ends));
 
   /* A frontier needs something to be compared with. */
   if (n < 2) return;
   thr_text_printf(text, "\n%-32s", "on the frontier");
   for (int i = 0; i < n; i++)
-    thr_text_printf(text, " %16s ", compare_on_frontier(entries, n, i) ? "yes" : "-");
+    thr_text_printf(text, "\v0 %16s ", compare_on_frontier(entries, n, i) ? "yes" : "-");
 }
 
 bool compare_same_physics(const compare_entry *one, const compare_entry *other)

@@ -100,9 +100,9 @@ static void put_cell(thr_text *text, int width, int n_digits, double value, bool
 static void put_loss(thr_text *text, double loss)
 {
   if (loss >= 0.99995 && loss < 1)
-    thr_text_append(text, "  >99.99 %");
+    thr_text_append(text, "\v4  >99.99 %");
   else
-    thr_text_printf(text, " %7.2f %%", 100 * loss);
+    thr_text_printf(text, "\v4 %7.2f %%", 100 * loss);
 }
 
 /* Appends the relative error of a cord's pull in per cent. Where turns were refused, it is the
@@ -111,28 +111,30 @@ static void put_error(thr_text *text, const thr_eval_cord *cord)
 {
   char cell[40];
   snprintf(cell, sizeof cell, "%s%.2f", cord->refused > 0 ? ">" : "", pull_percent(cord->error));
-  thr_text_printf(text, " %6s %%", cell);
+  thr_text_printf(text, "\v1 %6s %%", cell);
 }
 
 /* Appends the line of a cord. tight: with a column for the turning of the tight cord. */
 static void put_cord(thr_text *text, const char *id, const thr_eval_cord *cord, thr_method method,
                      bool tight)
 {
-  thr_text_printf(text, "%-5s %8.1f deg", id, thr_degrees(cord->turning));
-  if (tight) thr_text_printf(text, " %8.1f deg", thr_degrees(cord->taut_turning));
+  thr_text_printf(text, "%-5s\v3 %8.1f deg", id, thr_degrees(cord->turning));
+  if (tight) thr_text_printf(text, "\v6 %8.1f deg", thr_degrees(cord->taut_turning));
+  thr_text_append(text, PRINT_CELL "0");
   put_cell(text, 12, digits(method), cord->force, true);
 
   /* The other end is pulled only if both are. */
+  thr_text_append(text, PRINT_CELL "0");
   put_cell(text, 13, digits(method), cord->other_force, cord->pull == THR_PULL_BOTH);
   put_loss(text, cord->loss);
-  thr_text_printf(text, " %10.4g J", cord->work);
+  thr_text_printf(text, "\v5 %10.4g J", cord->work);
   if (method == THR_JOINT) put_error(text, cord);
 
   /* Passes are counted from 1 for users. */
   if (cord->pull == THR_PULL_NONE)
-    thr_text_append(text, "  not pulled\n");
+    thr_text_append(text, "\v2  not pulled\n");
   else
-    thr_text_printf(text, "  %d of %d\n", cord->slackest + 1, cord->n_passes);
+    thr_text_printf(text, "\v2  %d of %d\n", cord->slackest + 1, cord->n_passes);
 }
 
 /* Appends the table of cords. */
@@ -140,9 +142,9 @@ static void put_cords(thr_text *text, const thr_plan *plan, const thr_evaluation
 {
   const bool joint = evaluation->method == THR_JOINT, tight = joint || evaluation->standing.taut;
 
-  thr_text_printf(text, "%-5s %12s%s %12s %13s %9s %12s%s  %s\n", "cord", "turning",
-                  tight ? "    when tight" : "", "pull (N)", "other end (N)", "loss", "work per m",
-                  joint ? "   error +-" : "", "slackest pass");
+  thr_text_printf(text, "%-5s\v3 %12s%s\v0 %12s\v0 %13s\v4 %9s\v5 %12s%s\v2  %s\n", "cord",
+                  "turning", tight ? "\v6    when tight" : "", "pull (N)", "other end (N)", "loss",
+                  "work per m", joint ? "\v1   error +-" : "", "slackest pass");
 
   /* A cord that is not known has no numbers at all. */
   for (int i = 0; i < evaluation->n_cords; i++) {

@@ -64,18 +64,18 @@ static void put_cord(thr_text *text, const thr_plan *plan, const thr_cord *cord,
 
   /* The sharpest turn matters for least turning, the capstan factor for those who ask. */
   plain_both(seated ? fmin(seated->force, seated->other_force) : newton, newton, force);
-  thr_text_printf(text, "%-5s %7d %14.3f %6.0f deg ", cord->id, cord->n_passes,
+  thr_text_printf(text, "%-5s\v4 %7d\v2 %14.3f\v0 %6.0f deg", cord->id, cord->n_passes,
                   thr_cord_length(&plan->frame, cord), thr_degrees(turns.turning));
-  if (minimizes_turning(plan)) thr_text_printf(text, "%6.0f deg ", thr_degrees(turns.sharpest));
-  thr_text_printf(text, "%8d ", turns.u_turns);
+  if (minimizes_turning(plan)) thr_text_printf(text, "\v5 %6.0f deg", thr_degrees(turns.sharpest));
+  thr_text_printf(text, "\v6 %8d", turns.u_turns);
   if (cli_verbose)
     thr_text_printf(
-        text, "%12s ",
+        text, "\v7 %12s",
         turning_factor(turning_capstan(plan->options.physics.mu, turns.turning), factor));
 
   /* A closed cord begins and ends at the same node. */
-  thr_text_printf(text, "%18s", force);
-  thr_text_printf(text, cord->closed ? "  both at %s\n" : "  %s and %s\n", from, to);
+  thr_text_printf(text, "\v0 %18s", force);
+  thr_text_printf(text, cord->closed ? "\v1  both at %s\n" : "\v1  %s and %s\n", from, to);
 }
 
 /* Appends the table of at most 12 cords. pull: of each, as a factor on the seating tension. */
@@ -84,11 +84,11 @@ static void put_cords(thr_text *text, const thr_plan *plan, const double *pull,
 {
   enum { MOST = 12 };
 
-  thr_text_printf(text, "%-5s %7s %14s %10s ", "cord", "passes", "length", "turning");
-  if (minimizes_turning(plan)) thr_text_printf(text, "%10s ", "sharpest");
-  thr_text_printf(text, "%8s ", "U-turns");
-  if (cli_verbose) thr_text_printf(text, "%12s ", "capstan");
-  thr_text_printf(text, "%18s  %s\n", "pull", "ends");
+  thr_text_printf(text, "%-5s\v4 %7s\v2 %14s\v0 %10s", "cord", "passes", "length", "turning");
+  if (minimizes_turning(plan)) thr_text_printf(text, "\v5 %10s", "sharpest");
+  thr_text_printf(text, "\v6 %8s", "U-turns");
+  if (cli_verbose) thr_text_printf(text, "\v7 %12s", "capstan");
+  thr_text_printf(text, "\v0 %18s\v1  %s\n", "pull", "ends");
 
   /* A line per cord, the first twelve. */
   for (int i = 0; i < plan->n_cords && i < MOST; i++)
@@ -563,6 +563,44 @@ static void put_cut_json(thr_writer *writer, const thr_plan *plan)
   free(only);
 }
 
+/* Writes each cord: length in units, turning in rad, pulls in N at the harder and the easier end,
+ * the two ends and all nodes by their names. pull[n_cords]: factors on the seating tension, NULL:
+ * not known; seated: as put_cord has it. */
+static void put_each_cord_json(thr_writer *writer, const thr_plan *plan, const double *pull,
+                               const thr_eval *seated)
+{
+  const thr_frame *frame = &plan->frame;
+
+  thr_write_array(writer, "each_cord");
+  for (int i = 0; i < plan->n_cords; i++) {
+    const thr_cord *cord = &plan->cord[i];
+    const double newton = pull ? pull[i] * plan->options.physics.seating : NAN;
+    const thr_eval_cord *known = seated ? &seated->record.cord[i] : NULL;
+
+    thr_write_object(writer, NULL);
+    thr_write_string(writer, "id", cord->id);
+    thr_write_bool(writer, "closed", cord->closed);
+    thr_write_int(writer, "passes", cord->n_passes);
+    thr_write_number(writer, "length", thr_cord_length(frame, cord));
+    thr_write_number(writer, "turning", thr_cord_turning(frame, cord, cord->closed));
+    thr_write_number(writer, "pull", newton);
+    thr_write_number(writer, "other_pull", known ? fmin(known->force, known->other_force) : newton);
+
+    /* Names, as steps and drawings have them. */
+    thr_write_row(writer, "ends");
+    thr_write_string(writer, NULL, frame->name[thr_cord_start(frame, cord)]);
+    thr_write_string(writer, NULL, frame->name[thr_cord_end(frame, cord)]);
+    thr_write_close(writer);
+    thr_write_row(writer, "nodes");
+    thr_write_string(writer, NULL, frame->name[thr_cord_start(frame, cord)]);
+    for (int k = 0; k < cord->n_passes; k++)
+      thr_write_string(writer, NULL, frame->name[thr_head(frame, cord->half[k])]);
+    thr_write_close(writer);
+    thr_write_close(writer);
+  }
+  thr_write_close(writer);
+}
+
 void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *rivals,
                    thr_cords_word word)
 {
@@ -587,10 +625,16 @@ void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *r
   thr_write_string(writer, "status", plan->proof.optimal ? "optimal" : "bound");
 
   /* Pulls: as factors on the seating tension, and in N. */
-  double factor = turning_pull(plan, NULL);
+  double factor = NAN, *pull = compute_pulls(writer->out, plan, &factor);
   thr_write_number(writer, "pull_factor", factor);
   thr_write_number(writer, "pull", factor * plan->options.physics.seating);
   turning_put_ends_json(writer, plan);
+
+  thr_eval seated;
+  const bool known = !thr_eval_closed_form(plan, plan->options.physics.seating, &seated, NULL);
+  put_each_cord_json(writer, plan, pull, known ? &seated : NULL);
+  thr_eval_destroy(&seated);
+  free(pull);
 
   /* What is proved of the number of cords. */
   if (plan->options.max_pull > 0) thr_write_number(writer, "max_pull", plan->options.max_pull);

@@ -7,11 +7,12 @@
  * sentence says "proved" of what the checker has verified (graph/check/check.h), and of nothing
  * else. Memory that runs out is kept in text->failed, which whoever writes the text reports.
  *
- * Read plain.c first: forces and proofs in words, which all others use. Then, by command:
- * plan_summary.c with turning_summary.c, symmetry_table.c and seated.c (thread plan); verdict.c and
- * terms.c (thread check); eval_text.c, eval_json.c and load_words.c (thread eval); compare_rows.c
- * and ranking.c, compare_rankings.c, compare_rises.c and compare_table.c (thread compare);
- * advice_table.c (thread advise); facts.c, motion_facts.c (thread info). */
+ * Read plain.c first: forces and proofs in words, which all others use; terminal.c fits tables to
+ * the terminal. Then, by command: plan_summary.c with turning_summary.c, symmetry_table.c and
+ * seated.c (thread plan); verdict.c and terms.c (thread check); eval_text.c, eval_json.c and
+ * load_words.c (thread eval); compare_rows.c and ranking.c, compare_rankings.c, compare_rises.c and
+ * compare_table.c (thread compare); advice_table.c (thread advise); facts.c, motion_facts.c (thread
+ * info). */
 #ifndef THR_PRINT_H
 #define THR_PRINT_H
 
@@ -81,6 +82,20 @@ bool plain_put_fewest(thr_text *text, const thr_plan *plan, int fewest, const ch
 /* Appends whether a hand can pull that much: "too hard for a hand, which manages about 50 N (5.1
  * kg)"; "within the 10 N (1 kg) that a hand manages time after time". */
 void plain_put_hand(thr_text *text, double newton);
+
+/* ---- terminal.c: Fits what is printed to the width of the terminal. */
+
+/* Stands before each cell of a table but the first, followed by a digit: how soon the column is
+ * left out where there is no room, 9 first, 1 last, 0 never. */
+#define PRINT_CELL "\v"
+
+/* Fits text to so many columns: tables lose columns, other lines are wrapped. 0: only the marks of
+ * cells go. O(bytes). */
+void print_fit(thr_text *text, int columns);
+
+/* Fits the text to the terminal that stdout may be, unless it is JSON, and writes it there as
+ * cli_write does. Returns an exit code. */
+int print_text(thr_text *text);
 
 /* ---- ranking.c: Ranks plans by a value of which only an interval is known. */
 

@@ -68,7 +68,7 @@ static void format_copies(const thr_symmetry_row *row, char out[40])
 }
 
 /* Returns the first aim, in the order that was asked for, that may not be as low as can be: its
- * value is above its bound. "nothing" if all are optimal by the solver's word. */
+ * value is above its bound. "nothing" if the search has proved all. */
 static const char *find_unproved_aim(const thr_request *options, const thr_symmetry_row *row)
 {
   static const char *const no[] = {[THR_AIM_OVERLAP] = "overlap",
@@ -131,6 +131,13 @@ void symmetry_put_head(thr_text *text, const thr_frame *frame, const thr_request
       symmetries->shortest_optimal ? "" : " (not proved)");
 }
 
+/* Returns whether the table says how far symmetries are from motions of the shape: to those who
+ * ask. */
+static bool shows_residual(const thr_request *options)
+{
+  return cli_verbose || options->symmetry.geometric >= 0;
+}
+
 /* Appends row i of the table. */
 static void put_row(thr_text *text, const thr_request *options, const thr_symmetries *symmetries,
                     int i)
@@ -139,28 +146,29 @@ static void put_row(thr_text *text, const thr_request *options, const thr_symmet
   const thr_metrics *metrics = &row->metrics;
   char copies[40], force[24];
 
-  thr_text_printf(text, "%c %4d %6d  %-6s ", i == symmetries->chosen ? '*' : ' ', i + 1, row->order,
-                  *row->name ? row->name : "graph");
+  thr_text_printf(text, "%c %4d\v4 %6d\v0  %-6s\v0 ", i == symmetries->chosen ? '*' : ' ', i + 1,
+                  row->order, *row->name ? row->name : "graph");
 
   /* A threading, or why there is none. */
   if (row->n_cords > 0) {
     format_copies(row, copies);
     thr_text_printf(
-        text, "%7.1f %% %14s %8.6g %5d %6d %8.0f deg %8.0f deg %12s %11s",
+        text, "%7.1f %%\v3 %14s\v0 %8.6g\v5 %5d\v0 %6d\v6 %8.0f deg\v2 %8.0f deg\v0 %12s\v1 %11s",
         100 * metrics->overlap / metrics->base_length, copies, row->record.steps, row->instructions,
         row->n_cords, thr_degrees(metrics->turning), thr_degrees(metrics->max_turning),
         plain_newtons(thr_symmetry_row_pull(options, row), force), find_unproved_aim(options, row));
   } else {
     /* Not in time, or a failure; a row without a threading has none, or was not asked for. */
     bool open = row->why.code == THR_ELIMIT || row->why.code == THR_ESOLVER;
-    thr_text_printf(text, "  %-95.95s",
+    thr_text_printf(text, "  %-95.95s\v3\v0\v5\v0\v6\v2\v0\v1",
                     open            ? row->why.text
                     : row->why.code ? "no threading"
                                     : "not asked for");
   }
 
   /* How far the elements are from isometries, and of which kinds they are. */
-  thr_text_printf(text, " %8.3f  ", row->residual);
+  if (shows_residual(options)) thr_text_printf(text, "\v9 %8.3f", row->residual);
+  thr_text_append(text, PRINT_CELL "8  ");
   put_kinds(text, row);
   thr_text_append(text, "\n");
 }
@@ -213,6 +221,16 @@ static void choose_window(const thr_request *options, const thr_symmetries *symm
   *last = n < *first + most ? n : *first + most;
 }
 
+/* Appends, for each threading that is not proved best, what the search says of the proof. */
+static void put_whys(thr_text *text, const thr_request *options, const thr_symmetries *symmetries)
+{
+  for (int i = 0; i < symmetries->n; i++) {
+    const thr_symmetry_row *row = &symmetries->row[i];
+    if (is_shown(options, symmetries, i) && row->n_cords > 0 && row->why.code)
+      thr_text_printf(text, "  group %d: %s\n", i + 1, row->why.text);
+  }
+}
+
 void symmetry_put_table(thr_text *text, const thr_request *options,
                         const thr_symmetries *symmetries, int most)
 {
@@ -222,9 +240,13 @@ void symmetry_put_table(thr_text *text, const thr_request *options,
                 &last);
 
   /* "read": instructions; "may be less": the first aim that is not proved. */
-  thr_text_printf(text, "%6s %6s  %-6s %9s %14s %8s %5s %6s %12s %12s %12s %11s %8s  %s\n",
+  thr_text_printf(text,
+                  "%6s\v4 %6s\v0  %-6s\v0 %9s\v3 %14s\v0 %8s\v5 %5s\v0 %6s\v6 %12s\v2 %12s\v0 "
+                  "%12s\v1 %11s",
                   "number", "order", "group", "overlap", "paths x copies", "steps", "read", "cords",
-                  "turning", "largest", "pull, N", "may be less", "residual", "elements");
+                  "turning", "largest", "pull, N", "may be less");
+  if (shows_residual(options)) thr_text_printf(text, "\v9 %8s", "residual");
+  thr_text_append(text, PRINT_CELL "8  elements\n");
   if (first > 0) thr_text_printf(text, "    ..  %d larger\n", first);
 
   /* Rows by descending order of their groups; those outside of the window are counted. */
@@ -236,6 +258,7 @@ void symmetry_put_table(thr_text *text, const thr_request *options,
   }
 
   if (last < at) thr_text_printf(text, "    ..  %d smaller\n", at - last);
+  if (cli_verbose) put_whys(text, options, symmetries);
   if (symmetries->chosen >= 0) put_reason(text, options, symmetries);
 
   /* Rows that cannot be better than another one. */

@@ -389,7 +389,7 @@ static void put_cell(thr_text *text, format kind, double value, double seating)
              : kind == FORMAT_ANGLE ? thr_degrees(value)
                                     : value);
 
-  thr_text_printf(text, " %18s", cell);
+  thr_text_printf(text, "\v0 %18s", cell);
 }
 
 enum { MOST_COLUMNS = 4 };
@@ -442,7 +442,7 @@ void turning_put_table(thr_text *text, const thr_plan *plan, const thr_rivals *r
 
   /* Heads of the columns. */
   for (int k = 0; k < n; k++)
-    thr_text_printf(text, " %18s", columns[k].title);
+    thr_text_printf(text, "\v0 %18s", columns[k].title);
 
   /* Rows. The price is left out where it is the turning itself, the capstan factor without
    * --verbose. */
@@ -463,7 +463,7 @@ void turning_put_table(thr_text *text, const thr_plan *plan, const thr_rivals *r
   /* What is proved, and what is missing. */
   thr_text_printf(text, "\n%-27s", "proved to turn least");
   for (int k = 0; k < n; k++)
-    thr_text_printf(text, " %18s", columns[k].proved);
+    thr_text_printf(text, "\v0 %18s", columns[k].proved);
   thr_text_append(text, "\n");
   put_left_out(text, &rivals->corner);
   put_left_out(text, &rivals->length);
@@ -482,28 +482,29 @@ void turning_put_frontier(thr_text *text, const thr_plan *plan, const thr_rivals
   if (frontier->n == 0) return;
 
   /* Columns: with prices of their own, turning and price are different. */
-  thr_text_printf(text, "\nfrontier: the least turning for each length\n%14s %16s %13s", "length",
-                  "above shortest", "turning");
-  if (!angles) thr_text_printf(text, " %13s", "price");
-  thr_text_printf(text, " %13s %13s %12s\n", "at least", "largest cord", "pull, N");
+  thr_text_printf(text, "\nfrontier: the least turning for each length\n%14s\v3 %16s\v0 %13s",
+                  "length", "above shortest", "turning");
+  if (!angles) thr_text_printf(text, "\v0 %13s", "price");
+  thr_text_printf(text, "\v1 %13s\v2 %13s\v0 %12s\n", "at least", "largest cord", "pull, N");
 
   /* A line per point, from the shortest to the one that turns least. */
   for (int i = 0; i < frontier->n; i++) {
     const thr_frontier_point *frontier_point = &frontier->point[i];
     char force[24];
-    thr_text_printf(text, "%14.3f %14.2f %% %9.1f deg", frontier_point->length,
+    thr_text_printf(text, "%14.3f\v3 %14.2f %%\v0 %9.1f deg", frontier_point->length,
                     100 * fmax(0, frontier_point->length / plan->proof.lower_bound - 1),
                     thr_degrees(frontier_point->turning));
 
     /* The bound: nothing that is no longer turns less. */
     if (angles)
-      thr_text_printf(text, " %9.1f deg", thr_degrees(frontier_point->lower_bound));
+      thr_text_printf(text, "\v1 %9.1f deg", thr_degrees(frontier_point->lower_bound));
     else
-      thr_text_printf(text, " %13.6g %13.6g", frontier_point->price, frontier_point->lower_bound);
+      thr_text_printf(text, "\v0 %13.6g\v1 %13.6g", frontier_point->price,
+                      frontier_point->lower_bound);
 
     /* The cord that turns most, and the largest pull. */
     thr_text_printf(
-        text, " %9.1f deg %12s%s\n", thr_degrees(frontier_point->max_turning),
+        text, "\v2 %9.1f deg\v0 %12s%s\n", thr_degrees(frontier_point->max_turning),
         plain_newtons(turning_point_pull(plan, frontier_point, plan->options.physics.mu), force),
         frontier_point->open ? "  *" : "");
     proved &= !frontier_point->open;

@@ -419,11 +419,11 @@ static thr_status search_all(thr_cover_search *search, const thr_cover *known, t
 
   /* Hand over the best, and say if it is not proved. */
   if (st && st != THR_ELIMIT) return st;
-  if (!search->found) return fail_stopped(search, "find a symmetric cover", err);
+  if (!search->found) return fail_stopped(search, "find a symmetric threading", err);
   out->optimal = !st;
   thr_status given = fill_cover(search, out, err);
   if (given || !st) return given;
-  return fail_stopped(search, "prove that no symmetric cover is better", err);
+  return fail_stopped(search, "prove that no symmetric threading is better", err);
 }
 
 thr_status thr_cover_improve(const thr_quotient *quotient, const thr_cover_options *options,
