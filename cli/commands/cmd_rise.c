@@ -422,9 +422,9 @@ static void put_text(const rise_runs *runs, thr_text *text)
   thr_text_append(text, "\n");
   put_outcome(runs, text);
   thr_text_printf(
-      text,
-      "\n%d of %d faces closed, one a pass, highest node at %.3g mm, %.3g mm of cord drawn in\n",
-      record->most_closed, record->n_counted, last->height, last->drawn);
+      text, "\n%d of %d faces closed, one a pass, highest node at %.3g mm, %.3g mm of cord %s\n",
+      record->most_closed, record->n_counted, last->height, fabs(last->drawn),
+      last->drawn < 0 ? "given out" : "drawn in");
   put_lying(runs, text);
   if (record->most_closed < record->n_counted) {
     const char *name[2] = {"", ""};
@@ -589,25 +589,31 @@ static int write_plot(const rise_runs *runs, const char *name)
   return cli_write_drawn(st, &svg, runs->args->plot, &err);
 }
 
-/* Writes the first run as a film. Returns an exit code. */
+/* Writes the first run as a film: of finer meshes than those that rise, whose slivers would be seen
+ * as specks. Returns an exit code. */
 static int write_film(const rise_runs *runs)
 {
   const rise_arguments *args = runs->args;
   const thr_limits limits = cli_limits(0);
   const thr_film_options options = {.size = {args->size[0], args->size[1]}};
+  thr_kit_options finer = runs->pieces.kit.options;
   thr_err err = {0};
-  thr_movement movement;
+  thr_kit shown;
+  thr_movement movement = {0};
   thr_film *film = NULL;
   thr_text png = {0};
   const int code = args->frames ? cli_make_folder(args->frames) : EXIT_SUCCESS;
   if (code) return code;
 
-  thr_status st = thr_rise_movement(&movement, &runs->pieces.kit, &runs->record[0], &err);
-  if (!st) st = thr_film_open(&film, &runs->pieces.kit, &movement, &options, &err);
+  finer.coarse = 1;
+  thr_status st = thr_kit_make(&shown, runs->pieces.kit.plan, &finer, NULL, true, &limits, &err);
+  if (!st) st = thr_rise_movement(&movement, &shown, &runs->record[0], &err);
+  if (!st) st = thr_film_open(&film, &shown, &movement, &options, &err);
   if (!st) st = thr_film_write(film, args->frames, args->film ? &png : NULL, &limits, &err);
   cli_progress_end();
   thr_film_close(film);
   thr_movement_destroy(&movement);
+  thr_kit_destroy(&shown);
   if (args->film) return cli_write_drawn(st, &png, args->film, &err);
   return st ? cli_fail(&err) : EXIT_SUCCESS;
 }
@@ -715,6 +721,18 @@ static int write_booklet(const rise_runs *runs)
   return cli_write_drawn(st, &pages, runs->args->booklet, &err);
 }
 
+/* Says which files were written. */
+static void note_written(const rise_arguments *args)
+{
+  const char *const file[] = {args->output, args->plot, args->film,
+                              args->frames, args->play, args->booklet};
+  thr_text names = {0};
+  for (size_t i = 0; i < sizeof file / sizeof *file; i++)
+    if (file[i]) thr_text_printf(&names, "%s%s", names.data ? ", " : "", file[i]);
+  if (names.data && !names.failed) cli_note("written to %s", names.data);
+  thr_text_destroy(&names);
+}
+
 /* Prints and writes what was seen. Returns an exit code. */
 static int tell(const rise_runs *runs)
 {
@@ -742,6 +760,7 @@ static int tell(const rise_runs *runs)
     code = write_booklet(runs);
     if (code) return code;
   }
+  note_written(runs->args);
   text = (thr_text){0};
   if (runs->args->json)
     put_json(runs, false, &text);
