@@ -11,8 +11,8 @@
  *   thr_film_write(film, "rise", &animation, limits, err);
  *
  * film.c draws, film_marks.c has the colours and the words, picture.c the pieces, picture_png.c the
- * files. A kit whose meshes are 2.5 times as coarse and without names (thr_kit_options) is seen as
- * well and takes a part of the time. */
+ * files. A kit without names (thr_kit_options) takes a part of the time; one whose meshes are 2.5
+ * times as coarse has slivers that are seen as specks. */
 #ifndef THR_FILM_H
 #define THR_FILM_H
 

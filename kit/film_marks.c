@@ -179,7 +179,8 @@ static void print_state(const thr_movement *movement, int frame, char words[WORD
   if (isfinite(state->pull))
     n += snprintf(words + n, (size_t)(WORDS - n), "  pull %.3g N", state->pull);
   if (isfinite(state->drawn) && n < WORDS)
-    n += snprintf(words + n, (size_t)(WORDS - n), "  drawn %.0f mm", state->drawn);
+    n += snprintf(words + n, (size_t)(WORDS - n), "  %s %.0f mm",
+                  state->drawn < 0 ? "given out" : "drawn", fabs(state->drawn));
   if (movement->n_faces && n < WORDS)
     snprintf(words + n, (size_t)(WORDS - n), "  closed %d/%d", state->closed, movement->n_faces);
 }

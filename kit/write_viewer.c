@@ -16,7 +16,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { STEPS = 65535, HALF = 32767, TICKS = 4 };
+enum { STEPS = 65535, HALF = 32767 };
 
 /* Appends bytes as base64: a multiple of three, which needs no padding. */
 static void put_base64(const thr_text *bytes, thr_text *out)
@@ -159,7 +159,7 @@ static void put_cords(const thr_movement *movement, double most, thr_writer *wri
  * with an evaluation has one. */
 static void put_colours(double most, thr_writer *writer)
 {
-  double colour[THR_FILM_TENSIONS][3], tick[TICKS];
+  double colour[THR_FILM_TENSIONS][3];
   thr_film_tensions(colour);
   thr_write_array(writer, "colours");
   for (int i = 0; i < THR_FILM_TENSIONS; i++) {
@@ -175,13 +175,12 @@ static void put_colours(double most, thr_writer *writer)
   thr_write_number(writer, "low", 0);
   thr_write_number(writer, "high", most);
   thr_write_array(writer, "ticks");
-  const int n = thr_svg_ticks(0, most, false, TICKS, tick);
-  for (int i = 0; i < n; i++) {
-    char words[32];
-    thr_svg_force(tick[i], words);
+  for (int i = 0; i < 2; i++) { /* both ends */
+    char words[32] = "0 N";
+    if (i) thr_svg_force(most, words);
     thr_write_array(writer, NULL);
-    thr_write_printf(writer, NULL, "%.7g", tick[i]);
-    thr_write_string(writer, NULL, tick[i] == 0 ? "0" : words);
+    thr_write_printf(writer, NULL, "%.7g", i ? most : 0);
+    thr_write_string(writer, NULL, words);
     thr_write_close(writer);
   }
   thr_write_close(writer);
@@ -199,7 +198,9 @@ static void put_states(const thr_movement *movement, thr_writer *writer)
     if (isfinite(state->pull)) thr_text_printf(&words, ", pull %.2f N", state->pull);
     if (movement->n_faces)
       thr_text_printf(&words, ", %d of %d faces closed", state->closed, movement->n_faces);
-    if (isfinite(state->drawn)) thr_text_printf(&words, ", %.0f mm drawn in", state->drawn);
+    if (isfinite(state->drawn))
+      thr_text_printf(&words, ", %.0f mm %s", fabs(state->drawn),
+                      state->drawn < 0 ? "given out" : "drawn in");
     thr_write_words(writer, NULL, &words);
   }
   thr_write_close(writer);

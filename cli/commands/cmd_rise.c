@@ -52,6 +52,8 @@ static const char outro[] =
     "can be simulated, 5 not done in the time or memory (what was seen is printed)";
 
 enum { STILLS = 4 };
+static const double SHAKEN = 3;                        /* s */
+static const double MOST_SHAKE = 1000, MOST_BEAT = 50; /* mm, 1/s: as time steps can follow */
 static const double LIFTING = 2; /* of the structure's weight, that a hand carries at most */
 
 /* What was asked. */
@@ -80,6 +82,32 @@ static bool take_size(void *into, const cli_option *option, const char *value)
       size[1] >= 64 && size[0] <= 4000 && size[1] <= 4000)
     return true;
   cli_usage("rise", "--size %s: expected width x height in px, 64 to 4000, as 640x480", value);
+  return false;
+}
+
+/* Takes "5@8" or "5mm@8Hz". */
+static bool take_shake(void *into, const cli_option *option, const char *value)
+{
+  thr_rise_options *rise = &((rise_arguments *)into)->rise;
+  double number[2] = {0, 0};
+  bool good = true;
+  const char *rest = value;
+  (void)option;
+  for (int i = 0; i < 2 && good; i++) {
+    static const char *const unit[] = {"mm", "Hz"};
+    const char *end = i == 0 ? strchr(rest, '@') : rest + strlen(rest);
+    size_t n = end ? (size_t)(end - rest) : 0;
+    if (n > 2 && strncmp(rest + n - 2, unit[i], 2) == 0) n -= 2;
+    good = end && thr_number_parse(rest, n, &number[i]) && number[i] > 0;
+    rest = end ? end + 1 : rest;
+  }
+  rise->shake = number[0];
+  rise->beat = number[1];
+  if (good && number[0] <= MOST_SHAKE && number[1] <= MOST_BEAT) return true;
+  cli_usage("rise",
+            "--shake %s: expected mm to and fro, up to %g, @ and times a second, up to %g, as "
+            "5@8",
+            value, MOST_SHAKE, MOST_BEAT);
   return false;
 }
 
@@ -142,6 +170,11 @@ static const cli_option own_options[] = {
     {"dent", .value = "NODE=N", .kind = CLI_TEXT, AT(dent),
      .help = "while the pull is held, a hand pushes this piece inwards with so many newtons, and "
              "lets it go: how far the shape was dented, and is afterwards"},
+    {"shake", .value = "MM@HZ", .kind = CLI_OTHER, .take = take_shake,
+     .help = "once the pull is held, the ground and what is held go to and fro by so much, so many "
+             "times a second, each time in a direction by chance"},
+    {"shaking", .value = "S", .kind = CLI_AMOUNT, AT(rise.shaken), .low = CLI_ABOVE_0, .high = 1e4,
+     .help = "for so many seconds, then all rests (default: 3)"},
     {"seeds", .value = "N", .kind = CLI_COUNT, AT(seeds), .low = 1, .high = RISE_MOST_SEEDS,
      .help = "so many runs, each from another disorder: median and range (default: 1)"},
     {"seed", .value = "N", .kind = CLI_COUNT, AT(first_seed), .low = 0, .high = 1e9,
@@ -357,6 +390,9 @@ static void put_title(const rise_runs *runs, thr_text *text)
                   : options->start == THR_RISE_HEAP ? "from a heap"
                   : options->start == THR_RISE_LAID ? "from where it is laid"
                                                     : "from its shape");
+  if (options->shaken > 0)
+    thr_text_printf(text, ", then shaken for %.3g s by %.3g mm, %.3g times a second",
+                    options->shaken, options->shake, options->beat);
 }
 
 /* Appends whether it comes up, and at what pull. */
@@ -386,9 +422,9 @@ static void put_text(const rise_runs *runs, thr_text *text)
   thr_text_append(text, "\n");
   put_outcome(runs, text);
   thr_text_printf(
-      text,
-      "\n%d of %d faces closed, one a pass, highest node at %.3g mm, %.3g mm of cord drawn in\n",
-      record->most_closed, record->n_counted, last->height, last->drawn);
+      text, "\n%d of %d faces closed, one a pass, highest node at %.3g mm, %.3g mm of cord %s\n",
+      record->most_closed, record->n_counted, last->height, fabs(last->drawn),
+      last->drawn < 0 ? "given out" : "drawn in");
   put_lying(runs, text);
   if (record->most_closed < record->n_counted) {
     const char *name[2] = {"", ""};
@@ -553,25 +589,31 @@ static int write_plot(const rise_runs *runs, const char *name)
   return cli_write_drawn(st, &svg, runs->args->plot, &err);
 }
 
-/* Writes the first run as a film. Returns an exit code. */
+/* Writes the first run as a film: of finer meshes than those that rise, whose slivers would be seen
+ * as specks. Returns an exit code. */
 static int write_film(const rise_runs *runs)
 {
   const rise_arguments *args = runs->args;
   const thr_limits limits = cli_limits(0);
   const thr_film_options options = {.size = {args->size[0], args->size[1]}};
+  thr_kit_options finer = runs->pieces.kit.options;
   thr_err err = {0};
-  thr_movement movement;
+  thr_kit shown;
+  thr_movement movement = {0};
   thr_film *film = NULL;
   thr_text png = {0};
   const int code = args->frames ? cli_make_folder(args->frames) : EXIT_SUCCESS;
   if (code) return code;
 
-  thr_status st = thr_rise_movement(&movement, &runs->pieces.kit, &runs->record[0], &err);
-  if (!st) st = thr_film_open(&film, &runs->pieces.kit, &movement, &options, &err);
+  finer.coarse = 1;
+  thr_status st = thr_kit_make(&shown, runs->pieces.kit.plan, &finer, NULL, true, &limits, &err);
+  if (!st) st = thr_rise_movement(&movement, &shown, &runs->record[0], &err);
+  if (!st) st = thr_film_open(&film, &shown, &movement, &options, &err);
   if (!st) st = thr_film_write(film, args->frames, args->film ? &png : NULL, &limits, &err);
   cli_progress_end();
   thr_film_close(film);
   thr_movement_destroy(&movement);
+  thr_kit_destroy(&shown);
   if (args->film) return cli_write_drawn(st, &png, args->film, &err);
   return st ? cli_fail(&err) : EXIT_SUCCESS;
 }
@@ -679,6 +721,18 @@ static int write_booklet(const rise_runs *runs)
   return cli_write_drawn(st, &pages, runs->args->booklet, &err);
 }
 
+/* Says which files were written. */
+static void note_written(const rise_arguments *args)
+{
+  const char *const file[] = {args->output, args->plot, args->film,
+                              args->frames, args->play, args->booklet};
+  thr_text names = {0};
+  for (size_t i = 0; i < sizeof file / sizeof *file; i++)
+    if (file[i]) thr_text_printf(&names, "%s%s", names.data ? ", " : "", file[i]);
+  if (names.data && !names.failed) cli_note("written to %s", names.data);
+  thr_text_destroy(&names);
+}
+
 /* Prints and writes what was seen. Returns an exit code. */
 static int tell(const rise_runs *runs)
 {
@@ -706,6 +760,7 @@ static int tell(const rise_runs *runs)
     code = write_booklet(runs);
     if (code) return code;
   }
+  note_written(runs->args);
   text = (thr_text){0};
   if (cli_json)
     put_json(runs, false, &text);
@@ -951,6 +1006,11 @@ int cmd_rise(int argc, char **argv)
                       : cli_given("pull")   ? "--pull"
                                             : NULL;
   if (clash) return cli_usage("rise", "--schedule says who pulls how hard: no %s", clash);
+  const char *still = asked.schedule ? "--schedule" : asked.dent ? "--dent" : NULL;
+  if (asked.rise.shake > 0 && still) return cli_usage("rise", "--shake or %s, not both", still);
+  if (cli_given("shaking") && !(asked.rise.shake > 0))
+    return cli_usage("rise", "--shaking: how far, and how often? --shake MM@HZ");
+  if (asked.rise.shake > 0 && !cli_given("shaking")) asked.rise.shaken = SHAKEN;
   if (asked.lift && asked.raise) return cli_usage("rise", "--lift or --raise, not both");
   if (asked.booklet && booklet_kind(asked.booklet) < 0)
     return cli_usage("rise", "--booklet %s: expected a name ending in .pdf or .html",

@@ -129,7 +129,7 @@ const compare_row compare_rows[COMPARE_ROWS] = {
                        false},
     [RISE_FALL_HIGH] = {"the first of them below, N", "rise_fall_high", false, -3, PULL_RISE, true,
                         false},
-    [RISE_STANDS] = {"stands by limit analysis at, N", "rise_stands", false, -4, PULL_RISE, false,
+    [RISE_STANDS] = {"limit analysis: falls below, N", "rise_stands", false, -4, PULL_RISE, false,
                      false},
 };
 _Static_assert((int)N_ROWS == (int)COMPARE_ROWS, "a value for each row");

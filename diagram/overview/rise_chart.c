@@ -90,7 +90,10 @@ thr_status thr_rise_svg(const thr_rise_chart *rise, thr_text *svg, thr_err *err)
     write_run(&rise->run[r], true, &chart);
   write_frame(&chart);
   thr_chart_ticks(&chart, MOST_TICKS, true);
-  thr_chart_name_axis(&chart, "cord drawn in at all ends together, mm; below: faces that have met");
+  thr_chart_name_axis(
+      &chart, least < -1 ? "cord drawn in at all ends together, mm (below 0: given out); below: "
+                           "faces that have met"
+                         : "cord drawn in at all ends together, mm; below: faces that have met");
   chart.y = chart.top + LOWER + 16;
 
   return thr_chart_finish(&chart, title, "Pull and closed faces against cord drawn in.", svg, err);

@@ -85,9 +85,9 @@ thr_status thr_hands_make(thr_hands *hands, const thr_rise_structure *structure,
                   .friction = thr_friction_of(&structure->physics),
                   .edge = edge,
                   .settle = shape || laid ? 0 : SETTLING * scale,
-                  .hold = scale * (options->hold > 0   ? options->hold
-                                   : options->dent > 0 ? DENTED * HOLD
-                                                       : HOLD),
+                  .hold = options->shaken + scale * (options->hold > 0   ? options->hold
+                                                     : options->dent > 0 ? DENTED * HOLD
+                                                                         : HOLD),
                   .up = UP * slower,
                   .down = DOWN * slower,
                   .gentle = options->rate > 0 || (shape && !options->schedule)

@@ -59,8 +59,12 @@ typedef struct {
   int *tie;                /* [n_pieces] of a piece that stays down, the cord in the world; -1 */
   int n_passes, n_counted; /* .. of cords that are not slack */
   thr_friction friction;
-  double pull;      /* N, of the hand that pulls hardest */
-  double dt, scale; /* s; and how much slower than with edges of TIME_EDGE everything is */
+  double pull;         /* N, of the hand that pulls hardest */
+  double shaken_since; /* s; INFINITY: not yet */
+  int beats;           /* of the shaking, that have begun .. */
+  double way[3];       /* .. the last one in this direction, unit */
+  uint64_t chance;     /* state of what draws these directions */
+  double dt, scale;    /* s; and how much slower than with edges of TIME_EDGE everything is */
   double mu;
   thr_scratch own;
 } rise_run;
@@ -416,8 +420,37 @@ static void push_in(const rise_run *run, double dent)
   }
 }
 
+/* Shakes. In each beat of T = 1 / beat s the ground goes out by shake (1 - cos(2 pi t / T)) / 2 and
+ * back. What is seen, is seen from there: pieces feel the acceleration the other way, as a weight.
+ */
+static void shake(rise_run *run, double time)
+{
+  const thr_rise_options *options = run->options;
+  if (run->shaken_since == INFINITY && time >= run->hands.full) run->shaken_since = time;
+  const double since = time - run->shaken_since;
+  if (!(since >= 0 && since < options->shaken)) return;
+
+  const double turn = 2 * THR_PI * options->beat, beat = floor(since * options->beat);
+  for (; run->beats <= beat; run->beats++) {
+    const double height = thr_random_disorder(&run->chance),
+                 around = THR_PI * thr_random_disorder(&run->chance),
+                 beside = sqrt(1 - height * height);
+    memcpy(run->way, (const double[3]){beside * cos(around), beside * sin(around), height},
+           sizeof run->way);
+  }
+  const double faster = 0.5 * options->shake * turn * turn * cos(turn * since); /* mm/s2 */
+  for (int p = 0; p < run->structure->n_pieces; p++) {
+    const double mass = run->structure->piece[p].mass / run->bodies.mass;
+    double force[3];
+    for (int k = 0; k < 3; k++)
+      force[k] = -mass * faster / run->bodies.length * run->way[k];
+    if (!run->structure->piece[p].held)
+      thr_world_force(run->bodies.world, run->bodies.body[p], force);
+  }
+}
+
 /* Takes one step. dent: N. */
-static thr_status take_step(rise_run *run, double dent, double *lift, thr_err *err)
+static thr_status take_step(rise_run *run, double time, double dent, double *lift, thr_err *err)
 {
   pull_cords(run);
   *lift = lift_now(run);
@@ -425,6 +458,7 @@ static thr_status take_step(rise_run *run, double dent, double *lift, thr_err *e
     thr_world_force(run->bodies.world, run->bodies.body[run->options->lifted],
                     (const double[3]){0, 0, *lift / run->bodies.force});
   if (dent > 0) push_in(run, dent);
+  if (run->options->shaken > 0) shake(run, time);
   thr_status st = thr_world_step(run->bodies.world, err);
   if (st) return st;
   feel_cords(run);
@@ -523,7 +557,7 @@ static thr_status let_pass(rise_run *run, const thr_limits *limits, thr_rise_rec
       st = fit_shape(run, record, record->n_frames - 1, &off, &ignored, err);
       if (!st) record->dented = fmax(record->dented, off);
     }
-    if (!st) st = take_step(run, dents ? options->dent : 0, &lift, err);
+    if (!st) st = take_step(run, time, dents ? options->dent : 0, &lift, err);
   }
 
   record->finished = !st;
@@ -551,6 +585,13 @@ static thr_status check(const thr_rise_structure *structure, const thr_rise_opti
   if (structure->physics.gravity < 0 || structure->physics.stiffness < 0)
     return thr_fail(err, THR_EINPUT, "rise: %s is below 0",
                     structure->physics.gravity < 0 ? "gravity" : "the stiffness of cords");
+  if (options->shake < 0 || options->shaken < 0 || (options->shaken > 0 && !(options->beat > 0)))
+    return thr_fail(err, THR_EINPUT,
+                    "rise: what shakes goes to and fro by more than 0 mm, some "
+                    "times a second, for some time");
+  if (options->shaken > 0 && (options->schedule || options->dent > 0))
+    return thr_fail(err, THR_EINPUT, "rise: %s while all is shaken",
+                    options->schedule ? "no schedule can go on" : "no hand dents");
   const thr_status st = thr_hands_check(structure, options, err);
   if (st) return st;
   bool pulled = false;
@@ -583,6 +624,8 @@ thr_status thr_rise_simulate(const thr_rise_structure *structure, const thr_rise
 
   rise_run run = {.structure = structure,
                   .options = options,
+                  .shaken_since = INFINITY,
+                  .chance = options->seed,
                   .mu = structure->physics.mu,
                   .friction = thr_friction_of(&structure->physics)};
   for (int c = 0; c < structure->n_cords; c++) {

@@ -77,9 +77,10 @@ typedef enum {
 const char *thr_rise_start_name(int start);
 
 /* What hands do: pull all pulled ends, first gently, with up to `pull` N or until all faces have
- * been closed for a while; hold that; and let down, if they do, until the structure has fallen. Or
- * they do what a schedule says (graph/plan/plan.h), with cords of a known stiffness. A hand may
- * also lift a piece, or dent the structure while the pull is held. */
+ * been closed for a while; hold that, and shake the ground if they do; and let down, if they do,
+ * until the structure has fallen. Or they do what a schedule says (graph/plan/plan.h), with cords
+ * of a known stiffness. A hand may also lift a piece, or dent the structure while the pull is held.
+ */
 typedef struct {
   thr_rise_start start;
   uint64_t seed; /* of heaps, and of the small disorder of the others */
@@ -99,6 +100,9 @@ typedef struct {
   double dent;      /* N at dented, towards the middle of all drawn nodes, where the
  counterforce is shared by all pieces; 0: no hand dents */
   int dented;       /* piece, which is pushed in the second quarter of holding */
+  double shake;     /* mm that the ground and all that is held go to and fro .. */
+  double beat;      /* .. so many times a second, each time in a direction by chance .. */
+  double shaken;    /* .. for so many s from when the pull is held, before the hold; 0: never */
 } thr_rise_options;
 
 /* ---- what was seen ---- */

@@ -386,6 +386,11 @@ START_TEST(the_page_gets_all_frames)
       double high;
       ck_assert(thr_json_number(thr_json_get(thr_json_get(in, "scale"), "high"), &high));
       ck_assert_double_eq(high, 3.2);
+      const thr_json *ticks = thr_json_get(thr_json_get(in, "scale"), "ticks");
+      ck_assert_int_eq(thr_json_size(ticks), 2);
+      for (int i = 0; i < 2; i++)
+        ck_assert_str_eq(thr_json_string(thr_json_at(thr_json_at(ticks, i), 1)),
+                         i ? "3.20 N" : "0 N");
       const size_t bytes = FRAMES * (size_t)of.kit.n_pieces * 7 * 2;
       ck_assert_uint_eq(strlen(thr_json_string(thr_json_get(in, "poses"))), (bytes + 2) / 3 * 4);
       thr_json_destroy(doc);

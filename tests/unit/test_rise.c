@@ -464,6 +464,61 @@ START_TEST(overlap)
 }
 END_TEST
 
+/* ---- shaking ---- */
+
+/* Two cubes, closed, on ground without friction stay where they are while the ground goes out and
+ * back: seen from it they go by up to the amplitude, and are back at the end of every beat. */
+START_TEST(shaken_ground)
+{
+  const double amplitude = 2;
+  double corner[CORNERS][3];
+  int eight = CORNERS;
+  const int visited[2] = {0, 1};
+  const double mouth[1][3] = {{HALF, 0, HALF}}, along[1][3] = {{1, 0, 0}};
+  thr_rise_piece piece[2];
+  for (int i = 0; i < CORNERS; i++)
+    for (int k = 0; k < 3; k++)
+      corner[i][k] = (i >> k & 1 ? 1 : -1) * HALF;
+  for (int i = 0; i < 2; i++)
+    piece[i] = (thr_rise_piece){.centre = {2 * HALF * i, 0, HALF},
+                                .mass = 20,
+                                .moment = 20 * 2. / 3 * HALF * HALF,
+                                .n_parts = 1,
+                                .n_corners = &eight,
+                                .corner = (const double(*)[3])corner};
+  const thr_rise_cord cord = {
+      .n_passes = 1, .piece = visited, .mouth = mouth, .along = along, .pulled = {true, true}};
+  const thr_rise_structure structure = {
+      .n_pieces = 2,
+      .n_cords = 1,
+      .piece = piece,
+      .cord = &cord,
+      .width = 2 * HALF,
+      .mouth_depth = 1,
+      .physics = {.mu = 0.2, .mu_bead = 0.3, .gravity = G, .mu_power = 1}};
+  const thr_rise_options options = {.start = THR_RISE_SHAPE,
+                                    .pull = 1,
+                                    .hold = 0.2,
+                                    .seed = 1,
+                                    .shake = amplitude,
+                                    .beat = 3,
+                                    .shaken = 2};
+  thr_err err = {0};
+  thr_rise_record record;
+  assert_ok(thr_rise_simulate(&structure, &options, NULL, &record, &err), &err);
+  double most = 0, off = 0;
+  for (int f = 0; f < record.n_frames; f++) {
+    const double *at = record.pose[(size_t)f * 2];
+    off = hypot(at[0] - record.pose[0][0], at[1] - record.pose[0][1]);
+    most = fmax(most, off);
+  }
+  ck_assert_msg(most > 0.7 * amplitude && most < 1.02 * amplitude, "goes by %g mm", most);
+  ck_assert_msg(off < 0.15 * amplitude, "ends %g mm off", off);
+  ck_assert_int_eq(record.moment[record.n_frames - 1].closed, 1);
+  thr_rise_record_destroy(&record);
+}
+END_TEST
+
 /* ---- the best fit ---- */
 
 /* A rotated, shifted set fits exactly; with one point moved by d, the largest distance is below d.
@@ -567,7 +622,9 @@ START_TEST(refusals)
   const thr_schedule grips = {.step = &grip, .n = 1}, knots = {.step = &let_go, .n = 1};
   const thr_rise_options gripped = {.pull = 1, .schedule = &grips},
                          knotted = {.pull = 1, .schedule = &knots},
-                         backward = {.pull = 1, .rate = -1}, mean = {.pull = 1, .spare = -1};
+                         backward = {.pull = 1, .rate = -1}, mean = {.pull = 1, .spare = -1},
+                         still = {.pull = 1, .shake = 5, .shaken = 1},
+                         dented = {.pull = 1, .shake = 5, .beat = 8, .shaken = 1, .dent = 1};
   const struct {
     const thr_rise_structure *structure;
     const thr_rise_options *options;
@@ -580,7 +637,9 @@ START_TEST(refusals)
                  {&firm, &gripped, "nothing holds cord A against the grip at its pass 3"},
                  {&firm, &knotted, "pulls and knots none"},
                  {&none, &backward, "more than 0 mm/s"},
-                 {&none, &mean, "more than 0 mm of cord"}};
+                 {&none, &mean, "more than 0 mm of cord"},
+                 {&none, &still, "goes to and fro"},
+                 {&none, &dented, "no hand dents"}};
   for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
     const thr_status st =
         thr_rise_simulate(refused[i].structure, refused[i].options, NULL, &record, &err);
@@ -602,6 +661,7 @@ int main(void)
   ADD_TEST(s, 20, pendulum);
   ADD_TEST(s, 20, momentum);
   ADD_LOOP(s, 10, overlap, 0, 2);
+  ADD_TEST(s, 20, shaken_ground);
   ADD_TEST(s, 20, best_fit);
   ADD_TEST(s, 10, kinks_and_twists);
   ADD_TEST(s, 20, refusals);

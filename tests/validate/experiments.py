@@ -46,10 +46,13 @@ def svg_file(path, wide, high, parts):
                    f'<rect width="{wide}" height="{high}" fill="#fff"/>\n' + "\n".join(parts) + "\n</svg>\n")
 
 
-def last_frame(program, command, path):
-    """Runs a rise and keeps the last picture of it."""
+def last_frame(program, command, path, first=None):
+    """Runs a rise and keeps the last picture of it, and the first one."""
     run(program, f"{command} --frames still --size 800x500 -q")
-    os.replace(os.path.join("still", sorted(os.listdir("still"))[-1]), path)
+    pictures = [os.path.join("still", name) for name in sorted(os.listdir("still"))]
+    os.replace(pictures[-1], path)
+    if first:
+        os.replace(pictures[0], first)
 
 
 def main():
