@@ -199,17 +199,27 @@ static int count_items(const thr_mat *mat)
   return mat->pieces.solid ? mat->guide.layout.n_points : mat->frame->n_edges;
 }
 
-/* Returns whether a piece reaches into the window whose corner is given, by its bounding box. */
+/* Returns whether a piece reaches into the window whose corner is given: whether an arm, as a line
+ * widened by half its width, does (the line is cut off at the four sides in turn; Liang & Barsky).
+ */
 static bool reaches(const thr_mat *mat, const thr_arms *arms, const double corner[2])
 {
-  thr_box box = {arms->hub[0], arms->hub[1], arms->hub[0], arms->hub[1]};
-  for (int i = 0; i < arms->n; i++)
-    thr_box_point(&box, arms->end[i]);
-
-  /* Widened by half an arm, does the box meet the window both ways? */
   const double half = 0.5 * mat->width;
-  return box.x1 + half > corner[0] && box.x0 - half < corner[0] + mat->window[0] &&
-         box.y1 + half > corner[1] && box.y0 - half < corner[1] + mat->window[1];
+  for (int i = 0; i < arms->n; i++) {
+    double from = 0, to = 1;
+    for (int k = 0; k < 2; k++) {
+      const double along = arms->end[i][k] - arms->hub[k], low = corner[k] - half - arms->hub[k],
+                   high = corner[k] + mat->window[k] + half - arms->hub[k];
+      if (along == 0) {
+        if (low > 0 || high < 0) to = -1;
+        continue;
+      }
+      from = fmax(from, fmin(low / along, high / along));
+      to = fmin(to, fmax(low / along, high / along));
+    }
+    if (from <= to) return true;
+  }
+  return false;
 }
 
 /* Numbers the tiles that a piece reaches into, row by row. THR_EINPUT: too many pages. */
