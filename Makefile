@@ -375,7 +375,7 @@ $(FUZZ_PROGRAMS:$(DIR)/tests/%=run/%): run/%: $(DIR)/tests/%
 run/$(BUILD)/property/test_cross run/$(BUILD)/property/test_cross_known: $(PROGRAM)
 run/library/install: $(PROGRAM) $(SHARED) $(STATIC) $(FOUND_BY) $(MAN_PAGES)
 run/examples: $(SHARED)
-$(GOLDEN_JOBS) run/documents run/readme run/formats/mutants run/examples run/web run/static run/windows run/second/plans run/schema run/slicers run/viewer/browser run/bench/smallest: $(PROGRAM)
+$(GOLDEN_JOBS) run/documents run/readme run/tutorial run/formats/mutants run/examples run/web run/static run/windows run/second/plans run/schema run/slicers run/viewer/browser run/bench/smallest: $(PROGRAM)
 # which build what it takes
 run/release: run/static run/windows run/web
 run/second/json: $(DIR)/tests/second/dump_json

@@ -8,7 +8,9 @@
 
 #include "diagram/export/paper.h"
 #include "diagram/mat/mat.h"
+#include "diagram/overview/overview_parts.h"
 #include "diagram/sheets/sheets.h"
+#include "diagram/space/space.h"
 #include "diagram/tables/tables.h"
 #include "eval/eval.h"
 #include "kit/files.h"
@@ -145,7 +147,19 @@ static thr_status overview(const thr_plan *plan, const thr_document_options *ask
   options.motion = motion;
   options.layout = asked->layout;
 
-  return thr_overview_svg(plan, &options, out, err);
+  /* In space what no flat picture shows as it is, but for colours of single passes, which belong to
+   * lanes, and for more passes than can be followed. */
+  thr_guide guide;
+  int n;
+  thr_status st = thr_scene_check_cords(plan, &n, err);
+  if (st || !plan->n_cords || options.colour != THR_COLOUR_CORD || n > THR_SCENE_LINES)
+    return st ? st : thr_overview_svg(plan, &options, out, err);
+  st = thr_guide_make(&guide, &plan->frame, asked->layout, err);
+  options.layout = &guide.layout;
+  if (!st && guide.flat) st = thr_overview_svg(plan, &options, out, err);
+  if (!st && !guide.flat) st = thr_space_overview(plan, &guide, &options, out, err);
+  thr_guide_destroy(&guide);
+  return st;
 }
 
 /* Draws the overview over several pages, to be joined. */
@@ -316,6 +330,19 @@ static thr_status of_kit(const thr_plan *plan, document which, const thr_documen
   return st;
 }
 
+/* Writes the cords as OBJ, with the names of the places that the booklet speaks of. */
+static thr_status obj(const thr_plan *plan, const thr_document_options *asked, thr_text *out,
+                      thr_err *err)
+{
+  thr_line_options lines = asked->lines;
+  thr_guide guide;
+  thr_status st = thr_guide_make(&guide, &plan->frame, asked->layout, err);
+  lines.label = (const char(*)[THR_LABEL])guide.label;
+  if (!st) st = thr_polylines_obj(plan, &lines, out, err);
+  thr_guide_destroy(&guide);
+  return st;
+}
+
 /* Makes a document; see documents.h. Documents that do not speak of copies need no motions. */
 thr_status thr_document_make(const thr_plan *plan, int i, const thr_document_options *options,
                              const thr_limits *limits, thr_text *out, thr_err *err)
@@ -338,7 +365,7 @@ thr_status thr_document_make(const thr_plan *plan, int i, const thr_document_opt
   case PICTURE: return of_kit(plan, (document)i, options, limits, out, err);
 
   /* Lines for CAD. */
-  case OBJ: return thr_polylines_obj(plan, &options->lines, out, err);
+  case OBJ: return obj(plan, options, out, err);
   case GLTF: return thr_polylines_gltf(plan, &options->lines, out, err);
   case DXF: return thr_polylines_dxf(plan, &options->lines, out, err);
   case COMPAS: return thr_polylines_compas(plan, &options->lines, out, err);

@@ -111,6 +111,7 @@ run() { # NAME LOG: runs the job; its exit code, 77 = skipped
   slicers) tests/kit/run.sh "$OUT/release/thread" ;;
   film) tests/film.py "$OUT/release/tests/unit/test_film" "$OUT/film-test" ;;
   readme) tests/readme/run.sh "$OUT/release/thread" ;;
+  tutorial) tools/make_docs.py "$OUT/release/thread" --check ;;
   examples) tests/examples/run.sh "$OUT/release/thread" ;;
   web) tests/web.sh "$OUT/release/thread" "$OUT/web" "$OUT/web-test" ;;
   static) tests/targets.sh static "$OUT/release/thread" "$OUT/static/thread" ;;
@@ -162,7 +163,7 @@ export TIER=${1:-test} MEMORY_SAMPLES=40 MUTANTS=50 FUZZ_RUNS=100000
 # Golden cases that take minutes under sanitizers, and whose planning and evaluation other tests run under them.
 slow='asan/kit.case asan/figures.case asan/eval.case asan/cords.case asan/turning.case asan/threads.case asan/convert.case asan/plan.case asan/compare.case asan/schedules.case asan/rise.case'
 # What a change needs within minutes, and what `make test` leaves to `make test-rest`: no tenth of these says anything.
-builds=release tree='layers layers-self-test documents format bench/smallest library/install readme examples formats/mutants'
+builds=release tree='layers layers-self-test documents format bench/smallest library/install readme tutorial examples formats/mutants'
 programs='second/json second/plans schema viewer/page viewer/browser' fuzz='' whole='' left=''
 rest='release/memory release/watchdog release/golden/figures.case release/property/test_circuits'
 case $TIER in

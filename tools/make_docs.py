@@ -11,6 +11,7 @@ is put together from several.
 """
 import difflib
 import json
+import math
 import os
 import re
 import shutil
@@ -115,6 +116,11 @@ def newtons(value):
     return "%.3g N" % value
 
 
+def metres(said):
+    """The length of all cords; a unit that is not known counts as one in mm, as the program has it."""
+    return "%.2f m" % (said["length"] * {"m": 1, "cm": 0.01, "in": 0.0254, "ft": 0.3048}.get(said["units"], 0.001))
+
+
 def planned(run, name, source, options):
     """The framework planned and drawn: the commands, and what the plan says."""
     options = options if "--objective" in options else [*options, "--objective", "tortuosity"]
@@ -135,9 +141,9 @@ def gallery_row(run, entry, pictures):
     booklet = run.path(os.path.join(name, "sheets.pdf"))
     page_to_png(booklet, step_page(booklet), os.path.join(pictures, name + "-step.png"), 50)
     show = "<img src=\"pictures/%s.png\" width=\"%d\" alt=\"%s\">"
-    return "| %s | %s | %s<br><br>%d pieces, %d interfaces; %d cord%s, %.2f m in all; the hardest pull %s |" % (
+    return "| %s | %s | %s<br><br>%d pieces, %d interfaces; %d cord%s, %s in all; the hardest pull %s |" % (
         show % (name, 300, "the %s from above" % name), show % (name + "-step", 240, "a step of the %s" % name), command, said["nodes"],
-        said["edges"], said["cords"], "" if said["cords"] == 1 else "s", said["length"] / 1000, newtons(said["pull_factor"]))
+        said["edges"], said["cords"], "" if said["cords"] == 1 else "s", metres(said), newtons(said["pull_factor"]))
 
 
 def kit_row(run, entry, pictures):
@@ -210,6 +216,31 @@ def with_outputs(run, page):
     return re.sub(r"```\n(\$ .*?)\n```", block, page, flags=re.DOTALL)
 
 
+def figures(run):
+    """What the prose of the tutorial says of the dome: its words, with a group for the figure, and the figure."""
+    with open(run.path("first/cords.csv"), encoding="utf-8") as f:
+        head, *rows = [line.split(",") for line in f.read().strip().split("\n")]
+    cut, knots, tails = (max(float(row[head.index(name)]) for row in rows) for name in ("cut", "knots", "tails"))
+    plan = json.load(open(run.path("first/plan.json"), encoding="utf-8"))
+    number = {2: "two", 16: "sixteen"}
+    return [(r"\| (\d+) pieces \|", str(len(plan["framework"]["nodes"]))),
+            (r"dome of (\w+) pieces", number[len(plan["framework"]["nodes"])]),
+            (r"pieces on (\w+) cords", number[len(rows)]),
+            (r"\| cord \| twice (\d+) cm", "%d" % (5 * math.ceil(cut / 50))),
+            (r"list says, (\d+) mm each", "%.0f" % cut),
+            (r"Put a stopper (\d+) mm from one end", "%.0f" % ((tails + knots) / 2))]
+
+
+def with_figures(run, page):
+    """The page with the figures in its prose as the program has them."""
+    for words, figure in figures(run):
+        found = re.search(words, page)
+        if not found:
+            sys.exit("make_docs: the tutorial does not say /%s/" % words)
+        page = page[: found.start(1)] + figure + page[found.end(1):]
+    return page
+
+
 def tutorial_pictures(run, pictures):
     """Of the dome that the tutorial has planned by then."""
     for name in ("advice", "first/overview", "first/tension"):
@@ -254,7 +285,7 @@ def main():
             forget_pictures()
         pages = {name: os.path.join("docs", name) for name in ("tutorial.md", "gallery.md")}
         text = {name: open(path, encoding="utf-8").read() for name, path in pages.items()}
-        same &= put(pages["tutorial.md"], with_outputs(run, text["tutorial.md"]), check)
+        same &= put(pages["tutorial.md"], with_figures(run, with_outputs(run, text["tutorial.md"])), check)
         if not check:
             tutorial_pictures(run, PICTURES)
             put(pages["gallery.md"], rises(run, gallery(run, text["gallery.md"], PICTURES), PICTURES), check)

@@ -46,7 +46,10 @@ const char *thr_layout_words(thr_layout_kind kind)
       "Two halves of a closed shell, both seen from outside: turn the shell half round about the "
       "page's vertical to get from one "
       "to the other. Places on their rims are on both.",
-      "Schematic: which bead joins which is true, lengths and angles are not."};
+      "Schematic: which bead joins which is true, lengths and angles are not.",
+      "Seen in space, from all four sides: what is far away is pale, and what lies behind a piece "
+      "is "
+      "hidden. Each step has its own picture in the booklet."};
 
   return (unsigned)kind < THR_LAYOUT_KINDS ? words[kind] : "";
 }

@@ -36,6 +36,7 @@ typedef enum {
                         by side */
   THR_LAYOUT_DRAWN,  /* made by a drawing algorithm: only the adjacency is true (see
                         thr_layout_adopt) */
+  THR_LAYOUT_SPACE,  /* none: the framework is seen in space (diagram/space/space_overview.c) */
   THR_LAYOUT_KINDS
 } thr_layout_kind;
 
@@ -68,6 +69,13 @@ static inline const thr_frame *thr_layout_paper(const thr_layout *layout, const 
 {
   return layout->node ? &layout->paper : frame;
 }
+
+/* Returns whether the picture shows the framework as the surface that it is, so that a hand finds
+ * every piece and every cord in it: nothing crosses and, unless it is a projection, no more than a
+ * quarter of the pieces' faces lie within an arm's width of others that are further away in space.
+ * O(n log n). THR_ENOMEM. */
+thr_status thr_layout_is_surface(const thr_layout *layout, const thr_frame *frame, bool *surface,
+                                 thr_err *err) THR_MUST_CHECK;
 
 /* Returns the node that a point shows. */
 static inline int thr_layout_node(const thr_layout *layout, int point)

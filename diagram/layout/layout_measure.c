@@ -21,6 +21,7 @@
 static const double NEAR = 0.02;
 static const double NEAR_ANGLE = 0.017; /* rad, 1 degree */
 static const double SQUEEZED = 0.2;
+static const double ARM = 0.4;     /* width of a piece's arm, and a little air */
 static const double PAIRS = 8;     /* tried for each edge and doubling of their number */
 static const double FREE = 200000; /* tried at least */
 
@@ -350,5 +351,62 @@ done:
   free(grid.entry);
   free(grid.turn);
   free(seen);
+  return st;
+}
+
+/* Returns whether the middles of edges a and b, where faces are, lie within an arm's width on paper
+ * and not in space. */
+static bool is_crowded(const thr_layout *layout, const thr_frame *frame, double median, int a,
+                       int b)
+{
+  const thr_frame *paper = thr_layout_paper(layout, frame);
+  double flat = 0, whole = 0;
+  for (int k = 0; k < 3; k++) {
+    const double d = frame->xyz[frame->edge[a][0]][k] + frame->xyz[frame->edge[a][1]][k] -
+                     frame->xyz[frame->edge[b][0]][k] - frame->xyz[frame->edge[b][1]][k];
+    whole += 0.25 * d * d;
+  }
+  for (int k = 0; k < 2; k++) {
+    const double d = layout->xy[paper->edge[a][0]][k] + layout->xy[paper->edge[a][1]][k] -
+                     layout->xy[paper->edge[b][0]][k] - layout->xy[paper->edge[b][1]][k];
+    flat += 0.25 * d * d;
+  }
+  return sqrt(flat) < ARM * layout->median && sqrt(whole) >= ARM * median;
+}
+
+thr_status thr_layout_is_surface(const thr_layout *layout, const thr_frame *frame, bool *surface,
+                                 thr_err *err)
+{
+  const thr_frame *paper = thr_layout_paper(layout, frame);
+  const int n = frame->n_edges;
+  int crowded = 0;
+  *surface = !layout->crossings && !layout->estimated && layout->kind != THR_LAYOUT_DRAWN;
+  if (!*surface || thr_layout_to_scale(layout->kind) || n == 0) return THR_OK;
+
+  thr_ranked *middle = thr_calloc((size_t)n, sizeof *middle);
+  double *length = thr_calloc((size_t)n, sizeof *length);
+  bool *met = thr_calloc((size_t)n, sizeof *met);
+  thr_status st = middle && length && met ? THR_OK : thr_nomem(err);
+
+  /* Edges by where their middles lie across the page: only neighbours can be near. */
+  for (int e = 0; e < n && !st; e++) {
+    const int *end = paper->edge[e];
+    middle[e] = (thr_ranked){0.5 * (layout->xy[end[0]][0] + layout->xy[end[1]][0]), e};
+    length[e] = frame->length[e];
+  }
+  if (!st) thr_sort_ranked(middle, (size_t)n);
+  if (!st) thr_sort_doubles(length, (size_t)n);
+
+  for (int i = 0; i < n && !st; i++)
+    for (int k = i + 1; k < n && middle[k].key - middle[i].key < ARM * layout->median; k++)
+      if (is_crowded(layout, frame, length[n / 2], middle[i].index, middle[k].index))
+        met[i] = met[k] = true;
+  for (int i = 0; i < n && !st; i++)
+    crowded += met[i];
+
+  *surface = 4 * crowded <= n;
+  free(middle);
+  free(length);
+  free(met);
   return st;
 }

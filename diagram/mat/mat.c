@@ -199,17 +199,57 @@ static int count_items(const thr_mat *mat)
   return mat->pieces.solid ? mat->guide.layout.n_points : mat->frame->n_edges;
 }
 
-/* Returns whether a piece reaches into the window whose corner is given, by its bounding box. */
-static bool reaches(const thr_mat *mat, const thr_arms *arms, const double corner[2])
+/* Returns whether a piece reaches into a box, low to high, as it is drawn (thr_arms_draw): whether
+ * the round corner at its hub does, or one of its arms, a rectangle from the hub to its end. Two
+ * rectangles are apart if they are so along a side of one of them. */
+static bool reaches(const thr_mat *mat, const thr_arms *arms, const double low[2],
+                    const double high[2])
 {
-  thr_box box = {arms->hub[0], arms->hub[1], arms->hub[0], arms->hub[1]};
-  for (int i = 0; i < arms->n; i++)
-    thr_box_point(&box, arms->end[i]);
+  const double half = 0.5 * mat->width, beyond = arms->n == 1 ? half : 0,
+               middle[2] = {0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])};
 
-  /* Widened by half an arm, does the box meet the window both ways? */
-  const double half = 0.5 * mat->width;
-  return box.x1 + half > corner[0] && box.x0 - half < corner[0] + mat->window[0] &&
-         box.y1 + half > corner[1] && box.y0 - half < corner[1] + mat->window[1];
+  /* The nearest point of the box to the hub. */
+  if (hypot(arms->hub[0] - fmin(fmax(arms->hub[0], low[0]), high[0]),
+            arms->hub[1] - fmin(fmax(arms->hub[1], low[1]), high[1])) < half)
+    return true;
+
+  for (int i = 0; i < arms->n; i++) {
+    double along[2] = {arms->end[i][0] - arms->hub[0], arms->end[i][1] - arms->hub[1]},
+           length = hypot(along[0], along[1]);
+    if (!(length > 0)) continue;
+    for (int k = 0; k < 2; k++)
+      along[k] /= length;
+
+    /* Half the arm, which goes on beyond the hub if it is the only one, seen along both sides of
+     * the box, and half the box seen along both sides of the arm. */
+    const double reach = 0.5 * (length + beyond),
+                 way[2] = {arms->hub[0] + (reach - beyond) * along[0] - middle[0],
+                           arms->hub[1] + (reach - beyond) * along[1] - middle[1]};
+    bool apart = false;
+    for (int k = 0; k < 2; k++)
+      apart |= fabs(way[k]) >
+               reach * fabs(along[k]) + half * fabs(along[1 - k]) + 0.5 * (high[k] - low[k]);
+    for (int k = 0; k < 2; k++) {
+      const double axis[2] = {k ? -along[1] : along[0], k ? along[0] : along[1]};
+      apart |= fabs(way[0] * axis[0] + way[1] * axis[1]) >
+               (k ? half : reach) +
+                   0.5 * ((high[0] - low[0]) * fabs(axis[0]) + (high[1] - low[1]) * fabs(axis[1]));
+    }
+    if (!apart) return true;
+  }
+  return false;
+}
+
+/* Computes what of the mat is a tile's own: up to the middles of the strips that its neighbours
+ * show, too. */
+static void tile_box(const thr_mat *mat, int tile, double low[2], double high[2])
+{
+  const int place[2] = {tile % mat->tiles[0], tile / mat->tiles[0]};
+  tile_corner(mat, tile, low);
+  for (int k = 0; k < 2; k++) {
+    high[k] = low[k] + mat->window[k] - (place[k] + 1 < mat->tiles[k] ? 0.5 * OVERLAP : 0);
+    low[k] += place[k] ? 0.5 * OVERLAP : 0;
+  }
 }
 
 /* Numbers the tiles that a piece reaches into, row by row. THR_EINPUT: too many pages. */
@@ -226,14 +266,14 @@ static thr_status number_pages(thr_mat *mat, thr_err *err)
 
   /* A tile without any piece is no page. */
   for (int tile = 0; tile < n_tiles; tile++) {
-    double corner[2];
+    double low[2], high[2];
     bool used = false;
-    tile_corner(mat, tile, corner);
+    tile_box(mat, tile, low, high);
 
     for (int i = 0; i < count_items(mat) && !used; i++) {
       thr_arms arms;
       find_arms(mat, i, &arms);
-      used = reaches(mat, &arms, corner);
+      used = reaches(mat, &arms, low, high);
     }
 
     /* Pages are numbered from 1. */
@@ -435,7 +475,8 @@ static void put_item(const mat_page *page, int item)
   char kind[24];
 
   find_arms(mat, item, &arms);
-  if (!reaches(mat, &arms, page->corner)) return;
+  const double end[2] = {page->corner[0] + mat->window[0], page->corner[1] + mat->window[1]};
+  if (!reaches(mat, &arms, page->corner, end)) return;
 
   /* From the mat to paper. */
   on_paper(page, arms.hub, arms.hub);

@@ -196,6 +196,9 @@ thr_status thr_guide_make(thr_guide *guide, const thr_frame *frame, const thr_la
   guide->sides = !guide->layout.crossings && !guide->layout.estimated &&
                  guide->layout.kind != THR_LAYOUT_DRAWN;
   if (!st && guide->sides) st = find_outward(guide, err);
+  if (!st) st = thr_layout_is_surface(&guide->layout, frame, &guide->flat, err);
+  for (int v = 0; v < frame->n_nodes && !st && !thr_layout_to_scale(guide->layout.kind); v++)
+    guide->flat &= thr_degree(frame, v) < 2 || thr_dot(guide->outward[v], guide->outward[v]) > 0;
 
   return st ? st : thr_places_labels(&guide->places, frame, guide->label, err);
 }

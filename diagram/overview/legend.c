@@ -197,7 +197,7 @@ static double write_scale_bar(const thr_scene *scene, double x, double y, double
 
   /* Layouts that stretch everywhere have no scale that holds. */
   if (scene->layout->kind == THR_LAYOUT_SPREAD || scene->layout->kind == THR_LAYOUT_DRAWN ||
-      !(bar > 1 && bar < 60))
+      scene->layout->kind == THR_LAYOUT_SPACE || !(bar > 1 && bar < 60))
     return y;
 
   thr_text_printf(text,

@@ -115,25 +115,22 @@ typedef struct {
 } thr_still_panel;
 
 typedef struct {
-  const char *title; /* NULL or "": "Before and after" */
-  const char *note;  /* below the panels; NULL = none */
-  double width;      /* of an arm */
-  double ground;     /* z of the ground */
-  int n_panels;      /* at least 1, in rows of three at most */
+  const char *title; /* for who puts the panels on a page, as the note */
+  const char *note;
+  double width;  /* of an arm */
+  double ground; /* z of the ground */
+  int n_panels;  /* at least 1 */
   const thr_still_panel *panel;
   int first_bead; /* in another colour; -1 = none */
 } thr_still;
 
-/* Appends the picture to svg: all panels seen from one side, to one scale, faces shaded and drawn
- * back to front; ends of arms are pale, so that gaps show. What has gone far away from the first
- * panel is cut off at the edge. The same input gives the same bytes. THR_EINPUT for poses that are
- * not finite, a width <= 0 or a bead out of range. O(n log n). svg is unchanged on
- * failure. */
-thr_status thr_still_svg(const thr_frame *frame, const thr_still *still, thr_text *svg,
-                         thr_err *err) THR_MUST_CHECK;
-
-/* Appends the panels with their captions alone, two in a row, as large as paper takes with captions
- * of a line; *bottom receives the y below them, mm. Else as thr_still_svg. */
+/* Appends the panels with their captions, two in a row, as large as paper takes with captions of a
+ * line: all seen from one side, to one scale, faces shaded and drawn back to front; ends of arms
+ * are pale, so that gaps show. What has gone far away from the first panel is cut off at the edge.
+ * *bottom receives the y below them, mm. The same input gives the same bytes. THR_EINPUT for poses
+ * that are not finite, a width <= 0 or a bead out of range. O(n log n). svg is unchanged on
+ * failure.
+ */
 thr_status thr_still_panels(const thr_frame *frame, const thr_still *still, thr_box paper,
                             double *bottom, thr_text *svg, thr_err *err) THR_MUST_CHECK;
 

@@ -192,6 +192,8 @@ typedef struct {
   thr_places places;
   bool sides; /* have left and right a meaning? Not where the layout shows beads that cross, or is
                  only drawn */
+  bool flat;  /* do flat pictures show it as the surface that it is (thr_layout_is_surface), with an
+                 outside at every piece of two arms and more? Else it is drawn in space */
   double (*outward)[3]; /* [n_nodes] unit normal towards the viewer of the layout; 0 where none is
                            known */
   char (*label)[THR_LABEL]; /* [n_nodes] the node's place as in the overview; all different, without

@@ -19,14 +19,13 @@
 #include <stdlib.h>
 
 /* Lengths in mm on paper. */
-static const double MARGIN = 10, PANEL = 130, GAP = 8, TITLE_SIZE = 5, TEXT_SIZE = 3.2;
+static const double GAP = 8, TEXT_SIZE = 3.2;
 static const double WORDS = 9; /* below a panel: air, and a line of its caption */
 static const double AZIMUTH = -0.95, ELEVATION = 0.42; /* rad, of the eye */
 static const double LIGHT[3] = {0.32, -0.52, 0.79};    /* unit, towards the light */
 static const double ROAM = 0.3; /* share of the first picture by which the others may be larger */
 static const char *const GROUND =
     " class=\"ground\" fill=\"#eef0ea\" stroke=\"#9aa08c\" stroke-width=\"0.25\"";
-enum { MOST_IN_ROW = 3 };
 /* Red, green and blue, 0 to 255: sides and ends of the arms of all beads, and of the one that moves
  * first. */
 static const int BEAD[3] = {205, 184, 140}, END[3] = {255, 246, 226}, FIRST[3] = {213, 94, 0},
@@ -354,41 +353,6 @@ static double write_panels(still_view *view, int in_row, double x, double y, dou
   return bottom;
 }
 
-/* Appends the whole sheet: title, panels in rows of MOST_IN_ROW with their captions, the note. */
-static void write_sheet(still_view *view, thr_text *text)
-{
-  const thr_still *still = view->still;
-  const char *title = still->title && *still->title ? still->title : "Before and after";
-  const int in_row = still->n_panels < MOST_IN_ROW ? still->n_panels : MOST_IN_ROW;
-  thr_text body = {0};
-
-  /* A column is at least 75 mm wide, because captions need space, too. */
-  double column = fmax((view->high[0] - view->low[0]) * view->scale, 75),
-         width = in_row * column + (in_row - 1) * GAP;
-  double y = thr_svg_wrap(&body, MARGIN, MARGIN + TITLE_SIZE, TITLE_SIZE, width,
-                          " font-weight=\"bold\"", title);
-  double bottom = write_panels(view, in_row, MARGIN, y, column, &body);
-
-  /* The note, across all columns. */
-  if (still->note)
-    bottom = thr_svg_wrap(&body, MARGIN, bottom + 1, TEXT_SIZE, width, "", still->note);
-  width += 2 * MARGIN;
-  bottom += MARGIN - TEXT_SIZE;
-
-  /* The document: style, white ground, body. */
-  thr_svg_open(text, width, bottom, title, "Rigid beads, seen from one side, drawn back to front.");
-  thr_text_append(
-      text,
-      "<style>\n.thread text{stroke:none;fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}\n"
-      "</style>\n");
-  thr_text_printf(text, "<rect width=\"%.2f\" height=\"%.2f\" fill=\"#fff\"/>\n", width, bottom);
-  if (body.data) thr_text_append_bytes(text, body.data, body.length);
-  thr_text_append(text, "</svg>\n");
-
-  text->failed = text->failed || body.failed;
-  thr_text_destroy(&body);
-}
-
 /* Checks what cannot be drawn: the width of the arms, the number of the first bead, poses that are
  * not finite. */
 static thr_status check(const thr_frame *frame, const thr_still *still, thr_err *err)
@@ -409,11 +373,12 @@ static thr_status check(const thr_frame *frame, const thr_still *still, thr_err 
   return THR_OK;
 }
 
-/* Checks the input, chooses the view and draws: a sheet, or, with paper, in rows of two there.
- * *bottom receives the y below the panels. */
-static thr_status draw(const thr_frame *frame, const thr_still *still, const thr_box *paper,
-                       double *bottom, thr_text *svg, thr_err *err)
+thr_status thr_still_panels(const thr_frame *frame, const thr_still *still, thr_box paper,
+                            double *bottom, thr_text *svg, thr_err *err)
 {
+  enum { IN_ROW = 2 };
+  const int rows = (still->n_panels + IN_ROW - 1) / IN_ROW;
+  const double column = 0.5 * (paper.x1 - paper.x0 - GAP);
   still_view view = {.frame = frame, .still = still};
   thr_text out = {0};
   thr_status st = check(frame, still, err);
@@ -425,31 +390,12 @@ static thr_status draw(const thr_frame *frame, const thr_still *still, const thr
 
   /* Write into a text of its own, so that svg is unchanged on failure. */
   look(&view);
-  if (paper) {
-    const int rows = (still->n_panels + 1) / 2;
-    const double column = 0.5 * (paper->x1 - paper->x0 - GAP);
-    measure(&view, column, (paper->y1 - paper->y0) / rows - WORDS);
-    *bottom = write_panels(&view, 2, paper->x0, paper->y0, column, &out);
-  } else {
-    measure(&view, PANEL, PANEL);
-    write_sheet(&view, &out);
-  }
+  measure(&view, column, (paper.y1 - paper.y0) / rows - WORDS);
+  *bottom = write_panels(&view, IN_ROW, paper.x0, paper.y0, column, &out);
 
   if (!out.failed) thr_text_append_bytes(svg, out.data, out.length);
   if (out.failed || svg->failed) st = thr_nomem(err);
   thr_text_destroy(&out);
   free(view.face);
   return st;
-}
-
-thr_status thr_still_svg(const thr_frame *frame, const thr_still *still, thr_text *svg,
-                         thr_err *err)
-{
-  return draw(frame, still, NULL, NULL, svg, err);
-}
-
-thr_status thr_still_panels(const thr_frame *frame, const thr_still *still, thr_box paper,
-                            double *bottom, thr_text *svg, thr_err *err)
-{
-  return draw(frame, still, &paper, bottom, svg, err);
 }

@@ -112,6 +112,22 @@ static void put_lanes(thr_cord_lines *lines, thr_text *out)
   }
 }
 
+/* Lists which vertex is which place of the booklet, where places are not called by their numbers.
+ */
+static void put_places(const thr_plan *plan, const char (*label)[THR_LABEL], thr_text *out)
+{
+  enum { IN_LINE = 10 };
+  char number[16];
+  bool same = true;
+  for (int v = 0; v < plan->frame.n_nodes; v++) {
+    snprintf(number, sizeof number, "%d", v + 1);
+    same &= strcmp(number, label[v]) == 0;
+  }
+  for (int v = 0; v < plan->frame.n_nodes && !same; v++)
+    thr_text_printf(out, "%s%d = %s%s", v % IN_LINE ? ", " : "# places: ", v + 1, label[v],
+                    v % IN_LINE + 1 == IN_LINE || v + 1 == plan->frame.n_nodes ? "\n" : "");
+}
+
 thr_status thr_polylines_obj(const thr_plan *plan, const thr_line_options *options, thr_text *out,
                              thr_err *err)
 {
@@ -137,6 +153,7 @@ thr_status thr_polylines_obj(const thr_plan *plan, const thr_line_options *optio
     put_lanes(&lines, &text);
   } else if (!st) {
     thr_obj_write_nodes(&plan->frame, options->up_y, &text);
+    if (options->label) put_places(plan, options->label, &text);
     put_passes(&lines, last, &text);
   }
 
@@ -585,7 +602,7 @@ thr_status thr_polylines_gltf(const thr_plan *plan, const thr_line_options *opti
   strip *strips = thr_calloc((size_t)plan->n_cords, sizeof *strips);
 
   /* In glTF y points up, whatever the options say. */
-  const thr_line_options turned = {options->lanes, true};
+  const thr_line_options turned = {.lanes = options->lanes, .up_y = true};
   st = thr_cord_lines_begin(&lines, plan, &turned, err);
   if (!st && (!copy || !strips)) st = thr_nomem(err);
   if (!st) st = thr_copies_find(plan, copy, err);

@@ -491,6 +491,8 @@ void thr_pieces_say(const thr_pieces *pieces, const char (*label)[THR_LABEL],
 typedef struct {
   bool lanes; /* the passes of an edge run beside each other, so that none coincide */
   bool up_y;  /* y points up: a point at x, y, z stands at x, z, -y */
+  const char (*label)[THR_LABEL]; /* [n_nodes] places of the nodes, which OBJ lists in a comment;
+                                     NULL: not; borrowed */
 } thr_line_options;
 
 /* The cords of a plan, to be asked for one after the other. */

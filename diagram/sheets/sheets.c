@@ -88,11 +88,11 @@ static thr_status prepare(thr_sheets *sheets, thr_err *err)
   /* A flat picture shows the framework whole only if the layout has sides and draws every node
    * once. */
   thr_crops_make(&sheets->crops, plan, &sheets->known.guide.layout);
-  sheets->known.in_space = !sheets->known.guide.sides || sheets->known.guide.layout.node;
+  sheets->known.in_space = !sheets->known.guide.flat || sheets->known.guide.layout.node;
   if (!sheets->known.in_space) return THR_OK;
   return thr_space_make(
       &sheets->space, plan, thr_sheets_labels(&sheets->known),
-      sheets->known.guide.sides ? (const double(*)[3])sheets->known.guide.outward : NULL, err);
+      sheets->known.guide.flat ? (const double(*)[3])sheets->known.guide.outward : NULL, err);
 }
 
 /* Lays out all pages in order, the title page last. */

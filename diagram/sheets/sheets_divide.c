@@ -63,6 +63,22 @@ static int fewest(const divided_path *path, int i)
   return path->sheets->known.visit[path->first + i].number || i + 1 == path->n ? 1 : 2;
 }
 
+/* Computes the width and height, mm, that a page leaves for the picture of the visits i .. end - 1.
+ * Returns whether they do. */
+static bool find_room(const divided_path *path, int i, int end, double room[2])
+{
+  const thr_flow *flow = &path->sheets->flow;
+
+  /* Everything but the picture has a known height; the text before and after the rows takes a line
+   * each. */
+  double below =
+      THR_STEP_LEGEND + thr_step_strip_height(end - i) +
+      thr_step_words_height(thr_step_rows_height(path->lines[end] - path->lines[i], end - i), 1, 1);
+  room[0] = thr_sheets_width(flow);
+  room[1] = thr_sheets_bottom(flow) - THR_SHEET_MARGIN - THR_STEP_HEAD - below;
+  return room[1] >= THR_STEP_PICTURE[1];
+}
+
 /* Finds out whether the visits i .. end - 1 may be a step: *good says whether a page takes them
  * with every pass legible in the picture. */
 static thr_status is_good(divided_path *path, int i, int end, bool *good, thr_err *err)
@@ -75,16 +91,9 @@ static thr_status is_good(divided_path *path, int i, int end, bool *good, thr_er
                    .n_now = thr_step_now(known, path->first + i, path->first + end, now)};
   crop.backward = known->move[path->first + i].needle == THR_NEEDLE_LEFT;
 
-  /* Everything but the picture has a known height; the text before and after the rows takes a line
-   * each. */
-  double below =
-      THR_STEP_LEGEND + thr_step_strip_height(end - i) +
-      thr_step_words_height(thr_step_rows_height(path->lines[end] - path->lines[i], end - i), 1, 1);
-  double room[2] = {thr_sheets_width(&sheets->flow),
-                    thr_sheets_bottom(&sheets->flow) - THR_SHEET_MARGIN - THR_STEP_HEAD - below};
-
+  double room[2];
   thr_crop_view view;
-  *good = room[1] >= THR_STEP_PICTURE[1];
+  *good = find_room(path, i, end, room);
   if (!*good) return THR_OK;
 
   /* In space some view must show every pass long enough. */
@@ -158,6 +167,25 @@ static void choose(const divided_path *path, double *least, int *begin_of)
     }
 }
 
+/* Joins steps of one pass to the steps before them, if the page takes both: in space any view can
+ * be drawn, and a picture of one pass says less than a crowded one. */
+static void join_single(const divided_path *path, int *end, int *n_steps)
+{
+  const thr_known *known = &path->sheets->known;
+  int n = 0;
+
+  for (int k = 0; k < *n_steps; k++) {
+    const int from = n ? end[n - 1] : path->first, before = n > 1 ? end[n - 2] : path->first;
+    double room[2];
+    if (n && end[k] - from == 1 && !thr_step_begins(known, from) &&
+        end[k] - before <= THR_STEP_VISITS &&
+        find_room(path, before - path->first, end[k] - path->first, room))
+      n--;
+    end[n++] = end[k];
+  }
+  *n_steps = n;
+}
+
 thr_status thr_step_divide(thr_sheets *sheets, int c, int **ends, int *n_steps, thr_err *err)
 {
   const thr_known *known = &sheets->known;
@@ -190,6 +218,7 @@ thr_status thr_step_divide(thr_sheets *sheets, int c, int **ends, int *n_steps, 
       ++*n_steps;
     for (int e = path.n, k = *n_steps; e > 0; e = begin_of[e])
       end[--k] = path.first + e;
+    if (known->in_space) join_single(&path, end, n_steps);
   }
 
   free(least);

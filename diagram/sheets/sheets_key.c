@@ -2,9 +2,9 @@
 /* Lays out pieces on paper: a card for every kind of solid piece, with its outline and the lengths
  * of its arms, and a tag with the name of every piece, to cut out and stick on.
  *
- * A card shows the first piece of the kind as the layout draws that piece, outer side up, at the
- * largest scale at which its arms stay within ROOM mm. Where the layout has no sides, or there are
- * more than MOST_CARDS kinds, cards would not tell kinds apart and are left out.
+ * A card shows the first piece of the kind as the layout draws that piece, outer side up, or as it
+ * is told best where steps are drawn in space, at the largest scale at which its arms stay within
+ * ROOM mm. At most MOST_CARDS kinds have one, and none those that rows call by their places.
  *
  * Example: 25 kinds in rows of four make seven rows of 46 mm: two pages. */
 #include "diagram/overview/overview.h"
@@ -101,11 +101,14 @@ static void put_card(thr_sheets *sheets, int kind, double x, double y, double wi
                count);
 
   /* The piece at a scale of its own: cards show shapes, not relative sizes. */
-  thr_status st = thr_crop_piece(&sheets->crops, model, at, ROOM, &scene, &point, text, &flow->why);
+  thr_status st =
+      known->in_space
+          ? thr_space_piece(&sheets->space, model, at, ROOM, text, &flow->why)
+          : thr_crop_piece(&sheets->crops, model, at, ROOM, &scene, &point, text, &flow->why);
   thr_sheets_fail(flow, st);
 
   /* Around the picture, and below it. */
-  if (!st) put_lengths(flow, known, scene, point, at);
+  if (!st && !known->in_space) put_lengths(flow, known, scene, point, at);
   put_members(flow, known, kind, x, y + CARD - 2, width);
 }
 
@@ -174,28 +177,39 @@ void thr_sheets_key(thr_sheets *sheets)
   thr_flow *flow = &sheets->flow;
   char title[96];
   const thr_pieces *pieces = &known->pieces;
+  int cards = 0;
   double width = (thr_sheets_width(flow) - (CARDS - 1) * AIR) / CARDS;
 
   if (!pieces->solid || flow->why.code) return;
   put_crossings(flow, known);
 
-  /* A flat picture would not tell the kinds apart, or there are too many. */
-  if (!known->guide.sides || pieces->n_kinds > MOST_CARDS) return;
+  /* Kinds that rows call by their places have no cards, nor have those beyond a number. */
+  for (int k = 1; k <= pieces->n_kinds; k++)
+    cards += !thr_pieces_alone(pieces, k);
+  const bool few = cards > MOST_CARDS;
+  cards = few ? MOST_CARDS : cards;
+  if (!cards) return;
   snprintf(title, sizeof title, "The %d %s: %d kind%s", pieces->n,
            thr_pieces_word(known->plan, pieces->n), pieces->n_kinds,
            pieces->n_kinds == 1 ? "" : "s");
 
-  begin(flow, is_shorter_here(flow, pieces->n_kinds), title, title);
+  begin(flow, is_shorter_here(flow, cards), title, title);
   if (flow->why.code) return;
 
-  thr_sheets_put(
-      flow, THR_BLOCK_PARAGRAPH,
-      "Outer side up, as in the picture. Numbers: arms from the hub to the face, in %.15s.",
-      known->f->units);
+  thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                 "%s Numbers: arms from the hub to the face, in %.15s.%s",
+                 known->in_space ? "Each turned so that its arms are told best."
+                                 : "Outer side up, as in the picture.",
+                 known->f->units,
+                 few                       ? " The other kinds: beads.csv."
+                 : cards < pieces->n_kinds ? " Kinds of one piece, which rows call by its place: "
+                                             "beads.csv."
+                                           : "");
 
   /* Kinds count from 1. */
-  for (int k = 1; k <= pieces->n_kinds && !flow->why.code; k++) {
-    double x = begin_cell(flow, k - 1, CARDS, width, CARD, AIR);
+  for (int k = 1, card = 0; k <= pieces->n_kinds && card < cards && !flow->why.code; k++) {
+    if (thr_pieces_alone(pieces, k)) continue;
+    double x = begin_cell(flow, card++, CARDS, width, CARD, AIR);
     if (!flow->why.code) put_card(sheets, k, x, flow->y, width);
   }
 

@@ -219,13 +219,20 @@ static void put_pulling(thr_flow *flow, const thr_known *known, cord_pull *pulls
   put_too_hard(flow, known, pulls);
 }
 
-/* Draws how the pieces come up as the cords are pulled, on one page. */
+/* Draws how the pieces come up as the cords are pulled, on one page, or says that it is not known.
+ */
 static void put_rise(thr_flow *flow, const thr_known *known)
 {
   static const double ROW = 58; /* mm: two pictures beside each other, and their captions */
   const thr_still *rise = known->o.rise;
   const int rows = rise ? (rise->n_panels + 1) / 2 : 0;
-  if (!rise) return;
+  if (!rise) {
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                   "Whether the pieces come up by themselves as the cords are pulled has not been "
+                   "simulated (thread rise --booklet). Else carry their weight from below, with a "
+                   "hand, a cushion or a ball, until the faces are closed.");
+    return;
+  }
 
   thr_sheets_room(flow, ROW * rows + 6 * THR_SHEET_LINE);
   thr_sheets_put(flow, THR_BLOCK_TITLE, "%s", rise->title);

@@ -318,7 +318,8 @@ static void put_need(instruction_panel *panel, thr_text *words)
   else
     thr_text_append(words, " thinner than the bores; a stopper wider than they are");
 
-  thr_text_append(words, "; tape, scissors, and overview.svg to lay the pieces on.");
+  thr_text_append(words,
+                  "; tape, scissors, and the mat to lay the pieces on (thread draw -T mat).");
 }
 
 /* Returns the visit that explains best how a piece lies: the first one that picks up a piece,
@@ -361,15 +362,17 @@ static void put_lay(instruction_panel *panel, thr_text *words)
 
   /* The text names the same piece, for the maker to find it in the overview. */
   if (shown >= 0) {
-    thr_text_append(
-        words, "Lay each piece as the overview shows it: its outer side up, its name upright. ");
+    thr_text_append(words, known->in_space
+                               ? "Lay each piece on the mat, its name upright. "
+                               : "Lay each piece as the mat shows it: its outer side up, its name "
+                                 "upright. ");
     const thr_visit *visit = &known->visit[shown];
     thr_text_printf(words, "Here %s: in by the arm that faces %s, out by the one that faces %s.",
                     known->guide.label[visit->piece],
                     known->guide.label[thr_tail(known->f, visit->in)],
                     known->guide.label[thr_head(known->f, visit->out)]);
   } else
-    thr_text_append(words, "Lay each piece where the overview has it, its name upright. Rows say "
+    thr_text_append(words, "Lay each piece where the mat has it, its name upright. Rows say "
                            "by which of its two ends the needle goes in.");
 }
 

@@ -137,11 +137,14 @@ void thr_sheets_whole(thr_sheets *sheets, bool in_space, const unsigned char *st
 {
   thr_flow *flow = &sheets->flow;
   const thr_box paper = {THR_SHEET_MARGIN, flow->y, flow->size[0] - THR_SHEET_MARGIN, bottom};
+  thr_space_look look = thr_space_front();
+  look.state = piece;
+  look.cords = !piece;
 
   if (flow->why.code) return;
   thr_sheets_fail(
       flow, in_space
-                ? thr_space_whole(&sheets->space, piece, paper, thr_sheets_out(flow), &flow->why)
+                ? thr_space_whole(&sheets->space, &look, paper, thr_sheets_out(flow), &flow->why)
                 : thr_crop_whole(sheets->known.plan, &sheets->known.guide.layout, state, piece,
                                  paper, pitch, flow->limits, thr_sheets_out(flow), &flow->why));
 }

@@ -5,7 +5,8 @@
  * to looking down steeply. A direction's value grows with the lengths of passes on paper as parts
  * of their lengths in space (mean, and twice the lower quartile), and with how far the passes face
  * the eye; passes that are too short or lie on the far side of a shell cost more than anything else
- * can bring; numbers that lie on each other and passes that cross cost a little.
+ * can bring; planes of the framework that are seen edge-on, numbers that lie on each other and
+ * passes that cross cost a little.
  *
  * Example: a step round the foot of a dome is seen from its own side, from somewhat above. */
 #include "diagram/space/space.h"
@@ -28,8 +29,12 @@ static const double NUMBERS = 5.2, NUMBER_AT = 0.7;
 static const double ROOMY = 14; /* mm: longer passes are no better */
 static const double RIM = 0.02; /* cosine: nearer to the rim of a shell a pass counts as hidden */
 
+static const double EDGE_ON =
+    0.2; /* sine: from a plane seen at so small an angle nothing is told */
+
 /* against foreshortening */
-static const double SHORT = 1000, HIDDEN = 1000, NEAR = 0.3, CROSSED = 0.15, OUTWARD = 0.8;
+static const double SHORT = 1000, HIDDEN = 1000, NEAR = 0.3, CROSSED = 0.15, OUTWARD = 0.8,
+                    PLANE = 2;
 
 thr_camera thr_camera_at(double azimuth, double elevation)
 {
@@ -169,6 +174,15 @@ static double judge_lengths(const thr_camera_scene *scene, const camera_sight *s
          (sight->least < 1 ? SHORT + 1 - sight->least : 0);
 }
 
+/* Returns what planes of the framework cost that are seen edge-on. */
+static double judge_planes(const thr_camera_scene *scene, const thr_camera *camera)
+{
+  double sum = 0;
+  for (int i = 0; i < scene->n_planes; i++)
+    sum += fmax(0, 1 - fabs(thr_dot(scene->plane[i], camera->eye)) / EDGE_ON);
+  return scene->n_planes ? PLANE * sum / scene->n_planes : 0;
+}
+
 /* Returns twice the area of a triangle, with the sign of its orientation. */
 static double turn(const double a[2], const double b[2], const double c[2])
 {
@@ -213,7 +227,7 @@ thr_camera_view thr_camera_choose(const thr_camera_scene *scene, const double si
     thr_camera camera = camera_number(i);
     camera_sight sight = {0};
     look(scene, &camera, size, &sight);
-    double value = judge_lengths(scene, &sight);
+    double value = judge_lengths(scene, &sight) - judge_planes(scene, &camera);
     if (value <= most) continue;
 
     value -= judge_pairs(scene, &sight);

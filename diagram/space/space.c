@@ -108,6 +108,39 @@ static void find_outward(const thr_space *space, int h, double outward[3])
     outward[k] = length > least ? outward[k] / length : 0;
 }
 
+/* Computes the vector along a half-edge. */
+static void find_along(const thr_frame *frame, int h, double along[3])
+{
+  const double *from = frame->xyz[thr_tail(frame, h)], *to = frame->xyz[thr_head(frame, h)];
+  for (int k = 0; k < 3; k++)
+    along[k] = to[k] - from[k];
+}
+
+/* Adds the planes that a pass spans with the other edges at its ends. */
+static void add_planes(const thr_space *space, int h, thr_camera_scene *scene)
+{
+  const thr_frame *frame = space->f;
+  for (int end = 0; end < 2; end++) {
+    const int own = h ^ end, v = thr_tail(frame, own);
+    double along[3], other[3], normal[3];
+    find_along(frame, own, along);
+
+    for (int i = frame->first[v]; i < frame->first[v + 1]; i++) {
+      if (frame->half[i] == own || scene->n_planes == THR_CAMERA_PLANES) continue;
+      find_along(frame, frame->half[i], other);
+      thr_cross(along, other, normal);
+
+      /* Edges that go on straight span none. */
+      const double size = sqrt(thr_dot(normal, normal)),
+                   most = sqrt(thr_dot(along, along) * thr_dot(other, other));
+      if (size < 0.1 * most || !(most > 0)) continue;
+      for (int k = 0; k < 3; k++)
+        scene->plane[scene->n_planes][k] = normal[k] / size;
+      scene->n_planes++;
+    }
+  }
+}
+
 /* Describes what a camera is to show of a step: its passes in the direction of the needle. */
 static void camera_scene(const thr_space *space, const thr_crop *crop, thr_camera_scene *scene)
 {
@@ -115,12 +148,14 @@ static void camera_scene(const thr_space *space, const thr_crop *crop, thr_camer
   scene->n = crop->n_now < THR_CAMERA_PASSES ? crop->n_now : THR_CAMERA_PASSES;
   scene->pitch = space->pitch;
   scene->shell = space->outward != NULL;
+  scene->n_planes = 0;
 
   for (int i = 0; i < scene->n; i++) {
     int h = thr_space_half(space, crop, crop->now[i]);
     memcpy(scene->from[i], space->f->xyz[thr_tail(space->f, h)], sizeof scene->from[i]);
     memcpy(scene->to[i], space->f->xyz[thr_head(space->f, h)], sizeof scene->to[i]);
     find_outward(space, h, scene->outward[i]);
+    if (!scene->shell) add_planes(space, h, scene);
   }
 }
 

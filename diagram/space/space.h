@@ -3,12 +3,14 @@
  * step from the direction in which its passes are best told apart, what is far away pale.
  *
  * Reading order: camera.h and camera.c (the choice of a direction), space.c (what a camera is asked
- * to show), space_draw.c (a step's picture, and all pieces), space_labels.c (numbers, arrows,
- * names), space_locate.c (the whole in small beside a step). On paper lengths are in mm, y goes
- * down; depths are in units of the framework, larger = nearer to the eye. */
+ * to show), space_draw.c (a step's picture, all pieces, one piece), space_labels.c (numbers,
+ * arrows, names), space_locate.c (the whole in small beside a step), space_overview.c. On paper
+ * lengths are in mm, y goes down; depths are in units of the framework, larger = nearer to the eye.
+ */
 #ifndef THR_SPACE_H
 #define THR_SPACE_H
 
+#include "diagram/overview/overview.h"
 #include "diagram/overview/overview_parts.h"
 #include "diagram/scene/scene.h"
 #include "graph/framework/frame.h"
@@ -35,7 +37,7 @@ typedef struct {
 } thr_camera_view;
 
 /* So many passes of a step are shown at most. */
-enum { THR_CAMERA_PASSES = 32 };
+enum { THR_CAMERA_PASSES = 32, THR_CAMERA_PLANES = 4 * THR_CAMERA_PASSES };
 
 /* What is to be drawn: a line for every pass as the needle goes, from hub to hub. */
 typedef struct {
@@ -43,8 +45,11 @@ typedef struct {
   double from[THR_CAMERA_PASSES][3], to[THR_CAMERA_PASSES][3];
   double outward[THR_CAMERA_PASSES][3]; /* unit vector from the inside of the framework to its
                                            outside at the pass; 0: none */
-  bool shell;                           /* passes on the far side are hidden */
-  double pitch;                         /* median edge, units */
+  int n_planes;
+  double plane[THR_CAMERA_PLANES][3]; /* unit normals of planes of the framework at the passes,
+                                         which are not to be seen edge-on */
+  bool shell;                         /* passes on the far side are hidden */
+  double pitch;                       /* median edge, units */
 } thr_camera_scene;
 
 /* A pass is at least so long on paper, mm; one that is less than half a pitch long in space, in
@@ -118,11 +123,36 @@ thr_status thr_space_locate(const thr_space *space, const thr_space_step *step,
                             const thr_camera_view *view, thr_box paper, thr_text *text,
                             thr_err *err) THR_MUST_CHECK;
 
-/* Appends all pieces, from the front and above, as large as the paper takes, with the names of
- * those that have room. O(n log n).
- */
-thr_status thr_space_whole(const thr_space *space, const unsigned char *state, thr_box paper,
+/* From where the whole is seen, and what of it. Everything is borrowed. */
+typedef struct {
+  double azimuth, elevation;  /* rad */
+  const unsigned char *state; /* [pieces] how they look (thr_piece_state); NULL: held */
+  bool cords;                 /* with the cords in them, each hidden by what is in front of it, and
+                                 their ends and passes numbered where there is room */
+  bool *named, *numbered; /* [n_nodes] [n_passes] what other views have named already, which comes
+                             last, or is not repeated; NULL: each view for itself */
+} thr_space_look;
+
+/* Returns the look from the front and above, without cords. */
+thr_space_look thr_space_front(void);
+
+/* Appends all pieces as large as the paper takes, with the names of those that have room. O(n log
+ * n). */
+thr_status thr_space_whole(const thr_space *space, const thr_space_look *look, thr_box paper,
                            thr_text *text, thr_err *err) THR_MUST_CHECK;
+
+/* Appends the piece at a node alone, from where its arms are told best, its hub at a point of the
+ * page and its longest arm `reach` mm long at most, with the lengths of up to six arms. */
+thr_status thr_space_piece(const thr_space *space, int node, const double at[2], double reach,
+                           thr_text *text, thr_err *err) THR_MUST_CHECK;
+
+/* ---- space_overview.c: The overview of a framework that no flat picture shows as it is. */
+
+/* Appends a sheet with the framework and all cords from four sides, as thr_overview_svg. guide: of
+ * the same layout. Elements: <g id="view-1"> to "view-4". THR_EINPUT as thr_overview_svg. */
+thr_status thr_space_overview(const thr_plan *plan, const thr_guide *guide,
+                              const thr_overview_options *options, thr_text *svg,
+                              thr_err *err) THR_MUST_CHECK;
 
 /* Returns the half-edge of pass i in the direction of the needle. */
 int thr_space_half(const thr_space *space, const thr_crop *crop, int i);

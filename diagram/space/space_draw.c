@@ -4,7 +4,7 @@
  *
  * Colours are paler the further away from the step a thing is in depth: a part FADE of white at
  * DEEP pitches. Within a layer pieces are sorted by depth (the painter's algorithm).
- * thr_space_whole draws all pieces in the same way, without cords. */
+ * thr_space_whole draws all pieces in the same way, each with what runs in it. */
 #include "diagram/overview/overview.h"
 #include "diagram/space/space.h"
 #include "graph/arrays.h"
@@ -13,6 +13,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { BINS = 4 }; /* of depth, for lines */
 
@@ -37,6 +38,7 @@ typedef struct {
   double depth,
       deep; /* mean depth of what is drawn now; so far from it colours are as pale as they get */
   double pitch, arm; /* mm */
+  bool cords;        /* every piece with the cords in it */
   thr_text *text;
 } step_drawing;
 
@@ -256,6 +258,102 @@ static void put_tube(const step_drawing *drawing, int e, bool now)
   }
 }
 
+static thr_lane lane_of(const step_drawing *drawing, int i);
+static void put_turn(const thr_lane *before, const thr_lane *behind, thr_text *text);
+
+/* Returns the pass behind pass i of the same cord, as the needle goes; -1: there is none. */
+static int pass_behind(const thr_space *space, int i)
+{
+  const thr_cord *cord = &space->plan->cord[space->cord[i]];
+  if (i + 1 < space->n_passes && space->cord[i + 1] == space->cord[i]) return i + 1;
+  return cord->closed ? i + 1 - cord->n_passes : -1;
+}
+
+/* Returns whether pass i is the first of its cord. */
+static bool is_first(const thr_space *space, int i)
+{
+  return i == 0 || space->cord[i - 1] != space->cord[i];
+}
+
+/* Draws the way of a cord through a piece, in its colour on a white casing: out of the face of pass
+ * i, round the hub, to the face of pass next; from or to the hub where one of them is -1. An arrow
+ * lies on the way in. */
+static void put_way(const step_drawing *drawing, int i, int next)
+{
+  const double width = fmin(1.3, 0.07 * drawing->pitch);
+  thr_text data = {0};
+  thr_lane in = {0}, out = {0};
+  double depth = 0, arrow[2];
+  if (i >= 0) in = lane_of(drawing, i);
+  if (next >= 0) out = lane_of(drawing, next);
+
+  if (i >= 0) {
+    thr_svg_move(&data,
+                 (const double[]){0.5 * (in.from[0] + in.to[0]), 0.5 * (in.from[1] + in.to[1])});
+    thr_svg_line(&data, in.to);
+    if (next < 0) thr_svg_line(&data, in.hub[1]);
+    depth = drawing->at[thr_head(drawing->space->f, drawing->space->half[i])][2];
+  } else {
+    thr_svg_move(&data, out.hub[0]);
+    thr_svg_line(&data, out.from);
+    depth = drawing->at[thr_tail(drawing->space->f, drawing->space->half[next])][2];
+  }
+  if (i >= 0 && next >= 0) put_turn(&in, &out, &data);
+  if (next >= 0)
+    thr_svg_line(
+        &data, (const double[]){0.5 * (out.from[0] + out.to[0]), 0.5 * (out.from[1] + out.to[1])});
+
+  /* Hues as in flat overviews: of each cord, or of each twenty passes of the only one. */
+  const thr_plan *plan = drawing->space->plan;
+  const int own = i >= 0 ? i : next,
+            hue = plan->n_cords == 1 ? own / THR_COLOUR_PASSES : drawing->space->cord[own];
+  char colour[8];
+  pale(thr_palette(hue).hex, fade_of(drawing, depth), colour);
+  for (int k = 0; k < 2 && data.data; k++)
+    thr_text_printf(drawing->text,
+                    "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" "
+                    "stroke-linejoin=\"round\" d=\"%s\"/>\n",
+                    k ? colour : "#fff", k ? width : 1.6 * width, data.data);
+  drawing->text->failed |= data.failed;
+  thr_text_destroy(&data);
+
+  /* The arrow points to the hub. */
+  const double size = fmin(2.6 * width, 0.3 * in.length);
+  if (i < 0 || size < 0.6) return;
+  for (int k = 0; k < 2; k++)
+    arrow[k] = 0.3 * in.from[k] + 0.7 * in.to[k] + 0.5 * size * in.along[k];
+  thr_text_printf(drawing->text, "<path fill=\"%s\" d=\"", colour);
+  thr_svg_move(drawing->text, arrow);
+  for (int side = -1; side < 2; side += 2)
+    thr_svg_line(
+        drawing->text,
+        (const double[]){arrow[0] - size * in.along[0] - side * 0.45 * size * in.along[1],
+                         arrow[1] - size * in.along[1] + side * 0.45 * size * in.along[0]});
+  thr_text_append(drawing->text, "z\"/>\n");
+}
+
+/* Draws the ways of all cords through the piece at a node, or through a tube and round the nodes
+ * behind it. */
+static void put_ways(const step_drawing *drawing, int piece)
+{
+  const thr_space *space = drawing->space;
+  const thr_frame *frame = space->f;
+  const int first = space->solid ? frame->first[piece] : 0,
+            end = space->solid ? frame->first[piece + 1] : 1;
+
+  for (int a = first; a < end; a++) {
+    const int e = space->solid ? frame->half[a] >> 1 : piece;
+    for (int k = space->first_on[e]; k < space->first_on[e + 1]; k++) {
+      const int i = space->on[k], next = pass_behind(space, i);
+      const bool closed = space->plan->cord[space->cord[i]].closed;
+      if (!space->solid || thr_head(frame, space->half[i]) == piece) put_way(drawing, i, next);
+      if (is_first(space, i) && !closed &&
+          (!space->solid || thr_tail(frame, space->half[i]) == piece))
+        put_way(drawing, -1, i);
+    }
+  }
+}
+
 /* Returns how near a piece is: of tubes both ends count. */
 static nearness near_of(const step_drawing *drawing, int piece)
 {
@@ -288,11 +386,13 @@ static void put_pieces(const step_drawing *drawing, nearness near, bool new, thr
 
   /* Draw them from the furthest on. */
   thr_sort_ranked(list, (size_t)n);
-  for (int i = 0; i < n; i++)
+  for (int i = 0; i < n; i++) {
     if (drawing->space->solid)
       put_solid(drawing, list[i].index, near == NOW);
     else
       put_tube(drawing, list[i].index, near == NOW);
+    if (drawing->cords) put_ways(drawing, list[i].index);
+  }
 }
 
 /* ---- cords ---- */
@@ -558,10 +658,77 @@ thr_status thr_space_draw(const thr_space *space, const thr_space_step *step,
 
 /* ---- the whole ---- */
 
-/* Writes the names of nodes that have room, the nearest first. list: scratch. */
-static thr_status put_names(const step_drawing *drawing, thr_ranked *list, thr_err *err)
+static const double LABEL = 2.6; /* mm: letters */
+
+/* Writes a label in the middle of a place, on a ground if it has one, unless the label would cover
+ * another one. Returns whether it is written. */
+static bool put_label(const step_drawing *drawing, thr_boxes *boxes, const double at[2],
+                      const char *words, const char *ground, const char *ink, thr_status *st,
+                      thr_err *err)
 {
-  static const double size = 2.6; /* mm */
+  const double half[2] = {0.5 * thr_scene_text_width(words, LABEL) + 0.3, 0.6 * LABEL};
+  const thr_box box = thr_box_around(at[0], at[1], half[0], half[1]);
+  char look[48];
+  if (*st || thr_boxes_overlap(boxes, box, ~0, 1e-9) > 0) return false;
+
+  if (ground)
+    thr_text_printf(drawing->text,
+                    "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" rx=\"0.80\" "
+                    "fill=\"%s\"/>\n",
+                    thr_svg_round(box.x0), thr_svg_round(box.y0), 2 * half[0], 2 * half[1], ground);
+  snprintf(look, sizeof look, " style=\"fill:%s\"", ink);
+  thr_svg_text(drawing->text, at[0], at[1] + 0.36 * LABEL, LABEL, look, words);
+  *st = thr_boxes_add(boxes, box, THR_BOX_NAME, err);
+  return !*st;
+}
+
+/* Writes where cords start and end, beside their hubs, and the numbers of the passes in the nearer
+ * half that no other view has. */
+static void put_numbers(const step_drawing *drawing, const thr_space_look *look, thr_boxes *boxes,
+                        thr_status *st, thr_err *err)
+{
+  const thr_space *space = drawing->space;
+  const thr_plan *plan = space->plan;
+
+  for (int ends = 1; ends >= 0; ends--)
+    for (int i = 0, number = 1; i < space->n_passes; i++, number++) {
+      const bool first = is_first(space, i),
+                 last = i + 1 == space->n_passes || space->cord[i + 1] != space->cord[i];
+      const thr_lane lane = lane_of(drawing, i);
+      char id[12] = "", words[32];
+      double at[2];
+      if (first) number = 1;
+      if (plan->n_cords > 1) thr_scene_cord_id(plan, space->cord[i], id);
+
+      for (int end = 0; end < 2 && ends; end++) {
+        if (end ? !last : !first) continue;
+        snprintf(words, sizeof words, "%c%s", end ? 'E' : 'S', id);
+        for (int k = 0; k < 2; k++)
+          at[k] = lane.hub[end][k] + (end ? -1 : 1) * 0.3 * lane.length * lane.along[k];
+        put_label(drawing, boxes, at, words, "#222", "#fff", st, err);
+      }
+
+      /* The far half is told from the other side. */
+      const double *tail = drawing->at[thr_tail(space->f, space->half[i])],
+                   *head = drawing->at[thr_head(space->f, space->half[i])];
+      if (ends || (look->numbered && look->numbered[i]) ||
+          0.5 * (tail[2] + head[2]) < drawing->depth - 0.5 * drawing->deep)
+        continue;
+      const int hue = plan->n_cords == 1 ? i / THR_COLOUR_PASSES : space->cord[i];
+      snprintf(words, sizeof words, "%s%d", id, number);
+      for (int k = 0; k < 2; k++)
+        at[k] = 0.5 * (lane.from[k] + lane.to[k]);
+      if (put_label(drawing, boxes, at, words, "#fff", thr_palette(hue).hex, st, err) &&
+          look->numbered)
+        look->numbered[i] = true;
+    }
+}
+
+/* Writes the names of nodes that have room, first those that no other view has named, the nearest
+ * first; then what is said of the cords. list: scratch. */
+static thr_status put_names(const step_drawing *drawing, const thr_space_look *look,
+                            thr_ranked *list, thr_err *err)
+{
   thr_boxes boxes = {0};
   thr_status st = thr_boxes_init(&boxes, drawing->window, 6, err);
   int n = drawing->space->f->n_nodes;
@@ -571,29 +738,33 @@ static thr_status put_names(const step_drawing *drawing, thr_ranked *list, thr_e
     list[v] = (thr_ranked){drawing->at[v][2], v};
   thr_sort_ranked(list, (size_t)n);
 
-  thr_text_append(drawing->text, "<g fill=\"#222\" text-anchor=\"middle\">\n");
-  for (int i = n - 1; i >= 0 && !st; i--) {
-    /* A name that would cover another one is left out. */
-    const double *at = drawing->at[list[i].index];
-    const char *name = drawing->space->label[list[i].index];
-    thr_box box =
-        thr_box_around(at[0], at[1], 0.5 * thr_scene_text_width(name, size) + 0.3, 0.6 * size);
-    if (thr_boxes_overlap(&boxes, box, ~0, 1e-9) > 0) continue;
-
-    thr_svg_text(drawing->text, at[0], at[1] + 0.36 * size, size, "", name);
-    st = thr_boxes_add(&boxes, box, THR_BOX_NAME, err);
-  }
+  thr_text_append(drawing->text, "<g text-anchor=\"middle\">\n");
+  for (int again = 0; again < 2; again++)
+    for (int i = n - 1; i >= 0 && !st; i--) {
+      const int v = list[i].index;
+      if (look->named ? look->named[v] != again : again) continue;
+      if (put_label(drawing, &boxes, drawing->at[v], drawing->space->label[v],
+                    drawing->cords ? "#f3f1ea" : NULL, "#222", &st, err) &&
+          look->named)
+        look->named[v] = true;
+    }
+  if (drawing->cords) put_numbers(drawing, look, &boxes, &st, err);
 
   thr_text_append(drawing->text, "</g>\n");
   thr_boxes_destroy(&boxes);
   return st;
 }
 
-/* Returns a view of all nodes from the front and above; at[n_nodes]: where they are on paper. */
-static thr_camera_view view_of_all(const thr_space *space, const double size[2], double (*at)[3])
+thr_space_look thr_space_front(void)
 {
-  static const double azimuth = -1.05, elevation = 0.4; /* rad */
-  thr_camera_view view = {.camera = thr_camera_at(azimuth, elevation), .scale = 1};
+  return (thr_space_look){.azimuth = -1.05, .elevation = 0.4};
+}
+
+/* Returns a view of all nodes; at[n_nodes]: where they are on paper. */
+static thr_camera_view view_of_all(const thr_space *space, const thr_space_look *look,
+                                   const double size[2], double (*at)[3])
+{
+  thr_camera_view view = {.camera = thr_camera_at(look->azimuth, look->elevation), .scale = 1};
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
 
   /* The nodes' bounding box at scale 1. */
@@ -618,24 +789,28 @@ static thr_camera_view view_of_all(const thr_space *space, const double size[2],
   return view;
 }
 
-thr_status thr_space_whole(const thr_space *space, const unsigned char *state, thr_box paper,
+thr_status thr_space_whole(const thr_space *space, const thr_space_look *look, thr_box paper,
                            thr_text *text, thr_err *err)
 {
   const thr_frame *frame = space->f;
   int most = frame->n_nodes > frame->n_edges ? frame->n_nodes : frame->n_edges;
   const double size[2] = {paper.x1 - paper.x0, paper.y1 - paper.y0};
   thr_space_step plain = {.next = -1};
-  step_drawing drawing = {
-      .space = space, .step = &plain, .text = text, .window = {0, 0, size[0], size[1]}};
+  step_drawing drawing = {.space = space,
+                          .step = &plain,
+                          .text = text,
+                          .window = {0, 0, size[0], size[1]},
+                          .cords = look->cords};
 
   drawing.at = thr_calloc((size_t)frame->n_nodes, sizeof *drawing.at);
   drawing.near = thr_calloc((size_t)frame->n_nodes, sizeof *drawing.near);
   thr_ranked *list = thr_calloc((size_t)most, sizeof *list);
-  unsigned char *piece = thr_calloc((size_t)most, sizeof *piece);
-  thr_status st = drawing.at && drawing.near && list && piece ? THR_OK : thr_nomem(err);
+  unsigned char *piece = thr_calloc((size_t)most, sizeof *piece),
+                *shown = thr_calloc((size_t)space->n_passes, sizeof *shown);
+  thr_status st = drawing.at && drawing.near && list && piece && shown ? THR_OK : thr_nomem(err);
   if (!st) {
     /* Every node is drawn as a piece around; depths go from the nearest to the furthest node. */
-    thr_camera_view view = view_of_all(space, size, drawing.at);
+    thr_camera_view view = view_of_all(space, look, size, drawing.at);
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (int v = 0; v < frame->n_nodes; v++) {
       drawing.near[v] = AROUND;
@@ -645,6 +820,9 @@ thr_status thr_space_whole(const thr_space *space, const unsigned char *state, t
 
     /* Colours and sizes as in steps' pictures. */
     plain.crop.piece = piece;
+    plain.crop.state = shown;
+    for (int i = 0; i < space->n_passes; i++)
+      shown[i] = THR_DRAW_NOW;
     drawing.view = &view;
     drawing.depth = high;
     drawing.deep = fmax(high - low, space->pitch);
@@ -655,15 +833,85 @@ thr_status thr_space_whole(const thr_space *space, const unsigned char *state, t
 
     /* All pieces in the state that is asked for. */
     for (int i = 0; i < (space->solid ? frame->n_nodes : frame->n_edges); i++)
-      piece[i] = state ? state[i] : THR_PIECE_HELD;
+      piece[i] = look->state ? look->state[i] : THR_PIECE_HELD;
     put_pieces(&drawing, AROUND, false, list);
-    st = put_names(&drawing, list, err);
+    st = put_names(&drawing, look, list, err);
     thr_text_append(text, "</g>\n");
   }
 
   free(drawing.at);
   free(drawing.near);
   free(list);
+  free(piece);
+  free(shown);
+  return st;
+}
+
+thr_status thr_space_piece(const thr_space *space, int node, const double at[2], double reach,
+                           thr_text *text, thr_err *err)
+{
+  enum { MOST_NUMBERS = 6 };
+  const thr_frame *frame = space->f;
+  const double size[2] = {4 * reach, 4 * reach};
+  const int n =
+      thr_degree(frame, node) < THR_CAMERA_PASSES ? thr_degree(frame, node) : THR_CAMERA_PASSES;
+  thr_camera_scene scene = {.n = n, .pitch = space->pitch};
+  thr_space_step plain = {.next = -1};
+  step_drawing drawing = {.space = space, .step = &plain, .text = text, .deep = 1};
+  double longest = 0;
+
+  drawing.at = thr_calloc((size_t)frame->n_nodes, sizeof *drawing.at);
+  unsigned char *piece = thr_calloc((size_t)frame->n_nodes, sizeof *piece);
+  thr_status st = drawing.at && piece ? THR_OK : thr_nomem(err);
+
+  /* Arms as passes that leave the hub, seen from where they are least foreshortened. */
+  for (int i = 0; i < n; i++) {
+    const int h = frame->half[frame->first[node] + i];
+    for (int k = 0; k < 3; k++) {
+      scene.from[i][k] = frame->xyz[node][k];
+      scene.to[i][k] = 0.5 * (frame->xyz[node][k] + frame->xyz[thr_head(frame, h)][k]);
+    }
+  }
+  thr_camera_view view = n > 0 ? thr_camera_choose(&scene, size)
+                               : (thr_camera_view){.camera = thr_camera_at(-1.05, 0.4)};
+
+  /* The hub in the middle, the longest arm as long as there is room. */
+  for (int i = 0; i < n; i++)
+    longest = fmax(longest, 0.5 * frame->length[frame->half[frame->first[node] + i] >> 1]);
+  view.scale = longest > 0 ? reach / longest : 1;
+  view.size[0] = 2 * at[0];
+  view.size[1] = 2 * at[1];
+  view.middle[0] = thr_dot(frame->xyz[node], view.camera.right);
+  view.middle[1] = -thr_dot(frame->xyz[node], view.camera.up);
+  drawing.view = &view;
+  drawing.pitch = view.scale * space->pitch;
+  drawing.arm = fmin(ARM * drawing.pitch, WIDEST);
+
+  if (!st) {
+    plain.crop.piece = piece;
+    piece[node] = THR_PIECE_NEW;
+    thr_camera_project(&view, frame->xyz[node], drawing.at[node]);
+    for (int i = frame->first[node]; i < frame->first[node + 1]; i++) {
+      const int other = thr_head(frame, frame->half[i]);
+      thr_camera_project(&view, frame->xyz[other], drawing.at[other]);
+    }
+    put_solid(&drawing, node, true);
+  }
+
+  /* The length of each arm in space, beyond its end. */
+  for (int i = 0; i < n && n <= MOST_NUMBERS && !st; i++) {
+    const int h = frame->half[frame->first[node] + i];
+    const double *end = drawing.at[thr_head(frame, h)];
+    double along[2] = {end[0] - at[0], end[1] - at[1]}, far = hypot(along[0], along[1]);
+    char number[32];
+    snprintf(number, sizeof number, "%.3g", 0.5 * frame->length[h >> 1]);
+    if (!(far > 1e-6)) continue;
+    const double off = 0.5 * far + 2 + fabs(along[0]) / far * 0.3 * LABEL * (double)strlen(number);
+    thr_svg_text(text, at[0] + off * along[0] / far, at[1] + off * along[1] / far + 0.36 * LABEL,
+                 LABEL, " text-anchor=\"middle\" style=\"fill:#666\"", number);
+  }
+
+  free(drawing.at);
   free(piece);
   return st;
 }
