@@ -146,13 +146,13 @@ test_that 'bash leaves files to itself' completes '' check pl
 if command -v zsh >/dev/null; then
   test_that 'zsh reads its completion' zsh -n "$usr/share/zsh/site-functions/_thread"
   test_that 'zsh offers commands' zsh_offers 'check' thread ch
-  test_that 'zsh offers values' zsh_offers 'length tortuosity symmetry' thread plan x --objective ''
+  test_that 'zsh offers values' zsh_offers 'length symmetry tortuosity' thread plan x --objective ''
   test_that 'zsh leaves files to itself' zsh_offers 'files' thread check ''
 fi
 if command -v fish >/dev/null; then
   test_that 'fish reads its completion' fish -n "$usr/share/fish/vendor_completions.d/thread.fish"
   test_that 'fish offers commands' fish_offers 'check' 'thread ch'
-  test_that 'fish offers values' fish_offers 'length tortuosity symmetry' 'thread plan x --objective '
+  test_that 'fish offers values' fish_offers 'length symmetry tortuosity' 'thread plan x --objective '
 fi
 
 echo "$passed passed, $failed failed"
