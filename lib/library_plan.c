@@ -154,11 +154,13 @@ static void take_found(void *user, const thr_cord *cord, int n_cords,
   thr_incumbent_found(&((search *)user)->best, cord, n_cords, symmetry);
 }
 
-/* Sends a plan that may be the last. Signature of thr_incumbent.keep. */
+/* Sends a plan that may be the last, and tells its length, as many searches tell nothing else.
+ * Signature of thr_incumbent.keep. */
 static void send_found(void *user, const thr_plan *plan, const thr_text *text)
 {
-  (void)plan;
-  if (thr_reply_send(((search *)user)->reply, text, NULL)) return; /* the end says why */
+  const search *job = user;
+  if (thr_reply_send(job->reply, text, NULL)) return; /* the end says why */
+  job->given->progress(job->given->user, "length", plan->metrics.length, 0);
 }
 
 /* Makes a plan and sends it. Signature of thr_job.run. */

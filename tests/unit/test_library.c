@@ -618,7 +618,7 @@ START_TEST(a_listener_may_stop_at_any_call)
   static const int stop_at[] = {1, 2, 5, 20};
   thread_error err;
   thread_frame *frame;
-  ck_assert_int_eq((int)thread_frame_shape("dome", 8, &frame, &err), THREAD_OK);
+  ck_assert_int_eq((int)thread_frame_shape("dome", 10, &frame, &err), THREAD_OK);
   ck_assert_int_eq((int)thread_frame_set_feet(frame, -1, NULL, &err), THREAD_OK);
   for (int i = 0; i < 4; i++) {
     hearing h = {.caller = pthread_self(), .at = seconds_now(), .stop_at = stop_at[i]};
@@ -626,9 +626,10 @@ START_TEST(a_listener_may_stop_at_any_call)
     thread_plan *plan;
     thread_plan_options_init(&o, sizeof o);
     o.aims = "max-turning";
-    o.cords = 4;
+    o.cords = 3;
     o.ends = THREAD_FEET;
     o.seconds = 0;
+    o.gap = 0;
     o.progress = hear;
     o.user = &h;
     ck_assert_int_eq((int)thread_plan_make(frame, &o, &plan, &err), THREAD_NOT_PROVED);
