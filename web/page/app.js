@@ -553,7 +553,7 @@ function firstStep(words) {
   return cord && row ? `cord ${cord[1]}, ${row[1]}` : '';
 }
 
-const LARGE = 40; // pages of a booklet: its first part is offered alone
+const LARGE = 30; // pages of a booklet: its first part is offered alone
 const FEW_PASSES = 400; // whose booklet is drawn at once
 
 async function showResult() {
