@@ -68,11 +68,8 @@ static double gap_of_search(const thr_frame *frame, const thr_request *request)
   return request->gap < 0 && frame->n_edges <= SMALL ? 0 : thr_request_gap(request);
 }
 
-/* Do the searches tell bounds of what is asked? They tell those of the turning of all cords of a
- * component together, and of extra cord. Where something else is asked, as that the cord that
- * turns most turns little, these bounds are of other questions, and may be above the plan. */
-static thr_status tells_bounds(const thr_frame *frame, const thr_request *request, bool *tells,
-                               thr_err *err)
+thr_status thr_plan_tells_bounds(const thr_frame *frame, const thr_request *request, bool *tells,
+                                 thr_err *err)
 {
   *tells = request->max_pull == 0 && request->max_length == 0 && request->distinct == 0 &&
            request->joint == THR_JOINT_SOLID && !thr_wants_largest(request) &&
@@ -94,18 +91,13 @@ thr_status thr_plan_make(const thr_frame *frame, const thr_request *request,
   thr_err why = {0};
   *plan = (thr_plan){0};
 
-  bool tells = true;
   thr_limits within = *limits;
   within.gap = gap_of_search(frame, request);
-  if (report) *report = own;
-  thr_status st = limits->progress ? tells_bounds(frame, request, &tells, err) : THR_OK,
-             finished = THR_OK;
-  if (st) return st;
-  if (!tells) within.progress = NULL;
 
   /* Show some cords at once, then run the planner. */
   thr_planner_tell_at_once(frame, request, limits);
-  st = thr_dispatch(request)(frame, request, &within, plan, &own, &why);
+  thr_status st = thr_dispatch(request)(frame, request, &within, plan, &own, &why),
+             finished = THR_OK;
   if (st == THR_EVIOLATED) st = THR_ESOLVER; /* a claim of the search's own */
 
   /* Trim passes that no edge needs. The verdict is another one where cords became shorter. */

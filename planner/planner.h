@@ -51,6 +51,13 @@ thr_status thr_plan_make(const thr_frame *frame, const thr_request *request,
                          const thr_limits *limits, thr_plan *plan, thr_report *report,
                          thr_err *err) THR_MUST_CHECK;
 
+/* Do the searches for a request tell limits->progress bounds of what is asked? They tell those of
+ * the turning of all cords of a component together, and of extra cord. Where something else is
+ * asked, as that the cord that turns most turns little, these bounds are of other questions, and
+ * may be above the plan. */
+thr_status thr_plan_tells_bounds(const thr_frame *frame, const thr_request *request, bool *tells,
+                                 thr_err *err) THR_MUST_CHECK;
+
 /* What the name of one of the THR_CLAIM_ .. is in sentences. */
 const char *thr_claim_name(int claim);
 

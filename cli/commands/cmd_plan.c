@@ -182,11 +182,18 @@ static thr_status make_plan(const plan_arguments *args, const thr_frame *framewo
   cli_step("planning", "");
   best_begin(framework, options);
   limits.found = best_found;
+
+  /* Programs hear only bounds of what was asked. */
+  bool tells = true;
   thr_status st =
-      plan_is_recommended(args)
-          ? thr_plan_recommended(framework, options, thr_hand_always, &limits, &result->plan,
-                                 &result->report, err)
-          : thr_plan_make(framework, options, &limits, &result->plan, &result->report, err);
+      progress_wanted() ? thr_plan_tells_bounds(framework, options, &tells, err) : THR_OK;
+  if (st) return st;
+  if (progress_wanted() && (!tells || plan_is_recommended(args))) limits.progress = NULL;
+
+  st = plan_is_recommended(args)
+           ? thr_plan_recommended(framework, options, thr_hand_always, &limits, &result->plan,
+                                  &result->report, err)
+           : thr_plan_make(framework, options, &limits, &result->plan, &result->report, err);
   cli_progress_end();
 
   if (cli_verbose) cli_note("search: ended, %.3f CPU s", thr_os_processor_seconds());
