@@ -113,8 +113,10 @@ const tests = {
     const {page, own, close} = await open();
     await choose(page, file('dome.obj'));
     assert.match(await shown(page), /25 pieces that meet at 40 interfaces/);
-    await page.getByRole('button', {name: 'the lowest ones'}).click();
-    await until(async () => (await page.getByLabel('Feet, where cord may come out').inputValue()).split(',').length === 4, 'four feet');
+    for (const [button, n] of [['the whole rim', 16], ['the lowest ones', 4]]) {
+      await page.getByRole('button', {name: button}).click();
+      await until(async () => (await page.getByLabel('Feet, where cord may come out').inputValue()).split(',').length === n, `${n} feet`);
+    }
     await page.getByRole('button', {name: /^Take \d+ cords?.*recommended/}).click({timeout: 60000});
     await page.screenshot({path: file('questions.png'), fullPage: true});
     await made(page);

@@ -288,8 +288,9 @@ function typedFeet() {
   if (!lost.length) changeFeet([...new Set(wanted.map((word) => numbered.get(word.toLowerCase())))].sort((a, b) => a - b));
 }
 
-async function lowestFeet() {
-  const {exit, stderr, files} = await engine.run(['convert', 'frame.json', '--feet', 'lowest', '-o', 'out.json'], {'frame.json': frameText()});
+// Feet by a word of the program's: 'lowest' or 'rim'.
+async function feetWhere(word) {
+  const {exit, stderr, files} = await engine.run(['convert', 'frame.json', '--feet', word, '-o', 'out.json'], {'frame.json': frameText()});
   if (exit) complain(lastLine(stderr));
   else changeFeet(JSON.parse(text(files['out.json'])).feet || []);
 }
@@ -824,7 +825,8 @@ async function begin() {
   $('undo').addEventListener('click', undo);
   $('link').addEventListener('click', copyLink);
   $('feet').addEventListener('change', typedFeet);
-  $('lowest').addEventListener('click', lowestFeet);
+  $('lowest').addEventListener('click', () => feetWhere('lowest'));
+  $('rim').addEventListener('click', () => feetWhere('rim'));
   $('booklet').addEventListener('click', openBooklet);
   $('all').addEventListener('click', saveAll);
   document.addEventListener('keydown', (event) => {
