@@ -35,6 +35,6 @@ def thread(structure, units="mm", feet=None, **options):
     frame = thread_plan.parse(json.dumps(given), "structure.json")
     # Nodes are called by their place in the list that was given; some may have been merged or dropped.
     place = [int(name[1:]) for name in frame.names]
-    frame.set_feet(None if feet is None else [place.index(index[key]) for key in feet])
+    frame.set_feet("lowest" if feet is None else [place.index(index[key]) for key in feet])
     plan = frame.plan(**options)
     return [[keys[place[v]] for v in cord.nodes] for cord in plan.cords], plan

@@ -13,6 +13,9 @@ frame=${line%%"$tab"*} options=${line#*"$tab"}
 summary=$(thread plan "$frame" $options -j 1 --json -o "$folder/$n.json" 2>"$folder/$n.messages")
 code=$?
 case $code in 0 | 2 | 3 | 4 | 5) ;; *) exit $code ;; esac # killed, or a fault: not done
+# Files by their names, as the folder may be moved; and no plan where there is none.
+summary=$(printf '%s' "$summary" | sed "s|\"$folder/|\"|g")
+case $code in 0 | 5) ;; *) summary=null ;; esac
 quoted() { printf '%s' "$1" | sed 's/[\\"]/\\&/g'; }
 printf '{"cell": %d, "frame": "%s", "options": "%s", "code": %d, "plan": %s}\n' "$n" "$(quoted "$frame")" "$(quoted "$options")" \
   $code "${summary:-null}" >"$folder/$n.part" && mv "$folder/$n.part" "$folder/$n.row"
