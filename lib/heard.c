@@ -109,7 +109,7 @@ thr_status thr_library_do(const thr_job *job, const thread_plan_options *options
   thr_err why = {0};
   speak(&hears);
   const thr_status st = thr_child_run(&child, &limits, answer, &why);
-  if (st == THR_ELIMIT && hears.stop)
+  if ((st == THR_OK || st == THR_ELIMIT) && hears.stop)
     return thr_fail(err, st, "%s: stopped by progress", job->what);
   return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }

@@ -19,10 +19,13 @@ NotProved, Violated, OSError, MemoryError, or Error.
 from __future__ import annotations
 
 import json
+import operator
 import os
+import signal
+import threading
 from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_size_t, c_void_p, sizeof
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, TypeVar, Union
 
 from . import _library
 from ._library import BadInput, Error, Infeasible, NotProved, Violated
@@ -75,6 +78,9 @@ class Summary:
     straightest: bool
 
 
+_Owned = TypeVar("_Owned", bound="_Owner")
+
+
 class _Owner:
     """Holds a handle of the library, and frees it once."""
 
@@ -87,7 +93,7 @@ class _Owner:
         if handle:
             type(self)._free(handle)
 
-    def __enter__(self) -> Any:
+    def __enter__(self: _Owned) -> _Owned:
         return self
 
     def __exit__(self, *_: Any) -> None:
@@ -115,10 +121,13 @@ class Frame(_Owner):
         if any(len(p) != 3 for p in points) or any(len(e) != 2 for e in pairs):
             raise BadInput(_library.BAD_INPUT, "a point has three coordinates, and an edge two nodes")
         flat = [float(x) for p in points for x in p]
-        nodes = [int(v) for e in pairs for v in e]
+        nodes = [operator.index(v) for e in pairs for v in e]
         self._handle = c_void_p()
         _library.call(_library.lib.thread_frame_make, c_int(len(points)), (c_double * len(flat))(*flat), c_int(len(pairs)),
                       (c_int * len(nodes))(*nodes), units.encode(), byref(self._handle))
+
+    def __reduce__(self) -> Any:
+        return parse, (self.write("json"), "frame.json")
 
     @classmethod
     def _made(cls, function: Any, *args: Any) -> "Frame":
@@ -169,11 +178,14 @@ class Frame(_Owner):
 
     def set_feet(self, nodes: Union[str, Iterable[int]] = "lowest") -> "Frame":
         """Says where cord ends may come out with ends="feet": at these nodes, at the "lowest" ones, all round the "rim" of a
-        shell, or up to a height, "below=200mm". Returns the frame."""
+        shell, or up to a height, "below=200mm". A mask, True or False for every node, does as well. Returns the frame."""
         if isinstance(nodes, str):
             _library.call(_library.lib.thread_frame_set_feet_where, self._open(), nodes.encode())
             return self
-        feet = [int(v) for v in nodes]
+        feet = list(nodes)
+        if feet and all(type(v).__name__ in ("bool", "bool_") for v in feet) and len(feet) == len(self.nodes):
+            feet = [v for v, is_foot in enumerate(feet) if is_foot]
+        feet = [operator.index(v) for v in feet]
         _library.call(_library.lib.thread_frame_set_feet, self._open(), c_int(len(feet)), (c_int * len(feet))(*feet))
         return self
 
@@ -202,7 +214,7 @@ class Frame(_Owner):
             self._open(), byref(given), byref(plan._handle), byref(text)))
         if not plan._handle:
             raise _library.failure(status, error)
-        plan.proved = status == _library.OK
+        plan.proved = status == _library.OK and (plan.summary.shortest or plan.summary.straightest)
         return plan
 
     def advice(self, progress: Optional[Heard] = None, **options: Any) -> Dict[str, Any]:
@@ -218,7 +230,8 @@ class Frame(_Owner):
     def _asked(self, ends: Optional[Ends], cords: Optional[Union[int, Tuple[int, int]]], options: Dict[str, Any]) -> Any:
         given = _library.filled(_library.PlanOptions(), _library.lib.thread_plan_options_init, options)
         if cords is not None:
-            given.cords_least, given.cords = (cords, cords) if isinstance(cords, int) else cords
+            least, most = cords if isinstance(cords, (list, tuple)) else (cords, cords)
+            given.cords_least, given.cords = operator.index(least), operator.index(most)
         if isinstance(ends, str):
             if ends not in _ends:
                 raise BadInput(_library.BAD_INPUT, 'ends: %r is not "closed", "any", "feet", a list of nodes or numbers of ends' % ends)
@@ -227,7 +240,7 @@ class Frame(_Owner):
             count = [int(ends.get(v, 0)) for v in range(len(self.nodes))]
             given.ends, given.end_count = 4, (c_int * len(count))(*count)
         elif ends is not None:
-            node = [int(v) for v in ends]
+            node = [operator.index(v) for v in ends]
             given.ends, given.n_end_nodes, given.end_node = 3, len(node), (c_int * len(node))(*node)
         return given
 
@@ -246,6 +259,7 @@ class Plan(_Owner):
 
     _free = _library.lib.thread_plan_free
     proved: bool = False
+    """No such plan has less cord, or turns less."""
 
     def __init__(self, json: Union[str, bytes], name: str = "plan") -> None:
         """Reads a plan from its JSON; name is for messages."""
@@ -253,6 +267,9 @@ class Plan(_Owner):
         self._handle = c_void_p()
         _library.call(_library.lib.thread_plan_parse, text, c_size_t(len(text)), name.encode(), byref(self._handle))
         self.proved = self.summary.shortest or self.summary.straightest
+
+    def __reduce__(self) -> Any:
+        return Plan, (self.json(),)
 
     @classmethod
     def read(cls, path: Union[str, "os.PathLike[str]"]) -> "Plan":
@@ -329,10 +346,19 @@ def _heard(given: Any, progress: Optional[Heard], call: Callable[[Any], int]) ->
             raised.append(reason)
             return 1
 
+    # What Ctrl-C raises between two lines of a callback is lost: the search is stopped first.
+    caught = progress is not None and threading.current_thread() is threading.main_thread() and (
+        signal.getsignal(signal.SIGINT) is signal.default_int_handler)
+    if caught:
+        signal.signal(signal.SIGINT, lambda *_: raised.append(KeyboardInterrupt()))
     if progress is not None:
         given.progress = _library.Progress(hear)
     error = _library.Text()
-    status = call(error)
+    try:
+        status = call(error)
+    finally:
+        if caught:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
     if raised:
         raise raised[0]
     return status, error

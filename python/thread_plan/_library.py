@@ -6,9 +6,10 @@ include/thread.h says what each function does; nothing here does more than hand 
 from __future__ import annotations
 
 import ctypes
+import json
 import os
 from ctypes import POINTER, byref, c_char, c_char_p, c_double, c_int, c_size_t, c_void_p
-from typing import Any, Dict
+from typing import Any, Dict, Mapping
 
 OK, NO_MEMORY, IO, BAD_INPUT, INFEASIBLE, NOT_PROVED, SOLVER, VIOLATED = range(8)
 Progress = ctypes.CFUNCTYPE(c_int, c_void_p, c_char_p, c_double, c_double)
@@ -22,6 +23,9 @@ class Error(Exception):
     def __init__(self, status: int, text: str) -> None:
         super().__init__(text)
         self.status = status
+
+    def __reduce__(self) -> Any:
+        return type(self), (self.status, str(self))
 
 
 class BadInput(Error, ValueError):
@@ -75,11 +79,12 @@ class SummaryFacts(ctypes.Structure):
 
 
 def _load() -> ctypes.CDLL:
-    """The library named by LIBTHREAD, else the one of this package, else the system's."""
-    here = os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib", "libthread.so.0")
+    """The library named by LIBTHREAD, else the one of this package, else of the prefix that it is in, else the system's."""
+    here = os.path.dirname(os.path.abspath(__file__))
+    beside = [os.path.join(here, "lib", "libthread.so.0"), os.path.join(here, "..", "..", "..", "libthread.so.0")]
     named = os.environ.get("LIBTHREAD")
     try:
-        return ctypes.CDLL(named or (here if os.path.exists(here) else "libthread.so.0"))
+        return ctypes.CDLL(named or next(filter(os.path.exists, beside), "libthread.so.0"))
     except OSError as reason:
         raise ImportError("libthread is not installed: `make install`, or LIBTHREAD=/path/to/libthread.so.0 (%s)" % reason) from None
 
@@ -91,6 +96,11 @@ lib.thread_plan_frame.restype = c_void_p
 
 
 def encoded(value: Any) -> Any:
+    """Text as bytes, a mapping as its JSON, a list of words with commas."""
+    if isinstance(value, Mapping):
+        value = json.dumps(value)
+    elif isinstance(value, (list, tuple)) and all(isinstance(word, str) for word in value):
+        value = ",".join(value)
     return value.encode() if isinstance(value, str) else value
 
 

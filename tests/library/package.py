@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 """The package thread_plan: what it gives beside what geometry says, and what it refuses. Says nothing if all is well."""
+import copy
 import inspect
+import json
 import math
 import os
+import pickle
 import tempfile
 
 import thread_plan
@@ -89,7 +92,25 @@ assert heard and all(isinstance(what, str) and 0 <= bound <= best for what, best
 assert chosen.eval("structure", progress=lambda what, best, bound: heard.append(what)) is chosen and isinstance(heard[-1], str)
 assert chosen.draw("svg", progress=lambda *_: False) == chosen.draw("svg")
 stopped.check()
+assert not stopped.proved and thread_plan.Plan(stopped.json()).proved is False
+assert not dome.plan(progress=lambda *_: True).proved  # the recommended one, stopped at once
 refused(ZeroDivisionError, "", lambda: dome.plan(cords=4, ends="feet", aims="turning", progress=lambda *_: 1 / 0))
+
+# Copies are of their own; errors travel between processes.
+for made in (copy.copy(plan), copy.deepcopy(plan), pickle.loads(pickle.dumps(plan))):
+    assert made.json() == plan.json() and made.proved == plan.proved
+    made.close()
+assert plan.cords and pickle.loads(pickle.dumps(dome)).write() == dome.write() == copy.copy(dome).write()
+error = pickle.loads(pickle.dumps(thread_plan.BadInput(3, "why")))
+assert (type(error), error.status, str(error)) == (thread_plan.BadInput, 3, "why")
+
+# Feet by a mask; no number is cut to an integer.
+feet = [z < 1e-9 for _, _, z in dome.nodes]
+assert json.loads(Frame(dome.nodes, dome.edges).set_feet(feet).write())["feet"] == json.loads(dome.write())["feet"]
+refused(TypeError, "", lambda: dome.set_feet([0.9]))
+refused(TypeError, "", lambda: Frame(SQUARE, [(0, 1.9)]))
+refused(TypeError, "", lambda: dome.plan(cords="4"))
+assert dome.plan(cords=4, aims=["length"], physics={"mu": 0.1}).summary.pull < dome.plan(cords=4, aims="length").summary.pull
 
 # What is wrong is said.
 refused(thread_plan.BadInput, "moon", lambda: frame.plan(ends="moon"))
