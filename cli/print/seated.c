@@ -157,11 +157,14 @@ void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,
                     plain_force(times * largest, needed));
 
   /* A proof holds at the frictions that are stated with it. */
-  thr_text_printf(text,
-                  " (proved at frictions of %g bead on bead, %g on the ground, %g of the cord)%s\n",
-                  physics->mu_bead, physics->mu_ground, physics->mu,
-                  isfinite(times) ? ": pull that much"
-                                  : ": thread eval --method structure says which give way");
+  thr_text_printf(
+      text, " (proved at frictions of %g bead on bead, %g on the ground, %g of the cord)%s\n",
+      physics->mu_bead, physics->mu_ground, physics->mu,
+      !isfinite(times) ? ": thread eval --method structure says which give way"
+      : times * largest <= thr_hand_most
+          ? ": pull that much"
+          : ": support the pieces until all knots are tied; feet that are held may take "
+            "far less (thread eval --method structure --clamp-feet)");
 }
 
 void seated_put_holding_json(thr_writer *writer, const thr_plan *plan,

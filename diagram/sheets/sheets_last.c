@@ -162,10 +162,15 @@ static void put_holding(thr_flow *flow, const thr_known *known)
 
   thr_svg_force(thr_sheets_pull(known, thr_sheets_hardest(known)), hardest);
   if (isfinite(times))
-    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
-                   "These forces seat the cords, but while they are drawn in the pieces hold only "
-                   "from %.3g times that, %s at the hardest end: pull that much.",
-                   times, hardest);
+    thr_sheets_put(
+        flow, THR_BLOCK_PARAGRAPH,
+        "These forces seat the cords, but while they are drawn in the pieces hold only "
+        "from %.3g times that, %s at the hardest end: %s.",
+        times, hardest,
+        thr_sheets_pull(known, thr_sheets_hardest(known)) <= thr_hand_most
+            ? "pull that much"
+            : "more than a hand pulls, so support the pieces, and hold the feet, until all "
+              "knots are tied");
   else
     thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
                    "These forces seat the cords, but no pull holds the pieces while they are drawn "

@@ -214,7 +214,6 @@ class Frame(_Owner):
             self._open(), byref(given), byref(plan._handle), byref(text)))
         if not plan._handle:
             raise _library.failure(status, error)
-        plan.proved = status == _library.OK and (plan.summary.shortest or plan.summary.straightest)
         return plan
 
     def advice(self, progress: Optional[Heard] = None, **options: Any) -> Dict[str, Any]:
@@ -258,15 +257,12 @@ class Plan(_Owner):
     """Cords through a frame, and what is proved of them."""
 
     _free = _library.lib.thread_plan_free
-    proved: bool = False
-    """No such plan has less cord, or turns less."""
 
     def __init__(self, json: Union[str, bytes], name: str = "plan") -> None:
         """Reads a plan from its JSON; name is for messages."""
         text = json.encode() if isinstance(json, str) else json
         self._handle = c_void_p()
         _library.call(_library.lib.thread_plan_parse, text, c_size_t(len(text)), name.encode(), byref(self._handle))
-        self.proved = self.summary.shortest or self.summary.straightest
 
     def __reduce__(self) -> Any:
         return Plan, (self.json(),)
@@ -301,6 +297,11 @@ class Plan(_Owner):
         return Summary(length=facts.length, bound=facts.bound, overlap=facts.overlap, turning=facts.turning,
                        largest_turning=facts.largest_turning, pull=facts.pull, passes=facts.passes, u_turns=facts.u_turns,
                        shortest=bool(facts.shortest), straightest=bool(facts.straightest))
+
+    @property
+    def proved(self) -> bool:
+        """Has no such plan less cord, or does none turn less?"""
+        return self.summary.shortest or self.summary.straightest
 
     def check(self) -> None:
         """Verifies every claim of the plan without a solver; raises Violated, which says what is not true."""

@@ -92,8 +92,9 @@ assert heard and all(isinstance(what, str) and 0 <= bound <= best for what, best
 assert chosen.eval("structure", progress=lambda what, best, bound: heard.append(what)) is chosen and isinstance(heard[-1], str)
 assert chosen.draw("svg", progress=lambda *_: False) == chosen.draw("svg")
 stopped.check()
-assert not stopped.proved and thread_plan.Plan(stopped.json()).proved is False
-assert not dome.plan(progress=lambda *_: True).proved  # the recommended one, stopped at once
+hasty = dome.plan(progress=lambda *_: True)  # the recommended one, stopped at once
+for made in (plan, stopped, hasty):
+    assert thread_plan.Plan(made.json()).proved == made.proved
 refused(ZeroDivisionError, "", lambda: dome.plan(cords=4, ends="feet", aims="turning", progress=lambda *_: 1 / 0))
 
 # Copies are of their own; errors travel between processes.
