@@ -532,7 +532,7 @@ const tests = {
     const pages = Number(/\d+/.exec(await first.innerText())[0]);
     const [booklet] = await Promise.all([own.waitForEvent('page'), first.click()]);
     await booklet.locator('.page').first().waitFor();
-    assert.equal(await booklet.locator('.page').count(), pages);
+    await until(async () => (await booklet.locator('.page').count()) === pages, `${pages} pages`); // they come one after another
     await close();
   },
 
