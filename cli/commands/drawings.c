@@ -108,6 +108,15 @@ static thr_status make_one(const thr_plan *plan, int i, const thr_layout *layout
   return st;
 }
 
+/* Writes document i to path, or why there is none, and releases it. Returns an exit code. */
+static int put_one(thr_status st, int i, thr_text *text, const char *path, const thr_err *err)
+{
+  const int code = cli_write_drawn(st, text, path, err);
+  if (!code) answer_file(path, thr_document_meaning(i));
+
+  return code;
+}
+
 /* Makes document i and writes it to path. Returns an exit code. */
 static int write_one(const thr_plan *plan, int i, const thr_layout *layout, const char *path,
                      const drawings_args *args)
@@ -116,10 +125,7 @@ static int write_one(const thr_plan *plan, int i, const thr_layout *layout, cons
   thr_text text = {0};
   const thr_status st = make_one(plan, i, layout, args, &text, &err);
 
-  const int code = cli_write_drawn(st, &text, path, &err);
-  if (!code) answer_file(path, thr_document_meaning(i));
-
-  return code;
+  return put_one(st, i, &text, path, &err);
 }
 
 int drawings_write(const thr_plan *plan, int i, const char *path, const drawings_args *args)
@@ -249,7 +255,7 @@ static int write_sheets(const thr_plan *plan, const thr_layout *layout, const ch
   }
 
   const int code = cli_in_folder(folder, thr_document_file(i), path, sizeof path);
-  if (!code) return cli_write_drawn(st, &text, path, &err);
+  if (!code) return put_one(st, i, &text, path, &err);
   thr_text_destroy(&text);
   return code;
 }
