@@ -36,7 +36,6 @@ static const struct {
     {"the rank of a matrix", "what can move"},
     {"automorphisms", "symmetries"},
     {"placing nodes for the picture", "the picture"},
-    {"pages of the step sheets", "pages of the step sheets"},
     {"pieces", "making pieces"},
     {"dragging a cord", "dragging a cord through a joint"},
 };
@@ -51,11 +50,10 @@ static const char *words_of(const char *what)
 /* ---- the line ---- */
 
 /* The line: its text, when it was written last, and since when the user has waited, by thr_clock().
- * began is 0 while nobody waits. room: columns for the text. */
+ * began is 0 while nobody waits. */
 static struct {
   char says[192];
   double written, began;
-  int room;
 } waiting;
 
 /* Whether the line stands on the terminal. */

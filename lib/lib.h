@@ -62,6 +62,10 @@ thread_status thr_library_status(thr_status st, const thr_err *from, thread_erro
 thr_status thr_library_options(void *own, size_t own_size, const void *theirs, const char *what,
                                thr_err *err) THR_MUST_CHECK;
 
+/* The same for the options of plans, which become the usual ones first. */
+thr_status thr_library_plan_options(const thread_plan_options *theirs, thread_plan_options *own,
+                                    thr_err *err) THR_MUST_CHECK;
+
 /* ---- heard.c: Long calls, of which the caller hears how far they are, and which it may end. */
 
 /* Takes the answer of a job. */

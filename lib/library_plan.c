@@ -227,9 +227,7 @@ thread_status thread_plan_make(const thread_frame *frame, const thread_plan_opti
   thread_plan *made = thr_calloc(1, sizeof *made);
 
   /* Options that the program does not know keep their usual values. */
-  thread_plan_options_init(&own, sizeof own);
-  thr_status st = made ? thr_library_options(&own, sizeof own, options, "thread_plan_options", &why)
-                       : thr_nomem(&why);
+  thr_status st = made ? thr_library_plan_options(options, &own, &why) : thr_nomem(&why);
   if (!st) st = thr_library_do(&(thr_job){"planning", search_and_send, &job}, &own, &json, &why);
 
   /* The answer is the plan as JSON, whoever has made it. */
@@ -397,14 +395,6 @@ static int method_of(const char *name)
   return m;
 }
 
-/* Fills in the options of a call; NULL: the usual ones. */
-static thr_status take_options(const thread_plan_options *options, thread_plan_options *own,
-                               thr_err *err)
-{
-  thread_plan_options_init(own, sizeof *own);
-  return thr_library_options(own, sizeof *own, options, "thread_plan_options", err);
-}
-
 /* The limits of a call that is no search. */
 static thr_limits limits_of(const thread_plan_options *options, const thr_limits *given)
 {
@@ -461,7 +451,7 @@ thread_status thread_eval_with(thread_plan *plan, const char *method,
 
   /* Evaluating waits for its turn, as planning does. */
   thr_library_lock();
-  thr_status st = take_options(options, &own, &why);
+  thr_status st = thr_library_plan_options(options, &own, &why);
   if (!st && job.which == THR_N_METHODS)
     st = thr_fail(&why, THR_EINPUT, "there is no method %s", method);
   if (!st)
@@ -518,7 +508,7 @@ thread_status thread_draw_with(const thread_plan *plan, const char *type,
 
   /* Drawing waits for its turn, as planning does. */
   thr_library_lock();
-  thr_status st = take_options(options, &own, &why);
+  thr_status st = thr_library_plan_options(options, &own, &why);
   if (!st && job.which < 0) st = thr_fail(&why, THR_EINPUT, "there is no document %s", type);
   if (!st) st = thr_library_do(&(thr_job){"drawing", draw_and_send, &job}, &own, &text, &why);
   thr_library_unlock();

@@ -115,8 +115,7 @@ thread_status thread_report(const thread_frame *frame, const char *what,
   if (n) *n = 0;
 
   thr_library_lock();
-  thread_plan_options_init(&own, sizeof own);
-  thr_status st = thr_library_options(&own, sizeof own, options, "thread_plan_options", &why);
+  thr_status st = thr_library_plan_options(options, &own, &why);
   while (job.which < N_REPORTS && strcmp(what, reports[job.which].what) != 0)
     job.which++;
   if (!st && job.which == N_REPORTS)

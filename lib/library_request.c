@@ -25,6 +25,13 @@ void thread_plan_options_init(thread_plan_options *options, size_t size)
   memcpy(options, &usual, size < sizeof usual ? size : sizeof usual);
 }
 
+thr_status thr_library_plan_options(const thread_plan_options *theirs, thread_plan_options *own,
+                                    thr_err *err)
+{
+  thread_plan_options_init(own, sizeof *own);
+  return thr_library_options(own, sizeof *own, theirs, "thread_plan_options", err);
+}
+
 /* Reads a request given as JSON, as the "options" of a plan. The reader knows whole plans, so that
  * a document is made around the text. */
 static thr_status parse_request(const char *text, const thr_frame *frame, thr_request *out,

@@ -42,13 +42,19 @@ void thr_advice_put_row(thr_writer *writer, const thr_advice_row *row)
   thr_write_int(writer, "steps", row->steps);
 }
 
-void thr_advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advice *advice,
-                         const char *command)
+/* Writes which framework it is about. */
+static void put_framework(thr_writer *writer, const thr_frame *frame)
 {
   thr_write_hash(writer, "framework", thr_frame_hash(frame));
   thr_write_int(writer, "nodes", frame->n_nodes);
   thr_write_int(writer, "edges", frame->n_edges);
   thr_write_string(writer, "units", frame->units);
+}
+
+void thr_advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advice *advice,
+                         const char *command)
+{
+  put_framework(writer, frame);
 
   /* What all rows have in common. */
   thr_write_number(writer, "base_length", advice->base_length);
@@ -236,11 +242,7 @@ void thr_symmetries_put_table(thr_writer *writer, const thr_request *options,
 void thr_symmetries_put_json(thr_writer *writer, const thr_frame *frame, const thr_request *options,
                              const thr_symmetries *symmetries)
 {
-  /* Of which framework. */
-  thr_write_hash(writer, "framework", thr_frame_hash(frame));
-  thr_write_int(writer, "nodes", frame->n_nodes);
-  thr_write_int(writer, "edges", frame->n_edges);
-  thr_write_string(writer, "units", frame->units);
+  put_framework(writer, frame);
 
   /* What was asked for. */
   thr_write_string(writer, "ends", thr_ends_name(options->ends));

@@ -89,21 +89,16 @@ static bool take_size(void *into, const cli_option *option, const char *value)
 static bool take_shake(void *into, const cli_option *option, const char *value)
 {
   thr_rise_options *rise = &((rise_arguments *)into)->rise;
-  double number[2] = {0, 0};
-  bool good = true;
-  const char *rest = value;
+  const char *at = strchr(value, '@');
+  char far[40];
   (void)option;
-  for (int i = 0; i < 2 && good; i++) {
-    static const char *const unit[] = {"mm", "Hz"};
-    const char *end = i == 0 ? strchr(rest, '@') : rest + strlen(rest);
-    size_t n = end ? (size_t)(end - rest) : 0;
-    if (n > 2 && strncmp(rest + n - 2, unit[i], 2) == 0) n -= 2;
-    good = end && thr_number_parse(rest, n, &number[i]) && number[i] > 0;
-    rest = end ? end + 1 : rest;
-  }
-  rise->shake = number[0];
-  rise->beat = number[1];
-  if (good && number[0] <= MOST_SHAKE && number[1] <= MOST_BEAT) return true;
+
+  snprintf(far, sizeof far, "%.*s", at ? (int)(at - value) : 0, value);
+  if (at && !thr_quantity_read(far, "mm", &rise->shake, NULL) &&
+      !thr_quantity_read(at + 1, "Hz", &rise->beat, NULL) && rise->shake > 0 &&
+      rise->shake <= MOST_SHAKE && rise->beat > 0 && rise->beat <= MOST_BEAT)
+    return true;
+
   cli_usage("rise",
             "--shake %s: expected mm to and fro, up to %g, @ and times a second, up to %g, as "
             "5@8",
@@ -316,7 +311,7 @@ static void put_lying(const rise_runs *runs, thr_text *text)
   for (int i = 0; i < runs->n_runs; i++) {
     const thr_rise_record *record = &runs->record[i];
     if (record->closed >= 0 && record->came_up < 0)
-      tilt[n++] = record->moment[record->held - 1].tilt * 180 / THR_PI;
+      tilt[n++] = thr_degrees(record->moment[record->held - 1].tilt);
   }
   if (n == 0) return;
   rise_spread(tilt, n, spread);
@@ -479,7 +474,7 @@ static void write_run(thr_writer *writer, const rise_runs *runs, int i, bool mot
   thr_write_int(writer, "most_closed", record->most_closed);
   thr_write_number(writer, "off", record->off);
   if (runs->pieces.made.structure.stands_up && record->held > 0)
-    thr_write_printf(writer, "tilt", "%.4g", record->moment[record->held - 1].tilt * 180 / THR_PI);
+    thr_write_printf(writer, "tilt", "%.4g", thr_degrees(record->moment[record->held - 1].tilt));
   if (runs->args->schedule && record->finished) thr_write_bool(writer, "stands", record->stands);
   if (runs->args->dent) thr_write_number(writer, "dented", record->dented);
   write_degrees(writer, "kink", record->kink, record->n_passes);

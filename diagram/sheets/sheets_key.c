@@ -186,8 +186,8 @@ void thr_sheets_key(thr_sheets *sheets)
   /* Kinds that rows call by their places have no cards, nor have those beyond a number. */
   for (int k = 1; k <= pieces->n_kinds; k++)
     cards += !thr_pieces_alone(pieces, k);
-  const bool few = cards > MOST_CARDS;
-  cards = few ? MOST_CARDS : cards;
+  const bool many = cards > MOST_CARDS;
+  cards = many ? MOST_CARDS : cards;
   if (!cards) return;
   snprintf(title, sizeof title, "The %d %s: %d kind%s", pieces->n,
            thr_pieces_word(known->plan, pieces->n), pieces->n_kinds,
@@ -201,7 +201,7 @@ void thr_sheets_key(thr_sheets *sheets)
                  known->in_space ? "Each turned so that its arms are told best."
                                  : "Outer side up, as in the picture.",
                  known->f->units,
-                 few                       ? " The other kinds: beads.csv."
+                 many                      ? " The other kinds: beads.csv."
                  : cards < pieces->n_kinds ? " Kinds of one piece, which rows call by its place: "
                                              "beads.csv."
                                            : "");

@@ -306,7 +306,7 @@ static const double (*closed_places(const thr_rise_structure *structure))[7]
 }
 
 /* Measures how far the shape is from that of the cords in a frame, mm, and how far up is tilted by
- * the best fit, rad. */
+ * the best fit, rad; NULL: not asked for. */
 static thr_status fit_shape(const rise_run *run, const thr_rise_record *record, int frame,
                             double *off, double *tilt, thr_err *err)
 {
@@ -323,8 +323,10 @@ static thr_status fit_shape(const rise_run *run, const thr_rise_record *record, 
     memcpy(last[p], pose[p], sizeof *last);
   }
   if (!st) {
-    *off = thr_fit_points((const double(*)[3])drawn, (const double(*)[3])last, n, q, NULL);
-    *tilt = acos(fmax(-1, 1 - 2 * (q[0] * q[0] + q[1] * q[1])));
+    const double most =
+        thr_fit_points((const double(*)[3])drawn, (const double(*)[3])last, n, q, NULL);
+    if (off) *off = most;
+    if (tilt) *tilt = acos(fmax(-1, 1 - 2 * (q[0] * q[0] + q[1] * q[1])));
   }
   thr_scratch_free(&work);
   return st;
@@ -359,8 +361,7 @@ static thr_status keep_frame(const rise_run *run, double time, double pull, doub
       *tension++ = fmax(run->cable[c].tension[k], 0);
   record->n_frames++;
 
-  double ignored;
-  return run->structure->stands_up ? fit_shape(run, record, record->n_frames - 1, &ignored,
+  return run->structure->stands_up ? fit_shape(run, record, record->n_frames - 1, NULL,
                                                &record->moment[record->n_frames - 1].tilt, err)
                                    : THR_OK;
 }
@@ -375,8 +376,7 @@ static thr_status measure_shape(const rise_run *run, thr_rise_record *record, th
   thr_rise_kinks(run->structure,
                  (const double(*)[7])record->pose + (size_t)frame * (size_t)record->n_pieces,
                  record->kink, record->twist);
-  double ignored;
-  return fit_shape(run, record, frame, &record->off, &ignored, err);
+  return fit_shape(run, record, frame, &record->off, NULL, err);
 }
 
 /* ---- time passes ---- */
@@ -553,8 +553,8 @@ static thr_status let_pass(rise_run *run, const thr_limits *limits, thr_rise_rec
     const double part = (time - hands->full) / hands->hold;
     const bool dents = part >= DENT_FROM && part < DENT_UNTIL;
     if (step % per_frame == 0 && dents && options->dent > 0 && !st) {
-      double off, ignored;
-      st = fit_shape(run, record, record->n_frames - 1, &off, &ignored, err);
+      double off;
+      st = fit_shape(run, record, record->n_frames - 1, &off, NULL, err);
       if (!st) record->dented = fmax(record->dented, off);
     }
     if (!st) st = take_step(run, time, dents ? options->dent : 0, &lift, err);

@@ -105,6 +105,7 @@ static const struct {
               {"speed", {{"mm/s", 1}, {"cm/s", 10}, {"m/s", 1e3}}},
               {"acceleration", {{"m/s2", 1}, {"mm/s2", 1e-3}}},
               {"turning", {{"rad/m", 1}, {"rad/mm", 1e3}}},
+              {"frequency", {{"Hz", 1}}},
               {"a part", {{"%", 1}}}};
 
 enum { N_OTHERS = sizeof others / sizeof *others, MOST_OF_KIND = 9 };
