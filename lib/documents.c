@@ -286,7 +286,9 @@ static thr_status describe(const thr_plan *plan, document which, const thr_docum
     break;
 
   /* The table of cords names the motion of each copy. */
-  default: st = thr_table_cords(plan, copies.motion, asked->layout, out, err);
+  default:
+    st = thr_table_cords(plan, copies.motion, needles_of(plan, asked), asked->working_mm,
+                         asked->layout, out, err);
   }
 
   thr_motions_destroy(&copies);

@@ -218,8 +218,9 @@ typedef struct {
   thr_overview_colour colour; /* of the overview */
   double
       kind_tolerance; /* pieces that differ by no more are of a kind, in units; 0 = the usual one */
-  double working_mm; /* cord that is worked with at a time, in the step sheets; 0 = the usual 2 m */
-  int page;          /* of step sheets and mat: thr_page_size */
+  double
+      working_mm; /* cord that is worked with at a time, in booklet and cut list; 0 = the usual */
+  int page;       /* of step sheets and mat: thr_page_size */
   int needles; /* that cords are threaded with in the step sheets: 1, 2 = from their middle; 0 = as
                   the plan says */
   thr_line_options lines;   /* of cords for CAD */

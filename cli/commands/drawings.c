@@ -45,7 +45,9 @@ const cli_option drawings_options[] = {
              "their middle with two (default: as the plan was made for; else closed ones of 48 and "
              "more)"},
     {"working-length", .value = "MM", .kind = CLI_AMOUNT, AT(working_mm), .low = 10, .high = 1e6,
-     .help = "cord to work with at a time, before more is joined on (default: 2000)"},
+     .help =
+         "cord to work with at a time, before more is joined on (default: 2000, or 24 edges where "
+         "these are longer)"},
     {"kind-tolerance", .value = "X", .kind = CLI_AMOUNT, AT(kind_tolerance), .low = 1e-9,
      .high = 1e9,
      .help = "pieces whose points differ by no more are of one kind, in units of the framework "

@@ -43,8 +43,6 @@ void thr_sheets_destroy(thr_sheets *sheets)
   free(sheets->known.move);
   free(sheets->step);
   free(sheets->known.first_visit);
-  free(sheets->known.joined);
-  free(sheets->known.joins);
   free(sheets->known.threaded);
   free(sheets->known.first_pass);
   free(sheets->known.visited);
@@ -76,7 +74,10 @@ static thr_status prepare(thr_sheets *sheets, thr_err *err)
   if (!st) st = thr_pieces_make(&sheets->known.pieces, plan, sheets->known.o.kind_tolerance, err);
   if (!st) st = thr_guide_make(&sheets->known.guide, sheets->known.f, sheets->known.o.layout, err);
   if (!st) st = thr_sheets_follow(&sheets->known, err);
-  if (!st) st = thr_sheets_join(&sheets->known, err);
+  if (!st)
+    st = thr_supplies_join(&sheets->known.supplies, sheets->known.pieces.solid, sheets->known.part,
+                           sheets->known.n_parts, sheets->known.visit, sheets->known.n_visits,
+                           sheets->known.o.working_mm, err);
   if (st) return st;
   sheets->step = thr_calloc((size_t)sheets->known.n_visits, sizeof *sheets->step);
   if (!sheets->step) return thr_nomem(err);

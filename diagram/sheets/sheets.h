@@ -31,7 +31,7 @@
 typedef struct {
   thr_page_size page;
   int needles;               /* per cord (thr_cord_folded): 1; 2 = from the fold; 0 = as is usual */
-  double working_mm;         /* mm of cord that is worked with at a time; 0 = THR_SHEETS_WORKING */
+  double working_mm;         /* as in thr_supplies_join */
   double kind_tolerance;     /* as in thr_pieces_make */
   const char *const *motion; /* as in thr_overview_options; borrowed */
   const thr_layout *layout;  /* the same */
@@ -42,8 +42,6 @@ typedef struct {
   const thr_still *rise;       /* how the pieces come up as the cords are pulled, with its title and
                                   note, for the page "Last"; NULL: not shown; borrowed */
 } thr_sheets_options;
-
-static const double THR_SHEETS_WORKING = 2000; /* mm: somewhat more than both arms reach */
 
 /* Returns A4, one or two needles as is usual, and the usual tolerance and length. */
 thr_sheets_options thr_sheets_options_default(void);

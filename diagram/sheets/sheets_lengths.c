@@ -4,9 +4,7 @@
  *
  * With one needle, pass k draws the whole rest of the cord through a piece: the sum over passes
  * grows with the square of the cord's length. Folding the cord halves both parts, and so about
- * halves the sum. A maker who works with lengths of working_mm joins a new one at the last foot
- * that the length reaches, where a knot keeps no faces apart. Each length has a tail and a knot at
- * both of its ends, so that joins take cord: two tails each.
+ * halves the sum. Where lengths are joined, thr_supplies_join says for all documents.
  *
  * Example: 4 passes of 100 mm draw 300 + 200 + 100 + 0 = 600 mm from the end; from the fold 2 *
  * (100 + 0) = 200 mm. */
@@ -53,46 +51,10 @@ static int place_of(const thr_known *known, int i)
   return visit->number ? thr_head(known->f, visit->in) : visit->piece;
 }
 
-double thr_sheets_tails(const thr_known *known)
+/* Returns both tails of a length with their knots, in units. */
+static double tails_of(const thr_known *known)
 {
   return 2 * thr_supplies_tail(&known->supplies) / known->supplies.mm;
-}
-
-thr_status thr_sheets_join(thr_known *known, thr_err *err)
-{
-  const double working = known->o.working_mm > 0 ? known->o.working_mm : THR_SHEETS_WORKING,
-               mm = known->supplies.mm;
-  double from = 0;
-  int foot = -1;
-
-  known->joined = thr_calloc((size_t)known->n_visits, sizeof *known->joined);
-  known->joins = thr_calloc((size_t)known->plan->n_cords, sizeof *known->joins);
-  if (!known->joined || !known->joins) return thr_nomem(err);
-
-  /* Without a size in mm no length of cord can be compared with an arm's reach. */
-  for (int i = 0; mm > 0 && i < known->n_visits; i++) {
-    if (i == 0 || known->move[i].part != known->move[i - 1].part) from = 0, foot = -1;
-
-    /* The last foot behind the last join at which a length could end. */
-    const bool more = i + 1 < known->n_visits && known->move[i + 1].part == known->move[i].part;
-    if (known->move[i].used > from && known->f->foot[place_of(known, i)]) foot = i;
-
-    /* The length still reaches the end of the next pass. */
-    if (!more || known->move[i + 1].used - from <= working / mm) continue;
-
-    /* No foot within reach: nothing can be joined before the next one. */
-    if (foot < 0) {
-      known->late = true;
-      continue;
-    }
-
-    /* The new length begins at that foot. */
-    from = known->move[foot].used;
-    known->joined[foot] = true;
-    known->joins[known->visit[foot].cord]++;
-    foot = -1;
-  }
-  return THR_OK;
 }
 
 /* Returns how far the length that begins behind visit i, or with a part, reaches along its part, in
@@ -103,7 +65,8 @@ static double way_from(const thr_known *known, int i, bool with_part)
   const double from = with_part ? 0 : known->move[i].used;
   int last = with_part ? i : i + 1;
 
-  while (last + 1 < known->n_visits && known->move[last + 1].part == part && !known->joined[last])
+  while (last + 1 < known->n_visits && known->move[last + 1].part == part &&
+         !known->supplies.joined[last])
     last++;
   return known->move[last].used - from;
 }
@@ -113,7 +76,7 @@ static double way_from(const thr_known *known, int i, bool with_part)
 static double cut_of(const thr_known *known, int c, double way)
 {
   const thr_cut_length cut = thr_supplies_cut(&known->supplies, c);
-  return way * (1 + (cut.length > 0 ? cut.turns / cut.length : 0)) + thr_sheets_tails(known);
+  return way * (1 + (cut.length > 0 ? cut.turns / cut.length : 0)) + tails_of(known);
 }
 
 double thr_sheets_joined_length(const thr_known *known, int i)
@@ -136,28 +99,28 @@ static void put_joins(const thr_known *known, int c, thr_text *words)
     if (known->move[i].part != known->move[i - 1].part) fold = way_from(known, i, true);
 
   thr_svg_length(cut_of(known, c, way + fold), known->f->units, length);
-  thr_text_printf(words, "Cord %s in %d lengths: %s", known->plan->cord[c].id, known->joins[c] + 1,
-                  length);
+  thr_text_printf(words, "Cord %s in %d lengths: %s", known->plan->cord[c].id,
+                  known->supplies.joins[c] + 1, length);
   if (known->fold[c]) {
-    thr_svg_length(cut_of(known, c, fold) - 0.5 * thr_sheets_tails(known), known->f->units, length);
+    thr_svg_length(cut_of(known, c, fold) - 0.5 * tails_of(known), known->f->units, length);
     thr_text_printf(words, " (fold at %s)", length);
   }
 
   for (int i = first; i < end && said < MOST_NAMED; i++) {
-    if (!known->joined[i]) continue;
+    if (!known->supplies.joined[i]) continue;
     thr_svg_length(thr_sheets_joined_length(known, i), known->f->units, length);
     thr_text_printf(words, "%s %s after row %d (foot %s)", said++ ? "," : "; joined on:", length,
                     known->visit[i].number, known->guide.label[place_of(known, i)]);
   }
-  thr_text_append(words, said < known->joins[c] ? ", and so on (the rows say it). " : ". ");
+  thr_text_append(words,
+                  said < known->supplies.joins[c] ? ", and so on (the rows say it). " : ". ");
 }
 
 void thr_sheets_lengths(thr_flow *flow, const thr_known *known)
 {
-  const double mm = known->supplies.mm,
-               working = known->o.working_mm > 0 ? known->o.working_mm : THR_SHEETS_WORKING;
+  const double mm = known->supplies.mm, working = known->supplies.working;
   thr_text words = {0};
-  char now[64], one[64];
+  char now[64], one[64], why[112] = "";
   bool joined = false;
 
   /* Without a size in mm nothing is known of an arm's reach. */
@@ -171,27 +134,34 @@ void thr_sheets_lengths(thr_flow *flow, const thr_known *known)
   if (known->n_parts > known->plan->n_cords)
     thr_text_printf(&words, ", with two needles from the fold; %s with one from the end", one);
   thr_text_append(&words, ". ");
-  snprintf(now, sizeof now, "%g m", working / 1000);
+  snprintf(now, sizeof now, "%.3g m", working / 1000);
 
-  /* Where lengths are joined, or why not. */
+  /* Where lengths are joined, or why not, and what was assumed. */
   for (int c = 0; c < known->plan->n_cords; c++)
-    joined |= known->joins[c] > 0;
+    joined |= known->supplies.joins[c] > 0;
+  if (!(known->o.working_mm > 0)) {
+    char usual[32] = "more than both arms reach";
+    if (working > THR_SUPPLIES_WORKING)
+      snprintf(usual, sizeof usual, "%d interfaces", THR_SUPPLIES_WORKING_EDGES);
+    snprintf(why, sizeof why, " (taken for the usual: %s; --working-length says another)", usual);
+  }
   if (joined)
     thr_text_printf(
         &words,
-        "Lengths are joined on at feet (panel 6), for needles to work with %s; each has "
+        "Lengths are joined on at feet (panel 6), for needles to work with %s%s; each has "
         "a tail at both ends. ",
-        now);
+        now, why);
   for (int c = 0; c < known->plan->n_cords; c++)
-    if (known->joins[c]) put_joins(known, c, &words);
+    if (known->supplies.joins[c]) put_joins(known, c, &words);
 
-  if (known->late)
+  if (known->supplies.late)
     thr_text_printf(&words,
-                    "Where no foot comes within %s nothing is joined: keep what the needle does "
+                    "Where no foot comes within %s%s nothing is joined: keep what the needle does "
                     "not need yet in a coil, and pull it through.",
-                    now);
+                    now, joined ? "" : why);
   else if (!joined)
-    thr_text_printf(&words, "No needle has more than %s of cord: nothing is joined on.", now);
+    thr_text_printf(&words, "No needle has more than %s of cord%s: nothing is joined on.", now,
+                    why);
 
   thr_sheets_put_text(flow, THR_BLOCK_PARAGRAPH, &words);
 }

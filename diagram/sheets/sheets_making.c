@@ -286,8 +286,7 @@ static void put_need(instruction_panel *panel, thr_text *words)
   /* Shortest and longest cord to cut; where sizes in mm are unknown, without tails and knots. */
   for (int c = 0; c < n; c++) {
     const thr_cut_length length = thr_supplies_cut(&known->supplies, c);
-    double cut = length.cut + known->joins[c] * (length.tails + length.knots);
-    if (!(known->supplies.mm > 0)) cut = length.length;
+    const double cut = known->supplies.mm > 0 ? length.cut : length.length;
     least = fmin(least, cut);
     most = fmax(most, cut);
   }

@@ -40,7 +40,7 @@ typedef struct {
   const thr_evaluation *evaluation; /* what is known of forces: the plan's, or that of the options;
                                        not present: nothing */
   thr_guide guide;                  /* what places and turns are called */
-  thr_supplies supplies;            /* lengths to cut, bores to make */
+  thr_supplies supplies;            /* lengths to cut and to join, bores to make */
   thr_copy *copy;                   /* [n_cords] which cord repeats which */
   thr_pieces pieces;                /* what is threaded, and its kinds */
   int n_parts;
@@ -50,9 +50,6 @@ typedef struct {
   thr_visit *visit; /* [n_visits] of the parts in order */
   thr_move *move;   /* [n_visits] */
   int *first_visit; /* [n_cords] a cord's visits follow each other from here on */
-  bool *joined;     /* [n_visits] is a new length joined on when the needle has come so far? */
-  int *joins;       /* [n_cords] how often */
-  bool late;        /* is some way without a foot longer than a length? */
   int *threaded;    /* [pieces] the visit that picks it up */
   int n_passes;
   int *first_pass; /* [n_cords] in visited */
@@ -153,13 +150,8 @@ void thr_sheets_cells(thr_flow *flow, const double *column, bool bold, const cha
 /* Computes parts and visits of the needles, and all that is indexed by them (sheets_moves.c). */
 thr_status thr_sheets_follow(thr_known *known, thr_err *err) THR_MUST_CHECK;
 
-/* Finds where lengths are joined on: joined, joins and late; sizes and visits are known
- * (sheets_lengths.c). */
-thr_status thr_sheets_join(thr_known *known, thr_err *err) THR_MUST_CHECK;
-
-/* Return both tails of a length with their knots, and how long the length is cut that is joined on
- * after visit i, in units of the framework, whose size is known. */
-double thr_sheets_tails(const thr_known *known);
+/* Returns how long the length is cut that is joined on after visit i, in units of the framework,
+ * whose size is known (sheets_lengths.c). */
 double thr_sheets_joined_length(const thr_known *known, int i);
 
 /* Returns the visit after the last one of cord c. */

@@ -41,8 +41,8 @@ static void put_cord(thr_flow *flow, const thr_known *known, int c, const double
 {
   const thr_cord *cord = &known->plan->cord[c];
   const thr_cut_length cut = thr_supplies_cut(&known->supplies, c);
-  const double tails = cut.tails + cut.knots, joins = known->joins[c] * tails;
-  const double allowance[4] = {tails, cut.turns, joins, cut.cut + joins};
+  const double tails = cut.tails + cut.knots;
+  const double allowance[4] = {tails, cut.turns, cut.joins, cut.cut};
   char words[96], length[32], allowed[4][32], folded[32] = "";
   double fold = tails / 2;
 
@@ -57,7 +57,7 @@ static void put_cord(thr_flow *flow, const thr_known *known, int c, const double
    * threaded from their middle have one to mark, and if they are cut in one. */
   for (int k = 0; k < known->fold[c]; k++)
     fold += known->f->length[cord->half[k] >> 1];
-  if (known->fold[c] && !known->joins[c]) length_cell(known, fold, folded);
+  if (known->fold[c] && !known->supplies.joins[c]) length_cell(known, fold, folded);
 
   thr_sheets_cord_words(known, c, words);
   thr_sheets_cells(flow, column, false, "%s\t%d\t%s\t%s\t%s\t%s\t%s\t%s\t%.30s - %.30s", words,

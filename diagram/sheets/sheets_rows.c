@@ -141,7 +141,7 @@ static void put_words_of(const thr_sheets *sheets, int visit, thr_text *row)
   const thr_known *known = &sheets->known;
   char length[64];
   thr_pieces_say(&known->pieces, thr_sheets_labels(known), known->visit, visit, sheets->step, row);
-  if (!known->joined[visit]) return;
+  if (!known->supplies.joined[visit]) return;
   thr_svg_length(thr_sheets_joined_length(known, visit), known->f->units, length);
   thr_text_printf(row, "; join on %s", length);
 }

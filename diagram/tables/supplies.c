@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Computes what has to be at hand before threading: cord to cut for each path, bores of the beads.
  *
- * cut = length + 2 tails + 2 knots + turns, where length is the way through the middles of the
- * beads. In a turn by an angle a (rad) a cord that lies at the outer wall of its bores is longer by
- * (bore - cord) / 2 * a: a parallel curve at distance r is longer by r times the angle turned.
+ * cut = length + (1 + joins) (2 tails + 2 knots) + turns, where length is the way through the
+ * middles of the beads, and joins says how often a new length is joined on. In a turn by an angle a
+ * (rad) a cord that lies at the outer wall of its bores is longer by (bore - cord) / 2 * a: a
+ * parallel curve at distance r is longer by r times the angle turned.
  *
  * Example: a cord of 1 mm in bores of 2 mm that turns by 90 degrees 80 times takes 0.5 * 1.571 * 80
  * = 63 mm more. */
 #include "diagram/tables/tables.h"
 
 #include "diagram/scene/scene.h"
+#include "graph/arrays.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/physics.h"
 
@@ -40,6 +42,8 @@ thr_status thr_supplies_make(thr_supplies *supplies, const thr_plan *plan, thr_e
 void thr_supplies_destroy(thr_supplies *supplies)
 {
   free(supplies->passes);
+  free(supplies->joined);
+  free(supplies->joins);
   *supplies = (thr_supplies){0};
 }
 
@@ -143,9 +147,84 @@ thr_cut_length thr_supplies_cut(const thr_supplies *supplies, int c)
   cut.tails = tails / supplies->mm;
   cut.knots = knots / supplies->mm;
   cut.turns = turns / supplies->mm;
-  cut.cut = cut.length + (tails + knots + turns) / supplies->mm;
+  if (supplies->joins) cut.joins = supplies->joins[c] * (cut.tails + cut.knots);
+  cut.cut = cut.length + (tails + knots + turns) / supplies->mm + cut.joins;
 
   return cut;
+}
+
+/* ---- lengths that are joined ---- */
+
+/* Computes the cord that is worked with at a time unless asked for, mm. */
+static thr_status find_working(thr_supplies *supplies, thr_err *err)
+{
+  const thr_frame *frame = &supplies->plan->frame;
+  double *length = thr_calloc((size_t)frame->n_edges, sizeof *length);
+  if (!length) return thr_nomem(err);
+
+  for (int e = 0; e < frame->n_edges; e++)
+    length[e] = frame->length[e];
+  thr_sort_doubles(length, (size_t)frame->n_edges);
+  supplies->working = fmax(THR_SUPPLIES_WORKING,
+                           THR_SUPPLIES_WORKING_EDGES * supplies->mm * length[frame->n_edges / 2]);
+
+  free(length);
+  return THR_OK;
+}
+
+/* Finds the joins of a part, whose n visits are those from `first` on. */
+static void join_part(thr_supplies *supplies, const thr_visit *visit, int first, int n)
+{
+  const thr_frame *frame = &supplies->plan->frame;
+  double from = 0, used = 0, used_at_foot = 0;
+  int foot = -1;
+
+  for (int i = first; i < first + n; i++) {
+    const int place = visit[i].number ? thr_head(frame, visit[i].in) : visit[i].piece;
+    if (visit[i].number) used += frame->length[visit[i].in >> 1];
+
+    /* The last foot behind the last join at which a length could end. */
+    if (used > from && frame->foot[place]) foot = i, used_at_foot = used;
+
+    /* The length still reaches the end of the next pass. */
+    if (i + 1 == first + n ||
+        used + frame->length[visit[i + 1].in >> 1] - from <= supplies->working / supplies->mm)
+      continue;
+
+    /* No foot within reach: nothing can be joined before the next one. */
+    if (foot < 0) {
+      supplies->late = true;
+      continue;
+    }
+
+    /* The new length begins at that foot. */
+    from = used_at_foot;
+    supplies->joined[foot] = true;
+    supplies->joins[visit[foot].cord]++;
+    foot = -1;
+  }
+}
+
+thr_status thr_supplies_join(thr_supplies *supplies, bool solid, const thr_part *part, int n_parts,
+                             const thr_visit *visit, int n_visits, double working_mm, thr_err *err)
+{
+  thr_status st = THR_OK;
+  supplies->joined = thr_calloc((size_t)n_visits, sizeof *supplies->joined);
+  supplies->joins = thr_calloc((size_t)supplies->plan->n_cords, sizeof *supplies->joins);
+  if (!supplies->joined || !supplies->joins) return thr_nomem(err);
+
+  /* Without a size in mm no length of cord can be compared with an arm's reach. */
+  if (!(supplies->mm > 0)) return THR_OK;
+  supplies->working = working_mm;
+  if (!(working_mm > 0)) st = find_working(supplies, err);
+
+  /* With solid joints a part that begins a cord has one visit more than passes. */
+  for (int k = 0, first = 0; k < n_parts && !st; k++) {
+    const int n = part[k].end - part[k].first + (part[k].begins && solid);
+    join_part(supplies, visit, first, n);
+    first += n;
+  }
+  return st;
 }
 
 void thr_supplies_visits(const thr_plan *plan, int *visits)

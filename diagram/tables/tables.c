@@ -8,7 +8,7 @@
  * Quoting follows RFC 4180. Text that a spreadsheet would take for a formula gets an apostrophe
  * before it, since names come from files that strangers may have written.
  *
- * Example, cords.csv: a row "A,no,A1,D7,86,1771,300,32.8,41.2,2145,5310,A,,mm". */
+ * Example, cords.csv: a row "A,no,A1,D7,86,1771,300,32.8,41.2,0,2145,5310,A,,mm". */
 #include "diagram/tables/tables.h"
 
 #include "diagram/overview/overview_parts.h"
@@ -137,6 +137,17 @@ static thr_status table_make(table_writer *table, const thr_plan *plan, double t
   st = thr_copies_find(plan, table->copy, err);
   if (!st) st = thr_pieces_make(&table->pieces, plan, tolerance, err);
   return st ? st : thr_guide_make(&table->guide, table->frame, layout, err);
+}
+
+/* Follows the needles through all cords: *part[*n_parts] and *visit[*n_visits], freed by the
+ * caller. */
+static thr_status follow(const table_writer *table, int needles, thr_part **part, int *n_parts,
+                         thr_visit **visit, int *n_visits, thr_err *err)
+{
+  *part = thr_calloc(2 * (size_t)table->plan->n_cords, sizeof **part);
+  if (!*part) return thr_nomem(err);
+  *n_parts = thr_pieces_parts(table->plan, table->copy, needles, *part);
+  return thr_pieces_follow(&table->pieces, *part, *n_parts, visit, n_visits, err);
 }
 
 /* Appends the table to out if all went well, and releases everything; returns the first failure. */
@@ -334,17 +345,12 @@ thr_status thr_table_steps(const thr_plan *plan, double tolerance, int needles,
   thr_text text = {0};
   thr_status st = table_make(&table, plan, tolerance, layout, &text, err);
 
-  thr_part *part = st ? NULL : thr_calloc(2 * (size_t)plan->n_cords, sizeof *part);
+  thr_part *part = NULL;
   thr_visit *visit = NULL;
   int n = 0, parts = 0;
 
-  if (!st && !part) st = thr_nomem(err);
-
   /* Visits come in the order of threading, part by part. */
-  if (!st) {
-    parts = thr_pieces_parts(plan, table.copy, needles, part);
-    st = thr_pieces_follow(&table.pieces, part, parts, &visit, &n, err);
-  }
+  if (!st) st = follow(&table, needles, &part, &parts, &visit, &n, err);
 
   /* A failed table is thrown away, so the heading may always be written. */
   thr_text_append(&text, "cord,step,piece,kind,how,visit,in,out,turn,degrees,length,used,left,path,"
@@ -382,9 +388,10 @@ static void put_cord(table_writer *table, int c, const char *const *motion)
     put_number(table, cut.tails);
     put_number(table, cut.knots);
     put_number(table, cut.turns);
+    put_number(table, cut.joins);
     put_number(table, cut.cut);
   } else
-    thr_text_append(table->out, ",,,,");
+    thr_text_append(table->out, ",,,,,");
 
   /* How much it turns, and which path it repeats by which motion. */
   put_angle(table,
@@ -396,20 +403,30 @@ static void put_cord(table_writer *table, int c, const char *const *motion)
   put_unit(table);
 }
 
-thr_status thr_table_cords(const thr_plan *plan, const char *const *motion,
-                           const thr_layout *layout, thr_text *out, thr_err *err)
+thr_status thr_table_cords(const thr_plan *plan, const char *const *motion, int needles,
+                           double working_mm, const thr_layout *layout, thr_text *out, thr_err *err)
 {
   table_writer table;
   thr_text text = {0};
+  thr_part *part = NULL;
+  thr_visit *visit = NULL;
+  int parts = 0, visits = 0;
 
   /* Without sizes the columns of allowances stay empty. */
   thr_status st = table_make(&table, plan, 0, layout, &text, err);
   if (!st) st = thr_supplies_find_sizes(&table.supplies, err);
+  if (!st) st = follow(&table, needles, &part, &parts, &visit, &visits, err);
+  if (!st)
+    st = thr_supplies_join(&table.supplies, table.pieces.solid, part, parts, visit, visits,
+                           working_mm, err);
 
-  thr_text_append(&text, "cord,closed,start,end,passes,length,tails,knots,turns,cut,turning_"
+  thr_text_append(&text, "cord,closed,start,end,passes,length,tails,knots,turns,joins,cut,turning_"
                          "degrees,path,repeated,unit\n");
   for (int c = 0; c < plan->n_cords && !st; c++)
     put_cord(&table, c, motion);
+
+  free(part);
+  free(visit);
 
   return table_close(&table, st, out, err);
 }

@@ -16,6 +16,7 @@
 #define THR_TABLES_H
 
 #include "diagram/layout/layout.h"
+#include "diagram/scene/scene.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
@@ -31,9 +32,11 @@ thr_status thr_table_steps(const thr_plan *plan, double tolerance, int needles,
                            const thr_layout *layout, thr_text *out, thr_err *err) THR_MUST_CHECK;
 
 /* Appends cords.csv, the cut list: a row per cord, with allowances as in diagram/tables/tables.h.
- * motion: as in thr_overview_options. O(n log n). */
-thr_status thr_table_cords(const thr_plan *plan, const char *const *motion,
-                           const thr_layout *layout, thr_text *out, thr_err *err) THR_MUST_CHECK;
+ * motion: as in thr_overview_options; needles: as in thr_cord_folded; working_mm: as in
+ * thr_supplies_join. O(n log n). */
+thr_status thr_table_cords(const thr_plan *plan, const char *const *motion, int needles,
+                           double working_mm, const thr_layout *layout, thr_text *out,
+                           thr_err *err) THR_MUST_CHECK;
 
 /* Appends beads.csv, the bead schedule: a row per piece. Kinds as in diagram/scene/pieces.c, bores
  * as in graph/framework/bore.c for as many cords as there are passes. As thr_kinds_find. */
@@ -70,13 +73,19 @@ thr_status thr_kinds_find(const thr_frame *frame, double tolerance, int *edge, i
  * Sizes in mm are known if the framework's unit has a length and the physics of the plan is known
  * or can be worked out; else lengths are in units and allowances stay open. Private to diagram/. */
 
-/* Cord and bores of a plan. {0} is valid and empty. The array is owned, the plan is borrowed. */
+/* Cord and bores of a plan. {0} is valid and empty. Arrays are owned, the plan is borrowed. */
 typedef struct {
   const thr_plan *plan;
   int *passes; /* [n_edges] over it, of all cords */
   double mm;   /* per unit; 0 = sizes in mm are not known */
   double cord; /* mm, diameter; > 0 if mm is */
   double bore; /* mm, of the plan */
+
+  /* Where lengths are joined on (thr_supplies_join); NULL and 0 before. */
+  double working; /* mm of cord that is worked with at a time */
+  bool *joined;   /* [visits] is a new length joined on when the needle has come so far? */
+  int *joins;     /* [n_cords] how often */
+  bool late;      /* is some way without a foot longer than a length? */
 } thr_supplies;
 
 /* Counts passes; THR_EINPUT for a plan without cords and for cords that do not fit the framework.
@@ -118,14 +127,31 @@ double thr_supplies_bore_mm(const thr_supplies *supplies, double cords);
 static const double THR_SUPPLIES_TAIL = 150;  /* mm */
 static const double THR_SUPPLIES_KNOT = 16.4; /* cord diameters */
 
+/* A maker who works with lengths of a cord joins a new one at the last foot that a length reaches,
+ * where a knot keeps no faces apart. Each length has a tail and a knot at both of its ends, so that
+ * every join takes two tails and two knots. Unless asked otherwise, the length is somewhat more
+ * than both arms reach, or as many interfaces of the usual size as a page of steps has rows: with
+ * pieces of metres, that one walks along, less would be knots rather than cord. */
+static const double THR_SUPPLIES_WORKING = 2000; /* mm */
+enum { THR_SUPPLIES_WORKING_EDGES = 24 };
+
+/* Finds where lengths are joined on: working, joined, joins and late. part[n_parts] and
+ * visit[n_visits]: as of thr_pieces_follow; solid: as in thr_pieces; working_mm: mm, 0 = the usual
+ * length. Without sizes in mm nothing is joined. On failure supplies is to be destroyed as ever.
+ * O(visits + edges log edges). */
+thr_status thr_supplies_join(thr_supplies *supplies, bool solid, const thr_part *part, int n_parts,
+                             const thr_visit *visit, int n_visits, double working_mm,
+                             thr_err *err) THR_MUST_CHECK;
+
 /* How a cut length adds up, in units. Where sizes in mm are not known, all but length is 0. */
 typedef struct {
   double length;
   double tails, knots, turns; /* of both ends; of all turns */
+  double joins;               /* tails and knots of all joins (thr_supplies_join) */
   double cut;                 /* all of these */
 } thr_cut_length;
 
-/* Returns how much of cord c to cut. */
+/* Returns how much of cord c to cut, in all of its lengths. */
 thr_cut_length thr_supplies_cut(const thr_supplies *supplies, int c);
 
 /* Returns the tail that is left at each end of a cord, mm: to hold it by and for the knot; without

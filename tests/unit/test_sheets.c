@@ -8,6 +8,7 @@
 #include "diagram/scene/scene.h"
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets.h"
+#include "diagram/tables/tables.h"
 #include "graph/limits.h"
 #include "graph/plan/evaluation.h"
 #include "graph/number.h"
@@ -695,8 +696,8 @@ START_TEST(making_is_told)
 }
 END_TEST
 
-/* Lengths of a metre of a cord of 3.4 m: what is cut for it is what its lengths are cut to, and
- * rows say where each is joined on. */
+/* Lengths of a metre of a cord of 3.4 m: what is cut for it is what its lengths are cut to and what
+ * cords.csv says, and rows say where each is joined on. */
 START_TEST(lengths_add_up_to_what_is_cut)
 {
   thr_plan p = plan_of(shape_make(THR_MAKE_TUBE, 12, 7), THR_ENDS_CLOSED, 1);
@@ -723,6 +724,38 @@ START_TEST(lengths_add_up_to_what_is_cut)
   ck_assert_int_eq(joins, n - 1);
   ck_assert_int_eq(rows, n - 1);
   ck_assert_double_eq_tol(sum, cut, 0.5 * n);
+
+  /* The last column of numbers but one in the only row of the table. */
+  thr_text table = {0};
+  double listed;
+  ck_assert_int_eq(thr_table_cords(&p, NULL, o.needles, o.working_mm, NULL, &table, NULL), THR_OK);
+  ck_assert_int_eq(sscanf(strstr(table.data, "\nA,"),
+                          "\nA,%*[^,],%*[^,],%*[^,],%*d,%*f,%*f,%*f,%*f,%*f,%lf", &listed),
+                   1);
+  ck_assert_double_eq_tol(listed, cut, 0.05 + 1e-9);
+  thr_text_destroy(&table);
+  thr_text_destroy(&told);
+  thr_text_destroy(&pdf);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* Of metre-sized pieces a length reaches over 24 interfaces, so that few are joined; the booklet
+ * says so. */
+START_TEST(lengths_of_large_pieces_are_longer)
+{
+  thr_plan p = plan_of(shape_make(THR_MAKE_TUBE, 12, 7), THR_ENDS_CLOSED, 1);
+  thr_sheets_options o = options_of(THR_PAGE_A4, true);
+  thr_text pdf = {0};
+  int n;
+  snprintf(p.frame.units, sizeof p.frame.units, "m");
+  ck_assert_int_eq(thr_sheets_write(&p, &o, &none, &n, &pdf, NULL), THR_OK);
+  thr_text told = told_by("pdftotext -raw", &pdf);
+  for (char *c = told.data; *c; c++)
+    if (*c == '\n' || *c == '\f') *c = ' ';
+  ck_assert_ptr_nonnull(strstr(told.data, "(taken for the usual: 24 interfaces; --working-length"));
+  ck_assert_int_eq(sscanf(strstr(told.data, "Cord A in "), "Cord A in %d lengths", &n), 1);
+  ck_assert_int_le(n, 168 / 24 + 1);
   thr_text_destroy(&told);
   thr_text_destroy(&pdf);
   thr_plan_destroy(&p);
@@ -1000,6 +1033,7 @@ int main(void)
   ADD_LARGE(s, 120, a_large_plan_is_read_back, 0, 1);
   ADD_TEST(s, 20, making_is_told);
   ADD_EXAMPLES(s, 20, lengths_add_up_to_what_is_cut, 2);
+  ADD_TEST(s, 20, lengths_of_large_pieces_are_longer);
   ADD_EXAMPLES(s, 20, goal_and_forces_are_told, 2);
   ADD_TEST(s, 20, what_fits_no_room_is_drawn_at_the_smallest_scale);
   ADD_TEST(s, 20, a_pdf_tells_no_time_and_no_place);

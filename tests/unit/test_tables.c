@@ -95,7 +95,7 @@ static thr_status make(const thr_plan *p, kind k, const char *const *motion, thr
 {
   if (k == STEPS) return thr_table_steps(p, 0, 1, NULL, t, err);
   if (k == CHANNELS) return thr_table_channels(p, 0, NULL, t, err);
-  return k == CORDS ? thr_table_cords(p, motion, NULL, t, err)
+  return k == CORDS ? thr_table_cords(p, motion, 1, 0, NULL, t, err)
                     : thr_table_beads(p, 0, NULL, t, err);
 }
 
@@ -405,7 +405,7 @@ START_TEST(cords_are_cut_long_enough)
     bool closing = p.options.ends == THR_ENDS_CLOSED;
     double length = length_of(&j, cord), turning = turning_of(&j, cord, closing);
     double cut = number(&c, row, "length") + number(&c, row, "tails") + number(&c, row, "knots") +
-                 number(&c, row, "turns");
+                 number(&c, row, "turns") + number(&c, row, "joins");
     ck_assert_double_eq_tol(number(&c, row, "length"), length, 1e-6 * length);
     ck_assert_double_eq_tol(number(&c, row, "turning_degrees"), turning, 0.01);
     ck_assert_double_eq_tol(number(&c, row, "tails"), 2 * 150, 1e-9);
