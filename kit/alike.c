@@ -124,7 +124,9 @@ static bool fits(const thr_kit_piece *piece, const thr_kit_piece *other, const d
   double back[9];
   for (int i = 0; i < 9; i++)
     back[i] = rotation[3 * (i % 3) + i / 3];
-  if (piece->foot && fabs(rotation[8] - 1) > 1e-6) return false; /* its base stays level */
+  /* Its base stays level, and as deep. */
+  if (piece->foot && (fabs(rotation[8] - 1) > 1e-6 || fabs(piece->base - other->base) > tolerance))
+    return false;
   double tip[3];
   turn(rotation, piece->hook[2], tip);
   if (thr_distance(tip, other->hook[2]) > tolerance) return false;

@@ -20,6 +20,9 @@
 
 /* Parts of the width of an arm, unless asked for otherwise. */
 static const double FILLET = 0.15, NODE = 0.6, MOUTH = 0.08;
+/* How far a foot's base lies below its node in widths of the widest arm: usually, and at most, so
+ * that its disc still meets the ball of the node. */
+static const double BASE = 0.75, DEEPEST = 0.95;
 /* mm: of a wall, of letters, and how deep these are; of a key's play. */
 static const double WALL = 1.2, LETTERS = 4, DEPTH = 0.6, PLAY = 0.15;
 /* Longer arms are refused. */
@@ -464,6 +467,18 @@ static void add_hook(const maker *work, thr_kit_piece *piece, int v, double wide
   }
 }
 
+/* Returns how far below the node the arms of a piece reach. */
+static double depth_of(const thr_kit_piece *piece)
+{
+  double deep = 0;
+  for (int i = 0; i < piece->n_arms; i++) {
+    const thr_kit_arm *arm = &piece->arm[i];
+    deep = fmax(deep, fmax(-arm->along[2], 0) * arm->length +
+                          0.5 * arm->width * hypot(arm->along[0], arm->along[1]));
+  }
+  return deep;
+}
+
 /* Makes the shape of a node's piece. */
 static thr_status shape_node(maker *work, int v, thr_kit_piece *piece, thr_err *err)
 {
@@ -484,8 +499,10 @@ static thr_status shape_node(maker *work, int v, thr_kit_piece *piece, thr_err *
 
   set_common(work, piece, narrowest);
   piece->node_radius = fmin(NODE * widest * piece->taper, fmax(0.9 * shortest, 0.5 * narrowest));
-  piece->foot = work->foot[v];
-  piece->base = 0.75 * widest;
+  /* A base below all arms; where one goes down beside the foot, a level base would cut it off. */
+  const double deep = depth_of(piece);
+  piece->foot = work->foot[v] && deep <= DEEPEST * widest;
+  piece->base = fmax(BASE * widest, fmin(deep, DEEPEST * widest));
   piece->pad = pad_of(work, piece, v, widest);
   if (piece->foot && work->kit->options.foot == THR_KIT_HOOK) add_hook(work, piece, v, widest);
 
@@ -860,6 +877,20 @@ static void note_channels(const maker *work)
                     kit->name[where], sharpest);
 }
 
+/* Says which feet have no base to stand on. */
+static void note_feet(const maker *work)
+{
+  thr_kit *kit = work->kit;
+  int n = 0, where = 0;
+  for (int v = work->frame->n_nodes - 1; v >= 0; v--)
+    if (work->foot[v] && !kit->piece[v].foot) n++, where = v;
+  if (n)
+    thr_text_printf(&kit->notes,
+                    "%d %s no base, since an arm goes down beside it, the first is %s: what it "
+                    "stands on must hold it\n",
+                    n, n == 1 ? "foot has" : "feet have", kit->name[where]);
+}
+
 thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_options *options,
                         const thr_layout *layout, bool meshes, const thr_limits *limits,
                         thr_err *err)
@@ -912,6 +943,7 @@ thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_option
   if (!st) st = find_only(kit, options->only, err);
   if (!st) note_channels(&work);
   if (!st) note_cuts(kit);
+  if (!st && solid) note_feet(&work);
   meshing meshed = {.kit = kit};
   if (!st && meshes) st = check_lengths(kit, err);
   if (!st && meshes) st = thr_threads_run(kit->n_pieces, mesh_piece, &meshed, limits, err);

@@ -175,7 +175,7 @@ typedef struct {
   thr_kit_key key;
   double key_slope, key_radius, key_height, key_play;
   double letter_width, letter_depth;
-  bool foot;                      /* it stands on a flat base .. */
+  bool foot;                      /* it stands on a flat base, below all of its arms .. */
   double base, pad;               /* .. so far below its centre, of this radius */
   double hook[3][3], hook_radius; /* a bar from the foot, out and up; radius 0: it has none */
   int cuts, crossings; /* pairs of channels that open into each other where the plan has no

@@ -480,9 +480,40 @@ START_TEST(a_hook_stands_where_a_cord_ends_at_a_foot)
 }
 END_TEST
 
+/* Feet on a slope: where an arm goes down beside a foot there is no base to cut it off, and the kit
+ * says so; where it hardly does, the base is deeper. */
+START_TEST(a_base_cuts_off_no_arm)
+{
+  thr_plan p = plan_of(THR_MAKE_DOME, 3);
+  for (int v = 0; v < p.frame.n_nodes; v++)
+    p.frame.xyz[v][2] = (_i ? 0.7 : 0.1) * p.frame.xyz[v][0];
+  thr_kit_options options = {.names = THR_KIT_NO_NAMES};
+  thr_kit kit = shapes_of(&p, &options, true);
+  int feet = 0, bases = 0;
+  for (int q = 0; q < kit.n_pieces; q++) {
+    const thr_kit_piece *piece = &kit.piece[q];
+    double deep = 0;
+    if (!p.frame.foot[q]) continue;
+    feet++;
+    bases += piece->foot;
+    for (int i = 0; i < piece->n_arms; i++)
+      deep = fmax(deep, -piece->arm[i].along[2] * piece->arm[i].length);
+    if (piece->foot) ck_assert_double_ge(piece->base, deep);
+    if (piece->like == q) ck_assert_double_lt(kit.report[q].low[2], -deep);
+    ck_assert_int_eq(kit.report[piece->like].open_edges, 0);
+  }
+  ck_assert_int_gt(bases, 0);
+  ck_assert_int_eq(bases < feet, _i);
+  ck_assert_int_eq(kit.notes.data && strstr(kit.notes.data, "no base, since an arm") != NULL, _i);
+  thr_kit_destroy(&kit);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("kit_fit");
+  ADD_LOOP(s, 60, a_base_cuts_off_no_arm, 0, 2);
   ADD_LOOP(s, 30, the_distance_of_segments_is_that_of_many_points, 0, 40);
   ADD_LOOP(s, 120, pairs_of_channels_that_cut_each_other_are_counted, 0, KITS);
   ADD_TEST(s, 60, crossings_are_led_apart_where_there_is_room);
