@@ -39,6 +39,11 @@ typedef struct {
   double (*at)[2];      /* [n_pieces] lowest corner of its box on the bed, whose corner is at 0 */
 } thr_kit_plates;
 
+/* Returns THR_EINPUT for a kit, with or without meshes, of which some piece is larger than the bed
+ * however it is laid; names the largest, and a bed for all. What is a little larger is left to
+ * thr_kit_plates_make. O(pieces arms^3). */
+thr_status thr_kit_plates_check(const thr_kit *kit, thr_err *err) THR_MUST_CHECK;
+
 /* Finds for each mesh how it prints best, and gives every piece a place on a bed. THR_EINPUT names
  * a piece that is larger than the bed, and the bed that would do. Release with
  * thr_kit_plates_destroy, after a failure too. O(triangles arms^2 + pieces^2). */

@@ -4,6 +4,7 @@
  *
  * The pieces' local coordinates have the axes of the framework and the node, or the middle of the
  * edge, as their origin. */
+#include "kit/files.h"
 #include "kit/kit.h"
 
 #include "diagram/overview/overview_parts.h"
@@ -946,6 +947,7 @@ thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_option
   if (!st && solid) note_feet(&work);
   meshing meshed = {.kit = kit};
   if (!st && meshes) st = check_lengths(kit, err);
+  if (!st && meshes && options->to_print) st = thr_kit_plates_check(kit, err);
   if (!st && meshes) st = thr_threads_run(kit->n_pieces, mesh_piece, &meshed, limits, err);
   if (!st && meshes) note_walls(kit);
   if (!st && meshes) sum_up(kit);

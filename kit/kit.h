@@ -62,6 +62,7 @@ typedef struct {
   thr_kit_foot foot; /* what holds a cord that ends at one */
   double coarse;     /* factor on the sizes of triangles, for pictures; 0 = 1 */
   bool knot_pockets; /* where cords end, a hollow for the knot */
+  bool to_print;     /* before any mesh is made, pieces larger than the bed are refused */
   const char *only;  /* name of the piece that alone gets its mesh, for pictures; NULL = all */
 } thr_kit_options;
 

@@ -254,6 +254,116 @@ static thr_status choose(const thr_kit *kit, int p, thr_kit_stand *stand, thr_er
   return st;
 }
 
+/* ---- before there are meshes ---- */
+
+enum { AROUND = 8, CORE = 14 + AROUND + 2, MOST_POINTS = CORE + AROUND * THR_KIT_MOST_ARMS };
+
+/* Fills point[MOST_POINTS] with points inside the convex hull of a piece's mesh, less what its
+ * triangles may lack: round the ball of the node and the base, in the hook, on the rims of faces,
+ * at the middles of cut ends. Returns how many. */
+static int hull_points(const thr_kit_piece *piece, double (*point)[3])
+{
+  const double within = 0.99, corner = sqrt(1. / 3);
+  int n = 0;
+  for (int i = 0; i < 8; i++, n++)
+    for (int k = 0; k < 3; k++)
+      point[n][k] = within * piece->node_radius * (i >> k & 1 ? corner : -corner);
+  for (int i = 0; i < 6; i++, n++)
+    for (int k = 0; k < 3; k++)
+      point[n][k] = within * piece->node_radius * (k == i / 2 ? 1 - 2 * (i % 2) : 0);
+
+  for (int j = 0; j < AROUND && piece->foot; j++, n++) {
+    const double angle = 2 * THR_PI / AROUND * j;
+    point[n][0] = within * piece->pad * cos(angle);
+    point[n][1] = within * piece->pad * sin(angle);
+    point[n][2] = -within * piece->base;
+  }
+  for (int i = 1; i < 3 && piece->hook_radius > 0; i++)
+    memcpy(point[n++], piece->hook[i], sizeof *point);
+
+  for (int i = 0; i < piece->n_arms && i < THR_KIT_MOST_ARMS; i++) {
+    const thr_kit_arm *arm = &piece->arm[i];
+    const bool face = arm->n_mitres == 0 && !piece->rounded;
+    double length = arm->length;
+    for (int k = 0; k < arm->n_mitres; k++)
+      length = fmin(length, fmax(arm->mitre[k][3] / thr_dot(arm->mitre[k], arm->along), 0));
+    for (int j = 0; j < (face ? AROUND : 1); j++, n++) {
+      const double angle = 2 * THR_PI / AROUND * j, radius = face ? 0.5 * arm->width : 0;
+      for (int k = 0; k < 3; k++)
+        point[n][k] = within * (length * arm->along[k] +
+                                radius * (cos(angle) * arm->up[k] + sin(angle) * arm->side[k]));
+    }
+  }
+  return n;
+}
+
+/* Returns how far a piece may reach beyond these points at most: between them on rims and on the
+ * ball, by the corners of arms that are no rounds, by keys and hooks. */
+static double beyond_points(const thr_kit_piece *piece)
+{
+  const double corners = piece->profile == THR_KIT_ROUND ? 0.06 : 0.25;
+  double beyond = 0.15 * piece->node_radius;
+  for (int i = 0; i < piece->n_arms; i++) {
+    const thr_kit_arm *arm = &piece->arm[i];
+    beyond = fmax(beyond, corners * arm->width + 0.01 * arm->length + arm->tip);
+  }
+  if (piece->foot) beyond = fmax(beyond, 0.1 * piece->pad + piece->fillet);
+  return beyond + (piece->key == THR_KIT_NO_KEY ? 0 : piece->key_height) + piece->hook_radius;
+}
+
+/* Fills size with the smallest rectangle that these points take in one of the ways in which the
+ * mesh may stand; fits: whether it is no larger than room. */
+static thr_status least_size(const thr_kit_piece *piece, const double room[2], double size[2],
+                             bool *fits, thr_err *err)
+{
+  double point[MOST_POINTS][3], in_plane[MOST_POINTS][2];
+  const thr_mesh hull = {.n_points = hull_points(piece, point), .point = point};
+  stander work = {.piece = piece, .mesh = &hull, .in_plane = in_plane};
+  thr_status st = find_ways(&work, err);
+
+  *fits = false;
+  size[0] = size[1] = INFINITY;
+  for (int i = 0; i < work.n_ways && !*fits && !st; i++) {
+    thr_kit_stand *way = &work.way[i];
+    *fits = turn_about(&work, way, room);
+    if (way->size[0] * way->size[1] < size[0] * size[1]) memcpy(size, way->size, 2 * sizeof *size);
+  }
+
+  free(work.way);
+  return st;
+}
+
+thr_status thr_kit_plates_check(const thr_kit *kit, thr_err *err)
+{
+  const double *bed = kit->options.bed;
+  const double room[2] = {bed[0] - 2 * MARGIN, bed[1] - 2 * MARGIN};
+  double least[2] = {0, 0}, need[2] = {0, 0};
+  int n = 0, largest = 0;
+
+  for (int p = 0; p < kit->n_pieces; p++) {
+    double size[2];
+    bool fits;
+    if (kit->piece[p].like != p) continue;
+    thr_status st = least_size(&kit->piece[p], room, size, &fits, err);
+    if (st) return st;
+    for (int k = 0; k < 2; k++)
+      need[k] = fmax(need[k], ceil(size[k] + 2 * (MARGIN + beyond_points(&kit->piece[p]))));
+    if (fits) continue;
+    n++;
+    if (size[0] * size[1] <= least[0] * least[1]) continue;
+    memcpy(least, size, sizeof least);
+    largest = p;
+  }
+  if (!n) return THR_OK;
+
+  return thr_fail(err, THR_EINPUT,
+                  "piece %s (%s) takes at least %.0f x %.0f mm however it is laid, more than the "
+                  "bed of %g x %g mm less %g mm around: --bed %gx%g would do, or a smaller "
+                  "framework (--scale)",
+                  kit->name[largest], kit->kind_name[kit->piece[largest].kind], least[0], least[1],
+                  bed[0], bed[1], MARGIN, need[0], need[1]);
+}
+
 /* ---- shelves ---- */
 
 /* A shelf across a bed. */

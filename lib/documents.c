@@ -318,7 +318,7 @@ static thr_status picture(const thr_kit *kit, const thr_document_options *asked,
 static thr_status of_kit(const thr_plan *plan, document which, const thr_document_options *asked,
                          const thr_limits *limits, thr_text *out, thr_err *err)
 {
-  thr_kit_options options = {.kind_tolerance = asked->kind_tolerance};
+  thr_kit_options options = {.kind_tolerance = asked->kind_tolerance, .to_print = which == KIT};
   if (which == PICTURE) {
     options.names = THR_KIT_NO_NAMES;
     options.only = asked->piece;

@@ -199,6 +199,7 @@ static int write_viewer(const thr_kit *kit, const kit_arguments *args, const cha
   thr_kit_options options = args->kit;
   options.names = THR_KIT_NO_NAMES;
   options.coarse = COARSE;
+  options.to_print = false;
   thr_limits limits = cli_limits(0);
   limits.threads = args->jobs ? args->jobs : thr_os_processors();
 
@@ -269,7 +270,7 @@ static int write_all(const thr_kit *kit, const kit_arguments *args, const char *
 int cmd_kit(int argc, char **argv)
 {
   static const cli_syntax syntax = {"kit", intro, outro};
-  kit_arguments asked = {.guard = guard_limits_default()};
+  kit_arguments asked = {.guard = guard_limits_default(), .kit.to_print = true};
   guard_end end;
   const cli_group groups[] = {{"Options", own_options, &asked},
                               {"Shape", shape_options, &asked},

@@ -135,6 +135,42 @@ START_TEST(test_named_bed_is_large_enough)
 }
 END_TEST
 
+/* Before there are meshes a bed is refused only if plates refuse it, too; and the one that is named
+ * is large enough for all pieces. */
+START_TEST(test_beds_are_refused_before_meshes_are_made)
+{
+  made m;
+  thr_kit_options options = plain;
+  options.key = _i == 1 ? THR_KIT_CONE : THR_KIT_NO_KEY;
+  options.profile = _i == 1 ? THR_KIT_SQUARE : THR_KIT_ROUND;
+  make(&m, shape_make(_i == 2 ? THR_MAKE_TUBE : THR_MAKE_DOME, 4, 3), 1, _i == 2, &options);
+  double *bed = m.kit.options.bed;
+  int refused = 0;
+  for (int side = 20; side < 60; side++) {
+    thr_kit_plates plates;
+    thr_err early = {0}, late = {0};
+    bed[0] = side;
+    bed[1] = 0.8 * side;
+    const thr_status before = thr_kit_plates_check(&m.kit, &early);
+    const thr_status st = thr_kit_plates_make(&plates, &m.kit, &late);
+    thr_kit_plates_destroy(&plates);
+    if (!before) continue;
+    refused++;
+    ck_assert_int_eq(st, THR_EINPUT);
+    assert_one_line(&early, "however it is laid");
+
+    const char *said = strstr(early.text, "--bed ");
+    ck_assert_ptr_nonnull(said);
+    ck_assert_int_eq(sscanf(said, "--bed %lfx%lf would do", &bed[0], &bed[1]), 2);
+    thr_err why = {0};
+    assert_ok(thr_kit_plates_make(&plates, &m.kit, &why), &why);
+    thr_kit_plates_destroy(&plates);
+  }
+  ck_assert_int_gt(refused, 0);
+  release(&m);
+}
+END_TEST
+
 /* ---- packages and meshes ---- */
 
 static unsigned number_at(const thr_text *t, size_t at, int bytes)
@@ -349,6 +385,7 @@ int main(void)
   ADD_TEST(s, 60, test_pieces_lie_apart_inside_their_beds);
   ADD_TEST(s, 60, test_rod_stands_on_its_face);
   ADD_TEST(s, 60, test_named_bed_is_large_enough);
+  ADD_LOOP(s, 120, test_beds_are_refused_before_meshes_are_made, 0, 3);
   ADD_TEST(s, 60, test_package_has_its_members);
   ADD_TEST(s, 60, test_stl_has_the_volume);
   ADD_TEST(s, 60, test_rows_of_pieces);
