@@ -241,14 +241,15 @@ static bool reaches(const thr_mat *mat, const thr_arms *arms, const double low[2
 }
 
 /* Computes what of the mat is a tile's own: up to the middles of the strips that its neighbours
- * show, too. */
-static void tile_box(const thr_mat *mat, int tile, double low[2], double high[2])
+ * show, too; or what the tile alone shows, without these strips. */
+static void tile_box(const thr_mat *mat, int tile, bool alone, double low[2], double high[2])
 {
+  const double strip = alone ? OVERLAP : 0.5 * OVERLAP;
   const int place[2] = {tile % mat->tiles[0], tile / mat->tiles[0]};
   tile_corner(mat, tile, low);
   for (int k = 0; k < 2; k++) {
-    high[k] = low[k] + mat->window[k] - (place[k] + 1 < mat->tiles[k] ? 0.5 * OVERLAP : 0);
-    low[k] += place[k] ? 0.5 * OVERLAP : 0;
+    high[k] = low[k] + mat->window[k] - (place[k] + 1 < mat->tiles[k] ? strip : 0);
+    low[k] += place[k] ? strip : 0;
   }
 }
 
@@ -264,16 +265,19 @@ static thr_status number_pages(thr_mat *mat, thr_err *err)
   mat->number = thr_calloc((size_t)n_tiles, sizeof *mat->number);
   if (!mat->tile || !mat->number) return thr_nomem(err);
 
-  /* A tile without any piece is no page. */
+  /* A tile is a page if it alone shows a part of a piece, or has the middle of one. */
   for (int tile = 0; tile < n_tiles; tile++) {
-    double low[2], high[2];
+    double low[2], high[2], own_low[2], own_high[2];
     bool used = false;
-    tile_box(mat, tile, low, high);
+    tile_box(mat, tile, true, low, high);
+    tile_box(mat, tile, false, own_low, own_high);
 
     for (int i = 0; i < count_items(mat) && !used; i++) {
       thr_arms arms;
       find_arms(mat, i, &arms);
-      used = reaches(mat, &arms, low, high);
+      used = reaches(mat, &arms, low, high) ||
+             (arms.hub[0] >= own_low[0] && arms.hub[0] <= own_high[0] &&
+              arms.hub[1] >= own_low[1] && arms.hub[1] <= own_high[1]);
     }
 
     /* Pages are numbered from 1. */
