@@ -10,7 +10,7 @@
  * A turn from direction a to b is then seen by its projection onto the plane at right angles to
  * that normal n: its angle is atan2(n . (a x b), a . b - (a . n)(b . n)), left if positive.
  *
- * Example: "turn left 90 degrees" at foot A1 (node 17). */
+ * Example: "turn left 90 degrees" at foot A1. */
 #include "diagram/overview/overview_parts.h"
 
 #include "graph/number.h"
@@ -24,18 +24,11 @@
 /* A turn of up to 8 degrees to a side, as seen from outside, still counts as ahead, rad. */
 static const double AHEAD = 0.13962634015954636;
 
-/* Appends the name of a place; on a grid also the node's own name, if that is another one. */
+/* Appends the name of a place, and whether it is a foot. */
 void thr_guide_place(const thr_guide *guide, int v, thr_text *text)
 {
-  const char *own = guide->f->name && guide->f->name[v] ? guide->f->name[v] : NULL;
   thr_text_printf(text, "%s%s", guide->f->foot && guide->f->foot[v] ? "foot " : "",
                   guide->label[v]);
-
-  /* Own names are foreign text: cut and cleaned. */
-  if (!guide->places.n_columns || !own || strcmp(own, guide->label[v]) == 0) return;
-  char name[41];
-  thr_text_copy_clean(name, sizeof name, own);
-  thr_text_printf(text, " (node %s)", name);
 }
 
 /* ---- sides ---- */

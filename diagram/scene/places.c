@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds the places of grid-like pictures, column letters from left to right and row numbers from
- * the bottom up, and the names of nodes in all documents.
+/* Finds the places of grid-like pictures, whose columns have letters and whose rows have numbers,
+ * and the names of nodes in all documents.
  *
  * A framework is grid-like on paper if its x and its y coordinates fall into narrow clusters and
- * almost all edges stay in a row or in a column. Then a node is called by its column and its row,
- * as on a chessboard: "C4". Otherwise places are called by the nodes' names or numbers. */
+ * almost all edges stay in a row or in a column. If its nodes are named so, too, as on a chessboard
+ * ("C4"), columns and rows are marked at the picture's rim. A place has one name everywhere, on
+ * paper and on screen: that of its node in the file, or its number. */
 #include "diagram/scene/scene.h"
 #include "graph/arrays.h"
 
@@ -116,22 +117,6 @@ static bool take_names(thr_places *places, const thr_frame *frame)
   return true;
 }
 
-/* Numbers the columns A, B, .. Z, AA, .. and the rows 1, 2, .. */
-static void make_names(thr_places *places)
-{
-  /* After Z come AA, AB, .. */
-  for (int c = 0; c < places->n_columns; c++) {
-    if (c < 26)
-      snprintf(places->letter[c], 8, "%c", 'A' + c);
-    else
-      snprintf(places->letter[c], 8, "%c%c", 'A' + (c / 26 - 1) % 26, 'A' + c % 26);
-  }
-
-  /* The remainder shows compilers that the text fits. */
-  for (int r = 0; r < places->n_rows; r++)
-    snprintf(places->number[r], 8, "%d", (r + 1) % 1000); /* at most MAX_LINES */
-}
-
 /* Allocates for n nodes. On failure places may be half made. */
 static thr_status allocate(thr_places *places, int n, thr_err *err)
 {
@@ -173,9 +158,7 @@ thr_status thr_places_find(thr_places *out, const thr_frame *frame, const double
     goto done;
   }
 
-  /* Names that are there agree with the picture, or are made. */
-  found = grid_like(&places, frame, taken);
-  if (found && !take_names(&places, frame)) make_names(&places);
+  found = grid_like(&places, frame, taken) && take_names(&places, frame);
 done:
   free(ranked);
   free(taken);

@@ -778,10 +778,30 @@ START_TEST(every_allocation_may_fail)
 }
 END_TEST
 
+/* A grid whose nodes have no names of a grid: its places have the numbers of the nodes, as on
+ * screen and in the plan. */
+START_TEST(places_have_the_names_of_nodes)
+{
+  thr_frame f = shape_make(THR_MAKE_DOME, 4, 0);
+  thr_plan p = plan_simple(&f, THR_ENDS_FEET, 1);
+  thr_frame_destroy(&f);
+  free(p.frame.name);
+  p.frame.name = NULL;
+  csv c = table_of(&p, CORDS, NULL);
+  for (int row = 1; row < c.n_rows; row++) {
+    ck_assert_int_eq(integer(&c, row, "start"), thr_cord_start(&p.frame, &p.cord[row - 1]));
+    ck_assert_int_eq(integer(&c, row, "end"), thr_cord_end(&p.frame, &p.cord[row - 1]));
+  }
+  csv_destroy(&c);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("tables");
   ADD_EXAMPLES(s, 30, steps_are_the_plan, 2 * N_PLANS);
+  ADD_TEST(s, 20, places_have_the_names_of_nodes);
   ADD_EXAMPLES(s, 30, two_needles_go_from_the_fold, 2 * N_PLANS);
   ADD_LOOP(s, 20, left_is_left_on_flat_ground, 0, 2);
   ADD_EXAMPLES(s, 30, cords_are_cut_long_enough, N_PLANS);
