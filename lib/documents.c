@@ -314,6 +314,10 @@ static thr_status picture(const thr_kit *kit, const thr_document_options *asked,
   return thr_kit_picture(kit, &view, out, err);
 }
 
+/* Up to so many pieces a picture shows triangles as fine as those to print; of more they are larger
+ * by the root of the number, and at most so many times. */
+static const double FEW_PIECES = 25, COARSEST = 2.5;
+
 /* Makes the usual kit, and of it a file to print or a picture, on which names would be specks. */
 static thr_status of_kit(const thr_plan *plan, document which, const thr_document_options *asked,
                          const thr_limits *limits, thr_text *out, thr_err *err)
@@ -322,6 +326,10 @@ static thr_status of_kit(const thr_plan *plan, document which, const thr_documen
   if (which == PICTURE) {
     options.names = THR_KIT_NO_NAMES;
     options.only = asked->piece;
+
+    /* Of many pieces each is small in the picture, and as many triangles would take minutes. */
+    if (!asked->piece)
+      options.coarse = fmin(fmax(1, sqrt(thr_pieces_count(plan) / FEW_PIECES)), COARSEST);
   }
   thr_kit kit;
 
