@@ -5,9 +5,9 @@
  * text; its outputs are then NULL, 0 or empty. Nothing prints, exits or changes the locale. Text is
  * UTF-8, lengths are in units of the frame, angles in rad, forces in N. Calls on different objects
  * may run in different threads; planning waits for planning (nauty and GLPK are not reentrant).
- * A call with a progress function, and some libraries, run in forked children, which the library
- * waits for: do not set SIGCHLD to SIG_IGN. Structs begin with their size: thread_*_init fills in
- * the usual values, and a program built with an older header goes on working.
+ * A call with a progress function or a time, and some libraries, run in forked children, which the
+ * library waits for: do not set SIGCHLD to SIG_IGN. Structs begin with their size: thread_*_init
+ * fills in the usual values, and a program built with an older header goes on working.
  */
 #ifndef THREAD_H
 #define THREAD_H
@@ -129,12 +129,12 @@ typedef struct {
   const int *end_node; /* of THREAD_NODES */
   const char *physics; /* of cord and beads, as the file of --physics: "{\"mu\": 0.3, \"seating\":
                           5}"; NULL = usual */
-  double seconds; /* for the search; 0 = until it is proved; < 0 = as thread plan: 20, but 0 for the
-                     shortest cords */
-  int threads;    /* change no result but of a search that time ends */
+  double seconds;      /* for the call, which takes at most a tenth and 0.2 s more; 0 = until it is
+                          proved; < 0 = as thread plan: 20, but 0 for the shortest cords */
+  int threads;         /* change no result but of a search that time ends */
   /* Hears, in the caller's thread and at least every 0.1 s, what is being done, the best value so
    * far (units, or rad of turning; INFINITY = none yet) and what it cannot be less than. Not 0 =
-   * stop: the call returns within 0.5 s. NULL = nobody */
+   * stop: it is not called again, and the call returns within 0.5 s. NULL = nobody */
   int (*progress)(void *user, const char *what, double best, double bound);
   void *user;
   double gap; /* %, 0 to 100: the search ends when the plan is so near to its bound, which is

@@ -169,7 +169,7 @@ static thr_status search_and_send(void *user, const thr_limits *given, thr_reply
 {
   search *job = user;
   const thread_plan_options *options = job->options;
-  thr_request request;
+  thr_request request, kept;
   thr_plan plan = {0};
   thr_report report = {0};
   thr_text text = {0};
@@ -177,14 +177,20 @@ static thr_status search_and_send(void *user, const thr_limits *given, thr_reply
 
   thr_status st = thr_library_request(options, job->frame, &request, err);
   if (!st) {
+    /* Of what is recommended any number of cords is kept, the more easily pulled the better. */
+    kept = request;
+    if (thr_library_recommends(options)) {
+      kept.aims = (thr_aims){1, {THR_AIM_PULL}};
+      kept.ends = THR_ENDS_ANY;
+      kept.cords_least = 1;
+      kept.cords = THR_MOST_CORDS;
+    }
+
     thr_limits limits = thr_library_limits(options, &request, given, &work);
     job->given = given;
     job->reply = reply;
-    job->best = (thr_incumbent){.frame = job->frame,
-                                .options = &request,
-                                .value = INFINITY,
-                                .keep = send_found,
-                                .user = job};
+    job->best = (thr_incumbent){
+        .frame = job->frame, .options = &kept, .value = INFINITY, .keep = send_found, .user = job};
     limits.user = job;
     limits.progress = given->progress ? pass_progress : NULL;
     limits.advance = given->advance ? pass_advance : NULL;
@@ -194,6 +200,8 @@ static thr_status search_and_send(void *user, const thr_limits *given, thr_reply
                                     options->hand > 0 ? options->hand : thr_hand_always, &limits,
                                     &plan, &report, err)
              : thr_plan_make(job->frame, &request, &limits, &plan, &report, err);
+    if (!st && thr_library_recommends(options) && thr_limits_stop(&limits))
+      st = thr_fail(err, THR_ELIMIT, "the time was over before fewer cords were tried");
   }
 
   /* A plan without cords is no plan. */
