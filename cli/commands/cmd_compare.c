@@ -15,15 +15,16 @@
  * Order of work: read all plans, refuse loads and schedules that do not fit one of them, evaluate
  * every method for every plan, print. */
 #include "cli/args/args.h"
-#include "cli/commands/rise_runs.h"
 #include "cli/print/print.h"
 #include "diagram/overview/charts.h"
 #include "eval/eval.h"
+#include "eval/rise/rise.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
 #include "graph/text.h"
+#include "lib/rise_pieces.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -291,8 +292,8 @@ static const cli_option own_options[] = {
     {"start", .kind = CLI_WORD, AT(start), .word = thr_rise_start_name,
      .n_words = THR_RISE_N_STARTS,
      .help = "rise: where pieces begin, as for `thread rise` (default: flat)"},
-    {"seeds", .value = "N", .kind = CLI_COUNT, AT(rise.seeds), .low = 1, .high = RISE_MOST_SEEDS,
-     .help = "rise: so many runs of every plan (default: 3)"},
+    {"seeds", .value = "N", .kind = CLI_COUNT, AT(rise.seeds), .low = 1,
+     .high = THR_RISE_MOST_SEEDS, .help = "rise: so many runs of every plan (default: 3)"},
     {"let-down", .kind = CLI_FLAG, AT(rise.let_down),
      .help = "rise: and the cords let go again, until it falls"},
     {"plot", .value = "FILE", .kind = CLI_OUTPUT, AT(plot),

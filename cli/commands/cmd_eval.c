@@ -24,7 +24,6 @@
  * Example: `thread eval plan.json --mu 0.3 -o plan.json --plot tension.svg` stores the tension of
  * every pass in the plan and draws it along each cord. */
 #include "cli/commands/commands.h"
-#include "cli/commands/rise_runs.h"
 #include "cli/print/print.h"
 #include "eval/cord/profile.h"
 #include "graph/arrays.h"

@@ -165,4 +165,22 @@ int eval_write_plot(const thr_plan *plan, double strength, const char *path);
 int eval_write_load_plot(const thr_plan *plan, const thr_eval *eval, const char *load,
                          const char *path);
 
+/* ---- cmd_rise.c: What `thread rise PLAN` does, for `thread eval --method rise`. */
+
+/* Sets what the command line says of cord and beads, beside which sizes of an evaluation that the
+ * plan keeps do not count. Returns an exit code. */
+int rise_apply_physics(const cli_physics *physics, thr_plan *plan);
+
+typedef struct {
+  const cli_physics *physics;
+  const guard_limits *guard;
+  double newtons;   /* 0: as many as usual */
+  double time_step; /* factor */
+  int seed;         /* -1: the usual one */
+} rise_usual;
+
+/* Lets the plan of this file rise once, in a guarded child, and prints what was seen. Returns the
+ * exit code. */
+int rise_as_usual(const char *path, const rise_usual *asked);
+
 #endif

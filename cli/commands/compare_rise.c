@@ -4,13 +4,13 @@
  * limit analysis says of the same pieces.
  *
  * A plan whose pieces cannot be made, or cannot be simulated, leaves its values unknown. */
-#include "cli/commands/rise_runs.h"
 #include "cli/print/print.h"
 #include "eval/rise/rise.h"
 #include "graph/arrays.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
+#include "lib/rise_pieces.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,18 +22,18 @@ typedef struct {
   const compare_rise_asked *asked;
   compare_entry *entry;
   int n;
-  rise_pieces *pieces; /* [n] */
-  bool *made;          /* [n] */
-  rise_job *job;       /* [n * seeds]; those of plans without pieces come last */
-  int *first;          /* [n] job; -1 */
+  thr_rise_pieces *pieces; /* [n] */
+  bool *made;              /* [n] */
+  thr_rise_job *job;       /* [n * seeds]; those of plans without pieces come last */
+  int *first;              /* [n] job; -1 */
   int n_jobs;
 } comparison;
 
 /* Makes the pieces of plan i, and its jobs. Returns an exit code. */
 static int prepare(comparison *work, int i)
 {
-  const thr_kit_options kit = {.names = THR_KIT_NO_NAMES, .coarse = rise_coarse};
-  const rise_setting setting = {.ends = THR_PULL_BOTH};
+  const thr_kit_options kit = {.names = THR_KIT_NO_NAMES, .coarse = thr_rise_coarse};
+  const thr_rise_setting setting = {.ends = THR_PULL_BOTH};
   const thr_limits limits = cli_limits(0);
   thr_plan *plan = &work->entry[i].plan;
   thr_err err = {0}, why = {0};
@@ -43,22 +43,22 @@ static int prepare(comparison *work, int i)
   if (code) return code;
 
   work->made[i] = true;
-  if (rise_pieces_make(&work->pieces[i], plan, &kit, &setting, &limits, &why)) {
+  if (thr_rise_pieces_make(&work->pieces[i], plan, &kit, &setting, &limits, &why)) {
     cli_progress_end();
     thr_fail(&err, why.code, "%s: %s", work->entry[i].path, why.text);
     return cli_fail(&err);
   }
-  rise_foretell(&work->pieces[i], &limits);
+  thr_rise_foretell(&work->pieces[i], &limits);
   work->entry[i].rise.stands = work->pieces[i].stands;
 
   work->first[i] = work->n_jobs;
   for (int k = 0; k < work->asked->seeds; k++) {
-    rise_job *job = &work->job[work->n_jobs++];
+    thr_rise_job *job = &work->job[work->n_jobs++];
     job->structure = &work->pieces[i].made.structure;
     job->options =
         (thr_rise_options){.start = work->asked->start,
                            .seed = (cli_given("seed") ? work->args->options.seed : 1) + (uint64_t)k,
-                           .pull = work->args->newtons > 0 ? work->args->newtons : rise_hand,
+                           .pull = work->args->newtons > 0 ? work->args->newtons : thr_rise_hand,
                            .let_down = work->asked->let_down,
                            .time_step = work->args->options.time_step};
   }
@@ -66,7 +66,8 @@ static int prepare(comparison *work, int i)
 }
 
 /* Finds the pass with the widest gap in most of the runs that did not close. */
-static void find_jam(const rise_job *job, int n, const rise_pieces *pieces, compare_rise *rise)
+static void find_jam(const thr_rise_job *job, int n, const thr_rise_pieces *pieces,
+                     compare_rise *rise)
 {
   const char *name[2] = {"", ""};
   int jam = -1;
@@ -81,7 +82,7 @@ static void find_jam(const rise_job *job, int n, const rise_pieces *pieces, comp
     jam = job[i].record.loosest;
   }
   if (jam < 0) return;
-  rise_pass_names(pieces, jam, name);
+  thr_rise_pass_names(pieces, jam, name);
   for (int side = 0; side < 2; side++)
     snprintf(rise->jam[side], sizeof rise->jam[side], "%s", name[side]);
 }
@@ -90,9 +91,9 @@ static void find_jam(const rise_job *job, int n, const rise_pieces *pieces, comp
 static int sum_up(const comparison *work, int i)
 {
   const int n = work->asked->seeds;
-  const rise_job *job = &work->job[work->first[i]];
+  const thr_rise_job *job = &work->job[work->first[i]];
   compare_rise *rise = &work->entry[i].rise;
-  double pull[RISE_MOST_SEEDS], closed[RISE_MOST_SEEDS], fall[RISE_MOST_SEEDS];
+  double pull[THR_RISE_MOST_SEEDS], closed[THR_RISE_MOST_SEEDS], fall[THR_RISE_MOST_SEEDS];
   int code = EXIT_SUCCESS;
 
   for (int k = 0; k < n; k++) {
@@ -105,13 +106,13 @@ static int sum_up(const comparison *work, int i)
     rise->faces = job[k].record.n_counted;
     closed[rise->runs++] = job[k].record.most_closed;
     if (job[k].record.came_up < 0) continue;
-    pull[rise->up++] = rise_pull_up(&job[k].record);
-    if (job[k].record.fell >= 0) fall[rise->fell++] = rise_pull_down(&job[k].record);
+    pull[rise->up++] = thr_rise_pull_up(&job[k].record);
+    if (job[k].record.fell >= 0) fall[rise->fell++] = thr_rise_pull_down(&job[k].record);
   }
 
-  if (rise->runs > 0) rise_spread(closed, rise->runs, rise->closed);
-  if (rise->up > 0) rise_spread(pull, rise->up, rise->pull);
-  if (rise->fell > 0) rise_spread(fall, rise->fell, rise->fall);
+  if (rise->runs > 0) thr_rise_spread(closed, rise->runs, rise->closed);
+  if (rise->up > 0) thr_rise_spread(pull, rise->up, rise->pull);
+  if (rise->fell > 0) thr_rise_spread(fall, rise->fell, rise->fall);
   find_jam(job, n, &work->pieces[i], rise);
   return code;
 }
@@ -129,7 +130,7 @@ static int run(comparison *work)
   }
   if (work->n_jobs == 0) return code;
 
-  const thr_status st = rise_jobs_run(work->job, work->n_jobs, &limits, &err);
+  const thr_status st = thr_rise_jobs_run(work->job, work->n_jobs, cli_processes(), &limits, &err);
   cli_progress_end();
   for (int i = 0; i < work->n; i++) {
     const int failed = work->first[i] >= 0 ? sum_up(work, i) : EXIT_SUCCESS;
@@ -154,7 +155,7 @@ int compare_rise_all(const pull_args *args, const compare_rise_asked *asked, com
   for (int k = 0; k < work.n_jobs; k++)
     thr_rise_record_destroy(&work.job[k].record);
   for (int i = 0; i < n && work.made; i++)
-    if (work.made[i]) rise_pieces_destroy(&work.pieces[i]);
+    if (work.made[i]) thr_rise_pieces_destroy(&work.pieces[i]);
   thr_scratch_free(&own);
   return code;
 }
