@@ -146,6 +146,10 @@ void thr_symmetries_put_json(thr_writer *writer, const thr_frame *frame, const t
 void thr_symmetries_put_table(thr_writer *writer, const thr_request *options,
                               const thr_symmetries *symmetries);
 
+/* Returns the factor on the tension over so much turning, rad: exp(mu x turning); INFINITY beyond
+ * 1e300. */
+double thr_capstan(double mu, double turning);
+
 /* Appends the order of a group, mantissa x 10^exponent: "8", "1.2e+40". */
 void thr_order_put(thr_text *text, double mantissa, int exponent);
 
