@@ -70,14 +70,12 @@ THREAD_API thread_status thread_frame_parse(const char *text, size_t n, const ch
 THREAD_API thread_status thread_frame_make(int n_nodes, const double *xyz, int n_edges,
                                            const int *ends, const char *units, thread_frame **out,
                                            thread_error *err);
-/* As thread make: "dome", "geodesic", "sphere", "tube", "honeycomb", "row", "arch", "alternating";
- * size 0 = the usual one. */
+/* As thread make: "dome", "sphere", "tube", "arch", ..; size 0 = the usual one. */
 THREAD_API thread_status thread_frame_shape(const char *shape, int size, thread_frame **out,
                                             thread_error *err);
 THREAD_API void thread_frame_free(thread_frame *frame); /* NULL ok */
 
-/* Counts; xyz and ends (NULL ok) receive 3 coordinates of each node and 2 nodes of each edge,
- * borrowed. */
+/* Counts; xyz and ends (NULL ok) receive 3 coordinates a node and 2 nodes an edge, borrowed. */
 THREAD_API int thread_frame_nodes(const thread_frame *frame, const double **xyz);
 THREAD_API int thread_frame_edges(const thread_frame *frame, const int **ends);
 /* Names are borrowed. NULL, -1: there is no such node. */
@@ -88,8 +86,8 @@ THREAD_API const char *thread_frame_notes(const thread_frame *frame);
 /* Where cord ends may come out with THREAD_FEET; n < 0: the lowest nodes. */
 THREAD_API thread_status thread_frame_set_feet(thread_frame *frame, int n, const int *node,
                                                thread_error *err);
-/* The same, as --feet: "lowest", "rim" (all round the edges of a shell), "below=200mm". On failure
- * nothing changes: THREAD_BAD_INPUT. */
+/* The same: "lowest", "rim" (all round the edges of a shell), "below=200mm"; else THREAD_BAD_INPUT.
+ */
 THREAD_API thread_status thread_frame_set_feet_where(thread_frame *frame, const char *where,
                                                      thread_error *err);
 /* Passes that an edge needs (1 .. 100) and that fit through it (0 = any number). */
@@ -183,8 +181,8 @@ typedef struct {
   double length, bound, overlap;   /* bound: no such plan is shorter */
   double turning, largest_turning; /* of all cords, and of the one that turns most */
   double pull;                     /* at an end, of the cord that needs most: as in thread_cord */
-  int passes, u_turns;
-  int shortest, straightest; /* 1: no such plan is shorter, turns less, proved */
+  int passes, u_turns, shortest, straightest; /* 1: no such plan is shorter, turns less, proved */
+  int stopped; /* 1: its search was ended before it was done, and the pull may be beyond a hand */
 } thread_summary;
 THREAD_API thread_status thread_plan_summary(const thread_plan *plan, thread_summary *out,
                                              size_t size, thread_error *err);
@@ -195,8 +193,7 @@ THREAD_API thread_status thread_check(const thread_plan *plan, thread_error *err
  * "structure". */
 THREAD_API thread_status thread_eval(thread_plan *plan, const char *method, double seconds,
                                      thread_error *err);
-/* A document as by thread draw --type: "svg", "pdf", "html", "steps", "cords.csv", "obj", "kit", ..
- * Free *bytes with thread_free. */
+/* A document as by thread draw --type: "svg", "pdf", "html", "steps", "obj", "kit", ..; free it. */
 THREAD_API thread_status thread_draw(const thread_plan *plan, const char *type, char **bytes,
                                      size_t *n, thread_error *err);
 /* The same two with what options say of time, threads and progress (NULL = the usual ones). */
@@ -211,6 +208,12 @@ THREAD_API thread_status thread_draw_with(const thread_plan *plan, const char *t
 THREAD_API thread_status thread_report(const thread_frame *frame, const char *what,
                                        const thread_plan_options *options, char **bytes, size_t *n,
                                        thread_error *err);
+/* The same of plans: "rise": whether the pieces of one come up in simulation; of plans of one frame
+ * "compare": values and rankings by simulated joints; "compare capstan", .. structure, all, rise.
+ */
+THREAD_API thread_status thread_report_plans(const thread_plan *const *plan, int n_plans,
+                                             const char *what, const thread_plan_options *options,
+                                             char **bytes, size_t *n, thread_error *err);
 #ifdef __cplusplus
 }
 #endif

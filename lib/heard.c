@@ -96,9 +96,9 @@ static thr_status run_in_child(void *user, const thr_limits *limits, thr_sender 
 thr_status thr_library_do(const thr_job *job, const thread_plan_options *options, thr_text *answer,
                           thr_err *err)
 {
-  /* Nobody listens, and nothing presses: the job is done here. */
+  /* Nobody listens, nothing presses and nothing may crash: the job is done here. */
   const double seconds = fmax(options->seconds, 0);
-  if (!options->progress && seconds == 0) {
+  if (!options->progress && seconds == 0 && !job->child) {
     const thr_limits silent = {.threads = options->threads};
     thr_reply reply = {.text = answer};
     return job->run(job->user, &silent, &reply, err);
@@ -123,4 +123,26 @@ thr_status thr_library_do(const thr_job *job, const thread_plan_options *options
   if ((st == THR_OK || st == THR_ELIMIT) && hears.stop)
     return thr_fail(err, st, "%s: stopped by progress", job->what);
   return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
+}
+
+thread_status thr_library_document(thr_status st, const thr_job *job,
+                                   const thread_plan_options *options, thread_plan_options *own,
+                                   thr_err *why, char **bytes, size_t *n, thread_error *err)
+{
+  thr_text text = {0};
+  *bytes = NULL;
+  if (n) *n = 0;
+
+  thr_library_lock();
+  if (!st) st = thr_library_plan_options(options, own, why);
+  if (!st) st = thr_library_do(job, own, &text, why);
+  thr_library_unlock();
+
+  /* The bytes become the caller's: the whole document, or as far as it came in the time. */
+  if (!st || (st == THR_ELIMIT && text.length > 0)) {
+    const thr_status given = thr_library_give(&text, bytes, n, why);
+    if (given) st = given;
+  }
+  thr_text_destroy(&text);
+  return thr_library_status(st, why, err);
 }
