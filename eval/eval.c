@@ -28,6 +28,11 @@ thr_eval_options thr_eval_options_default(void)
                             .processes = 1};
 }
 
+double thr_eval_percent(double error)
+{
+  return 100 * expm1(error);
+}
+
 /* Frees what an evaluation owns. */
 void thr_eval_destroy(thr_eval *eval)
 {

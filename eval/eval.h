@@ -184,4 +184,8 @@ thr_status thr_structure_drawn(thr_evaluation *evaluation, const thr_eval_option
 thr_status thr_structure_record(int n_beads, const thr_eval_options *options, thr_eval *out,
                                 thr_err *err) THR_MUST_CHECK;
 
+/* Returns the relative error, in per cent, that an error of the exponent makes: 100 (exp(error) -
+ * 1). */
+double thr_eval_percent(double error);
+
 #endif

@@ -5,9 +5,9 @@
  * text; its outputs are then NULL, 0 or empty. Nothing prints, exits or changes the locale. Text is
  * UTF-8, lengths are in units of the frame, angles in rad, forces in N. Calls on different objects
  * may run in different threads; planning waits for planning (nauty and GLPK are not reentrant).
- * A call with a progress function, and some libraries, run in forked children, which the library
- * waits for: do not set SIGCHLD to SIG_IGN. Structs begin with their size: thread_*_init fills in
- * the usual values, and a program built with an older header goes on working.
+ * A call with a progress function or a time, and some libraries, run in forked children, which the
+ * library waits for: do not set SIGCHLD to SIG_IGN. Structs begin with their size: thread_*_init
+ * fills in the usual values, and a program built with an older header goes on working.
  */
 #ifndef THREAD_H
 #define THREAD_H
@@ -70,14 +70,12 @@ THREAD_API thread_status thread_frame_parse(const char *text, size_t n, const ch
 THREAD_API thread_status thread_frame_make(int n_nodes, const double *xyz, int n_edges,
                                            const int *ends, const char *units, thread_frame **out,
                                            thread_error *err);
-/* As thread make: "dome", "geodesic", "sphere", "tube", "honeycomb", "row", "arch", "alternating";
- * size 0 = the usual one. */
+/* As thread make: "dome", "sphere", "tube", "arch", ..; size 0 = the usual one. */
 THREAD_API thread_status thread_frame_shape(const char *shape, int size, thread_frame **out,
                                             thread_error *err);
 THREAD_API void thread_frame_free(thread_frame *frame); /* NULL ok */
 
-/* Counts; xyz and ends (NULL ok) receive 3 coordinates of each node and 2 nodes of each edge,
- * borrowed. */
+/* Counts; xyz and ends (NULL ok) receive 3 coordinates a node and 2 nodes an edge, borrowed. */
 THREAD_API int thread_frame_nodes(const thread_frame *frame, const double **xyz);
 THREAD_API int thread_frame_edges(const thread_frame *frame, const int **ends);
 /* Names are borrowed. NULL, -1: there is no such node. */
@@ -88,8 +86,8 @@ THREAD_API const char *thread_frame_notes(const thread_frame *frame);
 /* Where cord ends may come out with THREAD_FEET; n < 0: the lowest nodes. */
 THREAD_API thread_status thread_frame_set_feet(thread_frame *frame, int n, const int *node,
                                                thread_error *err);
-/* The same, as --feet: "lowest", "rim" (all round the edges of a shell), "below=200mm". On failure
- * nothing changes: THREAD_BAD_INPUT. */
+/* The same: "lowest", "rim" (all round the edges of a shell), "below=200mm"; else THREAD_BAD_INPUT.
+ */
 THREAD_API thread_status thread_frame_set_feet_where(thread_frame *frame, const char *where,
                                                      thread_error *err);
 /* Passes that an edge needs (1 .. 100) and that fit through it (0 = any number). */
@@ -129,12 +127,12 @@ typedef struct {
   const int *end_node; /* of THREAD_NODES */
   const char *physics; /* of cord and beads, as the file of --physics: "{\"mu\": 0.3, \"seating\":
                           5}"; NULL = usual */
-  double seconds; /* for the search; 0 = until it is proved; < 0 = as thread plan: 20, but 0 for the
-                     shortest cords */
-  int threads;    /* change no result but of a search that time ends */
+  double seconds;      /* for the call, which takes at most a tenth and 0.2 s more; 0 = until it is
+                          proved; < 0 = as thread plan: 20, but 0 for the shortest cords */
+  int threads;         /* change no result but of a search that time ends */
   /* Hears, in the caller's thread and at least every 0.1 s, what is being done, the best value so
    * far (units, or rad of turning; INFINITY = none yet) and what it cannot be less than. Not 0 =
-   * stop: the call returns within 0.5 s. NULL = nobody */
+   * stop: it is not called again, and the call returns within 0.5 s. NULL = nobody */
   int (*progress)(void *user, const char *what, double best, double bound);
   void *user;
   double gap; /* %, 0 to 100: the search ends when the plan is so near to its bound, which is
@@ -183,8 +181,8 @@ typedef struct {
   double length, bound, overlap;   /* bound: no such plan is shorter */
   double turning, largest_turning; /* of all cords, and of the one that turns most */
   double pull;                     /* at an end, of the cord that needs most: as in thread_cord */
-  int passes, u_turns;
-  int shortest, straightest; /* 1: no such plan is shorter, turns less, proved */
+  int passes, u_turns, shortest, straightest; /* 1: no such plan is shorter, turns less, proved */
+  int stopped; /* 1: its search was ended before it was done, and the pull may be beyond a hand */
 } thread_summary;
 THREAD_API thread_status thread_plan_summary(const thread_plan *plan, thread_summary *out,
                                              size_t size, thread_error *err);
@@ -195,8 +193,7 @@ THREAD_API thread_status thread_check(const thread_plan *plan, thread_error *err
  * "structure". */
 THREAD_API thread_status thread_eval(thread_plan *plan, const char *method, double seconds,
                                      thread_error *err);
-/* A document as by thread draw --type: "svg", "pdf", "html", "steps", "cords.csv", "obj", "kit", ..
- * Free *bytes with thread_free. */
+/* A document as by thread draw --type: "svg", "pdf", "html", "steps", "obj", "kit", ..; free it. */
 THREAD_API thread_status thread_draw(const thread_plan *plan, const char *type, char **bytes,
                                      size_t *n, thread_error *err);
 /* The same two with what options say of time, threads and progress (NULL = the usual ones). */
@@ -211,6 +208,12 @@ THREAD_API thread_status thread_draw_with(const thread_plan *plan, const char *t
 THREAD_API thread_status thread_report(const thread_frame *frame, const char *what,
                                        const thread_plan_options *options, char **bytes, size_t *n,
                                        thread_error *err);
+/* The same of plans: "rise": whether the pieces of one come up in simulation; of plans of one frame
+ * "compare": values and rankings by simulated joints; "compare capstan", .. structure, all, rise.
+ */
+THREAD_API thread_status thread_report_plans(const thread_plan *const *plan, int n_plans,
+                                             const char *what, const thread_plan_options *options,
+                                             char **bytes, size_t *n, thread_error *err);
 #ifdef __cplusplus
 }
 #endif

@@ -2,12 +2,12 @@
 /* Lets the caller of libthread hear how far a long call is, and end it.
  *
  * Many searches call libraries that neither tell how far they are nor take heed of time (GLPK's
- * simplex method, nauty, Bullet). So a call that has a progress function is done in a child process
- * (graph/process/child.c), and the caller hears of it in its own thread, whatever the child does:
- * at once of what is new, and every twentieth of a second in any case. If the caller wants no more,
- * the child is asked to stop, and killed a third of a second later; what it had sent by then is the
- * answer. Without a progress function the call is done where it is. The answer has the same bytes
- * either way.
+ * simplex method, nauty, Bullet). So a call that has a progress function or a limit on its time is
+ * done in a child process (graph/process/child.c), and the caller hears of it in its own thread,
+ * whatever the child does: at once of what is new, and every twentieth of a second in any case. If
+ * the caller wants no more, or the time is over, the child is asked to stop, and killed soon
+ * afterwards; what it had sent by then is the answer. Any other call is done where it is. The
+ * answer has the same bytes either way.
  *
  * Example: the least turning of four cords of the 7 x 7 dome spends most of its time in GLPK, and
  * the caller is asked twenty times a second all the same. */
@@ -19,6 +19,10 @@
 #include <string.h>
 
 static const double OFTEN = 0.05; /* s at most between two words to the caller */
+
+/* A call may take a tenth more than its time and 0.2 s: s that its child has to stop by itself, and
+ * as a part of that time. What is left is for the answer. */
+static const double grace_least = 0.1, grace_part = 0.1;
 
 /* What the caller was told last, and whether it has had enough. */
 typedef struct {
@@ -44,10 +48,11 @@ thr_status thr_reply_send(thr_reply *reply, const thr_text *answer, thr_err *err
   return answer->failed || reply->text->failed ? thr_nomem(err) : THR_OK;
 }
 
-/* Tells the caller, who may end the call. */
+/* Tells the caller, who may end the call, and then hears no more. */
 static void speak(listener *hears)
 {
   const thread_plan_options *options = hears->options;
+  if (!options->progress || hears->stop) return;
   if (options->progress(options->user, hears->what, hears->best, hears->bound)) hears->stop = 1;
   hears->at = thr_clock();
 }
@@ -91,8 +96,9 @@ static thr_status run_in_child(void *user, const thr_limits *limits, thr_sender 
 thr_status thr_library_do(const thr_job *job, const thread_plan_options *options, thr_text *answer,
                           thr_err *err)
 {
-  /* Nobody listens: the job is done here. */
-  if (!options->progress) {
+  /* Nobody listens, nothing presses and nothing may crash: the job is done here. */
+  const double seconds = fmax(options->seconds, 0);
+  if (!options->progress && seconds == 0 && !job->child) {
     const thr_limits silent = {.threads = options->threads};
     thr_reply reply = {.text = answer};
     return job->run(job->user, &silent, &reply, err);
@@ -100,11 +106,16 @@ thr_status thr_library_do(const thr_job *job, const thread_plan_options *options
 
   listener hears = {.options = options, .job = job, .best = INFINITY};
   snprintf(hears.what, sizeof hears.what, "%s", job->what);
-  const thr_limits limits = {.interrupted = &hears.stop,
+  const thr_limits limits = {.deadline = seconds > 0 ? thr_clock() + seconds : 0,
+                             .interrupted = &hears.stop,
                              .progress = take_progress,
                              .advance = take_advance,
                              .user = &hears};
-  const thr_child child = {.what = job->what, .run = run_in_child, .look = repeat, .user = &hears};
+  const thr_child child = {.what = job->what,
+                           .run = run_in_child,
+                           .look = repeat,
+                           .grace = seconds > 0 ? grace_least + grace_part * seconds : 0,
+                           .user = &hears};
 
   thr_err why = {0};
   speak(&hears);
@@ -112,4 +123,26 @@ thr_status thr_library_do(const thr_job *job, const thread_plan_options *options
   if ((st == THR_OK || st == THR_ELIMIT) && hears.stop)
     return thr_fail(err, st, "%s: stopped by progress", job->what);
   return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
+}
+
+thread_status thr_library_document(thr_status st, const thr_job *job,
+                                   const thread_plan_options *options, thread_plan_options *own,
+                                   thr_err *why, char **bytes, size_t *n, thread_error *err)
+{
+  thr_text text = {0};
+  *bytes = NULL;
+  if (n) *n = 0;
+
+  thr_library_lock();
+  if (!st) st = thr_library_plan_options(options, own, why);
+  if (!st) st = thr_library_do(job, own, &text, why);
+  thr_library_unlock();
+
+  /* The bytes become the caller's: the whole document, or as far as it came in the time. */
+  if (!st || (st == THR_ELIMIT && text.length > 0)) {
+    const thr_status given = thr_library_give(&text, bytes, n, why);
+    if (given) st = given;
+  }
+  thr_text_destroy(&text);
+  return thr_library_status(st, why, err);
 }

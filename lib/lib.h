@@ -46,6 +46,7 @@ struct thread_plan {
   thread_frame lent;          /* the plan's framework, for thread_plan_frame: a shallow copy */
   int **node;                 /* [n_cords] where each cord runs; owned */
   int *grips;                 /* [n_cords] as in thread_cord; owned */
+  bool stopped;               /* its search was ended before it was done */
   thr_evaluation closed_form; /* both ends pulled: what is known without an evaluation, and grips */
 };
 
@@ -78,6 +79,7 @@ typedef struct {
   const char *what; /* for the caller until there is news */
   thr_status (*run)(void *user, const thr_limits *limits, thr_reply *reply, thr_err *err);
   void *user;
+  bool child; /* whoever listens, it is done in a child: what it uses may crash */
 } thr_job;
 
 /* Sends an answer in place of the one before. THR_ENOMEM; THR_ESOLVER: nobody takes it. */
@@ -88,6 +90,13 @@ thr_status thr_reply_send(thr_reply *reply, const thr_text *answer, thr_err *err
  * run says. */
 thr_status thr_library_do(const thr_job *job, const thread_plan_options *options, thr_text *answer,
                           thr_err *err) THR_MUST_CHECK;
+
+/* Does a job that makes a document, under the lock, with the caller's options over the usual ones
+ * in *own, and gives what it has sent. st, why: what is known to be wrong before, then how it
+ * ended. */
+thread_status thr_library_document(thr_status st, const thr_job *job,
+                                   const thread_plan_options *options, thread_plan_options *own,
+                                   thr_err *why, char **bytes, size_t *n, thread_error *err);
 
 /* Makes a text the caller's, and leaves it empty. THR_ENOMEM if an append failed. */
 thr_status thr_library_give(thr_text *text, char **bytes, size_t *n, thr_err *err) THR_MUST_CHECK;
@@ -124,6 +133,10 @@ bool thr_library_recommends(const thread_plan_options *options);
 thr_limits thr_library_limits(const thread_plan_options *options, const thr_request *request,
                               const thr_limits *given, double *work);
 
+/* Returns the limits of a call that is no search: so many seconds, if above 0. */
+thr_limits thr_library_time(const thread_plan_options *options, double seconds,
+                            const thr_limits *given);
+
 /* Counts the cords in every component that end at counts[n_nodes] of the nodes: the least number
  * and the most. THR_EINFEASIBLE: an odd number of ends, or none. O(nodes + edges). */
 thr_status thr_end_counts_cords(const thr_frame *frame, const int *counts, int *least, int *most,
@@ -145,6 +158,10 @@ void thr_symmetries_put_json(thr_writer *writer, const thr_frame *frame, const t
                              const thr_symmetries *symmetries);
 void thr_symmetries_put_table(thr_writer *writer, const thr_request *options,
                               const thr_symmetries *symmetries);
+
+/* Returns the factor on the tension over so much turning, rad: exp(mu x turning); INFINITY beyond
+ * 1e300. */
+double thr_capstan(double mu, double turning);
 
 /* Appends the order of a group, mantissa x 10^exponent: "8", "1.2e+40". */
 void thr_order_put(thr_text *text, double mantissa, int exponent);

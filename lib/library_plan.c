@@ -105,15 +105,29 @@ static thr_status describe(thread_plan *plan, thr_err *err)
   return st ? st : count_grips(plan, err);
 }
 
+/* Adds to the text of a search that was stopped that a hand cannot pull what there is by then,
+ * where that was asked for. hand: N, 0 = any. */
+static void warn_of_pull(const thread_plan *plan, double hand, thr_err *why)
+{
+  const double pull = plan->closed_form.n_cords > 0 ? plan->closed_form.largest : INFINITY;
+  const size_t n = strlen(why->text);
+  if (!plan->stopped || hand == 0 || pull <= hand) return;
+  snprintf(why->text + n, sizeof why->text - n,
+           "; the best so far needs %.3g N at an end, more than the %g N of a hand", pull, hand);
+}
+
 /* Ends a call that makes a plan: a plan with cords becomes the caller's, whatever is proved of it,
- * else it is freed. Releases the lock, and returns the status of the library. */
-static thread_status hand_over(thr_status st, thread_plan *made, thread_plan **out, thr_err *why,
-                               thread_error *err)
+ * else it is freed. hand: as for warn_of_pull. Releases the lock, and returns the status of the
+ * library. */
+static thread_status hand_over(thr_status st, thread_plan *made, double hand, thread_plan **out,
+                               thr_err *why, thread_error *err)
 {
   /* A plan without cords is no plan, even if only the time was too short. */
   bool whole = made && made->plan.n_cords > 0 && (st == THR_OK || st == THR_ELIMIT);
   thr_status described = whole ? describe(made, why) : THR_OK;
   if (described) st = described;
+  if (made) made->stopped = st == THR_ELIMIT;
+  if (whole && !described) warn_of_pull(made, hand, why);
 
   /* The caller owns the plan, or gets none. */
   if (whole && !described)
@@ -169,7 +183,7 @@ static thr_status search_and_send(void *user, const thr_limits *given, thr_reply
 {
   search *job = user;
   const thread_plan_options *options = job->options;
-  thr_request request;
+  thr_request request, kept;
   thr_plan plan = {0};
   thr_report report = {0};
   thr_text text = {0};
@@ -177,14 +191,20 @@ static thr_status search_and_send(void *user, const thr_limits *given, thr_reply
 
   thr_status st = thr_library_request(options, job->frame, &request, err);
   if (!st) {
+    /* Of what is recommended any number of cords is kept, the more easily pulled the better. */
+    kept = request;
+    if (thr_library_recommends(options)) {
+      kept.aims = (thr_aims){1, {THR_AIM_PULL}};
+      kept.ends = THR_ENDS_ANY;
+      kept.cords_least = 1;
+      kept.cords = THR_MOST_CORDS;
+    }
+
     thr_limits limits = thr_library_limits(options, &request, given, &work);
     job->given = given;
     job->reply = reply;
-    job->best = (thr_incumbent){.frame = job->frame,
-                                .options = &request,
-                                .value = INFINITY,
-                                .keep = send_found,
-                                .user = job};
+    job->best = (thr_incumbent){
+        .frame = job->frame, .options = &kept, .value = INFINITY, .keep = send_found, .user = job};
     limits.user = job;
     limits.progress = given->progress ? pass_progress : NULL;
     limits.advance = given->advance ? pass_advance : NULL;
@@ -194,6 +214,8 @@ static thr_status search_and_send(void *user, const thr_limits *given, thr_reply
                                     options->hand > 0 ? options->hand : thr_hand_always, &limits,
                                     &plan, &report, err)
              : thr_plan_make(job->frame, &request, &limits, &plan, &report, err);
+    if (!st && thr_library_recommends(options) && thr_limits_stop(&limits))
+      st = thr_fail(err, THR_ELIMIT, "the time was over before fewer cords were tried");
   }
 
   /* A plan without cords is no plan. */
@@ -228,7 +250,8 @@ thread_status thread_plan_make(const thread_frame *frame, const thread_plan_opti
 
   /* Options that the program does not know keep their usual values. */
   thr_status st = made ? thr_library_plan_options(options, &own, &why) : thr_nomem(&why);
-  if (!st) st = thr_library_do(&(thr_job){"planning", search_and_send, &job}, &own, &json, &why);
+  if (!st)
+    st = thr_library_do(&(thr_job){"planning", search_and_send, &job, false}, &own, &json, &why);
 
   /* The answer is the plan as JSON, whoever has made it. */
   if ((st == THR_OK || st == THR_ELIMIT) && json.length > 0) {
@@ -242,7 +265,8 @@ thread_status thread_plan_make(const thread_frame *frame, const thread_plan_opti
   thr_text_destroy(&json);
 
   /* Describing the plan is under the lock, too. */
-  return hand_over(st, made, out, &why, err);
+  const double hand = !thr_library_recommends(&own) ? 0 : own.hand > 0 ? own.hand : thr_hand_always;
+  return hand_over(st, made, hand, out, &why, err);
 }
 
 /* Reads a plan from JSON; see include/thread.h. */
@@ -259,7 +283,7 @@ thread_status thread_plan_parse(const char *json, size_t n, const char *name, th
   thr_status st =
       made ? thr_plan_parse(&made->plan, json, n, name ? name : "plan", &why) : thr_nomem(&why);
 
-  return hand_over(st, made, out, &why, err);
+  return hand_over(st, made, 0, out, &why, err);
 }
 
 /* Frees a plan; NULL ok. */
@@ -369,7 +393,8 @@ thread_status thread_plan_summary(const thread_plan *plan, thread_summary *out, 
                               .passes = stated->metrics.passes,
                               .u_turns = stated->metrics.u_turns,
                               .shortest = stated->proof.present && stated->proof.optimal,
-                              .straightest = stated->turning.present && stated->turning.optimal};
+                              .straightest = stated->turning.present && stated->turning.optimal,
+                              .stopped = plan->stopped};
 
   /* A program with an older header gets the members that it knows. */
   memcpy(out, &all, size < sizeof all ? size : sizeof all);
@@ -395,15 +420,6 @@ static int method_of(const char *name)
   return m;
 }
 
-/* The limits of a call that is no search. */
-static thr_limits limits_of(const thread_plan_options *options, const thr_limits *given)
-{
-  thr_limits limits = *given;
-  limits.threads = options->threads;
-  if (options->seconds > 0) limits.deadline = thr_clock() + options->seconds;
-  return limits;
-}
-
 /* What is done with a plan, and how. */
 typedef struct {
   const thr_plan *plan;
@@ -421,7 +437,7 @@ static thr_status evaluate_and_send(void *user, const thr_limits *given, thr_rep
   thr_text text = {0};
 
   /* As thread eval does by default, with the physics of the plan. */
-  const thr_limits limits = limits_of(job->options, given);
+  const thr_limits limits = thr_library_time(job->options, job->options->seconds, given);
   thr_eval_options options = thr_eval_options_default();
   options.physics = evaluated.options.physics;
   if (job->options->threads > 1) options.processes = job->options->threads;
@@ -455,7 +471,8 @@ thread_status thread_eval_with(thread_plan *plan, const char *method,
   if (!st && job.which == THR_N_METHODS)
     st = thr_fail(&why, THR_EINPUT, "there is no method %s", method);
   if (!st)
-    st = thr_library_do(&(thr_job){"evaluating", evaluate_and_send, &job}, &own, &json, &why);
+    st =
+        thr_library_do(&(thr_job){"evaluating", evaluate_and_send, &job, false}, &own, &json, &why);
   if (!st) st = thr_plan_parse(&evaluated, json.data, json.length, "plan", &why);
 
   /* The plan takes the record over; what it leaves is freed. */
@@ -480,7 +497,7 @@ thread_status thread_eval(thread_plan *plan, const char *method, double seconds,
 static thr_status draw_and_send(void *user, const thr_limits *given, thr_reply *reply, thr_err *err)
 {
   const deed *job = user;
-  const thr_limits limits = limits_of(job->options, given);
+  const thr_limits limits = thr_library_time(job->options, job->options->seconds, given);
   const thr_document_options usual = {0};
   thr_text text = {0};
 
@@ -498,26 +515,12 @@ thread_status thread_draw_with(const thread_plan *plan, const char *type,
                                thread_error *err)
 {
   thr_err why = {0};
-  thr_text text = {0};
   thread_plan_options own;
   deed job = {.plan = &plan->plan, .which = thr_document_find(type), .options = &own};
-
-  /* Outputs are empty after a failure. */
-  *bytes = NULL;
-  if (n) *n = 0;
-
-  /* Drawing waits for its turn, as planning does. */
-  thr_library_lock();
-  thr_status st = thr_library_plan_options(options, &own, &why);
-  if (!st && job.which < 0) st = thr_fail(&why, THR_EINPUT, "there is no document %s", type);
-  if (!st) st = thr_library_do(&(thr_job){"drawing", draw_and_send, &job}, &own, &text, &why);
-  thr_library_unlock();
-
-  /* The bytes become the caller's. */
-  if (!st) st = thr_library_give(&text, bytes, n, &why);
-
-  thr_text_destroy(&text);
-  return thr_library_status(st, &why, err);
+  const thr_job work = {"drawing", draw_and_send, &job, false};
+  const thr_status st =
+      job.which < 0 ? thr_fail(&why, THR_EINPUT, "there is no document %s", type) : THR_OK;
+  return thr_library_document(st, &work, options, &own, &why, bytes, n, err);
 }
 
 /* The same as usual. */

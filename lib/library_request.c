@@ -247,3 +247,12 @@ thr_limits thr_library_limits(const thread_plan_options *options, const thr_requ
   if (seconds > 0) limits.deadline = thr_clock() + seconds;
   return limits;
 }
+
+thr_limits thr_library_time(const thread_plan_options *options, double seconds,
+                            const thr_limits *given)
+{
+  thr_limits limits = *given;
+  limits.threads = options->threads;
+  if (seconds > 0) limits.deadline = thr_clock() + seconds;
+  return limits;
+}

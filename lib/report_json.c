@@ -96,8 +96,7 @@ void thr_order_put(thr_text *text, double mantissa, int exponent)
     thr_text_printf(text, "%.3ge+%d", mantissa / pow(10, digits), exponent + (int)digits);
 }
 
-/* Returns the factor on the tension over so much turning, rad; INFINITY beyond 1e300. */
-static double capstan(double mu, double turning)
+double thr_capstan(double mu, double turning)
 {
   const double factor = exp(mu * turning);
   return factor > 1e300 ? INFINITY : factor;
@@ -105,7 +104,7 @@ static double capstan(double mu, double turning)
 
 double thr_symmetry_row_pull(const thr_request *options, const thr_symmetry_row *row)
 {
-  return options->physics.seating * capstan(options->physics.mu, row->pulled);
+  return options->physics.seating * thr_capstan(options->physics.mu, row->pulled);
 }
 
 /* Writes the order of a group as a number of any size. */
@@ -164,7 +163,7 @@ static void put_threading_json(thr_writer *writer, const thr_request *options,
   /* How hard the cords are to pull. */
   thr_write_number(writer, "turning", metrics->turning);
   thr_write_number(writer, "max_turning", metrics->max_turning);
-  thr_write_number(writer, "max_capstan", capstan(options->physics.mu, metrics->max_turning));
+  thr_write_number(writer, "max_capstan", thr_capstan(options->physics.mu, metrics->max_turning));
   thr_write_number(writer, "pull", thr_symmetry_row_pull(options, row));
 
   thr_write_object(writer, "bound");

@@ -129,6 +129,7 @@ static thr_status try_numbers(const recommendation *of, int least, int most, thr
   int beyond = least - 1, within = most + 1, cords = least, step = 1;
 
   for (int trial = 0; trial < MOST_TRIALS && !st && cords > beyond && cords < within; trial++) {
+    if (trial > 0 && thr_limits_stop(of->limits)) break;
     thr_plan tried = {0};
     thr_report found = {0};
 
@@ -158,6 +159,7 @@ static thr_status with_ends(recommendation *of, thr_ends ends, const thr_plan *s
   of->request.ends = ends;
 
   thr_status st = cut_shortest(of, shortest, &cut, err);
+  if (!st) thr_limits_found(of->limits, cut.cord, cut.n_cords, NULL);
   const int least = fewest_of(of, shortest);
   int component,
       most = cut.n_cords > 0 ? thr_planner_most_cords(&cut, &component) : most_times * least;

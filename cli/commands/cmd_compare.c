@@ -3,11 +3,11 @@
  * hard they are to pull.
  *
  * A value of a plan is an interval: a measured pull has a relative error, a limit analysis proves a
- * lower and finds an upper pull. Two plans whose intervals overlap tie (cli/print/ranking.c). There
+ * lower and finds an upper pull. Two plans whose intervals overlap tie (lib/ranking.c). There
  * is one ranking for each question that was asked: the seating pull by the closed form and by
  * simulated joints, the holding pull, the force in any state, what is left after a schedule, what a
  * load needs and what is carried (docs/method.md, "Comparing"); or what comes up in simulation
- * (compare_rise.c).
+ * (lib/compare_rise.c).
  *
  * Example: two plans with seating pulls of 12.3 N (+-0.4 %) and 12.33 N (+-0.5 %) tie; 12.3 N and
  * 14.1 N do not.
@@ -15,15 +15,19 @@
  * Order of work: read all plans, refuse loads and schedules that do not fit one of them, evaluate
  * every method for every plan, print. */
 #include "cli/args/args.h"
-#include "cli/commands/rise_runs.h"
 #include "cli/print/print.h"
 #include "diagram/overview/charts.h"
 #include "eval/eval.h"
+#include "eval/rise/rise.h"
 #include "graph/framework/frame.h"
+#include "graph/io/json.h"
+#include "graph/limits.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
 #include "graph/text.h"
+#include "lib/comparison.h"
+#include "lib/rise_pieces.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -53,8 +57,15 @@ typedef struct {
   const char *schedule; /* as given; NULL: none */
 } structure_actions;
 
-/* A plan with its evaluations (cli/print/print.h). */
-typedef compare_entry entry;
+/* What --method rise is asked, beside the pull. */
+typedef struct {
+  int seeds;
+  thr_rise_start start;
+  bool let_down;
+} compare_rises;
+
+/* A plan with its evaluations (lib/comparison.h). */
+typedef thr_compare_entry entry;
 
 /* Reads the plans into entries[n]. Pulls can be compared on one framework only: another one is an
  * error. Returns an exit code. */
@@ -135,7 +146,7 @@ static int evaluate(const pull_args *args, const structure_actions *actions, ent
   int worst = EXIT_OK;
 
   for (int method = 0; method < THR_N_METHODS; method++)
-    for (int i = 0; i < n && pull_wants(args, (thr_method)method); i++) {
+    for (int i = 0; i < n && thr_compare_wants(args->method, (thr_method)method); i++) {
       int code = evaluate_one(args, actions, (thr_method)method, &entries[i]);
 
       /* An interrupt, or a plan without even a closed form, ends the work. */
@@ -143,13 +154,42 @@ static int evaluate(const pull_args *args, const structure_actions *actions, ent
       if (!worst) worst = code;
 
       /* Plans of different physics can be ranked, but the user should know. */
-      if (i > 0 && method == THR_CAPSTAN && !compare_same_physics(&entries[i], &entries[0]))
+      if (i > 0 && method == THR_CAPSTAN && !thr_compare_same_physics(&entries[i], &entries[0]))
         cli_note("note: %s has its own cord and beads, other than %s: give --mu and the like to "
                  "compare like with like",
                  entries[i].path, entries[0].path);
     }
 
   return worst;
+}
+
+/* Lets all plans rise. Returns an exit code, of what failed first. */
+static int evaluate_rises(const pull_args *args, const compare_rises *asked, entry *entries, int n)
+{
+  const thr_limits limits = cli_limits(0);
+  const thr_compare_rise_asked runs = {.seeds = asked->seeds,
+                                       .start = asked->start,
+                                       .let_down = asked->let_down,
+                                       .seed = cli_given("seed") ? args->options.seed : 1,
+                                       .pull = args->newtons > 0 ? args->newtons : thr_rise_hand,
+                                       .time_step = args->options.time_step,
+                                       .processes = cli_processes()};
+  thr_err err = {0};
+  int code = EXIT_SUCCESS;
+  for (int i = 0; i < n && !code; i++)
+    code = rise_apply_physics(&args->physics, &entries[i].plan);
+  if (code) return code;
+
+  const thr_status st = thr_compare_rises(entries, n, &runs, &limits, &err);
+  cli_progress_end();
+  for (int i = 0; i < n; i++) {
+    thr_err why = {0};
+    if (!entries[i].rise.why.code) continue;
+    thr_fail(&why, entries[i].rise.why.code, "%s: %s", entries[i].path, entries[i].rise.why.text);
+    const int failed = cli_fail(&why);
+    if (!code) code = failed;
+  }
+  return st == THR_ELIMIT ? EXIT_LIMIT : st ? cli_fail(&err) : code;
 }
 
 /* Draws the plans side by side with pull, cord and number of cords, and writes the picture to path.
@@ -170,8 +210,8 @@ static int write_plot(const pull_args *args, const entry *entries, int n, const 
     column[i] = (thr_compare_column){
         .name = entries[i].path,
         .plan = &entries[i].plan,
-        .pull = {eval->band[0], compare_largest(&entries[i], THR_CAPSTAN), eval->band[1]},
-        .frontier = compare_on_frontier(entries, n, i)};
+        .pull = {eval->band[0], thr_compare_largest(&entries[i], THR_CAPSTAN), eval->band[1]},
+        .frontier = thr_compare_on_frontier(entries, n, i)};
   }
 
   if (!st) st = thr_compare_svg(column, n, note.data, &svg, &err);
@@ -186,21 +226,28 @@ static int print(const pull_args *args, const entry *entries, int n)
 {
   thr_err err = {0};
   thr_text text = {0};
-  ranking rankings[COMPARE_RANKINGS] = {{0}};
+  thr_ranking rankings[THR_COMPARE_RANKINGS] = {{0}};
   int count = 0;
   const char **name = thr_calloc((size_t)n, sizeof *name);
-  thr_status st = name ? compare_rank(args, entries, n, rankings, &count, &err) : thr_nomem(&err);
+  thr_status st =
+      name ? thr_compare_rank(args->method, entries, n, rankings, &count, &err) : thr_nomem(&err);
 
   /* Plans are named by their files. */
   if (!st) {
     for (int i = 0; i < n; i++)
       name[i] = entries[i].path;
-    (cli_json ? compare_put_json : compare_put_text)(&text, args, entries, n, rankings, count,
-                                                     name);
+    thr_writer writer = {.out = &text};
+    if (cli_json) {
+      thr_write_object(&writer, NULL);
+      thr_compare_put_json(&writer, args->method, entries, n, rankings, count, name);
+      thr_write_close(&writer);
+      thr_text_append(&text, "\n");
+    } else
+      compare_put_text(&text, args, entries, n, rankings, count, name);
   }
 
-  for (int i = 0; i < COMPARE_RANKINGS; i++)
-    ranking_destroy(&rankings[i]);
+  for (int i = 0; i < THR_COMPARE_RANKINGS; i++)
+    thr_ranking_destroy(&rankings[i]);
   free(name);
 
   return st ? cli_fail(&err) : print_text(&text);
@@ -209,8 +256,7 @@ static int print(const pull_args *args, const entry *entries, int n)
 /* Does the work of the command. plot: where the picture goes, NULL = nowhere. Returns the exit
  * code: the first one of reading, evaluating and drawing, unless printing fails. */
 static int compare(const pull_args *args, const structure_actions *actions,
-                   const compare_rise_asked *rise, char **path, int n, entry *entries,
-                   const char *plot)
+                   const compare_rises *rise, char **path, int n, entry *entries, const char *plot)
 {
   int code = read_entries(path, n, entries);
 
@@ -222,13 +268,13 @@ static int compare(const pull_args *args, const structure_actions *actions,
   if (code && code != EXIT_LIMIT && !entries[n - 1].eval[THR_CAPSTAN].record.present) return code;
 
   /* An interrupt ends the work; what is known is printed all the same. */
-  if (code != EXIT_LIMIT && args->method == PULL_RISE) {
-    const int ended = compare_rise_all(args, rise, entries, n);
+  if (code != EXIT_LIMIT && args->method == THR_BY_RISE) {
+    const int ended = evaluate_rises(args, rise, entries, n);
     if (!code || ended == EXIT_LIMIT) code = ended;
   }
 
   for (int i = 0; i < n; i++)
-    compare_measure(&entries[i]);
+    thr_compare_measure(&entries[i]);
   for (int i = 0; i < n && !cli_json; i++)
     thr_text_clean(path[i]); /* the files are read; what follows is for people */
 
@@ -245,7 +291,7 @@ static int compare(const pull_args *args, const structure_actions *actions,
  * code. */
 static int check_actions(const pull_args *args, structure_actions *actions)
 {
-  const bool structure = pull_wants(args, THR_STRUCTURE),
+  const bool structure = thr_compare_wants(args->method, THR_STRUCTURE),
              any = load_any(&actions->load) || actions->schedule;
 
   /* Options of method structure. */
@@ -274,7 +320,7 @@ typedef struct {
   pull_args pull;
   guard_limits guard;
   structure_actions actions;
-  compare_rise_asked rise;
+  compare_rises rise;
   int start; /* of rise */
   const char *plot;
 } compare_arguments;
@@ -283,7 +329,7 @@ typedef struct {
 
 static const cli_option own_options[] = {
     {"method", .value = "joint|capstan|structure|rise|all", .kind = CLI_WORD, AT(pull.method),
-     .word = pull_method_name, .n_words = PULL_ALL_METHODS + 1,
+     .word = pull_method_name, .n_words = THR_BY_ALL + 1,
      .help = "what to rank by (default: joint; all: by the first three); the closed form is always "
              "shown beside it"},
     {"schedule", .value = "TEXT", .kind = CLI_TEXT, AT(actions.schedule),
@@ -291,8 +337,8 @@ static const cli_option own_options[] = {
     {"start", .kind = CLI_WORD, AT(start), .word = thr_rise_start_name,
      .n_words = THR_RISE_N_STARTS,
      .help = "rise: where pieces begin, as for `thread rise` (default: flat)"},
-    {"seeds", .value = "N", .kind = CLI_COUNT, AT(rise.seeds), .low = 1, .high = RISE_MOST_SEEDS,
-     .help = "rise: so many runs of every plan (default: 3)"},
+    {"seeds", .value = "N", .kind = CLI_COUNT, AT(rise.seeds), .low = 1,
+     .high = THR_RISE_MOST_SEEDS, .help = "rise: so many runs of every plan (default: 3)"},
     {"let-down", .kind = CLI_FLAG, AT(rise.let_down),
      .help = "rise: and the cords let go again, until it falls"},
     {"plot", .value = "FILE", .kind = CLI_OUTPUT, AT(plot),
@@ -304,7 +350,7 @@ static const cli_option own_options[] = {
 static int check_rise(const pull_args *args)
 {
   static const char *const own[] = {"start", "seeds", "let-down"};
-  const bool rise = args->method == PULL_RISE;
+  const bool rise = args->method == THR_BY_RISE;
   for (size_t i = 0; i < sizeof own / sizeof *own; i++)
     if (!rise && cli_given(own[i])) return cli_usage("compare", "--%s is of --method rise", own[i]);
   if (rise && args->options.iterations != 1)

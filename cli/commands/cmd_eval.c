@@ -24,7 +24,6 @@
  * Example: `thread eval plan.json --mu 0.3 -o plan.json --plot tension.svg` stores the tension of
  * every pass in the plan and draws it along each cord. */
 #include "cli/commands/commands.h"
-#include "cli/commands/rise_runs.h"
 #include "cli/print/print.h"
 #include "eval/cord/profile.h"
 #include "graph/arrays.h"
@@ -88,8 +87,9 @@ static const char *method_meaning(int method)
                     "takes",
       [THR_STRUCTURE] = "least pull at which the rigid beads have any equilibrium while the cord "
                         "is drawn in, and which fails first",
-      [PULL_RISE] = "whether loose pieces come up in simulation: `thread rise`, which has options, "
-                    "with its defaults"};
+      [THR_BY_RISE] =
+          "whether loose pieces come up in simulation: `thread rise`, which has options, "
+          "with its defaults"};
   return meaning[method];
 }
 
@@ -103,7 +103,7 @@ static bool take_hand(void *into, const cli_option *option, const char *value)
 
 static const cli_option method_options[] = {{"method", .kind = CLI_WORD, AT(pull.method),
                                              .word = pull_method_name, .meaning = method_meaning,
-                                             .n_words = PULL_RISE + 1,
+                                             .n_words = THR_BY_RISE + 1,
                                              .help = "how the pull is found (default: capstan)"},
                                             {0}};
 
@@ -168,7 +168,7 @@ static int check_rise(const eval_arguments *args)
   const cli_option *const table[] = {own_options, cli_load_options, cli_load_tuned,
                                      pull_run_options};
   const char *given = NULL;
-  if (args->pull.method != PULL_RISE) return EXIT_OK;
+  if (args->pull.method != THR_BY_RISE) return EXIT_OK;
   for (size_t i = 0; i < sizeof table / sizeof *table && !given; i++)
     given = cli_given_of(table[i]);
   if (!given && args->pull.options.iterations != 1) given = "--tune iterations";
@@ -339,7 +339,7 @@ int cmd_eval(int argc, char **argv)
   int code = parse(argc, argv, &args);
 
   if (code >= 0) return code;
-  if (args.pull.method == PULL_RISE) {
+  if (args.pull.method == THR_BY_RISE) {
     const rise_usual usual = {&args.pull.physics, &args.guard, args.pull.newtons,
                               args.pull.options.time_step,
                               cli_given("seed") ? (int)args.pull.options.seed : -1};

@@ -10,7 +10,6 @@
 #include "cli/cli.h"
 #include "cli/commands/commands.h"
 #include "cli/print/print.h"
-#include "cli/commands/rise_runs.h"
 #include "diagram/export/paper.h"
 #include "diagram/overview/charts.h"
 #include "diagram/overview/overview.h"
@@ -170,7 +169,7 @@ static const cli_option own_options[] = {
              "times a second, each time in a direction by chance"},
     {"shaking", .value = "S", .kind = CLI_AMOUNT, AT(rise.shaken), .low = CLI_ABOVE_0, .high = 1e4,
      .help = "for so many seconds, then all rests (default: 3)"},
-    {"seeds", .value = "N", .kind = CLI_COUNT, AT(seeds), .low = 1, .high = RISE_MOST_SEEDS,
+    {"seeds", .value = "N", .kind = CLI_COUNT, AT(seeds), .low = 1, .high = THR_RISE_MOST_SEEDS,
      .help = "so many runs, each from another disorder: median and range (default: 1)"},
     {"seed", .value = "N", .kind = CLI_COUNT, AT(first_seed), .low = 0, .high = 1e9,
      .help = "of the first run (default: 1)"},
@@ -215,7 +214,7 @@ static const cli_option tuned_options[] = {
 /* All that a run needs. */
 typedef struct {
   const rise_arguments *args;
-  rise_pieces pieces;
+  thr_rise_pieces pieces;
   thr_rise_options options; /* of the first run */
   int n_runs;
   thr_rise_record *record; /* [seeds] of which n_runs are done; only the first has poses */
@@ -293,10 +292,10 @@ static int count_up(const rise_runs *runs)
 static void put_spread(const rise_runs *runs, double (*of)(const thr_rise_record *),
                        const char *unit, thr_text *text)
 {
-  double value[RISE_MOST_SEEDS], spread[3];
+  double value[THR_RISE_MOST_SEEDS], spread[3];
   for (int i = 0; i < runs->n_runs; i++)
     value[i] = of(&runs->record[i]);
-  rise_spread(value, runs->n_runs, spread);
+  thr_rise_spread(value, runs->n_runs, spread);
   if (runs->n_runs == 1)
     thr_text_printf(text, "%.3g %s", spread[0], unit);
   else
@@ -306,7 +305,7 @@ static void put_spread(const rise_runs *runs, double (*of)(const thr_rise_record
 /* Appends how what has closed, but not come up, lies there; nothing if there is no such run. */
 static void put_lying(const rise_runs *runs, thr_text *text)
 {
-  double tilt[RISE_MOST_SEEDS], spread[3];
+  double tilt[THR_RISE_MOST_SEEDS], spread[3];
   int n = 0;
   for (int i = 0; i < runs->n_runs; i++) {
     const thr_rise_record *record = &runs->record[i];
@@ -314,7 +313,7 @@ static void put_lying(const rise_runs *runs, thr_text *text)
       tilt[n++] = thr_degrees(record->moment[record->held - 1].tilt);
   }
   if (n == 0) return;
-  rise_spread(tilt, n, spread);
+  thr_rise_spread(tilt, n, spread);
   if (runs->n_runs > 1)
     thr_text_printf(text, "in %d %s all faces closed, but it does not stand upright: ", n,
                     cli_plural(n, "run", "runs"));
@@ -400,7 +399,7 @@ static void put_outcome(const rise_runs *runs, thr_text *text)
     thr_text_append(text, up ? "comes up" : "does not come up");
   if (2 * up > runs->n_runs) {
     thr_text_append(text, runs->args->rise.start == THR_RISE_SHAPE ? ": it stands at " : " at ");
-    put_spread(runs, rise_pull_up, "N", text);
+    put_spread(runs, thr_rise_pull_up, "N", text);
     thr_text_append(text, runs->args->schedule                ? ", the largest pull by then"
                           : runs->args->rise.rate > 0         ? " at the end that is pulled hardest"
                           : runs->args->ends == THR_PULL_BOTH ? " at every end"
@@ -423,7 +422,7 @@ static void put_text(const rise_runs *runs, thr_text *text)
   put_lying(runs, text);
   if (record->most_closed < record->n_counted) {
     const char *name[2] = {"", ""};
-    rise_pass_names(&runs->pieces, record->loosest, name);
+    thr_rise_pass_names(&runs->pieces, record->loosest, name);
     thr_text_printf(text, "the widest gap stays between %s and %s\n", name[0], name[1]);
   }
   if (runs->pieces.seated > 0 && isfinite(runs->pieces.seated))
@@ -446,108 +445,28 @@ static void put_text(const rise_runs *runs, thr_text *text)
   if (runs->args->rise.let_down) {
     if (record->fell >= 0) {
       thr_text_append(text, "let down, it falls below ");
-      put_spread(runs, rise_pull_down, "N", text);
+      put_spread(runs, thr_rise_pull_down, "N", text);
       thr_text_append(text, "\n");
     } else
       thr_text_append(text, "let down, it does not fall\n");
   }
 }
 
-/* Writes angles in degrees. */
-static void write_degrees(thr_writer *writer, const char *key, const double *angle, int n)
-{
-  thr_write_row(writer, key);
-  for (int i = 0; i < n; i++)
-    thr_write_printf(writer, NULL, "%.4g", angle[i] * 180 / THR_PI);
-  thr_write_close(writer);
-}
-
-/* Writes the moments of a run, and with `motion` the place of every piece. */
-static void write_run(thr_writer *writer, const rise_runs *runs, int i, bool motion)
-{
-  const thr_rise_record *record = &runs->record[i];
-  thr_write_object(writer, NULL);
-  thr_write_int(writer, "seed", runs->args->first_seed + i);
-  thr_write_bool(writer, "came_up", record->came_up >= 0);
-  if (record->came_up >= 0) thr_write_number(writer, "pull_up", rise_pull_up(record));
-  if (record->fell >= 0) thr_write_number(writer, "pull_down", rise_pull_down(record));
-  thr_write_int(writer, "most_closed", record->most_closed);
-  thr_write_number(writer, "off", record->off);
-  if (runs->pieces.made.structure.stands_up && record->held > 0)
-    thr_write_printf(writer, "tilt", "%.4g", thr_degrees(record->moment[record->held - 1].tilt));
-  if (runs->args->schedule && record->finished) thr_write_bool(writer, "stands", record->stands);
-  if (runs->args->dent) thr_write_number(writer, "dented", record->dented);
-  write_degrees(writer, "kink", record->kink, record->n_passes);
-  write_degrees(writer, "twist", record->twist, record->n_passes);
-
-  thr_write_array(writer, "moments");
-  for (int f = 0; f < record->n_frames; f++) {
-    const thr_rise_moment *moment = &record->moment[f];
-    thr_write_row(writer, NULL);
-    thr_write_printf(writer, NULL, "%.6g", moment->time);
-    thr_write_printf(writer, NULL, "%.6g", moment->pull);
-    thr_write_printf(writer, NULL, "%.6g", moment->drawn);
-    thr_write_int(writer, NULL, moment->closed);
-    thr_write_printf(writer, NULL, "%.6g", moment->height);
-    thr_write_printf(writer, NULL, "%.6g", moment->lift);
-    thr_write_close(writer);
-  }
-  thr_write_close(writer);
-
-  if (motion && record->pose) {
-    thr_write_array(writer, "frames");
-    for (int f = 0; f < record->n_frames; f++) {
-      const double *pose = record->pose[(size_t)f * (size_t)record->n_pieces];
-      thr_write_row(writer, NULL);
-      for (int k = 0; k < 7 * record->n_pieces; k++)
-        thr_write_printf(writer, NULL, "%.6g", pose[k]);
-      thr_write_close(writer);
-    }
-    thr_write_close(writer);
-  }
-  thr_write_close(writer);
-}
-
-/* Writes the tensions that the schedule leaves in the first run, and those of the closed form. */
-static void write_left(thr_writer *writer, const rise_runs *runs)
-{
-  const thr_rise_record *record = &runs->record[0];
-  const double *left = record->tension + (size_t)(record->n_frames - 1) * (size_t)record->n_passes;
-  thr_write_array(writer, "left");
-  for (int c = 0; c < runs->pieces.made.structure.n_cords; c++) {
-    const thr_eval_cord *cord = &runs->after.record.cord[c];
-    thr_write_object(writer, NULL);
-    thr_write_string(writer, "cord", runs->pieces.kit.plan->cord[c].id);
-    for (int i = 0; i < 2; i++) {
-      thr_write_row(writer, i ? "closed_form" : "tension");
-      for (int k = 0; k < cord->n_passes; k++)
-        thr_write_printf(writer, NULL, "%.6g", i ? cord->tension[k] : left[k]);
-      thr_write_close(writer);
-    }
-    thr_write_close(writer);
-    left += cord->n_passes;
-  }
-  thr_write_close(writer);
-}
-
-/* Appends everything as JSON. */
+/* Appends everything as JSON, and with `motion` the place of every piece. */
 static void put_json(const rise_runs *runs, bool motion, thr_text *text)
 {
-  const thr_rise_record *record = &runs->record[0];
+  const rise_arguments *args = runs->args;
+  const thr_rise_seen seen = {.pieces = &runs->pieces,
+                              .after = args->schedule ? &runs->after : NULL,
+                              .start = args->rise.start,
+                              .dented = args->dent != NULL,
+                              .motion = motion,
+                              .first_seed = args->first_seed,
+                              .n = runs->n_runs,
+                              .record = runs->record};
   thr_writer writer = {.out = text};
   thr_write_object(&writer, NULL);
-  thr_write_string(&writer, "start", thr_rise_start_name(runs->args->rise.start));
-  thr_write_int(&writer, "pieces", record->n_pieces);
-  thr_write_int(&writer, "faces", record->n_counted);
-  thr_write_number(&writer, "weight", record->weight);
-  thr_write_number(&writer, "seconds_a_frame", record->between);
-  thr_write_number(&writer, "closed_form", runs->pieces.seated);
-  thr_write_number(&writer, "limit_analysis", runs->pieces.stands);
-  if (runs->args->schedule && record->finished) write_left(&writer, runs);
-  thr_write_array(&writer, "runs");
-  for (int i = 0; i < runs->n_runs; i++)
-    write_run(&writer, runs, i, motion);
-  thr_write_close(&writer);
+  thr_rise_put_json(&writer, &seen);
   thr_write_close(&writer);
   thr_text_append(text, "\n");
 }
@@ -770,14 +689,14 @@ static int tell(const rise_runs *runs)
 static thr_status run_others(rise_runs *runs, const thr_limits *limits, thr_err *err)
 {
   const int n = runs->args->seeds - 1;
-  rise_job *job = thr_calloc((size_t)n, sizeof *job);
+  thr_rise_job *job = thr_calloc((size_t)n, sizeof *job);
   if (!job) return thr_nomem(err);
   for (int i = 0; i < n; i++) {
     job[i].structure = &runs->pieces.made.structure;
     job[i].options = runs->options;
     job[i].options.seed += (uint64_t)i + 1;
   }
-  thr_status st = rise_jobs_run(job, n, limits, err);
+  thr_status st = thr_rise_jobs_run(job, n, cli_processes(), limits, err);
   for (int i = 0; i < n; i++) {
     if (job[i].done) runs->record[runs->n_runs++] = job[i].record;
     if (job[i].status && !st) st = thr_fail(err, job[i].status, "%s", job[i].why.text);
@@ -812,7 +731,7 @@ static int run_all(rise_runs *runs)
   int code = take_hands(args, &runs->pieces.kit, weight, &runs->options);
   if (code >= 0) return code;
 
-  rise_foretell(&runs->pieces, &limits);
+  thr_rise_foretell(&runs->pieces, &limits);
   thr_status st = args->schedule ? foretell_left(runs, &limits, &err) : THR_OK;
   if (!st)
     st = thr_rise_simulate(&runs->pieces.made.structure, &runs->options, &limits, &runs->record[0],
@@ -925,10 +844,10 @@ static int make_and_run(const rise_arguments *args, const thr_plan *plan)
   thr_physics asked = plan->options.physics;
   if (isfinite(args->stiffness)) asked.stiffness = args->stiffness;
   if (isfinite(args->gravity)) asked.gravity = args->gravity;
-  const rise_setting setting = {(thr_pull)args->ends, (thr_rise_feet)args->feet, &asked};
+  const thr_rise_setting setting = {(thr_pull)args->ends, (thr_rise_feet)args->feet, &asked};
   runs.record = thr_calloc((size_t)args->seeds, sizeof *runs.record);
 
-  thr_status st = rise_pieces_make(&runs.pieces, plan, &args->kit, &setting, &limits, &err);
+  thr_status st = thr_rise_pieces_make(&runs.pieces, plan, &args->kit, &setting, &limits, &err);
   if (!st && !runs.record) st = thr_nomem(&err);
   int code = st ? cli_fail(&err) : take_lists(&runs);
   if (!code) code = run_all(&runs);
@@ -938,7 +857,7 @@ static int make_and_run(const rise_arguments *args, const thr_plan *plan)
   free(runs.record);
   thr_schedule_destroy(&schedule);
   thr_eval_destroy(&runs.after);
-  rise_pieces_destroy(&runs.pieces);
+  thr_rise_pieces_destroy(&runs.pieces);
   return code;
 }
 
@@ -946,13 +865,23 @@ static int make_and_run(const rise_arguments *args, const thr_plan *plan)
 static rise_arguments usual_arguments(void)
 {
   return (rise_arguments){.guard = guard_limits_default(),
-                          .rise = {.pull = rise_hand},
-                          .kit = {.names = THR_KIT_NO_NAMES, .coarse = rise_coarse},
+                          .rise = {.pull = thr_rise_hand},
+                          .kit = {.names = THR_KIT_NO_NAMES, .coarse = thr_rise_coarse},
                           .seeds = 1,
                           .ends = THR_PULL_BOTH,
                           .stiffness = NAN,
                           .gravity = NAN,
                           .first_seed = 1};
+}
+
+int rise_apply_physics(const cli_physics *physics, thr_plan *plan)
+{
+  const int code = cli_physics_apply(physics, &plan->options.physics);
+  if (!code && cli_given_of(cli_physics_options())) {
+    thr_evaluation_destroy(&plan->evaluation);
+    plan->evaluation = (thr_evaluation){0};
+  }
+  return code;
 }
 
 /* Reads the plan and does all of the work in a child. physics: what is said of cord and beads;

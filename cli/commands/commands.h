@@ -16,6 +16,7 @@
 #include "graph/status.h"
 #include "graph/text.h"
 #include "kit/picture.h"
+#include "lib/comparison.h"
 
 #include <stdbool.h>
 
@@ -106,15 +107,13 @@ void drawings_names(const thr_plan *plan, const drawings_args *a, char names[DRA
  * A command calls pull_args_init, pull_option for each option, pull_check when all are known, and
  * pull_eval for each plan. */
 
-enum { PULL_RISE = THR_N_METHODS, PULL_ALL_METHODS }; /* all: those that compute a pull */
-
 /* What was asked for. */
 typedef struct {
   cli_physics physics;
   thr_eval_options options; /* physics and pulls are set for each plan */
-  int method;               /* thr_method, PULL_RISE or PULL_ALL_METHODS */
+  int method;               /* thr_method, THR_BY_RISE or THR_BY_ALL */
   const char *pull;         /* which ends, as given */
-  double newtons;           /* .. or, of PULL_RISE, the most that a hand pulls; 0 = not said */
+  double newtons;           /* .. or, of THR_BY_RISE, the most that a hand pulls; 0 = not said */
   bool no_cache;
   char cache[1024]; /* where options.cache points unless given */
 } pull_args;
@@ -126,9 +125,6 @@ extern const cli_option pull_options[], pull_tuned[], pull_run_options[];
 
 /* The name of a method, "rise" or "all", for the rows of --method that commands have. */
 const char *pull_method_name(int method);
-
-/* Returns whether a method is among those that were asked for. The closed form always is. */
-bool pull_wants(const pull_args *args, int method);
 
 /* Checks that what was asked makes sense together. Returns EXIT_OK, or prints and returns the code.
  */
@@ -143,10 +139,6 @@ int pull_eval(const pull_args *a, const char *path, const thr_plan *plan, thr_me
 /* Reads a schedule: a value with a colon is one, another value is the name of a file of one; NULL
  * is none. Returns EXIT_OK, or prints and returns the code. Release with thr_schedule_destroy. */
 int pull_read_schedule(const char *value, const thr_plan *plan, thr_schedule *schedule);
-
-/* Returns the relative error, in per cent, that an error of the exponent makes: 100 (exp(error) -
- * 1). */
-double pull_percent(double error);
 
 /* Appends the cords that are not known: "A, C, D and 4 more". */
 void pull_unknown_cords(const thr_plan *plan, const thr_evaluation *evaluation, thr_text *text);
@@ -164,5 +156,23 @@ int eval_write_plot(const thr_plan *plan, double strength, const char *path);
  * given. Returns an exit code. */
 int eval_write_load_plot(const thr_plan *plan, const thr_eval *eval, const char *load,
                          const char *path);
+
+/* ---- cmd_rise.c: What `thread rise PLAN` does, for `thread eval --method rise`. */
+
+/* Sets what the command line says of cord and beads, beside which sizes of an evaluation that the
+ * plan keeps do not count. Returns an exit code. */
+int rise_apply_physics(const cli_physics *physics, thr_plan *plan);
+
+typedef struct {
+  const cli_physics *physics;
+  const guard_limits *guard;
+  double newtons;   /* 0: as many as usual */
+  double time_step; /* factor */
+  int seed;         /* -1: the usual one */
+} rise_usual;
+
+/* Lets the plan of this file rise once, in a guarded child, and prints what was seen. Returns the
+ * exit code. */
+int rise_as_usual(const char *path, const rise_usual *asked);
 
 #endif

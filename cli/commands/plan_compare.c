@@ -32,7 +32,7 @@ static void put_pull(thr_text *text, const plan_arguments *args, thr_objective o
   if (code == EXIT_OK) {
     thr_text_printf(text,
                     eval->refused ? "%12.4g N (error at least %.3g %%" : "%12.4g N (+-%.3g %%",
-                    eval->record.largest, pull_percent(eval->error));
+                    eval->record.largest, thr_eval_percent(eval->error));
     if (eval->refused)
       thr_text_printf(text, ": %d %s by closed form", eval->refused,
                       cli_plural(eval->refused, "turn", "turns"));

@@ -111,7 +111,7 @@ static bool take_pull(void *into, const cli_option *option, const char *value)
 
 const char *pull_method_name(int method)
 {
-  return method < THR_N_METHODS ? thr_method_name(method) : method == PULL_RISE ? "rise" : "all";
+  return method < THR_N_METHODS ? thr_method_name(method) : method == THR_BY_RISE ? "rise" : "all";
 }
 
 /* A whole number that JSON can hold. */
@@ -163,12 +163,6 @@ const cli_option pull_tuned[] = {
     {"iterations", .kind = CLI_AMOUNT, AT(options.iterations), .low = 0.1, .high = 100},
     {0}};
 
-bool pull_wants(const pull_args *args, int method)
-{
-  return method == THR_CAPSTAN || args->method == method ||
-         (args->method == PULL_ALL_METHODS && method < THR_N_METHODS);
-}
-
 /* Refuses options that would be ignored. */
 int pull_check(const pull_args *args, const char *command)
 {
@@ -179,11 +173,11 @@ int pull_check(const pull_args *args, const char *command)
     return cli_usage(command, "--law is for --method capstan");
 
   /* Which ends, or how hard. */
-  if (args->newtons > 0 && args->method != PULL_RISE)
+  if (args->newtons > 0 && args->method != THR_BY_RISE)
     return cli_usage(command,
                      "--pull %s: expected start, end or both, or a list like A=none,B=both",
                      cli_given_value("pull"));
-  if (args->method == PULL_RISE && cli_given("pull") && !(args->newtons > 0))
+  if (args->method == THR_BY_RISE && cli_given("pull") && !(args->newtons > 0))
     return cli_usage(command, "--pull %s: --method rise pulls every end; expected newtons, as 20",
                      args->pull);
 
@@ -340,11 +334,6 @@ int pull_read_schedule(const char *value, const thr_plan *plan, thr_schedule *sc
   thr_text_destroy(&text);
 
   return st ? cli_fail(&err) : EXIT_OK;
-}
-
-double pull_percent(double error)
-{
-  return 100 * expm1(error);
 }
 
 void pull_unknown_cords(const thr_plan *plan, const thr_evaluation *evaluation, thr_text *text)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Prints the comparison of `thread compare`: the table of compare_rows.c with a column for each
- * plan, what it was computed with, and the rankings; as text, as JSON, and as the note of a
+/* Prints the comparison of `thread compare`: the table of lib/compare_rows.c with a column for each
+ * plan, what it was computed with, and the rankings; as text and as the note of a
  * picture.
  */
 #include "cli/print/print.h"
@@ -10,7 +10,7 @@
 
 /* Appends the head of the columns: the plans' file names or, if one is wider than a column (16
  * letters), numbers whose meaning is listed above the table. */
-static void put_names(thr_text *text, const compare_entry *entries, int n)
+static void put_names(thr_text *text, const thr_compare_entry *entries, int n)
 {
   bool wide = false;
 
@@ -31,7 +31,7 @@ static void put_names(thr_text *text, const compare_entry *entries, int n)
 
 /* Appends the rows that have words, not numbers: names, objective, ends, and whether the plan is on
  * the frontier. */
-static void put_head(thr_text *text, const compare_entry *entries, int n)
+static void put_head(thr_text *text, const thr_compare_entry *entries, int n)
 {
   put_names(text, entries, n);
   thr_text_printf(text, "\n%-32s", "objective");
@@ -48,31 +48,21 @@ static void put_head(thr_text *text, const compare_entry *entries, int n)
   if (n < 2) return;
   thr_text_printf(text, "\n%-32s", "on the frontier");
   for (int i = 0; i < n; i++)
-    thr_text_printf(text, "\v0 %16s ", compare_on_frontier(entries, n, i) ? "yes" : "-");
-}
-
-bool compare_same_physics(const compare_entry *one, const compare_entry *other)
-{
-  const thr_physics *a = &one->eval[THR_CAPSTAN].record.physics,
-                    *b = &other->eval[THR_CAPSTAN].record.physics;
-  for (int i = 0; i < thr_physics_n_fields; i++)
-    if (thr_physics_get(a, &thr_physics_fields[i]) != thr_physics_get(b, &thr_physics_fields[i]))
-      return false;
-  return true;
+    thr_text_printf(text, "\v0 %16s ", thr_compare_on_frontier(entries, n, i) ? "yes" : "-");
 }
 
 /* Returns whether all plans have the same cord and beads. */
-static bool is_same_physics(const compare_entry *entries, int n)
+static bool is_same_physics(const thr_compare_entry *entries, int n)
 {
   for (int i = 1; i < n; i++)
-    if (!compare_same_physics(&entries[0], &entries[i])) return false;
+    if (!thr_compare_same_physics(&entries[0], &entries[i])) return false;
   return true;
 }
 
 /* Fills at with words for the ends of the two bands of friction: numbers if all plans have the same
  * physics, else "the lower end of mu" and so on. The band of mu_bead is in proportion to that of
  * mu. */
-static void name_ends(const thr_physics *physics, bool same, char at[RANKING_ENDS][40])
+static void name_ends(const thr_physics *physics, bool same, char at[THR_RANKING_ENDS][40])
 {
   const double mu[2] = {physics->mu_low, physics->mu_high};
 
@@ -94,19 +84,53 @@ static void name_ends(const thr_physics *physics, bool same, char at[RANKING_END
   }
 }
 
-void compare_put_text(thr_text *text, const pull_args *args, const compare_entry *entries, int n,
-                      const ranking *rankings, int count, const char *const *name)
+bool compare_is_shown(const thr_compare_entry *entries, int n, int row)
+{
+  const bool optional = thr_compare_rows[row].optional;
+
+  if (thr_compare_rows[row].machinery && !cli_verbose) return false;
+
+  /* Rows that only some plans have. */
+  for (int i = 0; i < n && optional; i++)
+    if (!isnan(entries[i].value[row])) return true;
+  return !optional;
+}
+
+void compare_put_cell(thr_text *text, int row, double value, bool best)
+{
+  const int decimals = thr_compare_rows[row].decimals;
+  char cell[40];
+
+  /* The number of digits is a property of the row. */
+  if (isnan(value))
+    snprintf(cell, sizeof cell, "-");
+  else if (isinf(value))
+    snprintf(cell, sizeof cell, "> 1e300");
+  else if (decimals == -1)
+    snprintf(cell, sizeof cell, "%.0f", value);
+  else if (decimals < 0)
+    snprintf(cell, sizeof cell, "%.*g", -decimals, value);
+  else
+    snprintf(cell, sizeof cell, "%.*f", decimals, value);
+
+  thr_text_printf(text, "\v0 %16s%s", cell, best ? "*" : " ");
+}
+
+void compare_put_text(thr_text *text, const pull_args *args, const thr_compare_entry *entries,
+                      int n, const thr_ranking *rankings, int count, const char *const *name)
 {
   const thr_physics *first = &entries[0].eval[THR_CAPSTAN].record.physics;
   const bool same = is_same_physics(entries, n);
 
   /* The rows of wanted methods. Rows of machinery are for --verbose. */
   put_head(text, entries, n);
-  for (int k = 0; k < COMPARE_ROWS; k++) {
-    if (!pull_wants(args, compare_rows[k].method) || !compare_is_shown(entries, n, k)) continue;
-    thr_text_printf(text, "\n%-32s", compare_rows[k].label);
+  for (int k = 0; k < THR_COMPARE_ROWS; k++) {
+    if (!thr_compare_wants(args->method, thr_compare_rows[k].method) ||
+        !compare_is_shown(entries, n, k))
+      continue;
+    thr_text_printf(text, "\n%-32s", thr_compare_rows[k].label);
     for (int i = 0; i < n; i++)
-      compare_put_cell(text, k, entries[i].value[k], compare_is_best(entries, n, k, i));
+      compare_put_cell(text, k, entries[i].value[k], thr_compare_is_best(entries, n, k, i));
   }
 
   /* Seating tension, pulled ends and friction. */
@@ -124,84 +148,18 @@ void compare_put_text(thr_text *text, const pull_args *args, const compare_entry
   thr_text_append(text, "\n");
 
   /* Rankings of two plans and more. */
-  char at[RANKING_ENDS][40];
+  char at[THR_RANKING_ENDS][40];
   name_ends(first, same, at);
   for (int k = 0; k < count; k++) {
-    ranking_put_text(&rankings[k], name, text);
-    ranking_put_bands(&rankings[k], name, at, text);
+    thr_ranking_put_text(&rankings[k], name, text);
+    thr_ranking_put_bands(&rankings[k], name, at, text);
   }
 
-  compare_put_agreement(rankings, count, name, text);
+  thr_compare_put_agreement(rankings, count, name, text);
 }
 
-/* Writes an object for plan i: what it is, its values, its band of pulls, and the rows in which it
- * is the best. */
-static void put_plan_json(thr_writer *writer, const pull_args *args, const compare_entry *entries,
-                          int n, int i)
-{
-  thr_write_line(writer, 1);
-  thr_write_object(writer, NULL);
-  thr_write_string(writer, "plan", entries[i].path);
-  thr_write_hash(writer, "framework", thr_frame_hash(&entries[i].plan.frame));
-  thr_write_string(writer, "objective",
-                   thr_objective_name(thr_aims_objective(&entries[i].plan.options)));
-  thr_write_string(writer, "ends", thr_ends_name(entries[i].plan.options.ends));
-  thr_physics_write(&entries[i].eval[THR_CAPSTAN].record.physics, writer, "physics");
-
-  /* Members that are NAN are written as null. */
-  for (int k = 0; k < COMPARE_ROWS; k++)
-    if (pull_wants(args, compare_rows[k].method))
-      thr_write_number(writer, compare_rows[k].key, entries[i].value[k]);
-  thr_write_bool(writer, "frontier", compare_on_frontier(entries, n, i));
-  thr_write_number(writer, "pull_low", entries[i].eval[THR_CAPSTAN].band[0]);
-  thr_write_number(writer, "pull_high", entries[i].eval[THR_CAPSTAN].band[1]);
-
-  if (entries[i].rise.jams > 0) {
-    thr_write_array(writer, "rise_jams_between");
-    for (int side = 0; side < 2; side++)
-      thr_write_string(writer, NULL, entries[i].rise.jam[side]);
-    thr_write_close(writer);
-  }
-
-  thr_write_array(writer, "best");
-  for (int k = 0; k < COMPARE_ROWS; k++)
-    if (compare_is_best(entries, n, k, i)) thr_write_string(writer, NULL, compare_rows[k].key);
-  thr_write_close(writer);
-  thr_write_close(writer);
-}
-
-void compare_put_json(thr_text *text, const pull_args *args, const compare_entry *entries, int n,
-                      const ranking *rankings, int count, const char *const *name)
-{
-  thr_writer writer = {.out = text};
-
-  thr_write_object(&writer, NULL);
-
-  thr_write_array(&writer, "plans");
-  for (int i = 0; i < n; i++)
-    put_plan_json(&writer, args, entries, n, i);
-
-  thr_write_line(&writer, 0);
-  thr_write_close(&writer);
-  thr_write_line(&writer, 0);
-
-  thr_write_array(&writer, "rankings");
-  for (int k = 0; k < count; k++) {
-    thr_write_line(&writer, 1);
-    ranking_put_json(&rankings[k], name, &writer);
-  }
-
-  thr_write_line(&writer, 0);
-  thr_write_close(&writer);
-  thr_write_line(&writer, 0);
-
-  /* Ties do not contradict each other. */
-  thr_write_bool(&writer, "agree", compare_agree(rankings, count));
-  thr_write_close(&writer);
-  thr_text_append(text, "\n");
-}
-
-void compare_put_note(thr_text *text, const pull_args *args, const compare_entry *entries, int n)
+void compare_put_note(thr_text *text, const pull_args *args, const thr_compare_entry *entries,
+                      int n)
 {
   const thr_physics *physics = &entries[0].eval[THR_CAPSTAN].record.physics;
 

@@ -110,7 +110,8 @@ static void put_loss(thr_text *text, double loss)
 static void put_error(thr_text *text, const thr_eval_cord *cord)
 {
   char cell[40];
-  snprintf(cell, sizeof cell, "%s%.2f", cord->refused > 0 ? ">" : "", pull_percent(cord->error));
+  snprintf(cell, sizeof cell, "%s%.2f", cord->refused > 0 ? ">" : "",
+           thr_eval_percent(cord->error));
   thr_text_printf(text, "\v1 %6s %%", cell);
 }
 
@@ -274,9 +275,9 @@ static void put_sums(thr_text *text, const thr_plan *plan, const thr_eval *eval,
 
   /* The error of a measured pull, as a part of it. */
   if (eval->refused)
-    thr_text_printf(text, ", error at least %.2f %%", pull_percent(eval->error));
+    thr_text_printf(text, ", error at least %.2f %%", thr_eval_percent(eval->error));
   else if (eval->error > 0)
-    thr_text_printf(text, ", error of each at most %.2f %%", pull_percent(eval->error));
+    thr_text_printf(text, ", error of each at most %.2f %%", thr_eval_percent(eval->error));
   thr_text_append(text, "\n");
 
   /* What follows from the largest pull. Method structure has no seating tension, so that it is not

@@ -69,9 +69,8 @@ static void put_cord(thr_text *text, const thr_plan *plan, const thr_cord *cord,
   if (minimizes_turning(plan)) thr_text_printf(text, "\v5 %6.0f deg", thr_degrees(turns.sharpest));
   thr_text_printf(text, "\v6 %8d", turns.u_turns);
   if (cli_verbose)
-    thr_text_printf(
-        text, "\v7 %12s",
-        turning_factor(turning_capstan(plan->options.physics.mu, turns.turning), factor));
+    thr_text_printf(text, "\v7 %12s",
+                    turning_factor(thr_capstan(plan->options.physics.mu, turns.turning), factor));
 
   /* A closed cord begins and ends at the same node. */
   thr_text_printf(text, "\v0 %18s", force);

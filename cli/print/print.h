@@ -10,9 +10,8 @@
  * Read plain.c first: forces and proofs in words, which all others use; terminal.c fits tables to
  * the terminal. Then, by command: plan_summary.c with turning_summary.c, symmetry_table.c and
  * seated.c (thread plan); verdict.c and terms.c (thread check); eval_text.c, eval_json.c and
- * load_words.c (thread eval); compare_rows.c and ranking.c, compare_rankings.c, compare_rises.c and
- * compare_table.c (thread compare); advice_table.c (thread advise); facts.c, motion_facts.c (thread
- * info). */
+ * load_words.c (thread eval); compare_table.c (thread compare); advice_table.c (thread advise);
+ * facts.c, motion_facts.c (thread info). */
 #ifndef THR_PRINT_H
 #define THR_PRINT_H
 
@@ -31,6 +30,7 @@
 #include "graph/status.h"
 #include "graph/text.h"
 #include "kit/kit.h"
+#include "lib/comparison.h"
 #include "lib/lib.h"
 #include "lp/length/postman.h"
 #include "planner/planner.h"
@@ -96,68 +96,6 @@ void print_fit(thr_text *text, int columns);
 /* Fits the text to the terminal that stdout may be, unless it is JSON, and writes it there as
  * cli_write does. Returns an exit code. */
 int print_text(thr_text *text);
-
-/* ---- ranking.c: Ranks plans by a value of which only an interval is known. */
-
-/* The bands: of the friction of the cords (0), and of that of beads and ground (1). Their names are
- * members in JSON. */
-enum { RANKING_BANDS = 2, RANKING_ENDS = 2 * RANKING_BANDS, RANKING_WORDS = 240 };
-extern const char *const ranking_bands[RANKING_BANDS];
-
-/* Values from here on only put plans with words in an order. */
-static const double ranking_order = 1e7;
-
-/* Plans in the order of a value, the least first or the most. The rank of a plan is 1 and one more
- * for every plan that is surely less, whose interval ends before that of the plan begins. Two plans
- * tie if their intervals overlap; a third plan between them changes nothing. ranking_make fills in
- * order and rank from value, low and high; plans of one rank stand in the order of their values. */
-typedef struct {
-  const char *title; /* "simulated seating pull" */
-  const char *key;   /* in JSON: "joint" */
-  const char *unit;  /* " N", or "" for a bare number */
-  const char *open;  /* what to say of a plan without an upper end; NULL = nothing */
-  bool most;  /* most first: value, low and high are then negative, and printed without the sign */
-  bool error; /* print the interval as +- percent, else as from .. to */
-  char (*words)[RANKING_WORDS]; /* [n] said of plan i instead of its value; NULL: nothing; owned */
-  int n, n_ranked;              /* plans, and how many of them have a rank */
-  double *end[RANKING_ENDS];    /* [n] values at the ends of the bands of friction, in the order of
-                                   ranking_bands; NAN = not known;  owned */
-  double *value, *low, *high; /* [n] of plan i; value NAN = not known, not ranked; INFINITY = proved
-                                 that there is none; high INFINITY = no upper end; owned */
-  int *order;                 /* [n_ranked] plans; owned */
-  int *rank;                  /* [n] 1, 2, .. of plan i, 0 = not ranked; owned */
-} ranking;
-
-/* Allocates a ranking of n plans, none of which is known. Title, unit and the like stay as they
- * are. On failure the ranking is empty. Release with ranking_destroy. */
-thr_status ranking_init(ranking *r, int n, thr_err *err) THR_MUST_CHECK;
-void ranking_destroy(ranking *r);
-
-/* Computes ranks and order. O(n^2). */
-void ranking_make(ranking *r);
-
-/* Returns whether not all plans are tied. */
-bool ranking_tells_apart(const ranking *r);
-
-/* Returns whether the intervals of plans i and k overlap. */
-bool ranking_is_tie(const ranking *r, int i, int k);
-
-/* Appends a line per plan: "1. lines.json  12.3 N (+-0.4 %)", and whether it is more than those
- * before, or with which of them it ties. name[n]. */
-void ranking_put_text(const ranking *r, const char *const *name, thr_text *text);
-
-/* Appends for each band whether plans that are not tied stay in this order at both of its ends, or
- * which change places. at[2 * band + end] are the words for an end: "mu 0.1", or "the lower end of
- * mu" where plans have bands of their own. */
-void ranking_put_bands(const ranking *r, const char *const *name, char at[RANKING_ENDS][40],
-                       thr_text *text);
-
-/* Writes the ranking as an object. */
-void ranking_put_json(const ranking *r, const char *const *name, thr_writer *writer);
-
-/* Finds a pair of plans that two rankings put in opposite orders, beyond what their intervals
- * allow. Returns false if there is none. */
-bool ranking_disagree(const ranking *a, const ranking *b, int pair[2]);
 
 /* ---- terms.c: Prints among which plans the claims of a plan hold, and what is verified: a proof
  * without its terms can be taken for more than it is. */
@@ -283,115 +221,23 @@ void eval_put_text(thr_text *text, const eval_view *view, const thr_plan *plan,
 void eval_put_json(thr_text *text, const eval_view *view, const thr_plan *plan,
                    const thr_eval *eval);
 
-/* ---- compare_rows.c: The table of `thread compare`: a row per value, a column per plan. */
-
-enum { COMPARE_ROWS = 40 };
-
-/* What was seen of a plan that rises in simulation, over several runs. */
-typedef struct {
-  int runs, up, fell; /* that were seen; of these, that came up; of these, that fell at last */
-  int faces;
-  double pull[3], closed[3],
-      fall[3];     /* least, middle and largest: N at which those came up; faces that were closed at
-                      most in each run; N below which those fell that did */
-  double stands;   /* N, by the limit analysis of the same pieces; NAN: not known */
-  char jam[2][48]; /* pieces between which the widest gap stayed in .. */
-  int jams;        /* .. so many of the runs that did not come up; 0: none is known */
-} compare_rise;
-
-/* A plan with all that was found about it. */
-typedef struct {
-  const char *path;
-  thr_plan plan;
-  thr_eval eval[THR_N_METHODS]; /* record.present only where the method ran and did not fail */
-  compare_rise rise;            /* 0 without --method rise */
-  double value[COMPARE_ROWS];   /* of each row; NAN = not known, INFINITY = beyond 1e300 */
-} compare_entry;
-
-/* A row of the table. */
-typedef struct {
-  const char *label, *key;
-  bool rate;      /* less is better; rows that say what a plan is, not how good, mark nothing */
-  int decimals;   /* -1: whole number, -k: k significant digits */
-  int method;     /* that must be wanted: thr_method or PULL_RISE */
-  bool optional;  /* left out of the text where no plan has it */
-  bool machinery; /* in the text only with --verbose: what proofs are made of */
-} compare_row;
-
-extern const compare_row compare_rows[COMPARE_ROWS];
-
-/* Fills in the values of all rows from the plan and its evaluations. */
-void compare_measure(compare_entry *entry);
-
-/* Returns the largest pull by a method, N; of method structure the proved lower bound of the
- * holding pull. NAN if a cord is not known. */
-double compare_largest(const compare_entry *e, thr_method method);
-
-/* Returns whether plan i is the best of n plans in a row. Values within a millionth tie: both are.
- */
-bool compare_is_best(const compare_entry *e, int n, int row, int i);
-
-/* Returns whether plan i is on the frontier: no other plan beats it in cord, number of cords and
- * pull (as measured, if that of every plan is). */
-bool compare_on_frontier(const compare_entry *e, int n, int i);
+/* ---- compare_table.c: Prints the comparison. */
 
 /* Returns whether a row is in the text for n plans. */
-bool compare_is_shown(const compare_entry *e, int n, int row);
+bool compare_is_shown(const thr_compare_entry *e, int n, int row);
 
 /* Appends a space, a value in 16 columns, and the mark of the best. */
 void compare_put_cell(thr_text *text, int row, double value, bool best);
 
-/* ---- compare_rankings.c: A ranking for each question that was asked of the plans. */
-
-enum { COMPARE_RANKINGS = 9 };
-
-/* Fills `rankings` with those of the wanted methods and *count with their number. On failure the
- * rankings so far, and the one that failed, can be released. */
-thr_status compare_rank(const pull_args *args, const compare_entry *entries, int n,
-                        ranking *rankings, int *count, thr_err *err) THR_MUST_CHECK;
-
-/* compare_rises.c: Fills in value, interval and words of a ranking of what comes up in simulation.
- */
-thr_status compare_rank_rises(ranking *ranked, const compare_entry *entries,
-                              thr_err *err) THR_MUST_CHECK;
-
-/* Returns whether no two rankings contradict each other: ties do not. */
-bool compare_agree(const ranking *rankings, int count);
-
-/* Appends whether the rankings agree. If all of them are about the pull while cords are drawn in,
- * agreement says little, and the sentence says so. */
-void compare_put_agreement(const ranking *rankings, int count, const char *const *name,
-                           thr_text *text);
-
-/* ---- compare_table.c: Prints the comparison. */
-
-/* Returns whether two plans were evaluated with the same cord and beads. */
-bool compare_same_physics(const compare_entry *one, const compare_entry *other);
-
 /* Appends the table, what it was computed with, and the rankings with what the bands of friction
- * change about them; or all of it as JSON. name[n]: of the plans. */
-void compare_put_text(thr_text *text, const pull_args *args, const compare_entry *entries, int n,
-                      const ranking *rankings, int count, const char *const *name);
-void compare_put_json(thr_text *text, const pull_args *args, const compare_entry *entries, int n,
-                      const ranking *rankings, int count, const char *const *name);
+ * change about them. name[n]: of the plans. */
+void compare_put_text(thr_text *text, const pull_args *args, const thr_compare_entry *entries,
+                      int n, const thr_ranking *rankings, int count, const char *const *name);
 
 /* Appends how the pulls of the picture were found: "Pull at both ends of every cord, so that 1 N is
  * left where it is slackest ..". */
-void compare_put_note(thr_text *text, const pull_args *args, const compare_entry *entries, int n);
-
-/* ---- cli/commands/compare_rise.c: Lets the structures that are compared rise. */
-
-/* What is asked of the runs, beside pull_args: newtons, seed (default: 1) and time step. */
-typedef struct {
-  int seeds; /* of each plan */
-  thr_rise_start start;
-  bool let_down;
-} compare_rise_asked;
-
-/* Lets every plan rise so many times, in parallel processes, and fills in entry[n].rise. Returns an
- * exit code. */
-int compare_rise_all(const pull_args *args, const compare_rise_asked *asked, compare_entry *entry,
-                     int n);
+void compare_put_note(thr_text *text, const pull_args *args, const thr_compare_entry *entries,
+                      int n);
 
 /* ---- advice_table.c: Prints the table of `thread advise`, as text and as JSON, and the command
  * that makes the recommended plan. */
@@ -452,10 +298,6 @@ void symmetry_put_json(thr_writer *writer, const thr_plan *plan);
  * of the trade-off and the shortest plan. */
 
 static const double turning_right_angle = 1.57079632679489661923;
-
-/* Returns the factor on the tension over that much turning (rad): exp(mu * turning), INFINITY
- * beyond 1e300. */
-double turning_capstan(double mu, double turning);
 
 /* Writes what the other end of the hardest cord takes, "other_pull", and what holding does,
  * "holds_from" (seated.c), both in N. */

@@ -78,12 +78,6 @@ static const struct {
     [PULL] = {"largest pull, N", "pull_factor", FORMAT_FORCE, true}, /* times the seating tension */
 };
 
-double turning_capstan(double mu, double turning)
-{
-  double factor = exp(mu * turning);
-  return factor > 1e300 ? INFINITY : factor;
-}
-
 void turning_put_ends_json(thr_writer *writer, const thr_plan *plan)
 {
   thr_eval seated;
@@ -146,18 +140,17 @@ static turning_figures measure_figures(const thr_plan *plan, const thr_plan *oth
   const thr_metrics *metrics = &other->metrics;
 
   /* Lengths in units, turning in rad, parts and factors without a unit. */
-  return (turning_figures){
-      {[LENGTH] = metrics->length,
-       [ABOVE] = fmax(0, metrics->length / plan->proof.lower_bound - 1),
-       [TURNING] = metrics->turning,
-       [PRICE] = price_of(plan, other),
-       [LARGEST] = metrics->max_turning,
-       [CAPSTAN] = turning_capstan(plan->options.physics.mu, metrics->max_turning),
-       [SHARPEST] = metrics->worst_turn,
-       [OVER_60] = thr_plan_turns_over(other, turning_right_angle * 2 / 3),
-       [OVER_90] = thr_plan_turns_over(other, turning_right_angle),
-       [U_TURNS] = metrics->u_turns,
-       [PULL] = turning_pull(other, NULL)}};
+  return (turning_figures){{[LENGTH] = metrics->length,
+                            [ABOVE] = fmax(0, metrics->length / plan->proof.lower_bound - 1),
+                            [TURNING] = metrics->turning,
+                            [PRICE] = price_of(plan, other),
+                            [LARGEST] = metrics->max_turning,
+                            [CAPSTAN] = thr_capstan(plan->options.physics.mu, metrics->max_turning),
+                            [SHARPEST] = metrics->worst_turn,
+                            [OVER_60] = thr_plan_turns_over(other, turning_right_angle * 2 / 3),
+                            [OVER_90] = thr_plan_turns_over(other, turning_right_angle),
+                            [U_TURNS] = metrics->u_turns,
+                            [PULL] = turning_pull(other, NULL)}};
 }
 
 /* Returns the claim that bounds the turning: the plan's own, or for a classical tour, which claims
@@ -195,12 +188,12 @@ static turning_figures bound_figures(const thr_plan *plan, const thr_rivals *riv
   /* Where the price is the angle there is more to say. */
   bound.value[TURNING] = claim->lower_bound;
   if (thr_wants_pull(&plan->options)) {
-    bound.value[PULL] = turning_capstan(plan->options.physics.mu, claim->largest_bound);
+    bound.value[PULL] = thr_capstan(plan->options.physics.mu, claim->largest_bound);
     return bound;
   }
 
   bound.value[LARGEST] = claim->largest_bound;
-  bound.value[CAPSTAN] = turning_capstan(plan->options.physics.mu, claim->largest_bound);
+  bound.value[CAPSTAN] = thr_capstan(plan->options.physics.mu, claim->largest_bound);
 
   return bound;
 }
@@ -471,7 +464,7 @@ void turning_put_table(thr_text *text, const thr_plan *plan, const thr_rivals *r
 
 double turning_point_pull(const thr_plan *plan, const thr_frontier_point *point, double mu)
 {
-  return plan->options.physics.seating * turning_capstan(mu, point->pulled);
+  return plan->options.physics.seating * thr_capstan(mu, point->pulled);
 }
 
 void turning_put_frontier(thr_text *text, const thr_plan *plan, const thr_rivals *rivals)
@@ -600,7 +593,7 @@ static void put_frontier_json(thr_writer *writer, const thr_plan *plan,
     /* What the turning means for the hand. */
     thr_write_number(writer, "max_turning", frontier_point->max_turning);
     thr_write_number(writer, "max_capstan",
-                     turning_capstan(plan->options.physics.mu, frontier_point->max_turning));
+                     thr_capstan(plan->options.physics.mu, frontier_point->max_turning));
     thr_write_number(writer, "pull",
                      turning_point_pull(plan, frontier_point, plan->options.physics.mu));
 
@@ -626,7 +619,7 @@ void turning_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals
   for (int i = 0; i < plan->n_cords; i++) {
     double turning =
         thr_cord_turning(&plan->frame, &plan->cord[i], plan->options.ends == THR_ENDS_CLOSED);
-    thr_write_number(writer, NULL, turning_capstan(plan->options.physics.mu, turning));
+    thr_write_number(writer, NULL, thr_capstan(plan->options.physics.mu, turning));
   }
   thr_write_close(writer);
 

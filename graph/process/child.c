@@ -182,7 +182,8 @@ static bool receive(watched_child *child)
 static bool is_grace_over(watched_child *child)
 {
   if (!child->job->look) return thr_grace_over(&child->grace, child->process.pid, GRACE);
-  return child->grace.from > 0 && thr_clock() - child->grace.from >= GRACE;
+  const double grace = child->job->grace > 0 ? fmin(child->job->grace, GRACE) : GRACE;
+  return child->grace.from > 0 && thr_clock() - child->grace.from >= grace;
 }
 
 /* Takes messages until the child has closed its pipe. Returns false if it has not stopped in time.

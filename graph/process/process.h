@@ -97,8 +97,9 @@ typedef struct {
    * carried back, or THR_ELIMIT with the best so far sent. */
   thr_status (*run)(void *user, const thr_limits *limits, thr_sender *to, thr_err *err);
   /* NULL; or called in the parent while it waits, every 0.05 s at least. A child that is to stop is
-   * then killed after a third of a second by the clock */
+   * then killed after `grace` seconds by the clock, at most and where that is 0 a third of one */
   void (*look)(void *user);
+  double grace;
   void *user;
 } thr_child;
 

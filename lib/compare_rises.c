@@ -8,7 +8,7 @@
  *
  * Example: lines come up in 6 of 6 runs at 1.14 N, 4 cords in 6 of 6 at 1.49 N (1.29 to 1.49), and
  * the snake in none, with 85 of 96 faces closed: ranks 1, 2, 3. */
-#include "cli/print/print.h"
+#include "lib/comparison.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@
 /* Puts a plan that was seen in simulation in its place: those that come up in all runs by the pull
  * at which they do, behind them the others by the part of the runs, and of these by their closed
  * faces. */
-static void rank_rise(ranking *ranked, const compare_rise *rise, int i)
+static void rank_rise(thr_ranking *ranked, const thr_compare_rise *rise, int i)
 {
   if (rise->runs == 0) return;
   if (rise->up == rise->runs) {
@@ -26,7 +26,7 @@ static void rank_rise(ranking *ranked, const compare_rise *rise, int i)
     return;
   }
   const double open_part = 1e3, part = (double)rise->up / rise->runs,
-               behind = ranking_order * (1 + floor(1e6 * (1 - part)));
+               behind = thr_ranking_order * (1 + floor(1e6 * (1 - part)));
   ranked->low[i] = behind + open_part * (1 - rise->closed[2] / rise->faces);
   ranked->value[i] = behind + open_part * (1 - rise->closed[1] / rise->faces);
   ranked->high[i] = behind + open_part * (1 - rise->closed[0] / rise->faces);
@@ -40,7 +40,7 @@ static void put_spread(thr_text *text, const double value[3], int runs)
 }
 
 /* Says what was seen of a plan in simulation. */
-static void say_rise(const compare_rise *rise, thr_text *text)
+static void say_rise(const thr_compare_rise *rise, thr_text *text)
 {
   if (rise->runs > 1)
     thr_text_printf(text, "comes up in %d of %d runs", rise->up, rise->runs);
@@ -63,7 +63,8 @@ static void say_rise(const compare_rise *rise, thr_text *text)
   }
 }
 
-thr_status compare_rank_rises(ranking *ranked, const compare_entry *entries, thr_err *err)
+thr_status thr_compare_rank_rises(thr_ranking *ranked, const thr_compare_entry *entries,
+                                  thr_err *err)
 {
   ranked->words = thr_calloc((size_t)ranked->n, sizeof *ranked->words);
   thr_status st = ranked->words ? THR_OK : thr_nomem(err);
@@ -72,7 +73,7 @@ thr_status compare_rank_rises(ranking *ranked, const compare_entry *entries, thr
     rank_rise(ranked, &entries[i].rise, i);
     say_rise(&entries[i].rise, &text);
     if (text.failed) st = thr_nomem(err);
-    if (!st) snprintf(ranked->words[i], RANKING_WORDS, "%s", text.data);
+    if (!st) snprintf(ranked->words[i], THR_RANKING_WORDS, "%s", text.data);
     thr_text_destroy(&text);
   }
   return st;

@@ -7,30 +7,30 @@
  *
  * Example: three runs of data/dome7-lines.json come up at 1.28, 1.3 and 1.34 N: 1.3 (1.28 to 1.34).
  */
-#include "cli/commands/rise_runs.h"
-#include "cli/cli.h"
 #include "eval/eval.h"
 #include "graph/arrays.h"
+#include "graph/number.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/process/process.h"
+#include "lib/rise_pieces.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-const double rise_hand = 50, rise_coarse = 2.2;
+const double thr_rise_hand = 50, thr_rise_coarse = 2.2;
 
 /* ---- the pieces ---- */
 
-thr_status rise_pieces_make(rise_pieces *pieces, const thr_plan *plan,
-                            const thr_kit_options *options, const rise_setting *setting,
-                            const thr_limits *limits, thr_err *err)
+thr_status thr_rise_pieces_make(thr_rise_pieces *pieces, const thr_plan *plan,
+                                const thr_kit_options *options, const thr_rise_setting *setting,
+                                const thr_limits *limits, thr_err *err)
 {
   thr_physics physics;
   thr_pull *pull = thr_calloc((size_t)plan->n_cords, sizeof *pull);
   const thr_physics *asked = setting->physics ? setting->physics : &plan->options.physics;
-  *pieces = (rise_pieces){.ends = setting->ends, .seated = NAN, .stands = NAN};
+  *pieces = (thr_rise_pieces){.ends = setting->ends, .seated = NAN, .stands = NAN};
   for (int c = 0; c < plan->n_cords && pull; c++)
     pull[c] = setting->ends;
 
@@ -42,23 +42,13 @@ thr_status rise_pieces_make(rise_pieces *pieces, const thr_plan *plan,
   return st;
 }
 
-void rise_pieces_destroy(rise_pieces *pieces)
+void thr_rise_pieces_destroy(thr_rise_pieces *pieces)
 {
   thr_rise_kit_destroy(&pieces->made);
   thr_kit_destroy(&pieces->kit);
 }
 
-int rise_apply_physics(const cli_physics *physics, thr_plan *plan)
-{
-  const int code = cli_physics_apply(physics, &plan->options.physics);
-  if (!code && cli_given_of(cli_physics_options())) {
-    thr_evaluation_destroy(&plan->evaluation);
-    plan->evaluation = (thr_evaluation){0};
-  }
-  return code;
-}
-
-void rise_foretell(rise_pieces *pieces, const thr_limits *limits)
+void thr_rise_foretell(thr_rise_pieces *pieces, const thr_limits *limits)
 {
   const thr_plan *plan = pieces->kit.plan;
   thr_err err = {0};
@@ -85,7 +75,7 @@ void rise_foretell(rise_pieces *pieces, const thr_limits *limits)
   thr_scratch_free(&bodies.own);
 }
 
-void rise_pass_names(const rise_pieces *pieces, int pass, const char *name[2])
+void thr_rise_pass_names(const thr_rise_pieces *pieces, int pass, const char *name[2])
 {
   const thr_rise_structure *structure = &pieces->made.structure;
   for (int c = 0; c < structure->n_cords; c++) {
@@ -107,21 +97,21 @@ typedef struct {
   thr_status status;
   thr_err why;
   thr_rise_record record; /* without its arrays */
-  thr_rise_moment moment[RISE_MOST_MOMENTS];
+  thr_rise_moment moment[THR_RISE_MOST_MOMENTS];
   double angle[]; /* [2 n_passes] kinks, twists */
 } run_result;
 
 /* Does a run. Signature of thr_work.run. */
 static thr_status run_job(void *user, int i, void *result, thr_err *err)
 {
-  const rise_job *job = (const rise_job *)user + i;
+  const thr_rise_job *job = (const thr_rise_job *)user + i;
   run_result *out = result;
   thr_rise_record record;
   (void)err;
   out->status = thr_rise_simulate(job->structure, &job->options, NULL, &record, &out->why);
   if (!out->status) {
     out->record = record;
-    if (record.n_frames > RISE_MOST_MOMENTS) out->record.n_frames = RISE_MOST_MOMENTS;
+    if (record.n_frames > THR_RISE_MOST_MOMENTS) out->record.n_frames = THR_RISE_MOST_MOMENTS;
     memcpy(out->moment, record.moment, (size_t)out->record.n_frames * sizeof *out->moment);
     for (int k = 0; k < record.n_passes; k++) {
       out->angle[k] = record.kink[k];
@@ -137,7 +127,7 @@ static thr_status run_job(void *user, int i, void *result, thr_err *err)
 }
 
 /* Takes over what a process returned. THR_ENOMEM. */
-static thr_status take_over(rise_job *job, const run_result *result, thr_err *err)
+static thr_status take_over(thr_rise_job *job, const run_result *result, thr_err *err)
 {
   job->status = result->status;
   job->why = result->why;
@@ -156,7 +146,8 @@ static thr_status take_over(rise_job *job, const run_result *result, thr_err *er
   return THR_OK;
 }
 
-thr_status rise_jobs_run(rise_job *job, int n, const thr_limits *limits, thr_err *err)
+thr_status thr_rise_jobs_run(thr_rise_job *job, int n, int processes, const thr_limits *limits,
+                             thr_err *err)
 {
   int most = 0; /* passes */
   for (int i = 0; i < n; i++) {
@@ -175,7 +166,7 @@ thr_status rise_jobs_run(rise_job *job, int n, const thr_limits *limits, thr_err
   char *result = thr_calloc((size_t)n, size);
   bool *finished = thr_calloc((size_t)n, sizeof *finished);
   thr_status st = result && finished
-                      ? thr_workers_run(&work, cli_processes(), limits, result, finished, err)
+                      ? thr_workers_run(&work, processes, limits, result, finished, err)
                       : thr_nomem(err);
 
   for (int i = 0; i < n && result && finished; i++)
@@ -188,7 +179,7 @@ thr_status rise_jobs_run(rise_job *job, int n, const thr_limits *limits, thr_err
 
 /* ---- what several say ---- */
 
-double rise_pull_up(const thr_rise_record *record)
+double thr_rise_pull_up(const thr_rise_record *record)
 {
   double most = 0;
   if (record->came_up < 0) return INFINITY;
@@ -197,7 +188,7 @@ double rise_pull_up(const thr_rise_record *record)
   return most;
 }
 
-double rise_pull_down(const thr_rise_record *record)
+double thr_rise_pull_down(const thr_rise_record *record)
 {
   return record->fell >= 0 ? record->moment[record->fell].pull : 0;
 }
@@ -208,10 +199,106 @@ static int ascending(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-void rise_spread(double *value, int n, double out[3])
+void thr_rise_spread(double *value, int n, double out[3])
 {
   qsort(value, (size_t)n, sizeof *value, ascending);
   out[0] = value[0];
   out[1] = value[(n - 1) / 2];
   out[2] = value[n - 1];
+}
+
+/* ---- as JSON ---- */
+
+/* Writes angles in degrees. */
+static void write_degrees(thr_writer *writer, const char *key, const double *angle, int n)
+{
+  thr_write_row(writer, key);
+  for (int i = 0; i < n; i++)
+    thr_write_printf(writer, NULL, "%.4g", thr_degrees(angle[i]));
+  thr_write_close(writer);
+}
+
+/* Writes the moments of run i, and the place of every piece if that is asked for. */
+static void write_run(thr_writer *writer, const thr_rise_seen *seen, int i)
+{
+  const thr_rise_record *record = &seen->record[i];
+  thr_write_object(writer, NULL);
+  thr_write_int(writer, "seed", seen->first_seed + i);
+  thr_write_bool(writer, "came_up", record->came_up >= 0);
+  if (record->came_up >= 0) thr_write_number(writer, "pull_up", thr_rise_pull_up(record));
+  if (record->fell >= 0) thr_write_number(writer, "pull_down", thr_rise_pull_down(record));
+  thr_write_int(writer, "most_closed", record->most_closed);
+  thr_write_number(writer, "off", record->off);
+  if (seen->pieces->made.structure.stands_up && record->held > 0)
+    thr_write_printf(writer, "tilt", "%.4g", thr_degrees(record->moment[record->held - 1].tilt));
+  if (seen->after && record->finished) thr_write_bool(writer, "stands", record->stands);
+  if (seen->dented) thr_write_number(writer, "dented", record->dented);
+  write_degrees(writer, "kink", record->kink, record->n_passes);
+  write_degrees(writer, "twist", record->twist, record->n_passes);
+
+  thr_write_array(writer, "moments");
+  for (int f = 0; f < record->n_frames; f++) {
+    const thr_rise_moment *moment = &record->moment[f];
+    thr_write_row(writer, NULL);
+    thr_write_printf(writer, NULL, "%.6g", moment->time);
+    thr_write_printf(writer, NULL, "%.6g", moment->pull);
+    thr_write_printf(writer, NULL, "%.6g", moment->drawn);
+    thr_write_int(writer, NULL, moment->closed);
+    thr_write_printf(writer, NULL, "%.6g", moment->height);
+    thr_write_printf(writer, NULL, "%.6g", moment->lift);
+    thr_write_close(writer);
+  }
+  thr_write_close(writer);
+
+  if (seen->motion && record->pose) {
+    thr_write_array(writer, "frames");
+    for (int f = 0; f < record->n_frames; f++) {
+      const double *pose = record->pose[(size_t)f * (size_t)record->n_pieces];
+      thr_write_row(writer, NULL);
+      for (int k = 0; k < 7 * record->n_pieces; k++)
+        thr_write_printf(writer, NULL, "%.6g", pose[k]);
+      thr_write_close(writer);
+    }
+    thr_write_close(writer);
+  }
+  thr_write_close(writer);
+}
+
+/* Writes the tensions that the schedule leaves in the first run, and those of the closed form. */
+static void write_left(thr_writer *writer, const thr_rise_seen *seen)
+{
+  const thr_rise_record *record = &seen->record[0];
+  const double *left = record->tension + (size_t)(record->n_frames - 1) * (size_t)record->n_passes;
+  thr_write_array(writer, "left");
+  for (int c = 0; c < seen->pieces->made.structure.n_cords; c++) {
+    const thr_eval_cord *cord = &seen->after->record.cord[c];
+    thr_write_object(writer, NULL);
+    thr_write_string(writer, "cord", seen->pieces->kit.plan->cord[c].id);
+    for (int i = 0; i < 2; i++) {
+      thr_write_row(writer, i ? "closed_form" : "tension");
+      for (int k = 0; k < cord->n_passes; k++)
+        thr_write_printf(writer, NULL, "%.6g", i ? cord->tension[k] : left[k]);
+      thr_write_close(writer);
+    }
+    thr_write_close(writer);
+    left += cord->n_passes;
+  }
+  thr_write_close(writer);
+}
+
+void thr_rise_put_json(thr_writer *writer, const thr_rise_seen *seen)
+{
+  const thr_rise_record *record = &seen->record[0];
+  thr_write_string(writer, "start", thr_rise_start_name(seen->start));
+  thr_write_int(writer, "pieces", record->n_pieces);
+  thr_write_int(writer, "faces", record->n_counted);
+  thr_write_number(writer, "weight", record->weight);
+  thr_write_number(writer, "seconds_a_frame", record->between);
+  thr_write_number(writer, "closed_form", seen->pieces->seated);
+  thr_write_number(writer, "limit_analysis", seen->pieces->stands);
+  if (seen->after && record->finished) write_left(writer, seen);
+  thr_write_array(writer, "runs");
+  for (int i = 0; i < seen->n; i++)
+    write_run(writer, seen, i);
+  thr_write_close(writer);
 }

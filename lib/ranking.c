@@ -9,15 +9,15 @@
  * Example: values 12.3, 12.4, 14.1 with an error of 1 % have the ranks 1, 1, 3.
  *
  * A ranking of the largest values first stores them negated, so that less always means better. */
-#include "cli/print/print.h"
+#include "lib/comparison.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-const char *const ranking_bands[RANKING_BANDS] = {"band", "band_beads"};
+const char *const thr_ranking_bands[THR_RANKING_BANDS] = {"band", "band_beads"};
 
-thr_status ranking_init(ranking *ranked, int n, thr_err *err)
+thr_status thr_ranking_init(thr_ranking *ranked, int n, thr_err *err)
 {
   size_t count = (size_t)n;
 
@@ -27,7 +27,7 @@ thr_status ranking_init(ranking *ranked, int n, thr_err *err)
 
   /* The values at the ends of the bands of friction. */
   bool there = true;
-  for (int k = 0; k < RANKING_ENDS; k++)
+  for (int k = 0; k < THR_RANKING_ENDS; k++)
     there &= (ranked->end[k] = thr_calloc(count, sizeof *ranked->end[k])) != NULL;
   ranked->order = thr_calloc(count, sizeof *ranked->order);
   ranked->rank = thr_calloc(count, sizeof *ranked->rank);
@@ -35,7 +35,7 @@ thr_status ranking_init(ranking *ranked, int n, thr_err *err)
   /* On failure nothing is left allocated. */
   if (!there || !ranked->value || !ranked->low || !ranked->high || !ranked->order ||
       !ranked->rank) {
-    ranking_destroy(ranked);
+    thr_ranking_destroy(ranked);
     return thr_nomem(err);
   }
 
@@ -44,27 +44,27 @@ thr_status ranking_init(ranking *ranked, int n, thr_err *err)
   /* NAN: not known, until the caller fills it in. */
   for (int i = 0; i < n; i++)
     ranked->value[i] = NAN;
-  for (int k = 0; k < RANKING_ENDS; k++)
+  for (int k = 0; k < THR_RANKING_ENDS; k++)
     for (int i = 0; i < n; i++)
       ranked->end[k][i] = NAN;
 
   return THR_OK;
 }
 
-void ranking_destroy(ranking *ranked)
+void thr_ranking_destroy(thr_ranking *ranked)
 {
   free(ranked->value);
   free(ranked->low);
   free(ranked->high);
-  for (int k = 0; k < RANKING_ENDS; k++)
+  for (int k = 0; k < THR_RANKING_ENDS; k++)
     free(ranked->end[k]);
   free(ranked->order);
   free(ranked->rank);
   free(ranked->words);
-  *ranked = (ranking){0};
+  *ranked = (thr_ranking){0};
 }
 
-bool ranking_tells_apart(const ranking *ranked)
+bool thr_ranking_tells_apart(const thr_ranking *ranked)
 {
   /* The largest rank comes last. */
   return ranked->n_ranked > 1 && ranked->rank[ranked->order[ranked->n_ranked - 1]] > 1;
@@ -79,19 +79,19 @@ static bool is_less(double a, double b)
 }
 
 /* Returns whether the interval of plan i ends before that of plan k begins. */
-static bool is_surely_less(const ranking *ranked, int i, int k)
+static bool is_surely_less(const thr_ranking *ranked, int i, int k)
 {
   return !isnan(ranked->value[i]) && !isnan(ranked->value[k]) && ranked->high[i] < ranked->low[k];
 }
 
 /* Returns whether plan i stands before plan k in the list: by rank, then by value. */
-static bool is_before(const ranking *ranked, int i, int k)
+static bool is_before(const thr_ranking *ranked, int i, int k)
 {
   return ranked->rank[i] < ranked->rank[k] ||
          (ranked->rank[i] == ranked->rank[k] && is_less(ranked->value[i], ranked->value[k]));
 }
 
-void ranking_make(ranking *ranked)
+void thr_ranking_make(thr_ranking *ranked)
 {
   ranked->n_ranked = 0;
 
@@ -114,7 +114,7 @@ void ranking_make(ranking *ranked)
   }
 }
 
-bool ranking_is_tie(const ranking *ranked, int i, int k)
+bool thr_ranking_is_tie(const thr_ranking *ranked, int i, int k)
 {
   return ranked->rank[i] && ranked->rank[k] && ranked->low[i] <= ranked->high[k] &&
          ranked->low[k] <= ranked->high[i];
@@ -127,7 +127,7 @@ typedef struct {
 } counted;
 
 /* Returns what plan i has. A negated interval is turned round. */
-static counted unsigned_values(const ranking *ranked, int i)
+static counted unsigned_values(const thr_ranking *ranked, int i)
 {
   if (ranked->most) return (counted){-ranked->value[i], -ranked->high[i], -ranked->low[i]};
   return (counted){ranked->value[i], ranked->low[i], ranked->high[i]};
@@ -135,7 +135,7 @@ static counted unsigned_values(const ranking *ranked, int i)
 
 /* Appends the interval of plan i: "+-0.4 %", "from .. to", or "at least" where there is no upper
  * end. Nothing if it is no wider than its digits. */
-static void put_interval(const ranking *ranked, int i, thr_text *text)
+static void put_interval(const thr_ranking *ranked, int i, thr_text *text)
 {
   const double low = unsigned_values(ranked, i).low, high = unsigned_values(ranked, i).high;
 
@@ -150,7 +150,7 @@ static void put_interval(const ranking *ranked, int i, thr_text *text)
 }
 
 /* Appends the value of plan i with its interval. INFINITY: proved that no value will do. */
-static void put_value(const ranking *ranked, int i, thr_text *text)
+static void put_value(const thr_ranking *ranked, int i, thr_text *text)
 {
   if (ranked->words) {
     thr_text_append(text, ranked->words[i]);
@@ -168,20 +168,20 @@ static void put_value(const ranking *ranked, int i, thr_text *text)
 
 /* Appends with which of the plans before it the plan at place k ties. Their names are given only
  * where it is not just the one before, or all. */
-static void put_ties(const ranking *ranked, int k, const char *const *name, thr_text *text)
+static void put_ties(const thr_ranking *ranked, int k, const char *const *name, thr_text *text)
 {
   const char *overlap = ranked->words ? "the runs overlap" : "within the error";
   int ties = 0;
 
   for (int j = 0; j < k; j++)
-    ties += ranking_is_tie(ranked, ranked->order[j], ranked->order[k]);
+    ties += thr_ranking_is_tie(ranked, ranked->order[j], ranked->order[k]);
 
   /* Told apart from all before, or with which of them it ties. */
   if (ties == 0 && ranked->words)
     return;
   else if (ties == 0)
     thr_text_append(text, ranked->most ? "  less, beyond the error" : "  more, beyond the error");
-  else if (ties == 1 && ranking_is_tie(ranked, ranked->order[k - 1], ranked->order[k]))
+  else if (ties == 1 && thr_ranking_is_tie(ranked, ranked->order[k - 1], ranked->order[k]))
     thr_text_printf(text, "  tie, %s", overlap);
   else if (ties == k)
     thr_text_printf(text, "  tie with all before, %s", overlap);
@@ -189,7 +189,7 @@ static void put_ties(const ranking *ranked, int k, const char *const *name, thr_
     /* Some of the plans before: by name. */
     const char *with = "  tie with ";
     for (int j = 0; j < k; j++) {
-      if (!ranking_is_tie(ranked, ranked->order[j], ranked->order[k])) continue;
+      if (!thr_ranking_is_tie(ranked, ranked->order[j], ranked->order[k])) continue;
       thr_text_printf(text, "%s%s", with, name[ranked->order[j]]);
       with = ", ";
     }
@@ -197,7 +197,7 @@ static void put_ties(const ranking *ranked, int k, const char *const *name, thr_
   }
 }
 
-void ranking_put_text(const ranking *ranked, const char *const *name, thr_text *text)
+void thr_ranking_put_text(const thr_ranking *ranked, const char *const *name, thr_text *text)
 {
   int widest = 0;
 
@@ -223,13 +223,13 @@ void ranking_put_text(const ranking *ranked, const char *const *name, thr_text *
 
 /* Returns whether two plans, of which i is surely less, change places at an end of a band of
  * friction. */
-static bool is_swapped(const ranking *ranked, int end, int i, int k)
+static bool is_swapped(const thr_ranking *ranked, int end, int i, int k)
 {
   return is_surely_less(ranked, i, k) && is_less(ranked->end[end][k], ranked->end[end][i]);
 }
 
 /* Returns whether the values of two plans and more are known at both ends of a band. */
-static bool is_banded(const ranking *ranked, int band)
+static bool is_banded(const thr_ranking *ranked, int band)
 {
   int known = 0;
   for (int i = 0; i < ranked->n; i++)
@@ -239,7 +239,7 @@ static bool is_banded(const ranking *ranked, int band)
 }
 
 /* Returns how many pairs of plans change places at either end of a band. */
-static int count_swaps(const ranking *ranked, int band)
+static int count_swaps(const thr_ranking *ranked, int band)
 {
   int n = 0;
   for (int end = 2 * band; end < 2 * band + 2; end++)
@@ -249,14 +249,14 @@ static int count_swaps(const ranking *ranked, int band)
   return n;
 }
 
-void ranking_put_bands(const ranking *ranked, const char *const *name, char at[RANKING_ENDS][40],
-                       thr_text *text)
+void thr_ranking_put_bands(const thr_ranking *ranked, const char *const *name,
+                           char at[THR_RANKING_ENDS][40], thr_text *text)
 {
   enum { MOST = 3 };
 
-  if (!ranking_tells_apart(ranked)) return;
+  if (!thr_ranking_tells_apart(ranked)) return;
 
-  for (int band = 0; band < RANKING_BANDS; band++) {
+  for (int band = 0; band < THR_RANKING_BANDS; band++) {
     /* -1: the values at the ends of this band are not known. */
     const int all = is_banded(ranked, band) ? count_swaps(ranked, band) : -1;
     int said = 0;
@@ -276,7 +276,7 @@ void ranking_put_bands(const ranking *ranked, const char *const *name, char at[R
   }
 }
 
-void ranking_put_json(const ranking *ranked, const char *const *name, thr_writer *writer)
+void thr_ranking_put_json(const thr_ranking *ranked, const char *const *name, thr_writer *writer)
 {
   thr_write_object(writer, NULL);
   thr_write_string(writer, "by", ranked->key);
@@ -287,16 +287,16 @@ void ranking_put_json(const ranking *ranked, const char *const *name, thr_writer
     int i = ranked->order[k];
     thr_write_object(writer, NULL);
     thr_write_string(writer, "plan", name[i]);
-    const bool known = !ranked->words || ranked->value[i] < ranking_order;
+    const bool known = !ranked->words || ranked->value[i] < thr_ranking_order;
     thr_write_number(writer, "value", known ? unsigned_values(ranked, i).value : NAN);
     thr_write_number(writer, "low", known ? unsigned_values(ranked, i).low : NAN);
     thr_write_number(writer, "high", known ? unsigned_values(ranked, i).high : NAN);
     thr_write_int(writer, "rank", ranked->rank[i]);
 
     /* The values at the ends of each band. */
-    for (int band = 0; band < RANKING_BANDS; band++) {
+    for (int band = 0; band < THR_RANKING_BANDS; band++) {
       if (!is_banded(ranked, band)) continue;
-      thr_write_array(writer, ranking_bands[band]);
+      thr_write_array(writer, thr_ranking_bands[band]);
       for (int end = 2 * band; end < 2 * band + 2; end++)
         thr_write_number(writer, NULL, ranked->most ? -ranked->end[end][i] : ranked->end[end][i]);
       thr_write_close(writer);
@@ -306,14 +306,14 @@ void ranking_put_json(const ranking *ranked, const char *const *name, thr_writer
   thr_write_close(writer);
 
   /* Whether the order is the same at the ends of each band. */
-  for (int band = 0; band < RANKING_BANDS; band++)
+  for (int band = 0; band < THR_RANKING_BANDS; band++)
     if (is_banded(ranked, band))
       thr_write_bool(writer, band ? "same_over_band_beads" : "same_over_band",
                      count_swaps(ranked, band) == 0);
   thr_write_close(writer);
 }
 
-bool ranking_disagree(const ranking *a, const ranking *b, int pair[2])
+bool thr_ranking_disagree(const thr_ranking *a, const thr_ranking *b, int pair[2])
 {
   for (int i = 0; i < a->n; i++)
     for (int k = 0; k < a->n; k++) {

@@ -6,16 +6,17 @@
  * Lengths are in units of the framework, angles in degrees, forces in N. How far a
  * value is from its proved lower bound is a part of the bound where a row says "above", (value -
  * bound) / bound, and of the value where it says "gap", (value - bound) / value, in per cent. All
- * rows stand in one table, compare_rows, from which text and JSON are made; a row that only some
- * methods know is left out without them.
+ * rows stand in one table, thr_compare_rows, from which text and JSON are made; a row that only
+ * some methods know is left out without them.
  *
  * The frontier: a plan is on it if no other plan has no more cords, no more cord and no more pull,
  * and less of one of these (Pareto optimality, thr_price_beats).
  *
  * Example: two closed cords through the 7 x 7 dome, both of 1995.249 mm: the one that turns by
  * 2990.4 deg is on the frontier, the one that turns by 3163.9 deg is not. */
-#include "cli/print/print.h"
 #include "graph/number.h"
+#include "lib/comparison.h"
+#include "lib/lib.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -67,7 +68,7 @@ enum {
 
 /* Fields: label, JSON member, whether less is better, digits, method, left out where not known,
  * only with --verbose. */
-const compare_row compare_rows[COMPARE_ROWS] = {
+const thr_compare_row thr_compare_rows[THR_COMPARE_ROWS] = {
     [CORDS] = {"cords", "cords", false, -1, THR_CAPSTAN, false, false},
     [PASSES] = {"passes", "passes", true, -1, THR_CAPSTAN, false, false},
     [LENGTH] = {"length", "length", true, 3, THR_CAPSTAN, false, false},
@@ -112,35 +113,45 @@ const compare_row compare_rows[COMPARE_ROWS] = {
                      false},
     [HOLDING] = {"holding pull while drawn in, N", "holding_pull", true, -6, THR_STRUCTURE, false,
                  false},
-    [RISE_RUNS] = {"runs in simulation", "rise_runs", false, -1, PULL_RISE, false, false},
-    [RISE_UP] = {"of these come up", "rise_up", false, -1, PULL_RISE, false, false},
-    [RISE_PULL] = {"these come up at, median, N", "rise_pull", false, -3, PULL_RISE, false, false},
-    [RISE_PULL_LOW] = {"the first of them at, N", "rise_pull_low", false, -3, PULL_RISE, false,
-                       false},
-    [RISE_PULL_HIGH] = {"the last of them at, N", "rise_pull_high", false, -3, PULL_RISE, false,
-                        false},
-    [RISE_FACES] = {"faces", "rise_faces", false, -1, PULL_RISE, false, false},
-    [RISE_CLOSED] = {"of these closed at most, median", "rise_closed", false, -1, PULL_RISE, false,
-                     false},
-    [RISE_CLOSED_LOW] = {"in the worst run", "rise_closed_low", false, -1, PULL_RISE, false, false},
-    [RISE_FALL] = {"let down, falls below, median, N", "rise_fall", false, -3, PULL_RISE, true,
+    [RISE_RUNS] = {"runs in simulation", "rise_runs", false, -1, THR_BY_RISE, false, false},
+    [RISE_UP] = {"of these come up", "rise_up", false, -1, THR_BY_RISE, false, false},
+    [RISE_PULL] = {"these come up at, median, N", "rise_pull", false, -3, THR_BY_RISE, false,
                    false},
-    [RISE_FALL_LOW] = {"the last of them below, N", "rise_fall_low", false, -3, PULL_RISE, true,
+    [RISE_PULL_LOW] = {"the first of them at, N", "rise_pull_low", false, -3, THR_BY_RISE, false,
                        false},
-    [RISE_FALL_HIGH] = {"the first of them below, N", "rise_fall_high", false, -3, PULL_RISE, true,
+    [RISE_PULL_HIGH] = {"the last of them at, N", "rise_pull_high", false, -3, THR_BY_RISE, false,
                         false},
-    [RISE_STANDS] = {"limit analysis: falls below, N", "rise_stands", false, -4, PULL_RISE, false,
+    [RISE_FACES] = {"faces", "rise_faces", false, -1, THR_BY_RISE, false, false},
+    [RISE_CLOSED] = {"of these closed at most, median", "rise_closed", false, -1, THR_BY_RISE,
+                     false, false},
+    [RISE_CLOSED_LOW] = {"in the worst run", "rise_closed_low", false, -1, THR_BY_RISE, false,
+                         false},
+    [RISE_FALL] = {"let down, falls below, median, N", "rise_fall", false, -3, THR_BY_RISE, true,
+                   false},
+    [RISE_FALL_LOW] = {"the last of them below, N", "rise_fall_low", false, -3, THR_BY_RISE, true,
+                       false},
+    [RISE_FALL_HIGH] = {"the first of them below, N", "rise_fall_high", false, -3, THR_BY_RISE,
+                        true, false},
+    [RISE_STANDS] = {"limit analysis: falls below, N", "rise_stands", false, -4, THR_BY_RISE, false,
                      false},
 };
-_Static_assert((int)N_ROWS == (int)COMPARE_ROWS, "a value for each row");
+_Static_assert((int)N_ROWS == (int)THR_COMPARE_ROWS, "a value for each row");
+
+static const double right_angle = THR_PI / 2;
+
+bool thr_compare_wants(int asked, int method)
+{
+  return method == THR_CAPSTAN || asked == method ||
+         (asked == THR_BY_ALL && method < THR_N_METHODS);
+}
 
 /* Returns whether a method evaluated every cord of the plan. */
-static bool is_known(const compare_entry *e, thr_method method)
+static bool is_known(const thr_compare_entry *e, thr_method method)
 {
   return e->eval[method].record.present && e->eval[method].complete;
 }
 
-double compare_largest(const compare_entry *e, thr_method method)
+double thr_compare_largest(const thr_compare_entry *e, thr_method method)
 {
   /* Of the limit analysis the proved bound counts, not what a schedule left. */
   if (method == THR_STRUCTURE && is_known(e, method)) return e->eval[method].holding.lower;
@@ -149,7 +160,7 @@ double compare_largest(const compare_entry *e, thr_method method)
 
 /* Returns the pull at the other end of the cord that is hardest to pull, N; NAN where only one end
  * is pulled. */
-static double other_pull(const compare_entry *e, thr_method method)
+static double other_pull(const thr_compare_entry *e, thr_method method)
 {
   if (!is_known(e, method)) return NAN;
   const thr_eval_cord *hardest = thr_evaluation_hardest(&e->eval[method].record);
@@ -181,8 +192,8 @@ static void measure_plan(const thr_plan *plan, double *value)
   value[TURNING] = thr_degrees(metrics->turning);
   value[MAX_TURNING] = thr_degrees(metrics->max_turning);
   value[WORST_TURN] = thr_degrees(metrics->worst_turn);
-  value[TURNS_OVER_60] = thr_plan_turns_over(plan, turning_right_angle * 2 / 3);
-  value[TURNS_OVER_90] = thr_plan_turns_over(plan, turning_right_angle);
+  value[TURNS_OVER_60] = thr_plan_turns_over(plan, right_angle * 2 / 3);
+  value[TURNS_OVER_90] = thr_plan_turns_over(plan, right_angle);
   value[U_TURNS] = metrics->u_turns;
   value[ABOVE_LEAST_TURNING] = percent_above(claim->present, claim->price, claim->lower_bound);
   value[TURNING_GAP] = claim->present ? 100 * claim->gap : NAN;
@@ -196,7 +207,7 @@ static void measure_plan(const thr_plan *plan, double *value)
 }
 
 /* Fills in what was seen in simulation. */
-static void measure_rise(const compare_rise *rise, double *value)
+static void measure_rise(const thr_compare_rise *rise, double *value)
 {
   const bool seen = rise->runs > 0, up = rise->up > 0, fell = rise->fell > 0;
   value[RISE_RUNS] = seen ? (double)rise->runs : NAN;
@@ -213,7 +224,7 @@ static void measure_rise(const compare_rise *rise, double *value)
   value[RISE_STANDS] = rise->stands > 0 ? rise->stands : NAN;
 }
 
-void compare_measure(compare_entry *entry)
+void thr_compare_measure(thr_compare_entry *entry)
 {
   const thr_eval *joint = &entry->eval[THR_JOINT], *closed = &entry->eval[THR_CAPSTAN];
   const bool measured = is_known(entry, THR_JOINT);
@@ -222,8 +233,8 @@ void compare_measure(compare_entry *entry)
   measure_plan(&entry->plan, value);
 
   /* By the closed form. */
-  value[CAPSTAN] = turning_capstan(closed->record.physics.mu, entry->plan.metrics.max_turning);
-  value[CLOSED_LARGEST] = compare_largest(entry, THR_CAPSTAN);
+  value[CAPSTAN] = thr_capstan(closed->record.physics.mu, entry->plan.metrics.max_turning);
+  value[CLOSED_LARGEST] = thr_compare_largest(entry, THR_CAPSTAN);
   value[CLOSED_OTHER] = other_pull(entry, THR_CAPSTAN);
   value[CLOSED_TOTAL] = is_known(entry, THR_CAPSTAN) ? closed->record.total : NAN;
 
@@ -231,23 +242,23 @@ void compare_measure(compare_entry *entry)
   for (int i = 0; i < joint->record.n_cords; i++)
     taut_turning += joint->record.cord[i].taut_turning;
   value[TAUT_TURNING] = measured ? thr_degrees(taut_turning) : NAN;
-  value[JOINT_LARGEST] = compare_largest(entry, THR_JOINT);
+  value[JOINT_LARGEST] = thr_compare_largest(entry, THR_JOINT);
   value[JOINT_OTHER] = other_pull(entry, THR_JOINT);
-  value[JOINT_ERROR] = measured ? pull_percent(joint->error) : NAN;
+  value[JOINT_ERROR] = measured ? thr_eval_percent(joint->error) : NAN;
   value[JOINT_REFUSED] = measured ? (double)joint->refused : NAN;
   value[JOINT_TOTAL] = measured ? joint->record.total : NAN;
 
   /* Of the structure. */
-  value[HOLDING] = compare_largest(entry, THR_STRUCTURE);
+  value[HOLDING] = thr_compare_largest(entry, THR_STRUCTURE);
   measure_rise(&entry->rise, value);
 }
 
-bool compare_is_best(const compare_entry *entries, int n, int row, int i)
+bool thr_compare_is_best(const thr_compare_entry *entries, int n, int row, int i)
 {
   double mine = entries[i].value[row];
 
   /* Rows that say what a plan is, not how good, have no best one. */
-  if (!compare_rows[row].rate || n < 2 || !isfinite(mine)) return false;
+  if (!thr_compare_rows[row].rate || n < 2 || !isfinite(mine)) return false;
 
   /* Values that differ by a millionth are equal. */
   for (int k = 0; k < n; k++)
@@ -256,7 +267,7 @@ bool compare_is_best(const compare_entry *entries, int n, int row, int i)
   return true;
 }
 
-bool compare_on_frontier(const compare_entry *entries, int n, int i)
+bool thr_compare_on_frontier(const thr_compare_entry *entries, int n, int i)
 {
   thr_method method = THR_JOINT;
 
@@ -265,45 +276,13 @@ bool compare_on_frontier(const compare_entry *entries, int n, int i)
 
   /* Pulls are measured ones if every plan has one, else those of the closed form. */
   const thr_price mine = {entries[i].plan.n_cords, entries[i].plan.metrics.length,
-                          compare_largest(&entries[i], method)};
+                          thr_compare_largest(&entries[i], method)};
 
   for (int k = 0; k < n; k++)
     if (thr_price_beats(&(thr_price){entries[k].plan.n_cords, entries[k].plan.metrics.length,
-                                     compare_largest(&entries[k], method)},
+                                     thr_compare_largest(&entries[k], method)},
                         &mine))
       return false;
 
   return true;
-}
-
-bool compare_is_shown(const compare_entry *entries, int n, int row)
-{
-  const bool optional = compare_rows[row].optional;
-
-  if (compare_rows[row].machinery && !cli_verbose) return false;
-
-  /* Rows that only some plans have. */
-  for (int i = 0; i < n && optional; i++)
-    if (!isnan(entries[i].value[row])) return true;
-  return !optional;
-}
-
-void compare_put_cell(thr_text *text, int row, double value, bool best)
-{
-  const int decimals = compare_rows[row].decimals;
-  char cell[40];
-
-  /* The number of digits is a property of the row. */
-  if (isnan(value))
-    snprintf(cell, sizeof cell, "-");
-  else if (isinf(value))
-    snprintf(cell, sizeof cell, "> 1e300");
-  else if (decimals == -1)
-    snprintf(cell, sizeof cell, "%.0f", value);
-  else if (decimals < 0)
-    snprintf(cell, sizeof cell, "%.*g", -decimals, value);
-  else
-    snprintf(cell, sizeof cell, "%.*f", decimals, value);
-
-  thr_text_printf(text, "\v0 %16s%s", cell, best ? "*" : " ");
 }

@@ -7,7 +7,8 @@
  *
  * Example: holding pulls of 4.14 .. 4.60 N and 4.30 .. 4.70 N tie; 4.14 .. 4.20 N is less than the
  * second, beyond the error. */
-#include "cli/print/print.h"
+#include "eval/structure/beads.h"
+#include "lib/comparison.h"
 
 #include <math.h>
 #include <string.h>
@@ -27,11 +28,11 @@ enum {
   RISE,
   N_QUESTIONS
 };
-_Static_assert((int)N_QUESTIONS == (int)COMPARE_RANKINGS, "a ranking for each question");
+_Static_assert((int)N_QUESTIONS == (int)THR_COMPARE_RANKINGS, "a ranking for each question");
 
 /* Sets the interval of plan i from a pull, or a factor on tensions, that is needed: from the proved
  * lower bound to the smallest value at which an equilibrium was found (INFINITY: none was). */
-static void rank_need(ranking *ranked, const thr_holding *holding, int i)
+static void rank_need(thr_ranking *ranked, const thr_holding *holding, int i)
 {
   ranked->value[i] = ranked->low[i] =
       holding->present ? holding->lower : NAN; /* INFINITY: none does */
@@ -40,7 +41,7 @@ static void rank_need(ranking *ranked, const thr_holding *holding, int i)
 
 /* Sets the interval of plan i from the multiple of a load that is carried. Values are negative, so
  * that the largest multiple comes first. */
-static void rank_carry(ranking *ranked, const thr_carry *carry, int i)
+static void rank_carry(thr_ranking *ranked, const thr_carry *carry, int i)
 {
   ranked->value[i] = ranked->high[i] = carry->first_bead < 0 ? NAN : -carry->carried;
   ranked->low[i] = -carry->beyond;
@@ -48,14 +49,14 @@ static void rank_carry(ranking *ranked, const thr_carry *carry, int i)
 
 /* Sets the values of plan i at both ends of a band of friction (0: of the cords, 1: of beads and
  * ground). */
-static void rank_band(ranking *ranked, int band, const double value[2], int i)
+static void rank_band(thr_ranking *ranked, int band, const double value[2], int i)
 {
   for (int end = 0; end < 2; end++)
     ranked->end[2 * band + end][i] = ranked->most ? -value[end] : value[end];
 }
 
 /* Fills in how the value of plan i depends on the frictions, as far as that is known. */
-static void rank_bands(ranking *ranked, int question, const compare_entry *candidate, int i)
+static void rank_bands(thr_ranking *ranked, int question, const thr_compare_entry *candidate, int i)
 {
   static const thr_asked of[N_QUESTIONS] = {
       [HOLDING] = THR_ASKED_HOLDING, [STANDING] = THR_ASKED_ANY_STATE,
@@ -79,14 +80,14 @@ static void rank_bands(ranking *ranked, int question, const compare_entry *candi
 
 /* Fills in value and interval of plan i for one question; leaves the value NAN where it is not
  * known. */
-static void rank_plan(ranking *ranked, int question, const compare_entry *candidate, int i)
+static void rank_plan(thr_ranking *ranked, int question, const thr_compare_entry *candidate, int i)
 {
   const thr_eval *structure = &candidate->eval[THR_STRUCTURE];
 
   switch (question) {
   /* The closed form is exact but for rounding. */
   case CAPSTAN:
-    ranked->value[i] = compare_largest(candidate, THR_CAPSTAN);
+    ranked->value[i] = thr_compare_largest(candidate, THR_CAPSTAN);
     ranked->low[i] = ranked->value[i] * (1 - 1e-6);
     ranked->high[i] = ranked->value[i] * (1 + 1e-6);
     break;
@@ -94,7 +95,7 @@ static void rank_plan(ranking *ranked, int question, const compare_entry *candid
   /* A measured pull is right within a factor exp(+-error); turns that were refused have no known
    * error, so that the interval has no upper end. */
   case JOINT:
-    ranked->value[i] = compare_largest(candidate, THR_JOINT);
+    ranked->value[i] = thr_compare_largest(candidate, THR_JOINT);
     ranked->low[i] = ranked->value[i] * exp(-candidate->eval[THR_JOINT].error);
     ranked->high[i] = candidate->eval[THR_JOINT].refused
                           ? INFINITY
@@ -114,7 +115,7 @@ static void rank_plan(ranking *ranked, int question, const compare_entry *candid
 }
 
 /* Returns whether a question was asked of any plan. */
-static bool asked(int question, const compare_entry *entries, int n)
+static bool asked(int question, const thr_compare_entry *entries, int n)
 {
   for (int i = 0; i < n; i++) {
     const thr_eval *structure = &entries[i].eval[THR_STRUCTURE];
@@ -132,10 +133,10 @@ static bool asked(int question, const compare_entry *entries, int n)
   return false;
 }
 
-thr_status compare_rank(const pull_args *args, const compare_entry *entries, int n,
-                        ranking *rankings, int *count, thr_err *err)
+thr_status thr_compare_rank(int method, const thr_compare_entry *entries, int n,
+                            thr_ranking *rankings, int *count, thr_err *err)
 {
-  static const ranking kind[N_QUESTIONS] = {
+  static const thr_ranking kind[N_QUESTIONS] = {
       [CAPSTAN] = {.title = "seating pull, closed form", .key = "capstan", .unit = " N"},
       [JOINT] = {.title = "seating pull, joints measured in simulation (+-: their scatter, drift "
                           "and interpolation; mu as given)",
@@ -175,44 +176,45 @@ thr_status compare_rank(const pull_args *args, const compare_entry *entries, int
                 .unit = " N"}};
 
   /* A ranking for each question of the methods that are wanted, unless no plan was asked it. */
-  bool all = args->method == PULL_ALL_METHODS;
+  bool all = method == THR_BY_ALL;
 
   *count = 0;
   for (int question = 0; question < N_QUESTIONS; question++) {
-    const int method = question == CAPSTAN ? THR_CAPSTAN
+    const int needed = question == CAPSTAN ? THR_CAPSTAN
                        : question == JOINT ? THR_JOINT
-                       : question == RISE  ? PULL_RISE
+                       : question == RISE  ? THR_BY_RISE
                                            : THR_STRUCTURE;
-    if ((!all && args->method != method) || !asked(question, entries, n)) continue;
+    if ((!all && method != needed) || !asked(question, entries, n)) continue;
 
     /* The ranking is counted only once it is complete. */
     rankings[*count] = kind[question];
-    thr_status st = ranking_init(&rankings[*count], n, err);
+    thr_status st = thr_ranking_init(&rankings[*count], n, err);
     if (st) return st;
-    if (question == RISE && (st = compare_rank_rises(&rankings[*count], entries, err))) return st;
+    if (question == RISE && (st = thr_compare_rank_rises(&rankings[*count], entries, err)))
+      return st;
 
     for (int i = 0; i < n; i++) {
       rank_plan(&rankings[*count], question, &entries[i], i);
       rank_bands(&rankings[*count], question, &entries[i], i);
     }
-    ranking_make(&rankings[(*count)++]);
+    thr_ranking_make(&rankings[(*count)++]);
   }
 
   return THR_OK;
 }
 
-bool compare_agree(const ranking *rankings, int count)
+bool thr_compare_agree(const thr_ranking *rankings, int count)
 {
   int pair[2];
 
   for (int i = 0; i < count; i++)
     for (int k = i + 1; k < count; k++)
-      if (ranking_disagree(&rankings[i], &rankings[k], pair)) return false;
+      if (thr_ranking_disagree(&rankings[i], &rankings[k], pair)) return false;
   return true;
 }
 
 /* Returns whether two rankings put the same plans in the same order with the same ranks. */
-static bool same_order(const ranking *a, const ranking *b)
+static bool same_order(const thr_ranking *a, const thr_ranking *b)
 {
   if (a->n_ranked != b->n_ranked) return false;
   for (int k = 0; k < a->n_ranked; k++)
@@ -222,24 +224,25 @@ static bool same_order(const ranking *a, const ranking *b)
 
 /* Appends each order once, with the rankings that have it: "lines.json, stairs.json = snake.json by
  * holding, carried". Rankings in which all plans tie are left out. */
-static void put_orders(const ranking *rankings, int count, const char *const *name, thr_text *text)
+static void put_orders(const thr_ranking *rankings, int count, const char *const *name,
+                       thr_text *text)
 {
   thr_text_append(text, "the rankings disagree:\n");
   for (int i = 0; i < count; i++) {
     /* Each order is printed with the first ranking that has it. */
-    bool said = !ranking_tells_apart(&rankings[i]);
+    bool said = !thr_ranking_tells_apart(&rankings[i]);
     for (int k = 0; k < i; k++)
       said |= same_order(&rankings[k], &rankings[i]);
     if (said) continue;
 
     /* The plans, with = between those that tie. */
     for (int k = 0; k < rankings[i].n_ranked; k++)
-      thr_text_printf(text, "%s%s",
-                      k == 0 ? "  "
-                      : ranking_is_tie(&rankings[i], rankings[i].order[k - 1], rankings[i].order[k])
-                          ? " = "
-                          : ", ",
-                      name[rankings[i].order[k]]);
+      thr_text_printf(
+          text, "%s%s",
+          k == 0                                                                             ? "  "
+          : thr_ranking_is_tie(&rankings[i], rankings[i].order[k - 1], rankings[i].order[k]) ? " = "
+                                                                                             : ", ",
+          name[rankings[i].order[k]]);
 
     /* The rankings with this order. */
     for (int k = i; k < count; k++)
@@ -249,8 +252,8 @@ static void put_orders(const ranking *rankings, int count, const char *const *na
   }
 }
 
-void compare_put_agreement(const ranking *rankings, int count, const char *const *name,
-                           thr_text *text)
+void thr_compare_put_agreement(const thr_ranking *rankings, int count, const char *const *name,
+                               thr_text *text)
 {
   /* Counts the rankings that tell any plans apart, and looks for one about cords that were let
    * go. */
@@ -258,7 +261,7 @@ void compare_put_agreement(const ranking *rankings, int count, const char *const
   int orders = 0;
 
   for (int i = 0; i < count; i++) {
-    const bool apart = ranking_tells_apart(&rankings[i]);
+    const bool apart = thr_ranking_tells_apart(&rankings[i]);
     orders += apart;
     let_go |=
         apart && (strcmp(rankings[i].key, "any_state") == 0 || strstr(rankings[i].key, "after"));
@@ -266,7 +269,7 @@ void compare_put_agreement(const ranking *rankings, int count, const char *const
 
   /* One ranking alone can agree with nothing. */
   if (orders < 2) return;
-  if (!compare_agree(rankings, count))
+  if (!thr_compare_agree(rankings, count))
     put_orders(rankings, count, name, text);
   else
     thr_text_append(
