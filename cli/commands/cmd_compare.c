@@ -235,6 +235,7 @@ static int compare(const pull_args *args, const structure_actions *actions,
   /* A picture on stdout leaves no place for the table. */
   int drawn = plot ? write_plot(args, entries, n, plot) : EXIT_OK;
   if (!code) code = drawn;
+  answer_file(plot, "the plans side by side");
   int printed = plot && strcmp(plot, "-") == 0 ? EXIT_OK : print(args, entries, n);
   if (code == EXIT_LIMIT) cli_error("stopped: what is - above is not known");
 

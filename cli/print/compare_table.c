@@ -197,6 +197,7 @@ void compare_put_json(thr_text *text, const pull_args *args, const compare_entry
 
   /* Ties do not contradict each other. */
   thr_write_bool(&writer, "agree", compare_agree(rankings, count));
+  answer_put_files(&writer);
   thr_write_close(&writer);
   thr_text_append(text, "\n");
 }
