@@ -91,6 +91,7 @@ static int n_files;
 
 void answer_file(const char *path, const char *what)
 {
+  if (!path || strcmp(path, "-") == 0) return;
   char *name = thr_strdup(path), *words = thr_strdup(what);
   void *more = name && words ? thr_realloc(file, (size_t)n_files + 1, sizeof *file) : NULL;
 
@@ -108,6 +109,7 @@ void answer_file(const char *path, const char *what)
 
 void answer_put_files(thr_writer *writer)
 {
+  if (n_files == 0) return;
   thr_write_array(writer, "files");
   for (int i = 0; i < n_files; i++) {
     thr_write_object(writer, NULL);

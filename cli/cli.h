@@ -95,10 +95,11 @@ void answer_given(void);
 /* Writes {"error": .., "code": ..} to stdout if that is wanted and nothing else was the answer. */
 void answer_failure(int code);
 
-/* Takes down that a file is written, and what it is; both are copied. */
+/* Takes down that a file is written, and what it is; both are copied. Nothing for NULL and stdout.
+ */
 void answer_file(const char *path, const char *what);
 
-/* Writes these files as member "files". */
+/* Writes these files as member "files", if there are any. */
 void answer_put_files(thr_writer *writer);
 
 /* Closes the object, and writes its text to stdout. Returns an exit code. */

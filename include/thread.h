@@ -116,7 +116,7 @@ typedef struct {
                           and below down to physics does not count; NULL = none */
   int cords_least, cords; /* in every component, from .. to; cords_least 0 = exactly so many; cords
                              0 = as few as a hand can pull, from the best ends, the shortest first,
-                             if neither aims nor ends are said: as thread plan FRAME; else 1 */
+                             if no aims are said: as thread plan FRAME; else 1 */
   int cover, capacity;    /* passes of every edge, from .. to; 0 = no capacity */
   int distinct;           /* cords that pass every edge; 0 = any */
   double max_length;      /* of a cord; 0 = any */

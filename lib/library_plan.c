@@ -195,12 +195,15 @@ static thr_status search_and_send(void *user, const thr_limits *given, thr_reply
     kept = request;
     if (thr_library_recommends(options)) {
       kept.aims = (thr_aims){1, {THR_AIM_PULL}};
-      kept.ends = THR_ENDS_ANY;
+      if (options->ends == THREAD_UNSAID) kept.ends = THR_ENDS_ANY;
       kept.cords_least = 1;
       kept.cords = THR_MOST_CORDS;
     }
 
     thr_limits limits = thr_library_limits(options, &request, given, &work);
+    const thr_recommend_options recommended = {.hand = options->hand > 0 ? options->hand
+                                                                         : thr_hand_always,
+                                               .ends_given = options->ends != THREAD_UNSAID};
     job->given = given;
     job->reply = reply;
     job->best = (thr_incumbent){
@@ -209,11 +212,10 @@ static thr_status search_and_send(void *user, const thr_limits *given, thr_reply
     limits.progress = given->progress ? pass_progress : NULL;
     limits.advance = given->advance ? pass_advance : NULL;
     limits.found = given->progress ? take_found : NULL;
-    st = thr_library_recommends(options)
-             ? thr_plan_recommended(job->frame, &request,
-                                    options->hand > 0 ? options->hand : thr_hand_always, &limits,
-                                    &plan, &report, err)
-             : thr_plan_make(job->frame, &request, &limits, &plan, &report, err);
+    st =
+        thr_library_recommends(options)
+            ? thr_plan_recommended(job->frame, &request, &recommended, &limits, &plan, &report, err)
+            : thr_plan_make(job->frame, &request, &limits, &plan, &report, err);
     if (!st && thr_library_recommends(options) && thr_limits_stop(&limits))
       st = thr_fail(err, THR_ELIMIT, "the time was over before fewer cords were tried");
   }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Makes a request of the options of libthread (include/thread.h), and the limits of its search.
  *
- * A request as JSON has precedence over the members before it. Where neither cords, ends nor aims
+ * A request as JSON has precedence over the members before it. Where neither cords nor aims
  * are said, the plan is the recommended one (planner/recommend.c), as of `thread plan FRAME`.
  * Texts of failures name members of the options, never options of a command line. */
 #include "graph/framework/frame.h"
@@ -180,8 +180,8 @@ thr_status thr_end_counts_cords(const thr_frame *frame, const int *counts, int *
 bool thr_library_recommends(const thread_plan_options *options)
 {
   return !options->request && !options->aims && options->cords == 0 &&
-         options->ends == THREAD_UNSAID && options->distinct == 0 && options->max_length == 0 &&
-         options->max_pull == 0 && !options->tube && options->gap < 0;
+         options->ends != THREAD_COUNTS && options->distinct == 0 && options->max_length == 0 &&
+         options->max_pull == 0 && options->gap < 0;
 }
 
 /* Reads the members before `seconds`. */
@@ -227,7 +227,9 @@ thr_status thr_library_request(const thread_plan_options *options, const thr_fra
 
   if (options->gap >= 0) out->gap = options->gap;
   if (!options->request)
-    out->time_limit = options->seconds < 0 ? thr_dispatch_usual_seconds(out) : options->seconds;
+    out->time_limit = options->seconds >= 0             ? options->seconds
+                      : thr_library_recommends(options) ? 0 /* its work is counted */
+                                                        : thr_dispatch_usual_seconds(out);
   return THR_OK;
 }
 

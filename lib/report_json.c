@@ -131,10 +131,7 @@ static const char *row_status(const thr_symmetry_row *row)
 {
   switch (row->why.code) {
   /* A row without cords was left out, or was not asked for. */
-  case THR_OK:
-    return row->n_cords > 0 ? "optimal by the solver's word"
-           : row->behind    ? "not chosen"
-                            : "not asked for";
+  case THR_OK: return row->n_cords > 0 ? "optimal" : row->behind ? "not chosen" : "not asked for";
   case THR_ELIMIT: return row->n_cords > 0 ? "bound" : "stopped";
   case THR_EINFEASIBLE: return "infeasible";
   default: return "failed";
@@ -202,6 +199,8 @@ static void put_group_json(thr_writer *writer, const thr_request *options,
 
   /* The best threading, or why there is none. */
   thr_write_string(writer, "status", row_status(row));
+  if (row->n_cords > 0 && !row->why.code)
+    thr_write_string(writer, "proof", "the search ruled out every better one (not verified)");
   if (row->why.code) thr_write_string(writer, "why", row->why.text);
   if (row->behind) thr_write_int(writer, "behind", row->behind);
   if (row->n_cords > 0) put_threading_json(writer, options, row);

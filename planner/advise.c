@@ -760,7 +760,8 @@ static thr_status make_promised(const advice_search *adviser, thr_plan *plan, th
   limits.found = NULL;
 
   if (out->hand == thr_hand_always) {
-    st = thr_plan_recommended(adviser->frame, &request, out->hand, &limits, plan, &report, &why);
+    st = thr_plan_recommended(adviser->frame, &request, &(thr_recommend_options){.hand = out->hand},
+                              &limits, plan, &report, &why);
   } else if (out->chosen >= 0) {
     const thr_advice_row *row = &out->row[out->chosen];
     request.aims = (thr_aims){1, {THR_AIM_PULL}};

@@ -237,16 +237,22 @@ thr_status thr_plan_count_crossings(thr_plan *plan, thr_err *err) THR_MUST_CHECK
 
 /* ---- recommend.c: The plan where nobody says which. */
 
-/* Plans as few cords as stay within hand, N, at the upper end of the band of mu, with ends at the
- * feet where these take at most 1.5 times as much cord as ends anywhere; of so many cords the
- * shortest that are found, and of these ones that are easily pulled. Of the request aims, ends,
- * cords and slack do not count; plan->options says what was chosen. Work is counted: the same plan
- * on every machine. Where no number of cords stays within the hand: the shortest closed cord.
+typedef struct {
+  double hand;     /* N: what an end of a cord may need */
+  bool ends_given; /* cords end where the request says, which is not THR_ENDS_COUNTS */
+} thr_recommend_options;
+
+/* Plans as few cords as stay within the hand at the upper end of the band of mu; of so many cords
+ * the shortest that are found, and of these ones that are easily pulled. Unless ends are given,
+ * they are at the feet where these take at most 1.5 times as much cord as ends anywhere. A limit of
+ * the request on the pull makes the hand smaller. Of the request aims, cords and slack do not
+ * count; plan->options says what was chosen. Work is counted: the same plan on every machine. Where
+ * no number of cords stays within the hand: the shortest cord, closed unless ends are given.
  * THR_OK: a plan, whatever is proved of it, which its claims say. Otherwise as thr_plan_make. The
  * report must be released in any case. */
-thr_status thr_plan_recommended(const thr_frame *frame, const thr_request *request, double hand,
-                                const thr_limits *limits, thr_plan *plan, thr_report *report,
-                                thr_err *err) THR_MUST_CHECK;
+thr_status thr_plan_recommended(const thr_frame *frame, const thr_request *request,
+                                const thr_recommend_options *options, const thr_limits *limits,
+                                thr_plan *plan, thr_report *report, thr_err *err) THR_MUST_CHECK;
 
 /* ---- advise.c: How many cords, and from where: a plan for every number of cords and kind of ends
  * that may be worth it, and a choice among them. */

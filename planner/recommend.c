@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Makes the plan that is recommended where nobody says which: as few cords as stay within a hand's
- * force, with ends at the feet where these serve, and with so many cords the shortest ones that
- * are found, and of these such that the hardest pull is small.
+ * force, with ends where they are given or else at the feet where these serve, and with so many
+ * cords the shortest ones that are found, and of these such that the hardest pull is small.
  *
  * The pull at the end of a cord is seating tension x exp(mu x reach) (graph/plan/physics.h); it is
  * to stay within the hand even at the upper end of the band of mu. The turning of the shortest
@@ -26,8 +26,8 @@ enum { MOST_TRIED = 5000 /* edges */, MOST_TRIALS = 8 };
 /* Counted work of a trial, s. */
 static const double work_of_trial = 0.3;
 
-/* Counted work of several components, s. */
-static const double work_of_components = 2;
+/* Counted work of several components, and of the shortest cords of tubes, s. */
+static const double work_of_components = 2, work_of_tubes = 2;
 
 /* Times as many cords as could do by their turning are tried where cutting leaves no bound. */
 static const int most_times = 4;
@@ -72,7 +72,8 @@ static thr_status try_number(const recommendation *of, int cords, thr_plan *plan
 static int fewest_of(const recommendation *of, const thr_plan *shortest)
 {
   const double each = 2 * of->reach + THR_PI;
-  const double fewest = ceil(shortest->metrics.turning / shortest->n_cords / each);
+  const double fewest =
+      shortest->n_cords > 0 ? ceil(shortest->metrics.turning / shortest->n_cords / each) : 1;
   return fewest < 1 ? 1 : fewest > THR_MOST_CORDS ? THR_MOST_CORDS : (int)fewest;
 }
 
@@ -158,8 +159,8 @@ static thr_status with_ends(recommendation *of, thr_ends ends, const thr_plan *s
   thr_plan cut = {0};
   of->request.ends = ends;
 
-  thr_status st = cut_shortest(of, shortest, &cut, err);
-  if (!st) thr_limits_found(of->limits, cut.cord, cut.n_cords, NULL);
+  thr_status st = shortest->n_cords > 0 ? cut_shortest(of, shortest, &cut, err) : THR_OK;
+  if (!st && cut.n_cords > 0) thr_limits_found(of->limits, cut.cord, cut.n_cords, NULL);
   const int least = fewest_of(of, shortest);
   int component,
       most = cut.n_cords > 0 ? thr_planner_most_cords(&cut, &component) : most_times * least;
@@ -170,16 +171,18 @@ static thr_status with_ends(recommendation *of, thr_ends ends, const thr_plan *s
   if (!st && plan->n_cords == 0 && of->frame->n_edges <= MOST_TRIED)
     st = try_numbers(of, least < most ? least : most, most, plan, report, err);
 
-  /* As many as the cut cords, of any length, where no trial found any. */
+  /* Of any length where no trial found any: as many as the cut cords, or once more all. */
+  of->request.turning.length_slack = -1;
   if (!st && plan->n_cords == 0 && cut.n_cords > 0) {
-    of->request.turning.length_slack = -1;
     st = try_number(of, most, plan, report, err);
-    of->request.turning.length_slack = 0;
     if (!is_within(of, plan)) {
       thr_plan_destroy(plan);
       thr_report_destroy(report);
     }
+  } else if (!st && plan->n_cords == 0 && of->frame->n_edges <= MOST_TRIED) {
+    st = try_numbers(of, least, most, plan, report, err);
   }
+  of->request.turning.length_slack = 0;
 
   thr_plan_destroy(&cut);
   return st;
@@ -205,54 +208,83 @@ static thr_status has_feet(const thr_frame *frame, bool *has, thr_err *err)
   return st;
 }
 
-thr_status thr_plan_recommended(const thr_frame *frame, const thr_request *request, double hand,
-                                const thr_limits *limits, thr_plan *plan, thr_report *report,
-                                thr_err *err)
+/* Plans with ends at the feet; or anywhere where there are no feet, or these take much more
+ * cord. */
+static thr_status with_best_ends(recommendation *of, const thr_plan *shortest, thr_plan *plan,
+                                 thr_report *report, thr_err *err)
+{
+  thr_plan any = {0};
+  thr_report report_any = {0};
+  bool feet = false;
+
+  thr_status st = has_feet(of->frame, &feet, err);
+  if (!st && feet) st = with_ends(of, THR_ENDS_FEET, shortest, plan, report, err);
+
+  const bool enough =
+      plan->n_cords > 0 && plan->metrics.length <= most_for_feet * plan->metrics.base_length;
+  if (!st && !enough) st = with_ends(of, THR_ENDS_ANY, shortest, &any, &report_any, err);
+  if (!st && any.n_cords > 0 &&
+      (plan->n_cords == 0 || plan->metrics.length > most_for_feet * any.metrics.length))
+    take(plan, report, &any, &report_any);
+
+  thr_plan_destroy(&any);
+  thr_report_destroy(&report_any);
+  return st;
+}
+
+thr_status thr_plan_recommended(const thr_frame *frame, const thr_request *request,
+                                const thr_recommend_options *options, const thr_limits *limits,
+                                thr_plan *plan, thr_report *report, thr_err *err)
 {
   recommendation of = {.frame = frame, .request = *request, .limits = limits};
-  thr_request closed = *request;
-  thr_plan shortest = {0}, any = {0};
-  thr_report report_any = {0};
+  thr_request one = *request, unlimited;
+  thr_plan shortest = {0};
+  thr_limits shortly = *limits;
+  double work = work_of_tubes;
   thr_physics physics;
   thr_err why = {0};
-  bool feet = false;
   *plan = (thr_plan){0};
   *report = (thr_report){0};
 
   /* What an end may have to overcome at the upper end of the band of mu. */
   thr_status st = thr_physics_resolve(&request->physics, frame, &physics, err);
   if (st) return st;
-  of.reach = physics.mu_high > 0 ? log(hand / physics.seating) / physics.mu_high : INFINITY;
+  double hand = options->hand / physics.seating;
+  if (request->max_pull > 0) hand = fmin(hand, request->max_pull);
+  of.reach = physics.mu_high > 0 ? log(hand) / physics.mu_high : INFINITY;
+  of.request.max_pull = 0;
 
-  /* One closed cord in every component, the shortest: shown first, and cut. */
-  closed.aims = thr_aims_shortest;
-  closed.ends = THR_ENDS_CLOSED;
-  closed.cords = closed.cords_least = 1;
-  st = thr_planner_length(frame, &closed, limits, &shortest, NULL, &why);
+  /* One cord in every component, the shortest: shown first. No closed one may have room. */
+  one.aims = thr_aims_shortest;
+  one.cords = one.cords_least = 1;
+  if (!options->ends_given) one.ends = THR_ENDS_CLOSED;
+  unlimited = one;
+  unlimited.max_pull = 0;
+  if (request->joint == THR_JOINT_TUBE) shortly = thr_limits_counted(limits, &work);
+  st = thr_planner_length(frame, &unlimited, &shortly, &shortest, NULL, &why);
+  if (st == THR_EINFEASIBLE && !options->ends_given) {
+    one.ends = unlimited.ends = THR_ENDS_ANY;
+    st = thr_planner_length(frame, &unlimited, &shortly, &shortest, NULL, NULL);
+  }
   if (st && (st != THR_ELIMIT || shortest.n_cords == 0)) return thr_fail(err, st, "%s", why.text);
   thr_limits_found(limits, shortest.cord, shortest.n_cords, NULL);
+
+  /* The closed one is cut. */
+  unlimited.ends = THR_ENDS_CLOSED;
+  if (one.ends != THR_ENDS_CLOSED) thr_plan_destroy(&shortest);
+  if (shortest.n_cords == 0)
+    st = thr_planner_length(frame, &unlimited, &shortly, &shortest, NULL, &why);
 
   /* The least length, and then an easy pull. */
   of.request.aims = (thr_aims){1, {THR_AIM_PULL}};
   of.request.turning.length_slack = 0;
-  st = has_feet(frame, &feet, err);
-  if (!st && feet && of.reach >= 0)
-    st = with_ends(&of, THR_ENDS_FEET, &shortest, plan, report, err);
-
-  /* Ends anywhere where there are no feet, or these take much more cord. */
-  const bool enough =
-      plan->n_cords > 0 && plan->metrics.length <= most_for_feet * plan->metrics.base_length;
-  if (!st && !enough && of.reach >= 0)
-    st = with_ends(&of, THR_ENDS_ANY, &shortest, &any, &report_any, err);
-  if (!st && any.n_cords > 0 &&
-      (plan->n_cords == 0 || plan->metrics.length > most_for_feet * any.metrics.length))
-    take(plan, report, &any, &report_any);
+  st = of.reach < 0          ? THR_OK
+       : options->ends_given ? with_ends(&of, request->ends, &shortest, plan, report, err)
+                             : with_best_ends(&of, &shortest, plan, report, err);
 
   /* No number of cords stays within the hand: the shortest cord. */
-  if (!st && plan->n_cords == 0) st = thr_plan_make(frame, &closed, limits, plan, report, err);
+  if (!st && plan->n_cords == 0) st = thr_plan_make(frame, &one, limits, plan, report, err);
 
   thr_plan_destroy(&shortest);
-  thr_plan_destroy(&any);
-  thr_report_destroy(&report_any);
   return st;
 }

@@ -148,9 +148,10 @@ void request_args_ask(const request_args *a, const symmetry_args *symmetry, thr_
  * request->end_node and request->end_count. */
 int request_args_apply(const request_args *a, const thr_frame *frame, thr_request *request);
 
-/* Is nothing said of what the plan is to be, but for the passes of edges and the order of work?
- * Then it is the recommended one (planner/recommend.c). */
-bool request_args_unsaid(const request_args *a);
+/* Is neither an objective nor a number of cords said, nor what makes a number? Then the plan is the
+ * recommended one (planner/recommend.c), with ends, joints and all else as they are given. ends: as
+ * applied. */
+bool request_args_unsaid(thr_ends ends);
 
 /* ---- end_counts.c: `--ends NAME:N,..`: how many cord ends there are at each node. */
 

@@ -159,17 +159,16 @@ static bool take_frontier(void *into, const cli_option *option, const char *valu
 static const cli_option own_planned[] = {
     {"objective", .kind = CLI_OTHER, .take = take_objective, .word = thr_dispatch_name,
      .n_words = THR_N_OBJECTIVES,
-     .help = "what the plan is to have little of: cord (length, the default if anything below is "
-             "said), paths to learn "
+     .help = "what the plan is to have little of: cord (length, the default with --cords or a "
+             "limit), paths to learn "
              "(symmetry), or turning, which makes cords hard to pull (tortuosity)"},
     {"cords", .value = "K", .kind = CLI_OTHER, .take = take_cords,
-     .help =
-         "K cords in every component, 1 to 1000, of much the same length (default: as few as a "
-         "hand can pull, from the best ends, if nothing is said of the plan, else 1); A..B, ..B: "
-         "at most B; auto: as many as --max-length or --max-pull takes"},
+     .help = "K cords in every component, 1 to 1000, of much the same length (default: as few as a "
+             "hand can pull; 1 with --objective, --gap or --aims); A..B, ..B: "
+             "at most B; auto: as many as --max-length or --max-pull takes"},
     {"ends", .value = "closed|any|feet|FILE|NAME,..", .kind = CLI_TEXT, AT(ends),
-     .help = "both ends of a cord at one node (default, with --cords), or anywhere, at feet, at "
-             "these nodes; "
+     .help = "both ends of a cord at one node (default with --cords or --objective, else the best "
+             "ones), or anywhere, at feet, at these nodes; "
              "NAME:N,..: exactly so many cord ends at each of these nodes"},
     {"balance", .kind = CLI_FLAG, AT(balance),
      .help = "of several cords: make the longest as short as can be"},
@@ -446,13 +445,15 @@ static const char *turning_given(void)
   return given ? given : cli_given("nodes");
 }
 
-bool request_args_unsaid(const request_args *args)
+bool request_args_unsaid(thr_ends ends)
 {
-  const thr_request *asked = &args->asked;
-  return !cli_given_of(own_planned) && !turning_given() && !cli_given_of(cli_symmetry_options) &&
-         !cli_given_of(request_options(REQUEST_TUNED)) && asked->joint == THR_JOINT_SOLID &&
-         asked->distinct == 0 && asked->max_length == 0 && asked->gap < 0 &&
-         asked->crossings == THR_CROSSINGS_ALLOW;
+  static const char *const says[] = {"objective", "aims",     "cords",      "balance", "max-pull",
+                                     "hand",      "distinct", "max-length", "gap"};
+  bool said = ends == THR_ENDS_COUNTS;
+  for (size_t i = 0; !said && i < sizeof says / sizeof *says; i++)
+    said = cli_given(says[i]);
+  return !said && !turning_given() && !cli_given_of(cli_symmetry_options) &&
+         !cli_given_of(request_options(REQUEST_TUNED));
 }
 
 /* Returns the set of facts that hold of what was asked for. wanted holds the aims, args all else.

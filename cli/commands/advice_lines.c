@@ -2,8 +2,8 @@
 /* Prints beside a plan whether a hand can pull its cords, and which plan it can.
  *
  * A pull beyond 50 N at the hardest end is too hard (thr_hand_most). The plan that is made where
- * nothing is said of it (planner/recommend.c) stays within 10 N (thr_hand_always) even at the upper
- * end of the band of mu.
+ * no objective and no number is said (planner/recommend.c) stays within 10 N (thr_hand_always) even
+ * at the upper end of the band of mu.
  *
  * Example, of the 7 x 7 dome: "4 cords to the feet, 3.45 N each at most (6.42 N at mu = 0.3): as
  * few as were found that a hand can pull time after time, with 10 N". */
@@ -62,16 +62,16 @@ void advice_put_hint(const thr_plan *plan, bool unsaid, thr_text *text)
   if (newton <= thr_hand_most || plan->options.max_pull > 0) return;
   put_too_hard(text, newton);
   thr_text_append(text, unsaid ? "; no number of cords was found that it can pull\n"
-                               : ";\n         thread plan without --objective, --cords and --ends "
-                                 "takes as few cords as it can pull\n");
+                               : ";\n         thread plan without --objective and --cords takes "
+                                 "as few cords as it can pull\n");
 }
 
-void advice_put_recommended(const thr_plan *plan, thr_text *text)
+void advice_put_recommended(const thr_plan *plan, double hand, thr_text *text)
 {
   const thr_request *options = &plan->options;
   const thr_advice_row row = {.ends = options->ends, .cords = options->cords, .all = plan->n_cords};
   double pull[THR_ADVICE_PULLS];
-  char force[64], most[64], hand[64];
+  char force[64], most[64], within[64];
   thr_physics physics;
   thr_err err = {0};
 
@@ -86,9 +86,9 @@ void advice_put_recommended(const thr_plan *plan, thr_text *text)
                   plain_newtons(pull[THR_ADVICE_MU], force),
                   plan->n_cords > 1 ? " N each at most" : " N",
                   plain_force(pull[THR_ADVICE_HIGH], most), physics.mu_high);
-  thr_text_printf(text,
-                  "         that a hand can pull time after time, with %s; --cords 1 is one cord\n",
-                  plain_force(thr_hand_always, hand));
+  thr_text_printf(text, "         that %s, with %s; --cords 1 is one cord\n",
+                  hand < thr_hand_always ? "the cord bears" : "a hand can pull time after time",
+                  plain_force(hand, within));
 }
 
 thr_limits advice_limits(double seconds, double *work)

@@ -292,6 +292,7 @@ static int write_advice(const advise_arguments *args, const thr_frame *frame,
 
   /* From which pull on the recommended cords hold the pieces. */
   if (!st && !cli_json && args->type != TYPE_SVG && laid_out) advice_put_holding(&text, &chosen);
+  if (args->type == TYPE_SVG) answer_file(args->output, "the table as a picture");
   if (!st && cli_json) code = write_json(args, frame, advice, words, laid_out ? &chosen : NULL);
 
   if (!st && args->type == TYPE_TEXT)

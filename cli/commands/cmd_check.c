@@ -67,7 +67,7 @@ static int put_one(const char *name, const thr_plan *plan, const thr_err *err, i
 
   /* Errors other than violations were printed where they occurred. */
   if (cli_json)
-    verdict_put_json(&text, name, plan, err);
+    verdict_put_json(&text, name, plan, err, code);
   else if (code > EXIT_VIOLATION)
     ; /* said already */
   else if (code)

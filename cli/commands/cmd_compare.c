@@ -240,6 +240,7 @@ static int print(const pull_args *args, const entry *entries, int n)
     if (cli_json) {
       thr_write_object(&writer, NULL);
       thr_compare_put_json(&writer, args->method, entries, n, rankings, count, name);
+      answer_put_files(&writer);
       thr_write_close(&writer);
       thr_text_append(&text, "\n");
     } else
@@ -281,6 +282,7 @@ static int compare(const pull_args *args, const structure_actions *actions,
   /* A picture on stdout leaves no place for the table. */
   int drawn = plot ? write_plot(args, entries, n, plot) : EXIT_OK;
   if (!code) code = drawn;
+  answer_file(plot, "the plans side by side");
   int printed = plot && strcmp(plot, "-") == 0 ? EXIT_OK : print(args, entries, n);
   if (code == EXIT_LIMIT) cli_error("stopped: what is - above is not known");
 

@@ -279,6 +279,8 @@ static int write_outputs(const eval_arguments *args, const thr_plan *plan, const
   for (int i = 0; i < 2; i++)
     if (out[i] && strcmp(out[i], "-") == 0) return code;
 
+  answer_file(plan_path, "the plan with this evaluation");
+  answer_file(args->plot, "the plot");
   if (cli_json)
     eval_put_json(&text, &view, plan, eval);
   else

@@ -140,9 +140,9 @@ void plan_ask(const plan_arguments *args, thr_objective objective, thr_request *
       args->guard.seconds < 0 ? thr_dispatch_usual_seconds(options) : args->guard.seconds;
 }
 
-bool plan_is_recommended(const plan_arguments *args)
+bool plan_is_recommended(const plan_arguments *args, const thr_request *request)
 {
-  return request_args_unsaid(&args->request) && !args->compare;
+  return request_args_unsaid(request->ends) && !args->compare;
 }
 
 thr_limits plan_limits(const plan_arguments *args, const thr_request *options, double seconds,
@@ -188,18 +188,33 @@ static thr_status make_plan(const plan_arguments *args, const thr_frame *framewo
   thr_status st =
       progress_wanted() ? thr_plan_tells_bounds(framework, options, &tells, err) : THR_OK;
   if (st) return st;
-  if (progress_wanted() && (!tells || plan_is_recommended(args))) limits.progress = NULL;
+  const bool recommends = plan_is_recommended(args, options);
+  if (progress_wanted() && (!tells || recommends)) limits.progress = NULL;
 
-  st = plan_is_recommended(args)
-           ? thr_plan_recommended(framework, options, thr_hand_always, &limits, &result->plan,
-                                  &result->report, err)
-           : thr_plan_make(framework, options, &limits, &result->plan, &result->report, err);
+  st = recommends ? thr_plan_recommended(framework, options,
+                                         &(thr_recommend_options){.hand = thr_hand_always,
+                                                                  .ends_given = cli_given("ends")},
+                                         &limits, &result->plan, &result->report, err)
+                  : thr_plan_make(framework, options, &limits, &result->plan, &result->report, err);
   cli_progress_end();
 
   if (cli_verbose) cli_note("search: ended, %.3f CPU s", thr_os_processor_seconds());
   if (args->guard.seconds < 0) guard_allow(0);
 
   return st;
+}
+
+/* Notes a limit that one cord in every component keeps to already. */
+static void note_idle_limit(const plan_arguments *args, const thr_plan *plan)
+{
+  static const char *const options[] = {"max-length", "max-pull", "hand"};
+  const char *limit = NULL;
+  const int components = thr_plan_components(plan);
+  for (int i = 0; i < 3 && !limit; i++)
+    limit = cli_given(options[i]);
+  if (limit && !args->request.most && plan->n_cords > 0 && plan->n_cords == components)
+    cli_note("note: one cord%s is within %s already", components > 1 ? " in every component" : "",
+             limit);
 }
 
 /* Makes a plan for a framework and writes all that is asked for. Releases the framework, of which
@@ -215,6 +230,8 @@ static int plan_frame(const plan_arguments *args, thr_frame *framework)
   /* The request. */
   int code = apply_physics(args, framework, &options);
   if (!code) code = request_args_apply(&args->request, framework, &options);
+  if (args->guard.seconds < 0 && plan_is_recommended(args, &options))
+    options.time_limit = 0; /* its work is counted */
   if (code == EXIT_OK) {
     /* The search, and one last chance for its cords to be kept, with the options that they have. */
     thr_status st = make_plan(args, framework, &options, &result, &err);
@@ -229,6 +246,7 @@ static int plan_frame(const plan_arguments *args, thr_frame *framework)
     /* A plan that is not proved within the limits is a plan, with EXIT_LIMIT. */
     int planned_code = st ? EXIT_LIMIT : EXIT_OK;
     const bool is_plan = st == THR_OK || (st == THR_ELIMIT && result.plan.n_cords > 0);
+    if (is_plan) note_idle_limit(args, &result.plan);
     if (is_plan) code = plan_write_outputs(args, &result, &planned_code);
     if (code == EXIT_OK) code = st ? cli_fail(&err) : planned_code;
   }

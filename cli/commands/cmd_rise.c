@@ -467,6 +467,7 @@ static void put_json(const rise_runs *runs, bool motion, thr_text *text)
   thr_writer writer = {.out = text};
   thr_write_object(&writer, NULL);
   thr_rise_put_json(&writer, &seen);
+  if (!motion) answer_put_files(&writer);
   thr_write_close(&writer);
   thr_text_append(text, "\n");
 }
@@ -638,11 +639,20 @@ static int write_booklet(const rise_runs *runs)
 /* Says which files were written. */
 static void note_written(const rise_arguments *args)
 {
-  const char *const file[] = {args->output, args->plot, args->film,
-                              args->frames, args->play, args->booklet};
+  const struct {
+    const char *path, *what;
+  } file[] = {{args->output, "what was seen"},
+              {args->plot, "pull against cord"},
+              {args->film, "the film"},
+              {args->frames, "the film as pictures"},
+              {args->play, "the viewer, to play"},
+              {args->booklet, "the step sheets"}};
   thr_text names = {0};
-  for (size_t i = 0; i < sizeof file / sizeof *file; i++)
-    if (file[i]) thr_text_printf(&names, "%s%s", names.data ? ", " : "", file[i]);
+  for (size_t i = 0; i < sizeof file / sizeof *file; i++) {
+    if (!file[i].path) continue;
+    thr_text_printf(&names, "%s%s", names.data ? ", " : "", file[i].path);
+    answer_file(file[i].path, file[i].what);
+  }
   if (names.data && !names.failed) cli_note("written to %s", names.data);
   thr_text_destroy(&names);
 }

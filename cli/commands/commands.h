@@ -36,8 +36,9 @@ thr_limits advice_limits(double seconds, double *work);
  * this was to be the one. */
 void advice_put_hint(const thr_plan *plan, bool unsaid, thr_text *text);
 
-/* Appends how many cords the recommended plan has, and what they are pulled with. */
-void advice_put_recommended(const thr_plan *plan, thr_text *text);
+/* Appends how many cords the recommended plan has, and what they are pulled with. hand: N, less
+ * than thr_hand_always where the cord bears no more. */
+void advice_put_recommended(const thr_plan *plan, double hand, thr_text *text);
 
 /* ---- thread eval --calibrate: computes frictions from weights and tilted boards at the bench, and
  * draws the piece that the weights hang from. */

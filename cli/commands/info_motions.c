@@ -293,6 +293,8 @@ int motions_find(const char *path, const thr_frame *frame, const motion_argument
   cli_progress_end();
   if (st) return cli_fail(&err);
 
+  answer_file(args->picture, "the motion as a picture");
+  answer_file(args->play, "the motion in the viewer");
   if (args->picture) code = draw(facts, args->picture);
   return !code && args->play ? play(facts, args->play) : code;
 }

@@ -85,6 +85,7 @@ static void put_json(const thr_turn_piece *piece, const thr_turn_mark *dot, thr_
     thr_write_close(&writer);
   }
   thr_write_close(&writer);
+  answer_put_files(&writer);
   thr_write_close(&writer);
   thr_text_append(text, "\n");
 }
@@ -126,6 +127,7 @@ int turn_print(const turn_arguments *args)
   if (args->plot) {
     const int code = write_plot(&piece, most, dot, args->plot);
     if (code) return code;
+    answer_file(args->plot, "the plot");
   }
   thr_text text = {0};
   (cli_json ? put_json : put_text)(&piece, dot, &text);

@@ -2,8 +2,11 @@
 /* Writes what `thread plan` leaves: finds where plan and drawings go, checks the plan's text as
  * `thread check` does, and writes plan, summary and drawings. */
 #include "cli/commands/plan_parts.h"
+#include "eval/cord/profile.h"
 #include "graph/check/check.h"
+#include "graph/plan/physics.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -156,7 +159,7 @@ static void put_order(const plan_arguments *args, const thr_plan *plan, thr_text
 static int print_places(const plan_arguments *args, const thr_plan *plan, const char *plan_path,
                         const char *folder)
 {
-  const bool unsaid = plan_is_recommended(args);
+  const bool unsaid = plan_is_recommended(args, &plan->options);
   char names[DRAWINGS_NAMES];
   thr_text text = {0};
 
@@ -175,7 +178,10 @@ static int print_places(const plan_arguments *args, const thr_plan *plan, const 
 
   /* Order of work, and whether a hand can pull the cords. */
   if (plan->options.order == THR_ORDER_HAND || cli_verbose) put_order(args, plan, &text);
-  if (unsaid && !thr_wants_length(&plan->options)) advice_put_recommended(plan, &text);
+  const double strength = args->request.strength;
+  const double bears = strength > 0 ? strength * thr_strength_left(0) : INFINITY;
+  if (unsaid && !thr_wants_length(&plan->options))
+    advice_put_recommended(plan, fmin(thr_hand_always, bears), &text);
   advice_put_hint(plan, unsaid, &text);
 
   return print_text(&text);

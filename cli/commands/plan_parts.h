@@ -47,7 +47,7 @@ typedef struct {
 void plan_ask(const plan_arguments *args, thr_objective objective, thr_request *options);
 
 /* Is the plan the recommended one, as nothing was said of what it is to be? */
-bool plan_is_recommended(const plan_arguments *args);
+bool plan_is_recommended(const plan_arguments *args, const thr_request *request);
 
 /* Returns limits for a search. Time that nobody asked for is no limit on work that is counted: such
  * a search ends at the same place on every machine, and the clock only ends it on a very busy one.

@@ -79,7 +79,7 @@ static int put_turning(thr_writer *writer, const plan_arguments *args, planned_r
   limits.deadline = deadline_of(args);
 
   /* What nobody asked for is held against nothing on the first screen. */
-  if (plan_is_recommended(args) && !cli_json && !cli_verbose) {
+  if (plan_is_recommended(args, &result->plan.options) && !cli_json && !cli_verbose) {
     put_plan(writer, result, NULL);
     return EXIT_OK;
   }

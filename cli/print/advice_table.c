@@ -72,7 +72,8 @@ void advice_put_cords(thr_text *text, const thr_advice_row *row)
   const char *closed = row->ends == THR_ENDS_CLOSED ? "closed " : "";
   const char *where = row->ends == THR_ENDS_CLOSED ? ""
                       : row->ends == THR_ENDS_FEET ? " to the feet"
-                                                   : " with ends anywhere";
+                      : row->ends == THR_ENDS_ANY  ? " with ends anywhere"
+                                                   : " to the nodes named";
 
   /* Numbers are those of one component. */
   thr_text_printf(text, "%d %s%s", row->cords, closed, cli_plural(row->cords, "cord", "cords"));
@@ -213,5 +214,6 @@ void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advic
   thr_write_object(writer, NULL);
   thr_advice_put_json(writer, frame, advice, command);
   if (chosen) turning_put_ends_json(writer, chosen);
+  answer_put_files(writer);
   thr_write_close(writer);
 }

@@ -146,6 +146,7 @@ void eval_put_json(thr_text *text, const eval_view *view, const thr_plan *plan,
   if (eval->holding.present) put_json_play(&writer, plan);
 
   if (eval->n_carries) load_put_json(&writer, &plan->frame, eval);
+  answer_put_files(&writer);
   thr_write_close(&writer);
   thr_text_append(text, "\n");
 }

@@ -204,6 +204,7 @@ void facts_put_json(thr_text *text, const thr_frame *frame, const frame_facts *i
     thr_write_close(&writer);
   }
   thr_write_close(&writer);
+  answer_put_files(&writer);
   thr_write_close(&writer);
   thr_text_append(text, "\n");
 }

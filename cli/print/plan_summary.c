@@ -503,11 +503,9 @@ static void put_claim_json(thr_writer *writer, const thr_plan *plan, thr_cords_w
   thr_write_number(writer, "longest", claim->longest);
   thr_write_number(writer, "longest_bound", claim->longest_bound);
 
-  /* "by the solver's word": not verified. */
-  thr_write_string(writer, "longest_status",
-                   claim->longest_optimal ? "optimal"
-                   : word.longest_least   ? "bound, optimal by the solver's word"
-                                          : "bound");
+  /* What the search ruled out no checker verifies. */
+  thr_write_string(writer, "longest_status", claim->longest_optimal ? "optimal" : "bound");
+  thr_write_bool(writer, "longest_ruled_out", claim->longest_optimal || word.longest_least);
 
   if (!claim->fewest) return;
   thr_write_int(writer, "fewest_cords", claim->fewest);
@@ -622,6 +620,10 @@ void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *r
   thr_write_number(writer, "max_turning", metrics->max_turning);
   thr_write_number(writer, "mu", plan->options.physics.mu);
   thr_write_string(writer, "status", plan->proof.optimal ? "optimal" : "bound");
+  thr_text proof = {0};
+  plain_put_length_proof(&proof, plan);
+  if (proof.data && !proof.failed) thr_write_string(writer, "proof", proof.data);
+  thr_text_destroy(&proof);
 
   /* Pulls: as factors on the seating tension, and in N. */
   double factor = NAN, *pull = compute_pulls(writer->out, plan, &factor);

@@ -166,8 +166,10 @@ void facts_put_json(thr_text *text, const thr_frame *frame, const frame_facts *i
 /* Appends what a plan that holds says of itself, a line and its terms. */
 void verdict_put(thr_text *text, const char *path, const thr_plan *plan);
 
-/* Appends the verdict as one line of JSON. err: what is wrong with the plan, code 0 if it holds. */
-void verdict_put_json(thr_text *text, const char *path, const thr_plan *plan, const thr_err *err);
+/* Appends the verdict as one line of JSON. err: what is wrong with the plan, none if it holds;
+ * code: the exit code then. */
+void verdict_put_json(thr_text *text, const char *path, const thr_plan *plan, const thr_err *err,
+                      int code);
 
 /* ---- load_words.c: Prints what part of a load is carried, in words and as JSON. */
 

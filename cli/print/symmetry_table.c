@@ -9,7 +9,7 @@
  *
  * Example of a line about copies: "A: unique; B, C, D: copies of A by C4, C2, C4^3".
  *
- * What the solver proves of a row no checker verifies; JSON says "by the solver's word". */
+ * What the solver proves of a row no checker verifies; JSON says so. */
 #include "cli/print/print.h"
 #include "graph/number.h"
 #include "graph/plan/plan_measures.h"

@@ -190,7 +190,8 @@ static void put_claims_json(thr_writer *writer, const thr_plan *plan)
   terms_put_json(writer, plan);
 }
 
-void verdict_put_json(thr_text *text, const char *path, const thr_plan *plan, const thr_err *err)
+void verdict_put_json(thr_text *text, const char *path, const thr_plan *plan, const thr_err *err,
+                      int code)
 {
   thr_writer writer = {.out = text};
 
@@ -201,6 +202,8 @@ void verdict_put_json(thr_text *text, const char *path, const thr_plan *plan, co
   /* A violation is about the plan, an error about this run. */
   if (err->code)
     thr_write_string(&writer, err->code == THR_EVIOLATED ? "violation" : "error", err->text);
+  if (err->code)
+    thr_write_int(&writer, "code", code);
   else
     put_claims_json(&writer, plan);
   thr_write_close(&writer);

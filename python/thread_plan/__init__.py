@@ -202,7 +202,7 @@ class Frame(_Owner):
         """Makes the best plan that the time allows; Plan.proved says whether nothing is better.
 
         ends: "closed", "any", "feet", a list of nodes, or {node: number of ends}. cords: exactly so many, or (least, most). If
-        neither these nor aims are said, it is the recommended plan, as of `thread plan FRAME`. progress hears, in this thread and
+        neither cords nor aims are said, it is the recommended plan, as of `thread plan FRAME`. progress hears, in this thread and
         at least every 0.1 s, what is done, the best value and the bound, and stops the search by returning True; an exception in
         it does so, too, and is raised here. options are those of thread_plan_options in thread.h: aims="length,turning", cover,
         capacity, max_length, max_pull, physics, seconds, hand, ..

@@ -65,7 +65,9 @@ START_TEST(what_is_recommended_stays_within_the_hand)
   thr_report r, other;
   thr_physics physics;
   assert_ok(thr_frame_read(&f, &read, "data/dome7.json", &how, NULL, 0, &e), &e);
-  assert_ok(thr_plan_recommended(&f, &o, hand, &(thr_limits){0}, &p, &r, &e), &e);
+  assert_ok(thr_plan_recommended(&f, &o, &(thr_recommend_options){.hand = hand}, &(thr_limits){0},
+                                 &p, &r, &e),
+            &e);
   assert_ok(thr_check_plan(&p, &e), &e);
   assert_ok(thr_physics_resolve(&o.physics, &f, &physics, &e), &e);
   thr_advice_pulls(&physics, thr_cords_pulled_turning(&p.frame, p.cord, p.n_cords), pull);
@@ -74,13 +76,42 @@ START_TEST(what_is_recommended_stays_within_the_hand)
   ck_assert_int_eq(p.options.ends, _i ? THR_ENDS_CLOSED : THR_ENDS_FEET);
   ck_assert(_i ? p.n_cords == 1 && p.proof.optimal : pull[THR_ADVICE_HIGH] <= hand * (1 + 1e-9));
 
-  assert_ok(thr_plan_recommended(&f, &o, hand, &(thr_limits){.threads = 2}, &again, &other, &e),
+  assert_ok(thr_plan_recommended(&f, &o, &(thr_recommend_options){.hand = hand},
+                                 &(thr_limits){.threads = 2}, &again, &other, &e),
             &e);
   ck_assert_int_eq(again.n_cords, p.n_cords);
   ck_assert_double_eq(again.metrics.max_turning, p.metrics.max_turning);
 
   thr_report_destroy(&other);
   thr_plan_destroy(&again);
+  thr_report_destroy(&r);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Ends that are given stay where they are, also where only one node may have any, and tubes are
+ * tied. */
+START_TEST(what_is_recommended_keeps_ends_and_joints)
+{
+  thr_frame f = grid_make(4, 4);
+  bool first[16] = {true};
+  thr_request o = thr_request_default();
+  thr_plan p;
+  thr_report r;
+  thr_err e = {0};
+  o.ends = _i == 0 ? THR_ENDS_CLOSED : _i == 1 ? THR_ENDS_NODES : THR_ENDS_ANY;
+  o.end_node = _i == 1 ? first : NULL;
+  o.joint = _i == 2 ? THR_JOINT_TUBE : THR_JOINT_SOLID;
+  assert_ok(thr_plan_recommended(&f, &o, &(thr_recommend_options){.hand = 4, .ends_given = true},
+                                 &(thr_limits){0}, &p, &r, &e),
+            &e);
+  assert_ok(thr_check_plan(&p, &e), &e);
+  ck_assert_int_eq(p.options.ends, o.ends);
+  ck_assert_int_eq(p.options.joint, o.joint);
+  ck_assert_int_gt(p.n_cords, 1);
+  ck_assert_double_le(thr_cords_pulled_turning(&p.frame, p.cord, p.n_cords),
+                      log(4) / 0.3 * (1 + 1e-9));
   thr_report_destroy(&r);
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
@@ -96,7 +127,9 @@ START_TEST(what_is_recommended_counts_cords_in_every_component)
   thr_report r;
   thr_err e = {0};
   int of_grid = 0;
-  assert_ok(thr_plan_recommended(&f, &o, thr_hand_always, &(thr_limits){0}, &p, &r, &e), &e);
+  assert_ok(thr_plan_recommended(&f, &o, &(thr_recommend_options){.hand = thr_hand_always},
+                                 &(thr_limits){0}, &p, &r, &e),
+            &e);
   assert_ok(thr_check_plan(&p, &e), &e);
   for (int i = 0; i < p.n_cords; i++)
     of_grid += p.cord[i].component == 0;
@@ -429,6 +462,7 @@ int main(void)
   add_case(s, "objectives", 60, plans_for_every_objective_are_written_and_read, 0,
            THR_N_OBJECTIVES);
   add_case(s, "recommended", 60, what_is_recommended_stays_within_the_hand, 0, 2);
+  add_case(s, "recommended as given", 60, what_is_recommended_keeps_ends_and_joints, 0, 3);
   add_case(s, "recommended by parts", 60, what_is_recommended_counts_cords_in_every_component, 0,
            1);
   add_case(s, "proofs", 60, every_plan_comes_with_proofs, 0, 2 * THR_N_OBJECTIVES);
