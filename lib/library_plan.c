@@ -178,10 +178,13 @@ static thr_status search_and_send(void *user, const thr_limits *given, thr_reply
   thr_status st = thr_library_request(options, job->frame, &request, err);
   if (!st) {
     thr_limits limits = thr_library_limits(options, &request, given, &work);
+    const bool recommends = thr_library_recommends(options);
+    const double hand = !recommends ? 0 : options->hand > 0 ? options->hand : thr_hand_always;
     job->given = given;
     job->reply = reply;
     job->best = (thr_incumbent){.frame = job->frame,
                                 .options = &request,
+                                .hand = hand,
                                 .value = INFINITY,
                                 .keep = send_found,
                                 .user = job};
@@ -189,11 +192,8 @@ static thr_status search_and_send(void *user, const thr_limits *given, thr_reply
     limits.progress = given->progress ? pass_progress : NULL;
     limits.advance = given->advance ? pass_advance : NULL;
     limits.found = given->progress ? take_found : NULL;
-    st = thr_library_recommends(options)
-             ? thr_plan_recommended(job->frame, &request,
-                                    options->hand > 0 ? options->hand : thr_hand_always, &limits,
-                                    &plan, &report, err)
-             : thr_plan_make(job->frame, &request, &limits, &plan, &report, err);
+    st = recommends ? thr_plan_recommended(job->frame, &request, hand, &limits, &plan, &report, err)
+                    : thr_plan_make(job->frame, &request, &limits, &plan, &report, err);
   }
 
   /* A plan without cords is no plan. */
