@@ -23,9 +23,10 @@ static void keep(void *user, const thr_plan *plan, const thr_text *text)
 
 static thr_incumbent best;
 
-void best_begin(const thr_frame *frame, const thr_request *options)
+void best_begin(const thr_frame *frame, const thr_request *options, double hand)
 {
-  best = (thr_incumbent){.frame = frame, .options = options, .value = INFINITY, .keep = keep};
+  best = (thr_incumbent){
+      .frame = frame, .options = options, .hand = hand, .value = INFINITY, .keep = keep};
 }
 
 void best_found(void *user, const thr_cord *cord, int n_cords, const thr_symmetry_record *symmetry)

@@ -395,9 +395,9 @@ void progress_plan(const thr_plan *plan);
 /* ---- best.c: The best cords found so far, handed to the parent (cli/guard.c) as a plan that
  * claims nothing. */
 
-/* What cords must be: those of a plan for this framework with these options. Both stay as they are
- * until the search is over. */
-void best_begin(const thr_frame *frame, const thr_request *options);
+/* What cords must be: those of a plan for this framework with these options, both of which stay as
+ * they are until the search is over; or, for a hand, N, as few as it can pull (0 = none). */
+void best_begin(const thr_frame *frame, const thr_request *options, double hand);
 
 /* For thr_limits.found: keeps the cords if they pass the checker and are better than the last ones,
  * a few times a second at most. O(size of a plan). */

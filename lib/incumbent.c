@@ -7,6 +7,8 @@
  * checker; and at most five times a second, because every plan is measured, checked and written for
  * that. */
 #include "graph/check/check.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/plan_measures.h"
 #include "lib/lib.h"
 #include "planner/planner.h"
 #include "symmetry/cover/cover.h"
@@ -15,14 +17,41 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* s between two plans that are kept, but for the first two: one that takes no search, and a good
- * one. */
-static const double OFTEN = 0.2;
+/* s between two plans that are looked at, and so many times as long as looking took, but for the
+ * first two that are kept: one that takes no search, and a good one. */
+static const double OFTEN = 0.2, MUCH = 9;
+
+/* Returns what is minimized where as few cords are wanted as a hand can pull with `hand`, N, even
+ * at the upper end of the band of mu: their number, and of as many the pull; what is beyond the
+ * hand comes after all others. */
+static double recommended_value(const thr_plan *plan, double hand)
+{
+  double pull[THR_ADVICE_PULLS];
+  thr_physics physics;
+  if (thr_physics_resolve(&plan->options.physics, &plan->frame, &physics, NULL)) return INFINITY;
+
+  thr_advice_pulls(&physics, thr_cords_pulled_turning(&plan->frame, plan->cord, plan->n_cords),
+                   pull);
+  const double hardest = pull[THR_ADVICE_HIGH];
+  return hardest <= hand * (1 + 1e-9) ? plan->n_cords + hardest / (1 + hardest) : 1e9 + hardest;
+}
+
+/* Do all cords end at feet? */
+static bool ends_at_feet(const thr_plan *plan)
+{
+  bool all = true;
+  for (int i = 0; i < plan->n_cords; i++)
+    all &= plan->frame.foot[thr_cord_start(&plan->frame, &plan->cord[i])] &&
+           plan->frame.foot[thr_cord_end(&plan->frame, &plan->cord[i])];
+  return all;
+}
 
 /* Returns what is minimized first: learned steps, the longest cord (units), turning (rad) or length
  * (units). */
-static double minimized_value(const thr_plan *plan)
+static double minimized_value(const thr_incumbent *best, const thr_plan *plan)
 {
+  if (best->hand > 0) return recommended_value(plan, best->hand);
+
   /* The first aim that the request has counts; of a symmetric plan the learned steps. */
   if (thr_wants_symmetry(&plan->options)) return plan->symmetry.steps;
   if (thr_wants_balance(&plan->options))
@@ -62,11 +91,19 @@ static bool count_cords(const thr_plan *plan, int *fewest, int *most)
 
 /* Returns whether the cords are as many as asked for, and none is too long. Of a symmetric plan
  * they may be as many as they are: options.cords becomes the most in a component. */
-static bool fits_request(thr_plan *plan)
+static bool fits_request(const thr_incumbent *best, thr_plan *plan)
 {
   int fewest, most;
 
   if (!count_cords(plan, &fewest, &most) || most > THR_MOST_CORDS) return false;
+
+  /* Where nobody says which, the plan says what they are. */
+  if (best->hand > 0) {
+    plan->options.ends = ends_at_feet(plan) ? THR_ENDS_FEET : THR_ENDS_ANY;
+    plan->options.cords = most;
+    plan->options.cords_least = fewest;
+    return true;
+  }
   bool counted = thr_plan_counted(&plan->options);
   if (!counted) plan->options.cords = most;
   bool few_enough = most <= plan->options.cords, enough = fewest >= plan->options.cords_least;
@@ -86,20 +123,20 @@ static bool is_better(const thr_incumbent *best, thr_plan *plan)
 {
   bool others;
 
-  if (!fits_request(plan) || thr_plan_measure(&plan->frame, &plan->options, plan->cord,
-                                              plan->n_cords, &plan->metrics, NULL))
+  if (!fits_request(best, plan) || thr_plan_measure(&plan->frame, &plan->options, plan->cord,
+                                                    plan->n_cords, &plan->metrics, NULL))
     return false;
 
   /* Cords that cross inside pieces are led otherwise, as in the final plan. */
   if (thr_plan_uncross(plan, &others, NULL)) return false;
   if (plan->options.distinct > 0 && plan->metrics.distinct < plan->frame.n_edges) return false;
 
-  return minimized_value(plan) < best->value * (1 - 1e-9) && thr_check_plan(plan, NULL) == THR_OK;
+  return minimized_value(best, plan) < best->value * (1 - 1e-9) &&
+         thr_check_plan(plan, NULL) == THR_OK;
 }
 
-/* Hands a plan over if it is better than the last one. plan: of borrowed parts. now: thr_clock().
- */
-static void keep_better(thr_incumbent *best, thr_plan *plan, double now)
+/* Hands a plan over if it is better than the last one. plan: of borrowed parts. */
+static void keep_better(thr_incumbent *best, thr_plan *plan)
 {
   thr_text text = {0};
 
@@ -110,8 +147,7 @@ static void keep_better(thr_incumbent *best, thr_plan *plan, double now)
   best->keep(best->user, plan, &text);
   thr_text_destroy(&text);
 
-  best->value = minimized_value(plan);
-  best->at = now;
+  best->value = minimized_value(best, plan);
   best->n++;
 }
 
@@ -149,10 +185,11 @@ static void free_passes(thr_plan *plan)
 void thr_incumbent_found(thr_incumbent *best, const thr_cord *cord, int n_cords,
                          const thr_symmetry_record *symmetry)
 {
-  double now = thr_clock();
+  const double now = thr_clock();
+  const int n_kept = best->n;
   thr_symmetry_record own = {0};
 
-  if (!best->frame || n_cords == 0 || (best->n > 1 && now - best->at < OFTEN)) return;
+  if (!best->frame || n_cords == 0 || now < best->next) return;
 
   /* A plan of borrowed parts; ids by number. */
   thr_plan plan = {.frame = *best->frame, .options = *best->options, .n_cords = n_cords};
@@ -176,9 +213,13 @@ void thr_incumbent_found(thr_incumbent *best, const thr_cord *cord, int n_cords,
   if (copies) plan.symmetry = symmetry ? *symmetry : own;
 
   if (sound && own_passes(&plan)) {
-    keep_better(best, &plan, now);
+    keep_better(best, &plan);
     free_passes(&plan);
   }
+
+  /* Most of the time stays with the search. */
+  const double end = thr_clock();
+  if (best->n == n_kept || best->n > 1) best->next = end + fmax(OFTEN, MUCH * (end - now));
 
   thr_symmetry_record_destroy(&own);
   free(plan.cord);

@@ -107,8 +107,11 @@ thr_status thr_library_give(thr_text *text, char **bytes, size_t *n, thr_err *er
 typedef struct {
   const thr_frame *frame; /* borrowed, as options; NULL = nothing is kept */
   const thr_request *options;
-  int n;            /* kept so far */
-  double value, at; /* of the last one: what is minimized, thr_clock() */
+  int n;        /* kept so far */
+  double value; /* of the last one: what is minimized */
+  double next;  /* thr_clock() before which nothing is looked at */
+  double hand;  /* N, 0 = none: as few cords are wanted as it can pull (thr_plan_recommended), with
+                   ends of any kind */
   void (*keep)(void *user, const thr_plan *plan, const thr_text *text); /* the plan, and as JSON */
   void *user;
 } thr_incumbent;

@@ -183,7 +183,7 @@ static thr_status search_and_send(void *user, const thr_limits *given, thr_reply
 {
   search *job = user;
   const thread_plan_options *options = job->options;
-  thr_request request, kept;
+  thr_request request;
   thr_plan plan = {0};
   thr_report report = {0};
   thr_text text = {0};
@@ -191,32 +191,28 @@ static thr_status search_and_send(void *user, const thr_limits *given, thr_reply
 
   thr_status st = thr_library_request(options, job->frame, &request, err);
   if (!st) {
-    /* Of what is recommended any number of cords is kept, the more easily pulled the better. */
-    kept = request;
-    if (thr_library_recommends(options)) {
-      kept.aims = (thr_aims){1, {THR_AIM_PULL}};
-      if (options->ends == THREAD_UNSAID) kept.ends = THR_ENDS_ANY;
-      kept.cords_least = 1;
-      kept.cords = THR_MOST_CORDS;
-    }
-
     thr_limits limits = thr_library_limits(options, &request, given, &work);
-    const thr_recommend_options recommended = {.hand = options->hand > 0 ? options->hand
-                                                                         : thr_hand_always,
+    const bool recommends = thr_library_recommends(options);
+    const double hand = !recommends ? 0 : options->hand > 0 ? options->hand : thr_hand_always;
+    const thr_recommend_options recommended = {.hand = hand,
                                                .ends_given = options->ends != THREAD_UNSAID};
     job->given = given;
     job->reply = reply;
-    job->best = (thr_incumbent){
-        .frame = job->frame, .options = &kept, .value = INFINITY, .keep = send_found, .user = job};
+    job->best = (thr_incumbent){.frame = job->frame,
+                                .options = &request,
+                                .hand = hand,
+                                .value = INFINITY,
+                                .keep = send_found,
+                                .user = job};
     limits.user = job;
     limits.progress = given->progress ? pass_progress : NULL;
     limits.advance = given->advance ? pass_advance : NULL;
     limits.found = given->progress ? take_found : NULL;
     st =
-        thr_library_recommends(options)
+        recommends
             ? thr_plan_recommended(job->frame, &request, &recommended, &limits, &plan, &report, err)
             : thr_plan_make(job->frame, &request, &limits, &plan, &report, err);
-    if (!st && thr_library_recommends(options) && thr_limits_stop(&limits))
+    if (!st && recommends && thr_limits_stop(&limits))
       st = thr_fail(err, THR_ELIMIT, "the time was over before fewer cords were tried");
   }
 

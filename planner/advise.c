@@ -4,7 +4,9 @@
  * (graph/plan/plan_measures.h).
  *
  * Each row starts from the plan with one cord in every component, cut evenly, or from symmetric
- * cords, and is then searched for as far as the time allows. Numbers grow as 1, 2, 3, 4, 6, 8, 12,
+ * cords; these rows take a tenth of the time and are told first. Then comes the plan that is
+ * recommended, and then a search for every row as far as the time allows. Numbers grow as 1, 2, 3,
+ * 4, 6, 8, 12,
  * .. until more cords no longer lower the pull. Frameworks of many edges or components are cut
  * only. Several components get rows of their own, which are joined: each component takes as few
  * cords as the pull of the hardest one allows.
@@ -49,6 +51,7 @@ typedef struct {
   int room;        /* for rows */
   bool searches;   /* is the framework, of few components, small enough for searches? */
   thr_advice *out;
+  thr_plan *promised; /* what is recommended, empty until it is made (make_promised); borrowed */
 } advice_search;
 
 /* ---- learned steps ---- */
@@ -498,6 +501,78 @@ static thr_status search_numbers(advice_search *adviser, ends_kind *kinds, int n
   return st;
 }
 
+/* ---- what is promised ---- */
+
+/* Makes the plan that the command for the recommended row makes: within what a hand always manages
+ * the plan of `thread plan` alone (recommend.c), else the one of least pull with as many cords, in
+ * the work that is usual for it. */
+static thr_status make_promised(const advice_search *adviser, thr_plan *plan, thr_err *err)
+{
+  const thr_advice *out = adviser->out;
+  thr_limits limits = *adviser->limits;
+  thr_request request = adviser->request;
+  thr_report report = {0};
+  thr_err why = {0};
+  thr_status st = THR_OK;
+
+  /* Nothing was counted before the command, and nobody hears of its cords. */
+  limits.work = NULL;
+  limits.usual = true;
+  limits.found = NULL;
+
+  if (out->hand == thr_hand_always) {
+    st = thr_plan_recommended(adviser->frame, &request, &(thr_recommend_options){.hand = out->hand},
+                              &limits, plan, &report, &why);
+  } else if (out->chosen >= 0) {
+    const thr_advice_row *row = &out->row[out->chosen];
+    request.aims = (thr_aims){1, {THR_AIM_PULL}};
+    request.ends = row->ends;
+    request.cords = request.cords_least = row->cords;
+    double work = thr_dispatch_work(&request);
+    const thr_limits counted = thr_limits_counted(&limits, &work);
+    st = thr_plan_make(adviser->frame, &request, &counted, plan, &report, &why);
+  }
+
+  thr_report_destroy(&report);
+  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails promises nothing */
+}
+
+static bool is_promise(const thr_plan *plan)
+{
+  return plan->n_cords > 0 && plan->options.ends != THR_ENDS_CLOSED;
+}
+
+/* Fills a row with what the command's plan measures, keeps the bound that the row had, and tells
+ * it. */
+static void tell_promised(advice_search *adviser, const thr_plan *plan, thr_advice_row *row)
+{
+  const ends_kind kind = {.ends = plan->options.ends};
+  const double bound = row->bound, base_length = adviser->out->base_length;
+
+  *row = (thr_advice_row){.bound = bound, .searched = adviser->frame->n_edges <= MOST_SEARCHED};
+  measure_row(adviser, &kind, plan, row);
+  row->optimal = row->turning <= row->bound * (1 + 1e-9);
+  adviser->out->base_length = base_length;
+  if (adviser->options->row) adviser->options->row(adviser->options->user, row, plan);
+}
+
+/* Makes what is recommended and tells it, where it does not depend on the rows: within what a hand
+ * always manages. */
+static thr_status promise_early(advice_search *adviser, thr_err *err)
+{
+  thr_advice_row row = {0};
+  if (!adviser->promised || adviser->out->hand != thr_hand_always) return THR_OK;
+
+  const thr_status st = make_promised(adviser, adviser->promised, err);
+  if (st || !is_promise(adviser->promised)) return st;
+  tell_promised(adviser, adviser->promised, &row);
+  if (adviser->options->recommended)
+    adviser->options->recommended(adviser->options->user, &row, adviser->promised);
+  return THR_OK;
+}
+
+/* ---- the order of work ---- */
+
 static void kind_destroy(ends_kind *kind)
 {
   thr_plan_destroy(&kind->first);
@@ -523,7 +598,8 @@ static thr_status cut_plan(advice_search *adviser, ends_kind *kind, const thr_pl
 }
 
 /* Makes the rows of a framework that is small enough for searches, in the order of their use: one
- * cord, cut and symmetric cords, the fewest cords within the hand's force, all others. */
+ * cord, cut and symmetric cords, what is recommended, the fewest cords within the hand's force, all
+ * others. */
 static thr_status search_all(advice_search *adviser, ends_kind *kinds, int n_kinds, thr_err *err)
 {
   ends_kind closed = {.ends = THR_ENDS_CLOSED, .pull = INFINITY};
@@ -534,6 +610,7 @@ static thr_status search_all(advice_search *adviser, ends_kind *kinds, int n_kin
     st = try_first(adviser, &kinds[i], &closed.first, err);
   for (int i = 0; i < n_kinds && !st; i++)
     st = cut_numbers(adviser, &kinds[i], err);
+  if (!st) st = promise_early(adviser, err);
   for (int i = 0; i < n_kinds && !st; i++)
     st = search_fewest(adviser, &kinds[i], err);
 
@@ -559,19 +636,22 @@ static thr_status cut_shortest(advice_search *adviser, ends_kind *kinds, int n_k
   for (int i = 0; i < n_kinds && !st; i++)
     st = cut_plan(adviser, &kinds[i], plan ? plan : &shortest, err);
   thr_plan_destroy(&shortest);
-  return st;
+  return st ? st : promise_early(adviser, err);
 }
 
-/* Appends the rows of a framework of one component, or of all components alike. */
+/* Appends the rows of a framework of one component, or of all components alike. promised: receives
+ * what is recommended where that does not depend on the rows; NULL: nobody asks. */
 static thr_status find_rows(const thr_frame *frame, const thr_request *request,
                             const thr_advise_options *options, bool searches,
-                            const thr_limits *limits, thr_advice *out, thr_err *err)
+                            const thr_limits *limits, thr_plan *promised, thr_advice *out,
+                            thr_err *err)
 {
   advice_search adviser = {.frame = frame,
                            .request = thr_request_default(),
                            .limits = limits,
                            .options = options,
-                           .out = out};
+                           .out = out,
+                           .promised = promised};
 
   /* Ends anywhere are one kind; ends at feet come first where the framework has feet. */
   ends_kind kinds[2] = {{.ends = THR_ENDS_ANY, .pull = INFINITY}};
@@ -727,7 +807,8 @@ static thr_status find_by_components(const thr_components *components, const thr
     if ((st = thr_component_take(components, k, &asked, err))) break;
     part[k] = (thr_advice){.physics = out->physics, .hand = options->hand, .complete = true};
 
-    st = find_rows(&asked.frame, request, &quiet, n <= MOST_COMPONENTS, &share, &part[k], err);
+    st =
+        find_rows(&asked.frame, request, &quiet, n <= MOST_COMPONENTS, &share, NULL, &part[k], err);
     out->base_length += part[k].base_length;
     out->complete &= part[k].complete;
     thr_plan_destroy(&asked);
@@ -740,63 +821,10 @@ static thr_status find_by_components(const thr_components *components, const thr
   return st;
 }
 
-/* ---- what is promised ---- */
-
-/* Makes the plan that the command for the recommended row makes: within what a hand always manages
- * the plan of `thread plan` alone (recommend.c), else the one of least pull with as many cords, in
- * the work that is usual for it. */
-static thr_status make_promised(const advice_search *adviser, thr_plan *plan, thr_err *err)
-{
-  const thr_advice *out = adviser->out;
-  thr_limits limits = *adviser->limits;
-  thr_request request = adviser->request;
-  thr_report report = {0};
-  thr_err why = {0};
-  thr_status st = THR_OK;
-
-  /* Nothing was counted before the command, and nobody hears of its cords. */
-  limits.work = NULL;
-  limits.usual = true;
-  limits.found = NULL;
-
-  if (out->hand == thr_hand_always) {
-    st = thr_plan_recommended(adviser->frame, &request, &(thr_recommend_options){.hand = out->hand},
-                              &limits, plan, &report, &why);
-  } else if (out->chosen >= 0) {
-    const thr_advice_row *row = &out->row[out->chosen];
-    request.aims = (thr_aims){1, {THR_AIM_PULL}};
-    request.ends = row->ends;
-    request.cords = request.cords_least = row->cords;
-    double work = thr_dispatch_work(&request);
-    const thr_limits counted = thr_limits_counted(&limits, &work);
-    st = thr_plan_make(adviser->frame, &request, &counted, plan, &report, &why);
-  }
-
-  thr_report_destroy(&report);
-  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails promises nothing */
-}
-
-static bool is_promise(const thr_plan *plan)
-{
-  return plan->n_cords > 0 && plan->options.ends != THR_ENDS_CLOSED;
-}
-
-/* Fills a row with what the command's plan measures, keeps the bound that the row had, and tells
- * it. */
-static void tell_promised(advice_search *adviser, const thr_plan *plan, thr_advice_row *row)
-{
-  const ends_kind kind = {.ends = plan->options.ends};
-  const double bound = row->bound, base_length = adviser->out->base_length;
-
-  *row = (thr_advice_row){.bound = bound, .searched = adviser->frame->n_edges <= MOST_SEARCHED};
-  measure_row(adviser, &kind, plan, row);
-  row->optimal = row->turning <= row->bound * (1 + 1e-9);
-  adviser->out->base_length = base_length;
-  if (adviser->options->row) adviser->options->row(adviser->options->user, row, plan);
-}
+/* ---- all of it ---- */
 
 /* Puts what the command's plan measures in the place of the recommended row. */
-static thr_status promise(advice_search *adviser, const thr_plan *plan, thr_err *err)
+static thr_status promise(advice_search *adviser, thr_plan *plan, thr_err *err)
 {
   thr_advice *out = adviser->out;
   if (!is_promise(plan)) return THR_OK;
@@ -815,6 +843,10 @@ static thr_status promise(advice_search *adviser, const thr_plan *plan, thr_err 
   adviser->room = out->n;
   if (!st && !row && !(st = new_row(adviser, &row, err))) *row = promised;
   if (!st) out->chosen = thr_advice_within(out, row) ? (int)(row - out->row) : -1;
+
+  /* What depends on the rows is told here, anything else was told early. */
+  if (!st && adviser->options->recommended && out->hand != thr_hand_always && out->chosen >= 0)
+    adviser->options->recommended(adviser->options->user, row, plan);
   return st;
 }
 
@@ -839,20 +871,16 @@ thr_status thr_advise(const thr_frame *frame, const thr_request *request,
   promising.request.physics = request->physics;
   if (!st && frame->n_edges <= MOST_SEARCHED) st = find_group(&promising, err);
 
-  /* Within what a hand always manages it does not depend on the rows: it is told first. */
-  const bool first = out->hand == thr_hand_always;
-  thr_advice_row row = {0};
+  /* Of several components, whose rows come last, it is told first. */
   thr_plan plan = {0};
-  if (!st && first) st = make_promised(&promising, &plan, err);
-  if (!st && is_promise(&plan)) tell_promised(&promising, &plan, &row);
-
+  promising.promised = &plan;
   if (!st && components.n == 1)
-    st = find_rows(frame, request, options, true, limits, out, err);
-  else if (!st)
+    st = find_rows(frame, request, options, true, limits, &plan, out, err);
+  else if (!st && !(st = promise_early(&promising, err)))
     st = find_by_components(&components, request, options, limits, out, err);
 
   if (!st) thr_advice_settle(out);
-  if (!st && !first) st = make_promised(&promising, &plan, err);
+  if (!st && out->hand != thr_hand_always) st = make_promised(&promising, &plan, err);
   if (!st) st = promise(&promising, &plan, err);
   thr_plan_destroy(&plan);
   thr_group_destroy(&promising.group);

@@ -21,7 +21,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST_TRIED = 5000 /* edges */, MOST_TRIALS = 8 };
+enum { MOST_TRIED = 5000 /* edges */, MOST_TRIALS = 8, MOST_IDLE = 2 };
 
 /* Counted work of a trial, s. */
 static const double work_of_trial = 0.3;
@@ -42,11 +42,17 @@ typedef struct {
   double reach; /* rad that an end may have to overcome within the hand */
 } recommendation;
 
+/* Returns what the hardest end of the plan's cords has to overcome, rad; INFINITY without cords. */
+static double hardest_of(const recommendation *of, const thr_plan *plan)
+{
+  return plan->n_cords > 0 ? thr_cords_pulled_turning(of->frame, plan->cord, plan->n_cords)
+                           : INFINITY;
+}
+
 /* Does every end of the plan's cords stay within the hand? */
 static bool is_within(const recommendation *of, const thr_plan *plan)
 {
-  return plan->n_cords > 0 &&
-         thr_cords_pulled_turning(of->frame, plan->cord, plan->n_cords) <= of->reach * (1 + 1e-9);
+  return hardest_of(of, plan) <= of->reach * (1 + 1e-9);
 }
 
 /* Plans so many cords in every component; *plan stays empty where none are found. */
@@ -59,7 +65,6 @@ static thr_status try_number(const recommendation *of, int cords, thr_plan *plan
   thr_err why = {0};
 
   little.usual = little.unpriced = true;
-  little.found = NULL;   /* another number of cords than was shown first */
   little.advance = NULL; /* a part of this trial */
   request.cords = request.cords_least = cords;
   const thr_status st = thr_plan_make(of->frame, &request, &little, plan, report, &why);
@@ -122,14 +127,19 @@ static void take(thr_plan *into, thr_report *into_report, thr_plan *plan, thr_re
   *report = (thr_report){0};
 }
 
-/* Finds the fewest cords within the hand, between what the turning allows and `most`. */
+/* Finds the fewest cords within the hand, between what the turning allows and `most`. Where ends
+ * are at few feet more cords of the least length are short ones beside a long one: upwards it is
+ * given up when two numbers in sequence have not lowered the pull. */
 static thr_status try_numbers(const recommendation *of, int least, int most, thr_plan *plan,
                               thr_report *report, thr_err *err)
 {
   thr_status st = THR_OK;
-  int beyond = least - 1, within = most + 1, cords = least, step = 1;
+  int beyond = least - 1, within = most + 1, cords = least, step = 1, idle = 0;
+  double easiest = INFINITY; /* rad, of the numbers beyond the hand */
 
-  for (int trial = 0; trial < MOST_TRIALS && !st && cords > beyond && cords < within; trial++) {
+  for (int trial = 0;
+       trial < MOST_TRIALS && idle < MOST_IDLE && !st && cords > beyond && cords < within;
+       trial++) {
     if (trial > 0 && thr_limits_stop(of->limits)) break;
     thr_plan tried = {0};
     thr_report found = {0};
@@ -138,7 +148,10 @@ static thr_status try_numbers(const recommendation *of, int least, int most, thr
     if (of->limits->advance)
       of->limits->advance(of->limits->user, "numbers of cords", (trial + 0.5) / MOST_TRIALS);
     st = try_number(of, cords, &tried, &found, err);
+    const double hardest = st ? INFINITY : hardest_of(of, &tried);
     const bool fits = !st && is_within(of, &tried);
+    if (!fits && within > most) idle = hardest < easiest ? 0 : idle + 1;
+    easiest = fmin(easiest, hardest);
     if (fits) take(plan, report, &tried, &found);
     if (fits) within = cords;
     if (!fits) beyond = cords;

@@ -15,7 +15,7 @@
 #include "graph/plan/request.h"
 #include "planner/planner.h"
 
-static const double usual_work = 2; /* counted, in seconds */
+static const double usual_work = 0.3; /* counted, in seconds */
 
 /* Appends an option with a word that a shell reads as it is. */
 static void put_option(thr_text *text, const char *option, const char *value)

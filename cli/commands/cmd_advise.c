@@ -10,7 +10,7 @@
  * The searches are thr_advise's (planner/advise.c), the table is cli/print/advice_table.c. This
  * file parses the options, shows rows on a terminal as they are found, keeps the cords of every row
  * so that the recommended ones can be asked from which pull on they hold the pieces, and writes
- * table, picture or JSON.
+ * table, picture, plan or JSON.
  *
  * Example: of the 7 x 7 dome `thread advise dome.json` recommends 4 cords to the feet, pulled with
  * 3.27 N at most. */
@@ -46,7 +46,7 @@ static const char outro[] =
     "Exit codes: 0 a row is recommended, 2 usage, 3 bad input, 4 no row stays within the hand "
     "(table printed), or no threading, 5 no row in time";
 
-enum { TYPE_TEXT, TYPE_SVG, N_TYPES };
+enum { TYPE_TEXT, TYPE_SVG, TYPE_PLAN, N_TYPES };
 
 /* The command line. Strings point into argv. */
 typedef struct {
@@ -62,7 +62,8 @@ typedef struct {
 
 static const char *type_name(int type)
 {
-  return type == TYPE_SVG ? "svg" : "text";
+  static const char *const name[] = {"text", "svg", "plan"};
+  return name[type];
 }
 
 static bool take_hand(void *into, const cli_option *option, const char *value)
@@ -74,12 +75,12 @@ static bool take_hand(void *into, const cli_option *option, const char *value)
 #define AT(member) .offset = offsetof(advise_arguments, member)
 
 static const cli_option own_options[] = {
-    {"type", 'T', NULL, "a table (default), or a picture", .kind = CLI_WORD, AT(type),
-     .word = type_name, .n_words = N_TYPES},
+    {"type", 'T', NULL, "a table (default), a picture, or the recommended plan", .kind = CLI_WORD,
+     AT(type), .word = type_name, .n_words = N_TYPES},
     {"output", 'o', "FILE", "(default: stdout)", .kind = CLI_OUTPUT, AT(output)},
     {"progress", .kind = CLI_FLAG, AT(progress),
-     .help = "a line of JSON on stderr each time a row is found or better, the recommended one "
-             "first where --hand is as usual"},
+     .help = "a line of JSON on stderr each time a row is found or better, and as soon as it is "
+             "known which one is recommended"},
     {"hand", .value = "N", .kind = CLI_OTHER, .take = take_hand,
      .help = "what the pull is to stay within, in newton, even at the upper end of the band of mu "
              "(default: 10, what a hand manages time after time; one: 50, the most; two: 100)"},
@@ -87,7 +88,7 @@ static const cli_option own_options[] = {
 
 static const cli_option time_options[] = {
     {GUARD_TIME_LIMIT, .help = "for all rows together, 0 = until every search has ended (without "
-                               "it some two seconds, counted: the same rows on every machine)"},
+                               "it less than a second, counted: the same rows on every machine)"},
     {0}};
 
 /* Parses the command line into *args. Returns -1 to go on, or the exit code of the command. */
@@ -119,9 +120,11 @@ static int parse(int argc, char **argv, advise_arguments *args)
   args->path = argv[optind];
 
   /* Outputs. */
-  if (cli_json && args->type == TYPE_SVG && strcmp(args->output, "-") == 0)
-    return cli_usage("advise",
-                     "--json and the picture both want stdout; -o FILE takes the picture");
+  const bool is_plan = args->type == TYPE_PLAN;
+  if (is_plan && cli_no_plan_name("advise", args->output)) return EXIT_USAGE;
+  if (cli_json && args->type != TYPE_TEXT && strcmp(args->output, "-") == 0)
+    return cli_usage("advise", "--json and the %s both want stdout; -o FILE takes the %s",
+                     is_plan ? "plan" : "picture", is_plan ? "plan" : "picture");
 
   return -1;
 }
@@ -147,6 +150,10 @@ typedef struct {
   int lines;        /* .. so many lines, which the finished table takes the place of */
   kept_cords *kept; /* [n_kept] owned */
   int n_kept;
+  bool wants_plan;
+  thr_text plan; /* the recommended one as JSON, if it is wanted and there is one .. */
+  thr_status st; /* .. and whether it passed its check */
+  thr_err err;
 } table_state;
 
 /* Keeps a copy of the cords of a plan as those of a row. Without memory for a copy there is nothing
@@ -174,9 +181,10 @@ static void keep_cords(table_state *state, const thr_advice_row *row, const thr_
   state->kept[i].n = st ? 0 : plan->n_cords;
 }
 
-/* Frees all cords that were kept. */
+/* Frees all cords and the plan that were kept. */
 static void forget_cords(table_state *state)
 {
+  thr_text_destroy(&state->plan);
   for (int i = 0; i < state->n_kept; i++)
     thr_cords_destroy(state->kept[i].cord, state->kept[i].n);
   free(state->kept);
@@ -201,6 +209,32 @@ static bool lay_out_chosen(const table_state *state, const thr_request *request,
   return false;
 }
 
+/* Tells programs of a row. */
+static void tell_row(const char *what, const thr_advice_row *row)
+{
+  thr_text text = {0};
+  if (!progress_wanted()) return;
+
+  thr_writer writer = progress_open(&text, what);
+  thr_advice_put_row(&writer, row);
+  progress_close(&writer);
+}
+
+/* Tells which row is recommended, and keeps its plan as `thread plan` writes it, which a page has
+ * before the table is whole. Signature of thr_advise_options.recommended. */
+static void keep_recommended(void *user, const thr_advice_row *row, thr_plan *plan)
+{
+  table_state *state = user;
+  int dropped;
+  tell_row("recommended", row);
+  if (!state->wants_plan) return;
+
+  thr_frame_keep_hash(&plan->frame);
+  thr_plan_write(plan, &state->plan);
+  state->st = thr_plan_confirm(plan, &state->plan, "plan.json", &dropped, &state->err);
+  if (!state->st) guard_keep(&state->plan);
+}
+
 /* Keeps the cords of a row that was found or got better, and shows the row on a terminal. Signature
  * of thr_advise_options.row. */
 static void show_row(void *user, const thr_advice_row *row, const thr_plan *plan)
@@ -209,11 +243,7 @@ static void show_row(void *user, const thr_advice_row *row, const thr_plan *plan
   thr_text text = {0};
 
   if (plan) keep_cords(state, row, plan);
-  if (progress_wanted()) {
-    thr_writer writer = progress_open(&text, "row");
-    thr_advice_put_row(&writer, row);
-    progress_close(&writer);
-  }
+  tell_row("row", row);
   if (!state->shown) return;
 
   /* The head comes with the first row, and takes four lines. */
@@ -259,13 +289,13 @@ static int write_json(const advise_arguments *args, const thr_frame *frame,
   thr_text text = {0};
   advice_put_json(&(thr_writer){.out = &text}, frame, advice, command, chosen);
   thr_text_append(&text, "\n");
-  return cli_write(&text, args->type == TYPE_SVG ? "-" : args->output);
+  return cli_write(&text, args->type == TYPE_TEXT ? args->output : "-");
 }
 
-/* Writes table, picture or JSON; with JSON and a picture both. state: knows the cords of the
- * recommended row. Returns an exit code. */
+/* Writes table, picture, plan or JSON; with JSON and a picture or a plan both. state: knows the
+ * cords of the recommended row. Returns an exit code. */
 static int write_advice(const advise_arguments *args, const thr_frame *frame,
-                        const thr_advice *advice, const table_state *state)
+                        const thr_advice *advice, table_state *state)
 {
   thr_text text = {0}, options = {0}, command = {0};
   thr_err err = {0};
@@ -287,20 +317,31 @@ static int write_advice(const advise_arguments *args, const thr_frame *frame,
     st = thr_nomem(&err);
   else if (args->type == TYPE_SVG)
     st = draw(args, frame, advice, words, &text, &err);
-  else if (!cli_json)
+  else if (args->type == TYPE_TEXT && !cli_json)
     advice_put_table(&text, frame, advice, words);
 
+  /* The plan, if a row is recommended. */
+  const bool is_table = args->type == TYPE_TEXT;
+  if (!st && (st = state->st)) err = state->err;
+
   /* From which pull on the recommended cords hold the pieces. */
-  if (!st && !cli_json && args->type != TYPE_SVG && laid_out) advice_put_holding(&text, &chosen);
-  if (args->type == TYPE_SVG) answer_file(args->output, "the table as a picture");
+  if (!st && !cli_json && is_table && laid_out) advice_put_holding(&text, &chosen);
+  if (args->type != TYPE_TEXT)
+    answer_file(args->output, args->type == TYPE_PLAN ? "the recommended plan" : "the table as a picture");
   if (!st && cli_json) code = write_json(args, frame, advice, words, laid_out ? &chosen : NULL);
 
-  if (!st && args->type == TYPE_TEXT)
+  if (!st && is_table)
     print_fit(&text, strcmp(args->output, "-") == 0 ? thr_os_columns(STDOUT_FILENO) : 0);
 
-  /* With --json text on stdout is the table; a picture goes to its file all the same. */
-  if (!code && (st || !cli_json || args->type == TYPE_SVG))
+  /* With --json text on stdout is the table; picture and plan go to their file all the same. */
+  if (args->type == TYPE_PLAN && !st) {
+    const bool is_there = state->plan.length > 0;
+    if (!code && is_there) code = cli_write(&state->plan, args->output);
+    if (!code && !is_there) code = EXIT_INFEASIBLE;
+    if (!is_there && !cli_json) cli_error("no plan: no number of cords stays within the hand");
+  } else if (!code && (st || !cli_json || !is_table)) {
     code = cli_write_drawn(st, &text, args->output, &err);
+  }
 
   thr_text_destroy(&text);
   thr_text_destroy(&options);
@@ -325,11 +366,13 @@ static int advise(advise_arguments *args, const thr_frame *frame)
                        .physics = &resolved,
                        .base_length = args->request.cover * thr_frame_total_length(frame)};
   const int columns = thr_os_columns(STDOUT_FILENO); /* 0: the terminal does not say */
+  state.wants_plan = args->type == TYPE_PLAN;
   state.shown = (columns == 0 || columns >= WIDE) && args->type == TYPE_TEXT && !cli_json &&
                 !cli_quiet && strcmp(args->output, "-") == 0 && cli_is_terminal(STDOUT_FILENO);
 
   /* The search, whose work is counted unless a time was given. */
-  const thr_advise_options options = {.hand = args->hand, .row = show_row, .user = &state};
+  const thr_advise_options options = {
+      .hand = args->hand, .row = show_row, .recommended = keep_recommended, .user = &state};
   double work = 0;
   thr_limits limits = advice_limits(args->guard.seconds, &work);
   cli_step("trying numbers of cords", "");

@@ -180,7 +180,7 @@ static thr_status make_plan(const plan_arguments *args, const thr_frame *framewo
   /* From here on the best cords go to the parent. */
   thr_limits limits = plan_limits(args, options, time_of_plan(args, options), &work);
   cli_step("planning", "");
-  best_begin(framework, options);
+  best_begin(framework, options, plan_is_recommended(args) ? thr_hand_always : 0);
   limits.found = best_found;
 
   /* Programs hear only bounds of what was asked. */
@@ -235,12 +235,12 @@ static int plan_frame(const plan_arguments *args, thr_frame *framework)
   if (code == EXIT_OK) {
     /* The search, and one last chance for its cords to be kept, with the options that they have. */
     thr_status st = make_plan(args, framework, &options, &result, &err);
-    if (result.plan.n_cords > 0) best_begin(&result.plan.frame, &result.plan.options);
+    if (result.plan.n_cords > 0) best_begin(&result.plan.frame, &result.plan.options, 0);
     if (guard_deadline() > 0)
       best_found(NULL, result.plan.cord, result.plan.n_cords,
                  result.plan.symmetry.present ? &result.plan.symmetry : NULL);
 
-    best_begin(NULL, NULL);
+    best_begin(NULL, NULL, 0);
     thr_frame_destroy(framework);
 
     /* A plan that is not proved within the limits is a plan, with EXIT_LIMIT. */
