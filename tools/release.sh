@@ -19,7 +19,7 @@ if [ "$1" = --ready ]; then
   "$top/tools/npm-packages.sh" "$top/web/rhino" "$2/rhino3dm" || refuse 'rhino3dm, which npm fetches, is missing (above)'
   exit 0
 fi
-version=$1 out=$2
+version=$1 out=$(cd "$2" && pwd)
 folder=$out/thread-$version
 : "${SOURCE_DATE_EPOCH:?}"
 rm -rf "$folder"
@@ -28,7 +28,7 @@ cp "$out/static/thread" "$folder/thread-linux-$(uname -m)"
 cp "$out/windows/thread.exe" "$out/web/thread.html" "$out/web/thread-3dm.js" "$out/thread-$version.tar.gz" "$folder"
 cp "$out"/wheel/*.whl "$folder"
 find "$out/deb" -maxdepth 1 -name '*.deb' ! -name '*-dbgsym_*' -exec cp {} "$folder" \;
-(cd "$out/web/npm" && npm pack --silent --pack-destination "$(cd "$folder" && pwd)" >/dev/null)
+(cd "$out/web/npm" && npm pack --silent --pack-destination "$folder" >/dev/null)
 
 cat >"$folder/README.txt" <<END
 thread $version: plans how cord is threaded through bead structures, proves it, draws it.
