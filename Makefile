@@ -26,8 +26,9 @@ DEMO = plan data/dome7.json --objective length -o $(DEMO_OUT)/plan.json --draw $
 BUILD_PACKAGES := build-essential pkg-config libglpk-dev libigraph-dev libnauty2-dev libbullet-dev \
 	libsuitesparse-dev libfontconfig-dev zlib1g-dev fonts-dejavu-core python3
 TEST_PACKAGES := check clang clang-format libclang-rt-14-dev librsvg2-bin libxml2-utils poppler-utils python3 python3-pil apngdis time cmake man-db mandoc
-# npm from elsewhere than Debian serves as well
-VIEWER_PACKAGES = chromium $(if $(shell command -v npm),,nodejs npm)
+# from elsewhere than Debian it serves as well
+NPM_PACKAGES = $(if $(shell command -v npm),,nodejs npm)
+VIEWER_PACKAGES = chromium $(NPM_PACKAGES)
 LINT_PACKAGES := clang-format clang-tidy cppcheck
 BENCH_PACKAGES := liblemon-dev libboost-graph-dev python3 time
 COVERAGE_PACKAGES := check gcovr
@@ -354,6 +355,8 @@ deb: dist ## build the Debian packages below $(OUT)/deb, with thread.html if `ma
 # one after another: each shares its jobs
 release: export SOURCE_DATE_EPOCH = $(shell git log -1 --format=%ct)
 release: ## everything that is handed on, in one folder, with checksums: $(OUT)/thread-VERSION (all of static, windows, web, wheel, deb)
+	+@tools/install-packages.sh $(BUILD_PACKAGES) $(WEB_PACKAGES) $(NPM_PACKAGES) $(WINDOWS_PACKAGES) $(DEB_PACKAGES)
+	@tools/release.sh --ready "$(LIBRARIES)"
 	+@for target in static windows web wheel deb; do $(MAKE) --no-print-directory $$target || exit 1; done
 	@tools/release.sh $(VERSION) $(OUT)
 

@@ -2,8 +2,8 @@
 # tests/release.sh [OUT]: what `make release` leaves in OUT/thread-VERSION (OUT: build), each file tried in a place where nothing else
 # of this source is: the static program with another root, thread.exe under Wine, the wheel in an environment of Python, the npm
 # package in an empty folder, the Debian packages unpacked, with their own tests, the page's script read by node. Every one makes the
-# dome and finds its least length. What is quick is made a second time, with the same bytes. Builds what is missing. Closes with
-# "N passed, N failed"; what cannot be tried here is said.
+# dome and finds its least length, with an empty HOME. What is quick is made a second time, with the same bytes. Runs `make release`
+# first. Closes with "N passed, N failed"; what cannot be tried here is said.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 out=${1:-build} passed=0 failed=0
@@ -11,8 +11,9 @@ version=$(sed -n 's/^VERSION := //p' Makefile)
 folder=$out/thread-$version
 length='1995\.24' # mm, of the dome with 7 x 7 nodes
 export LC_ALL=C.UTF-8
-plain_make() { env -u MAKEFLAGS -u MAKELEVEL "${MAKE:-make}" OUT="$out" "$@" >&2; }
-[ -e "$folder/SHA256SUMS" ] || plain_make release || { echo '0 passed, 1 failed' && exit 1; }
+home=$HOME
+plain_make() { env -u MAKEFLAGS -u MAKELEVEL HOME="$home" "${MAKE:-make}" OUT="$out" "$@" >&2; }
+plain_make release || { echo '0 passed, 1 failed' && exit 1; }
 folder=$(realpath "$folder")
 work=$(mktemp -d) || exit 1
 leave() {
@@ -20,6 +21,8 @@ leave() {
   rm -rf "$work"
 }
 trap leave EXIT
+mkdir "$work/home"
+export HOME=$work/home
 
 test_that() { # WORDS COMMAND ..
   local words=$1
@@ -50,7 +53,7 @@ npm_package() {
     [ "$(within "$work/npm" node -p 'typeof require("thread-plan").makeEngine')" = function ]
 }
 wheel() {
-  python3 -m venv --without-pip "$work/python" && python3 -m zipfile -e "$folder"/*.whl "$(echo "$work"/python/lib/python3*/site-packages)" &&
+  python3 -m venv --without-pip "$work/python" && python3 -m pip --python "$work/python/bin/python" install --no-index "$folder"/*.whl &&
     [ "$("$work/python/bin/python" -I -c 'import thread_plan; print("%.2f" % thread_plan.Frame.shape("dome", 7).set_feet().plan(cords=1, ends="closed").summary.length)')" = 1995.25 ]
 }
 debian() {
@@ -84,6 +87,13 @@ twice() { # PLACE NAME COMMAND ..: the command makes the file PLACE again, with 
   rm -f "$place" && "$@" && cmp "$place" "$folder/$name"
 }
 
+without_tools() { # one line, before anything is built
+  mkdir "$work/tools" && ln -s "$(command -v dirname)" "$(command -v git)" "$work/tools" || return
+  PATH=$work/tools /bin/sh tools/release.sh --ready "$work/libraries" 2>"$work/line" && return 1
+  cat "$work/line" && [ "$(wc -l <"$work/line")" = 1 ] && grep '^make release: missing: gcc .* emcc ' "$work/line" && [ ! -e "$work/libraries" ]
+}
+
+test_that 'without its tools it says in one line which are missing' without_tools
 test_that 'the sums are those of the files' within "$folder" sha256sum --check --strict SHA256SUMS
 test_that 'the README has no more than 25 lines' [ "$(wc -l <"$folder/README.txt")" -le 25 ]
 test_that 'the static program runs alone, and without fonts' static

@@ -1,8 +1,25 @@
 #!/bin/sh
 # tools/release.sh VERSION OUT: puts what `make static windows web wheel deb` have left below OUT into one folder, OUT/thread-VERSION,
 # with a README and SHA256SUMS. The same files give the same bytes; all have the time SOURCE_DATE_EPOCH.
+# tools/release.sh --ready LIBRARIES: before half an hour of building, is there what all of these need? The sources of the libraries
+# and npm's packages are fetched into LIBRARIES; one line says what is missing.
 set -eu
-version=$1 out=$2
+if [ "$1" = --ready ]; then
+  top=$(dirname "$0")/..
+  refuse() { echo "make release: $1" >&2 && exit 1; }
+  missing=
+  for tool in git gcc g++ x86_64-w64-mingw32-gcc-posix x86_64-w64-mingw32-g++-posix emcc node npm python3 dh dpkg-buildpackage lintian; do
+    command -v "$tool" >/dev/null || missing="$missing $tool"
+  done
+  [ -z "$missing" ] || refuse "missing:$missing"
+  changed=$(git -C "$top" status --porcelain) || refuse 'the source is packed from git, and this is no clone'
+  # shellcheck disable=SC2086 # on one line
+  [ -z "$changed" ] || refuse "the source that is handed on would be without what is not committed: $(echo $changed)"
+  "$top/targets/libraries.sh" --fetch "$2" || refuse 'the sources of the libraries are missing (above)'
+  "$top/tools/npm-packages.sh" "$top/web/rhino" "$2/rhino3dm" || refuse 'rhino3dm, which npm fetches, is missing (above)'
+  exit 0
+fi
+version=$1 out=$(cd "$2" && pwd)
 folder=$out/thread-$version
 : "${SOURCE_DATE_EPOCH:?}"
 rm -rf "$folder"
@@ -11,7 +28,7 @@ cp "$out/static/thread" "$folder/thread-linux-$(uname -m)"
 cp "$out/windows/thread.exe" "$out/web/thread.html" "$out/web/thread-3dm.js" "$out/thread-$version.tar.gz" "$folder"
 cp "$out"/wheel/*.whl "$folder"
 find "$out/deb" -maxdepth 1 -name '*.deb' ! -name '*-dbgsym_*' -exec cp {} "$folder" \;
-(cd "$out/web/npm" && npm pack --silent --pack-destination "$(cd "$folder" && pwd)" >/dev/null)
+(cd "$out/web/npm" && npm pack --silent --pack-destination "$folder" >/dev/null)
 
 cat >"$folder/README.txt" <<END
 thread $version: plans how cord is threaded through bead structures, proves it, draws it.
