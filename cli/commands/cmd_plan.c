@@ -180,7 +180,7 @@ static thr_status make_plan(const plan_arguments *args, const thr_frame *framewo
   /* From here on the best cords go to the parent. */
   thr_limits limits = plan_limits(args, options, time_of_plan(args, options), &work);
   cli_step("planning", "");
-  best_begin(framework, options, plan_is_recommended(args) ? thr_hand_always : 0);
+  best_begin(framework, options, plan_is_recommended(args, options) ? thr_hand_always : 0);
   limits.found = best_found;
 
   /* Programs hear only bounds of what was asked. */
