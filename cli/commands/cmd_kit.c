@@ -291,7 +291,11 @@ int cmd_kit(int argc, char **argv)
   if (asked.progress) progress_begin();
 
   /* The child does all of the work. */
-  if (guard_fork(&asked.guard, &end)) return guard_conclude(&end, "no kit is made");
+  if (guard_fork(&asked.guard, &end))
+    return guard_conclude(&end, end.reason == GUARD_MEMORY && asked.kit.names != THR_KIT_NO_NAMES
+                                    ? "no kit is made; with --names none pieces that "
+                                      "are alike share a mesh"
+                                    : "no kit is made");
 
   thr_plan plan;
   code = cli_read_plan(argv[optind], &plan);

@@ -586,6 +586,32 @@ static int find_stills(const thr_rise_record *record, int frame[STILLS])
   return n;
 }
 
+/* Appends what hands do besides pulling, for the booklet: rise off the table and lock, or carry the
+ * weight where that does not happen by itself. */
+static void put_hands(const rise_runs *runs, thr_text *text)
+{
+  const thr_rise_options *options = &runs->options;
+  const bool helped = options->lift > 0;
+  char weight[32];
+  thr_svg_force(runs->record[0].weight, weight);
+
+  if (helped)
+    thr_text_printf(text, " Meanwhile a %s piece %s; all weigh %s.",
+                    options->carried ? "hand carries up" : "counterweight lifts",
+                    runs->pieces.kit.name[options->lifted], weight);
+  if (options->start == THR_RISE_SHAPE)
+    thr_text_append(text, " Hold the cords drawn in until all knots are tied.");
+  else if (2 * count_up(runs) > runs->n_runs)
+    thr_text_append(text, " Rise off the table and lock: draw in all cords together until the "
+                          "faces are closed, and hold them so until all knots are tied.");
+  else
+    thr_text_printf(text,
+                    " %s it does not rise: carry its %s from below, with hands, a cushion or a "
+                    "ball, while the cords are drawn in, until the faces are closed and all knots "
+                    "are tied.",
+                    helped ? "Even so" : "By itself", weight);
+}
+
 /* Writes the booklet with stills of the first run. Returns an exit code. */
 static int write_booklet(const rise_runs *runs)
 {
@@ -609,6 +635,7 @@ static int write_booklet(const rise_runs *runs)
   thr_text_append(&note, "; ");
   put_outcome(runs, &note);
   thr_text_append(&note, ". Openings that show are pale.");
+  put_hands(runs, &note);
 
   /* Places in units of the framework. */
   for (int i = 0; i < still.n_panels && pose; i++) {
