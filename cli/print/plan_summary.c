@@ -10,6 +10,7 @@
  * number of cords with theirs; what hangs on one cord alone; pull; the pieces to make; for plans of
  * least turning the comparison with other plans (turning_summary.c). */
 #include "cli/print/print.h"
+#include "diagram/tables/tables.h"
 #include "graph/number.h"
 
 #include <inttypes.h>
@@ -408,6 +409,32 @@ void kit_put_json(thr_writer *writer, const thr_kit_estimate *kit)
   thr_write_close(writer);
 }
 
+/* Appends what cord and needle to take and which options say others; nothing where sizes in mm are
+ * not known. */
+static void put_supplies(thr_text *text, const thr_plan *plan)
+{
+  thr_supplies supplies;
+  thr_err err = {0};
+  thr_status st = thr_supplies_make(&supplies, plan, &err);
+  if (!st) st = thr_supplies_find_sizes(&supplies, &err);
+
+  if (!st && supplies.mm > 0) {
+    const double least = thr_supplies_extreme_bore(&supplies, true),
+                 most = thr_supplies_extreme_bore(&supplies, false);
+    const bool asked = plan->options.physics.cord_diameter > 0;
+
+    thr_text_printf(
+        text, "cord     %.3g mm thick%s, bores of %.4g", supplies.cord,
+        !asked && supplies.cord < THR_CORD_THINNEST ? ", as thick as the pieces take" : "",
+        least);
+    if (most > least) thr_text_printf(text, " to %.4g", most);
+    thr_text_printf(text, " mm, needle through %.4g mm%s\n", least,
+                    asked ? "" : ": --cord-diameter, --bore");
+  }
+  text->failed |= st == THR_ENOMEM;
+  thr_supplies_destroy(&supplies);
+}
+
 /* Estimates the kit of a plan. Returns whether something is known; memory that runs out is kept in
  * the text. */
 static bool estimate_kit(thr_text *text, const thr_plan *plan, thr_kit_estimate *kit)
@@ -464,6 +491,7 @@ static void put_text(thr_text *text, const thr_plan *plan, const double *pull, d
 
   /* Holding, and comparisons. */
   if (seated) seated_put_holding(text, "hold     ", plan, &seated->record);
+  put_supplies(text, plan);
   thr_kit_estimate kit;
   if (estimate_kit(text, plan, &kit)) {
     thr_text_append(text, "kit      ");
