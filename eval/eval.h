@@ -137,9 +137,9 @@ enum { THR_HOLDS_LARGEST = 500 };
 
 /* Computes the factor below which no multiple of an evaluation's tensions holds the pieces together
  * while the cords are drawn in (one programme of the limit analysis, proved at the frictions of the
- * evaluation). *times receives 0 if the pieces may need no pull, INFINITY if no multiple holds
- * them, NAN if that is not decided, the pieces have no shape in mm or are more than
- * THR_HOLDS_LARGEST. Every cord is known. */
+ * evaluation, its feet held if its `standing` says so). *times receives 0 if the pieces may need no
+ * pull, INFINITY if no multiple holds them, NAN if not decided, without a shape in mm or for more
+ * than THR_HOLDS_LARGEST pieces. Every cord is known. */
 thr_status thr_eval_holds_from(const thr_frame *frame, const thr_cord *cord,
                                const thr_evaluation *evaluation, const thr_limits *limits,
                                double *times, thr_err *err) THR_MUST_CHECK;

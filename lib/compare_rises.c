@@ -35,8 +35,11 @@ static void rank_rise(thr_ranking *ranked, const thr_compare_rise *rise, int i)
 /* Appends "1.3 N", or "1.3 N (1.28 to 1.34)" of several runs. */
 static void put_spread(thr_text *text, const double value[3], int runs)
 {
-  thr_text_printf(text, "%.3g N", value[1]);
-  if (runs > 1) thr_text_printf(text, " (%.3g to %.3g)", value[0], value[2]);
+  char middle[THR_PLAIN_NUMBER], least[THR_PLAIN_NUMBER], most[THR_PLAIN_NUMBER];
+  thr_text_printf(text, "%s N", plain_newtons(value[1], middle));
+  if (runs > 1)
+    thr_text_printf(text, " (%s to %s)", plain_newtons(value[0], least),
+                    plain_newtons(value[2], most));
 }
 
 /* Says what was seen of a plan in simulation. */

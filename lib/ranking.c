@@ -138,20 +138,24 @@ static counted unsigned_values(const thr_ranking *ranked, int i)
 static void put_interval(const thr_ranking *ranked, int i, thr_text *text)
 {
   const double low = unsigned_values(ranked, i).low, high = unsigned_values(ranked, i).high;
+  char from[THR_PLAIN_NUMBER], to[THR_PLAIN_NUMBER];
 
   /* Without an upper end, as an error, or as an interval. */
   if (!isfinite(high))
-    thr_text_printf(text, " (at least %.4g%s%s%s)", low, ranked->unit, ranked->open ? ": " : "",
-                    ranked->open ? ranked->open : "");
+    thr_text_printf(text, " (at least %s%s%s%s)", plain_number(low, 4, from), ranked->unit,
+                    ranked->open ? ": " : "", ranked->open ? ranked->open : "");
   else if (ranked->error && ranked->value[i] > 0)
     thr_text_printf(text, " (+-%.3g %%)", 100 * (high / ranked->value[i] - 1));
   else if (!ranked->error && high > low * (1 + 1e-5))
-    thr_text_printf(text, " (%.4g .. %.4g%s)", low, high, ranked->unit);
+    thr_text_printf(text, " (%s .. %s%s)", plain_number(low, 4, from), plain_number(high, 4, to),
+                    ranked->unit);
 }
 
 /* Appends the value of plan i with its interval. INFINITY: proved that no value will do. */
 static void put_value(const thr_ranking *ranked, int i, thr_text *text)
 {
+  char number[THR_PLAIN_NUMBER];
+
   if (ranked->words) {
     thr_text_append(text, ranked->words[i]);
     return;
@@ -162,7 +166,8 @@ static void put_value(const thr_ranking *ranked, int i, thr_text *text)
     thr_text_append(text, "none, proved");
     return;
   }
-  thr_text_printf(text, "%.4g%s", unsigned_values(ranked, i).value, ranked->unit);
+  thr_text_printf(text, "%s%s", plain_number(unsigned_values(ranked, i).value, 4, number),
+                  ranked->unit);
   put_interval(ranked, i, text);
 }
 

@@ -8,6 +8,7 @@
  * Example: `thread kit plan.json -o kit/ --stl` also writes one file for each kind of piece. */
 #include "cli/cli.h"
 #include "cli/commands/commands.h"
+#include "cli/print/print.h"
 #include "graph/io/json.h"
 #include "graph/os.h"
 #include "graph/plan/plan.h"
@@ -145,10 +146,13 @@ static int write_file(thr_status st, thr_text *text, const char *folder, const c
 /* Prints what the kit is: pieces, kinds, volume, what a maker should know. */
 static void say(const thr_kit *kit, const thr_kit_plates *plates, const char *folder)
 {
-  cli_note("%d %s, %d %s, %.3g cm3, %.3g g at %.3g g/cm3, on %d %s", kit->n_pieces,
+  char volume[64], mass[64];
+
+  cli_note("%d %s, %d %s, %s, %s at %.3g g/cm3, on %d %s", kit->n_pieces,
            thr_pieces_word(kit->plan, kit->n_pieces), kit->n_kinds,
-           cli_plural(kit->n_kinds, "kind", "kinds"), kit->volume / 1000, kit->mass,
-           kit->options.density, plates->n_plates, cli_plural(plates->n_plates, "plate", "plates"));
+           cli_plural(kit->n_kinds, "kind", "kinds"), plain_volume(kit->volume, volume),
+           plain_mass(kit->mass, mass), kit->options.density, plates->n_plates,
+           cli_plural(plates->n_plates, "plate", "plates"));
   cli_note("arms %.3g mm wide, cord %.3g mm, walls %.3g mm or more", kit->options.width, kit->cord,
            kit->options.wall);
 

@@ -296,10 +296,14 @@ static void put_spread(const rise_runs *runs, double (*of)(const thr_rise_record
   for (int i = 0; i < runs->n_runs; i++)
     value[i] = of(&runs->record[i]);
   thr_rise_spread(value, runs->n_runs, spread);
+
+  char middle[THR_PLAIN_NUMBER], least[THR_PLAIN_NUMBER], most[THR_PLAIN_NUMBER];
+  plain_number(spread[runs->n_runs == 1 ? 0 : 1], 3, middle);
   if (runs->n_runs == 1)
-    thr_text_printf(text, "%.3g %s", spread[0], unit);
+    thr_text_printf(text, "%s %s", middle, unit);
   else
-    thr_text_printf(text, "%.3g %s (%.3g to %.3g)", spread[1], unit, spread[0], spread[2]);
+    thr_text_printf(text, "%s %s (%s to %s)", middle, unit, plain_number(spread[0], 3, least),
+                    plain_number(spread[2], 3, most));
 }
 
 /* Appends how what has closed, but not come up, lies there; nothing if there is no such run. */
@@ -369,12 +373,14 @@ static void put_title(const rise_runs *runs, thr_text *text)
   const thr_rise_structure *structure = &runs->pieces.made.structure;
   const thr_rise_record *record = &runs->record[0];
   const thr_rise_options *options = &runs->args->rise;
+  char weight[THR_PLAIN_NUMBER];
   int ends = 0;
   for (int c = 0; c < structure->n_cords; c++)
     ends +=
         structure->cord[c].slack ? 0 : structure->cord[c].pulled[0] + structure->cord[c].pulled[1];
-  thr_text_printf(text, "%d pieces that weigh %.3g N, %d %s ", structure->n_pieces, record->weight,
-                  structure->n_cords, cli_plural(structure->n_cords, "cord", "cords"));
+  thr_text_printf(text, "%d pieces that weigh %s N, %d %s ", structure->n_pieces,
+                  plain_newtons(record->weight, weight), structure->n_cords,
+                  cli_plural(structure->n_cords, "cord", "cords"));
   if (runs->args->schedule)
     thr_text_append(text, "pulled by a schedule");
   else
@@ -412,6 +418,7 @@ static void put_text(const rise_runs *runs, thr_text *text)
 {
   const thr_rise_record *record = &runs->record[0];
   const thr_rise_moment *last = &record->moment[record->held ? record->held - 1 : 0];
+  char force[THR_PLAIN_NUMBER];
   put_title(runs, text);
   thr_text_append(text, "\n");
   put_outcome(runs, text);
@@ -426,12 +433,12 @@ static void put_text(const rise_runs *runs, thr_text *text)
     thr_text_printf(text, "the widest gap stays between %s and %s\n", name[0], name[1]);
   }
   if (runs->pieces.seated > 0 && isfinite(runs->pieces.seated))
-    thr_text_printf(text, "beside that: %.3g N leave %.3g N in every pass (closed form)",
-                    runs->pieces.seated, runs->pieces.made.structure.physics.seating);
+    thr_text_printf(text, "beside that: %s N leave %.3g N in every pass (closed form)",
+                    plain_newtons(runs->pieces.seated, force),
+                    runs->pieces.made.structure.physics.seating);
   if (runs->pieces.stands > 0 && isfinite(runs->pieces.stands))
-    thr_text_printf(text,
-                    "; below %.3g N it cannot stand while cords are drawn in (limit analysis)",
-                    runs->pieces.stands);
+    thr_text_printf(text, "; below %s N it cannot stand while cords are drawn in (limit analysis)",
+                    plain_newtons(runs->pieces.stands, force));
   if (runs->pieces.seated > 0) thr_text_append(text, "\n");
   if (runs->args->dent) {
     thr_text_append(text, "dented, it differed from the drawn shape by ");

@@ -250,7 +250,7 @@ static void note_thin_cord(const thr_frame *frame, const thr_physics *asked,
     }
   }
 
-  /* The usual cord is a twentieth of the median edge, but at most a quarter of the shortest. */
+  /* The usual cord is at most a quarter of the shortest edge. */
   if (fabs(resolved->cord_diameter - shortest / 4) > 1e-9 * shortest) return;
 
   /* Once for all plans and methods of this run. */

@@ -161,10 +161,11 @@ static void put_cords(thr_text *text, const thr_plan *plan, const thr_evaluation
 static void put_band_end(thr_text *text, const thr_evaluation *evaluation, double end, bool unit)
 {
   bool mitre = evaluation->method == THR_CAPSTAN && evaluation->law == THR_LAW_MITRE;
+  char number[THR_PLAIN_NUMBER];
 
   /* INFINITY: no pull holds, or the number is too large; NAN: not decided. */
   if (isfinite(end))
-    thr_text_printf(text, unit ? " %.4g N" : " %.4g", end);
+    thr_text_printf(text, " %s%s", plain_number(end, 4, number), unit ? " N" : "");
   else if (isnan(end))
     thr_text_append(text, " not decided");
   else
@@ -220,18 +221,18 @@ static void put_hand(thr_text *text, double newton)
  * thick leaves half. */
 static void put_strength(thr_text *text, double newton, double strength, int knot)
 {
-  char force[64];
+  char force[64], rest[THR_PLAIN_NUMBER];
   const double left = thr_knots[knot].left;
 
   /* Which is weaker, the knot or the bend, decides (thr_strength_left). */
   thr_text_printf(text,
-                  "a cord that bears %s %s: the knot (%s) leaves %.3g N, %.0f %% (Plymouth Cordage "
+                  "a cord that bears %s %s: the knot (%s) leaves %s N, %.0f %% (Plymouth Cordage "
                   "1946; --knot), ",
                   plain_force(strength, force),
                   newton > strength * thr_strength_left(knot) ? "breaks" : "holds",
-                  thr_knots[knot].name, strength * left, 100 * left);
-  thr_text_printf(text, "edges of bores %.3g N, %.0f %% (as round a pin as thick as it)\n",
-                  strength * thr_bend_left, 100 * thr_bend_left);
+                  thr_knots[knot].name, plain_newtons(strength * left, rest), 100 * left);
+  thr_text_printf(text, "edges of bores %s N, %.0f %% (as round a pin as thick as it)\n",
+                  plain_newtons(strength * thr_bend_left, rest), 100 * thr_bend_left);
 }
 
 /* Appends how many grips on the way make a pull that is beyond a hand possible. Not for a schedule
@@ -345,9 +346,11 @@ static void put_joint(thr_text *text, const thr_plan *plan, const thr_eval *eval
  * equilibrium was found without any pull. */
 static void put_bounds(thr_text *text, const thr_holding *holding, const char *when)
 {
+  char number[THR_PLAIN_NUMBER];
+
   if (holding->lower > 0)
-    thr_text_printf(text, "below %.6g N %s nothing holds it (proved, residual %.1g)",
-                    holding->lower, when, holding->residual);
+    thr_text_printf(text, "below %s N %s nothing holds it (proved, residual %.1g)",
+                    plain_number(holding->lower, 6, number), when, holding->residual);
   else if (holding->upper == 0)
     thr_text_append(text, "0 N: an equilibrium exists without any pull");
   else
@@ -357,7 +360,8 @@ static void put_bounds(thr_text *text, const thr_holding *holding, const char *w
 
   /* The bound from above. */
   if (holding->upper > 0 && isfinite(holding->upper))
-    thr_text_printf(text, "; at %.6g N an equilibrium exists", holding->upper);
+    thr_text_printf(text, "; at %s N an equilibrium exists",
+                    plain_number(holding->upper, 6, number));
   if (!isfinite(holding->upper)) thr_text_append(text, "; no equilibrium was found at any pull");
   thr_text_append(text, "\n");
 }
@@ -499,6 +503,7 @@ static void put_after_band(thr_text *text, const thr_evaluation *evaluation, con
 
   for (int end = 0; end < 2; end++) {
     const double times = (end ? physics->mu_high : physics->mu_low) / physics->mu;
+    char number[THR_PLAIN_NUMBER];
     thr_text_printf(text,
                     end ? "; with %.3g, %.3g: "
                         : "               with bead on bead %.3g, foot on ground %.3g: ",
@@ -512,7 +517,7 @@ static void put_after_band(thr_text *text, const thr_evaluation *evaluation, con
     else if (stretch)
       put_longer(text, evaluation, band[end]);
     else
-      thr_text_printf(text, "%.4g of the tensions", band[end]);
+      thr_text_printf(text, "%s of the tensions", plain_number(band[end], 4, number));
   }
 
   thr_text_append(text, " are needed (each proved at its own frictions only)\n");
@@ -523,6 +528,7 @@ static void put_after_band(thr_text *text, const thr_evaluation *evaluation, con
 static void put_after(thr_text *text, const thr_evaluation *evaluation, const thr_eval *eval)
 {
   const thr_holding *after = &eval->after;
+  char number[THR_PLAIN_NUMBER], other[THR_PLAIN_NUMBER];
 
   /* Cords that are knotted at both ends are springs; others keep their tensions. */
   if (eval->stretch.present)
@@ -536,11 +542,11 @@ static void put_after(thr_text *text, const thr_evaluation *evaluation, const th
     thr_text_printf(text, "an equilibrium exists, and would with %.4g of the tensions",
                     after->upper);
   else if (after->lower > 1)
-    thr_text_printf(text, "these tensions are too small: %.4g times as much is needed (proved)",
-                    after->lower);
+    thr_text_printf(text, "these tensions are too small: %s times as much is needed (proved)",
+                    plain_number(after->lower, 4, number));
   else
-    thr_text_printf(text, "an equilibrium may exist or not: between %.4g and %.4g of the tensions",
-                    after->lower, after->upper);
+    thr_text_printf(text, "an equilibrium may exist or not: between %s and %s of the tensions",
+                    plain_number(after->lower, 4, number), plain_number(after->upper, 4, other));
 
   if (isfinite(eval->let_down))
     thr_text_printf(text, "; with all ends let down to %.3g N, too", eval->let_down);
@@ -644,6 +650,7 @@ static void put_left(thr_text *text, const thr_plan *plan)
 {
   const thr_evaluation *evaluation = &plan->evaluation;
   double least = INFINITY, most = 0, open = 0;
+  char number[THR_PLAIN_NUMBER], other[THR_PLAIN_NUMBER];
 
   /* open: the most that may be left where friction leaves it open. */
   for (int i = 0; i < evaluation->n_cords; i++) {
@@ -656,16 +663,17 @@ static void put_left(thr_text *text, const thr_plan *plan)
   }
 
   /* Seated within rounding. */
-  thr_text_printf(text, "afterwards     %.4g to %.4g N in the passes; %s\n", least, most,
+  thr_text_printf(text, "afterwards     %s to %s N in the passes; %s\n",
+                  plain_number(least, 4, number), plain_number(most, 4, other),
                   least >= evaluation->physics.seating * (1 - 1e-9) ? "every one is seated"
                                                                     : "not every one is seated");
 
   if (open > 0)
     thr_text_printf(text,
                     "               at least: where a grip was let go, single passes may keep "
-                    "more, up to %.4g N (--tension); which,\n"
+                    "more, up to %s N (--tension); which,\n"
                     "               the stretch of the cord decides (--stiffness)\n",
-                    open);
+                    plain_number(open, 4, number));
 
   put_slack(text, plan);
 }

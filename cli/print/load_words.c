@@ -60,14 +60,14 @@ static void put_carry(thr_text *text, const thr_frame *frame, const thr_carry *c
 static void put_needed(thr_text *text, const thr_physics *physics, const thr_holding *loaded,
                        const double band[2])
 {
+  char number[THR_PLAIN_NUMBER], other[THR_PLAIN_NUMBER];
   thr_text_append(text, "\nload           ");
 
   /* Found, excluded, or neither. */
   if (isfinite(loaded->upper))
     thr_text_printf(
-        text,
-        "all of it is carried with %.4g N at all ends; less than %.4g N is too little (proved)",
-        loaded->upper, loaded->lower);
+        text, "all of it is carried with %s N at all ends; less than %s N is too little (proved)",
+        plain_number(loaded->upper, 4, number), plain_number(loaded->lower, 4, other));
   else if (!isfinite(loaded->lower))
     thr_text_append(text, "no pull carries all of it: something gives way however hard the cords "
                           "are pulled (proved)");
@@ -80,7 +80,10 @@ static void put_needed(thr_text *text, const thr_physics *physics, const thr_hol
     thr_text_printf(text,
                     end ? "; %.3g, %.3g: " : "; with bead on bead %.3g, foot on ground %.3g: ",
                     times * physics->mu_bead, times * physics->mu_ground);
-    thr_text_printf(text, isfinite(band[end]) ? "%.4g N" : "no pull does", band[end]);
+    if (isfinite(band[end]))
+      thr_text_printf(text, "%s N", plain_number(band[end], 4, number));
+    else
+      thr_text_append(text, "no pull does");
   }
 
   thr_text_append(text, "\n");

@@ -10,6 +10,7 @@
  * number of cords with theirs; what hangs on one cord alone; pull; the pieces to make; for plans of
  * least turning the comparison with other plans (turning_summary.c). */
 #include "cli/print/print.h"
+#include "diagram/tables/tables.h"
 #include "graph/number.h"
 
 #include <inttypes.h>
@@ -200,13 +201,14 @@ static void put_pull_limit(thr_text *text, const thr_plan *plan, double largest)
   const thr_request *options = &plan->options;
   const thr_pull_claim *claim = &plan->pull_claim;
   double seating = options->physics.seating;
-  char force[64];
+  char force[64], allowed[THR_PLAIN_NUMBER];
 
   if (options->max_pull <= 0) return;
 
   /* A limit and a claim are factors on the seating tension. */
-  thr_text_printf(text, "hand     %s at most at the end of a cord; %.6g N are allowed\n",
-                  plain_force(largest * seating, force), options->max_pull * seating);
+  thr_text_printf(text, "hand     %s at most at the end of a cord; %s N are allowed\n",
+                  plain_force(largest * seating, force),
+                  plain_number(options->max_pull * seating, 6, allowed));
   if (claim->present) put_fewest(text, plan, claim->fewest, claim->optimal, " within that pull");
 }
 
@@ -376,14 +378,16 @@ static double round_volume(double volume)
 void kit_put(thr_text *text, const thr_kit_estimate *kit)
 {
   const char *piece = kit->solid ? "piece" : "tube";
+  char volume[64], width[THR_PLAIN_NUMBER];
 
   thr_text_printf(text, "%d %s%s, %d %s", kit->pieces, piece, kit->pieces == 1 ? "" : "s",
                   kit->shapes, cli_plural(kit->shapes, "kind", "kinds"));
   if (kit->kinds > kit->shapes)
     thr_text_printf(text, " (%d with their %s)", kit->kinds, kit->solid ? "channels" : "ends");
   if (kit->volume > 0)
-    thr_text_printf(text, ", about %g cm3%s %.3g mm wide", round_volume(kit->volume / 1000),
-                    kit->solid ? " with arms" : ",", kit->width);
+    thr_text_printf(text, ", about %s%s %s mm wide",
+                    plain_volume(round_volume(kit->volume), volume),
+                    kit->solid ? " with arms" : ",", plain_number(kit->width, 3, width));
   if (kit->refused.code)
     thr_text_printf(text, "; none can be printed with the usual sizes: %s", kit->refused.text);
   thr_text_append(text, "\n");
@@ -401,6 +405,31 @@ void kit_put_json(thr_writer *writer, const thr_kit_estimate *kit)
   }
   if (kit->refused.code) thr_write_string(writer, "refused", kit->refused.text);
   thr_write_close(writer);
+}
+
+/* Appends what cord and needle to take and which options say others; nothing where sizes in mm are
+ * not known. */
+static void put_supplies(thr_text *text, const thr_plan *plan)
+{
+  thr_supplies supplies;
+  thr_err err = {0};
+  thr_status st = thr_supplies_make(&supplies, plan, &err);
+  if (!st) st = thr_supplies_find_sizes(&supplies, &err);
+
+  if (!st && supplies.mm > 0) {
+    const double least = thr_supplies_extreme_bore(&supplies, true),
+                 most = thr_supplies_extreme_bore(&supplies, false);
+    const bool asked = plan->options.physics.cord_diameter > 0;
+
+    thr_text_printf(
+        text, "cord     %.3g mm thick%s, bores of %.4g", supplies.cord,
+        !asked && supplies.cord < THR_CORD_THINNEST ? ", as thick as the pieces take" : "", least);
+    if (most > least) thr_text_printf(text, " to %.4g", most);
+    thr_text_printf(text, " mm, needle through %.4g mm%s\n", least,
+                    asked ? "" : ": --cord-diameter, --bore");
+  }
+  text->failed |= st == THR_ENOMEM;
+  thr_supplies_destroy(&supplies);
 }
 
 /* Estimates the kit of a plan. Returns whether something is known; memory that runs out is kept in
@@ -459,6 +488,7 @@ static void put_text(thr_text *text, const thr_plan *plan, const double *pull, d
 
   /* Holding, and comparisons. */
   if (seated) seated_put_holding(text, "hold     ", plan, &seated->record);
+  put_supplies(text, plan);
   thr_kit_estimate kit;
   if (estimate_kit(text, plan, &kit)) {
     thr_text_append(text, "kit      ");

@@ -41,11 +41,22 @@
 /* ---- plain.c: Formats forces and proofs in plain words, for the first screen of every command:
  * newtons with the mass that weighs as much, and one clause for what is proved. */
 
-/* Formats newtons without a unit: "3.49", "225", "4.5e+06"; "> 1e300", "-" for NAN. Returns out. */
-const char *plain_newtons(double newton, char out[24]);
+enum { THR_PLAIN_NUMBER = 24 }; /* bytes that hold a number for a reader */
+
+/* Formats a number >= 0 for a reader, rounded to 1 <= digits <= 6 digits and without an exponent:
+ * "3.49", "2,290", "1.6 million", "over a trillion"; "under 0.0001", "-" for NAN. Returns out. */
+const char *plain_number(double value, int digits, char out[THR_PLAIN_NUMBER]);
+
+/* Formats newtons without a unit, with three digits as above. Returns out. */
+const char *plain_newtons(double newton, char out[THR_PLAIN_NUMBER]);
+
+/* Format a volume given in mm3 and a mass given in g with three digits: "62.1 cm3", "16 m3" from
+ * 1 m3 on; "25.3 g", "12.4 kg", "20 t". Return out. */
+const char *plain_volume(double volume, char out[64]);
+const char *plain_mass(double gram, char out[64]);
 
 /* Formats newtons with the mass that weighs as much at 9.80665 m/s2: "225 N (23 kg)". Beyond 1e6 N
- * without: "4.5e+06 N", "> 1e300 N". "-" for NAN. Returns out. */
+ * without: "4.5 million N", "over a trillion N". "-" for NAN. Returns out. */
 const char *plain_force(double newton, char out[64]);
 
 /* Formats the pulls at the two ends of a cord, N: "7.70 and 8.94 N"; of two that read alike "8.94 N

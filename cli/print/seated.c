@@ -32,6 +32,7 @@ static thr_status put_alone(thr_text *text, const thr_plan *plan, double *pull)
 
   for (int i = 0; i < plan->n_cords && !st; i++) {
     int n = 0, seated = 0;
+    char force[THR_PLAIN_NUMBER];
     if (plan->evaluation.cord[i].pull == THR_PULL_NONE) continue;
 
     /* Pulls ascend, and those of gaps that the cord does not seat are INFINITY. */
@@ -39,8 +40,9 @@ static thr_status put_alone(thr_text *text, const thr_plan *plan, double *pull)
     while (seated < n && isfinite(pull[seated]))
       seated++;
 
-    thr_text_printf(text, "  cord %s alone, the others slack: %d of %d gaps, the last at %.4g N\n",
-                    plan->cord[i].id, seated, n, seated > 0 ? pull[seated - 1] : 0);
+    thr_text_printf(text, "  cord %s alone, the others slack: %d of %d gaps, the last at %s N\n",
+                    plan->cord[i].id, seated, n,
+                    plain_number(seated > 0 ? pull[seated - 1] : 0, 4, force));
   }
 
   return st;
@@ -51,6 +53,7 @@ static thr_status put_alone(thr_text *text, const thr_plan *plan, double *pull)
 static void put_parts(thr_text *text, const double *pull, int n, double seating)
 {
   static const int percent[] = {25, 50, 75, 100};
+  char force[THR_PLAIN_NUMBER];
   int said = 0;
 
   thr_text_printf(text,
@@ -60,7 +63,8 @@ static void put_parts(thr_text *text, const double *pull, int n, double seating)
   for (size_t k = 0; k < sizeof percent / sizeof *percent; k++) {
     const int needed = (int)(((long)percent[k] * n + 99) / 100);
     if (isfinite(pull[needed - 1]))
-      thr_text_printf(text, "%s %d %% at %.4g N", said++ ? "," : "", percent[k], pull[needed - 1]);
+      thr_text_printf(text, "%s %d %% at %s N", said++ ? "," : "", percent[k],
+                      plain_number(pull[needed - 1], 4, force));
   }
 
   /* Gaps that no pull seats are passed by slack cords only. */
@@ -107,24 +111,42 @@ static bool has_feet(const thr_frame *frame)
   return false;
 }
 
-/* Returns the factor on the pulls below which nothing holds the pieces (thr_eval_holding_factor).
- */
+/* Returns the factor on the pulls below which nothing holds the pieces (thr_eval_holding_factor),
+ * on feet that stand free or are held. */
 static double compute_holding_factor(thr_text *text, const thr_plan *plan,
-                                     const thr_evaluation *evaluation)
+                                     const thr_evaluation *evaluation, bool clamped)
 {
   double times;
-  if (thr_eval_holding_factor(plan, evaluation, &times, NULL)) text->failed = true;
+  thr_evaluation standing = *evaluation;
+  standing.standing.clamped = clamped;
+  if (thr_eval_holding_factor(plan, &standing, &times, NULL)) text->failed = true;
   return times;
+}
+
+/* Appends what pieces whose feet are held take, where that is less than `times` the pulls. */
+static void put_clamped(thr_text *text, const thr_plan *plan, const thr_evaluation *evaluation,
+                        double times)
+{
+  char force[64];
+  if (!has_feet(&plan->frame)) return;
+
+  const double clamped = compute_holding_factor(text, plan, evaluation, true);
+  if (!(clamped < 0.99 * times)) return;
+  if (clamped > 1)
+    thr_text_printf(text, "; with held feet (--clamp-feet) only from %s",
+                    plain_force(clamped * evaluation->largest, force));
+  else
+    thr_text_append(text, "; with held feet (--clamp-feet) what seats the cords may do");
 }
 
 void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,
                         const thr_evaluation *evaluation)
 {
-  const double times = compute_holding_factor(text, plan, evaluation),
+  const double times = compute_holding_factor(text, plan, evaluation, false),
                largest = evaluation->largest;
   const thr_physics *physics = &evaluation->physics;
   double least = INFINITY;
-  char from[24], to[24], needed[64];
+  char from[THR_PLAIN_NUMBER], to[THR_PLAIN_NUMBER], factor[THR_PLAIN_NUMBER], needed[64];
 
   /* Beyond some size the programme takes too long for a line in passing. */
   if (plan->frame.n_nodes > THR_HOLDS_LARGEST && plan->options.joint != THR_JOINT_TUBE) {
@@ -145,7 +167,8 @@ void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,
 
   thr_text_printf(text, "%sseated by %s%s%s N, but while the cords are drawn in %s hold ", label,
                   from, strcmp(from, to) ? " to " : "", strcmp(from, to) ? to : "",
-                  has_feet(&plan->frame) ? "the pieces" : "the pieces, on the lowest of them,");
+                  has_feet(&plan->frame) ? "the pieces, their feet standing free,"
+                                         : "the pieces, on the lowest of them,");
 
   /* From which pull on: a factor where the cords need different pulls. */
   if (!isfinite(times))
@@ -153,24 +176,24 @@ void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,
   else if (strcmp(from, to) == 0)
     thr_text_printf(text, "only from %s", plain_force(times * largest, needed));
   else
-    thr_text_printf(text, "only from %.3g times that, %s at the hardest", times,
-                    plain_force(times * largest, needed));
+    thr_text_printf(text, "only from %s times that, %s at the hardest",
+                    plain_number(times, 3, factor), plain_force(times * largest, needed));
 
   /* A proof holds at the frictions that are stated with it. */
   thr_text_printf(
-      text, " (proved at frictions of %g bead on bead, %g on the ground, %g of the cord)%s\n",
+      text, " (proved at frictions of %g bead on bead, %g on the ground, %g of the cord)%s",
       physics->mu_bead, physics->mu_ground, physics->mu,
-      !isfinite(times) ? ": thread eval --method structure says which give way"
-      : times * largest <= thr_hand_most
-          ? ": pull that much"
-          : ": support the pieces until all knots are tied; feet that are held may take "
-            "far less (thread eval --method structure --clamp-feet)");
+      !isfinite(times)                   ? ": thread eval --method structure says which give way"
+      : times * largest <= thr_hand_most ? ": pull that much"
+                                         : ": support the pieces until all knots are tied");
+  put_clamped(text, plan, evaluation, times);
+  thr_text_append(text, "\n");
 }
 
 void seated_put_holding_json(thr_writer *writer, const thr_plan *plan,
                              const thr_evaluation *evaluation)
 {
-  const double times = compute_holding_factor(writer->out, plan, evaluation);
+  const double times = compute_holding_factor(writer->out, plan, evaluation, false);
   if (isnan(times)) return;
   thr_write_number(writer, "holds_from", times * evaluation->largest);
 }

@@ -259,21 +259,6 @@ typedef struct {
               thr_text *words); /* draws the picture and appends the text to words */
 } panel_subject;
 
-/* Returns the widest bore of all edges that a cord passes, or the narrowest one, in mm rounded up;
- * 0 where sizes are not known. */
-static double extreme_bore(const thr_known *known, bool narrowest)
-{
-  double found = 0;
-
-  /* An edge without a pass has no bore. */
-  for (int e = 0; e < known->f->n_edges; e++) {
-    double bore = thr_supplies_bore(&known->supplies, e);
-    if (bore > 0 && (found == 0 || (narrowest ? bore < found : bore > found))) found = bore;
-  }
-
-  return thr_supplies_bore_mm(&known->supplies, found);
-}
-
 /* Fills the panel "What you need": cord, needle and stopper, with the lengths to cut and the bores
  * that needle and stopper have to fit. */
 static void put_need(instruction_panel *panel, thr_text *words)
@@ -313,7 +298,8 @@ static void put_need(instruction_panel *panel, thr_text *words)
     thr_text_printf(
         words,
         " that with its cord goes through %.2f mm; a stopper that does not slip into %.2f mm",
-        extreme_bore(known, true), extreme_bore(known, false));
+        thr_supplies_extreme_bore(&known->supplies, true),
+        thr_supplies_extreme_bore(&known->supplies, false));
   else
     thr_text_append(words, " thinner than the bores; a stopper wider than they are");
 

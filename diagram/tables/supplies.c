@@ -74,13 +74,12 @@ thr_status thr_supplies_find_sizes(thr_supplies *supplies, thr_err *err)
 
 bool thr_supplies_doubt(const thr_supplies *supplies, char line[160])
 {
-  const double thinnest = 0.2, thickest = 15; /* mm: of sewing thread, of rope */
+  const double thinnest = 0.4; /* mm: of pieces of 3.4 mm */
   const thr_physics *asked = &supplies->plan->options.physics;
 
   /* Sizes that the user gave are taken as they are. */
   bool said = asked->cord_diameter > 0 || asked->bore > 0 || asked->bead_diameter > 0;
-  if (said || !(supplies->mm > 0) || (supplies->cord >= thinnest && supplies->cord <= thickest))
-    return false;
+  if (said || !(supplies->mm > 0) || supplies->cord >= thinnest) return false;
 
   snprintf(line, 160,
            "A cord of %.3g mm through bores of %.4g mm: is that the size to be built? Else plan it "
@@ -108,6 +107,19 @@ double thr_supplies_node_bore(const thr_supplies *supplies, int v)
 double thr_supplies_bore_mm(const thr_supplies *supplies, double cords)
 {
   return supplies->mm > 0 ? ceil(cords * supplies->cord * 100 - 1e-6) / 100 : 0;
+}
+
+double thr_supplies_extreme_bore(const thr_supplies *supplies, bool narrowest)
+{
+  double found = 0;
+
+  /* An edge without a pass has no bore. */
+  for (int e = 0; e < supplies->plan->frame.n_edges; e++) {
+    double bore = thr_supplies_bore(supplies, e);
+    if (bore > 0 && (found == 0 || (narrowest ? bore < found : bore > found))) found = bore;
+  }
+
+  return thr_supplies_bore_mm(supplies, found);
 }
 
 /* Returns how much cord the turns of a cord take at most, in mm (see the head of this file). */

@@ -100,7 +100,7 @@ void thr_supplies_destroy(thr_supplies *supplies);
 thr_status thr_supplies_find_sizes(thr_supplies *supplies, thr_err *err) THR_MUST_CHECK;
 
 /* Returns whether cord and bores were worked out from a framework that is hardly the size of what
- * is to be built: a cord thinner than any thread, or thicker than a rope that a hand threads. Then
+ * is to be built, as a cord that fits its edges is hardly more than a thread. Then the
  * line asks for the size. False where sizes are not known or were given. */
 bool thr_supplies_doubt(const thr_supplies *supplies, char line[160]);
 
@@ -113,6 +113,10 @@ double thr_supplies_node_bore(const thr_supplies *supplies, int v);
 /* Returns a bore of so many cord diameters in mm, rounded up to hundredths: a hundredth of a mm too
  * narrow is too narrow. 0 if sizes in mm are not known. */
 double thr_supplies_bore_mm(const thr_supplies *supplies, double cords);
+
+/* Returns the widest bore of all edges that a cord passes, or the narrowest one, in mm rounded up
+ * as above; 0 where sizes are not known. */
+double thr_supplies_extreme_bore(const thr_supplies *supplies, bool narrowest);
 
 /* What is cut beside the way through the middles of the beads:
  *

@@ -928,16 +928,17 @@ thr_status thr_eval_holds_from(const thr_frame *frame, const thr_cord *cord,
                                const thr_evaluation *evaluation, const thr_limits *limits,
                                double *times, thr_err *err)
 {
-  const thr_eval_options usual = thr_eval_options_default();
+  thr_eval_options usual = thr_eval_options_default();
   thr_err why = {0};
   thr_beads beads = {0};
   thr_holding holding = {0};
+  usual.clamped = evaluation->standing.clamped;
 
   /* Larger structures take too long for a question that is asked in passing. */
   *times = NAN;
   if (frame->n_nodes > THR_HOLDS_LARGEST) return THR_OK;
 
-  /* The beads as eval would make them by default. */
+  /* The beads as eval would make them by default, on feet that stand free or are held. */
   thr_status st = make_beads(frame, &evaluation->physics, &usual, &beads, &why);
   double *press = st ? NULL : thr_calloc((size_t)beads.n_faces + 1, sizeof *press);
   if (!st && !press) st = thr_nomem(&why);

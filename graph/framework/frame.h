@@ -238,6 +238,10 @@ thr_status thr_frame_feet_where(thr_frame *frame, const char *words, thr_err *er
 /* Bore where none is given, in cord diameters: wide enough for one cord. */
 static const double THR_BORE_CORDS = 2;
 
+/* Cord that hands thread and pull, mm: what is taken if none is given lies between the two, unless
+ * the pieces have no room for it. */
+static const double THR_CORD_THINNEST = 1, THR_CORD_THICKEST = 3;
+
 /* Bore through which n >= 1 cords are drawn with ease, in cord diameters: sqrt(n / fill), where the
  * cords' sections fill no more of the bore's than is allowed in a conduit through which cables are
  * pulled: 0.53 for one, 0.31 for two, 0.40 for more (NFPA 70, National Electrical Code, chapter 9,

@@ -50,9 +50,10 @@ const thr_physics_field thr_physics_fields[] = {
     [MU_BEAD] = {FIELD(mu_bead), 0, 2, false, false, "", "friction coefficient, bead on bead"},
     [MU_GROUND] = {FIELD(mu_ground), 0, 2, false, false, "",
                    "friction coefficient, foot on ground"},
-    [CORD_DIAMETER] =
-        {FIELD(cord_diameter), 0, 1e9, false, false, "mm",
-         "thickness of the cord (0: 1/20 of the median edge, at most 1/4 of the shortest)"},
+    [CORD_DIAMETER] = {FIELD(cord_diameter), 0, 1e9, false, false, "mm",
+                       "thickness of the cord (0: 1/20 of the median edge within 1 to 3 mm, "
+                       "thinner as edges under "
+                       "9 mm take it, at most 1/4 of the shortest)"},
     [BORE] = {FIELD(bore), 0, 1e9, false, false, "mm",
               "inner diameter of the channels (0: twice the cord)"},
     [BEAD_DIAMETER] = {FIELD(bead_diameter), 0, 1e9, false, false, "mm",
@@ -396,8 +397,9 @@ void thr_physics_write(const thr_physics *physics, thr_writer *writer, const cha
 
 /* Sizes of the edges. */
 typedef struct {
-  double median, shortest; /* mm */
+  double median, shortest; /* mm; in units of the framework if nobody knows how long they are */
   int shortest_edge;
+  bool in_mm;
 } edge_sizes;
 
 /* Measures the edges between their nodes. THR_EINPUT if they have no size of beads, which most
@@ -445,13 +447,20 @@ static void fill_in(thr_physics *physics, const edge_sizes *sizes)
   if (physics->mu_high == 0) physics->mu_high = fmax(physics->mu, rounded(1.5 * physics->mu));
   if (physics->mu_power > 0 && physics->mu_tension == 0) physics->mu_tension = physics->seating;
 
-  /* From the inside outwards: cord, bore, bead. */
-  if (physics->cord_diameter == 0)
-    physics->cord_diameter = fmin(sizes->median / 20, sizes->shortest / 4);
+  const double arm = 0.35 * sizes->median, bores = 1.5; /* usual width of an arm; its least width */
+
+  /* From the inside outwards: cord, bore, bead. The cord is one that hands thread and pull, however
+   * large the beads are, and thinner only where the usual arms or the shortest edge take no more.
+   */
+  if (physics->cord_diameter == 0) {
+    const double fits = arm / (bores * THR_BORE_CORDS);
+    double cord = sizes->median / 20;
+    if (sizes->in_mm) cord = fmax(fmin(THR_CORD_THINNEST, fits), fmin(cord, THR_CORD_THICKEST));
+    physics->cord_diameter = fmin(cord, sizes->shortest / 4);
+  }
 
   if (physics->bore == 0) physics->bore = THR_BORE_CORDS * physics->cord_diameter;
-  if (physics->bead_diameter == 0)
-    physics->bead_diameter = fmax(0.35 * sizes->median, 1.5 * physics->bore);
+  if (physics->bead_diameter == 0) physics->bead_diameter = fmax(arm, bores * physics->bore);
 }
 
 /* Checks that cord, bore, bead and shortest edge fit into each other. */
@@ -521,6 +530,7 @@ thr_status thr_physics_resolve(const thr_physics *physics, const thr_frame *fram
   if (!st && sized) st = known;
   if (!st) st = measure_edges(frame, known ? 1 : mm, &sizes, err);
   if (st) return st;
+  sizes.in_mm = !known;
 
   /* Fill in, and check that all fits. */
   fill_in(&resolved, &sizes);

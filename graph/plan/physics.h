@@ -21,8 +21,9 @@ typedef struct {
   double mu_high;   /* 0 = one and a half mu */
   double mu_bead;   /* friction bead on bead */
   double mu_ground; /* friction foot on ground */
-  double cord_diameter; /* mm; 0 = a twentieth of the median edge, but at most a quarter of the
-                           shortest */
+  double cord_diameter; /* mm; 0 = a twentieth of the median edge within 1 .. 3, but no thicker than
+                           arms of 0.35 median edge take (1/3 of them), and at most a quarter of
+                           the shortest */
   double bore;          /* mm, inner diameter of the channels; 0 = twice the cord */
   double bead_diameter; /* mm, outer width of a bead's arm; 0 = the larger of 0.35 median edge
                            and 1.5 bores */

@@ -12,6 +12,7 @@
 #include "lp/length/postman.h"
 #include "graph/check/check.h"
 #include "graph/arrays.h"
+#include "graph/plan/physics.h"
 
 #include <assert.h>
 #include <math.h>
@@ -330,6 +331,23 @@ static thr_status solve_domain(postman_problem *postman, int number, thr_err *er
 
 /* ---- what cannot be ---- */
 
+/* Writes what lets no more passes into an edge: its bore, the framework, or --capacity. */
+static void say_limit(const postman_problem *postman, int e, char out[96])
+{
+  const thr_request *request = postman->request;
+  const thr_physics *physics = &request->physics;
+  const int most = thr_plan_capacity(postman->frame, request, e);
+
+  if (request->capacity != most)
+    snprintf(out, 96, "capacity of the framework");
+  else if (physics->bore > 0 && physics->cord_diameter > 0 &&
+           thr_bore_fits(physics->bore, physics->cord_diameter) == most)
+    snprintf(out, 96, "a bore of %.4g mm holds %d %s of %.4g mm: --bore, --cord-diameter",
+             physics->bore, most, most == 1 ? "cord" : "cords", physics->cord_diameter);
+  else
+    snprintf(out, 96, "--capacity");
+}
+
 /* Fails if an edge has a capacity below its cover. */
 static thr_status check_room(const postman_problem *postman, thr_err *err)
 {
@@ -337,11 +355,14 @@ static thr_status check_room(const postman_problem *postman, thr_err *err)
   for (int e = 0; e < frame->n_edges; e++) {
     int least = thr_plan_cover(frame, postman->request, e),
         most = thr_plan_capacity(frame, postman->request, e);
-    if (least > most)
+    if (least > most) {
+      char limit[96];
+      say_limit(postman, e, limit);
       return thr_fail(
           err, THR_EINFEASIBLE,
-          "edge %s-%s needs %d passes, but only %d fit; lower --cover or raise its capacity",
-          frame->name[frame->edge[e][0]], frame->name[frame->edge[e][1]], least, most);
+          "edge %s-%s needs %d passes, but only %d fit (%s); lower --cover or raise its capacity",
+          frame->name[frame->edge[e][0]], frame->name[frame->edge[e][1]], least, most, limit);
+    }
   }
   return THR_OK;
 }
@@ -355,13 +376,16 @@ static thr_status no_room(const postman_problem *postman, int part, const char *
          (postman->part[frame->edge[e][0]] == part) == (postman->part[frame->edge[e][1]] == part))
     e++;
 
-  return thr_fail(err, THR_EINFEASIBLE,
-                  "edge %s-%s is full with %d %s, as is every edge out of the part with node %s, "
-                  "which needs one more pass %s",
-                  frame->name[frame->edge[e][0]], frame->name[frame->edge[e][1]],
-                  thr_plan_cover(frame, postman->request, e),
-                  thr_plan_cover(frame, postman->request, e) == 1 ? "pass" : "passes",
-                  frame->name[part], why);
+  char limit[96];
+  say_limit(postman, e, limit);
+  return thr_fail(
+      err, THR_EINFEASIBLE,
+      "edge %s-%s is full with %d %s (%s), as is every edge out of the part with node %s, "
+      "which needs one more pass %s",
+      frame->name[frame->edge[e][0]], frame->name[frame->edge[e][1]],
+      thr_plan_cover(frame, postman->request, e),
+      thr_plan_cover(frame, postman->request, e) == 1 ? "pass" : "passes", limit, frame->name[part],
+      why);
 }
 
 /* Fails where the odd nodes of a part are odd in number and no cord may end there, as extra passes

@@ -270,10 +270,16 @@ START_TEST(sizes_come_from_the_framework)
   ck_assert_int_eq(thr_physics_resolve(&p, &f, &r, &err), THR_OK);
   ck_assert_double_eq_tol(r.bore, 9.8, 1e-12);
   ck_assert_double_eq_tol(r.bead_diameter, 14.7, 1e-12);
+  memcpy(f.units, "m", 2); /* pieces of 4 m, and a cord that a hand can pull */
+  p = thr_physics_default();
+  ck_assert_int_eq(thr_physics_resolve(&p, &f, &r, &err), THR_OK);
+  ck_assert_double_eq_tol(r.cord_diameter, 3, 1e-12);
+  ck_assert_double_eq_tol(r.bead_diameter, 1400, 1e-9);
   memcpy(f.units, "span", 5); /* nobody knows how long; proportions are what matters then */
   p = thr_physics_default();
   ck_assert_int_eq(thr_physics_resolve(&p, &f, &r, &err), THR_OK);
   ck_assert_double_eq_tol(r.bore / r.cord_diameter, 2, 1e-12);
+  ck_assert_double_eq_tol(r.cord_diameter, 0.2, 1e-12); /* 4 spans / 20 */
   set(&p, "bore", 0.5);
   assert_status(thr_physics_resolve(&p, &f, &r, &err), THR_EINPUT, &err, "span");
   thr_frame_destroy(&f);
