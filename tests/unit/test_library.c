@@ -410,7 +410,7 @@ START_TEST(a_gap_ends_a_search)
     o.aims = "max-turning";
     o.ends = THREAD_ANY;
     o.cords_least = o.cords = 4;
-    o.seconds = 0.2;
+    o.seconds = i ? 5 : 0.2;
     o.gap = gap[i];
     thread_status st = thread_plan_make(frame, &o, &plan, &err);
     ck_assert_int_eq((int)st, i ? THREAD_OK : THREAD_NOT_PROVED);
@@ -607,13 +607,13 @@ START_TEST(seconds_are_kept)
     const double took = seconds_now() - began;
     ck_assert_msg(st == THREAD_OK || st == THREAD_NOT_PROVED, "%d: %s", i, err.text);
     ck_assert_msg(took < 2 * (1.1 * time + 0.2), "%d: %g s of %g", i, took, time);
-    if (plan) ck_assert_msg(thread_check(plan, &err) == THREAD_OK, "%d: %s", i, err.text);
     if (plan && i < 2) {
       thread_summary s;
-      thread_plan_summary(plan, &s, sizeof s, &err);
+      thread_plan_summary(plan, &s, sizeof s, NULL);
       ck_assert_msg(st == THREAD_NOT_PROVED && s.stopped == 1, "%d", i);
       ck_assert_msg(s.pull <= 10 || strstr(err.text, "of a hand"), "%g N: %s", s.pull, err.text);
     }
+    if (plan) ck_assert_msg(thread_check(plan, &err) == THREAD_OK, "%d: %s", i, err.text);
     thread_free(bytes);
     thread_plan_free(plan);
   }
