@@ -267,6 +267,11 @@ START_TEST(notes_say_what_was_merged)
   ck_assert_double_eq(xyz[3], 20);
   thread_frame_free(frame);
   static const char cross[] = "0,0,0,20,0,0\n10,0,0,10,10,0\n"; /* a T whose bar is one edge */
+  ck_assert_int_eq((int)thread_frame_parse(cross, strlen(cross), "t.csv", NULL, &frame, &err),
+                   THREAD_OK);
+  ck_assert_ptr_nonnull(strstr(thread_frame_notes(frame), ": split cuts such edges\n"));
+  ck_assert_ptr_null(strstr(thread_frame_notes(frame), "--"));
+  thread_frame_free(frame);
   thread_read_options_init(&o, sizeof o);
   o.split = 1;
   ck_assert_msg(thread_frame_parse(cross, strlen(cross), "t.csv", &o, &frame, &err) == THREAD_OK,
