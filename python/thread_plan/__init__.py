@@ -23,7 +23,8 @@ for it.
 What takes long hears `progress` and can be given `seconds`, of which it takes at most a tenth and 0.2 s more; Ctrl-C ends it within
 half a second. `progress(what, best, bound)` is called in the thread of the call and at least every 0.1 s: what is being done in words,
 the best value so far (a length, or rad of turning; inf: none yet) and what it cannot be less than. It ends the call by returning True,
-and is not called again then; what it raises ends the call, too, and is raised there.
+and is not called again then; what it raises ends the call, too, and is raised there. Plan.stopped, and "stopped" in the dictionaries of
+advice, symmetries, rise and compare, say that time or progress ended a call: what there is then is right as far as it goes.
 """
 from __future__ import annotations
 
@@ -450,15 +451,15 @@ class Plan(_Owner):
         "sheets.html" (the booklet), "html" (the viewer), "steps", "steps.csv", "cords.csv", "beads.csv", "channels.csv", "obj", "gltf",
         "dxf", "mat", "poster", "kit", "picture". BadInput: no such document, or the plan has not what it shows."""
         given = _options(dict(seconds=float(seconds)))
-        return _kept(_made(given, progress, _library.lib.thread_draw_with, self._open(), type.encode()), path)
+        return _kept(_made(given, progress, _library.lib.thread_draw_with, self._open(), type.encode())[0], path)
 
 
 def _options(given: Mapping[str, Any]) -> Any:
     return _library.filled(_library.PlanOptions(), _library.lib.thread_plan_options_init, given)
 
 
-def _made(given: Any, progress: Optional[Heard], function: Any, *of: Any) -> bytes:
-    """The bytes that a function with options makes."""
+def _made(given: Any, progress: Optional[Heard], function: Any, *of: Any) -> Tuple[bytes, bool]:
+    """The bytes that a function with options makes, and whether it was stopped before they were all."""
     data, n = c_void_p(), c_size_t()
     try:
         status, error = _heard(given, progress, lambda text: int(function(
@@ -468,11 +469,13 @@ def _made(given: Any, progress: Optional[Heard], function: Any, *of: Any) -> byt
         raise
     if not data:
         raise _library.failure(status, error)
-    return _library.taken(data, n)
+    return _library.taken(data, n), status == _library.NOT_PROVED
 
 
 def _reported(given: Any, progress: Optional[Heard], function: Any, *of: Any) -> Dict[str, Any]:
-    report: Dict[str, Any] = json.loads(_made(given, progress, function, *of))
+    data, stopped = _made(given, progress, function, *of)
+    report: Dict[str, Any] = json.loads(data)
+    report["stopped"] = stopped
     return report
 
 
