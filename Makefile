@@ -25,7 +25,7 @@ DEMO = plan data/dome7.json --objective length -o $(DEMO_OUT)/plan.json --draw $
 # Debian 12 packages
 BUILD_PACKAGES := build-essential pkg-config libglpk-dev libigraph-dev libnauty2-dev libbullet-dev \
 	libsuitesparse-dev libfontconfig-dev zlib1g-dev fonts-dejavu-core python3
-TEST_PACKAGES := check clang clang-format libclang-rt-14-dev librsvg2-bin libxml2-utils poppler-utils python3 python3-pil apngdis time cmake man-db mandoc
+TEST_PACKAGES := check clang clang-format libclang-rt-14-dev librsvg2-bin libxml2-utils poppler-utils python3 python3-pil apngdis time cmake man-db mandoc mypy
 # from elsewhere than Debian it serves as well
 NPM_PACKAGES = $(if $(shell command -v npm),,nodejs npm)
 VIEWER_PACKAGES = chromium $(NPM_PACKAGES)

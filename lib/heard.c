@@ -18,11 +18,13 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double OFTEN = 0.05; /* s at most between two words to the caller */
+/* s at least between two words to the caller that say nothing new: at every look at the child,
+ * which is every 0.05 s. */
+static const double OFTEN = 0.03;
 
 /* A call may take a tenth more than its time and 0.2 s: s that its child has to stop by itself, and
  * as a part of that time. What is left is for the answer. */
-static const double grace_least = 0.1, grace_part = 0.1;
+static const double grace_least = 0.05, grace_part = 0.1;
 
 /* What the caller was told last, and whether it has had enough. */
 typedef struct {

@@ -57,6 +57,9 @@ void thr_library_unlock(void);
 /* Returns a status of the program as that of the library, with its text in *err (NULL ok). */
 thread_status thr_library_status(thr_status st, const thr_err *from, thread_error *err);
 
+/* Makes words for the command line those for programs: options are members. THR_ENOMEM. */
+thr_status thr_library_words(thr_text *text, thr_err *err) THR_MUST_CHECK;
+
 /* Copies a program's options over the usual ones in *own. The first member of both is their size,
  * and a program knows only so many bytes; theirs may be NULL. THR_EINPUT if the size is absurd.
  * what: the name of the struct. */

@@ -58,8 +58,8 @@ void thread_free(void *bytes)
   free(bytes);
 }
 
-/* What texts for the command line call otherwise than a member of the options that is named alike.
- */
+/* What texts for the command line call otherwise than a member of the options that is named alike;
+ * tests/library/words.py finds what is missing here. */
 static const struct {
   const char *option, *member;
 } members[] = {{"--feet (try --feet lowest)", "thread_frame_set_feet"},
@@ -68,7 +68,21 @@ static const struct {
                {"--objective", "aims"},
                {"--balance", "longest among the aims"},
                {"--length-slack", "length+P% among the aims"},
-               {"--tune ", ""}};
+               {"--layers all", "all_layers 1"},
+               {"--parallel keep", "parallel 1"},
+               {"plan --joint solid", "tube 0"},
+               {", or --clamp-feet", ""},
+               {"; other --tune rays may help", ""},
+               {"a finer --tune time-step, ", ""},
+               {"fewer --seeds", "fewer plans"},
+               {"; draw it smaller: --pitch", ""},
+               {"; --pitch says how large", ""},
+               {"--width", "width of `thread kit`"},
+               {"--wall", "wall of `thread kit`"},
+               {"--letters", "letters of `thread kit`"},
+               {"--channels", "channels of `thread kit`"},
+               {"--tube-ends", "tube-ends of `thread kit`"},
+               {"--bed", "bed of `thread kit`"}};
 
 /* Copies a text for programs: options are called by members, --max-length is max_length. */
 static void copy_text(char *to, size_t size, const char *from)
@@ -90,6 +104,21 @@ static void copy_text(char *to, size_t size, const char *from)
       to[n++] = *from++;
   }
   to[n] = '\0';
+}
+
+thr_status thr_library_words(thr_text *text, thr_err *err)
+{
+  enum { LONGER = 4 }; /* times at most: every member in the table above is shorter than that */
+  const size_t size = LONGER * text->length + 1;
+  if (text->length == 0) return THR_OK;
+
+  char *words = thr_calloc(size, 1);
+  if (!words) return thr_nomem(err);
+  copy_text(words, size, text->data);
+  text->length = 0;
+  thr_text_append(text, words);
+  free(words);
+  return text->failed ? thr_nomem(err) : THR_OK;
 }
 
 /* Translates status and text; see lib.h. */

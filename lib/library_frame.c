@@ -71,6 +71,7 @@ static thread_status hand_over(thr_status st, thr_frame *frame, const thr_read_r
   /* Notes may fail for lack of memory; then there is no framework. */
   if (!st && !made) st = thr_nomem(why);
   if (!st) st = thr_read_notes(frame, report, &made->notes, why);
+  if (!st) st = thr_library_words(&made->notes, why);
 
   /* The handle owns the framework from here on. */
   if (!st) {

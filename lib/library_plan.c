@@ -177,6 +177,20 @@ static void send_found(void *user, const thr_plan *plan, const thr_text *text)
   job->given->progress(job->given->user, "length", plan->metrics.length, 0);
 }
 
+/* Returns whether time or the caller, not counted work, ended a search before what there is was
+ * proved to the gap asked for: of a recommended plan fewer cords may not have been tried. */
+static bool was_ended(const search *job, const thr_limits *limits, const thr_plan *plan)
+{
+  thr_limits by_clock = *limits;
+  by_clock.work = NULL;
+  const double enough = fmax(0, plan->options.gap) / 100;
+  const bool proved =
+      !thr_library_recommends(job->options) &&
+      (thr_wants_turning(&plan->options) ? plan->turning.present && plan->turning.gap <= enough
+                                         : plan->proof.present && plan->proof.gap <= enough);
+  return !proved && thr_limits_stop(&by_clock);
+}
+
 /* Makes a plan and sends it. Signature of thr_job.run. */
 static thr_status search_and_send(void *user, const thr_limits *given, thr_reply *reply,
                                   thr_err *err)
@@ -212,8 +226,8 @@ static thr_status search_and_send(void *user, const thr_limits *given, thr_reply
         recommends
             ? thr_plan_recommended(job->frame, &request, &recommended, &limits, &plan, &report, err)
             : thr_plan_make(job->frame, &request, &limits, &plan, &report, err);
-    if (!st && recommends && thr_limits_stop(&limits))
-      st = thr_fail(err, THR_ELIMIT, "the time was over before fewer cords were tried");
+    if (!st && was_ended(job, &limits, &plan))
+      st = thr_fail(err, THR_ELIMIT, "the search was ended before it was done");
   }
 
   /* A plan without cords is no plan. */

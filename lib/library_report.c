@@ -7,6 +7,7 @@
 #include "eval/eval.h"
 #include "eval/rise/rise.h"
 #include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
 #include "lib/comparison.h"
 #include "lib/lib.h"
 #include "lib/rise_pieces.h"

@@ -11,18 +11,30 @@
     plan.write("plan.json")
     plan.draw("svg", "overview.svg")
 
-Lengths are in the frame's units, angles in rad, forces in N, nodes are numbers from 0. Coordinates and edges may be lists or numpy
-arrays; `Frame.array()` and `Frame.edge_array()` give arrays where numpy is installed. Frames and plans are freed with their last
-reference, or at the end of a `with` block. A failure is an exception with one line of text: BadInput (a ValueError), Infeasible,
-NotProved, Violated, OSError, MemoryError, or Error.
+Lengths are in the frame's units (Frame.units), angles in rad, forces in N, times in s; nodes and cords are numbers from 0. Coordinates
+and edges may be lists or numpy arrays; Frame.array() and Frame.edge_array() give arrays where numpy is installed. Frames and plans are
+freed with their last reference, or at the end of a `with` block.
+
+Failures are exceptions with one line of text that says where, what, and what to do: BadInput (a ValueError: a file, a frame or an
+option is wrong), Infeasible (there is no such threading), NotProved (time or progress ended a call before there was anything), Violated
+(a claim of a plan is not true), OSError, MemoryError, or Error, of which the first four are. TypeError: no such option, or no value
+for it.
+
+What takes long hears `progress` and can be given `seconds`, of which it takes at most a tenth and 0.2 s more; Ctrl-C ends it within
+half a second. `progress(what, best, bound)` is called in the thread of the call and at least every 0.1 s: what is being done in words,
+the best value so far (a length, or rad of turning; inf: none yet) and what it cannot be less than. It ends the call by returning True,
+and is not called again then; what it raises ends the call, too, and is raised there. Plan.stopped, and "stopped" in the dictionaries of
+advice, symmetries, rise and compare, say that time or progress ended a call: what there is then is right as far as it goes.
 """
 from __future__ import annotations
 
+import importlib
 import json
 import operator
 import os
 import signal
 import threading
+import warnings
 from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_size_t, c_void_p, sizeof
 from dataclasses import dataclass
 from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, TypeVar, Union
@@ -30,27 +42,46 @@ from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Seque
 from . import _library
 from ._library import BadInput, Error, Infeasible, NotProved, Violated
 
-__all__ = ["BadInput", "Cord", "Error", "Frame", "Infeasible", "NotProved", "Plan", "Summary", "Violated", "libraries", "parse",
-           "read", "version"]
+__all__ = ["BadInput", "Cord", "Error", "Frame", "Infeasible", "NotProved", "Plan", "StoppedWarning", "Summary", "Violated", "compare",
+           "libraries", "parse", "read", "version"]
 
 Heard = Callable[[str, float, float], Optional[bool]]
 Ends = Union[str, Iterable[int], Mapping[int, int]]
+Path = Union[str, "os.PathLike[str]"]
+Words = Union[str, Sequence[str]]
+Physics = Union[str, Mapping[str, Any]]
 _ends = {"closed": 0, "any": 1, "feet": 2}
+
+
+class StoppedWarning(UserWarning):
+    """The recommended plan was stopped at cords that need more pull than a hand has (Frame.plan)."""
 
 
 @dataclass(frozen=True)
 class Cord:
-    """A cord of a plan. Forces are those of the plan's evaluation; without one, of the closed form while both ends are pulled."""
+    """A cord of a plan. Forces are those of the plan's evaluation (Plan.eval); without one, of the closed form while both ends are
+    pulled until every pass has the seating tension."""
 
     name: str
+    """"A", "B", .., as documents call it."""
     nodes: List[int]
+    """Where it runs, passes + 1 nodes: of Frame.nodes, from 0."""
     length: float
+    """In units of the frame, without tails and knots."""
     turning: float
+    """rad, of all its turns on the way."""
     pull_start: float
+    """N at nodes[0]: 0 = not pulled there, inf = beyond all numbers."""
     pull_end: float
+    """N at nodes[-1]."""
     tension: Optional[List[float]]
+    """N in every pass: tension[k] between nodes[k] and nodes[k + 1]; None: not known."""
     grips: Optional[int] = None
     """On the way, the fewest by which a hand of 10 N seats every pass; None: not known."""
+
+    def __repr__(self) -> str:
+        return "<Cord %s: %d passes from node %d to %d, %.6g long, pulled with %.3g and %.3g N>" % (
+            self.name, self.passes, *self.ends, self.length, self.pull_start, self.pull_end)
 
     @property
     def ends(self) -> Tuple[int, int]:
@@ -59,23 +90,36 @@ class Cord:
 
     @property
     def passes(self) -> int:
+        """Edges that it passes, one after another."""
         return len(self.nodes) - 1
 
 
 @dataclass(frozen=True)
 class Summary:
-    """A plan in numbers: bound is what no such plan goes below, pull that of the cord that needs most."""
+    """A plan in numbers."""
 
     length: float
+    """Of all cords, in units of the frame."""
     bound: float
+    """No such plan is shorter; 0: not known."""
     overlap: float
+    """Of length, what passes edges again that have their passes."""
     turning: float
+    """rad, of all cords, with the closing turns of closed ones."""
     largest_turning: float
+    """rad, of the cord that turns most."""
     pull: float
+    """N at an end, of the cord that needs most; inf: beyond all numbers."""
     passes: int
+    """Of all cords."""
     u_turns: int
+    """Turns by which a cord goes back into the edge that it came from."""
     shortest: bool
+    """Proved: no such plan is shorter."""
     straightest: bool
+    """Proved: no such plan turns less."""
+    stopped: bool = False
+    """Time or progress ended the search before it was done: the pull may be beyond a hand's."""
 
 
 _Owned = TypeVar("_Owned", bound="_Owner")
@@ -109,9 +153,11 @@ class _Owner:
 
 
 class Frame(_Owner):
-    """Nodes in space and edges between them.
+    """Nodes in space and edges between them, which are bead pieces.
 
-    xyz: n points of three numbers; edges: pairs of nodes from 0. Both are copied, and may be numpy arrays. units: "mm", "m", ..
+    Frame(xyz, edges, units="mm"): xyz are n points of three numbers, edges pairs of nodes from 0; both are copied, and may be numpy
+    arrays of n x 3 and m x 2. units: of the numbers: "mm", "cm", "m", "in" or "ft". BadInput: two nodes in one place, an edge given
+    twice or of no length, a node without an edge; read() and parse() mend such things.
     """
 
     _free = _library.lib.thread_frame_free
@@ -129,6 +175,11 @@ class Frame(_Owner):
     def __reduce__(self) -> Any:
         return parse, (self.write("json"), "frame.json")
 
+    def __repr__(self) -> str:
+        if not self._handle:
+            return "<Frame, closed>"
+        return "<Frame: %d nodes, %d edges, %d feet, in %s>" % (len(self.nodes), len(self.edges), len(self.feet), self.units)
+
     @classmethod
     def _made(cls, function: Any, *args: Any) -> "Frame":
         frame = cls.__new__(cls)
@@ -138,11 +189,13 @@ class Frame(_Owner):
 
     @classmethod
     def shape(cls, shape: str, size: int = 0) -> "Frame":
-        """An example: "dome", "geodesic", "sphere", "tube", "honeycomb", ..; size 0 is the usual one."""
+        """An example: "dome", "geodesic", "sphere", "tube", "honeycomb", "row", "arch" or "alternating". size: what `thread make`
+        counts, of a dome the nodes per side; 0 is the usual one. In mm. BadInput: no such shape or size."""
         return cls._made(_library.lib.thread_frame_shape, shape.encode(), c_int(size))
 
     @property
     def nodes(self) -> List[Tuple[float, float, float]]:
+        """x, y and z of every node, z upwards, in units of the frame."""
         xyz = POINTER(c_double)()
         n = _library.lib.thread_frame_nodes(self._open(), byref(xyz))
         flat = xyz[:3 * n]
@@ -150,6 +203,7 @@ class Frame(_Owner):
 
     @property
     def edges(self) -> List[Tuple[int, int]]:
+        """The two nodes of every edge."""
         ends = POINTER(c_int)()
         n = _library.lib.thread_frame_edges(self._open(), byref(ends))
         flat = ends[:2 * n]
@@ -157,28 +211,40 @@ class Frame(_Owner):
 
     def array(self) -> Any:
         """The nodes as a numpy array of n x 3."""
-        import numpy
-
-        return numpy.array(self.nodes, dtype=float).reshape(-1, 3)
+        return importlib.import_module("numpy").array(self.nodes, dtype=float).reshape(-1, 3)
 
     def edge_array(self) -> Any:
         """The edges as a numpy array of n x 2."""
-        import numpy
-
-        return numpy.array(self.edges, dtype=int).reshape(-1, 2)
+        return importlib.import_module("numpy").array(self.edges, dtype=int).reshape(-1, 2)
 
     @property
     def names(self) -> List[str]:
-        return [_library.lib.thread_frame_name(self._open(), c_int(i)).decode() for i in range(len(self.nodes))]
+        """What documents call the nodes: "D4", .."""
+        return [str(_library.lib.thread_frame_name(self._open(), c_int(i)).decode()) for i in range(len(self.nodes))]
+
+    @property
+    def feet(self) -> List[int]:
+        """The nodes where cords may end with ends="feet" (set_feet)."""
+        return [int(v) for v in self._facts().get("feet", [])]
+
+    @property
+    def units(self) -> str:
+        """Of coordinates and lengths: "mm", "m", .."""
+        return str(self._facts()["units"])
+
+    def _facts(self) -> Dict[str, Any]:
+        facts: Dict[str, Any] = json.loads(self.write("json"))
+        return facts
 
     @property
     def notes(self) -> List[str]:
-        """What reading merged, dropped or found odd."""
-        return _library.lib.thread_frame_notes(self._open()).decode().splitlines()
+        """What reading merged, dropped or found odd, a line each."""
+        return [str(line) for line in _library.lib.thread_frame_notes(self._open()).decode().splitlines()]
 
     def set_feet(self, nodes: Union[str, Iterable[int]] = "lowest") -> "Frame":
         """Says where cord ends may come out with ends="feet": at these nodes, at the "lowest" ones, all round the "rim" of a
-        shell, or up to a height, "below=200mm". A mask, True or False for every node, does as well. Returns the frame."""
+        shell, or up to a height, "below=200mm". A mask, True or False for every node, does as well. Returns the frame. BadInput: no
+        such nodes; nothing changes then."""
         if isinstance(nodes, str):
             _library.call(_library.lib.thread_frame_set_feet_where, self._open(), nodes.encode())
             return self
@@ -190,43 +256,74 @@ class Frame(_Owner):
         return self
 
     def set_passes(self, edge: int, cover: int, capacity: int = 0) -> None:
-        """Says how many passes an edge needs, and how many fit through it (0 = any number)."""
+        """Says how many passes an edge, from 0, needs (1 to 100), and how many fit through it (0 = any number). BadInput: no such
+        edge, or capacity below cover."""
         _library.call(_library.lib.thread_frame_set_passes, self._open(), c_int(edge), c_int(cover), c_int(capacity))
 
-    def write(self, format: str = "json", path: Optional[Union[str, "os.PathLike[str]"]] = None) -> bytes:
-        """The frame as "json", "obj", "csv", "ply", "dxf" or "graphml"; it is also written to path, if there is one."""
+    def write(self, format: str = "json", path: Optional[Path] = None) -> bytes:
+        """The bytes of the frame as "json", "obj", "csv", "ply", "dxf" or "graphml", which are also written to path, if there is one.
+        BadInput: no such format."""
         return _kept(_library.received(_library.lib.thread_frame_write, self._open(), format.encode()), path)
 
     def plan(self, ends: Optional[Ends] = None, cords: Optional[Union[int, Tuple[int, int]]] = None,
-             progress: Optional[Heard] = None, **options: Any) -> "Plan":
-        """Makes the best plan that the time allows; Plan.proved says whether nothing is better.
+             progress: Optional[Heard] = None, *, aims: Optional[Words] = None, seconds: Optional[float] = None,
+             cover: Optional[int] = None, capacity: Optional[int] = None, distinct: Optional[int] = None,
+             max_length: Optional[float] = None, max_pull: Optional[float] = None, tube: Optional[bool] = None,
+             physics: Optional[Physics] = None, hand: Optional[float] = None, gap: Optional[float] = None,
+             threads: Optional[int] = None, request: Optional[Physics] = None) -> "Plan":
+        """Makes the best plan that the time allows; Plan.proved says whether nothing is better, Plan.stopped whether it was ended.
 
-        ends: "closed", "any", "feet", a list of nodes, or {node: number of ends}. cords: exactly so many, or (least, most). If
-        neither cords nor aims are said, it is the recommended plan, as of `thread plan FRAME`. progress hears, in this thread and
-        at least every 0.1 s, what is done, the best value and the bound, and stops the search by returning True; an exception in
-        it does so, too, and is raised here. options are those of thread_plan_options in thread.h: aims="length,turning", cover,
-        capacity, max_length, max_pull, physics, seconds, hand, ..
+        If none of cords, aims and limits are said it is the recommended plan, as of `thread plan FRAME`: as few cords as `hand`
+        can pull. One that was stopped before some were found that it can is a StoppedWarning.
+
+        ends: "closed", "any", "feet" (set_feet), a list of nodes, or {node: number of ends}.
+        cords: exactly so many in every component, or (least, most).
+        aims: first, second, ..: "length", "turning", "max-turning", "pull", "longest", "overlap", "steps"; "length+5%,turning".
+        seconds: for the call; 0 = until it is proved.
+        cover, capacity: passes of every edge, from .. to; capacity 0 = any number.
+        distinct: different cords that pass every edge.
+        max_length: of a cord, in units of the frame. max_pull: at its ends, times the seating tension.
+        tube: only edges are pieces, and the cord ties them at every node.
+        physics: of cord and beads, {"mu": 0.3, "seating": 5} or as JSON.
+        hand: N that an end may need where cords are not said; 10 without.
+        gap: %, the search ends so near to its bound.
+        threads: processors that it may use; they change no result but of a search that time ends.
+        request: all that is asked for, as "options" of a plan's JSON (Plan.json); the rest but seconds, gap and threads does not count.
+
+        BadInput: an option is wrong. Infeasible: there is no such threading. NotProved: nothing was found in time.
         """
-        given = self._asked(ends, cords, options)
+        said = dict(aims=aims, seconds=seconds, cover=cover, capacity=capacity, distinct=distinct, max_length=max_length,
+                    max_pull=max_pull, tube=tube, physics=physics, hand=hand, gap=gap, threads=threads, request=request)
+        given = self._asked(ends, cords, said)
         plan = Plan.__new__(Plan)
         plan._handle = c_void_p()
-        status, error = _heard(given, progress, lambda text: _library.lib.thread_plan_make(
-            self._open(), byref(given), byref(plan._handle), byref(text)))
+        status, error = _heard(given, progress, lambda text: int(_library.lib.thread_plan_make(
+            self._open(), byref(given), byref(plan._handle), byref(text))))
         if not plan._handle:
             raise _library.failure(status, error)
+        recommended = cords is None and not isinstance(ends, Mapping) and all(said[name] is None for name in (
+            "aims", "distinct", "max_length", "max_pull", "gap", "request"))
+        if recommended and plan.stopped and plan.summary.pull > (hand or 10):
+            warnings.warn(str(_library.failure(status, error)), StoppedWarning, stacklevel=2)
         return plan
 
-    def advice(self, progress: Optional[Heard] = None, **options: Any) -> Dict[str, Any]:
-        """Plans for every number of cords and kind of ends that may be worth it, in numbers, and which row is recommended, as
-        `thread advise --json` says it. options: hand, cover, physics, seconds, ..
-        """
-        return self._report("advice", None, progress, options)
+    def advice(self, progress: Optional[Heard] = None, *, hand: Optional[float] = None, cover: Optional[int] = None,
+               capacity: Optional[int] = None, physics: Optional[Physics] = None, seconds: Optional[float] = None,
+               threads: Optional[int] = None) -> Dict[str, Any]:
+        """Plans for every number of cords and kind of ends that may be worth it, in numbers, as `thread advise --json` says it: "rows",
+        and in "recommended" which one of them, from 0, or None. Options as of plan(). NotProved: no row was found in time."""
+        return self._report("advice", None, progress, dict(
+            hand=hand, cover=cover, capacity=capacity, physics=physics, seconds=seconds, threads=threads))
 
-    def symmetries(self, ends: Optional[Ends] = None, progress: Optional[Heard] = None, **options: Any) -> Dict[str, Any]:
-        """The groups of the frame's symmetries and the best threading under each, as `thread symmetries --json` says it."""
-        return self._report("symmetries", ends, progress, options)
+    def symmetries(self, ends: Optional[Ends] = None, progress: Optional[Heard] = None, *, aims: Optional[Words] = None,
+                   cover: Optional[int] = None, tube: Optional[bool] = None, physics: Optional[Physics] = None,
+                   seconds: Optional[float] = None, threads: Optional[int] = None) -> Dict[str, Any]:
+        """The groups of the frame's symmetries and the best threading under each, in "groups", as `thread symmetries --json` says it.
+        Options as of plan(); 20 s without seconds. NotProved: nothing was found in time."""
+        return self._report("symmetries", ends, progress, dict(
+            aims=aims, cover=cover, tube=tube, physics=physics, seconds=seconds, threads=threads))
 
-    def _asked(self, ends: Optional[Ends], cords: Optional[Union[int, Tuple[int, int]]], options: Dict[str, Any]) -> Any:
+    def _asked(self, ends: Optional[Ends], cords: Optional[Union[int, Tuple[int, int]]], options: Mapping[str, Any]) -> Any:
         given = _library.filled(_library.PlanOptions(), _library.lib.thread_plan_options_init, options)
         if cords is not None:
             least, most = cords if isinstance(cords, (list, tuple)) else (cords, cords)
@@ -243,18 +340,15 @@ class Frame(_Owner):
             given.ends, given.n_end_nodes, given.end_node = 3, len(node), (c_int * len(node))(*node)
         return given
 
-    def _report(self, what: str, ends: Optional[Ends], progress: Optional[Heard], options: Dict[str, Any]) -> Dict[str, Any]:
-        given = self._asked(ends, None, options)
-        data, n = c_void_p(), c_size_t()
-        status, error = _heard(given, progress, lambda text: _library.lib.thread_report(
-            self._open(), what.encode(), byref(given), byref(data), byref(n), byref(text)))
-        if not data:
-            raise _library.failure(status, error)
-        return json.loads(_library.taken(data, n))
+    def _report(self, what: str, ends: Optional[Ends], progress: Optional[Heard], options: Mapping[str, Any]) -> Dict[str, Any]:
+        return _reported(self._asked(ends, None, options), progress, _library.lib.thread_report, self._open(), what.encode())
 
 
 class Plan(_Owner):
-    """Cords through a frame, and what is proved of them."""
+    """Cords through a frame, and what is proved of them: by Frame.plan(), Plan.read(path), or Plan(json), the text of its file.
+
+    BadInput: it is no plan; check() says whether what it claims is true.
+    """
 
     _free = _library.lib.thread_plan_free
 
@@ -267,9 +361,18 @@ class Plan(_Owner):
     def __reduce__(self) -> Any:
         return Plan, (self.json(),)
 
+    def __repr__(self) -> str:
+        if not self._handle:
+            return "<Plan, closed>"
+        facts, n = self.summary, int(_library.lib.thread_plan_cords(self._open()))
+        known = "proved the shortest" if facts.shortest else "proved the straightest" if facts.straightest else (
+            "stopped" if facts.stopped else "not proved")
+        return "<Plan: %d %s, %.7g %s, at most %.3g N at an end, %s>" % (
+            n, "cord" if n == 1 else "cords", facts.length, self.frame.units, facts.pull, known)
+
     @classmethod
-    def read(cls, path: Union[str, "os.PathLike[str]"]) -> "Plan":
-        """Reads a plan from a file."""
+    def read(cls, path: Path) -> "Plan":
+        """Reads a plan from a file. OSError, BadInput."""
         with open(path, "rb") as file:
             return cls(file.read(), os.fspath(path))
 
@@ -281,6 +384,7 @@ class Plan(_Owner):
 
     @property
     def cords(self) -> List[Cord]:
+        """All cords, with length, pulls and the tension of every pass."""
         return [self._cord(i) for i in range(_library.lib.thread_plan_cords(self._open()))]
 
     def _cord(self, i: int) -> Cord:
@@ -292,67 +396,106 @@ class Plan(_Owner):
 
     @property
     def summary(self) -> Summary:
+        """Length, bound, turning, pull and so on."""
         facts = _library.SummaryFacts()
         _library.call(_library.lib.thread_plan_summary, self._open(), byref(facts), c_size_t(sizeof(facts)))
         return Summary(length=facts.length, bound=facts.bound, overlap=facts.overlap, turning=facts.turning,
                        largest_turning=facts.largest_turning, pull=facts.pull, passes=facts.passes, u_turns=facts.u_turns,
-                       shortest=bool(facts.shortest), straightest=bool(facts.straightest))
+                       shortest=bool(facts.shortest), straightest=bool(facts.straightest),
+                       stopped=bool(facts.stopped))
 
     @property
     def proved(self) -> bool:
         """Has no such plan less cord, or does none turn less?"""
         return self.summary.shortest or self.summary.straightest
 
+    @property
+    def stopped(self) -> bool:
+        """Did time or progress end its search before it was done? Then the pull may be beyond a hand's. A plan that was read knows
+        nothing of its search: False."""
+        return self.summary.stopped
+
     def check(self) -> None:
         """Verifies every claim of the plan without a solver; raises Violated, which says what is not true."""
         _library.call(_library.lib.thread_check, self._open())
 
-    def eval(self, method: str = "capstan", seconds: float = 0.0, progress: Optional[Heard] = None) -> "Plan":
-        """Puts pulls and tensions by "capstan", "joint" or "structure" into the plan; seconds 0 = as long as it takes."""
-        given = _library.filled(_library.PlanOptions(), _library.lib.thread_plan_options_init, {"seconds": float(seconds)})
-        status, error = _heard(given, progress, lambda text: _library.lib.thread_eval_with(
-            self._open(), method.encode(), byref(given), byref(text)))
+    def eval(self, method: str = "capstan", seconds: float = 0.0, progress: Optional[Heard] = None,
+             threads: Optional[int] = None) -> "Plan":
+        """Puts pulls and tensions by "capstan" (the closed form), "joint" (joints measured in simulation) or "structure" (what holds
+        the pieces, by limit analysis) into the plan, which is returned; Plan.cords has them. seconds 0 = as long as it takes.
+        BadInput: no such method. NotProved: the time was too short; the plan is as it was."""
+        given = _options(dict(seconds=float(seconds), threads=threads))
+        status, error = _heard(given, progress, lambda text: int(_library.lib.thread_eval_with(
+            self._open(), method.encode(), byref(given), byref(text))))
         if status != _library.OK:
             raise _library.failure(status, error)
         return self
 
+    def rise(self, seconds: float = 0.0, progress: Optional[Heard] = None) -> Dict[str, Any]:
+        """Whether its pieces come up in simulation, pulled from flat on the ground, as `thread rise --json` says it: "came_up" and
+        "pull_up", N, of the one run in "runs". It takes a minute of a processor for 49 pieces. NotProved: nothing was seen in time."""
+        return _reported(_options(dict(seconds=float(seconds))), progress, _library.lib.thread_report_plans,
+                         byref(self._open()), c_int(1), b"rise")
+
     def json(self) -> bytes:
-        """The plan as its file has it (docs/plan-format.md)."""
+        """The plan as its file has it, which docs/plan-format.md describes: the same bytes for the same plan."""
         return _library.received(_library.lib.thread_plan_write, self._open())
 
-    def write(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Writes the plan to a file."""
+    def write(self, path: Path) -> None:
+        """Writes the plan to a file. OSError."""
         _kept(self.json(), path)
 
-    def draw(self, type: str = "svg", path: Optional[Union[str, "os.PathLike[str]"]] = None,
-             progress: Optional[Heard] = None) -> bytes:
-        """A document as `thread draw --type` makes it: "svg", "pdf", "html", "kit", "obj", ..; it is also written to path."""
-        given = _library.filled(_library.PlanOptions(), _library.lib.thread_plan_options_init, {})
-        data, n = c_void_p(), c_size_t()
-        status, error = _heard(given, progress, lambda text: _library.lib.thread_draw_with(
-            self._open(), type.encode(), byref(given), byref(data), byref(n), byref(text)))
-        if status != _library.OK:
-            raise _library.failure(status, error)
-        return _kept(_library.taken(data, n), path)
+    def draw(self, type: str = "svg", path: Optional[Path] = None, progress: Optional[Heard] = None,
+             seconds: float = 0.0) -> bytes:
+        """The bytes of a document as `thread draw --type` makes it, which are also written to path, if there is one: "svg", "pdf" and
+        "sheets.html" (the booklet), "html" (the viewer), "steps", "steps.csv", "cords.csv", "beads.csv", "channels.csv", "obj", "gltf",
+        "dxf", "mat", "poster", "kit", "picture". BadInput: no such document, or the plan has not what it shows."""
+        given = _options(dict(seconds=float(seconds)))
+        return _kept(_made(given, progress, _library.lib.thread_draw_with, self._open(), type.encode())[0], path)
+
+
+def _options(given: Mapping[str, Any]) -> Any:
+    return _library.filled(_library.PlanOptions(), _library.lib.thread_plan_options_init, given)
+
+
+def _made(given: Any, progress: Optional[Heard], function: Any, *of: Any) -> Tuple[bytes, bool]:
+    """The bytes that a function with options makes, and whether it was stopped before they were all."""
+    data, n = c_void_p(), c_size_t()
+    try:
+        status, error = _heard(given, progress, lambda text: int(function(
+            *of, byref(given), byref(data), byref(n), byref(text))))
+    except BaseException:
+        _library.lib.thread_free(data)
+        raise
+    if not data:
+        raise _library.failure(status, error)
+    return _library.taken(data, n), status == _library.NOT_PROVED
+
+
+def _reported(given: Any, progress: Optional[Heard], function: Any, *of: Any) -> Dict[str, Any]:
+    data, stopped = _made(given, progress, function, *of)
+    report: Dict[str, Any] = json.loads(data)
+    report["stopped"] = stopped
+    return report
 
 
 def _heard(given: Any, progress: Optional[Heard], call: Callable[[Any], int]) -> Tuple[int, Any]:
-    """Status and text of a call with these options, while progress hears how far it is. Raises what that raised."""
+    """Status and text of a call with these options, while progress hears how far it is. Raises what that raised, and what Ctrl-C does."""
     raised: List[BaseException] = []
 
     def hear(_: Any, what: bytes, best: float, bound: float) -> int:
         try:
-            return 1 if raised or progress(what.decode(), best, bound) else 0  # type: ignore[misc]
+            return 1 if raised or (progress is not None and progress(what.decode(), best, bound)) else 0
         except BaseException as reason:
             raised.append(reason)
             return 1
 
-    # What Ctrl-C raises between two lines of a callback is lost: the search is stopped first.
-    caught = progress is not None and threading.current_thread() is threading.main_thread() and (
-        signal.getsignal(signal.SIGINT) is signal.default_int_handler)
+    # What Ctrl-C raises between two lines of a callback is lost: the search is stopped first. Where nobody hears, it is heard here.
+    main = threading.current_thread() is threading.main_thread()
+    caught = main and signal.getsignal(signal.SIGINT) is signal.default_int_handler
     if caught:
         signal.signal(signal.SIGINT, lambda *_: raised.append(KeyboardInterrupt()))
-    if progress is not None:
+    if main or progress is not None:
         given.progress = _library.Progress(hear)
     error = _library.Text()
     try:
@@ -365,36 +508,64 @@ def _heard(given: Any, progress: Optional[Heard], call: Callable[[Any], int]) ->
     return status, error
 
 
-def _kept(data: bytes, path: Optional[Union[str, "os.PathLike[str]"]]) -> bytes:
+def _kept(data: bytes, path: Optional[Path]) -> bytes:
     if path is not None:
         with open(path, "wb") as file:
             file.write(data)
     return data
 
 
-def _read_options(options: Any) -> Any:
+def read(path: Path, *, edges: Optional[str] = None, units: Optional[str] = None, weld: Optional[float] = None,
+         scale: Optional[float] = None, flat: Optional[float] = None, up: Optional[str] = None, split: Optional[bool] = None,
+         pick: Optional[int] = None, part: Optional[str] = None, all_layers: Optional[bool] = None, parallel: Optional[bool] = None,
+         columns: Optional[str] = None) -> Frame:
+    """Reads a frame from a file: OBJ, DXF, PLY, STL, CSV, JSON, GraphML, .. Frame.notes says what was merged or dropped.
+
+    edges: the second file of a pair of tables. columns: of a table of edges, both ends' columns, "a,b".
+    units: of the numbers, where the file does not say: "m". scale: times every coordinate. up: "y" or "z".
+    weld: nodes closer than this are one, in units of the frame. split: cut edges where a node lies on them.
+    flat: rad, no edge between triangles that meet at less. parallel: keep parallel edges that differ in length.
+    pick, part: which framework of a file that holds several, by number from 1, or by name. all_layers: hidden ones of a drawing, too.
+
+    OSError: it cannot be read. BadInput says where, what, and what to do.
+    """
+    return Frame._made(_library.lib.thread_frame_read, os.fsencode(path), _read_options(dict(
+        edges=edges, units=units, weld=weld, scale=scale, flat=flat, up=up, split=split, pick=pick, part=part, all_layers=all_layers,
+        parallel=parallel, columns=columns)))
+
+
+def parse(data: Union[str, bytes], name: str, *, units: Optional[str] = None, weld: Optional[float] = None,
+          scale: Optional[float] = None, flat: Optional[float] = None, up: Optional[str] = None, split: Optional[bool] = None,
+          pick: Optional[int] = None, part: Optional[str] = None, all_layers: Optional[bool] = None, parallel: Optional[bool] = None,
+          columns: Optional[str] = None) -> Frame:
+    """Reads a frame from the text of a file; name is for messages, and its ending says what it is: "shell.obj". The rest as read()."""
+    text = data.encode() if isinstance(data, str) else bytes(data)
+    return Frame._made(_library.lib.thread_frame_parse, c_char_p(text), c_size_t(len(text)), name.encode(), _read_options(dict(
+        units=units, weld=weld, scale=scale, flat=flat, up=up, split=split, pick=pick, part=part, all_layers=all_layers,
+        parallel=parallel, columns=columns)))
+
+
+def _read_options(options: Mapping[str, Any]) -> Any:
     return byref(_library.filled(_library.ReadOptions(), _library.lib.thread_read_options_init, options))
 
 
-def read(path: Union[str, "os.PathLike[str]"], **options: Any) -> Frame:
-    """Reads a frame from a file (OBJ, DXF, PLY, STL, CSV, JSON, ..). options are those of thread_read_options in thread.h:
-    units="m", scale, weld, up="y", split=True, pick, ..
-    """
-    return Frame._made(_library.lib.thread_frame_read, os.fsencode(path), _read_options(options))
-
-
-def parse(data: Union[str, bytes], name: str, **options: Any) -> Frame:
-    """Reads a frame from the text of a file; name is for messages, and its ending says what it is: "shell.obj"."""
-    text = data.encode() if isinstance(data, str) else bytes(data)
-    return Frame._made(_library.lib.thread_frame_parse, c_char_p(text), c_size_t(len(text)), name.encode(), _read_options(options))
+def compare(plans: Sequence[Plan], method: str = "joint", seconds: float = 0.0, progress: Optional[Heard] = None,
+            threads: Optional[int] = None) -> Dict[str, Any]:
+    """Plans of one frame side by side, as `thread compare --json` says it: a row each in "plans", where they are called "plan 1", "plan
+    2" and so on, and in "rankings" their order. method: "joint", "capstan", "structure", "all" of these, or "rise", of three runs each.
+    BadInput: no such method, or plans of different frames. NotProved: nothing was known in time."""
+    handles = (c_void_p * len(plans))(*[plan._open() for plan in plans])
+    what = "compare" if method == "joint" else "compare " + method
+    return _reported(_options(dict(seconds=float(seconds), threads=threads)), progress, _library.lib.thread_report_plans, handles,
+                     c_int(len(plans)), what.encode())
 
 
 def version() -> str:
     """The version of the library: "0.1.0"."""
-    number = _library.lib.thread_version()
+    number = int(_library.lib.thread_version())
     return "%d.%d.%d" % (number // 10000, number // 100 % 100, number % 100)
 
 
 def libraries() -> str:
     """The versions of what is in it."""
-    return _library.lib.thread_libraries().decode()
+    return str(_library.lib.thread_libraries().decode())

@@ -9,7 +9,7 @@ import ctypes
 import json
 import os
 from ctypes import POINTER, byref, c_char, c_char_p, c_double, c_int, c_size_t, c_void_p
-from typing import Any, Dict, Mapping
+from typing import Any, Mapping
 
 OK, NO_MEMORY, IO, BAD_INPUT, INFEASIBLE, NOT_PROVED, SOLVER, VIOLATED = range(8)
 Progress = ctypes.CFUNCTYPE(c_int, c_void_p, c_char_p, c_double, c_double)
@@ -75,7 +75,7 @@ class CordFacts(ctypes.Structure):
 class SummaryFacts(ctypes.Structure):
     _fields_ = [("size", c_size_t), ("length", c_double), ("bound", c_double), ("overlap", c_double),
                 ("turning", c_double), ("largest_turning", c_double), ("pull", c_double), ("passes", c_int),
-                ("u_turns", c_int), ("shortest", c_int), ("straightest", c_int)]
+                ("u_turns", c_int), ("shortest", c_int), ("straightest", c_int), ("stopped", c_int)]
 
 
 def _load() -> ctypes.CDLL:
@@ -84,7 +84,7 @@ def _load() -> ctypes.CDLL:
     beside = [os.path.join(here, "lib", "libthread.so.0"), os.path.join(here, "..", "..", "..", "libthread.so.0")]
     named = os.environ.get("LIBTHREAD")
     try:
-        return ctypes.CDLL(named or next(filter(os.path.exists, beside), "libthread.so.0"))
+        return ctypes.CDLL(named or next((path for path in beside if os.path.exists(path)), "libthread.so.0"))
     except OSError as reason:
         raise ImportError("libthread is not installed: `make install`, or LIBTHREAD=/path/to/libthread.so.0 (%s)" % reason) from None
 
@@ -112,8 +112,16 @@ def call(function: Any, *args: Any) -> None:
         raise failure(status, error)
 
 
+# What texts for C name otherwise than this package.
+_names = [("thread_frame_set_feet", "set_feet"), ("thread_plan_options.", ""), ("cords_least", "the least of cords"), ("end_node", "ends"),
+          ("end_count", "ends"), ("stopped by progress", "stopped")]
+
+
 def failure(status: int, error: Text) -> Exception:
-    text = error.text.decode()
+    """The exception for a status, with the text of the error."""
+    text = str(error.text.decode())
+    for name, here in _names:
+        text = text.replace(name, here)
     if status == NO_MEMORY:
         return MemoryError(text)
     if status == IO:
@@ -136,13 +144,13 @@ def taken(data: c_void_p, n: c_size_t) -> bytes:
         lib.thread_free(data)
 
 
-def filled(options: Any, init: Any, given: Dict[str, Any]) -> Any:
-    """The struct with its usual values, and those that are given."""
+def filled(options: Any, init: Any, given: Mapping[str, Any]) -> Any:
+    """The struct with its usual values, and those that are given and not None."""
     init(byref(options), c_size_t(ctypes.sizeof(options)))
     known = dict(options._fields_)
     for name, value in given.items():
-        if name not in known or name == "size":
-            raise TypeError("there is no option %s; there are %s" % (name, ", ".join(sorted(set(known) - {"size", "progress", "user"}))))
+        if value is None:
+            continue
         try:
             setattr(options, name, encoded(value) if known[name] != c_char or not isinstance(value, bool) else bytes([value]))
         except TypeError:

@@ -6,7 +6,11 @@ import json
 import math
 import os
 import pickle
+import signal
 import tempfile
+import threading
+import time
+import warnings
 
 import thread_plan
 from thread_plan import Frame
@@ -97,6 +101,43 @@ for made in (plan, stopped, hasty):
     assert thread_plan.Plan(made.json()).proved == made.proved
 refused(ZeroDivisionError, "", lambda: dome.plan(cords=4, ends="feet", aims="turning", progress=lambda *_: 1 / 0))
 
+# Who has asked to stop is not asked again; what was stopped says so, and whether a hand can pull it. The time is kept.
+heard = []
+assert dome.plan(cords=4, ends="feet", aims="turning", progress=lambda *_: not heard.append(1)).stopped and heard == [1]
+assert not chosen.stopped and not plan.stopped
+large = Frame.shape("dome", 20)
+with warnings.catch_warnings(record=True) as said:
+    warnings.simplefilter("always")
+    began = time.monotonic()
+    best = large.plan(progress=lambda what, best, bound: time.monotonic() > began + 0.2)
+    assert time.monotonic() < began + 2 and best.stopped, time.monotonic() - began
+    assert [w.category for w in said] == [thread_plan.StoppedWarning] * (best.summary.pull > 10), said
+    assert all("of a hand" in str(w.message) for w in said), said
+began = time.monotonic()
+large.plan(cords=4, aims="max-turning", seconds=0.5)
+assert time.monotonic() < began + 2
+
+# Ctrl-C ends a call that nobody listens to, soon, and is heard afterwards as before.
+for call in (lambda: large.plan(cords=4, ends="any", aims="max-turning", seconds=0), best.rise, lambda: large.symmetries(ends="any")):
+    began = time.monotonic()
+    threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    refused(KeyboardInterrupt, "", call)
+    assert time.monotonic() < began + 2, time.monotonic() - began
+assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+# Plans side by side, and how one comes up, as far as the time goes.
+compared = thread_plan.compare([dome.plan(cords=1), chosen], "capstan")
+assert [row["plan"] for row in compared["plans"]] == ["plan 1", "plan 2"] and compared["rankings"][0]["order"][0]["plan"] == "plan 2"
+refused(thread_plan.BadInput, "plan 2 is for another", lambda: thread_plan.compare([plan, chosen], "capstan"))
+refused(thread_plan.BadInput, "no report compare guess", lambda: thread_plan.compare([plan], "guess"))
+refused(thread_plan.NotProved, "", lambda: chosen.rise(progress=lambda *_: True))
+assert not compared["stopped"] and not advice["stopped"] and chosen.rise(seconds=5)["stopped"]
+
+# What they are, at a glance.
+assert repr(dome) == "<Frame: 49 nodes, 84 edges, 4 feet, in mm>" and dome.units == "mm" and dome.feet == [0, 6, 42, 48], repr(dome)
+assert repr(chosen).startswith("<Plan: %d cords, " % len(chosen.cords)) and repr(plan).endswith("proved the shortest>"), (chosen, plan)
+assert repr(cord).startswith("<Cord A: 6 passes from node "), cord
+
 # Copies are of their own; errors travel between processes.
 for made in (copy.copy(plan), copy.deepcopy(plan), pickle.loads(pickle.dumps(plan))):
     assert made.json() == plan.json() and made.proved == plan.proved
@@ -125,9 +166,16 @@ with Frame(SQUARE, SIDES) as lent:
     assert len(lent.edges) == 5
 refused(ValueError, "closed", lambda: lent.nodes)
 
-# Everything that is public says what it is.
+refused(thread_plan.BadInput, "ends[0]: there is no node 999", lambda: dome.plan(ends=[999]))
+refused(thread_plan.Infeasible, "with set_feet or ends", lambda: Frame(SQUARE, SIDES).plan(ends="feet"))
+refused(thread_plan.BadInput, "the least of cords", lambda: dome.plan(cords=(5, 4)))
+
+# Everything that is public says what it is; of a method also its own words, not those of a base.
 for name in thread_plan.__all__:
-    assert inspect.getdoc(getattr(thread_plan, name)), name
+    public = getattr(thread_plan, name)
+    assert inspect.getdoc(public), name
+    for member, value in vars(public).items() if inspect.isclass(public) else ():
+        assert member.startswith("_") or not (callable(value) or isinstance(value, (property, classmethod))) or value.__doc__, (name, member)
 
 try:
     import numpy

@@ -72,6 +72,8 @@ package=$(dirname "$(find "$root" -path '*/thread_plan/__init__.py')")
 python() { PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$(dirname "$package") LIBTHREAD=$usr/lib/libthread.so.0 python3 "$@"; }
 python_example() { prints_length python "$examples/python/dome.py" "$out/python.svg"; }
 python_package() { python tests/library/package.py; }
+library_words() { python3 tests/library/words.py; }
+python_types() { mypy --strict --cache-dir="$out/mypy" python/thread_plan; }
 python_wheel() { # one without the library, built twice by the rules of PEP 517, as pip takes it
   local wheel again
   wheel=$(python3 python/build_wheel.py "$out/wheel") && again=$(python3 python/build_wheel.py "$out/wheel-again") && cmp "$wheel" "$again" &&
@@ -173,9 +175,11 @@ test_that 'and linked with the static library' c_static
 test_that 'the static example prints the least length' env -u LD_LIBRARY_PATH bash -c "[ \"\$('$out/dome-static')\" = $length ]"
 test_that 'the header is C++, too' cplusplus
 test_that 'what docs/library.md shows compiles' page_compiles
+test_that 'texts name members, not options' library_words
 test_that 'the Python example prints the least length' python_example
 test_that 'C and Python draw the same picture' same_picture
 test_that 'the Python package does what it says' python_package
+if command -v mypy >/dev/null; then test_that 'the Python package is typed' python_types; fi
 test_that 'the wheel has the same files, and the same bytes twice' python_wheel
 test_that 'the program plans the dome' bash -c "'$usr/bin/thread' make dome | '$usr/bin/thread' plan - --cords 1 -o '$out/plan.json'"
 test_that 'and draws the same picture' as_drawn

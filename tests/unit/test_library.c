@@ -267,6 +267,11 @@ START_TEST(notes_say_what_was_merged)
   ck_assert_double_eq(xyz[3], 20);
   thread_frame_free(frame);
   static const char cross[] = "0,0,0,20,0,0\n10,0,0,10,10,0\n"; /* a T whose bar is one edge */
+  ck_assert_int_eq((int)thread_frame_parse(cross, strlen(cross), "t.csv", NULL, &frame, &err),
+                   THREAD_OK);
+  ck_assert_ptr_nonnull(strstr(thread_frame_notes(frame), ": split cuts such edges\n"));
+  ck_assert_ptr_null(strstr(thread_frame_notes(frame), "--"));
+  thread_frame_free(frame);
   thread_read_options_init(&o, sizeof o);
   o.split = 1;
   ck_assert_msg(thread_frame_parse(cross, strlen(cross), "t.csv", &o, &frame, &err) == THREAD_OK,
@@ -410,7 +415,7 @@ START_TEST(a_gap_ends_a_search)
     o.aims = "max-turning";
     o.ends = THREAD_ANY;
     o.cords_least = o.cords = 4;
-    o.seconds = 0.2;
+    o.seconds = i ? 5 : 0.2;
     o.gap = gap[i];
     thread_status st = thread_plan_make(frame, &o, &plan, &err);
     ck_assert_int_eq((int)st, i ? THREAD_OK : THREAD_NOT_PROVED);
@@ -607,13 +612,13 @@ START_TEST(seconds_are_kept)
     const double took = seconds_now() - began;
     ck_assert_msg(st == THREAD_OK || st == THREAD_NOT_PROVED, "%d: %s", i, err.text);
     ck_assert_msg(took < 2 * (1.1 * time + 0.2), "%d: %g s of %g", i, took, time);
-    if (plan) ck_assert_msg(thread_check(plan, &err) == THREAD_OK, "%d: %s", i, err.text);
     if (plan && i < 2) {
       thread_summary s;
-      thread_plan_summary(plan, &s, sizeof s, &err);
+      thread_plan_summary(plan, &s, sizeof s, NULL);
       ck_assert_msg(st == THREAD_NOT_PROVED && s.stopped == 1, "%d", i);
       ck_assert_msg(s.pull <= 10 || strstr(err.text, "of a hand"), "%g N: %s", s.pull, err.text);
     }
+    if (plan) ck_assert_msg(thread_check(plan, &err) == THREAD_OK, "%d: %s", i, err.text);
     thread_free(bytes);
     thread_plan_free(plan);
   }
