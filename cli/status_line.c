@@ -286,7 +286,7 @@ static void log_progress(void *user, const char *what, double best, double bound
 {
   (void)user;
   if (is_turning(what)) /* in rad, or as --turn-cost prices them */
-    cli_note("turning: price of all turns %.9g, at least %.9g, gap %.3g %%, %.3f CPU s", best,
+    cli_note("turning: price of all turns %.9g, at least %.9g, gap %.2f %%, %.3f CPU s", best,
              fmax(bound, 0), gap_of(best, bound), thr_os_processor_seconds());
   else
     cli_note("%s: %.9g, at least %.9g, %.3f CPU s", what, best, bound, thr_os_processor_seconds());

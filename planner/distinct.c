@@ -494,8 +494,8 @@ static thr_status judge(const distinct_maker *maker, const thr_plan *plan, thr_e
   if (plan->proof.slack_open)
     return thr_fail(
         err, THR_ELIMIT,
-        "the least length is not proved: the cords may be %.3g %% longer, more than --length-slack",
-        100 * (plan->metrics.length / plan->proof.lower_bound - 1));
+        "the least length is not proved: the cords may be %.6g %% longer, more than --length-slack",
+        thr_percent_above(plan->metrics.length, plan->proof.lower_bound));
   return thr_planner_verdict(plan, err);
 }
 

@@ -368,8 +368,8 @@ static thr_status verdict(const thr_plan *plan, const thr_least *least, thr_err 
   if (plan->proof.slack_open)
     return thr_fail(
         err, THR_ELIMIT,
-        "the least length is not proved: the cords may be %.3g %% longer, more than --length-slack",
-        100 * (plan->metrics.length / plan->proof.lower_bound - 1));
+        "the least length is not proved: the cords may be %.6g %% longer, more than --length-slack",
+        thr_percent_above(plan->metrics.length, plan->proof.lower_bound));
 
   if (!claim->present) return thr_fail(err, THR_ELIMIT, "nothing is proved of the turning");
 

@@ -5,7 +5,7 @@
  * no objective and no number is said (planner/recommend.c) stays within 10 N (thr_hand_always) even
  * at the upper end of the band of mu.
  *
- * Example, of the 7 x 7 dome: "4 cords to the feet, 3.45 N each at most (6.42 N at mu = 0.3): as
+ * Example, of the 7 x 7 dome: "4 cords to the feet, 3.45 N each at most, or 6.42 N if mu is 0.3: as
  * few as were found that a hand can pull time after time, with 10 N". */
 
 #include "cli/commands/commands.h"
@@ -82,13 +82,13 @@ void advice_put_recommended(const thr_plan *plan, double hand, thr_text *text)
 
   thr_text_append(text, "hand     ");
   advice_put_cords(text, &row);
-  thr_text_printf(text, ", %s%s (%s at mu = %g): as few as were found\n",
+  thr_text_printf(text, ", %s%s, or %s if mu is %g: as few as were found\n",
                   plain_newtons(pull[THR_ADVICE_MU], force),
                   plan->n_cords > 1 ? " N each at most" : " N",
                   plain_force(pull[THR_ADVICE_HIGH], most), physics.mu_high);
-  thr_text_printf(text, "         that %s, with %s; --cords 1 is one cord\n",
+  thr_text_printf(text, "         that %s, with %s%s\n",
                   hand < thr_hand_always ? "the cord bears" : "a hand can pull time after time",
-                  plain_force(hand, within));
+                  plain_force(hand, within), plan->n_cords > 1 ? "; --cords 1 is one cord" : "");
 }
 
 thr_limits advice_limits(double seconds, double *work)

@@ -157,6 +157,7 @@ static int print_facts(const char *path, const info_arguments *args)
   /* What the reader had to assume about units, axes and the like. */
   frame_facts info = {0};
   info.n_assumptions = thr_read_assumptions(&args->frame.read, &frame, &report, info.assumption);
+  cli_step("finding out what can move", "");
   if (motions_asked(&args->motions)) {
     code = motions_find(path, &frame, &args->motions, &motions);
     info.motions = &motions;
@@ -164,7 +165,6 @@ static int print_facts(const char *path, const info_arguments *args)
 
   thr_text text = {0};
   thr_err err = {0};
-  cli_step("finding out what can move", "");
 
   /* A file that is a plan has more to say than a framework. */
   if (!code && (find_facts(&frame, &info, &err) || find_untied(path, &info, &err))) {

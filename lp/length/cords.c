@@ -420,7 +420,7 @@ static thr_status fail_above(thr_err *err, const char *what, double value, doubl
 {
   if (!(bound > 0))
     return thr_fail(err, THR_ELIMIT, "%s%snothing is proved of how short they can be", why, colon);
-  return thr_fail(err, THR_ELIMIT, "%s%s%s at most %.3g %% above the shortest possible (proved)",
+  return thr_fail(err, THR_ELIMIT, "%s%s%s at most %.6g %% above the shortest possible (proved)",
                   why, colon, what, thr_percent_above(value, bound));
 }
 
