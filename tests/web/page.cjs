@@ -1,6 +1,6 @@
 // thread.html in headless Chromium, walked by what a person sees: labels and buttons. page.cjs PACKAGES PROGRAM PAGE SCRATCH: the
-// folder with playwright-core, the installed program, thread.html, an empty folder, where pictures stay to be looked at. Closes with
-// "N passed, N failed".
+// folder with playwright-core, the installed program, thread.html, an empty folder, where pictures stay to be looked at. ONLY=words in
+// the environment runs the tests with these words in their name. Closes with "N passed, N failed".
 'use strict';
 const {execFileSync, spawnSync} = require('node:child_process');
 const {createRequire} = require('node:module');
@@ -582,6 +582,88 @@ const tests = {
     }
   },
 
+  async 'what the program says names no command and no option of its own'() {
+    const root = path.join(__dirname, '../..'), folders = ['cli', 'graph', 'lib', 'planner', 'lp', 'symmetry', 'tortuosity', 'eval', 'kit', 'diagram'];
+    const sources = folders.flatMap((folder) => fs.readdirSync(path.join(root, folder), {recursive: true}).filter((name) => name.endsWith('.c')).map((name) => path.join(root, folder, name)));
+    // Strings that follow each other are one.
+    const strings = sources.flatMap((name) => fs.readFileSync(name, 'utf8').match(/"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*/g) || []).map((words) => words.replace(/"\s*"/g, '').slice(1, -1));
+    // But for what is said of commands that there are not.
+    const lines = strings.filter((words) => /--[a-z]|thread [a-z]+ -/.test(words) && !/`thread (%s|--help)/.test(words));
+    assert.ok(lines.length > 200, `${lines.length} of ${strings.length}`);
+    const {page, close} = await open();
+    const left = (await page.evaluate((all) => all.map(inWords), lines)).filter((words) => /(^|[^\w-])--[a-z]|`thread /.test(words));
+    assert.deepEqual(left, []);
+    const said = [['p.json: not a thread plan; make one with `thread plan`', 'p.json: not a thread plan'],
+      ['x: no such quantity; `thread eval --help` lists them (here with _ for -)', 'x: no such quantity'],
+      ['10 nodes nearly one: --weld 0.1 merges 4', '10 nodes nearly one: “Which ends are one piece?” merges 4'], ['only with ends `counts`', 'only with ends `counts`'],
+      ['piece A1 needs a width of 4 mm, not 2: --width 4 or more', 'piece A1 needs a width of 4 mm, not 2: width 4 or more'],
+      ['--bed mine: expected width x depth, as 220x220 (see `thread kit --help`)', 'bed mine: expected width x depth, as 220x220'],
+      ['if y points up in this file: --up y', 'if y points up in this file: “Which way is up?”']];
+    for (const [line, words] of said) assert.equal(await page.evaluate((given) => inWords(given), line), words);
+    await close();
+  },
+
+  async 'everything to be touched is 44 pixels high and wide, all words can be read, at both sizes, in light and dark'() {
+    // Of each visible control its size, of each visible text its contrast with what is behind it (WCAG 2.2: 1.4.3, 1.4.11, 2.5.5).
+    const measure = () => {
+      const canvas = new OffscreenCanvas(1, 1).getContext('2d', {willReadFrequently: true});
+      const rgba = (colour) => {
+        canvas.clearRect(0, 0, 1, 1);
+        canvas.fillStyle = colour;
+        canvas.fillRect(0, 0, 1, 1);
+        return canvas.getImageData(0, 0, 1, 1).data;
+      };
+      const light = ([r, g, b]) => [r, g, b].map((x) => x / 255).map((x) => (x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4)).reduce((sum, x, i) => sum + x * [0.2126, 0.7152, 0.0722][i], 0);
+      const contrast = (a, b) => {
+        const [low, high] = [light(a), light(b)].sort((x, y) => x - y);
+        return (high + 0.05) / (low + 0.05);
+      };
+      const behind = (node) => {
+        for (let at = node; at; at = at.parentElement) {
+          const colour = rgba(getComputedStyle(at).backgroundColor);
+          if (colour[3] === 255) return colour;
+        }
+        return rgba('#fff');
+      };
+      const seen = (node) => node.checkVisibility({opacityProperty: true, visibilityProperty: true}) && node.getBoundingClientRect().width > 1;
+      const named = (node) => `${node.tagName.toLowerCase()}#${node.id} ${node.textContent.trim().slice(0, 30)}`, found = [];
+      for (const node of document.querySelectorAll('button, input, select, a, summary, label.button, label:has(input)')) {
+        if (!seen(node)) continue;
+        const {width, height} = (node.type === 'checkbox' ? node.closest('label') : node).getBoundingClientRect();
+        if (width < 44 || height < 44) found.push(`${named(node)}: ${width.toFixed(1)} x ${height.toFixed(1)} pixels`);
+        if (node.disabled || !node.matches('input, select')) continue;
+        const edge = contrast(rgba(getComputedStyle(node).borderTopColor), behind(node.parentElement));
+        if (edge < 3) found.push(`${named(node)}: its edge has a contrast of ${edge.toFixed(2)}`);
+      }
+      const texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+      for (let words = texts.nextNode(); words; words = texts.nextNode()) {
+        const node = words.parentElement;
+        if (!words.data.trim() || !seen(node) || node.closest('[disabled], script, style, noscript, iframe')) continue;
+        const style = getComputedStyle(node), size = parseFloat(style.fontSize), isLarge = size >= 24 || (size >= 18.66 && Number(style.fontWeight) >= 700);
+        const got = contrast(rgba(style.color), behind(node));
+        if (got < (isLarge ? 3 : 4.5)) found.push(`${named(node)}: a contrast of ${got.toFixed(2)}`);
+      }
+      return found;
+    };
+    for (const [width, height] of [[1280, 800], [390, 844]])
+      for (const colorScheme of ['light', 'dark']) {
+        const {page, close} = await open({viewport: {width, height}, colorScheme, ...(width < 400 ? {hasTouch: true, isMobile: true} : {})});
+        const look = async (stage) => {
+          assert.deepEqual(await page.evaluate(measure), [], `${stage}, ${width} x ${height}, ${colorScheme}`);
+          await page.screenshot({path: file(`look-${stage}-${width}-${colorScheme}.png`), fullPage: true});
+        };
+        await look('start');
+        await takeExample(page, 'dome, 7 x 7 pieces');
+        await page.getByText('Is it as it was meant?').click();
+        await page.getByRole('button', {name: /recommended$/}).waitFor({timeout: 120000});
+        await look('questions');
+        await made(page);
+        await page.getByText('About', {exact: true}).click();
+        await look('result');
+        await close();
+      }
+  },
+
   async 'memory is given back between runs'() {
     const {page, close} = await open();
     const renderers = () => fs.readdirSync('/proc').filter((id) => /^\d+$/.test(id)).reduce((sum, id) => {
@@ -634,7 +716,7 @@ async function main() {
     executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
     args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
   });
-  for (const [name, test] of Object.entries(tests)) {
+  for (const [name, test] of Object.entries(tests).filter(([title]) => title.includes(process.env.ONLY || ''))) {
     const begun = Date.now();
     try {
       await test();

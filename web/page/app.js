@@ -1,7 +1,7 @@
 // The page: a framework, questions in plain words, a search, a plan.
 
 const $ = (id) => document.getElementById(id);
-const sources = [$('worker').textContent, $('wasm').textContent];
+const sources = [$('worker').textContent, inflate($('wasm').textContent).then((bytes) => WebAssembly.compile(bytes))];
 const engine = new EngineClient(...sources), adviser = new EngineClient(...sources); // advice does not wait for a search
 const QUESTIONS = ['pull', 'cords', 'ends', 'aim', 'joint', 'seconds'];
 const READING_QUESTIONS = ['units', 'wide', 'up', 'weld', 'split', 'flat', 'pick', 'layers']; // about the file
@@ -13,7 +13,7 @@ let source = null; // {bytes, path, shownName, more}: the file that the framewor
 let name = ''; // of the file, without its ending
 let plan = ''; // text of plan.json
 let best = ''; // the same, while the search runs
-let made = null; // of that plan: the command and, as JSON, what it said
+let made = null; // of that plan: the command
 let said = ''; // what the program said of the plan when it was made
 let kit = {}; // files of its pieces, once they are made
 let rise = {}; // files of how they rose
@@ -23,12 +23,17 @@ const sketch = new Sketch($('sketch'), (node) => working || changeFeet(toggled(n
 
 // ---- words ----
 
-// A line of the program in the words of the page, which has no options: "--width 4" is "width 4".
-const inWords = (line) => line.replace(/ \(plan --scale\)| \(see `[^`]*`\)/g, '').replace(/(^|[^\w-])--([a-z][a-z-]*)/g, (_, before, option) => before + option.replaceAll('-', ' '));
+// A line of the program in the words of the page, which has no commands and no options: "--up y" is the question "Which way is
+// up?", "--width 4" is "width 4", and what only says which command to type is left out.
+const inWords = (line) => line.replace(/ \((?:see )?`?(?:thread|plan|eval) [^)]*\)|[;:,] [^;:,`(]*`thread [^`]*`[^;]*|[;:,.] thread [a-z]+ [^;]*/g, '')
+  .replace(/--(units|scale|up|weld|split|flat|pick|layers)\b(?! or )(?: (?:mm|cm|m|in|ft|[xyz]|all|NAME or N|N|[\d.]+(?:e[+-]?\d+)?)\b)?/g, (_, option) => questionOf(option))
+  .replace(/(^|[^\w-])--([a-z][a-z-]*)/g, (_, before, option) => before + option.replaceAll('-', ' '));
+
+const questionOf = (option) => `“${document.querySelector(`label[for=${option === 'scale' ? 'wide' : option}]`).textContent}”`;
 
 function complain(line) {
   $('trouble').hidden = !line;
-  $('trouble').textContent = inWords(line);
+  $('trouble').textContent = line;
 }
 
 // What appeared gets the focus, and so the eye.
@@ -37,10 +42,10 @@ function goTo(id) {
   $(id).scrollIntoView({block: 'start'});
 }
 
-// The line that the command line would print, without the name of the program.
-const lastLine = (stderr) => stderr.trim().split('\n').filter((line) => !/^thread: note:/.test(line)).pop()?.replace(/^thread: /, '') || '';
+// The line that the command line would print, without the name of the program, and the notes before it.
+const lastLine = (stderr) => inWords(stderr.trim().split('\n').filter((line) => !/^thread: note:/.test(line)).pop()?.replace(/^thread: /, '') || '');
 
-const notesOf = (stderr) => stderr.split('\n').filter((line) => /^thread: note:/.test(line)).map((line) => line.replace(/^thread: note: /, ''));
+const notesOf = (stderr) => stderr.split('\n').filter((line) => /^thread: note:/.test(line)).map((line) => inWords(line.replace(/^thread: note: /, '')));
 
 // ---- state: undo, reload, link ----
 
@@ -158,7 +163,7 @@ const widthOf = (shown) => Math.max(...[0, 1].map((k) => shown.nodes.reduce((mos
 function askWidth() {
   const chosen = $('units').value, wide = Number(widthOf(frame).toPrecision(4));
   const options = Object.entries(UNITS).map(([unit, words]) => new Option(`${wide} ${words}`, unit));
-  $('units').replaceChildren(new Option(`as the file says: ${wide} ${frame.units || 'mm'}`, ''), ...options);
+  $('units').replaceChildren(new Option(`as the file is read: ${wide} ${frame.units || 'mm'}`, ''), ...options);
   setReading({units: chosen});
   $('wide').placeholder = `${wide}`;
 }
@@ -250,7 +255,7 @@ function showFrame(notes = []) {
   $('shown').hidden = $('question-part').hidden = !frame;
   document.querySelector('main').classList.toggle('open', Boolean(frame));
   if (!frame) return;
-  const said = [`${name}: ${plural(frame.nodes.length, 'piece')} that meet at ${plural(frame.edges.length, 'interface')}`, ...notes.map(inWords)];
+  const said = [`${name}: ${plural(frame.nodes.length, 'piece')} that meet at ${plural(frame.edges.length, 'interface')}`, ...notes.map(capital)];
   $('counts').textContent = `${said.join('. ')}.`;
   hear($('counts').textContent);
   $('feet').value = (frame.feet || []).map(nameOf).join(', ');
@@ -303,6 +308,8 @@ const frameFile = () => `${name.replace(/[^\w.-]+/g, '-').replace(/^[-.]+/, '') 
 let asked = 0;
 let advised = []; // rows, in the order of the table
 let recommended = null; // one of them
+let advisedPlan = ''; // its plan, text of plan.json
+let takeAdvised = () => {}; // is told when it is there
 
 const ENDS = {feet: 'at the feet', any: 'anywhere', closed: 'in loops'};
 const newtons = (force) => `${force < 100 ? Number(force.toPrecision(2)) : Math.round(force)} N`;
@@ -311,37 +318,44 @@ const newtons = (force) => `${force < 100 ? Number(force.toPrecision(2)) : Math.
 const METRES = {mm: 0.001, cm: 0.01, m: 1, in: 0.0254, ft: 0.3048};
 const lengthWords = (length) => {
   const metres = length * (METRES[frame.units || 'mm'] ?? NaN);
+  if (metres < 0.1) return `${Number((1000 * metres).toPrecision(2))} mm`;
   return Number.isNaN(metres) ? `${length.toPrecision(3)} ${frame.units}` : `${metres.toFixed(metres < 10 ? 2 : 1)} m`;
 };
 
 const hand = () => ({'': '10', any: '10'})[$('pull').value] ?? $('pull').value;
 
-// The rows as they are found, the recommended one first; it is what the page makes unless another answer is given.
+// The rows as they are found, and the plan of the recommended one, which the page takes unless another answer is given.
 async function advise() {
   const mine = ++asked, found = new Map();
   advised = [];
   recommended = null;
+  advisedPlan = '';
   showAdvice('Looking how many cords a hand can pull ..');
   adviser.stop();
   const onLine = (line) => {
     if (mine !== asked || !line.startsWith('{')) return;
-    const row = JSON.parse(line);
-    if (row.what !== 'row') return;
-    if (!found.size && row.pull_high <= Number(hand())) recommended = row;
-    if (recommended && keyOf(row) === keyOf(recommended)) recommended = row;
+    const row = JSON.parse(line), isKnown = recommended && keyOf(row) === keyOf(recommended);
+    if (row.what === 'recommended') recommended = row;
+    else if (row.what !== 'row' || isKnown) return;
     found.set(keyOf(row), row);
     advised = [...found.values()];
     showAdvice('Looking further ..');
   };
-  const {exit, stdout, stderr} = await adviser.run(['advise', frameFile(), '--hand', hand(), '--json', '--progress'], {[frameFile()]: frameText()}, {onLine});
+  const onPlan = (found) => {
+    if (mine !== asked || hand() !== '10') return;
+    advisedPlan = found;
+    takeAdvised();
+  };
+  const command = ['advise', frameFile(), '--hand', hand(), '-T', 'plan', '-o', 'plan.json', '--json', '--progress'];
+  const {exit, stdout, stderr} = await adviser.run(command, {[frameFile()]: frameText()}, {onLine, onPlan});
   if (mine !== asked || exit === -1) return;
-  if (!stdout) return showAdvice(inWords(lastLine(stderr)) || 'No advice for this framework.');
-  const {rows, recommended: best, command} = JSON.parse(stdout);
+  if (!stdout) return showAdvice(lastLine(stderr) || 'No advice for this framework.');
+  const {rows, recommended: best, command: typed} = JSON.parse(stdout);
   advised = rows;
   recommended = rows[best] || null;
   showAdvice(recommended ? 'The fewest cords that a hand can pull again and again are marked.' : 'No number of cords is easy enough for this hand.');
-  $('advice-more').hidden = !command;
-  $('advice-command').textContent = command || '';
+  $('advice-more').hidden = !typed;
+  $('advice-command').textContent = typed || '';
 }
 
 const keyOf = ({cords, ends}) => `${cords} ${ends}`;
@@ -413,7 +427,7 @@ function wanted() {
     else if (cords && joint === 'solid' && ends !== 'closed') args.push('--objective', 'tortuosity', '--minimize', 'pull');
     if (pull !== 'any' && (pull || (!cords && joint === 'solid' && aim !== 'symmetry' && ends !== 'closed'))) args.push('--max-pull', pull || '10');
   }
-  return [...args, ...(seconds ? ['--time-limit', seconds] : []), '--json', '--progress', '-o', 'plan.json'];
+  return [...args, ...(seconds ? ['--time-limit', seconds] : []), '--progress', '-o', 'plan.json'];
 }
 
 // ---- the search ----
@@ -463,6 +477,22 @@ function progressWords(line) {
   return {proved: `It turns by ${degrees(value)}, and none can by less than ${degrees(bound)}: ${better.toLowerCase()}.`};
 }
 
+// What the command makes; for plain answers advice makes the same plan, byte for byte: whichever is there first.
+async function searchOrAdvice(command, hears) {
+  const files = {[frameFile()]: frameText()}, isAsked = isPlain() && !answers().seconds;
+  const fromAdvice = () => ({exit: 0, stderr: '', files: {'plan.json': new TextEncoder().encode(advisedPlan)}});
+  if (isAsked && advisedPlan) return fromAdvice();
+  const search = engine.run(command, files, hears);
+  if (!isAsked) return search;
+  const advice = new Promise((resolve) => {
+    takeAdvised = () => resolve(fromAdvice());
+  });
+  const first = await Promise.race([search, advice]);
+  takeAdvised = () => {};
+  if (first !== (await Promise.race([search, null]))) engine.stop(); // it is not wanted any more
+  return first;
+}
+
 async function search(event) {
   event.preventDefault();
   complain('');
@@ -483,7 +513,7 @@ async function search(event) {
     sketch.showCords(cordsOf(found));
     keep('search', {...state(), plan: best, said: ''}); // closing the page loses nothing that was found
   };
-  const {exit, stdout, stderr, files} = await engine.run(command, {[frameFile()]: frameText()}, {onLine, onPlan});
+  const {exit, stderr, files} = await searchOrAdvice(command, {onLine, onPlan});
   busy('');
   keep('search', null);
   const found = files['plan.json'] ? text(files['plan.json']) : best;
@@ -494,12 +524,12 @@ async function search(event) {
   }
   plan = found;
   said = '';
-  made = {command: ['thread', ...command.filter((word) => !/^--(json|progress)$/.test(word))].join(' '), told: stdout.trim().startsWith('{') ? JSON.parse(stdout) : null};
+  made = {command: ['thread', ...command.filter((word) => word !== '--progress')].join(' ')};
   $('dropped').hidden = true;
   remember();
   await showResult();
   if (exit === -1) $('verdict').textContent += ` The search was stopped. ${told.proved || 'Nothing was proved by then'}`.replace(/\.?$/, '.');
-  else if (exit !== 0) $('verdict').textContent += ` Of the search: ${inWords(lastLine(stderr))}.`;
+  else if (exit !== 0) $('verdict').textContent += ` Of the search: ${lastLine(stderr)}.`;
   hear(`${$('headline').textContent} ${$('verdict').textContent}`);
 }
 
@@ -539,7 +569,7 @@ function showCords(rows, pulls, kit, first) {
     return line;
   }));
   const steps = [`Cut ${plural(rows.length, 'cord')} of ${range(cuts, lengthWords)}: ends to hold and knots are in it.`,
-    kit ? `Print ${plural(kit.pieces, 'piece')} of ${plural(kit.kinds, 'kind')}, about ${Math.round(kit.volume_cm3)} cm³ of material: part 4 below makes the files.` : 'Print the pieces: part 4 below makes the files.',
+    kit ? `Print ${plural(kit.pieces, 'piece')} of ${plural(kit.kinds_with_channels ?? kit.kinds, 'kind')}${kit.volume_cm3 ? `, about ${Number(kit.volume_cm3.toPrecision(2))} cm³ of material` : ''}: part 4 below makes the files.` : 'Print the pieces: part 4 below makes the files.',
     'Print the booklet, or open the steps below on a telephone.', first ? `Begin: ${first}.` : ''].filter(Boolean);
   $('to-do').replaceChildren(...steps.map((words) => {
     const item = document.createElement('li');
@@ -574,10 +604,11 @@ async function showResult() {
   $('command').textContent = made?.command || '';
   const {stdout: cords} = await engine.run(['draw', 'plan.json', '-T', 'cords.csv', '-o', '-'], given);
   const evaluated = await engine.run(['eval', 'plan.json', '--json'], given);
+  const {stdout: about} = await engine.run(['info', 'plan.json', '--json'], given);
   const {stdout: steps} = await engine.run(['draw', 'plan.json', '-T', 'steps', '-o', '-'], given);
   if (shown !== plan) return;
   const pulls = evaluated.stdout.startsWith('{') ? JSON.parse(evaluated.stdout).evaluation.cords : [];
-  showCords(rowsOf(cords), pulls, made?.told?.kit, firstStep(steps));
+  showCords(rowsOf(cords), pulls, about.startsWith('{') ? JSON.parse(about).kit : null, firstStep(steps));
   goTo('result-title');
   const viewer = await draw('html', 'viewer.html');
   if (viewer && shown === plan) $('viewer').srcdoc = text(viewer);
@@ -734,7 +765,7 @@ async function makeKit(event) {
   busy('');
   if (exit !== 0) {
     showKit({});
-    complain(exit === -1 ? 'Stopped: no pieces were made.' : inWords(lastLine(stderr)));
+    complain(exit === -1 ? 'Stopped: no pieces were made.' : lastLine(stderr));
     return;
   }
   const lines = stderr.trim().split('\n').filter((line) => /^thread: (?!written to )/.test(line));
@@ -777,10 +808,10 @@ async function makeRise(event) {
   busy('');
   if (exit !== 0) {
     showRise({});
-    complain(exit === -1 ? 'Stopped: nothing was seen.' : inWords(lastLine(stderr)));
+    complain(exit === -1 ? 'Stopped: nothing was seen.' : lastLine(stderr));
     return;
   }
-  showRise(files, stdout.trim().split('\n'));
+  showRise(files, stdout.trim().split('\n').map(inWords));
   hear($('rise-said').textContent);
   goTo('rise-title');
 }

@@ -6,9 +6,10 @@ async function inflate(base64) {
 }
 
 class EngineClient {
-  constructor(workerText, wasmText) {
+  // compiled: a promise of the program, which several clients share.
+  constructor(workerText, compiled) {
     this.source = URL.createObjectURL(new Blob([workerText], {type: 'text/javascript'}));
-    this.compiled = inflate(wasmText).then((bytes) => WebAssembly.compile(bytes));
+    this.compiled = compiled;
     this.waiting = new Map();
     this.count = 0;
     this.stops = 0;
