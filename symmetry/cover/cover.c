@@ -4,13 +4,12 @@
  *
  * Minimizes overlap, then steps, then paths, then turning (or in another order), subject to: every
  * edge orbit is passed often enough, the turns and ends of every dart type use up its darts, and
- * what is used hangs together. Four steps:
+ * what is used hangs together. Three steps:
  *   1. a first cover by a minimum T-join, without any programme (start.c), which also bounds the
- * overlap (bounds.c);
+ * overlap (bounds.c), with a bound on the turning (turning_bound.c);
  *   2. the aims before turning by branch and cut in the contracted programme, whose solution is
  * lifted (contraction.c, symmetry/lift/lift.c);
- *   3. a bound on the turning (turning_bound.c);
- *   4. all aims by branch and cut in the whole programme (cover_search.c).
+ *   3. all aims by branch and cut in the whole programme (cover_search.c).
  * A search that is stopped has a cover from step 1 on, and bounds.
  *
  * Example: a ring of six edges under C6: one orbit of copies and one of turns make one closed cord.
@@ -254,30 +253,6 @@ static void take_bounds(thr_cover_search *search, const thr_cover_search *small,
   }
 }
 
-/* Bounds the turning of covers with the aims before turning as the best one has them, in half of
- * the time that is left. small: the search of the contraction, whose relaxation is used further
- * unless it keeps an aim at less than that. */
-static thr_status bound_turning(thr_cover_search *search, const thr_contraction *contraction,
-                                thr_cover_search *small, thr_err *err)
-{
-  const thr_limits limits = thr_limits_part(search->limits, 0.5);
-  thr_relaxation own = {0};
-  bool fits = true;
-
-  /* Do the rows that keep the aims hold for the best cover? */
-  for (int k = 0; k < small->kept; k++) {
-    thr_aim aim = search->p->o->prefer[k];
-    fits =
-        fits && search->worth[aim] <= small->worth[aim] + thr_programme_tolerance(search->p, aim);
-  }
-
-  thr_status st =
-      thr_turning_bound(contraction, fits ? &small->r : &own, fits ? small->kept : 0, search->best,
-                        search->worth, &limits, &search->bound[THR_AIM_TURNING], err);
-  thr_relaxation_destroy(&own);
-  return st == THR_ELIMIT ? THR_OK : st;
-}
-
 /* Gives the search of the contraction what is known of the whole programme: bounds, which hold
  * there, too, and the best cover. */
 static thr_status inherit(thr_cover_search *small, const thr_cover_search *search,
@@ -309,10 +284,9 @@ static int aims_before_turning(const thr_cover_options *options)
  * where that fails are kept as they are, and the rest is contracted again, until it succeeds. */
 static thr_status search_contracted(thr_cover_search *search, thr_err *err)
 {
-  static const double part = 0.7; /* of the time: the rest is for lifting and for turning */
+  static const double part = 0.7; /* of the time: the rest is for lifting */
   thr_contraction contraction;
   const thr_limits limits = thr_limits_part(search->limits, part);
-  const bool quick = search->p->o->quick;
   int n_aims = aims_before_turning(search->p->o), failed = 1;
   thr_status st = thr_contraction_init(&contraction, search->p, false, err);
   if (st) return st;
@@ -324,8 +298,7 @@ static thr_status search_contracted(thr_cover_search *search, thr_err *err)
     if (st) break;
     st = inherit(&small, search, &contraction, err);
 
-    /* Branch and cut; the extra columns are for the bound on turning. */
-    small.extra = contraction.p.q->n_darts;
+    /* Branch and cut. */
     thr_status searched = st ? st : thr_cover_search_aims(&small, n_aims, err);
     if (searched && searched != THR_ELIMIT) st = searched;
 
@@ -335,8 +308,6 @@ static thr_status search_contracted(thr_cover_search *search, thr_err *err)
       st = thr_contraction_lift(&contraction, small.best, search->other, &failed, err);
     if (!st && small.found && !failed) st = offer_joined(search, err);
     if (!st && !failed) take_bounds(search, &small, n_aims);
-    if (!st && !failed && search->found && !quick)
-      st = bound_turning(search, &contraction, &small, err);
 
     /* Some cells could not be lifted: keep them. */
     thr_cover_search_destroy(&small);
@@ -347,32 +318,18 @@ static thr_status search_contracted(thr_cover_search *search, thr_err *err)
   return st;
 }
 
-/* Minimizes all aims in the whole programme, those before turning in at most 0.8 of the time. If
- * that time is not enough, and there is no bound on turning for the cover that was found, there is
- * one in what is left. */
+/* Minimizes all aims in the whole programme, those before turning in at most 0.8 of the time. */
 static thr_status search_whole(thr_cover_search *search, thr_err *err)
 {
   static const double part = 0.8;
   const thr_limits *all = search->limits, most = thr_limits_part(search->limits, part);
-  thr_contraction contraction;
-  thr_cover_search none = {0};
   int n_aims = aims_before_turning(search->p->o);
 
   /* The aims before turning, then all. */
   search->limits = &most;
   thr_status st = thr_cover_search_aims(search, n_aims, err);
   search->limits = all;
-  if (!st) return thr_cover_search_aims(search, THR_N_AIMS, err);
-
-  /* A bound on turning instead. */
-  if (st != THR_ELIMIT || !search->found || search->bound[THR_AIM_TURNING] > 0) return st;
-  thr_status made = thr_contraction_init(&contraction, search->p, false, err);
-  if (made) return made;
-  made = bound_turning(search, &contraction, &none, err);
-  thr_relaxation_destroy(&none.r);
-  thr_contraction_destroy(&contraction);
-
-  return made ? made : st;
+  return st ? st : thr_cover_search_aims(search, THR_N_AIMS, err);
 }
 
 /* Begins with what was found and proved before (known), or else with a first cover and first

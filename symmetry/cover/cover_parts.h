@@ -50,11 +50,10 @@ thr_status thr_claims_make(const thr_quotient *quotient, const thr_cover_options
 
 typedef struct {
   const thr_programme *p;
-  int extra;         /* columns after those of p, >= 0, in no row as yet and at no cost */
   thr_search search; /* fixed rows: the equations; columns as x */
   thr_aim aim;       /* minimized at present */
   bool circles;      /* circles count from now on: paths are, or were, minimized */
-  double *x;         /* [p->n + extra] of the last solve */
+  double *x;         /* [p->n] of the last solve */
   double objective; /* of the last solve, in the aim's unit, with its constant; rounded up to what a
                        cover can have */
   /* odd sets */
@@ -67,8 +66,8 @@ typedef struct {
   double *weight; /* [problem.n_edges] scratch */
 } thr_relaxation;
 
-/* extra: columns for symmetry/cover/turning_bound.c. THR_ELIMIT: stopped; relaxation is empty. */
-thr_status thr_relaxation_init(thr_relaxation *relaxation, const thr_programme *p, int extra,
+/* THR_ELIMIT: stopped; relaxation is empty. */
+thr_status thr_relaxation_init(thr_relaxation *relaxation, const thr_programme *p,
                                const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 void thr_relaxation_destroy(thr_relaxation *relaxation);
 
@@ -109,9 +108,8 @@ int thr_relaxation_branch(const thr_relaxation *relaxation);
 typedef struct {
   const thr_programme *p;
   const thr_limits *limits;
-  thr_relaxation r; /* made when it is needed, with so many extra columns */
-  int extra;
-  int kept; /* so many aims, the first ones, have rows in r that keep them */
+  thr_relaxation r; /* made when it is needed */
+  int kept;         /* so many aims, the first ones, have rows in r that keep them */
   bool found;
   bool lifted,
       valid;  /* the last that was tried: are there turns for it, and can it be made concrete? */
@@ -159,8 +157,7 @@ thr_status thr_symmetry_shortest_tied(const thr_frame *frame, const thr_request 
  * = all rows. */
 bool thr_symmetry_asked(const thr_symmetries *symmetries, int row, const char *group);
 
-/* ---- turning_bound.c: How much the cords of a symmetric cover turn at least, known early and at
- * any time. */
+/* ---- turning_bound.c: How much the cords of a symmetric cover turn at least, known at once. */
 
 /* By a dual ascent at every node, in O(pair types): multipliers u >= 0 of the dart types with u[a]
  * + u[b] <= the price of every turn; an edge orbit that is covered pays those of its darts. Where
@@ -169,18 +166,5 @@ bool thr_symmetry_asked(const thr_symmetries *symmetries, int row, const char *g
  * rad. No cover with that many paths turns less; the other aims do not matter. */
 thr_status thr_turning_quick_bound(const thr_programme *p, const double worth[THR_N_AIMS],
                                    double *bound, thr_err *err) THR_MUST_CHECK;
-
-/* Of the covers with the aims before turning at most at worth: the linear programme of the
- * contraction, whose columns are the copies and, for every cell, what its turns cost. The latter is
- * bounded from below by the multipliers of the cell's own little programme, which is solved again
- * wherever a solution says less (Benders, Numerische Mathematik 4, 1962; one cut per cell), at
- * first for cover[contraction->whole->n], a solution. The value is that of the linear programme
- * over all pair columns with odd sets of whole cells. relaxation: of contraction->p with
- * contraction->p.q->n_darts extra columns, the first `kept` aims kept at no more than worth, which
- * it goes on from; or empty, then it is made. *bound only grows. THR_ELIMIT: the limits stopped it;
- * *bound is proved all the same. */
-thr_status thr_turning_bound(const thr_contraction *contraction, thr_relaxation *relaxation,
-                             int kept, const int *cover, const double worth[THR_N_AIMS],
-                             const thr_limits *limits, double *bound, thr_err *err) THR_MUST_CHECK;
 
 #endif

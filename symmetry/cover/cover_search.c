@@ -144,8 +144,7 @@ static thr_status prepare(thr_cover_search *search, int number, thr_err *err)
   const thr_aim *prefer = search->p->o->prefer;
   /* The relaxation is made when it is first needed. */
   thr_status st =
-      search->r.p ? THR_OK
-                  : thr_relaxation_init(&search->r, search->p, search->extra, search->limits, err);
+      search->r.p ? THR_OK : thr_relaxation_init(&search->r, search->p, search->limits, err);
 
   /* Rows for the aims before. */
   for (; search->kept < number && !st; search->kept++) {

@@ -57,8 +57,7 @@ static thr_status create_equations(thr_relaxation *relaxation, thr_err *err)
   const thr_programme *programme = relaxation->p;
   thr_scratch own = {0};
   int darts = programme->q->n_darts, entries = 0;
-  int columns = programme->n + relaxation->extra,
-      *start = thr_scratch_array(&own, (size_t)columns + 1, sizeof *start),
+  int columns = programme->n, *start = thr_scratch_array(&own, (size_t)columns + 1, sizeof *start),
       *row = thr_scratch_array(&own, 2 * (size_t)programme->n, sizeof *row);
   double *value = thr_scratch_array(&own, 2 * (size_t)programme->n, sizeof *value),
          *rhs = thr_scratch_array(&own, (size_t)darts, sizeof *rhs);
@@ -484,13 +483,13 @@ static void use_separators(thr_relaxation *relaxation)
 }
 
 thr_status thr_relaxation_init(thr_relaxation *relaxation, const thr_programme *programme,
-                               int extra, const thr_limits *limits, thr_err *err)
+                               const thr_limits *limits, thr_err *err)
 {
   /* Columns. */
-  *relaxation = (thr_relaxation){.p = programme, .extra = extra};
-  relaxation->x = thr_calloc((size_t)programme->n + (size_t)extra, sizeof *relaxation->x);
+  *relaxation = (thr_relaxation){.p = programme};
+  relaxation->x = thr_calloc((size_t)programme->n, sizeof *relaxation->x);
   thr_status st = relaxation->x ? THR_OK : thr_nomem(err);
-  if (!st) st = thr_search_init(&relaxation->search, programme->n + extra, relaxation->x, err);
+  if (!st) st = thr_search_init(&relaxation->search, programme->n, relaxation->x, err);
   relaxation->search.n_fixed = programme->q->n_darts;
 
   /* Rows that are there from the start. */
@@ -526,7 +525,7 @@ void thr_relaxation_destroy(thr_relaxation *relaxation)
 thr_status thr_relaxation_aim(thr_relaxation *relaxation, thr_aim aim, thr_err *err)
 {
   const thr_programme *programme = relaxation->p;
-  double *cost = thr_calloc((size_t)programme->n + (size_t)relaxation->extra, sizeof *cost);
+  double *cost = thr_calloc((size_t)programme->n, sizeof *cost);
   if (!cost) return thr_nomem(err);
 
   for (int j = 0; j < programme->n; j++)
