@@ -227,13 +227,13 @@ typedef struct {
   const thr_evaluation
       *tension; /* colours show it over tension_range; NULL: colours tell the cords apart */
   double tension_range[2]; /* N */
-  bool turning;            /* turns have colours of their own along the cords */
   thr_copy *copy;          /* [n_cords] if copies are drawn pale and there are any, else NULL */
+  bool turning;            /* turns have colours of their own along the cords */
+  bool solid;              /* pieces are nodes with arms, not tubes along edges */
   bool lines; /* too many passes to be followed one by one: cords are lines (see THR_SCENE_LINES) */
   const char *const
       *motion; /* [n_cords] what moves a unique path to a copy (see thr_copies_words), or NULL */
   thr_sizes size;
-  bool solid; /* pieces are nodes with arms, not tubes along edges */
   thr_places places;
   char (*label)[THR_LABEL]; /* [n_nodes] their places in words (see thr_places_labels) */
   double scale;             /* mm per unit of the layout */

@@ -670,7 +670,9 @@ void thr_sheets_making(thr_flow *flow, const thr_known *known)
   /* All panels are equally large, and together as large as the page, which they fill row by row. */
   double height = (thr_sheets_bottom(flow) - flow->y - (ROWS - 1) * AIR) / ROWS,
          width = (thr_sheets_width(flow) - AIR) / COLUMNS;
-  for (int i = 0; i < COLUMNS * ROWS && !flow->why.code; i++)
-    put_panel(flow, known, i, &subjects[i], THR_SHEET_MARGIN + i % COLUMNS * (width + AIR),
-              flow->y + i / COLUMNS * (height + AIR), width, height);
+  for (int i = 0; i < COLUMNS * ROWS && !flow->why.code; i++) {
+    const int row = i / COLUMNS, column = i % COLUMNS;
+    put_panel(flow, known, i, &subjects[i], THR_SHEET_MARGIN + column * (width + AIR),
+              flow->y + row * (height + AIR), width, height);
+  }
 }
