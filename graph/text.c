@@ -97,6 +97,41 @@ void thr_text_json_number(thr_text *text, double value)
     thr_text_append(text, "null");
 }
 
+const char *thr_plain_number(double value, int digits, char out[THR_PLAIN_NUMBER])
+{
+  const size_t size = THR_PLAIN_NUMBER;
+  char rounded_text[40];
+
+  if (isnan(value)) {
+    snprintf(out, size, "-");
+    return out;
+  }
+
+  /* Rounded first, so that 999.6 with three digits is counted in thousands. */
+  snprintf(rounded_text, sizeof rounded_text, "%.*e", digits - 1, fmin(value, 1e300));
+  const double rounded = strtod(rounded_text, NULL);
+
+  if (rounded >= 1e12)
+    snprintf(out, size, "over a trillion");
+  else if (rounded >= 1e9)
+    snprintf(out, size, "%.*g billion", digits, rounded / 1e9);
+  else if (rounded >= 1e6)
+    snprintf(out, size, "%.*g million", digits, rounded / 1e6);
+  else if (rounded >= 1e3)
+    snprintf(out, size, "%d,%03d", (int)rounded / 1000, (int)rounded % 1000);
+  else if (value > 0 && rounded < 1e-4)
+    snprintf(out, size, "under 0.0001");
+  else
+    snprintf(out, size, "%.*g", digits, value);
+
+  return out;
+}
+
+const char *thr_plain_newtons(double newton, char out[THR_PLAIN_NUMBER])
+{
+  return thr_plain_number(newton, 3, out);
+}
+
 /* ---- letters of foreign text ---- */
 
 enum { BROKEN_LETTER = 0x110000 }; /* one beyond the last code point: bytes that are no UTF-8 */

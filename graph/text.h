@@ -42,6 +42,15 @@ void thr_text_base64(thr_text *text, const unsigned char three[3]);
 /* The same as JSON, which has no word for what is not finite: null. */
 void thr_text_json_number(thr_text *text, double value);
 
+enum { THR_PLAIN_NUMBER = 24 }; /* bytes that hold a number for a reader */
+
+/* Formats a number >= 0 for a reader, rounded to 1 <= digits <= 6 digits and without an exponent:
+ * "3.49", "2,290", "1.6 million", "over a trillion"; "under 0.0001", "-" for NAN. Returns out. */
+const char *thr_plain_number(double value, int digits, char out[THR_PLAIN_NUMBER]);
+
+/* Formats newtons without a unit, with three digits as above. Returns out. */
+const char *thr_plain_newtons(double newton, char out[THR_PLAIN_NUMBER]);
+
 /* Foreign text (of a file, a file's name, the command line) made harmless in place, so that it
  * stays on its line, in its direction and in its field wherever it is printed, drawn or written:
  * control characters (C0, DEL, C1), marks of writing direction (U+061C, U+200E, U+200F, U+202A to

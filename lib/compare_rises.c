@@ -36,10 +36,10 @@ static void rank_rise(thr_ranking *ranked, const thr_compare_rise *rise, int i)
 static void put_spread(thr_text *text, const double value[3], int runs)
 {
   char middle[THR_PLAIN_NUMBER], least[THR_PLAIN_NUMBER], most[THR_PLAIN_NUMBER];
-  thr_text_printf(text, "%s N", plain_newtons(value[1], middle));
+  thr_text_printf(text, "%s N", thr_plain_newtons(value[1], middle));
   if (runs > 1)
-    thr_text_printf(text, " (%s to %s)", plain_newtons(value[0], least),
-                    plain_newtons(value[2], most));
+    thr_text_printf(text, " (%s to %s)", thr_plain_newtons(value[0], least),
+                    thr_plain_newtons(value[2], most));
 }
 
 /* Says what was seen of a plan in simulation. */

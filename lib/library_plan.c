@@ -222,10 +222,9 @@ static thr_status search_and_send(void *user, const thr_limits *given, thr_reply
     limits.progress = given->progress ? pass_progress : NULL;
     limits.advance = given->advance ? pass_advance : NULL;
     limits.found = given->progress ? take_found : NULL;
-    st =
-        recommends
-            ? thr_plan_recommended(job->frame, &request, &recommended, &limits, &plan, &report, err)
-            : thr_plan_make(job->frame, &request, &limits, &plan, &report, err);
+    st = recommends ? thr_plan_recommended(job->frame, &request, &recommended, &limits, &plan,
+                                           &report, err)
+                    : thr_plan_make(job->frame, &request, &limits, &plan, &report, err);
     if (!st && was_ended(job, &limits, &plan))
       st = thr_fail(err, THR_ELIMIT, "the search was ended before it was done");
   }

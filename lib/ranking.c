@@ -142,13 +142,13 @@ static void put_interval(const thr_ranking *ranked, int i, thr_text *text)
 
   /* Without an upper end, as an error, or as an interval. */
   if (!isfinite(high))
-    thr_text_printf(text, " (at least %s%s%s%s)", plain_number(low, 4, from), ranked->unit,
+    thr_text_printf(text, " (at least %s%s%s%s)", thr_plain_number(low, 4, from), ranked->unit,
                     ranked->open ? ": " : "", ranked->open ? ranked->open : "");
   else if (ranked->error && ranked->value[i] > 0)
     thr_text_printf(text, " (+-%.3g %%)", 100 * (high / ranked->value[i] - 1));
   else if (!ranked->error && high > low * (1 + 1e-5))
-    thr_text_printf(text, " (%s .. %s%s)", plain_number(low, 4, from), plain_number(high, 4, to),
-                    ranked->unit);
+    thr_text_printf(text, " (%s .. %s%s)", thr_plain_number(low, 4, from),
+                    thr_plain_number(high, 4, to), ranked->unit);
 }
 
 /* Appends the value of plan i with its interval. INFINITY: proved that no value will do. */
@@ -166,7 +166,7 @@ static void put_value(const thr_ranking *ranked, int i, thr_text *text)
     thr_text_append(text, "none, proved");
     return;
   }
-  thr_text_printf(text, "%s%s", plain_number(unsigned_values(ranked, i).value, 4, number),
+  thr_text_printf(text, "%s%s", thr_plain_number(unsigned_values(ranked, i).value, 4, number),
                   ranked->unit);
   put_interval(ranked, i, text);
 }

@@ -83,7 +83,7 @@ void advice_put_recommended(const thr_plan *plan, double hand, thr_text *text)
   thr_text_append(text, "hand     ");
   advice_put_cords(text, &row);
   thr_text_printf(text, ", %s%s, or %s if mu is %g: as few as were found\n",
-                  plain_newtons(pull[THR_ADVICE_MU], force),
+                  thr_plain_newtons(pull[THR_ADVICE_MU], force),
                   plan->n_cords > 1 ? " N each at most" : " N",
                   plain_force(pull[THR_ADVICE_HIGH], most), physics.mu_high);
   thr_text_printf(text, "         that %s, with %s%s\n",

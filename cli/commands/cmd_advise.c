@@ -327,7 +327,8 @@ static int write_advice(const advise_arguments *args, const thr_frame *frame,
   /* From which pull on the recommended cords hold the pieces. */
   if (!st && !cli_json && is_table && laid_out) advice_put_holding(&text, &chosen);
   if (args->type != TYPE_TEXT)
-    answer_file(args->output, args->type == TYPE_PLAN ? "the recommended plan" : "the table as a picture");
+    answer_file(args->output,
+                args->type == TYPE_PLAN ? "the recommended plan" : "the table as a picture");
   if (!st && cli_json) code = write_json(args, frame, advice, words, laid_out ? &chosen : NULL);
 
   if (!st && is_table)

@@ -298,12 +298,12 @@ static void put_spread(const rise_runs *runs, double (*of)(const thr_rise_record
   thr_rise_spread(value, runs->n_runs, spread);
 
   char middle[THR_PLAIN_NUMBER], least[THR_PLAIN_NUMBER], most[THR_PLAIN_NUMBER];
-  plain_number(spread[runs->n_runs == 1 ? 0 : 1], 3, middle);
+  thr_plain_number(spread[runs->n_runs == 1 ? 0 : 1], 3, middle);
   if (runs->n_runs == 1)
     thr_text_printf(text, "%s %s", middle, unit);
   else
-    thr_text_printf(text, "%s %s (%s to %s)", middle, unit, plain_number(spread[0], 3, least),
-                    plain_number(spread[2], 3, most));
+    thr_text_printf(text, "%s %s (%s to %s)", middle, unit, thr_plain_number(spread[0], 3, least),
+                    thr_plain_number(spread[2], 3, most));
 }
 
 /* Appends how what has closed, but not come up, lies there; nothing if there is no such run. */
@@ -379,7 +379,7 @@ static void put_title(const rise_runs *runs, thr_text *text)
     ends +=
         structure->cord[c].slack ? 0 : structure->cord[c].pulled[0] + structure->cord[c].pulled[1];
   thr_text_printf(text, "%d pieces that weigh %s N, %d %s ", structure->n_pieces,
-                  plain_newtons(record->weight, weight), structure->n_cords,
+                  thr_plain_newtons(record->weight, weight), structure->n_cords,
                   cli_plural(structure->n_cords, "cord", "cords"));
   if (runs->args->schedule)
     thr_text_append(text, "pulled by a schedule");
@@ -434,11 +434,11 @@ static void put_text(const rise_runs *runs, thr_text *text)
   }
   if (runs->pieces.seated > 0 && isfinite(runs->pieces.seated))
     thr_text_printf(text, "beside that: %s N leave %.3g N in every pass (closed form)",
-                    plain_newtons(runs->pieces.seated, force),
+                    thr_plain_newtons(runs->pieces.seated, force),
                     runs->pieces.made.structure.physics.seating);
   if (runs->pieces.stands > 0 && isfinite(runs->pieces.stands))
     thr_text_printf(text, "; below %s N it cannot stand while cords are drawn in (limit analysis)",
-                    plain_newtons(runs->pieces.stands, force));
+                    thr_plain_newtons(runs->pieces.stands, force));
   if (runs->pieces.seated > 0) thr_text_append(text, "\n");
   if (runs->args->dent) {
     thr_text_append(text, "dented, it differed from the drawn shape by ");

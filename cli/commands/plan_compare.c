@@ -32,7 +32,8 @@ static void put_pull(thr_text *text, const plan_arguments *args, thr_objective o
   if (code == EXIT_OK) {
     char number[THR_PLAIN_NUMBER];
     thr_text_printf(text, eval->refused ? "%12s N (error at least %.3g %%" : "%12s N (+-%.3g %%",
-                    plain_number(eval->record.largest, 4, number), thr_eval_percent(eval->error));
+                    thr_plain_number(eval->record.largest, 4, number),
+                    thr_eval_percent(eval->error));
     if (eval->refused)
       thr_text_printf(text, ": %d %s by closed form", eval->refused,
                       cli_plural(eval->refused, "turn", "turns"));

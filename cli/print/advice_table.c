@@ -112,8 +112,8 @@ void advice_put_row(thr_text *text, const thr_advice_row *row, double base_lengt
   char low[24], pull[64], high[24], band[56], proof[40] = "-";
 
   /* The band shows how little is known: friction stands in the exponent. */
-  snprintf(band, sizeof band, "%s .. %s", plain_newtons(row->pull[THR_ADVICE_LOW], low),
-           plain_newtons(row->pull[THR_ADVICE_HIGH], high));
+  snprintf(band, sizeof band, "%s .. %s", thr_plain_newtons(row->pull[THR_ADVICE_LOW], low),
+           thr_plain_newtons(row->pull[THR_ADVICE_HIGH], high));
 
   /* What is proved of the turning. */
   if (row->optimal)
@@ -161,8 +161,8 @@ static void put_choice(thr_text *text, const thr_advice *advice, const char *com
       text,
       ": %s, or %s to %s N in the band. The fewest found that stay within %s%s even at mu = %g\n  ",
       plain_both(row->other, row->pull[THR_ADVICE_MU], pull),
-      plain_newtons(row->pull[THR_ADVICE_LOW], low),
-      plain_newtons(row->pull[THR_ADVICE_HIGH], high), hand, hand_words(advice->hand),
+      thr_plain_newtons(row->pull[THR_ADVICE_LOW], low),
+      thr_plain_newtons(row->pull[THR_ADVICE_HIGH], high), hand, hand_words(advice->hand),
       advice->physics.mu_high);
 
   thr_text_append_clean(text, command);

@@ -165,7 +165,7 @@ static void put_band_end(thr_text *text, const thr_evaluation *evaluation, doubl
 
   /* INFINITY: no pull holds, or the number is too large; NAN: not decided. */
   if (isfinite(end))
-    thr_text_printf(text, " %s%s", plain_number(end, 4, number), unit ? " N" : "");
+    thr_text_printf(text, " %s%s", thr_plain_number(end, 4, number), unit ? " N" : "");
   else if (isnan(end))
     thr_text_append(text, " not decided");
   else
@@ -230,9 +230,9 @@ static void put_strength(thr_text *text, double newton, double strength, int kno
                   "1946; --knot), ",
                   plain_force(strength, force),
                   newton > strength * thr_strength_left(knot) ? "breaks" : "holds",
-                  thr_knots[knot].name, plain_newtons(strength * left, rest), 100 * left);
+                  thr_knots[knot].name, thr_plain_newtons(strength * left, rest), 100 * left);
   thr_text_printf(text, "edges of bores %s N, %.0f %% (as round a pin as thick as it)\n",
-                  plain_newtons(strength * thr_bend_left, rest), 100 * thr_bend_left);
+                  thr_plain_newtons(strength * thr_bend_left, rest), 100 * thr_bend_left);
 }
 
 /* Appends how many grips on the way make a pull that is beyond a hand possible. Not for a schedule
@@ -350,7 +350,7 @@ static void put_bounds(thr_text *text, const thr_holding *holding, const char *w
 
   if (holding->lower > 0)
     thr_text_printf(text, "below %s N %s nothing holds it (proved, residual %.1g)",
-                    plain_number(holding->lower, 6, number), when, holding->residual);
+                    thr_plain_number(holding->lower, 6, number), when, holding->residual);
   else if (holding->upper == 0)
     thr_text_append(text, "0 N: an equilibrium exists without any pull");
   else
@@ -361,7 +361,7 @@ static void put_bounds(thr_text *text, const thr_holding *holding, const char *w
   /* The bound from above. */
   if (holding->upper > 0 && isfinite(holding->upper))
     thr_text_printf(text, "; at %s N an equilibrium exists",
-                    plain_number(holding->upper, 6, number));
+                    thr_plain_number(holding->upper, 6, number));
   if (!isfinite(holding->upper)) thr_text_append(text, "; no equilibrium was found at any pull");
   thr_text_append(text, "\n");
 }
@@ -517,7 +517,7 @@ static void put_after_band(thr_text *text, const thr_evaluation *evaluation, con
     else if (stretch)
       put_longer(text, evaluation, band[end]);
     else
-      thr_text_printf(text, "%s of the tensions", plain_number(band[end], 4, number));
+      thr_text_printf(text, "%s of the tensions", thr_plain_number(band[end], 4, number));
   }
 
   thr_text_append(text, " are needed (each proved at its own frictions only)\n");
@@ -543,10 +543,11 @@ static void put_after(thr_text *text, const thr_evaluation *evaluation, const th
                     after->upper);
   else if (after->lower > 1)
     thr_text_printf(text, "these tensions are too small: %s times as much is needed (proved)",
-                    plain_number(after->lower, 4, number));
+                    thr_plain_number(after->lower, 4, number));
   else
     thr_text_printf(text, "an equilibrium may exist or not: between %s and %s of the tensions",
-                    plain_number(after->lower, 4, number), plain_number(after->upper, 4, other));
+                    thr_plain_number(after->lower, 4, number),
+                    thr_plain_number(after->upper, 4, other));
 
   if (isfinite(eval->let_down))
     thr_text_printf(text, "; with all ends let down to %.3g N, too", eval->let_down);
@@ -664,7 +665,7 @@ static void put_left(thr_text *text, const thr_plan *plan)
 
   /* Seated within rounding. */
   thr_text_printf(text, "afterwards     %s to %s N in the passes; %s\n",
-                  plain_number(least, 4, number), plain_number(most, 4, other),
+                  thr_plain_number(least, 4, number), thr_plain_number(most, 4, other),
                   least >= evaluation->physics.seating * (1 - 1e-9) ? "every one is seated"
                                                                     : "not every one is seated");
 
@@ -673,7 +674,7 @@ static void put_left(thr_text *text, const thr_plan *plan)
                     "               at least: where a grip was let go, single passes may keep "
                     "more, up to %s N (--tension); which,\n"
                     "               the stretch of the cord decides (--stiffness)\n",
-                    plain_number(open, 4, number));
+                    thr_plain_number(open, 4, number));
 
   put_slack(text, plan);
 }

@@ -67,7 +67,7 @@ static void put_needed(thr_text *text, const thr_physics *physics, const thr_hol
   if (isfinite(loaded->upper))
     thr_text_printf(
         text, "all of it is carried with %s N at all ends; less than %s N is too little (proved)",
-        plain_number(loaded->upper, 4, number), plain_number(loaded->lower, 4, other));
+        thr_plain_number(loaded->upper, 4, number), thr_plain_number(loaded->lower, 4, other));
   else if (!isfinite(loaded->lower))
     thr_text_append(text, "no pull carries all of it: something gives way however hard the cords "
                           "are pulled (proved)");
@@ -81,7 +81,7 @@ static void put_needed(thr_text *text, const thr_physics *physics, const thr_hol
                     end ? "; %.3g, %.3g: " : "; with bead on bead %.3g, foot on ground %.3g: ",
                     times * physics->mu_bead, times * physics->mu_ground);
     if (isfinite(band[end]))
-      thr_text_printf(text, "%s N", plain_number(band[end], 4, number));
+      thr_text_printf(text, "%s N", thr_plain_number(band[end], 4, number));
     else
       thr_text_append(text, "no pull does");
   }

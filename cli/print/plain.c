@@ -16,46 +16,11 @@
 
 static const double standard_gravity = 9.80665; /* m/s2 */
 
-const char *plain_number(double value, int digits, char out[THR_PLAIN_NUMBER])
-{
-  const size_t size = THR_PLAIN_NUMBER;
-  char rounded_text[40];
-
-  if (isnan(value)) {
-    snprintf(out, size, "-");
-    return out;
-  }
-
-  /* Rounded first, so that 999.6 with three digits is counted in thousands. */
-  snprintf(rounded_text, sizeof rounded_text, "%.*e", digits - 1, fmin(value, 1e300));
-  const double rounded = strtod(rounded_text, NULL);
-
-  if (rounded >= 1e12)
-    snprintf(out, size, "over a trillion");
-  else if (rounded >= 1e9)
-    snprintf(out, size, "%.*g billion", digits, rounded / 1e9);
-  else if (rounded >= 1e6)
-    snprintf(out, size, "%.*g million", digits, rounded / 1e6);
-  else if (rounded >= 1e3)
-    snprintf(out, size, "%d,%03d", (int)rounded / 1000, (int)rounded % 1000);
-  else if (value > 0 && rounded < 1e-4)
-    snprintf(out, size, "under 0.0001");
-  else
-    snprintf(out, size, "%.*g", digits, value);
-
-  return out;
-}
-
-const char *plain_newtons(double newton, char out[THR_PLAIN_NUMBER])
-{
-  return plain_number(newton, 3, out);
-}
-
 const char *plain_volume(double volume, char out[64])
 {
   char number[THR_PLAIN_NUMBER];
   const bool large = volume >= 1e9;
-  snprintf(out, 64, "%s %s", plain_number(volume / (large ? 1e9 : 1e3), 3, number),
+  snprintf(out, 64, "%s %s", thr_plain_number(volume / (large ? 1e9 : 1e3), 3, number),
            large ? "m3" : "cm3");
   return out;
 }
@@ -64,7 +29,7 @@ const char *plain_mass(double gram, char out[64])
 {
   char number[THR_PLAIN_NUMBER];
   const double unit = gram >= 1e7 ? 1e6 : gram >= 1e4 ? 1e3 : 1;
-  snprintf(out, 64, "%s %s", plain_number(gram / unit, 3, number),
+  snprintf(out, 64, "%s %s", thr_plain_number(gram / unit, 3, number),
            unit == 1e6   ? "t"
            : unit == 1e3 ? "kg"
                          : "g");
@@ -76,7 +41,7 @@ const char *plain_force(double newton, char out[64])
   char force[THR_PLAIN_NUMBER], weight[THR_PLAIN_NUMBER];
   double kilograms = newton / standard_gravity;
 
-  plain_newtons(newton, force);
+  thr_plain_newtons(newton, force);
 
   /* Beyond 1e6 N a mass says nothing to anybody. */
   if (isnan(newton))
@@ -86,7 +51,7 @@ const char *plain_force(double newton, char out[64])
   else if (kilograms < 99.5)
     snprintf(out, 64, "%s N (%.2g kg)", force, kilograms);
   else
-    snprintf(out, 64, "%s N (%s kg)", force, plain_newtons(kilograms, weight));
+    snprintf(out, 64, "%s N (%s kg)", force, thr_plain_newtons(kilograms, weight));
 
   return out;
 }
@@ -96,8 +61,8 @@ const char *plain_force(double newton, char out[64])
 static bool is_equal_in_words(double smaller, double larger)
 {
   char one[THR_PLAIN_NUMBER], other[THR_PLAIN_NUMBER];
-  plain_newtons(smaller, one);
-  plain_newtons(larger, other);
+  thr_plain_newtons(smaller, one);
+  thr_plain_newtons(larger, other);
   return !(smaller < larger) || larger >= 1e5 || strcmp(one, other) == 0;
 }
 
@@ -106,8 +71,8 @@ const char *plain_two(double smaller, double larger, char out[64])
   const int decimals = larger >= 99.95 ? 0 : larger >= 9.995 ? 1 : 2;
   char one[THR_PLAIN_NUMBER], other[THR_PLAIN_NUMBER];
 
-  plain_newtons(smaller, one);
-  plain_newtons(larger, other);
+  thr_plain_newtons(smaller, one);
+  thr_plain_newtons(larger, other);
 
   /* Both numbers get the decimals of the larger one. */
   if (is_equal_in_words(smaller, larger))

@@ -208,7 +208,7 @@ static void put_pull_limit(thr_text *text, const thr_plan *plan, double largest)
   /* A limit and a claim are factors on the seating tension. */
   thr_text_printf(text, "hand     %s at most at the end of a cord; %s N are allowed\n",
                   plain_force(largest * seating, force),
-                  plain_number(options->max_pull * seating, 6, allowed));
+                  thr_plain_number(options->max_pull * seating, 6, allowed));
   if (claim->present) put_fewest(text, plan, claim->fewest, claim->optimal, " within that pull");
 }
 
@@ -387,7 +387,7 @@ void kit_put(thr_text *text, const thr_kit_estimate *kit)
   if (kit->volume > 0)
     thr_text_printf(text, ", about %s%s %s mm wide",
                     plain_volume(round_volume(kit->volume), volume),
-                    kit->solid ? " with arms" : ",", plain_number(kit->width, 3, width));
+                    kit->solid ? " with arms" : ",", thr_plain_number(kit->width, 3, width));
   if (kit->refused.code)
     thr_text_printf(text, "; none can be printed with the usual sizes: %s", kit->refused.text);
   thr_text_append(text, "\n");

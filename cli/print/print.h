@@ -41,15 +41,6 @@
 /* ---- plain.c: Formats forces and proofs in plain words, for the first screen of every command:
  * newtons with the mass that weighs as much, and one clause for what is proved. */
 
-enum { THR_PLAIN_NUMBER = 24 }; /* bytes that hold a number for a reader */
-
-/* Formats a number >= 0 for a reader, rounded to 1 <= digits <= 6 digits and without an exponent:
- * "3.49", "2,290", "1.6 million", "over a trillion"; "under 0.0001", "-" for NAN. Returns out. */
-const char *plain_number(double value, int digits, char out[THR_PLAIN_NUMBER]);
-
-/* Formats newtons without a unit, with three digits as above. Returns out. */
-const char *plain_newtons(double newton, char out[THR_PLAIN_NUMBER]);
-
 /* Format a volume given in mm3 and a mass given in g with three digits: "62.1 cm3", "16 m3" from
  * 1 m3 on; "25.3 g", "12.4 kg", "20 t". Return out. */
 const char *plain_volume(double volume, char out[64]);

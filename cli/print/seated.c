@@ -42,7 +42,7 @@ static thr_status put_alone(thr_text *text, const thr_plan *plan, double *pull)
 
     thr_text_printf(text, "  cord %s alone, the others slack: %d of %d gaps, the last at %s N\n",
                     plan->cord[i].id, seated, n,
-                    plain_number(seated > 0 ? pull[seated - 1] : 0, 4, force));
+                    thr_plain_number(seated > 0 ? pull[seated - 1] : 0, 4, force));
   }
 
   return st;
@@ -64,7 +64,7 @@ static void put_parts(thr_text *text, const double *pull, int n, double seating)
     const int needed = (int)(((long)percent[k] * n + 99) / 100);
     if (isfinite(pull[needed - 1]))
       thr_text_printf(text, "%s %d %% at %s N", said++ ? "," : "", percent[k],
-                      plain_number(pull[needed - 1], 4, force));
+                      thr_plain_number(pull[needed - 1], 4, force));
   }
 
   /* Gaps that no pull seats are passed by slack cords only. */
@@ -162,8 +162,8 @@ void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,
   /* The pulls that seat the cords, as one number if they are one. */
   for (int i = 0; i < evaluation->n_cords; i++)
     if (evaluation->cord[i].pull != THR_PULL_NONE) least = fmin(least, evaluation->cord[i].force);
-  plain_newtons(least, from);
-  plain_newtons(largest, to);
+  thr_plain_newtons(least, from);
+  thr_plain_newtons(largest, to);
 
   thr_text_printf(text, "%sseated by %s%s%s N, but while the cords are drawn in %s hold ", label,
                   from, strcmp(from, to) ? " to " : "", strcmp(from, to) ? to : "",
@@ -177,7 +177,7 @@ void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,
     thr_text_printf(text, "only from %s", plain_force(times * largest, needed));
   else
     thr_text_printf(text, "only from %s times that, %s at the hardest",
-                    plain_number(times, 3, factor), plain_force(times * largest, needed));
+                    thr_plain_number(times, 3, factor), plain_force(times * largest, needed));
 
   /* A proof holds at the frictions that are stated with it. */
   thr_text_printf(

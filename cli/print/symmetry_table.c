@@ -156,7 +156,8 @@ static void put_row(thr_text *text, const thr_request *options, const thr_symmet
         text, "%7.1f %%\v3 %14s\v0 %8.6g\v5 %5d\v0 %6d\v6 %8.0f deg\v2 %8.0f deg\v0 %12s\v1 %11s",
         100 * metrics->overlap / metrics->base_length, copies, row->record.steps, row->instructions,
         row->n_cords, thr_degrees(metrics->turning), thr_degrees(metrics->max_turning),
-        plain_newtons(thr_symmetry_row_pull(options, row), force), find_unproved_aim(options, row));
+        thr_plain_newtons(thr_symmetry_row_pull(options, row), force),
+        find_unproved_aim(options, row));
   } else {
     /* Not in time, or a failure; a row without a threading has none, or was not asked for. */
     bool open = row->why.code == THR_ELIMIT || row->why.code == THR_ESOLVER;

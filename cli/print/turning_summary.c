@@ -369,7 +369,7 @@ static void put_cell(thr_text *text, format kind, double value, double seating)
   else if (kind == FORMAT_FACTOR)
     snprintf(cell, sizeof cell, "%s", turning_factor(value, factor));
   else if (kind == FORMAT_FORCE)
-    plain_newtons(value * seating, cell);
+    thr_plain_newtons(value * seating, cell);
   else if (kind == FORMAT_PRICE)
     snprintf(cell, sizeof cell, "%.6g", value);
   else
@@ -496,10 +496,10 @@ void turning_put_frontier(thr_text *text, const thr_plan *plan, const thr_rivals
                       frontier_point->lower_bound);
 
     /* The cord that turns most, and the largest pull. */
-    thr_text_printf(
-        text, "\v2 %9.1f deg\v0 %12s%s\n", thr_degrees(frontier_point->max_turning),
-        plain_newtons(turning_point_pull(plan, frontier_point, plan->options.physics.mu), force),
-        frontier_point->open ? "  *" : "");
+    thr_text_printf(text, "\v2 %9.1f deg\v0 %12s%s\n", thr_degrees(frontier_point->max_turning),
+                    thr_plain_newtons(
+                        turning_point_pull(plan, frontier_point, plan->options.physics.mu), force),
+                    frontier_point->open ? "  *" : "");
     proved &= !frontier_point->open;
   }
 
