@@ -144,10 +144,10 @@ const tests = {
     thread('plan', path.join(DATA, 'dome7.json'), '--cords', '2', '--ends', 'feet', '-o', file('two.json'));
     const {page, close} = await open();
     await choose(page, file('two.json'));
-    await drawn(page, 60000);
+    await drawn(page, 120000);
     assert.match(await result(page), /2 cords/);
     await page.reload();
-    await drawn(page, 60000);
+    await drawn(page, 120000);
     assert.match(await shown(page), /^two: 49 pieces/);
     await page.getByLabel('How many cords?').selectOption('4');
     await page.getByRole('button', {name: 'Undo'}).click();
@@ -412,7 +412,7 @@ const tests = {
     assert.notEqual(await page.locator('#begin').getAttribute('inert'), null, 'what is searched for is not changed meanwhile');
     const other = await own.newPage(); // as if the first were closed
     await other.goto(pathToFileURL(html).href);
-    await drawn(other, 60000);
+    await drawn(other, 120000);
     assert.match(await result(other), /verified/);
     assert.match(await result(other), /1 cord, /);
     await other.getByRole('button', {name: 'Undo'}).click();
@@ -420,7 +420,7 @@ const tests = {
     await other.close();
     await part(page, 'Searching').getByText(/none can by less than \d+ degrees/).waitFor({timeout: 60000});
     await page.getByRole('button', {name: 'Stop and keep the best'}).click();
-    await drawn(page, 60000);
+    await drawn(page, 120000);
     assert.match(await result(page), /verified .*The search was stopped\. It turns by \d+ degrees, and none can by less than \d+/);
     await close();
   },
