@@ -274,9 +274,9 @@ def forget_pictures():
 
 
 def main():
-    if len(sys.argv) < 2:
+    check = sys.argv[2:] == ["--check"]
+    if len(sys.argv) < 2 or not check and len(sys.argv) > 2 or not os.access(sys.argv[1], os.X_OK):
         sys.exit(__doc__)
-    check = "--check" in sys.argv[2:]
     run = Run(sys.argv[1])
     os.chdir(ROOT)
     same = True
