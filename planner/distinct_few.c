@@ -2,7 +2,7 @@
 /* Finds the shortest different cords over every edge of a small framework exactly.
  *
  * Which sets of edges the cords pass is known from a table (graph/check/few_edges.c), and the
- * shortest cord over each set from another (graph/check/short_cords.c).
+ * shortest cord over each set from another (graph/threading/small_cords.c).
  *
  * Example: a triangle, three closed cords, two different ones over every edge: two cords round the
  * triangle, and one to and fro over one edge. */
@@ -24,33 +24,51 @@ static bool is_asked(const thr_frame *frame, const thr_request *options)
          options->cover <= options->distinct && !frame->cover;
 }
 
-/* Finds the shortest cord over each of the sets, none of which costs more than few->one says.
- * *found false: there are too many sets to list. */
-static thr_status walk_over_all(const thr_frame *frame, const thr_request *options,
-                                const thr_few_edges *few, const unsigned *set,
-                                const thr_limits *limits, thr_cord *cord, bool *found, thr_err *err)
+/* Finds the shortest cord that passes the edges of the set. */
+static thr_status walk_over(thr_frame *covered, const thr_request *one, unsigned set,
+                            const thr_limits *limits, thr_cord *cord, bool *found, thr_err *err)
 {
-  thr_short_cords cords;
-  double longest = 0;
-  for (int i = 0; i < options->cords; i++)
-    longest = fmax(longest, few->one[set[i]]);
+  const thr_small_ask ask = {.least = 1, .most = 1, .limit = INFINITY};
+  thr_small_cords small;
+  bool certain;
 
-  thr_status st = thr_short_cords_init(&cords, frame, options, longest * (1 + 1e-9), limits, err);
-  *found = !st;
+  /* The edges of the set are to be passed once at least, all others need no pass. */
+  for (int e = 0; e < covered->n_edges; e++)
+    covered->cover[e] = (int)(set >> e & 1u);
+  thr_status st = thr_small_cords_find(covered, one, &ask, limits, &small, &certain, err);
 
-  /* The shortest cord that passes a set may pass more edges. */
-  for (int i = 0; i < options->cords && *found; i++) {
-    int best = -1;
-    for (int k = 0; k < cords.n; k++)
-      if ((set[i] & ~(unsigned)cords.set[k].set) == 0 &&
-          (best < 0 || cords.set[k].length < cords.set[best].length))
-        best = k;
-    *found = best >= 0;
-    if (*found) st = thr_short_cords_walk(&cords, best, &cord[i], err);
-    *found = *found && !st;
+  /* The cord moves out of the table. */
+  *found = !st && certain && small.n == 1;
+  if (*found) {
+    *cord = (thr_cord){.half = small.half[0], .n_passes = small.n_passes[0]};
+    cord->closed =
+        thr_tail(covered, cord->half[0]) == thr_head(covered, cord->half[cord->n_passes - 1]);
+    small.half[0] = NULL;
   }
 
-  thr_short_cords_destroy(&cords);
+  thr_small_cords_destroy(&small);
+  return st;
+}
+
+/* Finds the shortest cord over each of the sets. *found false: there is none over some set. */
+static thr_status walk_over_all(const thr_frame *frame, const thr_request *options,
+                                const unsigned *set, const thr_limits *limits, thr_cord *cord,
+                                bool *found, thr_err *err)
+{
+  thr_frame covered = *frame;
+  thr_request one = *options;
+
+  one.cords = one.cords_least = 1;
+  one.cover = 0; /* what the framework says for every edge */
+  one.distinct = 0;
+  *found = true;
+  if (!(covered.cover = thr_calloc((size_t)frame->n_edges, sizeof *covered.cover)))
+    return thr_nomem(err);
+
+  thr_status st = THR_OK;
+  for (int i = 0; i < options->cords && !st && *found; i++)
+    st = walk_over(&covered, &one, set[i], limits, &cord[i], found, err);
+  free(covered.cover);
   return st;
 }
 
@@ -109,7 +127,7 @@ thr_status thr_distinct_few(const thr_frame *frame, const thr_request *options,
 
   /* Choose the sets, and find a cord over each. */
   if (!st && few.n > 0) st = choose_sets(&few, options, even, set, &found, err);
-  if (!st && found) st = walk_over_all(frame, options, &few, set, limits, made, &found, err);
+  if (!st && found) st = walk_over_all(frame, options, set, limits, made, &found, err);
 
   if (!st && found) {
     *cord = made;

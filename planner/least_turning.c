@@ -262,6 +262,24 @@ static thr_status find_from_shortest(const thr_frame *frame, const thr_request *
   return st;
 }
 
+/* Finds the least turning of all cords together; a table knows the least of several closed cords
+ * through few edges. */
+static thr_status find_together(const thr_frame *frame, const thr_request *options,
+                                const shortest_plan *shortest, const thr_limits *limits,
+                                thr_least *least, thr_err *err)
+{
+  thr_err why = {0};
+  const thr_status st = find_from_shortest(frame, options, shortest, limits, least, &why);
+  if (st == THR_ELIMIT && least->n_cords > 1 && options->ends == THR_ENDS_CLOSED) {
+    const thr_status made = thr_least_turning_small(frame, limits, least, err);
+    if (made) {
+      thr_least_destroy(least);
+      return made;
+    }
+  }
+  return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
+}
+
 /* Finds the cords that the request asks for: a classical tour, the least turning of all cords
  * together, or cords of which the one that turns most turns little. */
 static thr_status find_cords(const thr_frame *frame, const thr_request *options,
@@ -276,7 +294,7 @@ static thr_status find_cords(const thr_frame *frame, const thr_request *options,
                              shortest->solid.passes, least, err);
 
   if (!thr_wants_largest(options))
-    return find_from_shortest(frame, options, shortest, limits, least, err);
+    return find_together(frame, options, shortest, limits, least, err);
 
   /* For the largest turning begin with cords that turn least in all, in a part of the time. */
   const double enough = options->max_pull > 0 ? thr_request_most_pulled(options) : 0;

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 
 typedef thr_status component_planner(const thr_frame *frame, const thr_request *options,
-                                     const thr_limits *limits, thr_plan *plan, bool *least,
+                                     const thr_limits *limits, thr_plan *plan, thr_cords_word *word,
                                      thr_err *err);
 
 /* ---- several components ---- */
@@ -22,11 +22,11 @@ typedef thr_status component_planner(const thr_frame *frame, const thr_request *
 /* Plans one component by itself, in its part of the time: a component may need more cords than
  * another, or hold fewer. */
 static thr_status plan_component(const thr_components *components, int k, component_planner *one,
-                                 const thr_limits *limits, thr_plan *made, bool *all_least,
+                                 const thr_limits *limits, thr_plan *made, thr_cords_word *all,
                                  thr_err *err)
 {
   thr_plan asked;
-  bool least = false;
+  thr_cords_word word = {0};
   thr_err why = {0};
 
   thr_status st = thr_component_take(components, k, &asked, err);
@@ -38,10 +38,11 @@ static thr_status plan_component(const thr_components *components, int k, compon
                                                  (first[components->n] - first[k]));
   share.found = NULL; /* cords of a component are no plan */
 
-  st = one(&asked.frame, &asked.options, &share, made, &least, &why);
+  st = one(&asked.frame, &asked.options, &share, made, &word, &why);
   thr_plan_destroy(&asked);
 
-  *all_least &= least;
+  all->passes_least &= word.passes_least;
+  all->longest_least &= word.longest_least || made->cords_claim.longest_optimal;
   return st && (st != THR_ELIMIT || made->n_cords == 0) ? thr_fail(err, st, "%s", why.text)
                                                         : THR_OK;
 }
@@ -66,7 +67,7 @@ static thr_status take_certificates(const thr_components *components, thr_plan *
 /* Fills the cords of plan, which holds framework and options, and with solid joints its
  * certificates. */
 static thr_status plan_components(component_planner *one, const thr_limits *limits, thr_plan *plan,
-                                  bool *least, thr_err *err)
+                                  thr_cords_word *word, thr_err *err)
 {
   thr_components components;
   thr_status st = thr_components_init(&components, &plan->frame, &plan->options, err);
@@ -74,11 +75,11 @@ static thr_status plan_components(component_planner *one, const thr_limits *limi
 
   thr_plan *made = thr_calloc((size_t)components.n, sizeof *made);
   if (!made) st = thr_nomem(err);
-  *least = true;
+  *word = (thr_cords_word){true, thr_wants_balance(&plan->options)};
 
   /* Plan every component by itself. */
   for (int k = 0; k < components.n && !st; k++)
-    st = plan_component(&components, k, one, limits, &made[k], least, err);
+    st = plan_component(&components, k, one, limits, &made[k], word, err);
 
   /* Join the cords, and the certificates that solid joints have. */
   if (!st) st = thr_components_join(&components, made, plan, err);
@@ -134,10 +135,11 @@ static bool one_each(const thr_request *options)
 
 /* Plans a framework of one component. */
 static thr_status one_component(const thr_frame *frame, const thr_request *options,
-                                const thr_limits *limits, thr_plan *plan, bool *least, thr_err *err)
+                                const thr_limits *limits, thr_plan *plan, thr_cords_word *word,
+                                thr_err *err)
 {
   thr_err why = {0};
-  thr_status st = thr_cords_plan(frame, options, limits, plan, least, &why);
+  thr_status st = thr_cords_plan(frame, options, limits, plan, word, &why);
 
   bool open = st == THR_ELIMIT && plan->cords_claim.present && thr_wants_balance(options);
   if (!open) return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
@@ -152,16 +154,17 @@ static thr_status one_component(const thr_frame *frame, const thr_request *optio
 /* Plans cords of solid joints: at once where the framework is one component, else component by
  * component. */
 static thr_status plan_solid(const thr_frame *frame, const thr_request *options,
-                             const thr_limits *limits, thr_plan *plan, bool *least, thr_err *err)
+                             const thr_limits *limits, thr_plan *plan, thr_cords_word *word,
+                             thr_err *err)
 {
   int n = 1;
 
   thr_status st = one_each(options) ? THR_OK : count_components(frame, &n, err);
   if (st) return st;
-  if (n == 1) return one_component(frame, options, limits, plan, least, err);
+  if (n == 1) return one_component(frame, options, limits, plan, word, err);
 
   st = thr_plan_request(plan, frame, options, err);
-  if (!st) st = plan_components(thr_cords_plan, limits, plan, least, err);
+  if (!st) st = plan_components(thr_cords_plan, limits, plan, word, err);
   if (!st) st = prove_solid(plan, err);
   if (!st) st = thr_planner_even_length(plan, limits, err);
 
@@ -186,7 +189,8 @@ static thr_status prove_tied(thr_tube *tube, thr_plan *plan, thr_err *err)
 
 /* Plans cords of tube joints, by components where these can be planned by themselves. */
 static thr_status plan_tied(const thr_frame *frame, const thr_request *options,
-                            const thr_limits *limits, thr_plan *plan, bool *least, thr_err *err)
+                            const thr_limits *limits, thr_plan *plan, thr_cords_word *word,
+                            thr_err *err)
 {
   thr_tube tube = {0};
   thr_err why = {0};
@@ -203,8 +207,8 @@ static thr_status plan_tied(const thr_frame *frame, const thr_request *options,
   if (!st) st = count_components(frame, &n, err);
 
   if (!st)
-    st = n > 1 && thr_tube_shares(options) ? plan_components(plan_tied, limits, plan, least, err)
-                                           : thr_tube_cords(&tube, limits, plan, err);
+    st = n > 1 && thr_tube_shares(options) ? plan_components(plan_tied, limits, plan, word, err)
+                                           : thr_tube_cords(&tube, limits, plan, word, err);
 
   if (!st) st = prove_tied(&tube, plan, err);
   thr_tube_destroy(&tube);
@@ -218,8 +222,8 @@ static thr_status plan_tied(const thr_frame *frame, const thr_request *options,
 /* Cords within a limit on their length of which it is not proved that they are the fewest, or none:
  * fewer by another way, of which the solver says nothing. st: of what there is. */
 static thr_status few_short(const thr_frame *frame, const thr_request *options,
-                            const thr_limits *limits, thr_status st, thr_plan *plan, bool *least,
-                            thr_err *err)
+                            const thr_limits *limits, thr_status st, thr_plan *plan,
+                            thr_cords_word *word, thr_err *err)
 {
   enum { MOST_EDGES = 2000 };
   thr_err why = {0};
@@ -249,7 +253,7 @@ static thr_status few_short(const thr_frame *frame, const thr_request *options,
 
   if (found || n != 1 || plan->n_cords == before) return st;
 
-  *least = false;
+  *word = (thr_cords_word){0};
   *err = (thr_err){0};
   return thr_cords_judge(plan, &(thr_err){0}, err);
 }
@@ -258,15 +262,15 @@ thr_status thr_planner_length(const thr_frame *frame, const thr_request *options
                               const thr_limits *limits, thr_plan *plan, thr_report *report,
                               thr_err *err)
 {
-  bool least = false;
+  thr_cords_word word = {0};
   *plan = (thr_plan){0};
 
   thr_status st = (options->joint == THR_JOINT_TUBE ? plan_tied : plan_solid)(
-      frame, options, limits, plan, &least, err);
+      frame, options, limits, plan, &word, err);
 
   if (options->joint == THR_JOINT_SOLID)
-    st = few_short(frame, options, limits, st, plan, &least, err);
-  if (report) report->passes_least = least;
+    st = few_short(frame, options, limits, st, plan, &word, err);
+  if (report) report->word = word;
   return st;
 }
 

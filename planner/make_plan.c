@@ -112,7 +112,7 @@ thr_status thr_plan_make(const thr_frame *frame, const thr_request *request,
   /* Lead crossing channels otherwise. */
   bool others = false; /* cords that cross nothing may have other passes */
   if (plan->n_cords > 0 && !finished) finished = thr_plan_uncross(plan, &others, err);
-  if (others) own.passes_least = false;
+  if (others) own.word.passes_least = false;
   if (others && !finished) finished = thr_planner_prove_again(plan, err);
 
   /* Choose the order of work, and judge the cords that changed. */

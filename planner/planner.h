@@ -29,7 +29,7 @@
 
 /* What was found out beside the plan. */
 typedef struct {
-  bool passes_least; /* the shortest that hold the cords, which the checker cannot verify */
+  thr_cords_word word; /* what a solver says of the cords and the checker cannot verify */
   thr_plan shortest; /* beside the least turning: the cords of the least length, proved; empty where
                         they were not needed */
   thr_symmetries symmetries; /* of a symmetric plan: the groups and their threadings, without the

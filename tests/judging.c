@@ -309,6 +309,24 @@ static void judge_cords(judged *j, const thr_plan *p)
   judge_bound(j, "fewest", c->fewest, p->n_cords, c->fewest_optimal, fewest, 0);
 }
 
+/* What is printed as an integer programme's word, which counts as no better what is better by less
+ * than 2e-5. */
+static void judge_word(judged *j, const thr_plan *p)
+{
+  const double part = 1 - 3e-5;
+  char path[128], text[OUTPUT];
+  double longest = longest_of(&j->c.f, p), length = length_of(&j->c.f, p);
+  snprintf(path, sizeof path, "%s/output", judging_folder);
+  read_back(path, text);
+  if (strstr(text, "none shorter exists") && least_with_its_cords(j, p, part * longest) == 0)
+    finding(j, "the longest is %.12g by the solver's word, but there are as many of at most %.12g",
+            longest, part * longest);
+  if (strstr(text, "all other passes were ruled out") &&
+      least_with_its_cords(j, p, -1) < part * length)
+    finding(j, "%.12g is least by the solver's word, but %.12g exists", length,
+            least_with_its_cords(j, p, -1));
+}
+
 /* Nothing is claimed of plans that turn back elsewhere than at nodes with one edge. */
 static void judge_turning(judged *j, const thr_plan *p)
 {
@@ -402,6 +420,7 @@ static void judge_written(judged *j, counts *n)
   n->unsure += isnan(least);
   judge_length(j, p, least);
   judge_cords(j, p);
+  judge_word(j, p);
   judge_turning(j, p);
   judge_slack(j, p);
   bool shortest =

@@ -18,11 +18,11 @@ void want(thr_request *o, const char *aims)
 }
 
 thr_status length_plan(const thr_frame *f, const thr_request *o, const thr_limits *limits,
-                       thr_plan *p, bool *passes_least, thr_err *err)
+                       thr_plan *p, thr_cords_word *word, thr_err *err)
 {
   thr_report r = {0};
   thr_status st = thr_planner_length(f, o, limits, p, &r, err);
-  if (passes_least) *passes_least = r.passes_least;
+  if (word) *word = r.word;
   return st;
 }
 

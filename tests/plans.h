@@ -17,9 +17,9 @@
  * stay as they are. */
 void want(thr_request *o, const char *aims);
 
-/* A plan of the least length, as the planner makes it. passes_least: NULL = not wanted. */
+/* A plan of the least length, as the planner makes it. word: NULL = not wanted. */
 thr_status length_plan(const thr_frame *f, const thr_request *o, const thr_limits *limits,
-                       thr_plan *p, bool *passes_least, thr_err *err);
+                       thr_plan *p, thr_cords_word *word, thr_err *err);
 
 /* ---- plans ---- */
 

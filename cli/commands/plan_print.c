@@ -21,9 +21,9 @@ static double deadline_of(const plan_arguments *args)
 static void put_plan(thr_writer *writer, const planned_result *result, const thr_rivals *rivals)
 {
   if (cli_json)
-    plan_put_json(writer, &result->plan, rivals);
+    plan_put_json(writer, &result->plan, rivals, result->report.word);
   else
-    plan_put_summary(writer->out, &result->plan, rivals, result->report.passes_least);
+    plan_put_summary(writer->out, &result->plan, rivals, result->report.word);
 }
 
 /* Draws the frontier of length and turning into the file of --plot. Where there is none, says why.

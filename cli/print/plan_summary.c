@@ -173,8 +173,9 @@ static void put_fewest(thr_text *text, const thr_plan *plan, int fewest, bool op
   thr_text_append(text, "\n");
 }
 
-/* Appends how long the longest cord is, and what is proved of that and of the number of cords. */
-static void put_claim(thr_text *text, const thr_plan *plan)
+/* Appends how long the longest cord is, and what is proved of that and of the number of cords.
+ * word: what the search found out but the checker cannot verify. */
+static void put_claim(thr_text *text, const thr_plan *plan, thr_cords_word word)
 {
   const thr_cords_claim *claim = &plan->cords_claim;
   const char *units = plan->frame.units;
@@ -191,6 +192,9 @@ static void put_claim(thr_text *text, const thr_plan *plan)
 
   thr_text_append(text, "\n");
 
+  /* The search may know more than a proof shows. */
+  if (!claim->longest_optimal && thr_wants_balance(&plan->options) && word.longest_least)
+    thr_text_append(text, "         the search ruled out every shorter one (not verified)\n");
   if (claim->fewest > 0) put_fewest(text, plan, claim->fewest, claim->fewest_optimal, "");
 }
 
@@ -232,7 +236,7 @@ static void put_certificate(thr_text *text, const thr_plan *plan)
 }
 
 /* Appends what is proved of the length. */
-static void put_length_status(thr_text *text, const thr_plan *plan, bool passes_least)
+static void put_length_status(thr_text *text, const thr_plan *plan, thr_cords_word word)
 {
   const thr_length_proof *proof = &plan->proof;
 
@@ -241,7 +245,7 @@ static void put_length_status(thr_text *text, const thr_plan *plan, bool passes_
   thr_text_append(text, "\n");
 
   /* The search may have ruled out more than the proof shows. */
-  if (!proof->optimal && passes_least && plan->options.max_length == 0 &&
+  if (!proof->optimal && word.passes_least && plan->options.max_length == 0 &&
       !thr_wants_balance(&plan->options))
     thr_text_append(
         text,
@@ -446,7 +450,7 @@ static bool estimate_kit(thr_text *text, const thr_plan *plan, thr_kit_estimate 
  * what pulls in N do, NULL if they are more than a number holds. rivals: what a plan of least
  * turning is compared with, else NULL. */
 static void put_text(thr_text *text, const thr_plan *plan, const double *pull, double largest,
-                     const thr_eval *seated, const thr_rivals *rivals, bool passes_least)
+                     const thr_eval *seated, const thr_rivals *rivals, thr_cords_word word)
 {
   const thr_metrics *metrics = &plan->metrics;
   const thr_physics *physics = &plan->options.physics;
@@ -470,8 +474,8 @@ static void put_text(thr_text *text, const thr_plan *plan, const double *pull, d
                   100 * metrics->overlap / metrics->base_length);
 
   /* What is proved of length and number of cords, and what they mean for hand and knife. */
-  put_length_status(text, plan, passes_least);
-  put_claim(text, plan);
+  put_length_status(text, plan, word);
+  put_claim(text, plan, word);
   put_distinct(text, plan);
   put_cut(text, plan);
   put_pull_limit(text, plan, largest);
@@ -509,12 +513,12 @@ static double *compute_pulls(thr_text *text, const thr_plan *plan, double *large
 }
 
 void plan_put_summary(thr_text *text, const thr_plan *plan, const thr_rivals *rivals,
-                      bool passes_least)
+                      thr_cords_word word)
 {
   double largest, *pull = compute_pulls(text, plan, &largest);
   thr_eval seated;
   const bool known = !thr_eval_closed_form(plan, plan->options.physics.seating, &seated, NULL);
-  if (pull) put_text(text, plan, pull, largest, known ? &seated : NULL, rivals, passes_least);
+  if (pull) put_text(text, plan, pull, largest, known ? &seated : NULL, rivals, word);
   thr_eval_destroy(&seated);
   free(pull);
 }
@@ -522,14 +526,16 @@ void plan_put_summary(thr_text *text, const thr_plan *plan, const thr_rivals *ri
 /* ---- JSON ---- */
 
 /* Writes what is known of the longest cord and of the number of cords. */
-static void put_claim_json(thr_writer *writer, const thr_plan *plan)
+static void put_claim_json(thr_writer *writer, const thr_plan *plan, thr_cords_word word)
 {
   const thr_cords_claim *claim = &plan->cords_claim;
 
   thr_write_number(writer, "longest", claim->longest);
   thr_write_number(writer, "longest_bound", claim->longest_bound);
 
+  /* What the search ruled out no checker verifies. */
   thr_write_string(writer, "longest_status", claim->longest_optimal ? "optimal" : "bound");
+  thr_write_bool(writer, "longest_ruled_out", claim->longest_optimal || word.longest_least);
 
   if (!claim->fewest) return;
   thr_write_int(writer, "fewest_cords", claim->fewest);
@@ -622,7 +628,8 @@ static void put_each_cord_json(thr_writer *writer, const thr_plan *plan, const d
   thr_write_close(writer);
 }
 
-void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *rivals)
+void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *rivals,
+                   thr_cords_word word)
 {
   const thr_metrics *metrics = &plan->metrics;
 
@@ -668,7 +675,7 @@ void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *r
                      plan->pull_claim.optimal ? "optimal" : "bound");
   }
 
-  if (plan->cords_claim.present) put_claim_json(writer, plan);
+  if (plan->cords_claim.present) put_claim_json(writer, plan, word);
 
   /* What only some plans have. */
   if (plan->options.distinct > 0) thr_write_int(writer, "distinct", metrics->distinct);

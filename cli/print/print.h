@@ -339,11 +339,12 @@ void kit_put(thr_text *text, const thr_kit_estimate *kit);
 void kit_put_json(thr_writer *writer, const thr_kit_estimate *kit);
 
 /* Appends the summary. rivals: what a plan of the least turning is compared with; NULL for others.
- * passes_least: the search found that the passes are the shortest, which is not verified. */
+ * word: what the search found out beyond what is verified. */
 void plan_put_summary(thr_text *text, const thr_plan *plan, const thr_rivals *rivals,
-                      bool passes_least);
+                      thr_cords_word word);
 
 /* Writes the same as members of an open object. */
-void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *rivals);
+void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *rivals,
+                   thr_cords_word word);
 
 #endif

@@ -6,7 +6,7 @@
  * first: passes as a multigraph, and pairings at one node. Then here: transition.c makes pairings
  * at all nodes, walks.c and splice.c keep walks and cut and join them, threading.c exchanges pairs,
  * and junction_graphs.c counts turns, so that nodes stay tied. even.c and anneal.h even cords out.
- */
+ * subsets.c, items.c and small_cords.c solve small frameworks exactly. */
 #ifndef THR_THREADING_H
 #define THR_THREADING_H
 
@@ -435,6 +435,119 @@ void thr_evener_propose(thr_evener *evener, int place, thr_broken *old);
  * of the totals is known from running sums: O(1) a step that is not taken, O(darts) one that is.
  * best: [n_darts] scratch. */
 void thr_evener_anneal(thr_evener *evener, int steps, double bound, int *best);
+
+/* ---- subsets.c: The cheapest walks of a small component, exactly, by a table over subsets of what
+ * they have to collect together. */
+
+enum { THR_SUBSETS_MOST_ITEMS = 20 };
+
+typedef struct {
+  int from, to; /* states */
+  double cost;  /* >= 0 */
+  uint32_t gains;
+  uint32_t one_of[2]; /* and one more of each of these groups; 0 = none. All are there: only if they
+                         may be had again */
+} thr_subsets_step;
+
+/* Walks begin with a start (its from means nothing) and end with an end. Open ones: any start, any
+ * end (its to means nothing). Closed ones, which may be turned round: the start is of the lowest
+ * state that they visit, and the end leads back to that. */
+typedef struct {
+  int n_states, n_items;
+  bool closed;
+  int first[THR_SUBSETS_MOST_ITEMS]; /* the items like item i are from item first[i] on, one after
+                                        the other: a group */
+  uint32_t once; /* items that are collected at most once, by all walks together: of groups all or
+                    none */
+  uint32_t required; /* items that all walks together have to collect, one at least; of groups the
+                        first ones */
+  int n_steps, n_starts, n_ends;
+  thr_subsets_step *step, *start, *end; /* steps by ascending from */
+} thr_subsets_model;
+
+typedef struct thr_subsets thr_subsets;
+
+/* Fills f of the model, which is borrowed. *work: how often states and parts of sets may be looked
+ * at, which this and the functions below take from. *subsets is NULL if that or the limits stopped
+ * it, or there are more than 10 million sets and states: 18 items have room for 38 states. 12 bytes
+ * each. */
+thr_status thr_subsets_create(const thr_subsets_model *subsets_model, const thr_limits *limits,
+                              double *work, thr_subsets **subsets, thr_err *err) THR_MUST_CHECK;
+void thr_subsets_destroy(thr_subsets *subsets);
+
+/* Least cost of the dearest of least .. most walks that collect enough together; INFINITY: there
+ * are none, NAN: too long to find out. */
+thr_status thr_subsets_dearest(thr_subsets *subsets, int least, int most, double *cost,
+                               thr_err *err) THR_MUST_CHECK;
+
+/* The cheapest least .. most walks together of which none costs more than limit; fewest: as few as
+ * there are in the first place. *n = 0: there are none, -1: too long to find out. */
+thr_status thr_subsets_find(thr_subsets *subsets, int least, int most, bool fewest, double limit,
+                            int *n, double *cost, thr_err *err) THR_MUST_CHECK;
+
+/* States of walk i of those found last, and its cost: *state is the caller's to free. THR_ELIMIT:
+ * stopped. */
+thr_status thr_subsets_walk(thr_subsets *subsets, int i, int **state, int *n, double *cost,
+                            thr_err *err) THR_MUST_CHECK;
+
+/* ---- items.c: A small framework of one component as walks that collect items
+ * (graph/threading/subsets.c): states are its half-edges. */
+
+typedef struct {
+  const thr_frame *f;
+  const thr_request *o; /* joint, cover, capacity, ends */
+  bool turning;         /* turns are what costs, as options.turning prices them, not length */
+  uint32_t full;        /* edges whose capacities count, 1 << i */
+  int n_cuts;
+  uint64_t cut[THR_SUBSETS_MOST_ITEMS]; /* sets of states that leave one node */
+  double longest;                       /* edge */
+  int n_edges;
+  uint32_t *pass, *end; /* [n_edges], [f->n_nodes] their items */
+  uint32_t *turn;       /* [n_cuts] its item */
+  thr_subsets_model m;
+} thr_items;
+
+/* Without capacities or cuts. With turning U-turns are only at nodes with one edge, with tube
+ * joints nowhere. */
+thr_status thr_items_init(thr_items *items, const thr_frame *frame, const thr_request *options,
+                          bool turning, thr_err *err) THR_MUST_CHECK;
+void thr_items_destroy(thr_items *items);
+
+/* Makes the model. *small false: it has too many items. */
+thr_status thr_items_model(thr_items *items, bool *small, thr_err *err) THR_MUST_CHECK;
+
+/* Of walks of such a model, n_passes[i] states each. *keep: they keep the capacities and tie the
+ * nodes. Else what they miss counts from now on; *more: there was something to add. */
+thr_status thr_items_refine(thr_items *items, int n_walks, int *const *state, const int *n_passes,
+                            bool *keep, bool *more, thr_err *err) THR_MUST_CHECK;
+
+/* ---- small_cords.c: All cords of a small framework of one component at once, exactly: shortest or
+ * turning least, together or the worst of them, or as few as a limit allows. */
+
+/* Cost is length, or with turning the price of turns (options.turning.cost). */
+typedef struct {
+  int least, most; /* so many cords */
+  bool turning;
+  bool even;    /* the dearest as cheap as can be; then, and without it, cheap in all */
+  double limit; /* of each cord's cost, INFINITY = none: then as few cords as can be */
+  int known;    /* cords that are known already; 0 = none. What these cost: */
+  double known_dearest, known_sum;
+} thr_small_ask;
+
+typedef struct {
+  int n;
+  int *n_passes, **half; /* half-edges of each; owned */
+} thr_small_cords;
+
+void thr_small_cords_destroy(thr_small_cords *cords);
+
+/* Of the options ends, covers, capacities and joint. out: cords that are better than those
+ * known, and as asked for; else none. *certain: nothing is better than those or, without them, than
+ * the known ones; or there are none at all. Not certain: too many items, or stopped by the limits.
+ */
+thr_status thr_small_cords_find(const thr_frame *frame, const thr_request *options,
+                                const thr_small_ask *ask, const thr_limits *limits,
+                                thr_small_cords *out, bool *certain, thr_err *err) THR_MUST_CHECK;
 
 /* ---- Simulated annealing of several cords, which makes the largest length, or the largest sum of
  * turns, of a cord small.

@@ -107,17 +107,21 @@ static double most_passes(const thr_decomposition *decomposition)
   return sum;
 }
 
-/* Makes n closed cords where the shortest passes do not hold as many, with pairs of passes. */
+/* Makes n closed cords where the shortest passes do not hold as many, from the exact table or with
+ * pairs of passes. */
 static thr_status make_more(thr_decomposition *decomposition, int n, thr_err *err)
 {
-  bool found;
-  thr_status st = thr_decomposition_more(decomposition, n, &found, err);
+  bool certain, found;
+  thr_status st = thr_decomposition_table(
+      decomposition, &(thr_decomposition_ask){n, n, false, INFINITY}, &certain, err);
+  decomposition->least &= certain;
 
-  decomposition->least = false;
+  found = decomposition->walks.n_walks >= n;
+  if (!st && !found && !certain) st = thr_decomposition_more(decomposition, n, &found, err);
   if (st || found) return st;
 
   /* Every closed cord has two passes at least. */
-  if (2.0 * n > most_passes(decomposition))
+  if (certain || 2.0 * n > most_passes(decomposition))
     return thr_fail(
         err, THR_EINFEASIBLE,
         "the component with node %s cannot hold %d closed cords: the capacities leave no room",
@@ -277,8 +281,9 @@ thr_status thr_cords_grow(thr_decomposition *decomposition, double length,
 
   thr_status st = thr_cords_reach(decomposition->f, decomposition->o, err);
 
-  /* Larger steps where many numbers are too small. */
-  for (int tried = 0, step = 1; !st && !*done && n <= most; n += step) {
+  /* Larger steps where many numbers are too small; no more where the table has said that none is
+   * right. */
+  for (int tried = 0, step = 1; !st && !*done && !decomposition->none && n <= most; n += step) {
     st = try_number(decomposition, with, n, done, err);
     if (++tried > IN_SINGLE_STEPS && n < most) step = 2 * step < most - n ? 2 * step : most - n;
   }
@@ -357,7 +362,8 @@ static thr_status try_number(thr_decomposition *decomposition, void *with, int n
   return st;
 }
 
-/* Says why no cords within the limit were found, from the strongest reason to the weakest. */
+/* Says why no cords within the limit were found, from the strongest reason to the weakest. The
+ * first is known of all cords together, the second of small frameworks only. */
 static thr_status none_found(const thr_decomposition *decomposition, double least, thr_err *err)
 {
   const int most = decomposition->o->cords;
@@ -372,6 +378,13 @@ static thr_status none_found(const thr_decomposition *decomposition, double leas
                     "the component with node %s needs %g %s of cord: %d %s of at most %g "
                     "%s are too few",
                     decomposition->f->name[0], least, units, most, cords, limit, units);
+
+  /* The table knows that there are none. */
+  if (decomposition->none)
+    return thr_fail(
+        err, THR_EINFEASIBLE,
+        "the component with node %s: of %s%d %s one is longer than %g %s (all were tried)",
+        decomposition->f->name[0], up_to, most, cords, limit, units);
 
   /* Nothing is proved, with walks or without. */
   if (decomposition->walks.n_walks == 0)
@@ -514,7 +527,7 @@ static thr_status prove(const thr_decomposition *decomposition, thr_plan *plan,
 }
 
 thr_status thr_cords_plan(const thr_frame *frame, const thr_request *options,
-                          const thr_limits *limits, thr_plan *plan, bool *passes_least,
+                          const thr_limits *limits, thr_plan *plan, thr_cords_word *word,
                           thr_err *err)
 {
   thr_shortest shortest = {0};
@@ -522,7 +535,7 @@ thr_status thr_cords_plan(const thr_frame *frame, const thr_request *options,
   thr_err why = {0};
   thr_decomposition decomposition = {0};
   *plan = (thr_plan){0};
-  if (passes_least) *passes_least = false;
+  if (word) *word = (thr_cords_word){0};
 
   /* One cord per component needs no sharing out. */
   bool one = options->cords == 1 && options->max_length == 0 && options->ends != THR_ENDS_COUNTS;
@@ -541,7 +554,9 @@ thr_status thr_cords_plan(const thr_frame *frame, const thr_request *options,
                          &plan->n_cords, err);
   if (!st) st = prove(&decomposition, plan, &known, err);
 
-  if (passes_least) *passes_least = decomposition.least;
+  if (word)
+    *word =
+        (thr_cords_word){decomposition.least, decomposition.certain && thr_wants_balance(options)};
   if (st)
     thr_plan_destroy(plan);
   else

@@ -19,7 +19,8 @@ thr_status thr_decomposition_init(thr_decomposition *decomposition, const thr_fr
                                   const thr_request *options, const thr_limits *limits,
                                   thr_err *err)
 {
-  *decomposition = (thr_decomposition){.f = frame, .o = options, .limits = limits, .least = true};
+  *decomposition = (thr_decomposition){
+      .f = frame, .o = options, .limits = limits, .least = true, .certain = true};
   decomposition->passes = thr_calloc((size_t)frame->n_edges, sizeof *decomposition->passes);
   return decomposition->passes ? THR_OK : thr_nomem(err);
 }
@@ -261,6 +262,32 @@ thr_status thr_decomposition_cut(thr_decomposition *decomposition, int n, bool e
 
 /* ---- evening out ---- */
 
+/* Takes the cords of the exact table, where the framework is small. With a goal only if it was
+ * missed, and then the fewest cords. */
+static thr_status make_exact(thr_decomposition *decomposition, double goal, thr_err *err)
+{
+  const thr_request *options = decomposition->o;
+  bool certain, counts = options->ends == THR_ENDS_COUNTS;
+  const int n = decomposition->walks.n_walks;
+
+  thr_decomposition_ask ask = {counts ? n : options->cords_least, counts ? n : options->cords, true,
+                               INFINITY};
+
+  /* The table is asked once, and only where the goal was missed. */
+  if (goal > 0 && (decomposition->asked ||
+                   thr_decomposition_within(thr_walks_most(&decomposition->walks), goal)))
+    return THR_OK;
+
+  if (goal > 0) ask = (thr_decomposition_ask){ask.least, ask.most, false, goal};
+  decomposition->asked = goal > 0;
+  thr_status st = thr_decomposition_table(decomposition, &ask, &certain, err);
+
+  decomposition->certain &= certain;
+  decomposition->none =
+      goal > 0 && certain && !thr_decomposition_within(thr_walks_most(&decomposition->walks), goal);
+  return st;
+}
+
 /* Makes the annealed cords the walks, and counts their passes. */
 static thr_status take_cords(thr_decomposition *decomposition, const thr_cord *cord, int n,
                              thr_err *err)
@@ -284,7 +311,9 @@ static thr_status take_cords(thr_decomposition *decomposition, const thr_cord *c
   return THR_OK;
 }
 
-thr_status thr_decomposition_even(thr_decomposition *decomposition, double goal, thr_err *err)
+/* Anneals the walks until none is longer than the goal, or than the shortest passes shared evenly.
+ */
+static thr_status anneal(thr_decomposition *decomposition, double goal, thr_err *err)
 {
   enum { STEPS = 20000, STEPS_PER_PASS = 3000, STEPS_MOST = 600000 };
   const thr_frame *frame = decomposition->f;
@@ -335,4 +364,11 @@ thr_status thr_decomposition_even(thr_decomposition *decomposition, double goal,
   thr_turning_columns_destroy(&columns);
   free(end_allowed);
   return st;
+}
+
+thr_status thr_decomposition_even(thr_decomposition *decomposition, double goal, thr_err *err)
+{
+  const bool length_only = goal == 0 && !thr_wants_balance(decomposition->o);
+  const thr_status st = anneal(decomposition, goal, err);
+  return st || length_only ? st : make_exact(decomposition, goal, err);
 }

@@ -5,8 +5,8 @@
  * Read postman.c first: the shortest passes, by minimum T-joins, with certificates; postman_plan.c
  * makes a plan of one cord of them. Then cords.c: plans of several cords. Its parts are
  * decomposition.c (cutting open cords, evening out), decomposition_places.c (room for their ends),
- * decomposition_circuits.c, decomposition_chord.c and decomposition_tied.c (closed cords) and
- * decomposition_prices.c (lower bounds).
+ * decomposition_circuits.c, decomposition_chord.c and decomposition_tied.c (closed cords),
+ * decomposition_table.c (small frameworks, exactly) and decomposition_prices.c (lower bounds).
  * cut_tour.c makes cords of limited length without a search. */
 #ifndef THR_POSTMAN_H
 #define THR_POSTMAN_H
@@ -110,6 +110,9 @@ typedef struct {
   thr_walks walks; /* cyclic with THR_ENDS_CLOSED, else open */
   int *passes;     /* [n_edges] of these walks, or for walks to come; owned */
   bool least;      /* the passes are the shortest that hold the cords */
+  bool certain;    /* the longest cord is as short as can be: the solver's word */
+  bool asked;      /* options.max_length: the table was, for any number of cords */
+  bool none;       /* and there are none */
 } thr_decomposition;
 
 /* No walks yet, and no passes. On failure it is to be destroyed too. */
@@ -174,8 +177,9 @@ thr_status thr_decomposition_chord(thr_decomposition *decomposition, int i, int 
 thr_status thr_decomposition_merge(thr_decomposition *decomposition, int n,
                                    thr_err *err) THR_MUST_CHECK;
 
-/* Makes the longest walk as short as annealing does it (graph/threading/anneal.c), until none is
- * longer than the goal, or than the shortest passes shared evenly. */
+/* Makes the longest walk as short as annealing does it (graph/threading/anneal.c) and, where the
+ * framework is small, as the table knows it. goal > 0: until none is longer than this, with the
+ * fewest cords from then on. */
 thr_status thr_decomposition_even(thr_decomposition *decomposition, double goal,
                                   thr_err *err) THR_MUST_CHECK;
 
@@ -188,18 +192,25 @@ static inline bool thr_decomposition_within(double length, double limit)
  * out among cords (lp/length/decomposition.c); for a length limit with more
  * and more cords until none is longer. */
 
+/* What is known beyond what graph/check/check.c can verify, for the one who asked. */
+typedef struct {
+  bool passes_least;  /* these passes are the shortest that hold the cords: found by an exact method
+                         whose proof is not recorded */
+  bool longest_least; /* balance: with as many cords, no longest cord is shorter: the word of an
+                         integer programme */
+} thr_cords_word;
+
 /* Plans options.cords_least .. options.cords cords (with THR_ENDS_COUNTS, as many as the counts
  * say) in a framework of one component, or one cord in each of several:
  * - usually the shortest passes of all, and the fewest cords through them, cut where they turn
  * most;
  * - balance: the longest cord is made as short as the search finds, extra passes included;
  * - max_length: the fewest cords none of which is longer, as far as the search finds them.
- * *passes_least (NULL: not wanted): the passes are the shortest that hold the cords, found by an
- * exact method whose proof is not recorded. THR_OK: what was asked to be least is proved to be.
- * THR_ELIMIT: the plan is valid and says its bounds. An empty plan, too: none was found.
- * THR_EINFEASIBLE: there is none (says why). Otherwise the plan is empty. */
+ * word may be NULL. THR_OK: what was asked to be least is proved to be. THR_ELIMIT: the plan is
+ * valid and says its bounds. An empty plan, too: none was found. THR_EINFEASIBLE: there is none
+ * (says why). Otherwise the plan is empty. */
 thr_status thr_cords_plan(const thr_frame *frame, const thr_request *options,
-                          const thr_limits *limits, thr_plan *plan, bool *passes_least,
+                          const thr_limits *limits, thr_plan *plan, thr_cords_word *word,
                           thr_err *err) THR_MUST_CHECK;
 
 /* ---- shared with tube joints, and with frameworks of several components (planner/length.c) ----
@@ -235,5 +246,23 @@ thr_status thr_cords_judge(const thr_plan *plan, const thr_err *unproved,
  * closed ones the paths from the start of each are looked for. */
 thr_status thr_cut_tour(const thr_frame *frame, const thr_request *options, const int *passes,
                         thr_cord **cord, int *n_cords, thr_err *err) THR_MUST_CHECK;
+
+/* ---- decomposition_table.c: The cords of a small framework by a table over subsets
+ * (graph/threading/small_cords.c): exact. */
+
+/* What is asked of the cords. */
+typedef struct {
+  int least, most; /* so many */
+  bool even;       /* the longest as short as can be; then, and without it, little length in all */
+  double limit;    /* of each cord, INFINITY = none: then the fewest */
+} thr_decomposition_ask;
+
+/* Puts such cords in place of the walks where those are worse, or are none: the options' ends,
+ * covers, capacities, joint. Walks and passes become the best known; *certain: nothing is better,
+ * or there is nothing (they are then as they were). Frameworks that are too large, and what the
+ * limits stop, leave them as they are. */
+thr_status thr_decomposition_table(thr_decomposition *decomposition,
+                                   const thr_decomposition_ask *ask, bool *certain,
+                                   thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -451,14 +451,20 @@ static void search_destroy(turning_search *search)
   free(search->bound_of);
 }
 
-/* Finds cords by search, unless those at hand are at the bound. */
+/* Finds cords from the table of small frameworks, or by search. */
 static thr_status find_cords(turning_search *search, const thr_frame *frame, thr_least *plan,
                              thr_err *err)
 {
+  bool found = false;
+  thr_status st = THR_OK;
+
   /* Some cord is proved to need more than the pull that is asked for: no search can help. */
   if (search->enough > 0 && search->bound > most_turning(search)) return THR_OK;
+  if (search->bound < search->scale * (1 - 1e-9))
+    st = thr_max_turning_small(search->columns, plan->cord, plan->n_cords, true, search->limits,
+                               &search->best, &found, err);
+  if (!st && !found) st = run(search, err);
 
-  thr_status st = run(search, err);
   return st ? st : keep_best(search, frame, plan, err);
 }
 
@@ -780,4 +786,21 @@ thr_status thr_max_turning_pull(const thr_frame *frame, const thr_limits *limits
   quiet.deadline = 0;
   quiet.work = NULL;
   return improve(ease_pulls, frame, 0, NULL, &quiet, plan, &out, err);
+}
+
+/* Takes cords from the table of small frameworks that turn least together. */
+static thr_status use_table(turning_search *search, const thr_frame *frame, thr_least *plan,
+                            thr_err *err)
+{
+  bool found = false;
+  thr_status st = thr_max_turning_small(search->columns, plan->cord, plan->n_cords, false,
+                                        search->limits, &search->best, &found, err);
+  return st || !found ? st : keep_best(search, frame, plan, err);
+}
+
+thr_status thr_least_turning_small(const thr_frame *frame, const thr_limits *limits,
+                                   thr_least *plan, thr_err *err)
+{
+  thr_max_turning out = {0};
+  return improve(use_table, frame, 0, NULL, limits, plan, &out, err);
 }

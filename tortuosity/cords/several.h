@@ -39,7 +39,8 @@ typedef struct {
                      cords are proved to turn together */
 } thr_max_turning;
 
-/* Evens out the turning of the cords in plan by exchanges: tails and heads of two open cords that
+/* Evens out the turning of the cords in plan: of small components exactly
+ * (tortuosity/cords/maxturn_small.c), else by exchanges: tails and heads of two open cords that
  * meet at a node, parts cut off one cord and joined to another, parts run the other way round, ends
  * moved to the other pass at their node; those that lower the sum of the 8th powers of the cords'
  * prices (so the largest counts most), and by simulated annealing a counted number at random. The
@@ -67,6 +68,22 @@ thr_status thr_max_turning_walks(const thr_frame *frame, double enough, thr_orbi
  * cords stay if none are better. O(passes) a step. */
 thr_status thr_max_turning_pull(const thr_frame *frame, const thr_limits *limits, thr_least *plan,
                                 thr_err *err) THR_MUST_CHECK;
+
+/* Replaces the plan's cords in small components by cords that turn least together, if the plan's
+ * cords turn more: exactly, from the table that thr_max_turning_improve uses. */
+thr_status thr_least_turning_small(const thr_frame *frame, const thr_limits *limits,
+                                   thr_least *plan, thr_err *err) THR_MUST_CHECK;
+
+/* ---- maxturn_small.c: The largest turning of any cord in small components, or that of all cords:
+ * exact, by the table of graph/threading/small_cords.c. */
+
+/* Cords of which the one that turns most turns least (even), or that turn least together, as many
+ * in every component as the n_cords given ones are, which they are or improve. *found false: a
+ * component is too large, or the table's cords pass an edge too often or are too long for the task;
+ * then j is as it was. */
+thr_status thr_max_turning_small(const thr_turning_columns *turning_columns, const thr_cord *cord,
+                                 int n_cords, bool even, const thr_limits *limits, thr_join *j,
+                                 bool *found, thr_err *err) THR_MUST_CHECK;
 
 /* ---- distinct_cords.c: Different cords over every edge: passes are exchanged between cords until
  * enough different cords pass every edge. */

@@ -188,7 +188,7 @@ bool thr_tube_shares(const thr_request *options);
  * component. As thr_cords_plan (lp/length/cords.c) without proofs: THR_OK, or THR_EINFEASIBLE:
  * there are none, or none were found. */
 thr_status thr_tube_cords(thr_tube *shortest, const thr_limits *limits, thr_plan *plan,
-                          thr_err *err) THR_MUST_CHECK;
+                          thr_cords_word *word, thr_err *err) THR_MUST_CHECK;
 
 /* ---- tube_first.c: Some cords for tube joints at once: what there is before a search has found
  * any. */

@@ -69,36 +69,56 @@ static thr_status short_walks(tied_cords *cords, int n, thr_err *err)
   return st;
 }
 
-/* Makes n walks from short ones, and evens them out if asked to. *found false: not so many. */
+/* Makes n closed walks from few. *found false: not so many; certain: there are none. */
+static thr_status split(tied_cords *cords, int n, bool even, bool *found, bool *certain,
+                        thr_err *err)
+{
+  double least = cords->shortest->length * (1 + 1e-12);
+  *certain = false;
+
+  /* A search first; the table where the search found too few walks, or longer ones. */
+  thr_status st = thr_decomposition_tied(&cords->decomposition, n, even, found, err);
+  if (st || (*found && (even || thr_walks_length(&cords->decomposition.walks) <= least))) return st;
+
+  st = thr_decomposition_table(&cords->decomposition,
+                               &(thr_decomposition_ask){n, n, false, INFINITY}, certain, err);
+  *found = cords->decomposition.walks.n_walks >= n;
+  if (!even) cords->decomposition.least &= *certain;
+  return st;
+}
+
+/* Makes n walks from short ones, and evens them out if asked to. */
 static thr_status make_walks(tied_cords *cords, int n, bool even, double goal, bool *found,
-                             thr_err *err)
+                             bool *certain, thr_err *err)
 {
   thr_status st = THR_OK;
   *found = true;
+  *certain = false;
 
-  if (closed_cords(cords)) st = thr_decomposition_tied(&cords->decomposition, n, even, found, err);
+  if (closed_cords(cords)) st = split(cords, n, even, found, certain, err);
   return !st && even && *found ? thr_decomposition_even(&cords->decomposition, goal, err) : st;
 }
 
 /* Makes n walks, or says why there are none. */
 static thr_status make_number(tied_cords *cords, int n, bool even, thr_err *err)
 {
-  bool found = false;
+  bool found = false, certain = false;
   thr_status st = short_walks(cords, n, err);
-  if (!st) st = make_walks(cords, n, even, 0, &found, err);
+  if (!st) st = make_walks(cords, n, even, 0, &found, &certain, err);
 
   if (st || found) return st;
-  return thr_fail(err, THR_ELIMIT,
-                  "the component with node %s: did not find %d closed cords that tie its joints",
-                  cords->decomposition.f->name[0], n);
+  return thr_fail(err, certain ? THR_EINFEASIBLE : THR_ELIMIT,
+                  "the component with node %s: %s %d closed cords that tie its joints",
+                  cords->decomposition.f->name[0], certain ? "there are no" : "did not find", n);
 }
 
 /* Evens out as many cords as the shortest are, which is a number that can be tied. */
 static thr_status even_shortest(tied_cords *cords, thr_err *err)
 {
-  bool found;
+  bool found, certain;
   thr_status st = take_cords(cords, cords->shortest, err);
-  return st ? st : make_walks(cords, cords->decomposition.walks.n_walks, true, 0, &found, err);
+  return st ? st
+            : make_walks(cords, cords->decomposition.walks.n_walks, true, 0, &found, &certain, err);
 }
 
 /* Makes cords of even lengths: as many as can be tied, from the largest number down, which is
@@ -115,6 +135,7 @@ static thr_status make_even(tied_cords *cords, thr_err *err)
   for (int n = cords->decomposition.o->cords; n >= least && none;
        n = n > 2 * least && n > IN_SINGLE_STEPS ? n / 2 : n - 1) {
     why = (thr_err){0};
+    cords->decomposition.least = cords->decomposition.certain = true;
     st = make_number(cords, n, true, &why);
     none = st == THR_EINFEASIBLE || st == THR_ELIMIT;
   }
@@ -132,7 +153,7 @@ static thr_status try_number(thr_decomposition *decomposition, void *of, int n, 
                              thr_err *err)
 {
   tied_cords *cords = of;
-  bool found = false;
+  bool found = false, certain;
   thr_err why = {0};
 
   /* Keep the walks at hand, in case that no better ones are found. */
@@ -143,7 +164,7 @@ static thr_status try_number(thr_decomposition *decomposition, void *of, int n, 
   bool none = st == THR_EINFEASIBLE;
   if (!st && thr_walks_length(&decomposition->walks) <=
                  fmax(n, decomposition->walks.n_walks) * decomposition->o->max_length * (1 + 1e-9))
-    st = make_walks(cords, n, true, decomposition->o->max_length, &found, &why);
+    st = make_walks(cords, n, true, decomposition->o->max_length, &found, &certain, &why);
 
   /* Put them back. */
   if (st || !found) {
@@ -164,7 +185,10 @@ static thr_status none_found(const tied_cords *cords, thr_err *err)
   const char *units = cords->decomposition.f->units, *name = cords->decomposition.f->name[0];
   double limit = cords->decomposition.o->max_length;
 
-  if (cords->shortest->bound > cords->decomposition.o->cords * limit * (1 + 1e-9))
+  bool proved = cords->shortest->bound > cords->decomposition.o->cords * limit * (1 + 1e-9) ||
+                cords->decomposition.none;
+
+  if (proved)
     return thr_fail(err, THR_EINFEASIBLE,
                     "the component with node %s: of up to %d cords that tie its joints one is "
                     "longer than %g %s; together they need %g %s",
@@ -232,10 +256,12 @@ static thr_status make_some(tied_cords *cords, thr_plan *plan, thr_err *err)
                               &plan->n_cords, err);
 }
 
-thr_status thr_tube_cords(thr_tube *tube, const thr_limits *limits, thr_plan *plan, thr_err *err)
+thr_status thr_tube_cords(thr_tube *tube, const thr_limits *limits, thr_plan *plan,
+                          thr_cords_word *word, thr_err *err)
 {
   const thr_request *options = &plan->options;
   tied_cords cords = {.shortest = tube, .work = 1};
+  *word = (thr_cords_word){0};
 
   /* The shortest cords are what is asked for. */
   if (!thr_tube_shares(options)) {
@@ -246,6 +272,10 @@ thr_status thr_tube_cords(thr_tube *tube, const thr_limits *limits, thr_plan *pl
   /* Otherwise the lengths are shared out anew. */
   thr_status st = thr_decomposition_init(&cords.decomposition, &plan->frame, options, limits, err);
   if (!st) st = make_some(&cords, plan, err);
+  if (!st)
+    *word = (thr_cords_word){cords.decomposition.least && !lengths_asked(options),
+                             cords.decomposition.certain && thr_wants_balance(options)};
+
   thr_decomposition_destroy(&cords.decomposition);
   return st;
 }
