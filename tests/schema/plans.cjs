@@ -30,7 +30,7 @@ const FRAMES = {
 const PLANS = [
   ['dome3', '--cords 1'],
   ['dome3', ''],
-  ['dome3', '--ends A1,B1 --cover 2 --capacity 4 --crossings price'],
+  ['dome3', '--cords 1 --ends A1,B1 --cover 2 --capacity 4 --crossings price'],
   ['dome3', '--ends A1:2,B1:2 --cords 2 --tune confirm=always --preset pla-braid'],
   ['dome3', '--cords 3 --ends any --order hand --from middle --wobble 1'],
   ['dome3', '--distinct 2 --cords 3 --balance --ends any'],
