@@ -266,10 +266,10 @@ def put(path, text, check):
 
 
 def forget_pictures():
-    """Those that are made here; `make validate` and the tests of the page make the others."""
+    """Those that are made here; `make validate` and the tests of the page make the others, the guide's commands motion.svg."""
     os.makedirs(PICTURES, exist_ok=True)
     for name in os.listdir(PICTURES):
-        if not name.startswith(("validation-", "page-", "experiments")):
+        if not name.startswith(("validation-", "page-", "experiments", "motion.svg")):
             os.remove(os.path.join(PICTURES, name))
 
 
