@@ -143,7 +143,7 @@ void thr_sheets_lengths(thr_flow *flow, const thr_known *known)
     char usual[32] = "more than both arms reach";
     if (working > THR_SUPPLIES_WORKING)
       snprintf(usual, sizeof usual, "%d interfaces", THR_SUPPLIES_WORKING_EDGES);
-    snprintf(why, sizeof why, " (taken for the usual: %s; --working-length says another)", usual);
+    snprintf(why, sizeof why, " (taken for the usual: %s; another can be named)", usual);
   }
   if (joined)
     thr_text_printf(

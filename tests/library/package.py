@@ -118,6 +118,7 @@ large.plan(cords=4, aims="max-turning", seconds=0.5)
 assert time.monotonic() < began + 2
 
 # Ctrl-C ends a call that nobody listens to, soon, and is heard afterwards as before.
+signal.signal(signal.SIGINT, signal.default_int_handler)  # what runs in the background is started without
 for call in (lambda: large.plan(cords=4, ends="any", aims="max-turning", seconds=0), best.rise, lambda: large.symmetries(ends="any")):
     began = time.monotonic()
     threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
