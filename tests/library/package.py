@@ -161,7 +161,7 @@ refused(ValueError, "a.obj:1", lambda: thread_plan.parse("v 1 2 x\n", "a.obj"))
 refused(OSError, "no.obj", lambda: thread_plan.read("no.obj"))
 refused(TypeError, "speed", lambda: frame.plan(speed=1))
 refused(TypeError, "cover", lambda: frame.plan(cover="x"))
-refused(thread_plan.Infeasible, "", lambda: frame.plan(cover=1, capacity=1))
+refused(thread_plan.Infeasible, "", lambda: frame.plan(cords=1, cover=1, capacity=1))
 refused(thread_plan.BadInput, "three", lambda: Frame([(0, 0)], []))
 with Frame(SQUARE, SIDES) as lent:
     assert len(lent.edges) == 5
