@@ -112,7 +112,7 @@ const tests = {
     thread('make', 'dome', '--size', '5', '-o', file('dome.obj'));
     const {page, own, close} = await open();
     await choose(page, file('dome.obj'));
-    assert.match(await shown(page), /25 pieces that meet at 40 interfaces/);
+    assert.match(await shown(page), /25 pieces that meet at 40 interfaces, [\d.]+ mm wide/);
     for (const [button, n] of [['the whole rim', 16], ['the lowest ones', 4]]) {
       await page.getByRole('button', {name: button}).click();
       await until(async () => (await page.getByLabel('Feet, where cord may come out').inputValue()).split(',').length === n, `${n} feet`);
@@ -263,6 +263,9 @@ const tests = {
     const [drawnHere, drawnThere] = [await download(page, 'booklet.html'), own('booklet.html')].map((name) => stills(name).length);
     assert.ok(drawnHere > 1000 && Math.abs(drawnHere / drawnThere - 1) < 0.2, `stills of ${drawnHere} and ${drawnThere} bytes`);
     assert.match(await heard(), /Pulling the cords[^]*[Cc]omes up at /);
+    const [risen] = await Promise.all([page.context().waitForEvent('page'), page.getByRole('button', {name: 'Open the booklet to print'}).click()]);
+    await risen.getByText('How it comes up').first().waitFor();
+    await risen.close();
 
     // The player: it plays, and stops at the end; wide enough on a telephone.
     const player = page.frameLocator('iframe[title="The pieces as they rise"]');
@@ -327,6 +330,8 @@ const tests = {
       await choose(page, own);
       await part(page, 'Your framework').getByText(new RegExp(`^read-${i}: `)).waitFor();
       const counts = / (\d+) pieces? that meet at (\d+) interfaces?/.exec(await shown(page)).slice(1).map(Number);
+      assert.equal(await page.locator('#width').inputValue(), '', 'arms of the shape before');
+      await page.locator('#width').evaluate((arms) => { arms.value = '3'; });
       assert.deepEqual([path.basename(name), ...counts], [path.basename(name), nodes, edges]);
     }
     await close();

@@ -16,7 +16,7 @@ let best = ''; // the same, while the search runs
 let made = null; // of that plan: the command
 let said = ''; // what the program said of the plan when it was made
 let kit = {}; // files of its pieces, once they are made
-let rise = {}; // files of how they rose
+let rise = {}, risenOn = ''; // files of how they rose, and the paper of their booklet
 let past = []; // states before, for Undo
 let working = false; // a search is for what is shown
 const sketch = new Sketch($('sketch'), (node) => working || changeFeet(toggled(node)));
@@ -226,6 +226,7 @@ async function readBytes(bytes, title, path, shownName, more = []) {
   name = title;
   source = isPlan ? null : {...given, width: widthOf(frame)};
   setReading(Object.fromEntries(READING_QUESTIONS.map((id) => [id, ''])));
+  $('width').value = $('raised').value = ''; // arms and a piece of the shape before
   if (!frame.feet?.length && $('ends').value === 'feet') $('ends').value = '';
   if (isPlan) plan = text(bytes);
   remember();
@@ -255,7 +256,8 @@ function showFrame(notes = []) {
   $('shown').hidden = $('question-part').hidden = !frame;
   document.querySelector('main').classList.toggle('open', Boolean(frame));
   if (!frame) return;
-  const said = [`${name}: ${plural(frame.nodes.length, 'piece')} that meet at ${plural(frame.edges.length, 'interface')}`, ...notes.map(capital)];
+  const size = `${Number(widthOf(frame).toPrecision(3))} ${frame.units || 'mm'} wide`;
+  const said = [`${name}: ${plural(frame.nodes.length, 'piece')} that meet at ${plural(frame.edges.length, 'interface')}, ${size}`, ...notes.map(capital)];
   $('counts').textContent = `${said.join('. ')}.`;
   hear($('counts').textContent);
   $('feet').value = (frame.feet || []).map(nameOf).join(', ');
@@ -691,7 +693,9 @@ async function openBooklet() {
     const pages = /: (\d+ pages)/.exec(line)?.[1];
     if (pages) $('work').textContent = `Drawing the booklet: ${pages} ..`;
   };
-  const {exit, stderr, files} = await engine.run(['draw', 'plan.json', '-T', 'sheets.html', '--page', $('paper').value, '-o', 'sheets.html'], given, {onLine});
+  const risen = $('paper').value === risenOn && rise['booklet.html']; // the same, and how it comes up
+  const {exit, stderr, files} = risen ? {exit: 0, stderr: '', files: {'sheets.html': risen}}
+    : await engine.run(['draw', 'plan.json', '-T', 'sheets.html', '--page', $('paper').value, '-o', 'sheets.html'], given, {onLine});
   busy('');
   const bytes = files['sheets.html'];
   if (exit !== 0 || !bytes) {
@@ -811,6 +815,7 @@ async function makeRise(event) {
     complain(exit === -1 ? 'Stopped: nothing was seen.' : lastLine(stderr));
     return;
   }
+  risenOn = $('paper').value;
   showRise(files, stdout.trim().split('\n').map(inWords));
   hear($('rise-said').textContent);
   goTo('rise-title');
