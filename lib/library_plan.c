@@ -105,6 +105,14 @@ static thr_status describe(thread_plan *plan, thr_err *err)
   return st ? st : count_grips(plan, err);
 }
 
+/* Returns what an end of a cord may need of a hand where the plan is the recommended one, N; 0 =
+ * the plan is another one. */
+static double recommended_hand(const thread_plan_options *options)
+{
+  if (!thr_library_recommends(options)) return 0;
+  return options->hand > 0 ? options->hand : thr_hand_always;
+}
+
 /* Adds to the text of a search that was stopped that a hand cannot pull what there is by then,
  * where that was asked for. hand: N, 0 = any. */
 static void warn_of_pull(const thread_plan *plan, double hand, thr_err *why)
@@ -207,7 +215,7 @@ static thr_status search_and_send(void *user, const thr_limits *given, thr_reply
   if (!st) {
     thr_limits limits = thr_library_limits(options, &request, given, &work);
     const bool recommends = thr_library_recommends(options);
-    const double hand = !recommends ? 0 : options->hand > 0 ? options->hand : thr_hand_always;
+    const double hand = recommended_hand(options);
     const thr_recommend_options recommended = {.hand = hand,
                                                .ends_given = options->ends != THREAD_UNSAID};
     job->given = given;
@@ -276,8 +284,7 @@ thread_status thread_plan_make(const thread_frame *frame, const thread_plan_opti
   thr_text_destroy(&json);
 
   /* Describing the plan is under the lock, too. */
-  const double hand = !thr_library_recommends(&own) ? 0 : own.hand > 0 ? own.hand : thr_hand_always;
-  return hand_over(st, made, hand, out, &why, err);
+  return hand_over(st, made, recommended_hand(&own), out, &why, err);
 }
 
 /* Reads a plan from JSON; see include/thread.h. */

@@ -6,10 +6,9 @@
  * Each row starts from the plan with one cord in every component, cut evenly, or from symmetric
  * cords; these rows take a tenth of the time and are told first. Then comes the plan that is
  * recommended, and then a search for every row as far as the time allows. Numbers grow as 1, 2, 3,
- * 4, 6, 8, 12,
- * .. until more cords no longer lower the pull. Frameworks of many edges or components are cut
- * only. Several components get rows of their own, which are joined: each component takes as few
- * cords as the pull of the hardest one allows.
+ * 4, 6, 8, 12, .. until more cords no longer lower the pull. Frameworks of many edges or components
+ * are cut only. Several components get rows of their own, which are joined: each component takes as
+ * few cords as the pull of the hardest one allows.
  *
  * Example: thr_advise(&frame, &request, &(thr_advise_options){.hand = thr_hand_always}, &limits,
  * &advice, &err) leaves the chosen row in advice.row[advice.chosen], or advice.chosen = -1 where

@@ -180,7 +180,8 @@ static thr_status make_plan(const plan_arguments *args, const thr_frame *framewo
   /* From here on the best cords go to the parent. */
   thr_limits limits = plan_limits(args, options, time_of_plan(args, options), &work);
   cli_step("planning", "");
-  best_begin(framework, options, plan_is_recommended(args, options) ? thr_hand_always : 0);
+  const bool recommends = plan_is_recommended(args, options);
+  best_begin(framework, options, recommends ? thr_hand_always : 0);
   limits.found = best_found;
 
   /* Programs hear only bounds of what was asked. */
@@ -188,7 +189,6 @@ static thr_status make_plan(const plan_arguments *args, const thr_frame *framewo
   thr_status st =
       progress_wanted() ? thr_plan_tells_bounds(framework, options, &tells, err) : THR_OK;
   if (st) return st;
-  const bool recommends = plan_is_recommended(args, options);
   if (progress_wanted() && (!tells || recommends)) limits.progress = NULL;
 
   st = recommends ? thr_plan_recommended(framework, options,
