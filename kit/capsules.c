@@ -121,7 +121,7 @@ static thr_status part_cell(thr_capsules *tree, int number)
 
 const int *thr_capsules_list(thr_capsules *tree, const double at[3], int *n)
 {
-  double low[3], side = tree->side;
+  double low[3] = {0}, side = tree->side;
   int number = 0;
   *n = tree->n_capsules;
   for (int k = 0; k < tree->axes; k++) {

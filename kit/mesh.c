@@ -142,77 +142,107 @@ static bool on_one_side(const thr_mesh *mesh, int triangle, const double plane[4
   return !above || !below;
 }
 
-/* Counts pairs of triangles that cross. Each is put into all cells that its box touches; a pair
- * counts in the lowest cell that both are in. */
+/* The triangles' boxes, and the cells of a grid that each touches. */
+typedef struct {
+  const thr_mesh *mesh;
+  thr_scratch own;
+  triangle_box *box;
+  int n[3];            /* cells along each axis */
+  size_t cells;        /* in all */
+  int *first, *member; /* the triangles that touch a cell, member[first[c]..first[c + 1]) */
+} triangle_grid;
+
+/* Fills the boxes, in cells from the lowest corner, and the planes. */
+static void fill_boxes(triangle_grid *grid, const double low[3], double cell)
+{
+  const thr_mesh *mesh = grid->mesh;
+  for (int t = 0; t < mesh->n_triangles; t++) {
+    triangle_box *box = &grid->box[t];
+    const double *corner[3];
+    for (int i = 0; i < 3; i++)
+      corner[i] = mesh->point[mesh->triangle[t][i]];
+    for (int k = 0; k < 3; k++) {
+      box->low[k] = (fmin(corner[0][k], fmin(corner[1][k], corner[2][k])) - low[k]) / cell;
+      box->high[k] = (fmax(corner[0][k], fmax(corner[1][k], corner[2][k])) - low[k]) / cell;
+    }
+    set_plane(corner, box->plane);
+  }
+}
+
+/* Counts a triangle in all cells that its box touches, or, where there is room for them, puts it
+ * in. */
+static void enter(triangle_grid *grid, int triangle)
+{
+  const triangle_box *box = &grid->box[triangle];
+  for (int z = (int)box->low[2]; z <= (int)box->high[2]; z++)
+    for (int y = (int)box->low[1]; y <= (int)box->high[1]; y++)
+      for (int x = (int)box->low[0]; x <= (int)box->high[0]; x++) {
+        size_t at = ((size_t)z * (size_t)grid->n[1] + (size_t)y) * (size_t)grid->n[0] + (size_t)x;
+        if (grid->member)
+          grid->member[grid->first[at + 1]++] = triangle;
+        else
+          grid->first[at + 2]++;
+      }
+}
+
+/* Puts all triangles into the grid. */
+static thr_status fill_grid(triangle_grid *grid, const double low[3], double cell, thr_err *err)
+{
+  const int n = grid->mesh->n_triangles;
+  grid->first = thr_scratch_array(&grid->own, grid->cells + 2, sizeof *grid->first);
+  grid->box = thr_scratch_array(&grid->own, (size_t)n, sizeof *grid->box);
+  thr_status st = thr_scratch_check(&grid->own, err);
+  if (st) return st;
+
+  /* Twice over all triangles: count, then place. */
+  fill_boxes(grid, low, cell);
+  for (int t = 0; t < n; t++)
+    enter(grid, t);
+  for (size_t i = 2; i < grid->cells + 2; i++)
+    grid->first[i] += grid->first[i - 1];
+  grid->member =
+      thr_scratch_array(&grid->own, (size_t)grid->first[grid->cells + 1] + 1, sizeof *grid->member);
+  if ((st = thr_scratch_check(&grid->own, err))) return st;
+  for (int t = 0; t < n; t++)
+    enter(grid, t);
+  return THR_OK;
+}
+
+/* Returns whether two triangles of a cell cross, and the cell is the lowest that both are in. */
+static bool cross_here(const triangle_grid *grid, size_t cell, int t, int s)
+{
+  const triangle_box *a = &grid->box[t], *b = &grid->box[s];
+  size_t lowest = 0;
+  for (int k = 2; k >= 0; k--) {
+    if (a->low[k] > b->high[k] || b->low[k] > a->high[k]) return false;
+    lowest = lowest * (size_t)grid->n[k] + (size_t)fmax(a->low[k], b->low[k]);
+  }
+  return lowest == cell && !on_one_side(grid->mesh, s, a->plane) &&
+         !on_one_side(grid->mesh, t, b->plane) && cross_each_other(grid->mesh, t, s);
+}
+
+/* Counts pairs of triangles that cross. */
 static thr_status count_crossings(const thr_mesh *mesh, const double low[3], const double high[3],
                                   double area, int *count, thr_err *err)
 {
-  double cell = 1.5 * sqrt(area / mesh->n_triangles);
-  int n[3];
-  double many = 1;
+  triangle_grid grid = {.mesh = mesh, .cells = 1};
+  double cell = 1.5 * sqrt(area / mesh->n_triangles), many = 1;
   for (int k = 0; k < 3; k++)
     many *= floor((high[k] - low[k]) / cell) + 1;
   if (many > 4e6) cell *= cbrt(many / 4e6);
-  for (int k = 0; k < 3; k++)
-    n[k] = (int)floor((high[k] - low[k]) / cell) + 1;
-
-  thr_scratch work = {0};
-  size_t cells = (size_t)n[0] * (size_t)n[1] * (size_t)n[2];
-  int *first = thr_scratch_array(&work, cells + 2, sizeof *first);
-  triangle_box *box = thr_scratch_array(&work, (size_t)mesh->n_triangles, sizeof *box);
-  thr_status st = thr_scratch_check(&work, err);
-  int *member = NULL;
-  for (int t = 0; t < mesh->n_triangles && !st; t++)
-    for (int k = 0; k < 3; k++) {
-      const int *corner = mesh->triangle[t];
-      double a = mesh->point[corner[0]][k], b = mesh->point[corner[1]][k],
-             c = mesh->point[corner[2]][k];
-      box[t].low[k] = (fmin(a, fmin(b, c)) - low[k]) / cell;
-      box[t].high[k] = (fmax(a, fmax(b, c)) - low[k]) / cell;
-    }
-  for (int t = 0; t < mesh->n_triangles && !st; t++) {
-    const int *corner = mesh->triangle[t];
-    set_plane((const double *const[]){mesh->point[corner[0]], mesh->point[corner[1]],
-                                      mesh->point[corner[2]]},
-              box[t].plane);
-  }
-
-  /* Twice over all triangles: count, then place. */
-  for (int round = 0; round < 2 && !st; round++) {
-    for (int t = 0; t < mesh->n_triangles; t++)
-      for (int z = (int)box[t].low[2]; z <= (int)box[t].high[2]; z++)
-        for (int y = (int)box[t].low[1]; y <= (int)box[t].high[1]; y++)
-          for (int x = (int)box[t].low[0]; x <= (int)box[t].high[0]; x++) {
-            size_t at = ((size_t)z * (size_t)n[1] + (size_t)y) * (size_t)n[0] + (size_t)x;
-            if (round == 0)
-              first[at + 2]++;
-            else
-              member[first[at + 1]++] = t;
-          }
-    if (round == 1) break;
-    for (size_t i = 2; i < cells + 2; i++)
-      first[i] += first[i - 1];
-    member = thr_scratch_array(&work, (size_t)first[cells + 1] + 1, sizeof *member);
-    st = thr_scratch_check(&work, err);
+  for (int k = 0; k < 3; k++) {
+    grid.n[k] = (int)floor((high[k] - low[k]) / cell) + 1;
+    grid.cells *= (size_t)grid.n[k];
   }
 
   *count = 0;
-  for (size_t c = 0; c < cells && !st; c++)
-    for (int i = first[c]; i < first[c + 1]; i++)
-      for (int j = first[c]; j < i; j++) {
-        const triangle_box *a = &box[member[i]], *b = &box[member[j]];
-        if (a->low[0] > b->high[0] || b->low[0] > a->high[0] || a->low[1] > b->high[1] ||
-            b->low[1] > a->high[1] || a->low[2] > b->high[2] || b->low[2] > a->high[2])
-          continue;
-        if (on_one_side(mesh, member[j], a->plane) || on_one_side(mesh, member[i], b->plane))
-          continue;
-        size_t lowest = 0;
-        for (int k = 2; k >= 0; k--)
-          lowest = lowest * (size_t)n[k] + (size_t)fmax(a->low[k], b->low[k]);
-        if (lowest == c && cross_each_other(mesh, member[i], member[j])) ++*count;
-      }
+  thr_status st = fill_grid(&grid, low, cell, err);
+  for (size_t c = 0; c < grid.cells && !st; c++)
+    for (int i = grid.first[c]; i < grid.first[c + 1]; i++)
+      for (int j = grid.first[c]; j < i; j++)
+        *count += cross_here(&grid, c, grid.member[i], grid.member[j]);
 
-  thr_scratch_free(&work);
+  thr_scratch_free(&grid.own);
   return st;
 }
 

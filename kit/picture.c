@@ -474,6 +474,26 @@ static void borrow_normal(const thr_mesh *mesh, int t, const int *first, const i
       memcpy(face[t], face[at[j] / 3], sizeof *face);
 }
 
+/* Fills the normal of a triangle and the weight of each corner: 1 - the cosine of its angle. */
+static void weigh_corners(const thr_mesh *mesh, int triangle, double normal[3], double weight[3])
+{
+  double side[3][3], length[3];
+  for (int i = 0; i < 3; i++) {
+    const double *from = mesh->point[mesh->triangle[triangle][i]];
+    const double *to = mesh->point[mesh->triangle[triangle][(i + 1) % 3]];
+    for (int k = 0; k < 3; k++)
+      side[i][k] = to[k] - from[k];
+    length[i] = sqrt(thr_dot(side[i], side[i]));
+  }
+  thr_cross(side[0], side[1], normal);
+  thr_normalize(normal);
+  for (int i = 0; i < 3; i++) {
+    int before = (i + 2) % 3;
+    double product = length[i] * length[before];
+    weight[i] = product > 0 ? 1 + thr_dot(side[i], side[before]) / product : 0;
+  }
+}
+
 /* Fills normal[3 * 3 * n_triangles] of a mesh's corners. */
 static thr_status smooth(const thr_mesh *mesh, float *normal, thr_err *err)
 {
@@ -489,28 +509,11 @@ static thr_status smooth(const thr_mesh *mesh, float *normal, thr_err *err)
     return st;
   }
 
-  /* Normals of the triangles, and weights: 1 - the cosine of the angle at each corner; corners by
-   * point (a counting sort). */
-  for (int t = 0; t < n; t++) {
-    double side[3][3];
-    for (int i = 0; i < 3; i++) {
-      const double *from = mesh->point[mesh->triangle[t][i]];
-      const double *to = mesh->point[mesh->triangle[t][(i + 1) % 3]];
-      for (int k = 0; k < 3; k++)
-        side[i][k] = to[k] - from[k];
-      first[mesh->triangle[t][i] + 2]++;
-    }
-    thr_cross(side[0], side[1], face[t]);
-    thr_normalize(face[t]);
-    double length[3];
-    for (int i = 0; i < 3; i++)
-      length[i] = sqrt(thr_dot(side[i], side[i]));
-    for (int i = 0; i < 3; i++) {
-      int before = (i + 2) % 3;
-      double product = length[i] * length[before];
-      weight[3 * t + i] = product > 0 ? 1 + thr_dot(side[i], side[before]) / product : 0;
-    }
-  }
+  /* Corners by point (a counting sort). */
+  for (int t = 0; t < n; t++)
+    weigh_corners(mesh, t, face[t], weight + 3 * (size_t)t);
+  for (int i = 0; i < 3 * n; i++)
+    first[mesh->triangle[i / 3][i % 3] + 2]++;
   for (int p = 0; p < mesh->n_points; p++)
     first[p + 2] += first[p + 1];
   for (int i = 0; i < 3 * n; i++)

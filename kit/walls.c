@@ -133,7 +133,7 @@ static double stroke_wall(const thr_kit_piece *piece, const thr_kit_stroke *stro
     double along = stroke->from[0] + (stroke->to[0] - stroke->from[0]) * step / STEPS;
     double across = stroke->from[1] + (stroke->to[1] - stroke->from[1]) * step / STEPS;
     double angle = round ? across / (0.5 * arm->width) : 0, sign = stroke->below ? -1 : 1;
-    double from[3], out[3], at[3], by = 0, away = -INFINITY;
+    double from[3], out[3], at[3] = {0}, by = 0, away = -INFINITY;
     for (int k = 0; k < 3; k++) {
       out[k] = sign * (cos(angle) * arm->up[k] + sin(angle) * arm->side[k]);
       from[k] = along * arm->along[k] + (round ? 0 : sign * across * arm->side[k]);

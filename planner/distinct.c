@@ -122,7 +122,7 @@ static thr_status add_cords(thr_plan *from, int times, thr_cord **cord, int *n_c
     thr_cord *more, *copy = NULL;
 
     if (thr_cords_copy(from->cord, from->n_cords, &copy, err)) return THR_ENOMEM;
-    more = thr_realloc(*cord, (size_t)(*n_cords + from->n_cords), sizeof *more);
+    more = thr_realloc(*cord, (size_t)*n_cords + (size_t)from->n_cords, sizeof *more);
     if (!more) {
       thr_cords_destroy(copy, from->n_cords);
       return thr_nomem(err);

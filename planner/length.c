@@ -244,7 +244,7 @@ static thr_status few_short(const thr_frame *frame, const thr_request *options,
 
   /* No cords fit: say how short the longest one could be made. */
   if (plan->n_cords == 0 && longest > 0) {
-    *err = (thr_err){0};
+    if (err) *err = (thr_err){0};
     return thr_fail(err, st,
                     "did not find %d cords with none longer than %g %s; with --balance instead of "
                     "--max-length the longest is %g %s",
@@ -254,7 +254,7 @@ static thr_status few_short(const thr_frame *frame, const thr_request *options,
   if (found || n != 1 || plan->n_cords == before) return st;
 
   *word = (thr_cords_word){0};
-  *err = (thr_err){0};
+  if (err) *err = (thr_err){0};
   return thr_cords_judge(plan, &(thr_err){0}, err);
 }
 

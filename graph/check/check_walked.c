@@ -206,14 +206,18 @@ thr_status thr_check_walked_from(thr_check_walked *check_walked, const thr_frame
                                  thr_err *err)
 {
   thr_status st = thr_check_walked_init(check_walked, frame, options, err);
-  if (!st)
-    st = check_cords(frame, options, check_walked->component, cord, n_cords, check_walked->passes,
-                     err);
+  if (st) return st;
+
+  st = check_cords(frame, options, check_walked->component, cord, n_cords, check_walked->passes,
+                   err);
+  if (st) {
+    thr_check_walked_destroy(check_walked);
+    return st;
+  }
 
   /* The numbers of cords replace the most that were allowed. */
-  if (!st) count_cords(check_walked, cord, n_cords);
-  if (st) thr_check_walked_destroy(check_walked);
-  return st;
+  count_cords(check_walked, cord, n_cords);
+  return THR_OK;
 }
 
 thr_status thr_check_cord_count(const thr_check_walked *check_walked, const thr_request *options,

@@ -118,7 +118,7 @@ static thr_status choose_cells(near_search *search)
 
   /* A sample is enough for a median. */
   const int every = frame->n_edges / SAMPLE + 1;
-  double total = 0, *sorted = thr_calloc((size_t)(frame->n_edges / every + 1), sizeof *sorted);
+  double total = 0, *sorted = thr_calloc((size_t)(frame->n_edges / every) + 1, sizeof *sorted);
   size_t n = 0;
   if (!sorted) return thr_nomem(search->err);
 
