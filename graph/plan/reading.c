@@ -154,6 +154,7 @@ static int common_divisor(int a, int b)
  * shift and every difference of two reversals. */
 static void add_map(self_maps *maps, place_map map)
 {
+  if (maps->period == 0) return; /* nothing is shifted where there are no passes */
   if (map.back && maps->axis < 0)
     maps->axis = (map.at % maps->period + maps->period) % maps->period;
   else

@@ -342,7 +342,7 @@ static thr_status read_symmetry(thr_request_reader *reader, const thr_json *obje
 #define COUNT .kind = THR_ASKS_COUNT
 #define AMOUNT .kind = THR_ASKS_AMOUNT
 #define AMOUNT_OR_NULL .kind = THR_ASKS_AMOUNT_OR_NULL
-#define WORD(names, n) .kind = THR_ASKS_WORD, .name = names, .n_names = n
+#define WORD(names, n) .kind = THR_ASKS_WORD, .name = (names), .n_names = (n)
 #define OTHER(what) .kind = THR_ASKS_OTHER, .write = write_##what, .read = read_##what
 #define TINY 5e-324 /* the least number above 0 */
 

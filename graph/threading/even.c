@@ -268,11 +268,11 @@ static bool put_right(thr_evener *evener, change *proposed, int p, int q)
   bool joined = place[p].cord != place[q].cord;
 
   for (int tries = 0; tries < TRIES; tries++) {
-    int from = p, to = q, cord = place[p].cord;
+    int from = p, to = q;
 
     /* The second place is drawn on the circuit, or within the part that was cut off. */
     if (joined) {
-      cord = place[thr_random_below(&evener->state, 2) ? p : q].cord;
+      const int cord = place[thr_random_below(&evener->state, 2) ? p : q].cord;
       from = threading->first[cord] - 1;
       to = threading->first[cord + 1];
     }

@@ -18,7 +18,9 @@ void thr_small_cords_destroy(thr_small_cords *cords)
     free(cords->half[i]);
   free(cords->half);
   free(cords->n_passes);
-  *cords = (thr_small_cords){0};
+  cords->half = NULL;
+  cords->n_passes = NULL;
+  cords->n = 0;
 }
 
 /* Returns whether a is less than b by more than rounding. */

@@ -359,7 +359,7 @@ static thr_status add_fallback(thr_pairs *pairs, int n_odd, thr_err *err)
   /* Every place is its own guest at first. */
   for (int i = 0; i < n_odd && !st; i++)
     node[i].guest = i;
-  for (int k = 0; k < n; k++)
+  for (int k = 0; k < n && !st; k++)
     for (int side = 0; side < 2; side++) {
       tree_node *end = &node[pairs->end[tree[k]][side]];
       end->degree++;
