@@ -347,6 +347,8 @@ static thr_status pair_up(tree_node *node, int *stack, int n, thr_pairs *pairs, 
  */
 static thr_status add_fallback(thr_pairs *pairs, int n_odd, thr_err *err)
 {
+  if (!pairs->end) return THR_OK; /* there are none */
+
   thr_scratch own = {0};
   const thr_tjoin_problem all = {n_odd,         pairs->count, (const int(*)[2])pairs->end,
                                  pairs->weight, NULL,         0};

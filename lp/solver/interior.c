@@ -266,8 +266,10 @@ static void keep_warm(const interior_state *state)
   if (warm->m != state->m || warm->n != state->n) {
     thr_warm_destroy(warm);
     if (!(warm->x = thr_calloc(2 * n + m, sizeof *warm->x))) return;
-    *warm = (thr_warm){
-        .m = state->m, .n = state->n, .x = warm->x, .z = warm->x + n, .y = warm->x + 2 * n};
+    warm->m = state->m;
+    warm->n = state->n;
+    warm->z = warm->x + n;
+    warm->y = warm->z + n;
   }
 
   memcpy(warm->x, state->at.x, n * sizeof *warm->x);
@@ -278,7 +280,8 @@ static void keep_warm(const interior_state *state)
 void thr_warm_destroy(thr_warm *warm)
 {
   free(warm->x);
-  *warm = (thr_warm){0};
+  warm->x = warm->z = warm->y = NULL;
+  warm->m = warm->n = 0;
 }
 
 typedef struct {
