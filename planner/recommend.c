@@ -65,9 +65,11 @@ static thr_status try_number(const recommendation *of, int cords, thr_plan *plan
   thr_err why = {0};
 
   little.usual = little.unpriced = true;
-  little.advance = NULL; /* a part of this trial */
+  little.advance = NULL; /* a part of this trial, as cords that it finds on the way */
+  little.found = NULL;
   request.cords = request.cords_least = cords;
   const thr_status st = thr_plan_make(of->frame, &request, &little, plan, report, &why);
+  thr_limits_found(of->limits, plan->cord, plan->n_cords, NULL);
 
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves no plan */
 }
@@ -228,6 +230,7 @@ static thr_status with_best_ends(recommendation *of, const thr_plan *shortest, t
 {
   thr_plan any = {0};
   thr_report report_any = {0};
+  thr_limits limits = *of->limits;
   bool feet = false;
 
   thr_status st = has_feet(of->frame, &feet, err);
@@ -235,6 +238,8 @@ static thr_status with_best_ends(recommendation *of, const thr_plan *shortest, t
 
   const bool enough =
       plan->n_cords > 0 && plan->metrics.length <= most_for_feet * plan->metrics.base_length;
+  if (plan->n_cords > 0) limits.found = NULL; /* more cords may be better now */
+  of->limits = &limits;
   if (!st && !enough) st = with_ends(of, THR_ENDS_ANY, shortest, &any, &report_any, err);
   if (!st && any.n_cords > 0 &&
       (plan->n_cords == 0 || plan->metrics.length > most_for_feet * any.metrics.length))
