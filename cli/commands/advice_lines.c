@@ -15,8 +15,6 @@
 #include "graph/plan/request.h"
 #include "planner/planner.h"
 
-static const double usual_work = 0.3; /* counted, in seconds */
-
 /* Appends an option with a word that a shell reads as it is. */
 static void put_option(thr_text *text, const char *option, const char *value)
 {
@@ -93,7 +91,7 @@ void advice_put_recommended(const thr_plan *plan, double hand, thr_text *text)
 
 thr_limits advice_limits(double seconds, double *work)
 {
-  if (seconds < 0) *work = usual_work;
+  if (seconds < 0) *work = thr_advise_work;
   thr_limits limits = cli_limits(seconds > 0 ? thr_dispatch_search_seconds(seconds, false) : 0);
 
   /* Advice is silent: a bar for many small searches would say nothing. */
