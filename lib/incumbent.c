@@ -28,11 +28,7 @@ static const double OFTEN = 0.2, MUCH = 9;
 static double recommended_value(const thr_plan *plan, double hand)
 {
   double pull[THR_ADVICE_PULLS];
-  thr_physics physics;
-  if (thr_physics_resolve(&plan->options.physics, &plan->frame, &physics, NULL)) return INFINITY;
-
-  thr_advice_pulls(&physics, thr_cords_pulled_turning(&plan->frame, plan->cord, plan->n_cords),
-                   pull);
+  thr_plan_pulls(plan, pull);
   const double hardest = pull[THR_ADVICE_HIGH];
   return hardest <= hand * (1 + 1e-9) ? plan->n_cords + hardest / (1 + hardest) : 1e9 + hardest;
 }
