@@ -21,7 +21,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST_TRIED = 5000 /* edges */, MOST_TRIALS = 8, MOST_IDLE = 2 };
+enum { MOST_TRIED = 5000 /* edges */, MOST_TRIALS = 8, MOST_IDLE = 2, ENOUGH = 2 };
 
 /* Counted work of a trial, s. */
 static const double work_of_trial = 0.3;
@@ -31,6 +31,10 @@ static const double work_of_components = 2, work_of_tubes = 2;
 
 /* Times as many cords as could do by their turning are tried where cutting leaves no bound. */
 static const int most_times = 4;
+
+/* Times the hand's reach that more and more cords may tend to for more to be tried: numbers vary.
+ */
+static const double most_beyond = 1.1;
 
 /* As much cord as with ends anywhere, for ends at the feet (graph/plan/advice.c). */
 static const double most_for_feet = 1.5;
@@ -129,15 +133,23 @@ static void take(thr_plan *into, thr_report *into_report, thr_plan *plan, thr_re
   *report = (thr_report){0};
 }
 
+/* Returns what the hardest end of ever more cords tends to, rad, if the turning of two numbers of
+ * cords is shared out but for a part that stays: fixed + shared / cords. */
+static double limit_of(int cords, double hardest, int more, double less)
+{
+  return hardest - (hardest - less) * more / (more - cords);
+}
+
 /* Finds the fewest cords within the hand, between what the turning allows and `most`. Where ends
  * are at few feet more cords of the least length are short ones beside a long one: upwards it is
- * given up when two numbers in sequence have not lowered the pull. */
+ * given up when two numbers in sequence have not lowered the pull, or when from the third on the
+ * pull tends to more than the hand. */
 static thr_status try_numbers(const recommendation *of, int least, int most, thr_plan *plan,
                               thr_report *report, thr_err *err)
 {
   thr_status st = THR_OK;
   int beyond = least - 1, within = most + 1, cords = least, step = 1, idle = 0;
-  double easiest = INFINITY; /* rad, of the numbers beyond the hand */
+  double first = INFINITY, easiest = INFINITY; /* rad, of the numbers beyond the hand */
 
   for (int trial = 0;
        trial < MOST_TRIALS && idle < MOST_IDLE && !st && cords > beyond && cords < within;
@@ -154,6 +166,10 @@ static thr_status try_numbers(const recommendation *of, int least, int most, thr
     const bool fits = !st && is_within(of, &tried);
     if (!fits && within > most) idle = hardest < easiest ? 0 : idle + 1;
     easiest = fmin(easiest, hardest);
+    if (trial == 0) first = hardest;
+    if (!fits && within > most && trial >= ENOUGH && isfinite(first) &&
+        limit_of(least, first, cords, easiest) > of->reach * most_beyond)
+      idle = MOST_IDLE;
     if (fits) take(plan, report, &tried, &found);
     if (fits) within = cords;
     if (!fits) beyond = cords;
