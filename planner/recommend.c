@@ -288,11 +288,14 @@ thr_status thr_plan_recommended(const thr_frame *frame, const thr_request *reque
   of.reach = physics.mu_high > 0 ? log(hand) / physics.mu_high : INFINITY;
   of.request.max_pull = 0;
 
-  /* One cord in every component, the shortest: shown first. No closed one may have room. */
+  /* One closed cord in every component, the shortest, is what is cut; none may have room. It is
+   * shown, or where none has room an open one, unless the ends are others. */
   one.aims = thr_aims_shortest;
   one.cords = one.cords_least = 1;
   if (!options->ends_given) one.ends = THR_ENDS_CLOSED;
+  const bool is_shown = one.ends == THR_ENDS_CLOSED;
   unlimited = one;
+  unlimited.ends = THR_ENDS_CLOSED;
   unlimited.max_pull = 0;
   if (request->joint == THR_JOINT_TUBE) shortly = thr_limits_counted(limits, &work);
   st = thr_planner_length(frame, &unlimited, &shortly, &shortest, NULL, &why);
@@ -300,14 +303,10 @@ thr_status thr_plan_recommended(const thr_frame *frame, const thr_request *reque
     one.ends = unlimited.ends = THR_ENDS_ANY;
     st = thr_planner_length(frame, &unlimited, &shortly, &shortest, NULL, NULL);
   }
-  if (st && (st != THR_ELIMIT || shortest.n_cords == 0)) return thr_fail(err, st, "%s", why.text);
-  thr_limits_found(limits, shortest.cord, shortest.n_cords, NULL);
-
-  /* The closed one is cut. */
-  unlimited.ends = THR_ENDS_CLOSED;
-  if (one.ends != THR_ENDS_CLOSED) thr_plan_destroy(&shortest);
-  if (shortest.n_cords == 0)
-    st = thr_planner_length(frame, &unlimited, &shortly, &shortest, NULL, &why);
+  if (st == THR_ENOMEM || (st && is_shown && (st != THR_ELIMIT || shortest.n_cords == 0)))
+    return thr_fail(err, st, "%s", why.text);
+  if (is_shown) thr_limits_found(limits, shortest.cord, shortest.n_cords, NULL);
+  if (unlimited.ends != THR_ENDS_CLOSED) thr_plan_destroy(&shortest);
 
   /* The least length, and then an easy pull. */
   of.request.aims = (thr_aims){1, {THR_AIM_PULL}};
@@ -316,8 +315,11 @@ thr_status thr_plan_recommended(const thr_frame *frame, const thr_request *reque
        : options->ends_given ? with_ends(&of, request->ends, &shortest, plan, report, err)
                              : with_best_ends(&of, &shortest, plan, report, err);
 
-  /* No number of cords stays within the hand: the shortest cord. */
-  if (!st && plan->n_cords == 0) st = thr_plan_make(frame, &one, limits, plan, report, err);
+  /* No number of cords stays within the hand: the shortest cord, which with given ends there may
+   * not be. */
+  thr_limits last = *limits;
+  if (!is_shown) last.found = NULL;
+  if (!st && plan->n_cords == 0) st = thr_plan_make(frame, &one, &last, plan, report, err);
 
   thr_plan_destroy(&shortest);
   return st;
