@@ -5,8 +5,6 @@
 #include "graph/os.h"
 #include "lib/lib.h"
 
-#include <math.h>
-
 /* Hands a plan to the parent. Signature of thr_incumbent.keep. */
 static void keep(void *user, const thr_plan *plan, const thr_text *text)
 {
@@ -25,12 +23,22 @@ static thr_incumbent best;
 
 void best_begin(const thr_frame *frame, const thr_request *options, double hand)
 {
-  best = (thr_incumbent){
-      .frame = frame, .options = options, .hand = hand, .value = INFINITY, .keep = keep};
+  best = thr_incumbent_begin(frame, options, hand);
+  best.keep = keep;
 }
 
 void best_found(void *user, const thr_cord *cord, int n_cords, const thr_symmetry_record *symmetry)
 {
   (void)user;
   thr_incumbent_found(&best, cord, n_cords, symmetry);
+}
+
+void best_look(void)
+{
+  thr_incumbent_look(&best);
+}
+
+void best_end(const thr_plan *plan)
+{
+  thr_incumbent_end(&best, plan);
 }

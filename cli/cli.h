@@ -403,4 +403,10 @@ void best_begin(const thr_frame *frame, const thr_request *options, double hand)
  * a few times a second at most. O(size of a plan). */
 void best_found(void *user, const thr_cord *cord, int n_cords, const thr_symmetry_record *symmetry);
 
+/* Hands over what waits for its turn, if it is time. */
+void best_look(void);
+
+/* Hands over the plan that the search has ended with, unless it was the last one (empty: none). */
+void best_end(const thr_plan *plan);
+
 #endif

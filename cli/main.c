@@ -55,6 +55,23 @@ static void help(FILE *to)
         to);
 }
 
+/* Prints the help of the program, or for programs what commands there are. Returns the exit code.
+ */
+static int answer_help(void)
+{
+  thr_text text = {0};
+  thr_writer writer = {.out = &text};
+  if (!cli_json) {
+    help(stdout);
+    return EXIT_OK;
+  }
+
+  thr_write_object(&writer, NULL);
+  for (int i = 0; i < cli_n_commands; i++)
+    thr_write_string(&writer, cli_commands[i].name, cli_commands[i].summary);
+  return answer_close(&writer);
+}
+
 /* Prints the version, the licence and the versions of the libraries. */
 static int version(void)
 {
@@ -140,17 +157,14 @@ static int dispatch(int argc, char **argv)
     return answer_exit_codes();
 
   /* `thread help plan` is `thread plan --help`. */
-  if (strcmp(name, "help") == 0 && argc > 2) {
+  if (strcmp(name, "help") == 0 && argc > 2 && *argv[2] != '-') {
     argv[1] = argv[2];
     argv[2] = show;
     argc = 3;
     name = argv[1];
   }
 
-  if (is_one_of(name, (const char *const[]){"help", "--help", "-h", NULL})) {
-    help(stdout);
-    return EXIT_OK;
-  }
+  if (is_one_of(name, (const char *const[]){"help", "--help", "-h", NULL})) return answer_help();
 
   /* A command of the list. */
   for (int i = 0; i < cli_n_commands; i++)

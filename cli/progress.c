@@ -94,6 +94,7 @@ static void tell_bound(void *user, const char *what, double best, double bound)
   const bool other = is_new_subject(what);
   thr_text text = {0};
   (void)user;
+  best_look();
 
   /* No price and no weight is below 0; several searches may tell of the same, so that only progress
    * counts. */
@@ -120,6 +121,7 @@ static void tell_part(void *user, const char *what, double done)
   const bool other = is_new_subject(what);
   thr_text text = {0};
   (void)user;
+  best_look();
 
   /* Less than before: the same kind of work began once more. */
   if (!other && done < last_line.done) last_line.done = 0;

@@ -5,7 +5,8 @@
  * Searches call thr_limits.found whenever they have cords of the whole framework (graph/limits.h).
  * Cords become a plan if they are what was asked for, better than the last ones, and pass the
  * checker; and at most five times a second, because every plan is measured, checked and written for
- * that. */
+ * that. Better cords that come sooner wait, the best of them, until it is time, and the plan that
+ * the search ends with is always told last. */
 #include "graph/check/check.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan_measures.h"
@@ -17,8 +18,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* s between two plans that are looked at, and so many times as long as looking took, but for the
- * first two that are kept: one that takes no search, and a good one. */
+/* s between two plans that are told, and so many times as long as looking took, but for the first
+ * two: one that takes no search, and a good one. */
 static const double OFTEN = 0.2, MUCH = 9;
 
 /* Returns what is minimized where as few cords are wanted as a hand can pull with `hand`, N, even
@@ -27,11 +28,7 @@ static const double OFTEN = 0.2, MUCH = 9;
 static double recommended_value(const thr_plan *plan, double hand)
 {
   double pull[THR_ADVICE_PULLS];
-  thr_physics physics;
-  if (thr_physics_resolve(&plan->options.physics, &plan->frame, &physics, NULL)) return INFINITY;
-
-  thr_advice_pulls(&physics, thr_cords_pulled_turning(&plan->frame, plan->cord, plan->n_cords),
-                   pull);
+  thr_plan_pulls(plan, pull);
   const double hardest = pull[THR_ADVICE_HIGH];
   return hardest <= hand * (1 + 1e-9) ? plan->n_cords + hardest / (1 + hardest) : 1e9 + hardest;
 }
@@ -117,15 +114,11 @@ static bool fits_request(const thr_incumbent *best, thr_plan *plan)
          (enough || !counted || plan->options.ends == THR_ENDS_COUNTS);
 }
 
-/* Returns whether a plan is what was asked for, better than the last one by more than rounding, and
- * passes the checker. */
+/* Returns whether a plan is better than the last one by more than rounding, and passes the checker.
+ */
 static bool is_better(const thr_incumbent *best, thr_plan *plan)
 {
   bool others;
-
-  if (!fits_request(best, plan) || thr_plan_measure(&plan->frame, &plan->options, plan->cord,
-                                                    plan->n_cords, &plan->metrics, NULL))
-    return false;
 
   /* Cords that cross inside pieces are led otherwise, as in the final plan. */
   if (thr_plan_uncross(plan, &others, NULL)) return false;
@@ -135,7 +128,7 @@ static bool is_better(const thr_incumbent *best, thr_plan *plan)
          thr_check_plan(plan, NULL) == THR_OK;
 }
 
-/* Hands a plan over if it is better than the last one. plan: of borrowed parts. */
+/* Hands a plan over if it is better than the last one. plan: measured, of borrowed parts. */
 static void keep_better(thr_incumbent *best, thr_plan *plan)
 {
   thr_text text = {0};
@@ -148,79 +141,136 @@ static void keep_better(thr_incumbent *best, thr_plan *plan)
   thr_text_destroy(&text);
 
   best->value = minimized_value(best, plan);
+  best->last = plan->metrics;
   best->n++;
 }
 
-/* Gives the cords, whose passes are borrowed, passes of their own if they may be led otherwise.
- * Returns false, with nothing allocated, if there is no memory. */
-static bool own_passes(thr_plan *plan)
+/* Lays out cords, which stay the caller's, as a plan that is measured. Returns false if it is not
+ * what was asked for. */
+static bool lay_out(const thr_incumbent *best, thr_cord *cord, int n_cords, thr_plan *plan)
 {
-  int i;
-
-  if (plan->options.crossings == THR_CROSSINGS_ALLOW) return true;
-  for (i = 0; i < plan->n_cords; i++) {
-    int *half = thr_calloc((size_t)plan->cord[i].n_passes, sizeof *half);
-    if (!half) break;
-
-    plan->cord[i].half =
-        memcpy(half, plan->cord[i].half, (size_t)plan->cord[i].n_passes * sizeof *half);
-  }
-
-  /* Undoes what was done so far. */
-  if (i == plan->n_cords) return true;
-  while (i-- > 0)
-    free(plan->cord[i].half);
-
-  return false;
+  *plan = (thr_plan){
+      .frame = *best->frame, .options = *best->options, .cord = cord, .n_cords = n_cords};
+  return fits_request(best, plan) && thr_plan_measure(&plan->frame, &plan->options, cord, n_cords,
+                                                      &plan->metrics, NULL) == THR_OK;
 }
 
-/* Frees what own_passes allocated. */
-static void free_passes(thr_plan *plan)
+/* Forgets the cords that wait. */
+static void forget(thr_incumbent *best)
 {
-  for (int i = 0; i < plan->n_cords && plan->options.crossings != THR_CROSSINGS_ALLOW; i++)
-    free(plan->cord[i].half);
+  thr_cords_destroy(best->waiting, best->n_waiting);
+  best->waiting = NULL;
+  best->n_waiting = 0;
+}
+
+/* Lets a copy of cords wait in place of those that waited, if they are better than these and than
+ * what was kept. Steps of symmetric cords are not known yet: the last ones wait. Without memory
+ * none do. */
+static void let_wait(thr_incumbent *best, const thr_cord *cord, int n_cords)
+{
+  thr_cord *copy = NULL;
+  thr_plan plan;
+  if (thr_cords_copy(cord, n_cords, &copy, NULL)) return;
+  for (int i = 0; i < n_cords; i++)
+    thr_cord_id(i, copy[i].id);
+
+  double value = 0;
+  if (!thr_wants_symmetry(best->options))
+    value = lay_out(best, copy, n_cords, &plan) ? minimized_value(best, &plan) : INFINITY;
+  const double least = best->n_waiting > 0 ? fmin(best->value, best->waiting_value) : best->value;
+  if (value > 0 && value >= least * (1 - 1e-9)) {
+    thr_cords_destroy(copy, n_cords);
+    return;
+  }
+
+  forget(best);
+  best->waiting = copy;
+  best->n_waiting = n_cords;
+  best->waiting_value = value;
+}
+
+/* Looks at the cords that wait. symmetry: the record of symmetric ones, NULL = none. */
+static void look(thr_incumbent *best, const thr_symmetry_record *symmetry)
+{
+  const double now = thr_clock();
+  const int n_kept = best->n;
+  thr_symmetry_record own = {0};
+  thr_plan plan;
+
+  /* A symmetric plan whose search gives no record: every cord is a path of its own, unless a group
+   * was asked for. */
+  const bool copies = thr_wants_symmetry(best->options);
+  bool sound = true;
+  if (copies && !symmetry) {
+    const thr_cover_options how = {.ends = best->options->ends,
+                                   .tube = best->options->joint == THR_JOINT_TUBE};
+    sound =
+        !*best->options->symmetry.group &&
+        thr_cords_alone(best->frame, &how, best->waiting, best->n_waiting, &own, NULL) == THR_OK;
+  }
+
+  if (sound && lay_out(best, best->waiting, best->n_waiting, &plan)) {
+    if (copies) plan.symmetry = symmetry ? *symmetry : own;
+    keep_better(best, &plan);
+    best->waiting = plan.cord; /* channels may be led by other passes */
+    best->n_waiting = plan.n_cords;
+  }
+
+  /* Most of the time stays with the search. */
+  const double end = thr_clock(), busy = MUCH * (end - now);
+  if (best->pause > 0 && best->n == n_kept) best->next = end + busy;
+  if (best->pause > 0 && best->n > n_kept && best->n > 1)
+    best->next = end + fmax(best->pause, busy);
+
+  thr_symmetry_record_destroy(&own);
+  forget(best);
+}
+
+thr_incumbent thr_incumbent_begin(const thr_frame *frame, const thr_request *options, double hand)
+{
+  return (thr_incumbent){
+      .frame = frame, .options = options, .hand = hand, .value = INFINITY, .pause = OFTEN};
 }
 
 /* Takes cords that a search has found; see lib.h. */
 void thr_incumbent_found(thr_incumbent *best, const thr_cord *cord, int n_cords,
                          const thr_symmetry_record *symmetry)
 {
-  const double now = thr_clock();
-  const int n_kept = best->n;
-  thr_symmetry_record own = {0};
+  if (!best->frame || n_cords == 0) return;
 
-  if (!best->frame || n_cords == 0 || now < best->next) return;
+  /* Symmetric cords do not wait, because their record does not. */
+  const bool due = thr_clock() >= best->next;
+  if (due || !thr_wants_symmetry(best->options)) let_wait(best, cord, n_cords);
+  if (due && best->n_waiting > 0) look(best, symmetry);
+}
 
-  /* A plan of borrowed parts; ids by number. */
-  thr_plan plan = {.frame = *best->frame, .options = *best->options, .n_cords = n_cords};
-  plan.cord = thr_calloc((size_t)n_cords, sizeof *plan.cord);
-  for (int i = 0; plan.cord && i < n_cords; i++) {
-    plan.cord[i] = cord[i];
-    thr_cord_id(i, plan.cord[i].id);
+void thr_incumbent_look(thr_incumbent *best)
+{
+  if (best->frame && best->n_waiting > 0 && thr_clock() >= best->next) look(best, NULL);
+}
+
+/* Are sums of the same in another order equal? */
+static bool is_same(double a, double b)
+{
+  return fabs(a - b) <= 1e-9 * fabs(b);
+}
+
+/* Tells the last plan; see lib.h. */
+void thr_incumbent_end(thr_incumbent *best, const thr_plan *plan)
+{
+  const thr_metrics *last = &best->last, *now = &plan->metrics;
+  const bool told = best->n > 0 && is_same(last->length, now->length) &&
+                    is_same(last->turning, now->turning) &&
+                    is_same(last->max_turning, now->max_turning);
+
+  /* By its own options any plan is better than none. */
+  forget(best);
+  if (plan->n_cords > 0 && !told) {
+    thr_incumbent final = thr_incumbent_begin(&plan->frame, &plan->options, 0);
+    final.keep = best->keep;
+    final.user = best->user;
+    thr_incumbent_found(&final, plan->cord, plan->n_cords,
+                        plan->symmetry.present ? &plan->symmetry : NULL);
   }
-
-  /* A symmetric plan whose search gives no record: every cord is a path of its own, unless a group
-   * was asked for. */
-  bool copies = thr_wants_symmetry(best->options), sound = plan.cord != NULL;
-  if (sound && copies && !symmetry) {
-    const thr_cover_options how = {.ends = best->options->ends,
-                                   .tube = best->options->joint == THR_JOINT_TUBE};
-    sound = !*best->options->symmetry.group &&
-            thr_cords_alone(best->frame, &how, plan.cord, n_cords, &own, NULL) == THR_OK;
-  }
-
-  /* Passes are led otherwise on copies. */
-  if (copies) plan.symmetry = symmetry ? *symmetry : own;
-
-  if (sound && own_passes(&plan)) {
-    keep_better(best, &plan);
-    free_passes(&plan);
-  }
-
-  /* Most of the time stays with the search. */
-  const double end = thr_clock();
-  if (best->n == n_kept || best->n > 1) best->next = end + fmax(OFTEN, MUCH * (end - now));
-
-  thr_symmetry_record_destroy(&own);
-  free(plan.cord);
+  best->frame = NULL;
 }

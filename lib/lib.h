@@ -106,23 +106,38 @@ thr_status thr_library_give(thr_text *text, char **bytes, size_t *n, thr_err *er
 
 /* ---- incumbent.c: The best cords of a search so far, as a plan that claims nothing. */
 
-/* What cords must be, what was kept last, and who is told. Begin with value = INFINITY. */
+/* What cords must be, what was kept last, and who is told. Begin with thr_incumbent_begin. */
 typedef struct {
   const thr_frame *frame; /* borrowed, as options; NULL = nothing is kept */
   const thr_request *options;
-  int n;        /* kept so far */
-  double value; /* of the last one: what is minimized */
-  double next;  /* thr_clock() before which nothing is looked at */
-  double hand;  /* N, 0 = none: as few cords are wanted as it can pull (thr_plan_recommended), with
-                   ends of any kind */
+  int n;            /* kept so far */
+  thr_metrics last; /* of the last one .. */
+  double value;     /* .. and what is minimized of it */
+  double pause;     /* s between two, 0 = every better one is kept */
+  double next;      /* thr_clock() before which nothing is looked at */
+  double hand; /* N, 0 = none: as few cords are wanted as it can pull (thr_plan_recommended), with
+                  ends of any kind */
+  thr_cord *waiting; /* [n_waiting] the best found since then; owned */
+  int n_waiting;
+  double waiting_value;
   void (*keep)(void *user, const thr_plan *plan, const thr_text *text); /* the plan, and as JSON */
   void *user;
 } thr_incumbent;
 
+/* Returns an incumbent that has nothing yet, for whom keep and user are still to be set. */
+thr_incumbent thr_incumbent_begin(const thr_frame *frame, const thr_request *options, double hand);
+
 /* For thr_limits.found: keeps the cords if they pass the checker and are better than the last ones,
- * a few times a second at most. O(size of a plan). */
+ * a few times a second at most; in between the best ones wait. O(size of a plan). */
 void thr_incumbent_found(thr_incumbent *best, const thr_cord *cord, int n_cords,
                          const thr_symmetry_record *symmetry);
+
+/* Keeps the cords that wait as soon as it is time; to be called now and then. */
+void thr_incumbent_look(thr_incumbent *best);
+
+/* Keeps the plan that the search has ended with, unless it was the last one that was kept (empty:
+ * none), and frees what waits. Nothing is kept afterwards. */
+void thr_incumbent_end(thr_incumbent *best, const thr_plan *plan);
 
 /* ---- library_request.c: What the options of a program ask for. */
 

@@ -160,13 +160,15 @@ typedef struct {
 /* Passes progress on, as searches have one user for all that they tell. */
 static void pass_progress(void *user, const char *what, double best, double bound)
 {
-  const thr_limits *given = ((const search *)user)->given;
-  given->progress(given->user, what, best, bound);
+  search *job = user;
+  thr_incumbent_look(&job->best);
+  job->given->progress(job->given->user, what, best, bound);
 }
 static void pass_advance(void *user, const char *what, double done)
 {
-  const thr_limits *given = ((const search *)user)->given;
-  given->advance(given->user, what, done);
+  search *job = user;
+  thr_incumbent_look(&job->best);
+  job->given->advance(job->given->user, what, done);
 }
 
 /* Takes cords that the search has found. Signature of thr_limits.found. */
@@ -220,12 +222,9 @@ static thr_status search_and_send(void *user, const thr_limits *given, thr_reply
                                                .ends_given = options->ends != THREAD_UNSAID};
     job->given = given;
     job->reply = reply;
-    job->best = (thr_incumbent){.frame = job->frame,
-                                .options = &request,
-                                .hand = hand,
-                                .value = INFINITY,
-                                .keep = send_found,
-                                .user = job};
+    job->best = thr_incumbent_begin(job->frame, &request, hand);
+    job->best.keep = send_found;
+    job->best.user = job;
     limits.user = job;
     limits.progress = given->progress ? pass_progress : NULL;
     limits.advance = given->advance ? pass_advance : NULL;
@@ -233,6 +232,7 @@ static thr_status search_and_send(void *user, const thr_limits *given, thr_reply
     st = recommends ? thr_plan_recommended(job->frame, &request, &recommended, &limits, &plan,
                                            &report, err)
                     : thr_plan_make(job->frame, &request, &limits, &plan, &report, err);
+    thr_incumbent_end(&job->best, given->progress ? &plan : &(thr_plan){0});
     if (!st && was_ended(job, &limits, &plan))
       st = thr_fail(err, THR_ELIMIT, "the search was ended before it was done");
   }

@@ -39,8 +39,8 @@ struct report_kind {
                     thr_writer *writer, thr_err *err);
 };
 
-/* Counted work of advice, and the time of all groups, where nobody says how long, s. */
-static const double work_of_advice = 2, seconds_of_symmetries = 20;
+/* The time of all groups where nobody says how long, s. */
+static const double seconds_of_symmetries = 20;
 
 enum { MOST_PLANS = 1000, RUNS = 3 /* of each plan that is compared by rising */ };
 
@@ -102,7 +102,7 @@ static thr_status advise(const report *job, const thr_request *request, const th
   const thread_plan_options *options = job->options;
   const double hand = options->hand > 0 ? options->hand : thr_hand_always;
   advice_so_far so_far = {.job = job, .advice = {.hand = hand, .chosen = -1}};
-  double work = work_of_advice;
+  double work = thr_advise_work;
   thr_advice advice;
 
   thr_status st = thr_physics_resolve(&request->physics, job->frame, &so_far.advice.physics, err);

@@ -22,6 +22,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+const double thr_advise_work = 0.3;
+
 /* Of the time that is left. */
 static const double part_group = 0.05, part_symmetric = 0.15, part_first = 0.15, part_row = 0.1;
 

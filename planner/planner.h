@@ -257,6 +257,10 @@ thr_status thr_plan_recommended(const thr_frame *frame, const thr_request *reque
 /* ---- advise.c: How many cords, and from where: a plan for every number of cords and kind of ends
  * that may be worth it, and a choice among them. */
 
+/* Work of advice where nobody says how long, in s that are counted: with it the rows are the same
+ * for everybody. */
+extern const double thr_advise_work;
+
 typedef struct {
   double hand;          /* N: what the pull is to stay within */
   const thr_plan *plan; /* NULL; or the shortest closed cords, for a framework that is too large for

@@ -21,7 +21,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST_TRIED = 5000 /* edges */, MOST_TRIALS = 8, MOST_IDLE = 2 };
+enum { MOST_TRIED = 5000 /* edges */, MOST_TRIALS = 8, MOST_IDLE = 2, ENOUGH = 2 };
 
 /* Counted work of a trial, s. */
 static const double work_of_trial = 0.3;
@@ -31,6 +31,10 @@ static const double work_of_components = 2, work_of_tubes = 2;
 
 /* Times as many cords as could do by their turning are tried where cutting leaves no bound. */
 static const int most_times = 4;
+
+/* Times the hand's reach that more and more cords may tend to for more to be tried: numbers vary.
+ */
+static const double most_beyond = 1.1;
 
 /* As much cord as with ends anywhere, for ends at the feet (graph/plan/advice.c). */
 static const double most_for_feet = 1.5;
@@ -65,9 +69,11 @@ static thr_status try_number(const recommendation *of, int cords, thr_plan *plan
   thr_err why = {0};
 
   little.usual = little.unpriced = true;
-  little.advance = NULL; /* a part of this trial */
+  little.advance = NULL; /* a part of this trial, as cords that it finds on the way */
+  little.found = NULL;
   request.cords = request.cords_least = cords;
   const thr_status st = thr_plan_make(of->frame, &request, &little, plan, report, &why);
+  thr_limits_found(of->limits, plan->cord, plan->n_cords, NULL);
 
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves no plan */
 }
@@ -127,15 +133,23 @@ static void take(thr_plan *into, thr_report *into_report, thr_plan *plan, thr_re
   *report = (thr_report){0};
 }
 
+/* Returns what the hardest end of ever more cords tends to, rad, if the turning of two numbers of
+ * cords is shared out but for a part that stays: fixed + shared / cords. */
+static double limit_of(int cords, double hardest, int more, double less)
+{
+  return hardest - (hardest - less) * more / (more - cords);
+}
+
 /* Finds the fewest cords within the hand, between what the turning allows and `most`. Where ends
  * are at few feet more cords of the least length are short ones beside a long one: upwards it is
- * given up when two numbers in sequence have not lowered the pull. */
+ * given up when two numbers in sequence have not lowered the pull, or when from the third on the
+ * pull tends to more than the hand. */
 static thr_status try_numbers(const recommendation *of, int least, int most, thr_plan *plan,
                               thr_report *report, thr_err *err)
 {
   thr_status st = THR_OK;
   int beyond = least - 1, within = most + 1, cords = least, step = 1, idle = 0;
-  double easiest = INFINITY; /* rad, of the numbers beyond the hand */
+  double first = INFINITY, easiest = INFINITY; /* rad, of the numbers beyond the hand */
 
   for (int trial = 0;
        trial < MOST_TRIALS && idle < MOST_IDLE && !st && cords > beyond && cords < within;
@@ -152,6 +166,10 @@ static thr_status try_numbers(const recommendation *of, int least, int most, thr
     const bool fits = !st && is_within(of, &tried);
     if (!fits && within > most) idle = hardest < easiest ? 0 : idle + 1;
     easiest = fmin(easiest, hardest);
+    if (trial == 0) first = hardest;
+    if (!fits && within > most && trial >= ENOUGH && isfinite(first) &&
+        limit_of(least, first, cords, easiest) > of->reach * most_beyond)
+      idle = MOST_IDLE;
     if (fits) take(plan, report, &tried, &found);
     if (fits) within = cords;
     if (!fits) beyond = cords;
@@ -228,6 +246,7 @@ static thr_status with_best_ends(recommendation *of, const thr_plan *shortest, t
 {
   thr_plan any = {0};
   thr_report report_any = {0};
+  thr_limits limits = *of->limits;
   bool feet = false;
 
   thr_status st = has_feet(of->frame, &feet, err);
@@ -235,6 +254,8 @@ static thr_status with_best_ends(recommendation *of, const thr_plan *shortest, t
 
   const bool enough =
       plan->n_cords > 0 && plan->metrics.length <= most_for_feet * plan->metrics.base_length;
+  if (plan->n_cords > 0) limits.found = NULL; /* more cords may be better now */
+  of->limits = &limits;
   if (!st && !enough) st = with_ends(of, THR_ENDS_ANY, shortest, &any, &report_any, err);
   if (!st && any.n_cords > 0 &&
       (plan->n_cords == 0 || plan->metrics.length > most_for_feet * any.metrics.length))
@@ -267,11 +288,14 @@ thr_status thr_plan_recommended(const thr_frame *frame, const thr_request *reque
   of.reach = physics.mu_high > 0 ? log(hand) / physics.mu_high : INFINITY;
   of.request.max_pull = 0;
 
-  /* One cord in every component, the shortest: shown first. No closed one may have room. */
+  /* One closed cord in every component, the shortest, is what is cut; none may have room. It is
+   * shown, or where none has room an open one, unless the ends are others. */
   one.aims = thr_aims_shortest;
   one.cords = one.cords_least = 1;
   if (!options->ends_given) one.ends = THR_ENDS_CLOSED;
+  const bool is_shown = one.ends == THR_ENDS_CLOSED;
   unlimited = one;
+  unlimited.ends = THR_ENDS_CLOSED;
   unlimited.max_pull = 0;
   if (request->joint == THR_JOINT_TUBE) shortly = thr_limits_counted(limits, &work);
   st = thr_planner_length(frame, &unlimited, &shortly, &shortest, NULL, &why);
@@ -279,14 +303,10 @@ thr_status thr_plan_recommended(const thr_frame *frame, const thr_request *reque
     one.ends = unlimited.ends = THR_ENDS_ANY;
     st = thr_planner_length(frame, &unlimited, &shortly, &shortest, NULL, NULL);
   }
-  if (st && (st != THR_ELIMIT || shortest.n_cords == 0)) return thr_fail(err, st, "%s", why.text);
-  thr_limits_found(limits, shortest.cord, shortest.n_cords, NULL);
-
-  /* The closed one is cut. */
-  unlimited.ends = THR_ENDS_CLOSED;
-  if (one.ends != THR_ENDS_CLOSED) thr_plan_destroy(&shortest);
-  if (shortest.n_cords == 0)
-    st = thr_planner_length(frame, &unlimited, &shortly, &shortest, NULL, &why);
+  if (st == THR_ENOMEM || (st && is_shown && (st != THR_ELIMIT || shortest.n_cords == 0)))
+    return thr_fail(err, st, "%s", why.text);
+  if (is_shown) thr_limits_found(limits, shortest.cord, shortest.n_cords, NULL);
+  if (unlimited.ends != THR_ENDS_CLOSED) thr_plan_destroy(&shortest);
 
   /* The least length, and then an easy pull. */
   of.request.aims = (thr_aims){1, {THR_AIM_PULL}};
@@ -295,8 +315,11 @@ thr_status thr_plan_recommended(const thr_frame *frame, const thr_request *reque
        : options->ends_given ? with_ends(&of, request->ends, &shortest, plan, report, err)
                              : with_best_ends(&of, &shortest, plan, report, err);
 
-  /* No number of cords stays within the hand: the shortest cord. */
-  if (!st && plan->n_cords == 0) st = thr_plan_make(frame, &one, limits, plan, report, err);
+  /* No number of cords stays within the hand: the shortest cord, which with given ends there may
+   * not be. */
+  thr_limits last = *limits;
+  if (!is_shown) last.found = NULL;
+  if (!st && plan->n_cords == 0) st = thr_plan_make(frame, &one, &last, plan, report, err);
 
   thr_plan_destroy(&shortest);
   return st;

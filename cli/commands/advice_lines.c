@@ -15,8 +15,6 @@
 #include "graph/plan/request.h"
 #include "planner/planner.h"
 
-static const double usual_work = 0.3; /* counted, in seconds */
-
 /* Appends an option with a word that a shell reads as it is. */
 static void put_option(thr_text *text, const char *option, const char *value)
 {
@@ -39,15 +37,6 @@ void advice_command_options(const cli_physics *physics, thr_text *text)
   }
 }
 
-/* Returns the pull at the hardest end of a plan's cords, N. */
-static double largest_pull(const thr_plan *plan)
-{
-  double pull[THR_ADVICE_PULLS];
-  thr_advice_pulls(&plan->options.physics,
-                   thr_cords_pulled_turning(&plan->frame, plan->cord, plan->n_cords), pull);
-  return pull[THR_ADVICE_MU];
-}
-
 /* Appends that so much is beyond a hand; the line goes on. */
 static void put_too_hard(thr_text *text, double newton)
 {
@@ -58,7 +47,9 @@ static void put_too_hard(thr_text *text, double newton)
 
 void advice_put_hint(const thr_plan *plan, bool unsaid, thr_text *text)
 {
-  const double newton = largest_pull(plan);
+  double pull[THR_ADVICE_PULLS];
+  thr_plan_pulls(plan, pull);
+  const double newton = pull[THR_ADVICE_MU];
   if (newton <= thr_hand_most || plan->options.max_pull > 0) return;
   put_too_hard(text, newton);
   thr_text_append(text, unsaid ? "; no number of cords was found that it can pull\n"
@@ -72,20 +63,14 @@ void advice_put_recommended(const thr_plan *plan, double hand, thr_text *text)
   const thr_advice_row row = {.ends = options->ends, .cords = options->cords, .all = plan->n_cords};
   double pull[THR_ADVICE_PULLS];
   char force[64], most[64], within[64];
-  thr_physics physics;
-  thr_err err = {0};
-
-  /* The plan was made with this physics: it resolves. */
-  if (thr_physics_resolve(&options->physics, &plan->frame, &physics, &err)) return;
-  thr_advice_pulls(&physics, thr_cords_pulled_turning(&plan->frame, plan->cord, plan->n_cords),
-                   pull);
+  const double mu_high = thr_plan_pulls(plan, pull).mu_high;
 
   thr_text_append(text, "hand     ");
   advice_put_cords(text, &row);
   thr_text_printf(text, ", %s%s, or %s if mu is %g: as few as were found\n",
                   thr_plain_newtons(pull[THR_ADVICE_MU], force),
                   plan->n_cords > 1 ? " N each at most" : " N",
-                  plain_force(pull[THR_ADVICE_HIGH], most), physics.mu_high);
+                  plain_force(pull[THR_ADVICE_HIGH], most), mu_high);
   thr_text_printf(text, "         that %s, with %s%s\n",
                   hand < thr_hand_always ? "the cord bears" : "a hand can pull time after time",
                   plain_force(hand, within), plan->n_cords > 1 ? "; --cords 1 is one cord" : "");
@@ -93,7 +78,7 @@ void advice_put_recommended(const thr_plan *plan, double hand, thr_text *text)
 
 thr_limits advice_limits(double seconds, double *work)
 {
-  if (seconds < 0) *work = usual_work;
+  if (seconds < 0) *work = thr_advise_work;
   thr_limits limits = cli_limits(seconds > 0 ? thr_dispatch_search_seconds(seconds, false) : 0);
 
   /* Advice is silent: a bar for many small searches would say nothing. */

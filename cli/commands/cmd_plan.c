@@ -233,14 +233,10 @@ static int plan_frame(const plan_arguments *args, thr_frame *framework)
   if (args->guard.seconds < 0 && plan_is_recommended(args, &options))
     options.time_limit = 0; /* its work is counted */
   if (code == EXIT_OK) {
-    /* The search, and one last chance for its cords to be kept, with the options that they have. */
+    /* The search. Whoever watches, or may end the command, has its plan before it is written. */
     thr_status st = make_plan(args, framework, &options, &result, &err);
-    if (result.plan.n_cords > 0) best_begin(&result.plan.frame, &result.plan.options, 0);
-    if (guard_deadline() > 0)
-      best_found(NULL, result.plan.cord, result.plan.n_cords,
-                 result.plan.symmetry.present ? &result.plan.symmetry : NULL);
-
-    best_begin(NULL, NULL, 0);
+    const bool is_watched = guard_deadline() > 0 || progress_wanted();
+    best_end(is_watched ? &result.plan : &(thr_plan){0});
     thr_frame_destroy(framework);
 
     /* A plan that is not proved within the limits is a plan, with EXIT_LIMIT. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rows of advice: pull, order, choice, and what buys nothing. */
+#include "graph/plan/physics.h"
 #include "graph/plan/plan_measures.h"
 
 #include <math.h>
@@ -24,6 +25,18 @@ void thr_advice_pulls(const thr_physics *physics, double reach, double pull[THR_
   const double mu[THR_ADVICE_PULLS] = {physics->mu_low, physics->mu, physics->mu_high};
   for (int i = 0; i < THR_ADVICE_PULLS; i++)
     pull[i] = mu[i] * reach > 690 ? INFINITY : physics->seating * exp(mu[i] * reach);
+}
+
+thr_physics thr_plan_pulls(const thr_plan *plan, double pull[THR_ADVICE_PULLS])
+{
+  thr_physics physics = {0};
+  const bool fits =
+      thr_physics_resolve(&plan->options.physics, &plan->frame, &physics, NULL) == THR_OK;
+  const double reach = thr_cords_pulled_turning(&plan->frame, plan->cord, plan->n_cords);
+  thr_advice_pulls(&physics, reach, pull);
+  for (int i = 0; i < THR_ADVICE_PULLS && !fits; i++)
+    pull[i] = INFINITY;
+  return physics;
 }
 
 bool thr_advice_within(const thr_advice *advice, const thr_advice_row *row)

@@ -303,6 +303,10 @@ void thr_advice_destroy(thr_advice *advice);
 /* Pulls from the largest reach of a plan's cords. */
 void thr_advice_pulls(const thr_physics *physics, double reach, double pull[THR_ADVICE_PULLS]);
 
+/* The same for a plan as it is, N, with its own physics, which is returned as it is resolved; one
+ * that does not fit the framework makes pulls of INFINITY. */
+thr_physics thr_plan_pulls(const thr_plan *plan, double pull[THR_ADVICE_PULLS]);
+
 /* Does a row stay within the hand even at mu_high? */
 bool thr_advice_within(const thr_advice *advice, const thr_advice_row *row);
 

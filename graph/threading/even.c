@@ -385,7 +385,7 @@ static void try_change(thr_evener *evener, double heat, double *now)
   }
 
   thr_threading_take_back(evener->t, &old);
-  thr_evener_follow(evener);
+  thr_threading_unfollow(evener->t);
 }
 
 void thr_evener_anneal(thr_evener *evener, int steps, double bound, int *best)

@@ -36,6 +36,12 @@ void thr_threading_destroy(thr_threading *threading)
   free(threading->at);
   free(threading->total);
   free(threading->parent);
+  free(threading->paid);
+  free(threading->pair_price);
+  free(threading->before.first);
+  free(threading->before.place);
+  free(threading->before.at);
+  free(threading->before.total);
 }
 
 thr_status thr_threading_init(thr_threading *threading, const thr_frame *frame,
@@ -46,15 +52,21 @@ thr_status thr_threading_init(thr_threading *threading, const thr_frame *frame,
   *threading = (thr_threading){
       .f = frame, .g = multigraph, .mate = mate, .price = price, .of = of, .tied = tied};
 
-  threading->first = thr_calloc(passes + 1, sizeof *threading->first);
-  threading->place = thr_calloc(passes, sizeof *threading->place);
-  threading->at = thr_calloc((size_t)multigraph->n_darts, sizeof *threading->at);
-  threading->total = thr_calloc(passes, sizeof *threading->total);
+  /* Two traces, which take turns. */
+  bool all = true;
+  for (int i = 0; i < 2; i++) {
+    threading->first = thr_calloc(passes + 1, sizeof *threading->first);
+    threading->place = thr_calloc(passes, sizeof *threading->place);
+    threading->at = thr_calloc(2 * passes, sizeof *threading->at);
+    threading->total = thr_calloc(passes, sizeof *threading->total);
+    all &= threading->first && threading->place && threading->at && threading->total;
+    thr_threading_unfollow(threading);
+  }
   threading->parent = thr_calloc((size_t)frame->n_edges, sizeof *threading->parent);
-  return threading->first && threading->place && threading->at && threading->total &&
-                 threading->parent
-             ? THR_OK
-             : thr_nomem(err);
+  threading->paid = thr_calloc(2 * passes, sizeof *threading->paid);
+  threading->pair_price = thr_calloc(2 * passes, sizeof *threading->pair_price);
+  return all && threading->parent && threading->paid && threading->pair_price ? THR_OK
+                                                                              : thr_nomem(err);
 }
 
 /* ---- tracing ---- */
@@ -65,6 +77,33 @@ enum { NOT_SEEN = -1, END = -2 };
 static double price_of(const thr_threading *threading, int a, int b)
 {
   return threading->price ? threading->price(threading->of, a, b) : 0;
+}
+
+/* Returns the same, kept from the last time: most pairs stay. */
+static double kept_price_of(thr_threading *threading, int a, int b)
+{
+  if (threading->paid[a] != b + 1) {
+    threading->paid[a] = b + 1;
+    threading->pair_price[a] = price_of(threading, a, b);
+  }
+  return threading->pair_price[a];
+}
+
+void thr_threading_unfollow(thr_threading *threading)
+{
+  const struct thr_trace now = {.n_cords = threading->n_cords,
+                                .n_places = threading->n_places,
+                                .first = threading->first,
+                                .at = threading->at,
+                                .place = threading->place,
+                                .total = threading->total};
+  threading->n_cords = threading->before.n_cords;
+  threading->n_places = threading->before.n_places;
+  threading->first = threading->before.first;
+  threading->at = threading->before.at;
+  threading->place = threading->before.place;
+  threading->total = threading->before.total;
+  threading->before = now;
 }
 
 /* Follows the cord that starts along a half-edge, and appends its places with their running sums.
@@ -79,8 +118,8 @@ static void follow_cord(thr_threading *threading, int start)
   /* From pair to pair, until the cord ends or comes back to its start. */
   for (int next; (next = threading->mate[d ^ 1]) >= 0; d = next) {
     thr_place *p = &threading->place[threading->n_places];
-    *p = (thr_place){k,   threading->n_places - first,     d ^ 1, next,
-                     sum, price_of(threading, d ^ 1, next)};
+    *p = (thr_place){k,   threading->n_places - first,          d ^ 1, next,
+                     sum, kept_price_of(threading, d ^ 1, next)};
     threading->at[p->in] = threading->at[p->out] = threading->n_places++;
     sum += p->price;
     if (next == start) break;
@@ -93,8 +132,10 @@ static void follow_cord(thr_threading *threading, int start)
 bool thr_threading_follow(thr_threading *threading, int most)
 {
   const thr_multigraph *multigraph = threading->g;
-  threading->n_cords = threading->n_places = 0;
 
+  /* The trace before the last one makes room. */
+  thr_threading_unfollow(threading);
+  threading->n_cords = threading->n_places = 0;
   for (int d = 0; d < multigraph->n_darts; d++)
     threading->at[d] = NOT_SEEN;
 

@@ -113,6 +113,15 @@ typedef struct {
   int *at;          /* [n_darts] the place that a half-edge is part of; below 0 where a cord ends */
   double *total;    /* [n_cords] price of all its pairs */
   int *parent;      /* [n_edges] scratch */
+
+  /* Prices as they were computed last: paid[a] - 1 is the b of (a, b), pair_price[a] the price. */
+  int *paid;          /* [n_darts] 0 = none yet; owned */
+  double *pair_price; /* [n_darts] owned */
+  struct thr_trace {
+    int n_cords, n_places, *first, *at;
+    thr_place *place;
+    double *total;
+  } before; /* what was followed the time before; owned */
 } thr_threading;
 
 /* Allocates a threading whose cords are not followed yet. On failure threading is to be destroyed
@@ -126,6 +135,10 @@ void thr_threading_destroy(thr_threading *threading);
  * order, then closed ones from their lowest. false: there are more than most cords, not all of
  * which are followed. O(darts). */
 bool thr_threading_follow(thr_threading *threading, int most);
+
+/* Goes back to what was followed the time before, once the pairs are again what they were then.
+ * O(1). */
+void thr_threading_unfollow(thr_threading *threading);
 
 /* The same half-edges without an order: cord[n_darts] receives the number of the cord of each.
  * Returns how many cords there are.
@@ -427,7 +440,7 @@ void thr_evener_even(thr_evener *evener);
 
 /* One change at random, at this place among others, that keeps the number of cords if *old is not
  * empty and thr_evener_follow, which is to be called next, says so. Else the pairs are to be taken
- * back, and followed again. */
+ * back, and what was followed, too (thr_threading_unfollow). */
 void thr_evener_propose(thr_evener *evener, int place, thr_broken *old);
 
 /* The same at random, so many steps, and some that raise the value, with falling probability; ends

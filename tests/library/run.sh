@@ -72,6 +72,18 @@ package=$(dirname "$(find "$root" -path '*/thread_plan/__init__.py')")
 python() { PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$(dirname "$package") LIBTHREAD=$usr/lib/libthread.so.0 python3 "$@"; }
 python_example() { prints_length python "$examples/python/dome.py" "$out/python.svg"; }
 python_package() { python tests/library/package.py; }
+same_advice() { # the rows of program and library, for three frames
+  local shape
+  for shape in 'dome --size 5' 'tube --size 6' 'honeycomb --size 2'; do
+    # shellcheck disable=SC2086 # words
+    "$usr/bin/thread" make $shape -o "$out/advised.json" && "$usr/bin/thread" advise "$out/advised.json" --json >"$out/advice.json" &&
+      python -c '
+import json, sys, thread_plan
+frame, advice = sys.argv[1:]
+said, told = json.load(open(advice)), thread_plan.read(frame).advice()
+assert said["rows"] == told["rows"] and said["recommended"] == told["recommended"], (said, told)' "$out/advised.json" "$out/advice.json" || return
+  done
+}
 library_words() { python3 tests/library/words.py; }
 python_types() { mypy --strict --cache-dir="$out/mypy" python/thread_plan; }
 python_wheel() { # one without the library, built twice by the rules of PEP 517, as pip takes it
@@ -179,6 +191,7 @@ test_that 'texts name members, not options' library_words
 test_that 'the Python example prints the least length' python_example
 test_that 'C and Python draw the same picture' same_picture
 test_that 'the Python package does what it says' python_package
+test_that 'program and library advise the same' same_advice
 if command -v mypy >/dev/null; then test_that 'the Python package is typed' python_types; fi
 test_that 'the wheel has the same files, and the same bytes twice' python_wheel
 test_that 'the program plans the dome' bash -c "'$usr/bin/thread' make dome | '$usr/bin/thread' plan - --cords 1 -o '$out/plan.json'"

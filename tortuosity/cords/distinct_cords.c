@@ -271,7 +271,7 @@ static void anneal(distinct_search *search, thr_evener *evener, double each, int
       memcpy(best, threading->mate, bytes);
     } else {
       thr_threading_take_back(threading, &old);
-      thr_evener_follow(evener);
+      thr_threading_unfollow(threading);
       count_lacking(search, threading);
     }
   }

@@ -732,7 +732,7 @@ static void anneal_pulls(thr_evener *evener, int steps, int *best)
       memcpy(best, threading->mate, bytes);
     } else {
       thr_threading_take_back(threading, &old);
-      thr_evener_follow(evener);
+      thr_threading_unfollow(threading);
     }
   }
 
