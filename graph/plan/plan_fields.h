@@ -173,9 +173,6 @@ typedef struct {
 extern const thr_request_field thr_request_fields[];
 extern const int thr_request_n_fields;
 
-/* Returns where the value of a row is in a request: an int, a double or an enumeration. */
-void *thr_request_value(thr_request *request, const thr_request_field *field);
-
 /* Writes `options` of a plan: all that was asked for. */
 void thr_request_write(thr_writer *writer, const thr_plan *plan);
 

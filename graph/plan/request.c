@@ -323,26 +323,6 @@ thr_status thr_aims_parse(const char *text, thr_request *options, thr_err *err)
 }
 
 /* Writes the list that thr_aims_parse reads as the same request. */
-void thr_aims_write(const thr_request *options, thr_text *out)
-{
-  bool turning = thr_wants_turning(options),
-       limited = turning && options->turning.length_slack >= 0;
-
-  /* A limit on the length comes before the turning that it limits. */
-  if (limited && options->turning.length_slack > 0)
-    thr_text_printf(out, "length+%.15g%%,", 100 * options->turning.length_slack);
-  else if (limited)
-    thr_text_append(out, "length,");
-
-  /* The aims; costs other than the angle are named. */
-  for (int i = 0; i < options->aims.n; i++) {
-    thr_text_printf(out, i ? ",%s" : "%s", thr_aim_name(options->aims.aim[i]));
-    if (turning && options->aims.aim[i] != THR_AIM_LONGEST &&
-        options->turning.cost != THR_TURN_ANGLE)
-      thr_text_printf(out, ":%s", thr_turn_cost_name(options->turning.cost));
-  }
-}
-
 /* ---- names ---- */
 
 const char *thr_objective_name(int o)

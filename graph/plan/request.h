@@ -202,9 +202,6 @@ thr_status thr_aims_parse(const char *text, thr_request *options, thr_err *err) 
 /* Reads a percentage from 0 to 1e6, "5" or "5%", as a part of 1. False: it is none. */
 bool thr_slack_parse(const char *text, double *slack);
 
-/* Such a list, which says the same. */
-void thr_aims_write(const thr_request *options, thr_text *out);
-
 /* ---- the rest ---- */
 
 /* What options and plans call the values of an enumeration, or of a yes or no:

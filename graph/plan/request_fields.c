@@ -423,11 +423,6 @@ static thr_request unsaid(void)
   return request;
 }
 
-void *thr_request_value(thr_request *request, const thr_request_field *field)
-{
-  return (char *)request + field->offset;
-}
-
 /* ---- writing ---- */
 
 /* Returns whether two names of objects in `options` are equal; NULL is `options` itself. */
