@@ -14,7 +14,6 @@
 #include "planner/planner.h"
 #include "symmetry/symmetry.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

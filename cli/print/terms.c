@@ -16,7 +16,6 @@
 #include "graph/plan/plan.h"
 
 #include <ctype.h>
-#include <string.h>
 
 /* Returns the number of nodes where cords may end. */
 static int count_end_nodes(const thr_plan *plan)

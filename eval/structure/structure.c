@@ -21,7 +21,6 @@
 #include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
 #include "graph/process/process.h"
-#include "graph/text.h"
 
 #include <math.h>
 #include <stdlib.h>

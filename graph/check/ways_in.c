@@ -16,7 +16,6 @@
 #include "graph/arrays.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 /* The cut of a radius: between the nodes of the first so many distances and the others. */
 typedef struct {

@@ -10,7 +10,6 @@
 #include "graph/plan/request.h"
 #include "graph/number.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

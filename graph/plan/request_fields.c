@@ -12,7 +12,6 @@
  * writes and reads "cover": 2, and makes `--cover 0` a usage error. */
 #include "graph/plan/plan_fields.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

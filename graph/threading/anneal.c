@@ -15,7 +15,6 @@
 #include "graph/arrays.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- a run ---- */

@@ -11,7 +11,6 @@
 #include "graph/arrays.h"
 #include "graph/threading/threading.h"
 
-#include <math.h>
 #include <string.h>
 
 bool thr_anneal_drop_loop(thr_annealer *annealer, int cord, thr_anneal_change *change)

@@ -18,7 +18,6 @@
 #include "graph/plan/turning_proof.h"
 #include "graph/threading/threading.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 

@@ -27,7 +27,6 @@
 #include "graph/arrays.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 void thr_threading_destroy(thr_threading *threading)
 {

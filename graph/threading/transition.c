@@ -14,7 +14,6 @@
 #include "graph/number.h"
 #include "graph/arrays.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -10,7 +10,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Returns the turn ahead of a pass. */
 static double turn_at(const thr_frame *frame, const thr_walk *walk, int at)

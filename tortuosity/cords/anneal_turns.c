@@ -23,7 +23,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Temperatures, and the penalty of a part at first, at least and at most, in rad, for turns that

@@ -15,7 +15,6 @@
 #include "tortuosity/cords/several.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Notes that half-edges a and b of one node turn into each other from now on, or no longer. */

@@ -15,7 +15,6 @@
 #include "graph/framework/frame.h"
 #include "tortuosity/tie/tie.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

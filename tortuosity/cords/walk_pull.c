@@ -8,7 +8,6 @@
  *
  * Example: on a 7 x 7 dome 10 cords between its feet, none of which needs more than twice the
  * seating tension, are 2168.6 mm long at least, where 1995.2 mm is what any cords need. */
-#include "graph/framework/frame.h"
 #include "tortuosity/cords/walk_model.h"
 
 #include <math.h>

@@ -16,7 +16,6 @@
 #include "tortuosity/proof/relax_parts.h"
 #include "tortuosity/tie/tie.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
