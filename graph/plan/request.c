@@ -44,7 +44,8 @@ thr_aims thr_aims_of(thr_objective objective)
                                        : thr_aims_shortest;
 }
 
-bool thr_aims_have(const thr_request *options, thr_aim aim)
+/* Returns whether an aim is among those of the request. */
+static bool aims_have(const thr_request *options, thr_aim aim)
 {
   for (int i = 0; i < options->aims.n; i++)
     if (options->aims.aim[i] == aim) return true;
@@ -53,10 +54,9 @@ bool thr_aims_have(const thr_request *options, thr_aim aim)
 
 thr_objective thr_aims_objective(const thr_request *options)
 {
-  if (thr_aims_have(options, THR_AIM_STEPS) || thr_aims_have(options, THR_AIM_PATHS))
-    return THR_SYMMETRY;
-  return thr_aims_have(options, THR_AIM_TURNING) || thr_wants_largest(options) ? THR_TORTUOSITY
-                                                                               : THR_LENGTH;
+  if (aims_have(options, THR_AIM_STEPS) || aims_have(options, THR_AIM_PATHS)) return THR_SYMMETRY;
+  return aims_have(options, THR_AIM_TURNING) || thr_wants_largest(options) ? THR_TORTUOSITY
+                                                                           : THR_LENGTH;
 }
 
 bool thr_wants_length(const thr_request *options)
@@ -76,17 +76,17 @@ bool thr_wants_symmetry(const thr_request *options)
 
 bool thr_wants_balance(const thr_request *options)
 {
-  return thr_aims_have(options, THR_AIM_LONGEST);
+  return aims_have(options, THR_AIM_LONGEST);
 }
 
 bool thr_wants_largest(const thr_request *options)
 {
-  return thr_aims_have(options, THR_AIM_MAX_TURNING) || thr_wants_pull(options);
+  return aims_have(options, THR_AIM_MAX_TURNING) || thr_wants_pull(options);
 }
 
 bool thr_wants_pull(const thr_request *options)
 {
-  return thr_aims_have(options, THR_AIM_PULL);
+  return aims_have(options, THR_AIM_PULL);
 }
 
 /* Where cords end at few nodes only, all of them pass the few edges there. */

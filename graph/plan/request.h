@@ -164,7 +164,6 @@ extern const thr_aims thr_aims_shortest, thr_aims_straightest; /* length; turnin
 extern const thr_aims thr_aims_symmetric; /* in the usual order: overlap, steps, paths, turning */
 thr_aims thr_aims_of(thr_objective objective); /* one of these */
 
-bool thr_aims_have(const thr_request *options, thr_aim aim);
 thr_objective thr_aims_objective(const thr_request *options);
 
 /* What the aims come to, for those who plan, check or print. */
