@@ -8,9 +8,7 @@
 #include "cli/cli.h"
 #include "cli/args/args.h"
 #include "graph/check/check.h"
-#include "graph/framework/frame.h"
 #include "graph/os.h"
-#include "graph/text.h"
 #include "lib/lib.h"
 
 #include <errno.h>

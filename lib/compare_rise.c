@@ -4,10 +4,6 @@
  * pieces.
  *
  * A plan whose pieces cannot be made, or cannot be simulated, leaves its values unknown. */
-#include "eval/rise/rise.h"
-#include "graph/arrays.h"
-#include "graph/limits.h"
-#include "graph/status.h"
 #include "lib/comparison.h"
 #include "lib/rise_pieces.h"
 

@@ -13,7 +13,6 @@
  *    cord at most 5 % above the least length: verified */
 #include "cli/print/print.h"
 #include "graph/number.h"
-#include "graph/plan/plan.h"
 
 #include <ctype.h>
 

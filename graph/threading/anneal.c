@@ -12,7 +12,6 @@
  * two turns of 90 degrees; it goes straight on instead. */
 #include "graph/threading/threading.h"
 #include "graph/process/process.h"
-#include "graph/arrays.h"
 
 #include <math.h>
 #include <string.h>

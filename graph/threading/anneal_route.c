@@ -8,7 +8,6 @@
  *
  * Example: a cord passes a, b, c along two sides of a triangle whose third side is ac, and other
  * cords pass both sides as well. It may go from a to c straight on instead. */
-#include "graph/arrays.h"
 #include "graph/threading/threading.h"
 
 #include <string.h>

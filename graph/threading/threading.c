@@ -24,7 +24,6 @@
  * counted (tortuosity/tie/tie.h), have no cords, and symmetric strands (symmetry/lift/strands.c)
  * are orbits of half-edges, paired by elements of a group. */
 #include "graph/threading/threading.h"
-#include "graph/arrays.h"
 
 #include <stdlib.h>
 

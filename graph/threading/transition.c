@@ -12,7 +12,6 @@
  */
 #include "graph/threading/threading.h"
 #include "graph/number.h"
-#include "graph/arrays.h"
 
 #include <stdlib.h>
 #include <string.h>

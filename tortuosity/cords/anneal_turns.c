@@ -17,8 +17,6 @@
  * of 60 degrees; an extra pass that leaves the line of one ring for that of another connects them
  * by one. */
 #include "graph/number.h"
-#include "graph/framework/frame.h"
-#include "graph/arrays.h"
 #include "tortuosity/cords/several.h"
 
 #include <float.h>

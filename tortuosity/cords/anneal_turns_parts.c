@@ -10,8 +10,6 @@
  *
  * Example: turns (a b)(c d) become (a c)(b d). The searches from a and c meet at once, as do those
  * from b and d; if b and c turn into one edge e further on, all have met there: one part. */
-#include "graph/arrays.h"
-#include "graph/framework/frame.h"
 #include "tortuosity/cords/several.h"
 
 #include <math.h>

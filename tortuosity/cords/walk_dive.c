@@ -10,7 +10,6 @@
  * becomes a cord, then the largest of the others, and what is left may be solved by a walk that no
  * column was before. */
 #include "graph/framework/frame.h"
-#include "graph/arrays.h"
 #include "lp/solver/solver.h"
 #include "tortuosity/cords/walk_model.h"
 

@@ -8,7 +8,6 @@
  * cords are kept if the most expensive of them costs less. (P. Shaw, "Using constraint programming
  * and local search methods to solve vehicle routing problems", CP 1998.) */
 #include "graph/framework/frame.h"
-#include "graph/arrays.h"
 #include "tortuosity/cords/walk_model.h"
 
 #include <math.h>
