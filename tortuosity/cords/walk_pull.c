@@ -143,7 +143,7 @@ thr_status thr_walk_pull_few(const thr_turning_columns *columns, const thr_reque
   if (!st) {
     programme.cords = most;
     thr_walk_programme_round_up(&programme, count_edges(columns, component));
-    st = thr_walk_dive(&programme, programme.units, NULL, 0, cord, &found, &why);
+    st = thr_walk_dive(&programme, programme.units, cord, &found, &why);
   }
   if (!st && found) *n = count_cords(cord, most);
   thr_walk_programme_destroy(&programme);
