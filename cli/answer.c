@@ -10,7 +10,6 @@
  *
  * The table of exit codes is the one that documents repeat (tests/documents.py). */
 #include "cli/cli.h"
-#include "graph/io/json.h"
 #include "graph/os.h"
 
 #include <stdio.h>

@@ -7,16 +7,11 @@
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
 #include "cli/args/args.h"
-#include "graph/number.h"
 #include "graph/check/check.h"
-#include "graph/framework/frame.h"
 #include "graph/os.h"
-#include "graph/plan/plan_measures.h"
-#include "graph/text.h"
 #include "lib/lib.h"
 
 #include <errno.h>
-#include <math.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>

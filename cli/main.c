@@ -6,7 +6,6 @@
 #include "cli/args/args.h"
 #include "cli/cli.h"
 #include "eval/joint/world.h"
-#include "graph/text.h"
 #include "lp/solver/solver.h"
 #include "symmetry/group/group.h"
 

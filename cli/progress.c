@@ -14,8 +14,6 @@
  * search began. */
 #include "cli/cli.h"
 
-#include "graph/io/json.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -10,9 +10,7 @@
  * Example: a cord that turns by 360 degrees, mu = 0.2, seating tension 1 N, pulled at one end: 1 N
  * x exp(0.2 x 2 pi) = 3.5 N. */
 #include "eval/eval.h"
-#include "graph/framework/frame.h"
 #include "graph/plan/plan_measures.h"
-#include "graph/plan/plan.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -4,17 +4,10 @@
  * pieces.
  *
  * A plan whose pieces cannot be made, or cannot be simulated, leaves its values unknown. */
-#include "eval/rise/rise.h"
-#include "graph/arrays.h"
-#include "graph/limits.h"
-#include "graph/plan/plan.h"
-#include "graph/status.h"
 #include "lib/comparison.h"
 #include "lib/rise_pieces.h"
 
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 /* Plan i of n has the pieces pieces[i] and the jobs job[first[i]] and so on. */
 typedef struct {

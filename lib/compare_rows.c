@@ -19,7 +19,6 @@
 #include "lib/lib.h"
 
 #include <math.h>
-#include <stdio.h>
 
 /* The rows, in the order of printing. */
 enum {

@@ -15,7 +15,6 @@
 #include "eval/eval.h"
 #include "kit/files.h"
 #include "kit/kit.h"
-#include "kit/picture.h"
 
 #include <math.h>
 #include <string.h>

@@ -5,7 +5,6 @@
  * Reading may take any format and repair what a drawing leaves open, and says in notes what was
  * repaired. Arrays are taken as they are: where something would be merged or dropped, indices of
  * the caller would no longer fit, so that this is an error. */
-#include "graph/framework/frame.h"
 #include "lib/lib.h"
 
 #include <stdio.h>

@@ -12,9 +12,7 @@
 #include "eval/cord/profile.h"
 #include "eval/eval.h"
 #include "graph/check/check.h"
-#include "graph/plan/evaluation.h"
 #include "graph/plan/plan_fields.h"
-#include "graph/plan/request.h"
 #include "lib/lib.h"
 #include "planner/planner.h"
 

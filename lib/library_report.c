@@ -4,17 +4,12 @@
  * `compare` print with --json, but for the command line that makes a plan.
  *
  * A row of the table `reports` says what a report is called, what it is of, and who writes it. */
-#include "eval/eval.h"
-#include "eval/rise/rise.h"
-#include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "lib/comparison.h"
 #include "lib/lib.h"
 #include "lib/rise_pieces.h"
 #include "planner/planner.h"
-#include "symmetry/symmetry.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -4,11 +4,8 @@
  * A request as JSON has precedence over the members before it. Where neither cords nor aims
  * are said, the plan is the recommended one (planner/recommend.c), as of `thread plan FRAME`.
  * Texts of failures name members of the options, never options of a command line. */
-#include "graph/framework/frame.h"
-#include "graph/io/json.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan_fields.h"
-#include "graph/plan/request.h"
 #include "lib/lib.h"
 #include "planner/planner.h"
 

@@ -12,7 +12,6 @@
 
 #include "graph/number.h"
 #include "symmetry/group/group.h"
-#include "symmetry/symmetry.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,8 +4,6 @@
  *
  * Example: {"framework": "..", "nodes": 49, .., "rows": [{"cords": 1, "ends": "closed", ..}],
  * "recommended": 3}. */
-#include "graph/framework/frame.h"
-#include "graph/plan/plan_measures.h"
 #include "lib/lib.h"
 #include "symmetry/group/group.h"
 

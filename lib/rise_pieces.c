@@ -3,11 +3,7 @@
 #include "lib/rise_pieces.h"
 #include "diagram/layout/layout.h"
 #include "eval/cord/profile.h"
-#include "graph/framework/frame.h"
 #include "graph/number.h"
-#include "graph/plan/physics.h"
-#include "graph/plan/plan.h"
-#include "graph/status.h"
 #include "kit/film.h"
 
 #include <math.h>

@@ -7,11 +7,8 @@
  *
  * Example: three runs of data/dome7-lines.json come up at 1.28, 1.3 and 1.34 N: 1.3 (1.28 to 1.34).
  */
-#include "eval/eval.h"
-#include "graph/arrays.h"
 #include "graph/number.h"
 #include "graph/plan/evaluation.h"
-#include "graph/plan/physics.h"
 #include "graph/process/process.h"
 #include "lib/rise_pieces.h"
 

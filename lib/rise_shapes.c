@@ -7,7 +7,6 @@
  * that leads to B: cord B leaves C by its side, on which the face of D is seated (M. Nelson,
  * thesis, Cornell, Fig. 22). */
 #include "graph/number.h"
-#include "graph/plan/plan.h"
 #include "lib/rise_pieces.h"
 
 #include <math.h>

@@ -7,8 +7,6 @@
 #include "planner/planner_parts.h"
 #include "symmetry/group/group.h"
 
-#include <stddef.h>
-
 /* Finds up to 240 isometries, to within rounding of the framework's size; more than that, or no
  * time: none. */
 static thr_status find(const thr_frame *frame, double rounding, const thr_limits *limits,

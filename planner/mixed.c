@@ -11,10 +11,8 @@
  * the plan of the shortest cords; the cords within 900 mm that turn least are taken. */
 #include "graph/check/check.h"
 #include "planner/planner_parts.h"
-#include "tortuosity/tie/tie.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 typedef struct {
   const thr_frame *frame;

@@ -13,7 +13,6 @@
 #include "planner/planner_parts.h"
 
 #include <limits.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -51,7 +50,8 @@ bool thr_order_turns(const thr_request *request, const thr_cord *cord)
   return cord->closed && request->ends == THR_ENDS_CLOSED;
 }
 
-bool thr_order_reverses(const thr_request *request, const thr_cord *cord)
+/* May it be run otherwise between visits of its nodes? */
+static bool order_reverses(const thr_request *request, const thr_cord *cord)
 {
   return cord->n_passes <= THR_ORDER_REVERSED && request->joint == THR_JOINT_SOLID &&
          !thr_wants_symmetry(request) &&
@@ -199,7 +199,7 @@ static thr_status thread_next(work_order *work, int c, thr_err *err)
 
   /* Where chains stay long, run parts of the cord the other way round, and look for a start
    * again. */
-  if (!st && at.chains.longest > THR_HELD_WELL && thr_order_reverses(&plan->options, cord)) {
+  if (!st && at.chains.longest > THR_HELD_WELL && order_reverses(&plan->options, cord)) {
     st = thr_order_reverse(plan, c, work->room[c], &work->threaded, err);
     if (!st) st = find_beginning(work, (alike){&c, 1}, 0, &at, err);
     if (!st) begin(work, cord, &at);
@@ -303,7 +303,7 @@ static void find_room(work_order *work, int c)
 {
   const thr_plan *plan = work->plan;
   const thr_cord *cord = &plan->cord[c];
-  double part = thr_order_reverses(&plan->options, cord) ? work->more : 1;
+  double part = order_reverses(&plan->options, cord) ? work->more : 1;
 
   work->room[c].exactly = thr_wants_turning(&plan->options);
   work->room[c].turning =

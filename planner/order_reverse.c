@@ -13,7 +13,6 @@
 #include "graph/arrays.h"
 #include "planner/planner_parts.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -302,9 +302,6 @@ typedef struct {
 /* May a closed cord begin anywhere? Where ends matter its start is theirs. */
 bool thr_order_turns(const thr_request *request, const thr_cord *cord);
 
-/* May it be run otherwise between visits of its nodes? */
-bool thr_order_reverses(const thr_request *request, const thr_cord *cord);
-
 /* Replaces the passes of cord c of the plan, within room, by those of less loose chains, after the
  * pieces that are kept, if it finds any: simulated annealing (S. Kirkpatrick, C. D. Gelatt & M. P.
  * Vecchi 1983). Parts between two visits of a node are run the other way round, and two parts of

@@ -9,8 +9,6 @@
  * and c-b the channels give two closed cords, of passes 4 .. 8 and of the rest. */
 #include "planner/planner_parts.h"
 
-#include "graph/number.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

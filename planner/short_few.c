@@ -10,7 +10,6 @@
 #include "planner/planner_parts.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 typedef struct {
   const thr_frame *frame;

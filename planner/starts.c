@@ -8,7 +8,6 @@
 #include "graph/plan/physics.h"
 #include "planner/planner_parts.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 /* Place p of the cord, gone round twice, is that of pass p (mod n): the window first .. last holds

@@ -12,7 +12,6 @@
 #include "planner/planner_parts.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum {

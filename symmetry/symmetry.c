@@ -20,7 +20,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 const double thr_symmetry_slack = 0.10;
 
@@ -270,9 +269,12 @@ static thr_status check_request(const thr_request *options, thr_err *err)
                   "only few groups would keep");
 }
 
-thr_status thr_symmetries_find_from(const thr_frame *frame, const thr_request *options,
-                                    bool only_choice, const thr_plan *plan,
-                                    const thr_limits *limits, thr_symmetries *out, thr_err *err)
+/* The same beside a plan (NULL = none) of the least length, or longest cord, that keeps to what is
+ * asked of cords: it is the shortest that rows are measured by, and the threading under the
+ * identity where that has no better. */
+static thr_status symmetries_find_from(const thr_frame *frame, const thr_request *options,
+                                       bool only_choice, const thr_plan *plan,
+                                       const thr_limits *limits, thr_symmetries *out, thr_err *err)
 {
   *out = (thr_symmetries){.chosen = -1};
 
@@ -311,7 +313,7 @@ thr_status thr_symmetries_find_from(const thr_frame *frame, const thr_request *o
 thr_status thr_symmetries_find(const thr_frame *frame, const thr_request *options, bool only_choice,
                                const thr_limits *limits, thr_symmetries *out, thr_err *err)
 {
-  return thr_symmetries_find_from(frame, options, only_choice, NULL, limits, out, err);
+  return symmetries_find_from(frame, options, only_choice, NULL, limits, out, err);
 }
 
 void thr_symmetries_destroy(thr_symmetries *symmetries)
@@ -421,8 +423,8 @@ thr_status thr_symmetry_plan_from(const thr_frame *frame, const thr_request *opt
   *plan = (thr_plan){0};
 
   /* Solve only the rows that the choice needs. */
-  thr_status found = thr_symmetries_find_from(frame, options, true, shortest, limits, &symmetries,
-                                              &early),
+  thr_status found =
+                 symmetries_find_from(frame, options, true, shortest, limits, &symmetries, &early),
              st = found;
 
   /* Take the chosen row as the plan. */

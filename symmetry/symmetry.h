@@ -119,14 +119,6 @@ thr_status thr_symmetries_find(const thr_frame *frame, const thr_request *option
                                thr_err *err) THR_MUST_CHECK;
 void thr_symmetries_destroy(thr_symmetries *symmetries);
 
-/* The same beside a plan (NULL = none) of the least length, or longest cord, that keeps to what is
- * asked of cords: it is the shortest that rows are measured by, and the threading under the
- * identity where that has no better. */
-thr_status thr_symmetries_find_from(const thr_frame *frame, const thr_request *options,
-                                    bool only_choice, const thr_plan *plan,
-                                    const thr_limits *limits, thr_symmetries *out,
-                                    thr_err *err) THR_MUST_CHECK;
-
 /* The plan of a row that has cords, which it takes out of the table: with its record, metrics and,
  * with solid beads, the proof of length for as many cords in every component as are asked for, or
  * else as the component with most has (with tube joints it is the caller's to add), and what that

@@ -8,7 +8,6 @@
  * `thread plan --cover=2 dome.obj`. */
 #include "cli/args/args.h"
 #include "graph/status.h"
-#include "graph/text.h"
 
 #include <stdio.h>
 #include <stdlib.h>

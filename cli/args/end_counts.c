@@ -4,7 +4,6 @@
  *
  * Example: `--ends A:2,B:1,C:1` is two cords, if A, B and C are in one component. */
 #include "cli/args/args.h"
-#include "cli/cli.h"
 #include "graph/status.h"
 #include "lib/lib.h"
 

@@ -5,9 +5,7 @@
  * Example: `--scale 1000 --up y` reads a model in metres whose y axis points up as one in mm whose
  * z axis does. */
 #include "cli/args/args.h"
-#include "cli/cli.h"
 #include "graph/number.h"
-#include "graph/framework/frame.h"
 #include "graph/io/read.h"
 #include "graph/status.h"
 

@@ -7,12 +7,8 @@
  *
  * Example: the row {"cover", .kind = CLI_COUNT, .low = 1, .high = 100, ..} makes --cover 2 store an
  * int, --cover 0 a usage error, and --help print the row's text. */
-#include "cli/args/options.h"
 #include "cli/args/args.h"
-#include "cli/cli.h"
-#include "graph/framework/frame.h"
 #include "graph/os.h"
-#include "graph/text.h"
 
 #include <assert.h>
 #include <getopt.h>

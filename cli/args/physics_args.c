@@ -13,8 +13,6 @@
 
 #include <assert.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { NAME_SIZE = 24, MOST_QUANTITIES = 40 };
 

@@ -11,9 +11,7 @@
  * Example: `--cords 2..4 --balance` gives least = 2, most = 4 and the aims longest, length;
  * `--balance` alone is refused, since one cord has no longest one. */
 #include "cli/args/args.h"
-#include "cli/cli.h"
 #include "eval/cord/profile.h"
-#include "graph/plan/physics.h"
 #include "graph/plan/plan_fields.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"

@@ -4,7 +4,6 @@
  *
  * Example: `--prefer steps` makes the order steps, overlap, paths, turning. */
 #include "cli/args/args.h"
-#include "cli/cli.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -29,7 +29,6 @@
 #include "lib/comparison.h"
 #include "lib/rise_pieces.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

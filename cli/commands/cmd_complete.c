@@ -7,7 +7,6 @@
  * Example: `thread complete plan --ob` prints a line for each option of thread plan, "--objective"
  * with what its help says first among them; the shell chooses what fits. `thread complete --json
  * plan --ob` answers {"words": [{"word": "--objective", "meaning": ".."}, ..]}. */
-#include "cli/args/args.h"
 #include "cli/cli.h"
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"

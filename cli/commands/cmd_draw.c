@@ -14,7 +14,6 @@
  * and more into diagrams/. */
 #include "cli/commands/commands.h"
 #include "graph/io/json.h"
-#include "graph/io/read.h"
 #include "graph/number.h"
 #include "graph/plan/plan_measures.h"
 #include "lib/lib.h"

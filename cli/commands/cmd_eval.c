@@ -27,7 +27,6 @@
 #include "cli/print/print.h"
 #include "eval/cord/profile.h"
 #include "graph/arrays.h"
-#include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "kit/kit.h"
 

@@ -14,9 +14,7 @@
  * Example: the 7 x 7 dome has 49 nodes, 84 edges, 20 odd nodes and 57 such motions (3 x 49 - 84 -
  * 6). */
 #include "cli/commands/info_parts.h"
-#include "cli/print/print.h"
 #include "eval/structure/beads.h"
-#include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/plan_measures.h"
 #include "graph/status.h"

@@ -6,16 +6,12 @@
  * what they measure, and what else was asked for.
  *
  * Example: `thread kit plan.json -o kit/ --stl` also writes one file for each kind of piece. */
-#include "cli/cli.h"
 #include "cli/commands/commands.h"
 #include "cli/print/print.h"
 #include "graph/io/json.h"
 #include "graph/os.h"
-#include "graph/plan/plan.h"
-#include "graph/text.h"
 #include "kit/files.h"
 #include "kit/kit.h"
-#include "kit/picture.h"
 #include "lib/lib.h"
 
 #include <stdio.h>

@@ -17,7 +17,6 @@
 #include "graph/os.h"
 #include "graph/plan/physics.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -6,15 +6,11 @@
  *
  * Example: `thread rise data/dome7-lines.json` lays 49 pieces flat on the ground, pulls 28 ends,
  * and the dome stands at some 1.3 N. */
-#include "cli/args/args.h"
-#include "cli/cli.h"
 #include "cli/commands/commands.h"
 #include "cli/print/print.h"
 #include "diagram/export/paper.h"
 #include "diagram/overview/charts.h"
-#include "diagram/overview/overview.h"
 #include "diagram/scene/movement.h"
-#include "eval/eval.h"
 #include "eval/rise/rise.h"
 #include "graph/arrays.h"
 #include "graph/framework/frame.h"
@@ -22,9 +18,7 @@
 #include "graph/io/read.h"
 #include "graph/number.h"
 #include "graph/plan/physics.h"
-#include "graph/plan/plan.h"
 #include "graph/process/process.h"
-#include "graph/text.h"
 #include "kit/files.h"
 #include "kit/film.h"
 #include "kit/kit.h"

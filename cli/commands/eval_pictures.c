@@ -2,15 +2,11 @@
 /* Writes the pictures of `thread eval`: the tension along each cord or, with a load, what of the
  * load is carried against the pull. */
 #include "cli/commands/commands.h"
-#include "cli/print/print.h"
 #include "diagram/overview/charts.h"
-#include "graph/framework/frame.h"
 #include "graph/plan/physics.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Evaluates the plan's cords again, pulled at the same ends, at another friction and by the closed
  * form: one edge of the fan of a tension plot. mu: of cord on bead. Release with

@@ -16,7 +16,6 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

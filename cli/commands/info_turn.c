@@ -9,7 +9,6 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 

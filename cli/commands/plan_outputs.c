@@ -3,8 +3,6 @@
  * `thread check` does, and writes plan, summary and drawings. */
 #include "cli/commands/plan_parts.h"
 #include "eval/cord/profile.h"
-#include "graph/check/check.h"
-#include "graph/plan/physics.h"
 
 #include <math.h>
 #include <stdio.h>

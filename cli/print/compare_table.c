@@ -84,7 +84,8 @@ static void name_ends(const thr_physics *physics, bool same, char at[THR_RANKING
   }
 }
 
-bool compare_is_shown(const thr_compare_entry *entries, int n, int row)
+/* Returns whether a row is in the text for n plans. */
+static bool is_shown(const thr_compare_entry *entries, int n, int row)
 {
   const bool optional = thr_compare_rows[row].optional;
 
@@ -96,7 +97,8 @@ bool compare_is_shown(const thr_compare_entry *entries, int n, int row)
   return !optional;
 }
 
-void compare_put_cell(thr_text *text, int row, double value, bool best)
+/* Appends a space, a value in 16 columns, and the mark of the best. */
+static void put_cell(thr_text *text, int row, double value, bool best)
 {
   const int decimals = thr_compare_rows[row].decimals;
   char cell[40];
@@ -125,12 +127,11 @@ void compare_put_text(thr_text *text, const pull_args *args, const thr_compare_e
   /* The rows of wanted methods. Rows of machinery are for --verbose. */
   put_head(text, entries, n);
   for (int k = 0; k < THR_COMPARE_ROWS; k++) {
-    if (!thr_compare_wants(args->method, thr_compare_rows[k].method) ||
-        !compare_is_shown(entries, n, k))
+    if (!thr_compare_wants(args->method, thr_compare_rows[k].method) || !is_shown(entries, n, k))
       continue;
     thr_text_printf(text, "\n%-32s", thr_compare_rows[k].label);
     for (int i = 0; i < n; i++)
-      compare_put_cell(text, k, entries[i].value[k], thr_compare_is_best(entries, n, k, i));
+      put_cell(text, k, entries[i].value[k], thr_compare_is_best(entries, n, k, i));
   }
 
   /* Seating tension, pulled ends and friction. */

@@ -6,8 +6,6 @@
  * are in N, angles in rad, lengths in mm where the name ends in _mm; what is not known is null. */
 #include "cli/print/print.h"
 
-#include <math.h>
-
 /* Writes the name of a bead, or null if there is none (-1). */
 static void put_bead(thr_writer *writer, const char *key, const thr_frame *frame, int bead)
 {

@@ -17,7 +17,6 @@
 #include "eval/cord/profile.h"
 #include "eval/joint/joint.h"
 #include "graph/number.h"
-#include "graph/plan/plan.h"
 
 #include <math.h>
 #include <stdio.h>

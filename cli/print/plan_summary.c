@@ -13,9 +13,7 @@
 #include "diagram/tables/tables.h"
 #include "graph/number.h"
 
-#include <inttypes.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 /* Returns whether the plan is one of least turning. */

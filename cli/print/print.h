@@ -227,12 +227,6 @@ void eval_put_json(thr_text *text, const eval_view *view, const thr_plan *plan,
 
 /* ---- compare_table.c: Prints the comparison. */
 
-/* Returns whether a row is in the text for n plans. */
-bool compare_is_shown(const thr_compare_entry *e, int n, int row);
-
-/* Appends a space, a value in 16 columns, and the mark of the best. */
-void compare_put_cell(thr_text *text, int row, double value, bool best);
-
 /* Appends the table, what it was computed with, and the rankings with what the bands of friction
  * change about them. name[n]: of the plans. */
 void compare_put_text(thr_text *text, const pull_args *args, const thr_compare_entry *entries,
@@ -311,10 +305,6 @@ void turning_put_ends_json(thr_writer *writer, const thr_plan *plan);
  * point: INFINITY beyond 1e300, NAN if not known. cord (NULL or [n_cords]) receives that of each.
  */
 double turning_pull(const thr_plan *plan, double *cord);
-
-/* Returns the pull at the hardest end of the cords of a point of the frontier, N, at friction mu;
- * INFINITY beyond 1e300. */
-double turning_point_pull(const thr_plan *plan, const thr_frontier_point *point, double mu);
 
 /* Formats a factor: "65.9 x", "1.2e+34 x", "> 1e300 x"; "-" for NAN. Returns out. */
 const char *turning_factor(double value, char out[24]);

@@ -14,9 +14,6 @@
  * at 51.85 N, all at 180.7 N. */
 #include "cli/print/print.h"
 
-#include "graph/limits.h"
-#include "graph/plan/plan_measures.h"
-
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>

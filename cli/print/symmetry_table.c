@@ -12,14 +12,11 @@
  * What the solver proves of a row no checker verifies; JSON says so. */
 #include "cli/print/print.h"
 #include "graph/number.h"
-#include "graph/plan/plan_measures.h"
 #include "symmetry/group/group.h"
 #include "symmetry/lift/lift.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* ---- words ---- */
 

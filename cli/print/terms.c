@@ -13,10 +13,8 @@
  *    cord at most 5 % above the least length: verified */
 #include "cli/print/print.h"
 #include "graph/number.h"
-#include "graph/plan/plan.h"
 
 #include <ctype.h>
-#include <string.h>
 
 /* Returns the number of nodes where cords may end. */
 static int count_end_nodes(const thr_plan *plan)

@@ -462,7 +462,9 @@ void turning_put_table(thr_text *text, const thr_plan *plan, const thr_rivals *r
   put_left_out(text, &rivals->length);
 }
 
-double turning_point_pull(const thr_plan *plan, const thr_frontier_point *point, double mu)
+/* Returns the pull at the hardest end of the cords of a point of the frontier, N, at friction mu;
+ * INFINITY beyond 1e300. */
+static double point_pull(const thr_plan *plan, const thr_frontier_point *point, double mu)
 {
   return plan->options.physics.seating * thr_capstan(mu, point->pulled);
 }
@@ -496,10 +498,10 @@ void turning_put_frontier(thr_text *text, const thr_plan *plan, const thr_rivals
                       frontier_point->lower_bound);
 
     /* The cord that turns most, and the largest pull. */
-    thr_text_printf(text, "\v2 %9.1f deg\v0 %12s%s\n", thr_degrees(frontier_point->max_turning),
-                    thr_plain_newtons(
-                        turning_point_pull(plan, frontier_point, plan->options.physics.mu), force),
-                    frontier_point->open ? "  *" : "");
+    thr_text_printf(
+        text, "\v2 %9.1f deg\v0 %12s%s\n", thr_degrees(frontier_point->max_turning),
+        thr_plain_newtons(point_pull(plan, frontier_point, plan->options.physics.mu), force),
+        frontier_point->open ? "  *" : "");
     proved &= !frontier_point->open;
   }
 
@@ -594,8 +596,7 @@ static void put_frontier_json(thr_writer *writer, const thr_plan *plan,
     thr_write_number(writer, "max_turning", frontier_point->max_turning);
     thr_write_number(writer, "max_capstan",
                      thr_capstan(plan->options.physics.mu, frontier_point->max_turning));
-    thr_write_number(writer, "pull",
-                     turning_point_pull(plan, frontier_point, plan->options.physics.mu));
+    thr_write_number(writer, "pull", point_pull(plan, frontier_point, plan->options.physics.mu));
 
     /* A point that is open has a bound, but no proof that its price is the least. */
     thr_write_string(writer, "turning_status", frontier_point->open ? "bound" : "optimal");

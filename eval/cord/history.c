@@ -26,8 +26,6 @@
  * Example: exponents ln 2, ln 2 between three passes. Pulled at the end with 8 N, the passes have
  * 2, 4, 8 N. Let down to 1 N there, they have 2, 2, 1 N. */
 #include "eval/cord/profile.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
 #include "graph/arrays.h"
 
 #include <math.h>

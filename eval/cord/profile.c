@@ -12,7 +12,6 @@
  * one, 10 and 15 N if it is the middle one, which has the least largest pull. */
 #include "eval/cord/profile.h"
 #include "graph/number.h"
-#include "graph/framework/frame.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -19,7 +19,6 @@
  * the inner edge, and turns by as much in all. */
 #include "eval/cord/profile.h"
 #include "graph/number.h"
-#include "graph/framework/frame.h"
 #include "graph/arrays.h"
 
 #include <math.h>

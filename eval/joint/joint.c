@@ -16,7 +16,6 @@
 #include "eval/cord/profile.h"
 #include "eval/joint/joint.h"
 #include "graph/number.h"
-#include "graph/framework/frame.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/process/process.h"

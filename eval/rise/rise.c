@@ -5,10 +5,8 @@
  * and so what tension friction leaves them (cable.h); then Bullet moves the pieces. A pass pulls
  * its two mouths together with its tension, but closes its gap no faster than in CLOSING s, as a
  * hand would; and it holds against being opened with what friction adds. */
-#include "eval/rise/cable.h"
 #include "eval/rise/hands.h"
 #include "eval/rise/loose.h"
-#include "eval/rise/rise.h"
 #include "graph/number.h"
 
 #include <math.h>

@@ -35,13 +35,6 @@ static double three_points(double inner, double offset)
   return acos(fmin(fmax(cosine, -1), 1));
 }
 
-double thr_turn_three_points(const thr_turn_piece *piece, double offset)
-{
-  const double inner = 1 - piece->wall / piece->radius;
-  offset /= piece->radius;
-  return offset < 0 || offset > 1 + inner ? NAN : three_points(inner, offset);
-}
-
 /* The least cord for tubes that turn about a hinge, without the third contact where that is less
  * cord. Outer radius 1. */
 static double hinged_cord(double inner, double angle)

@@ -37,11 +37,6 @@ double thr_turn_cord(const thr_turn_piece *piece, double angle);
 /* Returns the largest angle at which two pieces can be with so much free cord, >= 0. O(1). */
 double thr_turn_largest(const thr_turn_piece *piece, double cord);
 
-/* Returns the angle at which two tubes touch in three points, once one was shifted by `offset`
- * across the axis of the other and then turned about the two points where its outer edge meets the
- * inner edge of the other: 0 up to an offset of the wall, NAN where the edges do not meet. O(1). */
-double thr_turn_three_points(const thr_turn_piece *piece, double offset);
-
 /* ---- turn_world.c */
 
 /* Turns two bodies without friction or weight in Bullet, from several places of the second, and

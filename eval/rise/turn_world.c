@@ -6,7 +6,6 @@
  * lose their speed in thick air, so that they come to rest against what stops them. What stops them
  * depends on where the second body begins: it is tried from several places, and the largest angle
  * counts. */
-#include "eval/joint/world.h"
 #include "eval/rise/loose.h"
 #include "eval/rise/turn.h"
 #include "graph/number.h"

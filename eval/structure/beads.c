@@ -13,7 +13,6 @@
  * at one face draws as much at the other. */
 #include "eval/structure/beads.h"
 #include "graph/number.h"
-#include "graph/framework/frame.h"
 
 #include <math.h>
 #include <string.h>

@@ -20,7 +20,6 @@
 #include "eval/structure/blocks.h"
 
 #include "graph/number.h"
-#include "graph/arrays.h"
 
 #include <math.h>
 #include <stdlib.h>

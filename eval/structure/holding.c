@@ -36,7 +36,6 @@
 
 #include "eval/structure/blocks.h"
 
-#include "graph/arrays.h"
 #include "graph/number.h"
 
 #include <assert.h>

@@ -17,7 +17,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* The programme: rows of bars, then of cords; columns v, s, t. */
 typedef struct {

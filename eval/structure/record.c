@@ -7,7 +7,6 @@
  * with one velocity of six numbers for every bead. */
 #include "eval/eval.h"
 #include "eval/structure/beads.h"
-#include "graph/plan/evaluation.h"
 
 #include <math.h>
 #include <string.h>

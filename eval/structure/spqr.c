@@ -12,7 +12,6 @@
 
 #include <SuiteSparseQR_C.h>
 
-#include <stdlib.h>
 #include <string.h>
 
 #define FUNCTIONS(F)                                                                               \

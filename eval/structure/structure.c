@@ -18,10 +18,7 @@
 #include "eval/cord/profile.h"
 #include "eval/eval.h"
 #include "eval/structure/beads.h"
-#include "graph/plan/evaluation.h"
-#include "graph/plan/plan.h"
 #include "graph/process/process.h"
-#include "graph/text.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -13,8 +13,6 @@
  * Example: seven pieces in a row, both ends held: one body with the ground. */
 #include "eval/structure/blocks.h"
 
-#include "graph/arrays.h"
-
 #include <math.h>
 
 /* NOTHING: cost of the hands at which the contact forces balance each other, for every contact, of

@@ -8,7 +8,6 @@
  * walks (walk_proof.c). K cords are too few if their least length exceeds K times max_length. */
 #include "graph/check/check_parts.h"
 #include "graph/plan/walk_proof.h"
-#include "graph/arrays.h"
 
 #include <math.h>
 #include <stdlib.h>

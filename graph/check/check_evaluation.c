@@ -7,8 +7,6 @@
  * towards a pulled end. Forces, work, losses and seated gaps follow from the tensions. It shares no
  * code with eval/. */
 #include "graph/check/check_parts.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
 
 #include <math.h>
 #include <stdlib.h>

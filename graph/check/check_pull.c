@@ -6,7 +6,6 @@
  * That K cords are too few is proved by single edges, by a tree of multipliers for all turns
  * (turning_proof.c), by prices of walks within the pull (walk_proof.c), or in components of few
  * edges by all sets of edges (few_edges.c). */
-#include "graph/number.h"
 #include "graph/check/check_parts.h"
 #include "graph/framework/components.h"
 #include "graph/plan/walk_proof.h"

@@ -8,8 +8,6 @@
  * Where it is not, the schedule is followed twice, for the least and for the largest tensions. The
  * file shares no code with eval/. */
 #include "graph/check/check_parts.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
 
 #include <math.h>
 #include <string.h>

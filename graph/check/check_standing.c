@@ -10,8 +10,6 @@
  * Order of the file: geometry, what cords press faces with, mechanisms, the other claims. */
 #include "graph/number.h"
 #include "graph/check/check_parts.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
 
 #include <math.h>
 

@@ -10,7 +10,6 @@
 #include "graph/check/check_parts.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 /* ---- cords as sequences of nodes ---- */
 

@@ -13,7 +13,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 double thr_check_price(const thr_frame *frame, thr_turn_cost cost, int in, int out)
 {

@@ -21,7 +21,6 @@
  * Example: a ring of four unit edges, two open cords, ends anywhere: 4 together, the longer one 2.
  */
 #include "graph/check/check_parts.h"
-#include "graph/arrays.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -23,7 +23,6 @@
  * of at most 780 mm, and no four of them cover all edges. A quarter of the least total length is
  * only 741.5 mm. */
 #include "graph/check/check_parts.h"
-#include "graph/arrays.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -14,8 +14,6 @@
 #include "graph/arrays.h"
 #include "graph/status.h"
 
-#include <stdlib.h>
-
 enum { MOST_BITS = 16 };
 
 /* The places before a memory are spots; a spot and a set of the edges that are remembered there

@@ -13,10 +13,8 @@
  * stalk: each goes up and down the stalk, (12 + 4) / 2 = 8. The least length of all, which a cord
  * up and down the stalk belongs to, gives 7. */
 #include "graph/check/check_parts.h"
-#include "graph/arrays.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 /* The cut of a radius: between the nodes of the first so many distances and the others. */
 typedef struct {

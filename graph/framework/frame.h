@@ -328,15 +328,6 @@ void thr_frame_extent(const thr_frame *frame, double centroid[3], double *size);
  * one. O(n). */
 void thr_procrustes(const thr_frame *frame, const int *image, thr_motion *out);
 
-/* ---- How many automorphisms a coloured graph has, by igraph (bliss; Junttila & Kaski 2007): an
- * opinion independent of nauty's.
- */
-
-/* Graph with n nodes and m undirected edges; colour: [n], NULL = all alike. *digits receives the
- * number in decimal; the caller frees it. THR_ESOLVER if igraph fails. */
-thr_status thr_automorphism_count(int n, int m, const int (*edge)[2], const int *colour,
-                                  char **digits, thr_err *err) THR_MUST_CHECK;
-
 /* ---- Units of length: which words a file may use for them, and how long they are; and numbers
  * with units. */
 

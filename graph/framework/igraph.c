@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Calls igraph: cut trees, maximum flows, counts of automorphisms, drawings of graphs. No other
+/* Calls igraph: cut trees, maximum flows, drawings of graphs. No other
  * file knows igraph, and the library is loaded only when it is first needed.
  *
  * igraph's default error handler aborts the program; ours returns the error code. igraph keeps
@@ -16,11 +16,9 @@
 
 /* The functions that are used, to be looked up in the library. */
 #define FUNCTIONS(F)                                                                               \
-  F(igraph_automorphisms)                                                                          \
   F(igraph_create)                                                                                 \
   F(igraph_destroy)                                                                                \
   F(igraph_error_handler_ignore)                                                                   \
-  F(igraph_free)                                                                                   \
   F(igraph_gomory_hu_tree)                                                                         \
   F(igraph_layout_kamada_kawai)                                                                    \
   F(igraph_matrix_destroy)                                                                         \
@@ -211,57 +209,6 @@ no_ends:
   leave(old);
 
   return code ? failed(code, err) : THR_OK;
-}
-
-/* Counts the automorphisms of a graph whose nodes have colours, if any. */
-static igraph_error_t count_coloured(const igraph_t *graph, const int *colour,
-                                     igraph_bliss_info_t *info)
-{
-  igraph_vector_int_t colours;
-
-  /* Without colours all nodes are alike. */
-  if (!colour) return lib.igraph_automorphisms(graph, NULL, IGRAPH_BLISS_FL, info);
-  igraph_error_t code = lib.igraph_vector_int_init(&colours, lib.igraph_vcount(graph));
-  if (code) return code;
-
-  /* Colours are any numbers; only which nodes share one matters. */
-  for (igraph_integer_t v = 0; v < lib.igraph_vcount(graph); v++)
-    VECTOR(colours)[v] = colour[v];
-
-  code = lib.igraph_automorphisms(graph, &colours, IGRAPH_BLISS_FL, info);
-  lib.igraph_vector_int_destroy(&colours);
-  return code;
-}
-
-/* Counts automorphisms by igraph, which has the graph as a list of ends. */
-thr_status thr_automorphism_count(int n, int m, const int (*edge)[2], const int *colour,
-                                  char **digits, thr_err *err)
-{
-  igraph_error_handler_t *old;
-  thr_status st = enter(&old, err);
-  if (st) return st;
-
-  /* The number may have hundreds of digits, so igraph gives it as text. */
-  igraph_vector_int_t ends;
-  igraph_t graph;
-  igraph_bliss_info_t info = {0};
-  igraph_error_t code = list_ends(&ends, m, edge);
-  if (code) goto no_ends;
-
-  /* Count, and keep the text, which igraph has allocated. */
-  if ((code = lib.igraph_create(&graph, &ends, n, IGRAPH_UNDIRECTED))) goto no_graph;
-  code = count_coloured(&graph, colour, &info);
-  lib.igraph_destroy(&graph);
-no_graph:
-  lib.igraph_vector_int_destroy(&ends);
-no_ends:
-  *digits = code ? NULL : thr_strdup(info.group_size);
-
-  lib.igraph_free(info.group_size);
-  leave(old);
-  if (code) return failed(code, err);
-
-  return *digits ? THR_OK : thr_nomem(err);
 }
 
 /* Draws a graph in the plane, from the given places or from a circle: at most 50 n steps, to a

@@ -8,7 +8,6 @@
  * Example: "Anfang X [mm]" becomes "anfangx" with the unit mm: the first end of the pair anfang,
  * ende, and the axis x. */
 #include "graph/io/read_parts.h"
-#include "graph/framework/frame.h"
 
 #include <stdio.h>
 #include <string.h>

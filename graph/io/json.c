@@ -15,7 +15,6 @@
  * large frameworks. */
 #include "graph/io/json.h"
 #include "graph/number.h"
-#include "graph/text.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,6 @@
 #include "graph/io/read_parts.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 thr_status thr_links_add(thr_links *links, const char *from, const char *to, int line, thr_err *err)
 {

@@ -4,7 +4,6 @@
  * leaves out what belongs to parts that are not chosen. If nothing is asked for, no names are
  * kept. */
 #include "graph/io/read_parts.h"
-#include "graph/text.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -58,9 +58,10 @@ static thr_status read_own_nodes(thr_json_reader *reader, const thr_json_where *
   return THR_OK;
 }
 
-thr_status thr_json_edge_list(thr_json_reader *reader, const thr_json_where *up,
-                              const thr_json *object, const char *key, int n_edges,
-                              const thr_json **list)
+/* The member of object that says something of every edge, if there is one. */
+static thr_status json_edge_list(thr_json_reader *reader, const thr_json_where *up,
+                                 const thr_json *object, const char *key, int n_edges,
+                                 const thr_json **list)
 {
   thr_json_where here = {up, key, 0};
   *list = thr_json_get(object, key);
@@ -99,14 +100,11 @@ static thr_status read_own_edges(thr_json_reader *reader, const thr_json_where *
     return thr_json_bad(reader, &list, "not a list of node pairs");
 
   /* A list must have one value for each edge. */
-  thr_status listed =
-      thr_json_edge_list(reader, up, object, "lengths", thr_json_size(edges), &lengths);
-  if (!listed)
-    listed = thr_json_edge_list(reader, up, object, "covers", thr_json_size(edges), &covers);
+  thr_status listed = json_edge_list(reader, up, object, "lengths", thr_json_size(edges), &lengths);
+  if (!listed) listed = json_edge_list(reader, up, object, "covers", thr_json_size(edges), &covers);
 
   if (!listed)
-    listed =
-        thr_json_edge_list(reader, up, object, "capacities", thr_json_size(edges), &capacities);
+    listed = json_edge_list(reader, up, object, "capacities", thr_json_size(edges), &capacities);
 
   if (listed) return listed;
 

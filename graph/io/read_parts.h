@@ -375,11 +375,6 @@ thr_status thr_json_reference(thr_json_reader *reader, const thr_json_where *at,
 
 /* ---- our own frames and plans, any lists of points and index pairs: read_json_own.c ---- */
 
-/* The member of object that says something of every edge, if there is one. */
-thr_status thr_json_edge_list(thr_json_reader *reader, const thr_json_where *up,
-                              const thr_json *object, const char *key, int n_edges,
-                              const thr_json **list) THR_MUST_CHECK;
-
 thr_status thr_json_read_own(thr_json_reader *reader, const thr_json_where *at,
                              const thr_json *object) THR_MUST_CHECK;
 thr_status thr_json_read_plan(thr_json_reader *reader, const thr_json_where *at,

@@ -15,8 +15,6 @@
  *     0 1 */
 #include "graph/io/read_parts.h"
 
-#include <limits.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { MOST_TERMS = 3, MOST_DIMENSIONS = 4 };

@@ -7,7 +7,6 @@
  * Example: on the line " v 1,5 2", thr_span_word takes "v", then "1,5", which thr_span_number reads
  * as 1.5 if commas are decimal. */
 #include "graph/io/read_parts.h"
-#include "graph/framework/frame.h"
 #include "graph/number.h"
 
 #include <limits.h>

@@ -3,7 +3,6 @@
  * left out: lengths that are distances, covers of 1, names that are indices. Numbers are written so
  * that they are read back as the same doubles. */
 #include "graph/io/read_parts.h"
-#include "graph/io/json.h"
 
 /* Writes three coordinates. */
 static void write_point(const double xyz[3], const char *separator, thr_text *out)

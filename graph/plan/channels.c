@@ -10,7 +10,6 @@
  * 0-90 and 180-270 do not. */
 #include "graph/plan/plan_measures.h"
 
-#include "graph/arrays.h"
 #include "graph/number.h"
 
 #include <math.h>

@@ -64,7 +64,9 @@ void thr_evaluation_destroy(thr_evaluation *evaluation)
   *evaluation = (thr_evaluation){0};
 }
 
-bool thr_evaluation_exponents(const thr_evaluation *evaluation)
+/* Does the plan state the exponents of every cord, which then cannot be worked out again from the
+ * law or belong to a schedule? */
+static bool evaluation_exponents(const thr_evaluation *evaluation)
 {
   return evaluation->schedule.n > 0 || evaluation->standing.taut;
 }
@@ -253,7 +255,7 @@ void thr_evaluation_write(const thr_evaluation *evaluation, thr_writer *writer, 
   thr_write_line(writer, 2);
   thr_write_array(writer, "cords");
   for (int i = 0; i < evaluation->n_cords; i++)
-    put_cord(writer, &evaluation->cord[i], i, range, thr_evaluation_exponents(evaluation));
+    put_cord(writer, &evaluation->cord[i], i, range, evaluation_exponents(evaluation));
 
   thr_write_line(writer, 2);
   thr_write_close(writer);
@@ -471,7 +473,7 @@ static thr_status read_schedule(const thr_field_reader *reader, const thr_json *
   /* Exponents are stated where they cannot be computed from the law. */
   for (int i = 0; i < evaluation->n_cords && !st; i++)
     if (evaluation->cord[i].known &&
-        thr_evaluation_exponents(evaluation) != (evaluation->cord[i].exponent != NULL))
+        evaluation_exponents(evaluation) != (evaluation->cord[i].exponent != NULL))
       st = thr_field_bad(
           reader, "cords",
           "exponents come with a schedule, or with turns of the tight cord, of all cords that "

@@ -195,10 +195,6 @@ const thr_eval_cord *thr_evaluation_hardest(const thr_evaluation *evaluation);
 void thr_evaluation_sum(thr_evaluation *evaluation);
 void thr_evaluation_destroy(thr_evaluation *evaluation);
 
-/* Does the plan state the exponents of every cord, which then cannot be worked out again from the
- * law or belong to a schedule? */
-bool thr_evaluation_exponents(const thr_evaluation *evaluation);
-
 /* Least and largest tension of any pass, N; after a schedule the least of those that have any.
  * False, and both 0, if no cord is known. */
 bool thr_evaluation_range(const thr_evaluation *evaluation, double range[2]);

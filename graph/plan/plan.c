@@ -10,7 +10,6 @@
 #include "graph/plan/plan.h"
 #include "graph/number.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

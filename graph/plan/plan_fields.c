@@ -191,8 +191,8 @@ thr_status thr_field_name(const thr_field_reader *field_reader, const thr_json *
 }
 
 /* Reads a number of at least 0, or null, which becomes -1. */
-thr_status thr_field_or_null(const thr_field_reader *field_reader, const thr_json *object,
-                             const char *key, double *out)
+static thr_status field_or_null(const thr_field_reader *field_reader, const thr_json *object,
+                                const char *key, double *out)
 {
   const thr_json *value = thr_json_get(object, key);
   *out = -1;
@@ -239,7 +239,7 @@ static thr_status read_value(const thr_field_reader *field_reader, const thr_jso
     return thr_field_int64(field_reader, object, field->key, field->low, high, value);
   case THR_FIELD_NUMBER: return thr_field_double(field_reader, object, field->key, value);
   case THR_FIELD_AMOUNT: return thr_field_amount(field_reader, object, field->key, value);
-  case THR_FIELD_OR_NULL: return thr_field_or_null(field_reader, object, field->key, value);
+  case THR_FIELD_OR_NULL: return field_or_null(field_reader, object, field->key, value);
   case THR_FIELD_TRUTH:
     st = thr_field_need(field_reader, object, field->key, THR_JSON_BOOL, &member);
     *(bool *)value = thr_json_true(member);

@@ -35,9 +35,6 @@ thr_status thr_field_double(const thr_field_reader *field_reader, const thr_json
 thr_status thr_field_amount(const thr_field_reader *field_reader, const thr_json *object,
                             const char *key, double *out) THR_MUST_CHECK;
 
-/* A number >= 0, or null, which is -1. */
-thr_status thr_field_or_null(const thr_field_reader *field_reader, const thr_json *object,
-                             const char *key, double *out) THR_MUST_CHECK;
 thr_status thr_field_int64_of(const thr_field_reader *field_reader, const thr_json *value,
                               const char *key, int64_t low, int64_t high,
                               int64_t *out) THR_MUST_CHECK;
@@ -172,9 +169,6 @@ typedef struct {
 
 extern const thr_request_field thr_request_fields[];
 extern const int thr_request_n_fields;
-
-/* Returns where the value of a row is in a request: an int, a double or an enumeration. */
-void *thr_request_value(thr_request *request, const thr_request_field *field);
 
 /* Writes `options` of a plan: all that was asked for. */
 void thr_request_write(thr_writer *writer, const thr_plan *plan);

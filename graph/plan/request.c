@@ -10,7 +10,6 @@
 #include "graph/plan/request.h"
 #include "graph/number.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -45,7 +44,8 @@ thr_aims thr_aims_of(thr_objective objective)
                                        : thr_aims_shortest;
 }
 
-bool thr_aims_have(const thr_request *options, thr_aim aim)
+/* Returns whether an aim is among those of the request. */
+static bool aims_have(const thr_request *options, thr_aim aim)
 {
   for (int i = 0; i < options->aims.n; i++)
     if (options->aims.aim[i] == aim) return true;
@@ -54,10 +54,9 @@ bool thr_aims_have(const thr_request *options, thr_aim aim)
 
 thr_objective thr_aims_objective(const thr_request *options)
 {
-  if (thr_aims_have(options, THR_AIM_STEPS) || thr_aims_have(options, THR_AIM_PATHS))
-    return THR_SYMMETRY;
-  return thr_aims_have(options, THR_AIM_TURNING) || thr_wants_largest(options) ? THR_TORTUOSITY
-                                                                               : THR_LENGTH;
+  if (aims_have(options, THR_AIM_STEPS) || aims_have(options, THR_AIM_PATHS)) return THR_SYMMETRY;
+  return aims_have(options, THR_AIM_TURNING) || thr_wants_largest(options) ? THR_TORTUOSITY
+                                                                           : THR_LENGTH;
 }
 
 bool thr_wants_length(const thr_request *options)
@@ -77,17 +76,17 @@ bool thr_wants_symmetry(const thr_request *options)
 
 bool thr_wants_balance(const thr_request *options)
 {
-  return thr_aims_have(options, THR_AIM_LONGEST);
+  return aims_have(options, THR_AIM_LONGEST);
 }
 
 bool thr_wants_largest(const thr_request *options)
 {
-  return thr_aims_have(options, THR_AIM_MAX_TURNING) || thr_wants_pull(options);
+  return aims_have(options, THR_AIM_MAX_TURNING) || thr_wants_pull(options);
 }
 
 bool thr_wants_pull(const thr_request *options)
 {
-  return thr_aims_have(options, THR_AIM_PULL);
+  return aims_have(options, THR_AIM_PULL);
 }
 
 /* Where cords end at few nodes only, all of them pass the few edges there. */
@@ -323,26 +322,6 @@ thr_status thr_aims_parse(const char *text, thr_request *options, thr_err *err)
 }
 
 /* Writes the list that thr_aims_parse reads as the same request. */
-void thr_aims_write(const thr_request *options, thr_text *out)
-{
-  bool turning = thr_wants_turning(options),
-       limited = turning && options->turning.length_slack >= 0;
-
-  /* A limit on the length comes before the turning that it limits. */
-  if (limited && options->turning.length_slack > 0)
-    thr_text_printf(out, "length+%.15g%%,", 100 * options->turning.length_slack);
-  else if (limited)
-    thr_text_append(out, "length,");
-
-  /* The aims; costs other than the angle are named. */
-  for (int i = 0; i < options->aims.n; i++) {
-    thr_text_printf(out, i ? ",%s" : "%s", thr_aim_name(options->aims.aim[i]));
-    if (turning && options->aims.aim[i] != THR_AIM_LONGEST &&
-        options->turning.cost != THR_TURN_ANGLE)
-      thr_text_printf(out, ":%s", thr_turn_cost_name(options->turning.cost));
-  }
-}
-
 /* ---- names ---- */
 
 const char *thr_objective_name(int o)

@@ -164,7 +164,6 @@ extern const thr_aims thr_aims_shortest, thr_aims_straightest; /* length; turnin
 extern const thr_aims thr_aims_symmetric; /* in the usual order: overlap, steps, paths, turning */
 thr_aims thr_aims_of(thr_objective objective); /* one of these */
 
-bool thr_aims_have(const thr_request *options, thr_aim aim);
 thr_objective thr_aims_objective(const thr_request *options);
 
 /* What the aims come to, for those who plan, check or print. */
@@ -201,9 +200,6 @@ thr_status thr_aims_parse(const char *text, thr_request *options, thr_err *err) 
 
 /* Reads a percentage from 0 to 1e6, "5" or "5%", as a part of 1. False: it is none. */
 bool thr_slack_parse(const char *text, double *slack);
-
-/* Such a list, which says the same. */
-void thr_aims_write(const thr_request *options, thr_text *out);
 
 /* ---- the rest ---- */
 

@@ -12,7 +12,6 @@
  * writes and reads "cover": 2, and makes `--cover 0` a usage error. */
 #include "graph/plan/plan_fields.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -421,11 +420,6 @@ static thr_request unsaid(void)
   thr_request request = thr_request_default();
   request.order = THR_ORDER_PLANNED;
   return request;
-}
-
-void *thr_request_value(thr_request *request, const thr_request_field *field)
-{
-  return (char *)request + field->offset;
 }
 
 /* ---- writing ---- */

@@ -11,7 +11,6 @@
  * Example: seating tension 1 N, a cord of two passes with a turn that halves the tension, pulled at
  * its start: the first gap is seated at 1 N, the second one at 2 N. */
 #include "graph/plan/plan_measures.h"
-#include "graph/arrays.h"
 
 #include <math.h>
 #include <stdlib.h>

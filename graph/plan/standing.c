@@ -15,7 +15,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 static const char *const asked_name[] = {"holding",       "equal",   "any_state",
                                          "after",         "loaded",  "carried",

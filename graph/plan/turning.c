@@ -106,7 +106,8 @@ double thr_turn_closed(thr_turn_cost cost)
   return costs[cost].closed;
 }
 
-int thr_turning_cover(const thr_frame *frame, int cover, int e)
+/* Passes of edge e at least, when every edge has cover: the framework may ask for more. */
+static int turning_cover(const thr_frame *frame, int cover, int e)
 {
   const thr_request options = {.cover = cover};
   return thr_plan_cover(frame, &options, e);
@@ -116,7 +117,7 @@ double thr_turning_base_length(const thr_frame *frame, int cover)
 {
   double sum = 0;
   for (int e = 0; e < frame->n_edges; e++)
-    sum += thr_turning_cover(frame, cover, e) * frame->length[e];
+    sum += turning_cover(frame, cover, e) * frame->length[e];
   return sum;
 }
 
@@ -124,7 +125,7 @@ int thr_turning_most_passes(const thr_frame *frame, int cover)
 {
   int most = cover;
   for (int e = 0; e < frame->n_edges; e++)
-    if (thr_turning_cover(frame, cover, e) > most) most = thr_turning_cover(frame, cover, e);
+    if (turning_cover(frame, cover, e) > most) most = turning_cover(frame, cover, e);
   return 4 * most + 4;
 }
 

@@ -12,8 +12,6 @@
 #include "graph/plan/plan_fields.h"
 
 #include <limits.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* ---- writing ---- */
 

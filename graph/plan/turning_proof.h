@@ -112,9 +112,6 @@ typedef struct {
   double extra_limit;      /* of all extra cord, in units of length; < 0 = none */
 } thr_turning_task;
 
-/* Passes of edge e at least, when every edge has cover: the framework may ask for more. */
-int thr_turning_cover(const thr_frame *frame, int cover, int e);
-
 /* The length of all passes that must be. */
 double thr_turning_base_length(const thr_frame *frame, int cover);
 

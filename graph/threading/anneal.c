@@ -12,10 +12,8 @@
  * two turns of 90 degrees; it goes straight on instead. */
 #include "graph/threading/threading.h"
 #include "graph/process/process.h"
-#include "graph/arrays.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- a run ---- */
@@ -156,9 +154,12 @@ static double left_of(const thr_limits *limits)
                                 : 0;
 }
 
-thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_task *task,
-                          int number, const thr_limits *limits, thr_cord *cord, int n_cords,
-                          bool *better, thr_err *err)
+/* Makes one run of a task, with random numbers of its own. Of lengths odd ones begin hotter, and
+ * pass over more of what is good to get there; of turnings even ones stay near the best cords if
+ * the task says so. */
+static thr_status anneal_run(const thr_turning_columns *columns, const thr_anneal_task *task,
+                             int number, const thr_limits *limits, thr_cord *cord, int n_cords,
+                             bool *better, thr_err *err)
 {
   enum { LOOK = 64 };
   const bool near = task->near && number % 2 == 0;
@@ -225,8 +226,8 @@ static thr_status run_one(void *user, int k, const thr_limits *limits, thr_err *
 {
   annealing_round *round = user;
   const int number = round->round * RUNS + (round->task->alone ? round->round % RUNS : k);
-  return thr_anneal_run(round->columns, round->task, number, limits, round->cord[k], round->n_cords,
-                        &round->better[k], err);
+  return anneal_run(round->columns, round->task, number, limits, round->cord[k], round->n_cords,
+                    &round->better[k], err);
 }
 
 /* Returns the largest price of the cords. */

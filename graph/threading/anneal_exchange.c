@@ -11,7 +11,6 @@
  *   on two cords, at ends    the cords exchange what comes after the places (tails)
  *   on two cords, visits     tails, or the sections up to a second node where they meet (middles)
  */
-#include "graph/arrays.h"
 #include "graph/threading/threading.h"
 
 /* Return the passes before and after visit i; -1 where an open cord ends. */

@@ -8,10 +8,8 @@
  *
  * Example: a cord passes a, b, c along two sides of a triangle whose third side is ac, and other
  * cords pass both sides as well. It may go from a to c straight on instead. */
-#include "graph/arrays.h"
 #include "graph/threading/threading.h"
 
-#include <math.h>
 #include <string.h>
 
 bool thr_anneal_drop_loop(thr_annealer *annealer, int cord, thr_anneal_change *change)

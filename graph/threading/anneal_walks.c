@@ -10,7 +10,6 @@
  *
  * Example: walk 0 visits node 5 ahead of its pass 3. Then one of the entries visit[visit_first[5]]
  * .. of node 5 is {0, 3}, and walk[0].slot[3] is its number. */
-#include "graph/arrays.h"
 #include "graph/threading/threading.h"
 
 #include <math.h>

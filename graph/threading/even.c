@@ -9,7 +9,6 @@
  * Example: two open cords with totals 10 and 2 meet at a node after 7 of the first and 1 of the
  * second. If they exchange their tails, the totals are 8 and 4. */
 #include "graph/threading/threading.h"
-#include "graph/arrays.h"
 
 #include <math.h>
 #include <string.h>

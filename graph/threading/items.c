@@ -14,11 +14,8 @@
  *
  * Example: a path of two edges, each passed once, has two items, and 18 are left for what comes in.
  */
-#include "graph/arrays.h"
-#include "graph/plan/turning_proof.h"
 #include "graph/threading/threading.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 

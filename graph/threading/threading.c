@@ -24,10 +24,8 @@
  * counted (tortuosity/tie/tie.h), have no cords, and symmetric strands (symmetry/lift/strands.c)
  * are orbits of half-edges, paired by elements of a group. */
 #include "graph/threading/threading.h"
-#include "graph/arrays.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 void thr_threading_destroy(thr_threading *threading)
 {

@@ -721,11 +721,4 @@ bool thr_anneal_reroute(thr_annealer *annealer, int cord, thr_anneal_change *cha
 /* Returns a visit to a node, drawn from all of them; cord -1: there is none. */
 thr_anneal_visit thr_anneal_visit_at(thr_annealer *annealer, int node);
 
-/* Makes one run of a task, with random numbers of its own. Of lengths odd ones begin hotter, and
- * pass over more of what is good to get there; of turnings even ones stay near the best cords if
- * the task says so. */
-thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_task *task,
-                          int number, const thr_limits *limits, thr_cord *cord, int n_cords,
-                          bool *better, thr_err *err) THR_MUST_CHECK;
-
 #endif

@@ -9,8 +9,6 @@
 #include "graph/number.h"
 #include "graph/threading/threading.h"
 
-#include <stdlib.h>
-
 /* Returns the pass of a closed circuit with which a cord had best start: after its sharpest turn at
  * an allowed node, rather at a foot. only >= 0: at this node. */
 static int best_start(const thr_frame *frame, const thr_request *options, const int *half, int n,

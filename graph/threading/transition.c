@@ -12,9 +12,7 @@
  */
 #include "graph/threading/threading.h"
 #include "graph/number.h"
-#include "graph/arrays.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

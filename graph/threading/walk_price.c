@@ -2,7 +2,6 @@
 /* Computes what one cord counts for, by length, turning or pull, and which of several counts most.
  *
  * Example: by length, a cord over edges of 3 and 4 counts 7. */
-#include "graph/plan/plan_measures.h"
 #include "graph/threading/threading.h"
 
 #include <math.h>

@@ -8,7 +8,6 @@
  * Example: a figure of eight, two closed cords: it is cut at its middle. */
 #include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
-#include "graph/threading/threading.h"
 #include "lp/length/postman_parts.h"
 
 #include <math.h>

@@ -12,7 +12,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Passes from .. end - 1 and the path back are one half. */
 typedef struct {

@@ -10,7 +10,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Returns the turn ahead of a pass. */
 static double turn_at(const thr_frame *frame, const thr_walk *walk, int at)
@@ -292,7 +291,8 @@ static thr_status merge(thr_decomposition *decomposition, const junction *place,
   return thr_splice_make(&splice, decomposition->f, walks, place->a, place->b, NULL, NULL, err);
 }
 
-thr_status thr_decomposition_merge(thr_decomposition *decomposition, int n, thr_err *err)
+/* Joins cyclic walks at shared nodes until there are n, with little turning. */
+static thr_status decomposition_merge(thr_decomposition *decomposition, int n, thr_err *err)
 {
   thr_status st = THR_OK;
   while (decomposition->walks.n_walks > n && !st) {
@@ -323,7 +323,7 @@ thr_status thr_decomposition_circuits(thr_decomposition *decomposition, int n, b
     *walks = many;
     many = keep;
     *enough = walks->n_walks >= n;
-    st = thr_decomposition_merge(decomposition, n, err);
+    st = decomposition_merge(decomposition, n, err);
   }
 
   thr_walks_destroy(&many);

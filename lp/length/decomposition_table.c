@@ -5,7 +5,6 @@
  * Example: of a ring of six edges of length 1, two open cords become two walks of three passes. */
 #include "lp/length/postman.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* Makes the cords, whose half-edges are moved, the walks, and counts their passes. */

@@ -9,8 +9,6 @@
 #include "lp/length/postman_parts.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* The walks with the turns at their nodes. */
 typedef struct {

@@ -18,7 +18,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Returns the sum that the integer weights of a component with n edges are given: 2^44 to 2^45, and
  * at least 2^30 an edge, so that all roundings together stay below 1e-9 of the sum; at most 2^49,

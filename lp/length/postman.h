@@ -173,10 +173,6 @@ thr_status thr_decomposition_chord(thr_decomposition *decomposition, int i, int 
                                    const int *path, int n, thr_junction_graphs *ties,
                                    thr_err *err) THR_MUST_CHECK;
 
-/* Joins cyclic walks at shared nodes until there are n, with little turning. */
-thr_status thr_decomposition_merge(thr_decomposition *decomposition, int n,
-                                   thr_err *err) THR_MUST_CHECK;
-
 /* Makes the longest walk as short as annealing does it (graph/threading/anneal.c) and, where the
  * framework is small, as the table knows it. goal > 0: until none is longer than this, with the
  * fewest cords from then on. */

@@ -8,7 +8,6 @@
  * Example: a square with a diagonal has two odd nodes, between which its cord runs. */
 #include "graph/check/check.h"
 #include "graph/framework/components.h"
-#include "graph/threading/threading.h"
 #include "lp/length/postman.h"
 
 #include <stdlib.h>

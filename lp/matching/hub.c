@@ -6,7 +6,6 @@
  * are drawn while pricing finds violated pairs (blossom_parts.h, thr_hubs).
  *
  * Example: four places a, b, c, d near a hub give ab, bc, cd, da in one circuit, of six pairs. */
-#include "graph/arrays.h"
 #include "lp/matching/blossom_parts.h"
 
 #include <stdlib.h>

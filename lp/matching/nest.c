@@ -11,7 +11,6 @@
  * Example: three odd places at distance 2 from each other in a blossom have moats of width 1 each,
  * and the moat of the blossom lies around all three. */
 #include "lp/matching/blossom_parts.h"
-#include "graph/arrays.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -9,7 +9,6 @@
  * Example: in a triangle with weights 0, 3 and 4 the ends of the first edge become one place, with
  * two arcs of weight 3 and 4 to the third node. */
 #include "lp/matching/blossom.h"
-#include "graph/arrays.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -16,7 +16,6 @@
  *   st = thr_pool_offer(pool, (thr_row){.lower = 1}, x, 1e-6, &added, err); */
 #include "lp/model/tree.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

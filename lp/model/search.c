@@ -40,7 +40,8 @@ void thr_search_use(thr_search *s, thr_separator *find, void *user, int when)
   s->separator[s->n_separators++].when = when;
 }
 
-thr_status thr_search_load(thr_search *s, thr_err *err)
+/* Adds the pool's rows that are not in the programme yet. */
+static thr_status search_load(thr_search *s, thr_err *err)
 {
   /* The rows of the programme are n_fixed of the caller's, then those of the pool in order. */
   const thr_pool *pool = &s->pool;
@@ -96,7 +97,7 @@ static thr_status solve(thr_search *s, const thr_search_calls *calls, const thr_
   if (s->bare) st = thr_lp_solve(s->lp, limits, &s->outcome, err);
   s->bare = false;
 
-  if (!st) st = thr_search_load(s, err);
+  if (!st) st = search_load(s, err);
 
   /* Solve with all rows. */
   if (!st && s->outcome == THR_LP_OPTIMAL)

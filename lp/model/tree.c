@@ -69,7 +69,8 @@ void thr_tree_destroy(thr_tree *t)
   *t = (thr_tree){0};
 }
 
-bool thr_tree_closed(const thr_tree *t, int node)
+/* Says whether the bound of a node is enough. */
+static bool tree_closed(const thr_tree *t, int node)
 {
   return t->node[node].bound >= t->enough;
 }
@@ -266,7 +267,7 @@ static void take(thr_tree *t, bool several)
   const int most = !several || t->n_solved == 0 ? 1 : t->n_solved < 3 ? 2 : THR_TREE_BATCH;
   t->n_taken = 0;
 
-  while (t->n_taken < most && t->n_open > 0 && !thr_tree_closed(t, t->open[0]))
+  while (t->n_taken < most && t->n_open > 0 && !tree_closed(t, t->open[0]))
     t->taken[t->n_taken++] = pop(t);
   t->n_solved += t->n_taken;
 }
@@ -284,7 +285,7 @@ static thr_status solve_taken(thr_tree *t, const thr_tree_calls *calls, thr_tree
 thr_status thr_tree_run(thr_tree *t, const thr_tree_calls *calls, thr_err *err)
 {
   thr_status st = THR_OK;
-  while (!st && !t->stopped && t->n_open > 0 && !thr_tree_closed(t, t->open[0])) {
+  while (!st && !t->stopped && t->n_open > 0 && !tree_closed(t, t->open[0])) {
     thr_tree_branch branch[THR_TREE_BATCH];
 
     /* The root is solved in any case, so that there is a bound. */
@@ -299,7 +300,7 @@ thr_status thr_tree_run(thr_tree *t, const thr_tree_calls *calls, thr_err *err)
 
     /* Branch where the caller asks for it, unless the new bound closes the node. */
     for (int i = 0; i < t->n_taken && !st && !t->stopped; i++)
-      if (branch[i].column >= 0 && !thr_tree_closed(t, t->taken[i]))
+      if (branch[i].column >= 0 && !tree_closed(t, t->taken[i]))
         st = split(t, t->taken[i], branch[i], err);
   }
   return st;

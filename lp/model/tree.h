@@ -135,9 +135,6 @@ void thr_search_destroy(thr_search *s);
 /* Appends a separator, asked after the others; at most 8. when: THR_FALLBACK | THR_SLOW or 0. */
 void thr_search_use(thr_search *s, thr_separator *find, void *user, int when);
 
-/* Adds the pool's rows that are not in the programme yet. */
-thr_status thr_search_load(thr_search *s, thr_err *err) THR_MUST_CHECK;
-
 /* Runs rounds until no row is violated, look has found the bound enough, or there is no optimum:
  * s->outcome says which. */
 thr_status thr_search_rounds(thr_search *s, const thr_search_calls *calls, const thr_limits *limits,
@@ -225,9 +222,6 @@ thr_status thr_tree_enter(thr_tree *t, const thr_tree_calls *calls, int node,
                           thr_err *err) THR_MUST_CHECK;
 thr_status thr_tree_enter_at(const thr_tree *t, const thr_tree_calls *calls, thr_tree_place *place,
                              int node, thr_err *err) THR_MUST_CHECK;
-
-/* Says whether the bound of a node is enough. */
-bool thr_tree_closed(const thr_tree *t, int node);
 
 /* Returns the column of first .. end - 1 to branch on at the point x: of the columns farther than
  * the tolerance from a whole number the farthest, of equal ones the first; -1 = none. Columns with

@@ -82,7 +82,8 @@ static void place(thr_bundles *bundles, const thr_columns *a)
   }
 }
 
-void thr_bundles_refill(thr_bundles *bundles, const thr_columns *a)
+/* Copies the values of A into bundles that are placed. */
+static void fill(thr_bundles *bundles, const thr_columns *a)
 {
   for (int g = 0; g < bundles->n_bundles; g++) {
     const int j = bundles->column[g], high = rows_of(a, j), wide = bundles->column[g + 1] - j;
@@ -115,7 +116,7 @@ thr_status thr_bundles_make(thr_bundles *bundles, const thr_columns *a, int n_al
   }
 
   place(bundles, a);
-  thr_bundles_refill(bundles, a);
+  fill(bundles, a);
   return st;
 }
 

@@ -13,8 +13,6 @@
  * is added. */
 #include "lp/solver/solver.h"
 
-#include "graph/arrays.h"
-
 #include <stdlib.h>
 #include <string.h>
 

@@ -775,57 +775,6 @@ double thr_lp_objective(const thr_lp *lp)
   return lp->integer ? glp_mip_obj_val(lp->problem) : glp_get_obj_val(lp->problem);
 }
 
-/* Returns the multiplier of row i, or 0 if the row has no bound on its side. *bound: the row's
- * lower bound. */
-static double carried(glp_prob *p, int i, double *bound)
-{
-  double dual = glp_get_row_dual(p, i);
-  int kind = glp_get_row_type(p, i); /* rows here: equations and lower bounds */
-  *bound = glp_get_row_lb(p, i);
-  return kind == GLP_FX || (kind == GLP_LO && dual > 0) ? dual : 0;
-}
-
-thr_status thr_lp_proved(const thr_lp *lp, double most, double *bound, thr_err *err)
-{
-  glp_prob *problem = lp->problem;
-  int n = glp_get_num_cols(problem), *index = thr_calloc((size_t)n + 1, sizeof *index);
-  double *value = thr_calloc((size_t)n + 1, sizeof *value),
-         *reduced = thr_calloc((size_t)n + 1, sizeof *reduced), sum = 0;
-
-  thr_status st = index && value && reduced ? THR_OK : thr_nomem(err);
-
-  /* Costs less what the rows' multipliers subtract. */
-  for (int j = 1; j <= n && !st; j++)
-    reduced[j] = glp_get_obj_coef(problem, j);
-
-  for (int i = 1; i <= glp_get_num_rows(problem) && !st; i++) {
-    double lower, dual = carried(problem, i, &lower);
-    int entries = dual != 0 ? glp_get_mat_row(problem, i, index, value) : 0;
-
-    if (dual != 0) sum += dual * lower;
-    for (int k = 1; k <= entries; k++)
-      reduced[index[k]] -= dual * value[k];
-  }
-
-  /* Every column at the end of its range that costs least. */
-  for (int j = 1; j <= n && !st; j++) {
-    int kind =
-        glp_get_col_type(problem, j); /* columns: lower bounds, some with upper ones or fixed */
-    double upper = kind == GLP_LO   ? most
-                   : kind == GLP_FX ? glp_get_col_lb(problem, j)
-                                    : glp_get_col_ub(problem, j);
-
-    sum += reduced[j] * (reduced[j] > 0 ? glp_get_col_lb(problem, j) : upper);
-  }
-
-  if (!st) *bound = sum;
-
-  free(index);
-  free(value);
-  free(reduced);
-  return st;
-}
-
 const char *thr_glpk_version(void)
 {
   return glp_version();

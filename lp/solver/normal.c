@@ -176,11 +176,6 @@ void thr_normal_destroy(thr_normal *normal)
   free(normal);
 }
 
-void thr_normal_refill(thr_normal *normal, const thr_columns *a)
-{
-  thr_bundles_refill(&normal->a, a);
-}
-
 const thr_bundles *thr_normal_bundles(const thr_normal *normal)
 {
   return &normal->a;

@@ -18,11 +18,6 @@ int thr_rays_unknowns(const thr_rays *r)
   return r->n_cones * r->n_rays + r->n_plain;
 }
 
-int thr_rays_components(const thr_rays *r)
-{
-  return 3 * r->n_cones + r->n_plain;
-}
-
 static const double (*rays_of(const thr_rays *r, int cone))[3]
 {
   return r->ray + (size_t)r->kind[cone] * (size_t)r->n_rays;

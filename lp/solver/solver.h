@@ -106,11 +106,6 @@ void thr_lp_primal(const thr_lp *lp, double *x);
 void thr_lp_dual(const thr_lp *lp, double *dual);
 double thr_lp_objective(const thr_lp *lp);
 
-/* *bound: no point that keeps the rows and bounds, and whose columns without an upper bound are at
- * most `most`, costs less. That is what the row multipliers of the last thr_lp_solve prove, also if
- * it was stopped (Lagrange; a multiplier of the wrong sign counts as 0). O(entries). */
-thr_status thr_lp_proved(const thr_lp *lp, double most, double *bound, thr_err *err) THR_MUST_CHECK;
-
 const char *thr_glpk_version(void);
 
 /* ---- bundles.c: A sparse matrix as dense bundles: consecutive columns with the same rows, such as
@@ -138,8 +133,6 @@ typedef struct {
  * after that. */
 thr_status thr_bundles_make(thr_bundles *b, const thr_columns *a, int n_alone,
                             thr_err *err) THR_MUST_CHECK;
-/* Takes over other values in the same places. */
-void thr_bundles_refill(thr_bundles *b, const thr_columns *a);
 void thr_bundles_destroy(thr_bundles *b);
 
 void thr_bundles_times(const thr_bundles *b, const double *x, double *y);      /* y = A x */
@@ -155,10 +148,6 @@ typedef struct thr_normal thr_normal;
 thr_status thr_normal_create(thr_normal **normal, const thr_columns *a, int n_threes,
                              thr_err *err) THR_MUST_CHECK;
 void thr_normal_destroy(thr_normal *normal);
-
-/* Takes over other values in the same places of A. Rows that depended on others still count as
- * dependent. */
-void thr_normal_refill(thr_normal *normal, const thr_columns *a);
 
 /* Factors for positive weights: six numbers for each three columns (xx xy xz yy yz zz), one for
  * each of the rest. The first ones, which must be near each other, tell which rows depend on
@@ -252,7 +241,6 @@ typedef struct {
 } thr_rays;
 
 int thr_rays_unknowns(const thr_rays *r);
-int thr_rays_components(const thr_rays *r);
 
 void thr_rays_gather(const thr_rays *r, const double *x, double *u); /* components u = R x */
 void thr_rays_spread(const thr_rays *r, const double *u, double *x); /* x = R^T u */

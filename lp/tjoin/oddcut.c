@@ -466,8 +466,11 @@ static thr_status separate_component(const thr_oddcut_graph *graph, const double
   return st;
 }
 
-thr_status thr_oddcut_exact(const thr_oddcut_graph *graph, const double *x, thr_pool *pool,
-                            thr_err *err)
+/* Separates exactly: adds the odd cuts with x(cut) < 1 of a Gomory-Hu tree of every component of
+ * the support. If any odd cut is violated, one of these is (Padberg & Rao 1982). Edges with x >= 1
+ * lie in no violated cut and are contracted first. */
+static thr_status oddcut_exact(const thr_oddcut_graph *graph, const double *x, thr_pool *pool,
+                               thr_err *err)
 {
   const thr_tjoin_problem *tjoin_problem = graph->p;
   size_t n = (size_t)tjoin_problem->n_nodes;
@@ -533,6 +536,6 @@ thr_status thr_oddcuts_exact(void *oddcuts, int *added, thr_err *err)
 {
   const thr_oddcuts *odd = oddcuts;
   int first = odd->pool->count;
-  thr_status st = thr_oddcut_exact(odd->graph, odd->x, odd->pool, err);
+  thr_status st = oddcut_exact(odd->graph, odd->x, odd->pool, err);
   return st ? st : keep(odd, first, added, err);
 }

@@ -178,12 +178,6 @@ thr_status thr_oddcut_moats(const thr_oddcut_graph *graph, const double *x, doub
                             const double *reduced_cost, thr_pool *pool,
                             thr_err *err) THR_MUST_CHECK;
 
-/* Separates exactly: adds the odd cuts with x(cut) < 1 of a Gomory-Hu tree of every component of
- * the support. If any odd cut is violated, one of these is (Padberg & Rao 1982). Edges with x >= 1
- * lie in no violated cut and are contracted first. */
-thr_status thr_oddcut_exact(const thr_oddcut_graph *graph, const double *x, thr_pool *pool,
-                            thr_err *err) THR_MUST_CHECK;
-
 /* What the separators of a search (lp/model/search.c) work on; all arrays are borrowed. */
 typedef struct {
   const thr_oddcut_graph *graph;

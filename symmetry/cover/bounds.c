@@ -11,7 +11,6 @@
 #include "symmetry/cover/cover_parts.h"
 #include "graph/arrays.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 

@@ -23,7 +23,6 @@
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static const double tolerance = 1e-6; /* a row is violated by more than this */
 static const double fraction = 1e-5;  /* a value that is nearer to a whole number is whole */

@@ -10,11 +10,9 @@
  * Multipliers are 0 then, and so is the bound; without the straight turns they are pi / 4 each, and
  * two passes through the node pay pi. */
 #include "symmetry/cover/cover_parts.h"
-#include "graph/arrays.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Tells whether turns of this pair type may be used. */
 static bool allowed(const thr_programme *programme, int pair)

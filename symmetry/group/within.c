@@ -8,7 +8,6 @@
 #include "graph/text.h"
 #include "symmetry/group/group.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* What the child is asked for. */

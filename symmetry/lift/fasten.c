@@ -13,7 +13,6 @@
 #include "symmetry/cover/cover.h"
 #include "symmetry/group/group.h"
 
-#include <limits.h>
 #include <stdlib.h>
 
 /* The copies so far, and what the stars lack. */

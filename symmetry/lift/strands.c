@@ -15,7 +15,6 @@
 #include "graph/arrays.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 /* Returns a after b. */
 static int product(const thr_quotient *quotient, int a, int b)

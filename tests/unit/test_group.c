@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Automorphism groups by nauty against closed forms, igraph and all permutations; listed groups
+/* Automorphism groups by nauty against closed forms and all permutations; listed groups
  * against their axioms; subgroups against published counts and all subsets. */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/framework/frame.h"
@@ -25,40 +25,13 @@ static thr_automorphisms find(const thr_frame *f, const int *node_colour, const 
   return a;
 }
 
-/* The order by igraph, with every edge subdivided if edges have colours. */
-static char *digits_of(const thr_frame *f, const int *node_colour, const int *edge_colour)
-{
-  int n = f->n_nodes, m = f->n_edges;
-  int *colour = calloc((size_t)(n + m), sizeof *colour),
-      (*edge)[2] = calloc(2 * (size_t)m, sizeof *edge);
-  char *digits;
-  ck_assert(colour && edge);
-  for (int v = 0; v < n; v++)
-    colour[v] = 2 * (node_colour ? node_colour[v] : 0) + f->foot[v];
-  for (int e = 0; e < m; e++) {
-    colour[n + e] = 1000 + (edge_colour ? edge_colour[e] : 0);
-    edge[2 * e][0] = f->edge[e][0], edge[2 * e][1] = n + e;
-    edge[2 * e + 1][0] = n + e, edge[2 * e + 1][1] = f->edge[e][1];
-  }
-  if (edge_colour)
-    ck_assert_int_eq(
-        thr_automorphism_count(n + m, 2 * m, (const int(*)[2])edge, colour, &digits, NULL), THR_OK);
-  else
-    ck_assert_int_eq(thr_automorphism_count(n, m, (const int(*)[2])f->edge, colour, &digits, NULL),
-                     THR_OK);
-  free(colour);
-  free(edge);
-  return digits;
-}
-
-/* Generators that keep the framework, orbits that are theirs, the order that igraph says, and the
- * same on a second call. */
+/* Generators that keep the framework, orbits that are theirs, and the same on a second
+ * call. */
 static double order_checked(const thr_frame *f, const int *node_colour, const int *edge_colour)
 {
   thr_automorphisms a = find(f, node_colour, edge_colour),
                     again = find(f, node_colour, edge_colour);
   size_t bytes = (size_t)a.n * (size_t)a.n_generators * sizeof *a.generator;
-  char *digits = digits_of(f, node_colour, edge_colour), text[32];
   for (int g = 0; g < a.n_generators; g++) {
     const int *image = &a.generator[g * a.n];
     ck_assert(keeps_frame(f, edge_colour, image));
@@ -70,11 +43,6 @@ static double order_checked(const thr_frame *f, const int *node_colour, const in
   for (int v = 0; v < a.n; v++)
     ck_assert(a.orbit[v] <= v && a.orbit[a.orbit[v]] == a.orbit[v]);
   double order = a.mantissa * pow(10, a.exponent);
-  snprintf(text, sizeof text, "%.0f", a.mantissa);
-  if (a.exponent == 0)
-    ck_assert_str_eq(text, digits);
-  else
-    ck_assert_double_eq_tol(order / strtod(digits, NULL), 1, 1e-12);
   ck_assert_int_eq(a.n_generators, again.n_generators);
   ck_assert(bytes == 0 || memcmp(a.generator, again.generator, bytes) == 0);
   if (order <= THR_GROUP_CAP) {
@@ -84,7 +52,6 @@ static double order_checked(const thr_frame *f, const int *node_colour, const in
     ck_assert_double_eq(g.order, order);
     thr_group_destroy(&g);
   }
-  free(digits);
   thr_automorphisms_destroy(&a);
   thr_automorphisms_destroy(&again);
   return order;

@@ -247,46 +247,6 @@ START_TEST(random_covers_are_dual_pairs)
 }
 END_TEST
 
-/* Stopped after a while, or before a new cost is taken into account: what is proved leaves room for
- * the optimum. */
-START_TEST(what_is_proved_holds_at_any_time)
-{
-  enum { N = 120, M = 200, MOST = 3 }; /* x = 1 covers everything */
-  rng r = rng_make((uint64_t)_i + 1);
-  double cost[N], upper[N], proved, first, optimum;
-  thr_lp_outcome outcome;
-  thr_lp *lp;
-  for (int j = 0; j < N; j++) {
-    cost[j] = rng_between(&r, 1, 9);
-    upper[j] = 2;
-  }
-  ck_assert_int_eq(thr_lp_create(&lp, N, cost, _i % 2 ? upper : NULL, NULL), THR_OK);
-  for (int i = 0; i < M; i++) {
-    int row[4];
-    for (int k = 0; k < 4; k++)
-      row[k] = 30 * k + rng_below(&r, 30);
-    ck_assert_int_eq(thr_lp_add_row(lp, 4, row, NULL, 1, NULL), THR_OK);
-  }
-  thr_limits limits = {.deadline = thr_clock() + 2e-4 * _i};
-  ck_assert_int_eq(thr_lp_solve(lp, &limits, &outcome, NULL), THR_OK);
-  ck_assert_int_eq(thr_lp_proved(lp, MOST, &first, NULL), THR_OK);
-  assert_outcome(lp, false, THR_LP_OPTIMAL);
-  optimum = thr_lp_objective(lp);
-  ck_assert_double_le(first, optimum + 1e-7);
-  ck_assert_int_eq(thr_lp_proved(lp, MOST, &proved, NULL), THR_OK);
-  ck_assert_double_eq_tol(proved, optimum, 1e-6);
-  for (int j = 0; j < N; j++)
-    cost[j] = rng_between(&r, -2, 9);
-  ck_assert_int_eq(thr_lp_set_costs(lp, cost, NULL), THR_OK);
-  ck_assert_int_eq(thr_lp_proved(lp, MOST, &proved, NULL), THR_OK);
-  for (int j = 0; j < N; j++) /* `most` as bounds, so that there is an optimum */
-    ck_assert_int_eq(thr_lp_set_bounds(lp, j, 0, _i % 2 ? upper[j] : MOST, NULL), THR_OK);
-  assert_outcome(lp, false, THR_LP_OPTIMAL);
-  ck_assert_double_le(proved, thr_lp_objective(lp) + 1e-6);
-  thr_lp_destroy(lp);
-}
-END_TEST
-
 /* ---- equations ---- */
 
 /* x + y = 4, y + z + w = 3, z - w = 1 and w of any sign: z = 1 + w, y = 2 - 2w, x = 2 + 2w. The
@@ -439,19 +399,18 @@ START_TEST(normal_equations_are_solved)
   programme p = {0};
   draw_columns(&p, &r);
   thr_columns a = {p.m, p.n, p.start, p.row, p.value};
-  thr_normal *normal;
-  ck_assert_int_eq(thr_normal_create(&normal, &a, 0, NULL), THR_OK);
   for (int round = 0; round < 3; round++) {
     double weight[400], dense[64][64];
+    thr_normal *normal;
     for (int k = 0; k < p.start[p.n] && round > 0; k++)
       p.value[k] = rng_unit(&r) + 0.1;
-    thr_normal_refill(normal, &a);
+    ck_assert_int_eq(thr_normal_create(&normal, &a, 0, NULL), THR_OK);
     for (int j = 0; j < p.n; j++)
       weight[j] = (0.1 + rng_unit(&r)) * pow(1e12, round - 1);
     weigh(&p, weight, dense);
     assert_solves(normal, p.m, dense, weight, &r, 1e-9);
+    thr_normal_destroy(normal);
   }
-  thr_normal_destroy(normal);
 }
 END_TEST
 
@@ -963,7 +922,6 @@ int main(void)
   ADD_TEST(s, 10, work_stops_at_the_same_place);
   ADD_TEST(s, 10, abort_becomes_a_status);
   ADD_EXAMPLES(s, 10, random_covers_are_dual_pairs, 40);
-  ADD_EXAMPLES(s, 10, what_is_proved_holds_at_any_time, 40);
   ADD_TEST(s, 10, equations_with_a_free_column);
   ADD_TEST(s, 10, equations_without_a_solution);
   ADD_EXAMPLES(s, 10, normal_equations_are_solved, 60);

@@ -193,12 +193,6 @@ START_TEST(known_forms)
   const double side = 7 / sin(1);
   ck_assert_double_lt(thr_turn_largest(&cone, side * (1 - 1e-9)), THR_PI / 2);
   ck_assert_double_eq_tol(thr_turn_largest(&cone, side * (1 + 1e-9)), THR_PI - 1, 1e-6);
-
-  /* Thin tubes that are shifted by o touch in three points at cos = (2 R - o) / (2 R + o). */
-  const thr_turn_piece thin = {THR_TURN_TUBE, 1, 1e-12, 0}, thick = {THR_TURN_TUBE, 1, 0.3, 0};
-  ck_assert_double_eq_tol(thr_turn_three_points(&thin, 0.5), acos(1.5 / 2.5), 1e-6);
-  ck_assert_double_eq(thr_turn_three_points(&thick, 0.2), 0);
-  ck_assert_double_nan(thr_turn_three_points(&thick, 1.8));
 }
 END_TEST
 

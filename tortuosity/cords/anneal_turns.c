@@ -17,13 +17,10 @@
  * of 60 degrees; an extra pass that leaves the line of one ring for that of another connects them
  * by one. */
 #include "graph/number.h"
-#include "graph/framework/frame.h"
-#include "graph/arrays.h"
 #include "tortuosity/cords/several.h"
 
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Temperatures, and the penalty of a part at first, at least and at most, in rad, for turns that

@@ -10,12 +10,9 @@
  *
  * Example: turns (a b)(c d) become (a c)(b d). The searches from a and c meet at once, as do those
  * from b and d; if b and c turn into one edge e further on, all have met there: one part. */
-#include "graph/arrays.h"
-#include "graph/framework/frame.h"
 #include "tortuosity/cords/several.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Notes that half-edges a and b of one node turn into each other from now on, or no longer. */

@@ -10,7 +10,6 @@
  *
  * Example: a figure of eight is one circuit or two, by the exchange at its middle. */
 #include "graph/framework/frame.h"
-#include "graph/arrays.h"
 #include "tortuosity/cords/join.h"
 #include "tortuosity/cords/walk_model.h"
 

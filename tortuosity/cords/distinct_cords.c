@@ -7,7 +7,6 @@
  * three any faces (C. Nelson's thesis). Example: two passes over every edge of a cube, its six
  * faces as cords: two different cords over every edge. */
 #include "graph/plan/physics.h"
-#include "graph/arrays.h"
 #include "tortuosity/cords/several.h"
 
 #include <limits.h>

@@ -11,7 +11,6 @@
 #include "tortuosity/cords/join.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum {

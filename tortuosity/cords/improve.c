@@ -9,7 +9,6 @@
  * Example: a cord that turns by 90 degrees twice at a crossing goes straight on twice. */
 #include "tortuosity/cords/join.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -15,7 +15,6 @@
 #include "graph/framework/frame.h"
 #include "tortuosity/tie/tie.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -62,7 +61,8 @@ thr_status thr_join_init(thr_join *j, const thr_turning_columns *turning_columns
   return st;
 }
 
-bool thr_join_open(const thr_join *j, int component)
+/* Returns whether a component has cord ends. */
+static bool join_open(const thr_join *j, int component)
 {
   const int *first = j->g.first + j->c->f->n_nodes + component;
   return first[1] > first[0];
@@ -75,7 +75,7 @@ int thr_join_count(const thr_join *j)
 
   /* An open cord has two ends. A component without ends under open cords is one closed cord. */
   for (int k = 0; k < j->c->n_components; k++)
-    n += thr_join_open(j, k)       ? (first[k + 1] - first[k]) / 2
+    n += join_open(j, k)           ? (first[k + 1] - first[k]) / 2
          : j->c->task->end_allowed ? 1
                                    : j->c->task->cords;
   return n;

@@ -42,9 +42,6 @@ thr_status thr_join_from_cords(thr_join *j, const thr_turning_columns *turning_c
                                const thr_cord *cord, int n_cords, thr_err *err) THR_MUST_CHECK;
 void thr_join_destroy(thr_join *j);
 
-/* Returns whether a component has cord ends. */
-bool thr_join_open(const thr_join *j, int component);
-
 /* Returns how many cords the pairs make if every component is connected as the task asks: half the
  * ends of a component, or as many closed cords as the task asks for. */
 int thr_join_count(const thr_join *j);

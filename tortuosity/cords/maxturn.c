@@ -12,7 +12,6 @@
 #include "graph/number.h"
 #include "graph/plan/physics.h"
 #include "graph/process/process.h"
-#include "graph/arrays.h"
 #include "tortuosity/cords/several.h"
 #include "tortuosity/cords/walk_model.h"
 #include "tortuosity/tie/tie.h"

@@ -6,7 +6,7 @@
  * (walk_programme.c) proves that. The bound is the highest limit that is excluded, found by
  * bisection. Walks that were enough although they pass the same edges round and round are then made
  * to remember these edges (walk_memory.c), which strengthens the programme. Just above the bound,
- * dives (walk_dive.c) look for cords; then cords near the known ones are looked for (walk_near.c).
+ * dives (walk_dive.c) look for cords.
  *
  * Example: on a 7 x 7 dome with 14 cords between its feet some cord turns by 257 degrees, which is
  * what the plan has. */
@@ -23,12 +23,10 @@ enum {
   MOST_DENSE = 450 /* variables whose dense factors take less time than corners */,
   MOST_GROWTHS = 6,
   MOST_DIVES = 20,
-  FEW_DIVES = 8,
-  MOST_DRAWN = 12
+  FEW_DIVES = 8
 };
 
-/* Cords no further above the bound than that are near: few dives, no walks drawn at random, none
- * chosen in integers. */
+/* Cords no further above the bound than this factor are near: few dives are made below them. */
 static const double near_enough = 1.05;
 
 /* Asks whether cords of at most `units` units are too few; if so, programme->excluded is set and
@@ -177,30 +175,19 @@ static thr_status keep_better(thr_walk_programme *programme, const thr_cord *cor
   return st;
 }
 
-/* Looks for cords of at most `units` units: by a dive that takes the largest columns; if the known
- * cords are far above the bound, by dives that draw columns at random, and by an integer programme
- * over the known walks. *better receives the cords if they improve on the known ones. */
+/* Dives for cords of at most `units` units. *better receives the cords if they improve on the known
+ * ones. */
 static thr_status look_below(thr_walk_programme *programme, const thr_cord *cord, int n_cords,
-                             double bound, int units, int *passes, thr_cord **better, thr_err *err)
+                             int units, int *passes, thr_cord **better, thr_err *err)
 {
   const thr_walk_measure measure = programme->steps.measure;
   const thr_cord *known = *better ? *better : cord;
   double largest = thr_walk_price(programme->c, measure,
                                   &known[thr_walk_dearest(programme->c, measure, known, n_cords)]);
   thr_cord *walk = thr_calloc((size_t)programme->cords, sizeof *walk);
-  bool found = false, wide = largest > near_enough * bound;
-  uint64_t random = 1;
+  bool found = false;
 
-  /* First a dive that takes the largest columns. */
-  thr_status st =
-      walk ? thr_walk_dive(programme, units, NULL, 0, walk, &found, err) : thr_nomem(err);
-
-  /* Draws at random and integers take longer, and seldom gain anything near the bound. */
-  for (int i = 0; i < MOST_DRAWN && wide && !st && !found && !thr_limits_stop(programme->limits);
-       i++)
-    st = thr_walk_dive(programme, units, &random, 0, walk, &found, err);
-  if (!st && !found && wide) st = thr_walk_choose(programme, units, walk, &found, err);
-
+  thr_status st = walk ? thr_walk_dive(programme, units, walk, &found, err) : thr_nomem(err);
   if (!st && found) st = keep_better(programme, cord, n_cords, walk, largest, passes, better, err);
   thr_cords_destroy(walk, programme->cords);
   return st;
@@ -232,44 +219,11 @@ static thr_status look_for_cords(thr_walk_programme *programme, const thr_cord *
 
     /* A dive without success raises the lower end, by steps that grow with the number of dives. */
     thr_cord *before = *better;
-    st = look_below(programme, cord, n_cords, bound, units, passes, better, err);
+    st = look_below(programme, cord, n_cords, units, passes, better, err);
     if (*better != before) continue;
     low = units;
     units += 1 + (high - units) / (i < 2 ? 32 : i < 5 ? 16 : 4);
   }
-  free(passes);
-  return st;
-}
-
-/* Improves the component's cords by large neighbourhood search (walk_near.c), until the most
- * expensive one is within the gap of the bound. */
-static thr_status look_near(thr_walk_programme *programme, const thr_cord *cord, int n_cords,
-                            double bound, thr_cord **better, thr_err *err)
-{
-  const double near = fmax(1e-9, programme->limits->gap); /* of the bound */
-  const thr_walk_measure measure = programme->steps.measure;
-  const thr_cord *known = *better ? *better : cord;
-  const double largest = thr_walk_price(
-      programme->c, measure, &known[thr_walk_dearest(programme->c, measure, known, n_cords)]);
-  thr_cord *walk = NULL;
-  int n = 0, *passes = thr_calloc((size_t)programme->c->f->n_edges, sizeof *passes);
-  bool improved = false;
-  thr_status st = passes ? thr_cords_copy(known, n_cords, &walk, err) : thr_nomem(err);
-
-  /* The neighbourhood search takes the cords of one component. */
-  for (int i = 0; i < n_cords && !st; i++) { /* those of the component come first, in their order */
-    if (programme->c->component[thr_tail(programme->c->f, walk[i].half[0])] != programme->component)
-      continue;
-    const thr_cord here = walk[i];
-    walk[i] = walk[n];
-    walk[n++] = here;
-  }
-
-  if (!st && n == programme->cords)
-    st = thr_walk_near(programme, bound * (1 + near), walk, &improved, err);
-  if (!st && improved)
-    st = keep_better(programme, known, n_cords, walk, largest, passes, better, err);
-  thr_cords_destroy(walk, walk ? n_cords : 0);
   free(passes);
   return st;
 }
@@ -284,13 +238,13 @@ static bool has_own_prices(const thr_walk_programme *programme)
   return programme->n_edges == edges;
 }
 
-/* Divides the time between the bound, cords just above the bound, and cords near the known ones.
- * Cords are not looked for with a pull, with tube joints, where ends are counted, where images
- * share prices, and where the bound is near enough. */
+/* Raises the bound, then looks for cords just above it, each in a part of the time. Cords are not
+ * looked for with a pull, with tube joints, where ends are counted, where images share prices, and
+ * where the bound is near enough. */
 static thr_status search(thr_walk_programme *programme, const thr_walk_ask *ask, double *bound,
                          thr_walk_proof *made, thr_cord **better, thr_err *err)
 {
-  const double for_bound = .8, for_cords = .3, for_near = .6; /* of what is left */
+  const double for_bound = .8; /* of the time */
   const thr_turning_task *task = programme->c->task;
   const thr_limits *limits = programme->limits;
   const thr_cord *cord = ask->cord;
@@ -299,10 +253,9 @@ static thr_status search(thr_walk_programme *programme, const thr_walk_ask *ask,
       thr_walk_price(programme->c, ask->measure,
                      &cord[thr_walk_dearest(programme->c, ask->measure, cord, n_cords)]);
   int open = 0;
-  const bool brief = limits->brief; /* nothing is left for cords near others */
 
   /* The bound: at first without a memory of the walks, which is faster, then with one. */
-  thr_limits share = brief ? *limits : thr_limits_part(limits, for_bound);
+  const thr_limits share = limits->brief ? *limits : thr_limits_part(limits, for_bound);
   programme->limits = &share;
   thr_status st = ask->enough > 0 ? try_limit(programme, ask->enough, made, bound, &open, err)
                                   : bisect(programme, largest, false, made, bound, &open, err);
@@ -313,11 +266,8 @@ static thr_status search(thr_walk_programme *programme, const thr_walk_ask *ask,
   const bool wanted = !near && ask->measure != THR_WALK_PULL &&
                       (ask->enough <= 0 || *bound <= ask->enough) && !task->tube &&
                       !task->end_count && has_own_prices(programme);
-  if (!brief) share = thr_limits_part(limits, for_cords);
-  if (!st && wanted) st = look_for_cords(programme, cord, n_cords, *bound, open, better, err);
-  if (!brief) share = thr_limits_part(limits, for_near);
-  if (!st && wanted && !brief) st = look_near(programme, cord, n_cords, *bound, better, err);
   programme->limits = limits;
+  if (!st && wanted) st = look_for_cords(programme, cord, n_cords, *bound, open, better, err);
   return st;
 }
 

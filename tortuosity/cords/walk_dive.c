@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Chooses cords from the columns of a programme over walks: by a diving heuristic, and by an
- * integer programme over the known walks. Internal to tortuosity/.
+/* Chooses cords from the columns of a programme over walks by a diving heuristic. Internal to
+ * tortuosity/.
  *
  * A dive solves the programme, fixes the columns of value 1, or else one other column, subtracts
  * from the right sides what the walks of these columns do, and solves the programme again with a
@@ -10,7 +10,6 @@
  * becomes a cord, then the largest of the others, and what is left may be solved by a walk that no
  * column was before. */
 #include "graph/framework/frame.h"
-#include "graph/arrays.h"
 #include "lp/solver/solver.h"
 #include "tortuosity/cords/walk_model.h"
 
@@ -23,7 +22,6 @@ typedef struct {
   double *left, *cost; /* [n_variables] the right sides that are left; costs of the dual */
   thr_cord *cord;
   int n_cords;
-  uint64_t *random; /* state; NULL: the largest column is taken */
 } walk_dive;
 
 /* Returns how many passes the walk of a row makes of those that are still needed. */
@@ -63,22 +61,17 @@ static thr_status take(walk_dive *dive, const thr_row *row, thr_err *err)
   return THR_OK;
 }
 
-/* Returns the walk with the largest column among those that make needed passes, or if dive->random
- * is given one drawn with probability proportional to its column; -1: there is none. */
-static int choose_walk(walk_dive *dive)
+/* Returns the walk with the largest column among those that make needed passes; -1: there is none.
+ */
+static int choose_walk(const walk_dive *dive)
 {
   const thr_search *search = &dive->programme->search;
   int best = -1, rows = thr_lp_rows(search->lp);
-  double sum = 0, most = 0;
+  double most = 0;
   for (int i = 0; i < rows; i++) {
     double value = search->dual[i];
     if (value < 1e-6 || serves(dive, &search->pool.row[i]) == 0) continue;
-
-    /* Drawing from a stream: each walk takes the place of the ones before with probability value /
-     * sum. */
-    sum += value;
-    bool takes = dive->random ? thr_random_unit(dive->random) * sum < value : value > most + 1e-9;
-    if (takes || best < 0) best = i;
+    if (value > most + 1e-9 || best < 0) best = i;
     most = fmax(most, value);
   }
   return best;
@@ -132,32 +125,6 @@ static thr_status fill_up(walk_dive *dive, const thr_pool *pool, thr_err *err)
   return st;
 }
 
-/* Subtracts from the right sides what a kept cord does. */
-static void take_off(walk_dive *dive, const thr_cord *cord)
-{
-  const thr_walk_programme *programme = dive->programme;
-  const thr_frame *frame = programme->c->f;
-  double *left = dive->left;
-
-  for (int i = 0; i < cord->n_passes; i++) {
-    const int h = cord->half[i], end[] = {thr_tail(frame, h), thr_head(frame, h)};
-
-    /* A pass for the edge and both nodes; an open cord also has ends at its first and last node. */
-    left[programme->edge[h >> 1]] = fmax(0, left[programme->edge[h >> 1]] - 1);
-    for (int k = 0; k < 2; k++) {
-      const int j = programme->node[end[k]],
-                passes = 1 + (!programme->steps.closed && i == (k ? cord->n_passes - 1 : 0));
-      if (j >= 0) left[j] = fmax(0, left[j] - passes);
-    }
-  }
-
-  /* And its share of all turning or length. */
-  if (programme->least > 0)
-    left[programme->n_variables - 1] = fmax(
-        0, left[programme->n_variables - 1] -
-               thr_walk_price(programme->c, programme->steps.measure, cord) / programme->least);
-}
-
 /* Finds the first walks in a part of the time; if this part ends, the walks that are known by then
  * are enough to go on with. */
 static thr_status first_walks(thr_walk_programme *programme, thr_err *err)
@@ -202,30 +169,22 @@ static thr_status run(walk_dive *dive, bool *found, thr_err *err)
     st = take_some(dive, &taken, err);
   }
 
-  /* What is kept may do all that is needed before a walk is known: then there is none to fill up
-   * with. */
-  *found = !st && is_covered(dive) &&
-           (dive->n_cords == programme->cords || programme->search.pool.count > 0);
+  *found = !st && is_covered(dive);
   return *found && !few ? fill_up(dive, &programme->search.pool, err) : st;
 }
 
-/* Runs a dive from the right sides that the kept cords leave. */
-thr_status thr_walk_dive(thr_walk_programme *programme, int units, uint64_t *random, int kept,
-                         thr_cord *cord, bool *found, thr_err *err)
+thr_status thr_walk_dive(thr_walk_programme *programme, int units, thr_cord *cord, bool *found,
+                         thr_err *err)
 {
   const double dear =
       programme->per_cord > 0 ? programme->dearest : 10; /* no pass goes without a walk */
   size_t n = (size_t)programme->n_variables;
-  walk_dive dive = {.programme = programme, .cord = cord, .n_cords = kept, .random = random};
+  walk_dive dive = {.programme = programme, .cord = cord};
   dive.left = thr_calloc(n, sizeof *dive.left);
   dive.cost = thr_calloc(n, sizeof *dive.cost);
   *found = false;
   thr_status st = dive.left && dive.cost ? THR_OK : thr_nomem(err);
   if (!st) memcpy(dive.left, programme->right, n * sizeof *dive.left);
-
-  /* Kept cords have done their part before the dive begins. */
-  for (int i = 0; i < kept && !st; i++)
-    take_off(&dive, &cord[i]);
 
   programme->to_exclude = false;
   if (!st) st = thr_walk_programme_begin(programme, units, dear, err);
@@ -233,91 +192,12 @@ thr_status thr_walk_dive(thr_walk_programme *programme, int units, uint64_t *ran
   if (!st) st = thr_walk_programme_end(programme, err);
 
   /* A dive that failed leaves no cords of its own. */
-  for (int i = kept; i < dive.n_cords && !*found; i++) {
+  for (int i = 0; i < dive.n_cords && !*found; i++) {
     free(cord[i].half);
     cord[i] = (thr_cord){0};
   }
 
   free(dive.left);
   free(dive.cost);
-  return st;
-}
-
-/* ---- among all walks ---- */
-
-/* Makes the covering programme over n known walks: a column of cost 1 for every walk, a row for
- * every edge that asks for its passes. */
-static thr_status make_choice(const thr_walk_programme *programme, const int *walk, int n,
-                              thr_lp **lp, thr_err *err)
-{
-  double *cost = thr_calloc((size_t)n, sizeof *cost), *value = thr_calloc((size_t)n, sizeof *value);
-  int *column = thr_calloc((size_t)n, sizeof *column);
-  thr_status st = cost && value && column ? THR_OK : thr_nomem(err);
-
-  /* Every walk is one cord. */
-  for (int i = 0; i < n && !st; i++)
-    cost[i] = 1;
-  if (!st) st = thr_lp_create(lp, n, cost, NULL, err);
-
-  /* The pool has walks as rows; edges are rows here. */
-  for (int j = 0; j < programme->n_edges && !st; j++) {
-    int entries = 0;
-
-    for (int i = 0; i < n; i++) {
-      const thr_row *row = &programme->walks.row[walk[i]];
-      for (int k = 0; k < row->n; k++)
-        if (row->column[k] == j) {
-          column[entries] = i;
-          value[entries++] = row->value ? -row->value[k] : -1;
-        }
-    }
-    st = thr_lp_add_row(*lp, entries, column, value, programme->right[j], err);
-  }
-
-  free(cost);
-  free(value);
-  free(column);
-  return st;
-}
-
-/* Walks that keep to the limit are the columns of an integer programme whose optimum has to fit
- * into the number of cords. */
-thr_status thr_walk_choose(thr_walk_programme *programme, int units, thr_cord *cord, bool *found,
-                           thr_err *err)
-{
-  const double part = .1; /* of the time */
-  const thr_limits share = thr_limits_part(programme->limits, part);
-  thr_lp_outcome outcome = THR_LP_STOPPED;
-  thr_lp *lp = NULL;
-  walk_dive dive = {.programme = programme,
-                    .cord = cord,
-                    .left = thr_calloc((size_t)programme->n_variables, sizeof *dive.left)};
-  int n = 0, *walk = thr_calloc((size_t)programme->walks.count, sizeof *walk);
-  double *x = thr_calloc((size_t)programme->walks.count, sizeof *x);
-  *found = false;
-  thr_status st = dive.left && walk && x ? THR_OK : thr_nomem(err);
-
-  /* Known walks of at most so many units. */
-  for (int i = 0; i < programme->walks.count && !st; i++)
-    if (programme->walks.row[i].index <= units) walk[n++] = i;
-
-  /* The relaxation first, then whole numbers; both in part of the time. */
-  if (!st && n > 0) st = make_choice(programme, walk, n, &lp, err);
-  if (!st && n > 0) st = thr_lp_solve(lp, &share, &outcome, err);
-  if (!st && outcome == THR_LP_OPTIMAL) st = thr_lp_solve_integer(lp, &share, &outcome, err);
-  if (!st && outcome == THR_LP_OPTIMAL && thr_lp_objective(lp) < programme->cords + .5) {
-    /* A column's value says how many cords run along the walk. */
-    *found = true;
-    thr_lp_primal(lp, x);
-    for (int i = 0; i < n && !st; i++)
-      for (int times = (int)(x[i] + .5); times > 0 && !st; times--)
-        st = take(&dive, &programme->walks.row[walk[i]], err);
-    if (!st) st = fill_up(&dive, &programme->walks, err);
-  }
-
-  thr_lp_destroy(lp);
-  free(dive.left);
-  free(walk);
-  free(x);
   return st;
 }

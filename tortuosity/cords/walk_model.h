@@ -211,17 +211,11 @@ thr_status thr_walk_centre(thr_walk_programme *programme, int most_looks,
 /* ---- walk_dive.c: cords from the columns of a programme ---- */
 
 /* Dives for cords of at most `units` units: fixes the columns of value 1, or else the largest
- * column, or one drawn at random (random not NULL), and solves what is left again with few new
- * walks, until the edges have their passes. cord[programme->cords] receives the walks, *found
- * whether there were enough. kept: number of cords at the front of cord[] that stay. Begins and
- * ends the programme's search. */
-thr_status thr_walk_dive(thr_walk_programme *programme, int units, uint64_t *random, int kept,
-                         thr_cord *cord, bool *found, thr_err *err) THR_MUST_CHECK;
-
-/* Chooses cords by an integer programme over the known walks, in a part of the time. Parameters as
- * for thr_walk_dive. */
-thr_status thr_walk_choose(thr_walk_programme *programme, int units, thr_cord *cord, bool *found,
-                           thr_err *err) THR_MUST_CHECK;
+ * column, and solves what is left again with few new walks, until the edges have their passes.
+ * cord[programme->cords] receives the walks, *found whether there were enough. Begins and ends the
+ * programme's search. */
+thr_status thr_walk_dive(thr_walk_programme *programme, int units, thr_cord *cord, bool *found,
+                         thr_err *err) THR_MUST_CHECK;
 
 /* ---- walk_memory.c: edges that walks remember, so that repeated passes earn nothing ---- */
 
@@ -236,16 +230,6 @@ thr_status thr_walk_remember(thr_walk_programme *programme, bool *grown,
  * released. trial is as after thr_walk_programme_init. */
 thr_status thr_walk_take_proof(thr_walk_programme *programme, thr_walk_proof *proof,
                                thr_err *err) THR_MUST_CHECK;
-
-/* ---- walk_near.c: large neighbourhood search ---- */
-
-/* Lowers the price of the most expensive of the cords cord[programme->cords] of the programme's
- * component: dives for this cord and one to three that meet it anew, with the others kept, as long
- * as that helps or the limits allow, and until no cord costs more than enough (P. Shaw, "Using
- * constraint programming and local search methods to solve vehicle routing problems", CP 1998).
- * *improved: some cords were replaced. */
-thr_status thr_walk_near(thr_walk_programme *programme, double enough, thr_cord *cord,
-                         bool *improved, thr_err *err) THR_MUST_CHECK;
 
 /* ---- walk_search.c: single short walks without U-turns, except at nodes with one edge ---- */
 

@@ -20,7 +20,6 @@
 #include "lp/solver/solver.h"
 #include "tortuosity/cords/walk_model.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -8,7 +8,6 @@
  *
  * Example: on a 7 x 7 dome 10 cords between its feet, none of which needs more than twice the
  * seating tension, are 2168.6 mm long at least, where 1995.2 mm is what any cords need. */
-#include "graph/framework/frame.h"
 #include "tortuosity/cords/walk_model.h"
 
 #include <math.h>
@@ -144,7 +143,7 @@ thr_status thr_walk_pull_few(const thr_turning_columns *columns, const thr_reque
   if (!st) {
     programme.cords = most;
     thr_walk_programme_round_up(&programme, count_edges(columns, component));
-    st = thr_walk_dive(&programme, programme.units, NULL, 0, cord, &found, &why);
+    st = thr_walk_dive(&programme, programme.units, cord, &found, &why);
   }
   if (!st && found) *n = count_cords(cord, most);
   thr_walk_programme_destroy(&programme);

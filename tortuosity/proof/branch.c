@@ -16,7 +16,6 @@
 #include "tortuosity/proof/relax_parts.h"
 #include "tortuosity/tie/tie.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -101,7 +100,7 @@ static double base_price(const thr_turning_columns *turning_columns)
 
 /* Returns how far apart a bound and a price may be and still count as equal: a billionth of the
  * cord's price where turns cost nothing, otherwise of a U-turn at every pass. */
-int64_t thr_branch_tolerance(const thr_branch *branch)
+static int64_t branch_tolerance(const thr_branch *branch)
 {
   double u_turn = thr_turn_cost_of(branch->c->task->cost, THR_PI);
   if (branch->c->task->free_turns)
@@ -185,7 +184,7 @@ static thr_status certify(thr_branch *branch, int i, thr_err *err)
 /* Returns the bound from which on no plan below a node can be better than the best one found. */
 static double optimum(const thr_branch *branch)
 {
-  return branch->found ? (double)(branch->best_price - thr_branch_tolerance(branch)) : INFINITY;
+  return branch->found ? (double)(branch->best_price - branch_tolerance(branch)) : INFINITY;
 }
 
 /* Returns the bound from which on a node is closed: the best plan is proved there, or within the

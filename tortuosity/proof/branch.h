@@ -283,9 +283,6 @@ thr_status thr_branch_take(thr_branch *branch, thr_branch *from, thr_err *err) T
 thr_status thr_branch_proof(thr_branch *branch, thr_turning_proof *proof,
                             thr_err *err) THR_MUST_CHECK;
 
-/* How far bound and price may be apart and still count as equal. */
-int64_t thr_branch_tolerance(const thr_branch *branch);
-
 /* ---- least.c: The least turning: extra passes, ends and pairings chosen together
  * (docs/method.md). */
 

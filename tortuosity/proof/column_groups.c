@@ -11,10 +11,6 @@
 #include "graph/arrays.h"
 #include "tortuosity/proof/branch.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const double tolerance = 1e-6;
 
 /* Returns the number of the disjoint-set member that stands for the ends of the column's component;

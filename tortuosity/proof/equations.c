@@ -17,8 +17,6 @@
 #include "tortuosity/proof/branch.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* A programme of equations as thr_lp_create_equations takes it, by columns. */
 typedef struct {

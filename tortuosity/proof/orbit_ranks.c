@@ -19,7 +19,6 @@
 #include "tortuosity/proof/relax_parts.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { ROUNDS = 400, MOST_NUMBERS = 400 };

@@ -13,7 +13,6 @@
 #include "tortuosity/proof/branch.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 /* Fills image[n_edges] with the images of the half-edges 2e under a map of the nodes. Returns false
  * if some edge has no image. */

@@ -17,7 +17,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { LEVELS = 48 }; /* partitions that are offered at most, about */
 

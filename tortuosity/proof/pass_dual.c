@@ -12,7 +12,6 @@
 #include "graph/arrays.h"
 #include "tortuosity/proof/relax_parts.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- blossoms ---- */

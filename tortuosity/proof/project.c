@@ -15,7 +15,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Puts passes less ends of half-edge h, times sign, into the draft of a row. Returns what the
  * passes that every plan has contribute to it. */

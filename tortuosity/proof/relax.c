@@ -16,7 +16,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Returns the number of the column that is the programme's column 0. */
 static int first_column(const thr_relax *relax)

@@ -10,7 +10,6 @@
 #include "tortuosity/proof/relax_parts.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Returns a multiplier in units of 2^-THR_TURNING_BITS, limited to 10,000, so that sums stay within

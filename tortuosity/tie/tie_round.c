@@ -11,7 +11,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* An entry of the heap: a half-edge that was reached. */
 typedef struct {

@@ -15,7 +15,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { KNOWN_BITS = 18, DEPTH = 24, TABLE = 40, SPARE = 12 };
 

@@ -11,7 +11,6 @@
 #include "graph/threading/threading.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* The walks, and what searches for shorter ones may still take. */

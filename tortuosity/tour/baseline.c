@@ -17,7 +17,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* The passes that are walked so far, and the walk. */
 typedef struct {
