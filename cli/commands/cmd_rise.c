@@ -637,7 +637,7 @@ static int write_booklet(const rise_runs *runs)
                      .panel = panel,
                      .first_bead = -1};
   double(*pose)[7] = thr_calloc((size_t)(still.n_panels * n_pieces), sizeof *pose);
-  thr_text_append(&note, "In simulation (thread rise): ");
+  thr_text_append(&note, "In simulation: ");
   put_title(runs, &note);
   thr_text_append(&note, "; ");
   put_outcome(runs, &note);

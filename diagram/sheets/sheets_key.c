@@ -125,7 +125,7 @@ static void put_crossings(thr_flow *flow, const thr_known *known)
   if (!st && n)
     thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
                    "%d piece%s cords that cross inside: there one channel lies above the other "
-                   "(channels.csv says which).",
+                   "(the table of channels says which).",
                    n, n == 1 ? " holds" : "s hold");
   else if (!st)
     thr_sheets_put(flow, THR_BLOCK_PARAGRAPH, "No cords cross inside a piece.");
@@ -201,9 +201,9 @@ void thr_sheets_key(thr_sheets *sheets)
                  known->in_space ? "Each turned so that its arms are told best."
                                  : "Outer side up, as in the picture.",
                  known->f->units,
-                 many                      ? " The other kinds: beads.csv."
+                 many                      ? " The other kinds: the table of beads."
                  : cards < pieces->n_kinds ? " Kinds of one piece, which rows call by its place: "
-                                             "beads.csv."
+                                             "the table of beads."
                                            : "");
 
   /* Kinds count from 1. */

@@ -321,6 +321,6 @@ void thr_sheets_prepare(thr_flow *flow, const thr_known *known)
   flow->y += 1;
   thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
                  "Cords: the most in one arm of such a piece; the bore holds them side by side. "
-                 "Which piece is of which kind: beads.csv. Which way the cords take through each: "
-                 "channels.csv.");
+                 "Which piece is of which kind, and which way the cords take through each: the "
+                 "tables of beads and of channels, files of their own.");
 }

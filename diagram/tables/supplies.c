@@ -83,7 +83,7 @@ bool thr_supplies_doubt(const thr_supplies *supplies, char line[160])
 
   snprintf(line, 160,
            "A cord of %.3g mm through bores of %.4g mm: is that the size to be built? Else plan it "
-           "with --units or --scale.",
+           "anew in its true units.",
            supplies->cord, supplies->bore);
   return true;
 }
