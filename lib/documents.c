@@ -194,6 +194,7 @@ static thr_sheets_options sheets_options(const thr_plan *plan, const thr_documen
   options.motion = motion;
   options.layout = asked->layout;
   options.rise = asked->rise;
+  options.name = asked->name;
 
   return options;
 }

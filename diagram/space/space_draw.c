@@ -835,7 +835,7 @@ thr_status thr_space_whole(const thr_space *space, const thr_space_look *look, t
     for (int i = 0; i < (space->solid ? frame->n_nodes : frame->n_edges); i++)
       piece[i] = look->state ? look->state[i] : THR_PIECE_HELD;
     put_pieces(&drawing, AROUND, false, list);
-    st = put_names(&drawing, look, list, err);
+    if (!look->plain) st = put_names(&drawing, look, list, err);
     thr_text_append(text, "</g>\n");
   }
 

@@ -69,6 +69,7 @@ thr_status thr_supplies_find_sizes(thr_supplies *supplies, thr_err *err)
   supplies->mm = mm;
   supplies->cord = sizes.cord_diameter;
   supplies->bore = sizes.bore;
+  supplies->width = sizes.bead_diameter;
   return THR_OK;
 }
 
