@@ -301,7 +301,7 @@ static thr_status plates_3mf(const thr_kit *kit, thr_text *out, thr_err *err)
 {
   thr_kit_plates plates = {0};
   thr_status st = thr_kit_plates_make(&plates, kit, err);
-  if (!st) st = thr_kit_3mf(&plates, out, err);
+  if (!st) st = thr_kit_3mf(&plates, -1, out, err);
   thr_kit_plates_destroy(&plates);
   return st;
 }

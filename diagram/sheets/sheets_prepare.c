@@ -319,8 +319,10 @@ void thr_sheets_prepare(thr_flow *flow, const thr_known *known)
   put_feet(flow, known);
   put_pieces(flow, known);
   flow->y += 1;
-  thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
-                 "Cords: the most in one arm of such a piece; the bore holds them side by side. "
-                 "Which piece is of which kind, and which way the cords take through each: the "
-                 "tables of beads and of channels, files of their own.");
+  thr_sheets_put(
+      flow, THR_BLOCK_PARAGRAPH,
+      "Cords: the most in one arm of such a piece; the bore holds them side by side. "
+      "Which piece is of which kind, and which way the cords take through each: the "
+      "tables of beads and of channels, files of their own. Printed pieces of a kind that "
+      "differ inside or by their names have a letter more: T-2a and T-2b are of kind T-2.");
 }
