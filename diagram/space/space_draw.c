@@ -715,7 +715,7 @@ static void put_numbers(const step_drawing *drawing, const thr_space_look *look,
           0.5 * (tail[2] + head[2]) < drawing->depth - 0.5 * drawing->deep)
         continue;
       const int hue = plan->n_cords == 1 ? i / THR_COLOUR_PASSES : space->cord[i];
-      snprintf(words, sizeof words, "%s%d", id, number);
+      thr_scene_pass_name(plan, space->cord[i], number, words);
       for (int k = 0; k < 2; k++)
         at[k] = 0.5 * (lane.from[k] + lane.to[k]);
       if (put_label(drawing, boxes, at, words, "#fff", thr_palette(hue).hex, st, err) &&
