@@ -469,6 +469,13 @@ void cli_stem(const char *path, char *out, size_t size)
     snprintf(out, size, "%.*s", n, name);
 }
 
+const char *cli_thing(const char *path, char name[64])
+{
+  if (!path || strcmp(path, "-") == 0) return NULL;
+  cli_stem(path, name, 64);
+  return strcmp(name, "plan") == 0 ? NULL : name;
+}
+
 int cli_make_folder(const char *folder)
 {
   char part[1024];

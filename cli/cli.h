@@ -208,6 +208,10 @@ int cli_read_plan(const char *path, thr_plan *plan);
 /* File name of a path without folder and extension ("frame" for "-"). */
 void cli_stem(const char *path, char *out, size_t size);
 
+/* Writes what the thing in a file of a framework or plan is called, and returns name; NULL where
+ * the file's name says nothing: stdin, plan.json, no path. */
+const char *cli_thing(const char *path, char name[64]);
+
 /* Makes a folder and those that it is in, if they are not there. Returns EXIT_OK or prints and
  * returns the code. */
 int cli_make_folder(const char *folder);

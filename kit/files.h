@@ -54,8 +54,10 @@ void thr_kit_plates_destroy(thr_kit_plates *plates);
 /* ---- write_3mf.c, write_stl.c: meshes. */
 
 /* Appends kit.3mf: an object for each mesh, and an item for each piece where it stands on its
- * plate; plates are beside each other. O(points log points). */
-thr_status thr_kit_3mf(const thr_kit_plates *plates, thr_text *out, thr_err *err) THR_MUST_CHECK;
+ * plate. plate: the only one, from 0, as slicers know one bed; -1: all, beside each other. O(points
+ * log points). */
+thr_status thr_kit_3mf(const thr_kit_plates *plates, int plate, thr_text *out,
+                       thr_err *err) THR_MUST_CHECK;
 
 /* Fills normal with the unit normal of a triangle, outwards; returns its area in mm2. */
 double thr_kit_normal(const thr_mesh *mesh, int triangle, double normal[3]);
@@ -67,12 +69,27 @@ uint32_t thr_kit_checksum(uint32_t sum, const char *bytes, size_t n);
 /* Appends a number of so many bytes, the lowest first. */
 void thr_kit_number(thr_text *out, uint64_t value, int bytes);
 
-/* Appends the mesh of a piece as binary STL. */
-void thr_kit_stl(const thr_kit *kit, int piece, thr_text *out);
+/* Appends the mesh of a piece as binary STL, turned as it stands on the bed, whose corner is at 0.
+ */
+void thr_kit_stl(const thr_kit_plates *plates, int piece, thr_text *out);
 
-/* Writes the name of that file, "X-7.stl": as the kind is called, with "_" for what not all systems
- * allow in names. */
-void thr_kit_stl_name(const thr_kit *kit, int piece, char name[32]);
+/* Writes the name of that file, "X-7-print-4x.stl": as the kind is called, with "_" for what not
+ * all systems allow in names, and how many of it there are. */
+void thr_kit_stl_name(const thr_kit *kit, int piece, char name[64]);
+
+/* ---- read_me.c */
+
+/* What is beside the plates and kit.csv in a kit's folder. */
+typedef struct {
+  bool stl, scad, pictures;
+} thr_kit_written;
+
+/* Appends README.txt: what the files are for, how many to print, and how. */
+void thr_kit_read_me(const thr_kit_plates *plates, const thr_kit_written *written, thr_text *out);
+
+/* Appends how many kinds there are: "13 kinds (49 with their channels and names)" (kit_tables.c).
+ */
+void thr_kit_kinds(const thr_kit *kit, thr_text *out);
 
 /* ---- write_viewer.c: what the viewer's page needs to show the pieces themselves. */
 

@@ -625,6 +625,7 @@ static void find_alike(const maker *work)
   }
 
   kit->n_kinds = kit->n_meshes = 0;
+  kit->n_shapes = work->pieces.n_kinds;
   for (int p = 0; p < kit->n_pieces; p++) {
     thr_kit_piece *piece = &kit->piece[p];
     static const double unit[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};

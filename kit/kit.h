@@ -328,6 +328,7 @@ typedef struct {
   int n_pieces, n_meshes, n_kinds;
   int only;                /* the piece of this name in the options, from 1; 0 = all */
   int n_unnamed_kinds;     /* kinds if the pieces had no letters */
+  int n_shapes;            /* kinds by shape alone, as in all other documents */
   thr_kit_piece *piece;    /* [n_pieces] */
   thr_mesh *mesh;          /* [n_pieces] empty where another piece's is shared */
   thr_mesh_report *report; /* [n_pieces] of those that have one */

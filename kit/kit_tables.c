@@ -40,6 +40,15 @@ static void end_row(thr_text *out)
   if (!out->failed) out->data[out->length - 1] = '\n';
 }
 
+void thr_kit_kinds(const thr_kit *kit, thr_text *out)
+{
+  const bool named = kit->options.names == THR_KIT_OF_PIECES;
+  thr_text_printf(out, "%d kind%s", kit->n_shapes, kit->n_shapes == 1 ? "" : "s");
+  if (kit->n_kinds > kit->n_shapes)
+    thr_text_printf(out, " (%d with their %s%s)", kit->n_kinds,
+                    kit->piece[0].tube ? "ends" : "channels", named ? " and names" : "");
+}
+
 /* ---- kit.csv ---- */
 
 /* Appends what lies on the bed: "base", "face to B6", else the direction that looks down, as its

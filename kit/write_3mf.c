@@ -186,14 +186,26 @@ static thr_status put_mesh(const thr_mesh *mesh, thr_text *xml, thr_err *err)
   return THR_OK;
 }
 
-/* Appends the objects: a mesh each, called as its kind; one that no other piece shares, as its
- * kind and piece. The number of an object is that of its kind. */
-static thr_status put_objects(const thr_kit *kit, thr_text *xml, thr_err *err)
+/* Returns whether a piece is on the plate that is written; -1: all are. */
+static bool is_on(const thr_kit_plates *plates, int p, int plate)
 {
+  return plate < 0 || plates->plate[p] == plate;
+}
+
+/* Appends the objects: a mesh each that is on the plate, called as its kind; one that no other
+ * piece shares, as its kind and piece. The number of an object is that of its kind. used: scratch,
+ * [n_pieces] all false. */
+static thr_status put_objects(const thr_kit_plates *plates, int plate, bool *used, thr_text *xml,
+                              thr_err *err)
+{
+  const thr_kit *kit = plates->kit;
   thr_status st = THR_OK;
+  for (int p = 0; p < kit->n_pieces; p++)
+    used[kit->piece[p].like] |= is_on(plates, p, plate);
+
   for (int p = 0; p < kit->n_pieces && !st; p++) {
     const thr_kit_piece *piece = &kit->piece[p];
-    if (piece->like != p) continue;
+    if (!used[p]) continue;
     const char *kind = kit->kind_name[piece->kind];
     thr_text_printf(xml, "  <object id=\"%d\" type=\"model\" partnumber=\"", piece->kind);
     thr_text_xml(xml, kind);
@@ -212,17 +224,18 @@ static thr_status put_objects(const thr_kit *kit, thr_text *xml, thr_err *err)
 
 /* Appends the items: every piece, turned as it stands and moved to its place. A point is a row that
  * is multiplied by the matrix, so its rows are the images of the axes. */
-static void put_items(const thr_kit_plates *plates, thr_text *xml)
+static void put_items(const thr_kit_plates *plates, int plate, thr_text *xml)
 {
   const thr_kit *kit = plates->kit;
   for (int p = 0; p < kit->n_pieces; p++) {
+    if (!is_on(plates, p, plate)) continue;
     const thr_kit_stand *stand = &plates->stand[kit->piece[p].like];
     thr_text_printf(xml, "  <item objectid=\"%d\" transform=\"", kit->piece[p].kind);
     for (int i = 0; i < 9; i++) {
       put_rounded(xml, stand->turn[3 * (i % 3) + i / 3], 1e-12);
       thr_text_byte(xml, ' ');
     }
-    double next = plates->plate[p] * (kit->options.bed[0] + BETWEEN);
+    double next = plate < 0 ? plates->plate[p] * (kit->options.bed[0] + BETWEEN) : 0;
     put_rounded(xml, next + plates->at[p][0] - stand->low[0], 1e-6);
     thr_text_byte(xml, ' ');
     put_rounded(xml, plates->at[p][1] - stand->low[1], 1e-6);
@@ -234,7 +247,7 @@ static void put_items(const thr_kit_plates *plates, thr_text *xml)
   }
 }
 
-thr_status thr_kit_3mf(const thr_kit_plates *plates, thr_text *out, thr_err *err)
+thr_status thr_kit_3mf(const thr_kit_plates *plates, int plate, thr_text *out, thr_err *err)
 {
   static const char head[] = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
   thr_text types = {0}, links = {0}, model = {0};
@@ -258,9 +271,11 @@ thr_status thr_kit_3mf(const thr_kit_plates *plates, thr_text *out, thr_err *err
   thr_text_append(&model, "<model unit=\"millimeter\" xml:lang=\"en-US\" "
                           "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n"
                           " <metadata name=\"Application\">thread</metadata>\n <resources>\n");
-  thr_status st = put_objects(plates->kit, &model, err);
+  bool *used = thr_calloc((size_t)plates->kit->n_pieces, sizeof *used);
+  thr_status st = used ? put_objects(plates, plate, used, &model, err) : thr_nomem(err);
+  free(used);
   thr_text_append(&model, " </resources>\n <build>\n");
-  put_items(plates, &model);
+  put_items(plates, plate, &model);
   thr_text_append(&model, " </build>\n</model>\n");
 
   /* The package is a text of its own until nothing can fail any more. */

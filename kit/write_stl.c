@@ -40,9 +40,18 @@ static void put_vector(char *to, const double v[3])
   }
 }
 
-void thr_kit_stl(const thr_kit *kit, int piece, thr_text *out)
+/* Turns a vector of a mesh as it stands on the bed. */
+static void turn(const thr_kit_stand *stand, const double v[3], double turned[3])
 {
+  for (int k = 0; k < 3; k++)
+    turned[k] = thr_dot(&stand->turn[3 * k], v);
+}
+
+void thr_kit_stl(const thr_kit_plates *plates, int piece, thr_text *out)
+{
+  const thr_kit *kit = plates->kit;
   const thr_mesh *mesh = &kit->mesh[kit->piece[piece].like];
+  const thr_kit_stand *stand = &plates->stand[kit->piece[piece].like];
 
   /* A heading that begins with "solid" would be taken for text. */
   char heading[84] = "binary STL, lengths in mm: ";
@@ -53,18 +62,24 @@ void thr_kit_stl(const thr_kit *kit, int piece, thr_text *out)
 
   for (int t = 0; t < mesh->n_triangles; t++) {
     char bytes[50] = {0};
-    double normal[3];
+    double normal[3], turned[3];
     thr_kit_normal(mesh, t, normal);
-    put_vector(bytes, normal);
-    for (int k = 0; k < 3; k++)
-      put_vector(bytes + 12 * (k + 1), mesh->point[mesh->triangle[t][k]]);
+    turn(stand, normal, turned);
+    put_vector(bytes, turned);
+    for (int k = 0; k < 3; k++) {
+      turn(stand, mesh->point[mesh->triangle[t][k]], turned);
+      for (int l = 0; l < 3; l++)
+        turned[l] -= stand->low[l];
+      put_vector(bytes + 12 * (k + 1), turned);
+    }
     thr_text_append_bytes(out, bytes, sizeof bytes);
   }
 }
 
-void thr_kit_stl_name(const thr_kit *kit, int piece, char name[32])
+void thr_kit_stl_name(const thr_kit *kit, int piece, char name[64])
 {
-  snprintf(name, 32, "%s.stl", kit->kind_name[kit->piece[piece].kind]);
+  snprintf(name, 64, "%s-print-%dx.stl", kit->kind_name[kit->piece[piece].kind],
+           kit->piece[kit->piece[piece].like].count);
   for (char *c = name; *c; c++)
     if (!isalnum((unsigned char)*c) && !strchr("-._", *c)) *c = '_';
 }

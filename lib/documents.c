@@ -193,6 +193,7 @@ static thr_sheets_options sheets_options(const thr_plan *plan, const thr_documen
   options.motion = motion;
   options.layout = asked->layout;
   options.rise = asked->rise;
+  options.name = asked->name;
 
   return options;
 }
@@ -299,7 +300,7 @@ static thr_status plates_3mf(const thr_kit *kit, thr_text *out, thr_err *err)
 {
   thr_kit_plates plates = {0};
   thr_status st = thr_kit_plates_make(&plates, kit, err);
-  if (!st) st = thr_kit_3mf(&plates, out, err);
+  if (!st) st = thr_kit_3mf(&plates, -1, out, err);
   thr_kit_plates_destroy(&plates);
   return st;
 }

@@ -264,6 +264,7 @@ typedef struct {
   thr_line_options lines;   /* of cords for CAD */
   thr_kit_view view;        /* of the picture */
   const char *piece;        /* the only one in the picture, by its name; NULL = all */
+  const char *name;         /* of the thing, for the cover of the step sheets; NULL = not said */
   const thr_still *rise;    /* of the step sheets: how the pieces come up (thr_sheets_options) */
   const thr_text *kit;      /* of the viewer: the pieces' meshes (kit/files.h); NULL = none */
   const thr_layout *layout; /* of the plan's framework, by thr_layout_choose: what several documents

@@ -187,6 +187,7 @@ int cmd_draw(int argc, char **argv)
   const int type = asked.type;
   const bool all = type == thr_documents_count();
   args->lines.up_y = asked.up == 0;
+  args->path = argv[optind];
 
   /* The output must fit what is made. */
   if (all && output && strcmp(output, "-") == 0)

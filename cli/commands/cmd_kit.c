@@ -2,8 +2,8 @@
 /* thread kit: makes the pieces of a plan as solids to print, with channels where the cords go
  * (kit/kit.h).
  *
- * All files go into one folder: kit.3mf with every piece on the plates of a printer, kit.csv with
- * what they measure, and what else was asked for.
+ * All files go into one folder: kit.3mf with every piece on the bed of a printer (kit-1.3mf, .. if
+ * it takes several), kit.csv with what they measure, README.txt, and what else was asked for.
  *
  * Example: `thread kit plan.json -o kit/ --stl` also writes one file for each kind of piece. */
 #include "cli/commands/commands.h"
@@ -20,7 +20,7 @@
 static const char intro[] =
     "thread kit PLAN [options]: the pieces themselves, to print\n\n"
     "Examples:\n"
-    "  thread kit plan.json                          kit/kit.3mf, kit.csv, kit.png, kit.html\n"
+    "  thread kit plan.json                          kit/kit.3mf, README.txt, kit.csv, kit.png ..\n"
     "  thread kit plan.json --names none             pieces that are alike are one print\n"
     "  thread kit plan.json --stl -o parts/          one STL file for each kind, too\n"
     "  thread kit plan.json --width 12 --key cone    thicker arms, which centre each other\n";
@@ -143,12 +143,14 @@ static int write_file(thr_status st, thr_text *text, const char *folder, const c
 static void say(const thr_kit *kit, const thr_kit_plates *plates, const char *folder)
 {
   char volume[64], mass[64];
+  thr_text kinds = {0};
 
-  cli_note("%d %s, %d %s, %s, %s at %.3g g/cm3, on %d %s", kit->n_pieces,
-           thr_pieces_word(kit->plan, kit->n_pieces), kit->n_kinds,
-           cli_plural(kit->n_kinds, "kind", "kinds"), plain_volume(kit->volume, volume),
-           plain_mass(kit->mass, mass), kit->options.density, plates->n_plates,
-           cli_plural(plates->n_plates, "plate", "plates"));
+  thr_kit_kinds(kit, &kinds);
+  cli_note("%d %s, %s, %s, %s at %.3g g/cm3, on %d %s", kit->n_pieces,
+           thr_pieces_word(kit->plan, kit->n_pieces), kinds.failed ? "" : kinds.data,
+           plain_volume(kit->volume, volume), plain_mass(kit->mass, mass), kit->options.density,
+           plates->n_plates, cli_plural(plates->n_plates, "plate", "plates"));
+  thr_text_destroy(&kinds);
   cli_note("arms %.3g mm wide, cord %.3g mm, walls %.3g mm or more", kit->options.width, kit->cord,
            kit->options.wall);
 
@@ -171,7 +173,8 @@ static int answer(const thr_kit *kit, const thr_kit_plates *plates)
   thr_write_object(&writer, NULL);
   answer_put_files(&writer);
   thr_write_int(&writer, "pieces", kit->n_pieces);
-  thr_write_int(&writer, "kinds", kit->n_kinds);
+  thr_write_int(&writer, "kinds", kit->n_shapes);
+  thr_write_int(&writer, "kinds_with_channels", kit->n_kinds);
   thr_write_int(&writer, "plates", plates->n_plates);
   thr_write_number(&writer, "volume_cm3", kit->volume / 1000);
   thr_write_number(&writer, "mass_g", kit->mass);
@@ -216,6 +219,22 @@ static int write_viewer(const thr_kit *kit, const kit_arguments *args, const cha
                     "the pieces and the cords, step by step in any browser", &err);
 }
 
+/* Writes the plates: one as kit.3mf, several as kit-1.3mf, kit-2.3mf, .., as a slicer knows one
+ * bed. Returns an exit code. */
+static int write_plates(const thr_kit_plates *plates, const char *folder)
+{
+  int code = EXIT_OK;
+  for (int i = 0; i < plates->n_plates && !code; i++) {
+    thr_err err = {0};
+    thr_text text = {0};
+    char name[32] = "kit.3mf";
+    if (plates->n_plates > 1) snprintf(name, sizeof name, "kit-%d.3mf", i + 1);
+    const thr_status st = thr_kit_3mf(plates, i, &text, &err);
+    code = write_file(st, &text, folder, name, "the pieces on the bed of a printer", &err);
+  }
+  return code;
+}
+
 /* Writes everything that was asked for. Returns an exit code. */
 static int write_all(const thr_kit *kit, const kit_arguments *args, const char *folder)
 {
@@ -229,9 +248,12 @@ static int write_all(const thr_kit *kit, const kit_arguments *args, const char *
     return cli_fail(&err);
   }
 
-  st = thr_kit_3mf(&plates, &text, &err);
-  int code =
-      write_file(st, &text, folder, "kit.3mf", "all pieces on the plates of a printer", &err);
+  int code = write_plates(&plates, folder);
+  if (!code) {
+    const thr_kit_written written = {args->stl, args->scad, !args->no_picture};
+    thr_kit_read_me(&plates, &written, &text);
+    code = write_file(THR_OK, &text, folder, "README.txt", "what to print, and how", &err);
+  }
   if (!code) {
     st = thr_kit_table(&plates, NULL, &text, &err);
     code = write_file(st, &text, folder, "kit.csv", "what the pieces measure", &err);
@@ -246,10 +268,10 @@ static int write_all(const thr_kit *kit, const kit_arguments *args, const char *
                       &err);
   }
   for (int p = 0; p < kit->n_pieces && !code && args->stl; p++) {
-    char name[32];
+    char name[64];
     if (kit->piece[p].like != p) continue;
     thr_kit_stl_name(kit, p, name);
-    thr_kit_stl(kit, p, &text);
+    thr_kit_stl(&plates, p, &text);
     code = write_file(THR_OK, &text, folder, name, "a piece of each kind", &err);
   }
   if (!code && !args->no_picture) {

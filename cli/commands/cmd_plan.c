@@ -103,7 +103,7 @@ static int parse(int argc, char **argv, plan_arguments *args)
   if (args->progress) progress_begin();
   if (optind + 1 != argc)
     return cli_usage("plan", optind == argc ? "which framework?" : "one framework at a time");
-  args->path = argv[optind];
+  args->path = args->drawings.path = argv[optind];
 
   /* Outputs: names that a file can have, and one text at most on stdout. */
   if (args->output && cli_no_plan_name("plan", args->output)) return EXIT_USAGE;

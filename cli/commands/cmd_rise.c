@@ -631,7 +631,7 @@ static int write_booklet(const rise_runs *runs)
                      .panel = panel,
                      .first_bead = -1};
   double(*pose)[7] = thr_calloc((size_t)(still.n_panels * n_pieces), sizeof *pose);
-  thr_text_append(&note, "In simulation (thread rise): ");
+  thr_text_append(&note, "In simulation: ");
   put_title(runs, &note);
   thr_text_append(&note, "; ");
   put_outcome(runs, &note);
@@ -652,8 +652,11 @@ static int write_booklet(const rise_runs *runs)
   }
 
   still.note = note.data;
-  const thr_document_options how = {
-      .rise = &still, .page = runs->args->page, .kind_tolerance = runs->args->kit.kind_tolerance};
+  char name[64];
+  const thr_document_options how = {.name = cli_thing(runs->args->path, name),
+                                    .rise = &still,
+                                    .page = runs->args->page,
+                                    .kind_tolerance = runs->args->kit.kind_tolerance};
   const int kind =
       thr_document_find(booklet_kind(runs->args->booklet) == 1 ? "sheets.html" : "pdf");
   thr_status st = pose && !note.failed ? THR_OK : thr_nomem(&err);

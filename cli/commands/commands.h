@@ -63,7 +63,8 @@ typedef struct {
   thr_line_options lines; /* of cords for CAD */
   thr_kit_view view;      /* of the picture, and the only piece in it by its name; NULL = all */
   const char *piece;
-  bool quick; /* all documents means all but the step sheets of too many pieces */
+  const char *path; /* of the file that the thing is named after; NULL or "-": of none */
+  bool quick;       /* all documents means all but the step sheets of too many pieces */
 } drawings_args;
 
 /* With more pieces step sheets are hundreds of pages, which nobody prints unasked. */

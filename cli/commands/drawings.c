@@ -85,6 +85,7 @@ static void note_pages(const char *file, int n)
 static thr_status make_one(const thr_plan *plan, int i, const thr_layout *layout,
                            const drawings_args *args, thr_text *text, thr_err *err)
 {
+  char name[64];
   const thr_document_options options = {.pitch_mm = args->pitch_mm,
                                         .lines = args->lines,
                                         .layout = layout,
@@ -95,6 +96,7 @@ static thr_status make_one(const thr_plan *plan, int i, const thr_layout *layout
                                         .piece = args->piece,
                                         .needles = args->needles,
                                         .working_mm = args->working_mm,
+                                        .name = cli_thing(args->path, name),
                                         .pages = note_pages};
 
   /* An interrupt that has ended the planning does not end the drawing, too. */

@@ -242,8 +242,9 @@ static double write_key(const thr_scene *scene, double x, double y, thr_text *te
 
   /* A pill with the number of the first pass. */
   x += 14;
-  thr_draw_pill(scene, scene->plan->n_cords > 1 ? "A1" : "1", colour, x, y, text);
-  thr_svg_text(text, x += 5, line, TEXT_SIZE, "", "number of a pass");
+  thr_draw_pill(scene, scene->plan->n_cords > 1 ? "A:1" : "1", colour, x, y, text);
+  thr_svg_text(text, x += scene->plan->n_cords > 1 ? 6 : 5, line, TEXT_SIZE, "",
+               "number of a pass");
   x += 38;
 
   /* A piece: a cross with four arms, or a tube. */

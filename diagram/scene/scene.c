@@ -46,8 +46,14 @@ double thr_scene_pill_width(const thr_scene *scene, const char *text)
 void thr_scene_number(const thr_scene *scene, int pass, char text[32])
 {
   const thr_scene_pass *scene_pass = &scene->pass[pass];
-  snprintf(text, 32, "%s%d", scene->plan->n_cords > 1 ? scene->id[scene_pass->cord] : "",
-           scene_pass->number);
+  thr_scene_pass_name(scene->plan, scene_pass->cord, scene_pass->number, text);
+}
+
+void thr_scene_pass_name(const thr_plan *plan, int c, int number, char text[32])
+{
+  char id[12] = "";
+  if (plan->n_cords > 1) thr_scene_cord_id(plan, c, id);
+  snprintf(text, 32, "%s%s%d", id, *id ? ":" : "", number);
 }
 
 double thr_scene_sweep(double a, double b)

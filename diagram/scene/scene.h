@@ -378,8 +378,10 @@ double thr_scene_text_width(const char *text, double font_size);
 double thr_scene_pill_width(const thr_scene *scene, const char *text);
 double thr_scene_pill_height(const thr_scene *scene);
 
-/* Writes the text of a pass's number: "17", or "A17" when there are several cords. */
+/* Write what a pass is called on paper: "17", or "A:17" when there are several cords, since A17 is
+ * a place. number: from 1. */
 void thr_scene_number(const thr_scene *scene, int pass, char text[32]);
+void thr_scene_pass_name(const thr_plan *plan, int c, int number, char text[32]);
 
 /* ---- pieces.c: the pieces of a plan: what a hand picks up. */
 

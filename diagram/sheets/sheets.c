@@ -104,9 +104,10 @@ static void put_pages(thr_sheets *sheets)
   /* first[part] is the number of pages before a part, without the title page. */
   first[THR_SHEET_PREPARE] = sheets->flow.n_pages;
   thr_sheets_making(&sheets->flow, &sheets->known);
+  first[THR_SHEET_CUT] = sheets->flow.n_pages;
   thr_sheets_prepare(&sheets->flow, &sheets->known);
   thr_sheets_key(sheets);
-  thr_sheets_name_tags(&sheets->flow, &sheets->known);
+  first[THR_SHEET_NAMES] = thr_sheets_name_tags(&sheets->flow, &sheets->known);
 
   /* Copies are not divided into steps: one page says how each repeats its path. */
   first[THR_SHEET_STEPS] = sheets->flow.n_pages;

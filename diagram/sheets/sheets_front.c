@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lays out the title page: counts of pieces and cords, what is proved of the plan, on which pages
- * the parts of the booklet begin, and the picture of the whole.
+/* Lays out the title page: what is made and how large it is, what is needed, what is done in which
+ * order and on which pages, what is proved of the plan, and pictures of the whole.
  *
  * Example: "49 pieces (4 L, 20 T, 25 X) that meet in 84 places, face to face; 4 feet; 1 cord, 86
  * passes, 1771 mm of cord." and "Goal: as little cord as possible; proved: with these options no
@@ -9,12 +9,48 @@
 #include "diagram/sheets/sheets_parts.h"
 #include "graph/plan/request.h"
 
+#include <math.h>
 #include <stdio.h>
+
+static const double COLUMN = 100; /* mm: width of the lists beside a picture */
+static const double PICTURE = 68; /* mm: height of that picture, at most */
+static const double INDENT = 4.5; /* mm: from the margin to an item's words */
 
 /* Returns the ending of a plural. */
 static const char *plural(int n)
 {
   return n == 1 ? "" : "s";
+}
+
+/* Appends how large the thing is when it is finished: the box of all nodes, and an arm's width more
+ * where that is known. In mm, of large things in m, or in units without a length. */
+static void add_size(const thr_known *known, thr_text *words)
+{
+  const thr_frame *frame = known->f;
+  const double mm = known->supplies.mm;
+  double size[3], largest = 0;
+  for (int k = 0; k < 3; k++) {
+    double low = INFINITY, high = -INFINITY;
+    for (int v = 0; v < frame->n_nodes; v++) {
+      low = fmin(low, frame->xyz[v][k]);
+      high = fmax(high, frame->xyz[v][k]);
+    }
+    size[k] = (high - low) * (mm > 0 ? mm : 1) + known->supplies.width;
+    largest = fmax(largest, size[k]);
+  }
+
+  const bool large = mm > 0 && largest >= 3000;
+  thr_text_append(words, " Finished: about ");
+  for (int k = 0; k < 3; k++)
+    thr_text_printf(words, "%s%.*f", k ? " x " : "",
+                    large           ? 2
+                    : largest >= 10 ? 0
+                                    : 2,
+                    size[k] / (large ? 1000 : 1));
+  thr_text_printf(words, " %s (width x depth x height).",
+                  large    ? "m"
+                  : mm > 0 ? "mm"
+                           : frame->units);
 }
 
 /* Writes how many pieces, places, feet, cords and passes there are, and how much cord is on the
@@ -49,6 +85,7 @@ static void put_counts(thr_flow *flow, const thr_known *known)
   thr_text_printf(&words, "; %d %s; %d cord%s, %d pass%s, %s of cord.", feet,
                   feet == 1 ? "foot" : "feet", cords, plural(cords), known->n_passes,
                   known->n_passes == 1 ? "" : "es", length);
+  add_size(known, &words);
 
   thr_sheets_put_text(flow, THR_BLOCK_PARAGRAPH, &words);
 }
@@ -114,20 +151,134 @@ static void put_goal(thr_flow *flow, const thr_known *known)
                    asked->max_pull * asked->physics.seating);
 }
 
+/* Writes an item of a list, behind a number, or behind a dash for 0. */
+static void put_item(thr_flow *flow, double width, int number, thr_text *words)
+{
+  char mark[8] = "-";
+  if (number) snprintf(mark, sizeof mark, "%d", number);
+  if (words->failed) thr_nomem(&flow->why);
+  if (!flow->why.code) {
+    thr_svg_text(thr_sheets_out(flow), THR_SHEET_MARGIN, flow->y, THR_SHEET_TEXT,
+                 number ? " font-weight=\"bold\"" : "", mark);
+    flow->y = thr_sheets_text(flow, THR_SHEET_MARGIN + INDENT, flow->y, THR_SHEET_TEXT,
+                              width - INDENT, "", words->data);
+  }
+  thr_text_destroy(words);
+}
+
+/* Writes what has to be at hand. Figures only where sizes in mm are known. */
+static void put_needs(thr_flow *flow, const thr_known *known, double width, const int *first)
+{
+  const thr_supplies *supplies = &known->supplies;
+  const bool sized = supplies->mm > 0;
+  const int n = known->pieces.n, cords = known->plan->n_cords;
+  thr_text words = {0};
+  double cut = 0;
+  for (int c = 0; c < cords; c++)
+    cut += thr_supplies_cut(supplies, c).cut * supplies->mm / 1000;
+
+  thr_sheets_put(flow, THR_BLOCK_TITLE, "You need");
+  thr_text_printf(&words, "%d %s in %d kind%s by shape, %s", n, thr_pieces_word(known->plan, n),
+                  known->pieces.n_kinds, plural(known->pieces.n_kinds),
+                  known->pieces.solid ? "printed or made by hand" : "printed or cut");
+  put_item(flow, width, 0, &words);
+
+  thr_text_printf(&words, "%d cord%s", cords, plural(cords));
+  if (sized)
+    thr_text_printf(&words, ", %.3g mm thick, %.2f m in all with %s ends", supplies->cord, cut,
+                    cords > 1 ? "their" : "its");
+  put_item(flow, width, 0, &words);
+
+  thr_text_append(&words, "a blunt needle");
+  if (sized)
+    thr_text_printf(&words,
+                    " that with its cord goes through %.2f mm, and a stopper that does not slip "
+                    "into %.2f mm",
+                    thr_supplies_extreme_bore(supplies, true),
+                    thr_supplies_extreme_bore(supplies, false));
+  else
+    thr_text_append(&words, ", and a stopper that is wider than the bores");
+  put_item(flow, width, 0, &words);
+
+  thr_text_printf(&words, "tape, scissors, a pencil%s",
+                  first[THR_SHEET_NAMES] < 0 ? ""
+                                             : "; glue for the names, unless they are engraved");
+  put_item(flow, width, 0, &words);
+
+  if (sized) {
+    thr_text_append(&words, "the mat, a file of its own, printed true to size");
+    put_item(flow, width, 0, &words);
+  }
+}
+
+/* Writes the order of work, with the pages that say how. */
+static void put_order(thr_flow *flow, const thr_known *known, double width, const int *first)
+{
+  thr_text words = {0};
+  int n = 0;
+
+  /* Page numbers count the title page and begin with 1, hence + 2. */
+  thr_sheets_put(flow, THR_BLOCK_TITLE, "In this order");
+  thr_text_printf(&words, "Read how it is done: page %d.", first[THR_SHEET_PREPARE] + 2);
+  put_item(flow, width, ++n, &words);
+  thr_text_printf(&words, "Print or make the %s, and print the mat.",
+                  thr_pieces_word(known->plan, known->pieces.n));
+  put_item(flow, width, ++n, &words);
+  if (first[THR_SHEET_NAMES] >= 0) {
+    thr_text_printf(&words, "Put its name on every piece, if none is engraved: page %d.",
+                    first[THR_SHEET_NAMES] + 2);
+    put_item(flow, width, ++n, &words);
+  }
+
+  thr_text_printf(&words, "Cut the cord%s: page %d.", plural(known->plan->n_cords),
+                  first[THR_SHEET_CUT] + 2);
+  put_item(flow, width, ++n, &words);
+  thr_text_printf(&words, "Lay the %s on the mat and thread step by step, %d pass%s: from page %d.",
+                  thr_pieces_word(known->plan, known->pieces.n), known->n_passes,
+                  known->n_passes == 1 ? "" : "es", first[THR_SHEET_STEPS] + 2);
+  put_item(flow, width, ++n, &words);
+  thr_text_printf(&words, "Pull tight, knot, check: page %d.", first[THR_SHEET_LAST] + 2);
+  put_item(flow, width, ++n, &words);
+}
+
+/* Draws the finished thing as it stands, in space, in a box of the page. */
+static void put_finished(thr_sheets *sheets, thr_box paper)
+{
+  const thr_known *known = &sheets->known;
+  thr_flow *flow = &sheets->flow;
+  thr_space space = {0};
+  thr_space_look look = thr_space_front();
+  look.cords = look.plain = true;
+  thr_status st = thr_space_make(&space, known->plan, thr_sheets_labels(known), NULL, &flow->why);
+  if (!st) st = thr_space_whole(&space, &look, paper, thr_sheets_out(flow), &flow->why);
+  thr_sheets_fail(flow, st);
+  thr_space_destroy(&space);
+}
+
 void thr_sheets_front(thr_sheets *sheets, const int *first)
 {
   const thr_known *known = &sheets->known;
   thr_flow *flow = &sheets->flow;
-  thr_sheets_page(flow, "Step sheets", "");
+  const bool named = known->o.name != NULL;
+  char heading[80] = "Step sheets";
+  if (named) snprintf(heading, sizeof heading, "%s: step sheets", known->o.name);
+  thr_sheets_page(flow, heading, "");
   if (flow->why.code) return;
 
-  /* Words first. Page numbers count the title page and begin with 1, hence + 2. */
+  /* Words first: of the whole width, then beside the picture of a thing that is drawn flat below.
+   */
   put_counts(flow, known);
+  const double top = flow->y, width = known->in_space ? thr_sheets_width(flow) : COLUMN;
+  put_needs(flow, known, width, first);
+  put_order(flow, known, width, first);
+  if (!known->in_space && !flow->why.code) {
+    const double height = fmin(flow->y - top, PICTURE);
+    put_finished(sheets, (thr_box){THR_SHEET_MARGIN + COLUMN + 4, top,
+                                   flow->size[0] - THR_SHEET_MARGIN, top + height});
+  }
+
+  flow->y += 2;
   put_goal(flow, known);
-  thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
-                 "%d pages. Prepare first: from page %d. Steps: from page %d. Last: from page %d.",
-                 flow->n_pages, first[THR_SHEET_PREPARE] + 2, first[THR_SHEET_STEPS] + 2,
-                 first[THR_SHEET_LAST] + 2);
 
   /* A warning where sizes that were worked out look wrong. */
   char doubt[160];

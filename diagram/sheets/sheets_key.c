@@ -125,7 +125,7 @@ static void put_crossings(thr_flow *flow, const thr_known *known)
   if (!st && n)
     thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
                    "%d piece%s cords that cross inside: there one channel lies above the other "
-                   "(channels.csv says which).",
+                   "(the table of channels says which).",
                    n, n == 1 ? " holds" : "s hold");
   else if (!st)
     thr_sheets_put(flow, THR_BLOCK_PARAGRAPH, "No cords cross inside a piece.");
@@ -201,9 +201,9 @@ void thr_sheets_key(thr_sheets *sheets)
                  known->in_space ? "Each turned so that its arms are told best."
                                  : "Outer side up, as in the picture.",
                  known->f->units,
-                 many                      ? " The other kinds: beads.csv."
+                 many                      ? " The other kinds: the table of beads."
                  : cards < pieces->n_kinds ? " Kinds of one piece, which rows call by its place: "
-                                             "beads.csv."
+                                             "the table of beads."
                                            : "");
 
   /* Kinds count from 1. */
@@ -218,13 +218,13 @@ void thr_sheets_key(thr_sheets *sheets)
 
 /* ---- tags ---- */
 
-void thr_sheets_name_tags(thr_flow *flow, const thr_known *known)
+int thr_sheets_name_tags(thr_flow *flow, const thr_known *known)
 {
   double longest = 0;
   int n = known->pieces.n;
 
   /* A tube has no side to stick a name on. */
-  if (!known->pieces.solid || flow->why.code) return;
+  if (!known->pieces.solid || flow->why.code) return -1;
 
   /* The longest name decides how many tags stand in a row, 14 at most. */
   for (int i = 0; i < n; i++)
@@ -237,16 +237,18 @@ void thr_sheets_name_tags(thr_flow *flow, const thr_known *known)
   /* A few rows below what is on the page, or a page of their own. */
   begin(flow, flow->y + SOME_TAGS * TAG < thr_sheets_bottom(flow), "Names to stick on",
         "Names to stick on (continued)");
+  const int before = flow->n_pages - 1;
   thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
                  "Cut these out and put each on its piece when it goes on the cord: letters up, as "
                  "in the picture.");
   for (int i = 0; i < n && !flow->why.code; i++) {
     double x = begin_cell(flow, i, columns, width, TAG, 0);
-    if (flow->why.code) return;
+    if (flow->why.code) return before;
 
     thr_sheets_frame(thr_sheets_out(flow), x, flow->y, width, TAG,
                      "fill=\"none\" stroke=\"#999\" stroke-width=\"0.15\"");
     thr_svg_text(thr_sheets_out(flow), x + 0.5 * width, flow->y + 0.5 * TAG + 0.36 * NAME, NAME,
                  " font-weight=\"bold\" text-anchor=\"middle\"", known->guide.label[i]);
   }
+  return before;
 }

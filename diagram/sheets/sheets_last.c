@@ -107,7 +107,7 @@ static void put_too_hard(thr_flow *flow, const thr_known *known, const cord_pull
   thr_text_printf(&words,
                   " too hard for a hand, which manages about %s. Draw the slack pass by pass, grip "
                   "by grip, from its slackest "
-                  "pass, or plan more cords (thread advise).",
+                  "pass, or plan more cords.",
                   force);
 
   thr_sheets_put_text(flow, THR_BLOCK_WARNING, &words);
@@ -174,8 +174,7 @@ static void put_holding(thr_flow *flow, const thr_known *known)
   else
     thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
                    "These forces seat the cords, but no pull holds the pieces while they are drawn "
-                   "in: support what gives way (thread eval --method structure) until all knots "
-                   "are tied.");
+                   "in: support what gives way until all knots are tied.");
 }
 
 /* Writes in which order and how the cords are pulled tight. pulls: [n_cords], receives the
@@ -203,10 +202,11 @@ static void put_pulling(thr_flow *flow, const thr_known *known, cord_pull *pulls
                    thr_method_name(evaluation->method), evaluation->physics.mu,
                    evaluation->physics.seating);
   else
-    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
-                   "Forces are not known: the plan was not evaluated (thread eval). Friction grows "
-                   "with the turning of a cord; the cord that turns most is the first in the list. "
-                   "Pulling at both ends halves the way that slack has to go.");
+    thr_sheets_put(
+        flow, THR_BLOCK_PARAGRAPH,
+        "Forces are not known: nobody has worked them out. Friction grows with the turning "
+        "of a cord; the cord that turns most is the first in the list. "
+        "Pulling at both ends halves the way that slack has to go.");
 
   thr_sheets_put(
       flow, THR_BLOCK_PARAGRAPH,
@@ -232,10 +232,11 @@ static void put_rise(thr_flow *flow, const thr_known *known)
   const thr_still *rise = known->o.rise;
   const int rows = rise ? (rise->n_panels + 1) / 2 : 0;
   if (!rise) {
-    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
-                   "Whether the pieces come up by themselves as the cords are pulled has not been "
-                   "simulated (thread rise --booklet). Else carry their weight from below, with a "
-                   "hand, a cushion or a ball, until the faces are closed.");
+    thr_sheets_put(
+        flow, THR_BLOCK_PARAGRAPH,
+        "Whether the pieces come up by themselves as the cords are pulled has not been "
+        "simulated. If they do not, carry their weight from below, with a hand, a cushion "
+        "or a ball, until the faces are closed.");
     return;
   }
 
@@ -270,7 +271,7 @@ static void put_checks(thr_flow *flow, const thr_known *known)
 {
   int most = 0;
 
-  /* The largest number of cords in one arm or tube bounds what channels.csv says. */
+  /* The largest number of cords in one arm or tube bounds what the steps say. */
   for (int e = 0; e < known->f->n_edges; e++)
     most = known->supplies.passes[e] > most ? known->supplies.passes[e] : most;
 
@@ -282,7 +283,7 @@ static void put_checks(thr_flow *flow, const thr_known *known)
   thr_sheets_put(flow, THR_BLOCK_TICK, "All %d ends of cord come out where the cut list says.",
                  2 * known->plan->n_cords);
   thr_sheets_put(flow, THR_BLOCK_TICK,
-                 "No %s holds fewer or more cords than channels.csv says (%d at most).",
+                 "Through every %s go as many cords as the steps lead there (%d at most).",
                  known->pieces.solid ? "arm" : "tube", most);
   thr_sheets_put(flow, THR_BLOCK_TICK,
                  "No cord can be drawn further at its ends; no piece turns or gapes; all knots sit "

@@ -303,8 +303,7 @@ static void put_need(instruction_panel *panel, thr_text *words)
   else
     thr_text_append(words, " thinner than the bores; a stopper wider than they are");
 
-  thr_text_append(words,
-                  "; tape, scissors, and the mat to lay the pieces on (thread draw -T mat).");
+  thr_text_append(words, "; tape, scissors, and the mat to lay the pieces on, a file of its own.");
 }
 
 /* Returns the visit that explains best how a piece lies: the first one that picks up a piece,

@@ -168,10 +168,17 @@ unsigned char *thr_sheets_piece_states(thr_flow *flow, const thr_known *known, i
 const char (*thr_sheets_labels(const thr_known *known))[THR_LABEL];
 
 /* Parts of the booklet that the title page names. */
-typedef enum { THR_SHEET_PREPARE, THR_SHEET_STEPS, THR_SHEET_LAST, THR_SHEET_PARTS } thr_sheet_part;
+typedef enum {
+  THR_SHEET_PREPARE,
+  THR_SHEET_CUT,
+  THR_SHEET_NAMES,
+  THR_SHEET_STEPS,
+  THR_SHEET_LAST,
+  THR_SHEET_PARTS
+} thr_sheet_part;
 
 /* Lays out the title page. first[THR_SHEET_PARTS]: number of pages before each part, without the
- * title page (sheets_front.c). */
+ * title page; -1: there is none (sheets_front.c). */
 void thr_sheets_front(thr_sheets *sheets, const int *first);
 
 /* Lay out how pieces are handled (sheets_making.c); what to cut and to make (sheets_prepare.c); how
@@ -180,10 +187,10 @@ void thr_sheets_making(thr_flow *flow, const thr_known *known);
 void thr_sheets_prepare(thr_flow *flow, const thr_known *known);
 void thr_sheets_lengths(thr_flow *flow, const thr_known *known);
 
-/* Lay out drawings of solid pieces, kind by kind, and the names of all pieces, to stick on
- * (sheets_key.c). */
+/* Lay out drawings of solid pieces, kind by kind, and the names of all pieces, to stick on. Returns
+ * the number of pages before the one with the first names, -1 if there are none (sheets_key.c). */
 void thr_sheets_key(thr_sheets *sheets);
-void thr_sheets_name_tags(thr_flow *flow, const thr_known *known);
+int thr_sheets_name_tags(thr_flow *flow, const thr_known *known);
 
 /* Returns how many sections visits first .. end - 1 of a path have, 0 = no maps; lays out the page
  * before the nth section of n, which has so many steps (sheets_sections.c). */

@@ -294,7 +294,11 @@ static void put_reading(thr_flow *flow, const thr_known *known)
   thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
                  "A piece has its kind in the box, by letter and number, and its place in the "
                  "whole: X-10 (B5) is one of kind X-10 that comes to B5. Put its place on it when "
-                 "it goes on the cord: later rows call it by that.");
+                 "it goes on the cord: later rows call it by that.%s",
+                 known->plan->n_cords > 1
+                     ? " With a colon, A:5 is no piece, but pass 5 of cord A: there it is drawn in "
+                       "that cord's colour."
+                     : "");
 
   /* What a picture says. */
   thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
@@ -319,8 +323,10 @@ void thr_sheets_prepare(thr_flow *flow, const thr_known *known)
   put_feet(flow, known);
   put_pieces(flow, known);
   flow->y += 1;
-  thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
-                 "Cords: the most in one arm of such a piece; the bore holds them side by side. "
-                 "Which piece is of which kind: beads.csv. Which way the cords take through each: "
-                 "channels.csv.");
+  thr_sheets_put(
+      flow, THR_BLOCK_PARAGRAPH,
+      "Cords: the most in one arm of such a piece; the bore holds them side by side. "
+      "Which piece is of which kind, and which way the cords take through each: the "
+      "tables of beads and of channels, files of their own. Printed pieces of a kind that "
+      "differ inside or by their names have a letter more: T-2a and T-2b are of kind T-2.");
 }

@@ -129,6 +129,7 @@ typedef struct {
   const unsigned char *state; /* [pieces] how they look (thr_piece_state); NULL: held */
   bool cords;                 /* with the cords in them, each hidden by what is in front of it, and
                                  their ends and passes numbered where there is room */
+  bool plain;                 /* without names and numbers */
   bool *named, *numbered; /* [n_nodes] [n_passes] what other views have named already, which comes
                              last, or is not repeated; NULL: each view for itself */
 } thr_space_look;

@@ -715,7 +715,7 @@ static void put_numbers(const step_drawing *drawing, const thr_space_look *look,
           0.5 * (tail[2] + head[2]) < drawing->depth - 0.5 * drawing->deep)
         continue;
       const int hue = plan->n_cords == 1 ? i / THR_COLOUR_PASSES : space->cord[i];
-      snprintf(words, sizeof words, "%s%d", id, number);
+      thr_scene_pass_name(plan, space->cord[i], number, words);
       for (int k = 0; k < 2; k++)
         at[k] = 0.5 * (lane.from[k] + lane.to[k]);
       if (put_label(drawing, boxes, at, words, "#fff", thr_palette(hue).hex, st, err) &&
@@ -835,7 +835,7 @@ thr_status thr_space_whole(const thr_space *space, const thr_space_look *look, t
     for (int i = 0; i < (space->solid ? frame->n_nodes : frame->n_edges); i++)
       piece[i] = look->state ? look->state[i] : THR_PIECE_HELD;
     put_pieces(&drawing, AROUND, false, list);
-    st = put_names(&drawing, look, list, err);
+    if (!look->plain) st = put_names(&drawing, look, list, err);
     thr_text_append(text, "</g>\n");
   }
 

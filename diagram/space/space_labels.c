@@ -30,18 +30,16 @@ typedef struct {
   thr_text *text;
 } step_labels;
 
-/* Writes the number of the k-th pass drawn now: "17", or "A17" when there are several cords. */
+/* Writes the number of the k-th pass drawn now: "17", or "A:17" when there are several cords. */
 static void number_of(const step_labels *labels, int k, char text[32])
 {
   int cord = labels->space->cord[labels->step->crop.now[k]], pass = labels->step->crop.now[k],
       before = 0;
-  char id[12] = "";
 
   for (int other = 0; other < cord; other++)
     before += labels->space->plan->cord[other].n_passes;
 
-  if (labels->space->plan->n_cords > 1) thr_scene_cord_id(labels->space->plan, cord, id);
-  snprintf(text, 32, "%s%d", id, pass - before + 1);
+  thr_scene_pass_name(labels->space->plan, cord, pass - before + 1, text);
 }
 
 /* Returns the width of a number's pill, mm. */

@@ -69,6 +69,7 @@ thr_status thr_supplies_find_sizes(thr_supplies *supplies, thr_err *err)
   supplies->mm = mm;
   supplies->cord = sizes.cord_diameter;
   supplies->bore = sizes.bore;
+  supplies->width = sizes.bead_diameter;
   return THR_OK;
 }
 
@@ -83,7 +84,7 @@ bool thr_supplies_doubt(const thr_supplies *supplies, char line[160])
 
   snprintf(line, 160,
            "A cord of %.3g mm through bores of %.4g mm: is that the size to be built? Else plan it "
-           "with --units or --scale.",
+           "anew in its true units.",
            supplies->cord, supplies->bore);
   return true;
 }

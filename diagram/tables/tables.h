@@ -76,10 +76,10 @@ thr_status thr_kinds_find(const thr_frame *frame, double tolerance, int *edge, i
 /* Cord and bores of a plan. {0} is valid and empty. Arrays are owned, the plan is borrowed. */
 typedef struct {
   const thr_plan *plan;
-  int *passes; /* [n_edges] over it, of all cords */
-  double mm;   /* per unit; 0 = sizes in mm are not known */
-  double cord; /* mm, diameter; > 0 if mm is */
-  double bore; /* mm, of the plan */
+  int *passes;        /* [n_edges] over it, of all cords */
+  double mm;          /* per unit; 0 = sizes in mm are not known */
+  double cord;        /* mm, diameter; > 0 if mm is */
+  double bore, width; /* mm, of the plan: of channels; of arms or tubes */
 
   /* Where lengths are joined on (thr_supplies_join); NULL and 0 before. */
   double working; /* mm of cord that is worked with at a time */

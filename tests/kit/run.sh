@@ -52,7 +52,7 @@ slices() { # FOLDER: in the places that the package has
 }
 as_in_openscad() { # FOLDER KIND: within a twentieth; feet, whose fillets it has not, within a fifth
   openscad -D "show=\"$2\"" -o "$work/scad.stl" "$1/kit.scad" && ! grep -qi warning "$work/log" || return 1
-  awk -v a="$(volume "$1/$2.stl")" -v b="$(volume "$work/scad.stl")" -v part="$3" \
+  awk -v a="$(volume "$1/$2"-print-*.stl)" -v b="$(volume "$work/scad.stl")" -v part="$3" \
     'BEGIN { print a, b; exit !(a > 0 && (a - b) ^ 2 < (part * a) ^ 2) }'
 }
 
@@ -76,7 +76,7 @@ for joint in solid tube; do
     holds "prusa-slicer slices $joint/kit.3mf" slices $joint
   fi
   if have openscad && have admesh; then
-    kind=$(basename "$(find $joint -name '*.stl' | sort | tail -1)" .stl)
+    kind=$(basename "$(find $joint -name '*.stl' | sort | tail -1)") kind=${kind%-print-*}
     holds "openscad: $joint $kind" as_in_openscad $joint "$kind" $([ $joint = solid ] && echo 0.2 || echo 0.05)
   fi
 done

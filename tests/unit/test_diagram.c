@@ -490,7 +490,7 @@ START_TEST(many_cords_are_told_apart)
   assert_pills_apart(svg.data);
   ck_assert_ptr_nonnull(strstr(svg.data, ">SA</text>"));
   ck_assert_ptr_nonnull(strstr(svg.data, ">EB</text>"));
-  ck_assert_ptr_nonnull(strstr(svg.data, ">A5</text>"));
+  ck_assert_ptr_nonnull(strstr(svg.data, ">A:5</text>"));
   ck_assert_ptr_nonnull(strstr(svg.data, "stroke-dasharray"));
   thr_text_destroy(&svg);
   thr_plan_destroy(&p);

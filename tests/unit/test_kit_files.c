@@ -187,8 +187,8 @@ START_TEST(test_package_has_its_members)
   made m;
   make(&m, ring_make(4), 20, true, &plain);
   thr_text t = {0}, again = {0};
-  ck_assert_int_eq(thr_kit_3mf(&m.plates, &t, NULL), THR_OK);
-  ck_assert_int_eq(thr_kit_3mf(&m.plates, &again, NULL), THR_OK);
+  ck_assert_int_eq(thr_kit_3mf(&m.plates, -1, &t, NULL), THR_OK);
+  ck_assert_int_eq(thr_kit_3mf(&m.plates, -1, &again, NULL), THR_OK);
   ck_assert_uint_eq(t.length, again.length);
   ck_assert_int_eq(memcmp(t.data, again.data, t.length), 0);
 
@@ -222,36 +222,45 @@ START_TEST(test_stl_has_the_volume)
   for (int p = 0; p < m.kit.n_pieces; p++) {
     const thr_mesh *mesh = &m.kit.mesh[m.kit.piece[p].like];
     thr_text t = {0};
-    thr_kit_stl(&m.kit, p, &t);
+    thr_kit_stl(&m.plates, p, &t);
     ck_assert_uint_eq(t.length, 84 + 50 * (size_t)mesh->n_triangles);
     ck_assert_uint_eq(number_at(&t, 80, 4), (unsigned)mesh->n_triangles);
     ck_assert_int_ne(memcmp(t.data, "solid", 5), 0);
 
-    double volume = 0;
+    double volume = 0, lowest[3] = {INFINITY, INFINITY, INFINITY};
     for (int i = 0; i < mesh->n_triangles; i++) {
       float bits[12];
-      double corner[3][3], normal[3], across[3];
+      double corner[3][3], along[2][3], across[3];
       memcpy(bits, t.data + 84 + 50 * i, sizeof bits);
       for (int k = 0; k < 9; k++)
         corner[k / 3][k % 3] = bits[3 + k];
       thr_cross(corner[1], corner[2], across);
       volume += thr_dot(corner[0], across) / 6;
-      ck_assert_double_gt(thr_kit_normal(mesh, i, normal), 0);
-      for (int k = 0; k < 3; k++)
-        ck_assert_double_lt(fabs(bits[k] - normal[k]), 1e-6);
+
+      /* It stands on the bed as on its plate, and normals have turned with it. */
+      for (int k = 0; k < 9; k++) {
+        lowest[k % 3] = fmin(lowest[k % 3], corner[k / 3][k % 3]);
+        if (k < 6) along[k / 3][k % 3] = corner[k / 3 + 1][k % 3] - corner[0][k % 3];
+      }
+      thr_cross(along[0], along[1], across);
+      const double twice = thr_normalize(across);
+      for (int k = 0; k < 3 && twice > 1e-3; k++)
+        ck_assert_double_lt(fabs(bits[k] - across[k]), 1e-2);
     }
     double known = m.kit.report[m.kit.piece[p].like].volume;
     ck_assert_double_lt(fabs(volume - known), 1e-5 * known);
+    for (int k = 0; k < 3; k++)
+      ck_assert_double_lt(fabs(lowest[k]), 1e-4);
     thr_text_destroy(&t);
 
-    char name[32];
+    char name[64];
     thr_kit_stl_name(&m.kit, p, name);
     ck_assert_ptr_nonnull(strstr(name, ".stl"));
   }
   snprintf(m.kit.kind_name[1], sizeof m.kit.kind_name[1], "a/b:c");
-  char name[32];
+  char name[64];
   thr_kit_stl_name(&m.kit, 0, name);
-  ck_assert_str_eq(name, "a_b_c.stl");
+  ck_assert_str_eq(name, "a_b_c-print-1x.stl");
   release(&m);
 }
 END_TEST
@@ -362,7 +371,7 @@ static thr_status write_all(const void *user, thr_text *t, thr_err *err)
 {
   thr_kit_plates plates;
   thr_status st = thr_kit_plates_make(&plates, user, err);
-  if (!st) st = thr_kit_3mf(&plates, t, err);
+  if (!st) st = thr_kit_3mf(&plates, -1, t, err);
   if (!st) st = thr_kit_table(&plates, NULL, t, err);
   if (!st) st = thr_kit_tubes_table(user, t, err);
   thr_kit_plates_destroy(&plates);

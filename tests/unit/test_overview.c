@@ -304,7 +304,8 @@ static bool over_seam(const view *v, int c, int k)
 static void assert_seam(const view *v, int c, int k, const stroke *before, const stroke *now,
                         int *seen)
 {
-  const char *id = v->p.cord[c].id, *letter = v->p.n_cords > 1 ? id : "";
+  const char *id = v->p.cord[c].id, *letter = v->p.n_cords > 1 ? id : "",
+             *colon = *letter ? ":" : "";
   char out[40], in[40], want[40];
   double at[2];
   snprintf(out, sizeof out, "out-%s-%d", id, k);
@@ -313,9 +314,9 @@ static void assert_seam(const view *v, int c, int k, const stroke *before, const
   ck_assert_int_eq(i < 0, j < 0);
   if (i < 0) return;
   ++*seen;
-  snprintf(want, sizeof want, "to %s%d", letter, k + 1);
+  snprintf(want, sizeof want, "to %s%s%d", letter, colon, k + 1);
   ck_assert_str_eq(v->t.element[i + 2].text, want);
-  snprintf(want, sizeof want, "from %s%d", letter, k);
+  snprintf(want, sizeof want, "from %s%s%d", letter, colon, k);
   ck_assert_str_eq(v->t.element[j + 2].text, want);
   middle_of(v, i + 1, at);
   assert_at(before->end, at, 0.02);
@@ -601,7 +602,7 @@ START_TEST(letters_tell_cords_apart)
   for (int c = 0; c < v.p.n_cords; c++) {
     char id[40], want[40], line[40];
     snprintf(id, sizeof id, "n-%s-1", v.p.cord[c].id);
-    snprintf(want, sizeof want, "%s1", v.p.cord[c].id);
+    snprintf(want, sizeof want, "%s:1", v.p.cord[c].id);
     snprintf(line, sizeof line, ">Cord %s: ", v.p.cord[c].id);
     int i = svg_by_id(&v.t, id);
     ck_assert_int_gt(i, 0);

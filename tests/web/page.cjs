@@ -190,9 +190,9 @@ const tests = {
     await listed.getByRole('listitem').first().waitFor({timeout: 120000});
     const own = file('kit');
     const said = spawnSync(program, ['kit', file('three-plan.json'), '--width', '9', '--bed', '180x180', '--names', 'none', '--key', 'cone', '--stl', '-o', own], {encoding: 'utf8'}).stderr;
-    assert.deepEqual((await listed.getByRole('listitem').allInnerTexts()).sort(), ['kit.3mf', 'kit.csv', 'kit.html', 'kit.png', 'stl.zip']);
+    assert.deepEqual((await listed.getByRole('listitem').allInnerTexts()).sort(), ['README.txt', 'kit.3mf', 'kit.csv', 'kit.html', 'kit.png', 'stl.zip']);
     assert.ok((await pieces.innerText()).includes(said.split('\n')[0].replace('thread: ', '')), 'what the command says');
-    for (const name of ['kit.3mf', 'kit.csv', 'kit.html', 'kit.png'])
+    for (const name of ['README.txt', 'kit.3mf', 'kit.csv', 'kit.html', 'kit.png'])
       assert.ok(fs.readFileSync(await download(page, name)).equals(fs.readFileSync(path.join(own, name))), `${name} differs`);
     const parts = execFileSync('python3', ['-c', 'import os, sys, zipfile; z = zipfile.ZipFile(sys.argv[1]); print(all(z.read(n) == open(os.path.join(sys.argv[2], n), "rb").read() for n in z.namelist()), *sorted(z.namelist()))',
       await download(page, 'stl.zip'), own], {encoding: 'utf8'});
