@@ -146,15 +146,15 @@ static int write_file(thr_status st, thr_text *text, const char *folder, const c
 /* Prints what the kit is: pieces, kinds, volume, what a maker should know. */
 static void say(const thr_kit *kit, const thr_kit_plates *plates, const char *folder)
 {
-  char volume[64], mass[64];
+  char volume[64], mass[64], width[THR_PLAIN_NUMBER];
 
   cli_note("%d %s, %d %s, %s, %s at %.3g g/cm3, on %d %s", kit->n_pieces,
            thr_pieces_word(kit->plan, kit->n_pieces), kit->n_kinds,
            cli_plural(kit->n_kinds, "kind", "kinds"), plain_volume(kit->volume, volume),
            plain_mass(kit->mass, mass), kit->options.density, plates->n_plates,
            cli_plural(plates->n_plates, "plate", "plates"));
-  cli_note("arms %.3g mm wide, cord %.3g mm, walls %.3g mm or more", kit->options.width, kit->cord,
-           kit->options.wall);
+  cli_note("arms %s mm wide, cord %.3g mm, walls %.3g mm or more",
+           thr_plain_number(kit->options.width, 3, width), kit->cord, kit->options.wall);
 
   /* Notes are lines. */
   const char *line = kit->notes.data ? kit->notes.data : "";
