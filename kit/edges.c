@@ -262,7 +262,7 @@ static thr_status fail_narrow(const thr_plan *plan, const thr_kit_sizes *sizes,
              asked > 0 ? "--bore" : "--cord-diameter", cord);
   if (wall >= 0.01) snprintf(advice[1], sizeof advice[1], "--wall %.3g, ", floor(100 * wall) / 100);
   return thr_fail(err, THR_EINPUT,
-                  "%s-%s: there is room for a piece %.3g mm wide beside %s-%s; %d channel%s of "
+                  "%s-%s: there is room for an arm %.3g mm wide beside %s-%s; %d channel%s of "
                   "%.3g mm with walls of %.3g mm need%s %.3g: %s%s%sa larger framework for "
                   "the same cord",
                   label[own[0]], label[own[1]], here->width, label[other[0]], label[other[1]],
@@ -305,7 +305,7 @@ static thr_status check_widths(const thr_plan *plan, const thr_kit_options *opti
     }
     if (edge[e].width >= sizes->width * (1 - 1e-9))
       return thr_fail(err, THR_EINPUT,
-                      "%s-%s: %d channel%s of %.3g mm with walls of %.3g mm %s a width of %.3g mm, "
+                      "%s-%s: %d channel%s of %.3g mm with walls of %.3g mm %s arms %.3g mm wide, "
                       "not %.3g: --width %.3g or more",
                       a, b, lanes, lanes == 1 ? "" : "s", edge[e].bore, sizes->wall,
                       lanes == 1 ? "needs" : "need", needed, edge[e].width,

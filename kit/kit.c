@@ -26,6 +26,7 @@ static const double FILLET = 0.15, NODE = 0.6, MOUTH = 0.08;
 static const double BASE = 0.75, DEEPEST = 0.95;
 /* mm: of a wall, of letters, and how deep these are; of a key's play. */
 static const double WALL = 1.2, LETTERS = 4, DEPTH = 0.6, PLAY = 0.15;
+static const double THINNEST = 0.4; /* a line of the usual nozzle */
 /* Longer arms are refused. */
 enum { MOST_WIDTHS = 300 };
 /* How far simplifying may move a surface, as a part of the narrowest arm and in mm: a tenth of what
@@ -781,8 +782,8 @@ static const char *what_widens(const thr_kit *kit, int p)
 {
   for (int i = 0; i < kit->piece[p].n_arms; i++)
     if (kit->piece[p].arm[i].width < kit->options.width * (1 - 1e-9))
-      return "framework for the same cord";
-  return "--width";
+      return "a larger framework for the same cord";
+  return "wider arms (--width)";
 }
 
 /* Says which finished pieces have a wall that is thinner than planned; two parts in a hundred are
@@ -797,10 +798,12 @@ static void note_walls(thr_kit *kit)
   }
   if (thin)
     thr_text_printf(&kit->notes,
-                    "%d %s a wall thinner than %.3g mm: %s has %.2g mm; a larger %s would "
-                    "make it thicker\n",
+                    "%d %s a wall thinner than %.3g mm: that of %s is %.2g mm%s; %s would make it "
+                    "thicker\n",
                     thin, thin == 1 ? "piece has" : "pieces have", kit->options.wall, kit->name[at],
-                    kit->piece[at].thinnest, what_widens(kit, at));
+                    kit->piece[at].thinnest,
+                    kit->piece[at].thinnest < THINNEST ? ", too thin to print" : "",
+                    what_widens(kit, at));
 }
 
 /* Adds up volumes, and says which meshes do not print as one piece. */
@@ -861,7 +864,7 @@ static void note_channels(const maker *work)
     thr_text_printf(&kit->notes,
                     work->sizes.roomy > 0
                         ? "walls are %.2g mm, thinner than the %.2g mm that print "
-                          "well: --width %.4g or more\n"
+                          "well: arms of --width %.4g or more\n"
                         : "walls are %.2g mm, thinner than the %.2g mm that print "
                           "well: a thinner cord, or a larger framework for it\n",
                     work->sizes.wall, WALL, ceil(100 * work->sizes.roomy) / 100);

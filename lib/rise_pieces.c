@@ -344,7 +344,7 @@ thr_status thr_rise_kit_make(thr_rise_kit *made, const thr_kit *kit, const thr_p
   const double width = width_that_fits(kit, pull, feet, physics);
   return thr_fail(err, THR_EINPUT,
                   width > 0 ? "rise: pieces %s and %s are %.2g mm in each other when closed: "
-                              "--width %.3g fits"
+                              "narrower arms fit, --width %.3g"
                             : "rise: pieces %s and %s are %.2g mm in each other when closed",
                   kit->name[piece[0]], kit->name[piece[1]], depth, width);
 }

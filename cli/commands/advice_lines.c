@@ -15,6 +15,10 @@
 #include "graph/plan/request.h"
 #include "planner/planner.h"
 
+#include <math.h>
+
+static const double much_more = 1.5; /* than what seats the cords, that holds the pieces */
+
 /* Appends an option with a word that a shell reads as it is. */
 static void put_option(thr_text *text, const char *option, const char *value)
 {
@@ -57,13 +61,32 @@ void advice_put_hint(const thr_plan *plan, bool unsaid, thr_text *text)
                                  "as few cords as it can pull\n");
 }
 
-void advice_put_recommended(const thr_plan *plan, double hand, thr_text *text)
+/* Appends what holds the pieces beside what seats the cords; nothing where it is hardly more. Both
+ * are N at the hardest end; holds may be NAN: not known. */
+static void put_holds(double seats, double holds, thr_text *text)
+{
+  char force[64];
+  if (!(holds > much_more * seats)) return;
+  thr_text_append(text, "         that seats the cords; to hold the pieces until all is knotted ");
+  if (isinf(holds)) {
+    thr_text_append(text, "no pull is enough: support them\n");
+    return;
+  }
+  thr_text_printf(text, "takes %s, ", plain_force(holds, force));
+  plain_put_hand(text, holds);
+  thr_text_append(text, "\n");
+}
+
+bool advice_put_recommended(const thr_plan *plan, double hand, double holds, thr_text *text)
 {
   const thr_request *options = &plan->options;
-  const thr_advice_row row = {.ends = options->ends, .cords = options->cords, .all = plan->n_cords};
+  const bool as_pulled = options->max_pull > 0; /* several components share no number */
+  const int cords = as_pulled ? plan->n_cords : options->cords;
+  const thr_advice_row row = {.ends = options->ends, .cords = cords, .all = plan->n_cords};
   double pull[THR_ADVICE_PULLS];
   char force[64], most[64], within[64];
   const double mu_high = thr_plan_pulls(plan, pull).mu_high;
+  if (pull[THR_ADVICE_HIGH] > hand * (1 + 1e-9)) return false;
 
   thr_text_append(text, "hand     ");
   advice_put_cords(text, &row);
@@ -71,9 +94,12 @@ void advice_put_recommended(const thr_plan *plan, double hand, thr_text *text)
                   thr_plain_newtons(pull[THR_ADVICE_MU], force),
                   plan->n_cords > 1 ? " N each at most" : " N",
                   plain_force(pull[THR_ADVICE_HIGH], most), mu_high);
-  thr_text_printf(text, "         that %s, with %s%s\n",
+  thr_text_printf(text, "         that %s, with %s",
                   hand < thr_hand_always ? "the cord bears" : "a hand can pull time after time",
-                  plain_force(hand, within), plan->n_cords > 1 ? "; --cords 1 is one cord" : "");
+                  plain_force(hand, within));
+  thr_text_append(text, plan->n_cords > 1 && !as_pulled ? "; --cords 1 is one cord\n" : "\n");
+  put_holds(pull[THR_ADVICE_MU], holds, text);
+  return true;
 }
 
 thr_limits advice_limits(double seconds, double *work)

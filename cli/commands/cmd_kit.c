@@ -142,7 +142,7 @@ static int write_file(thr_status st, thr_text *text, const char *folder, const c
 /* Prints what the kit is: pieces, kinds, volume, what a maker should know. */
 static void say(const thr_kit *kit, const thr_kit_plates *plates, const char *folder)
 {
-  char volume[64], mass[64];
+  char volume[64], mass[64], width[THR_PLAIN_NUMBER];
   thr_text kinds = {0};
 
   thr_kit_kinds(kit, &kinds);
@@ -151,8 +151,8 @@ static void say(const thr_kit *kit, const thr_kit_plates *plates, const char *fo
            plain_volume(kit->volume, volume), plain_mass(kit->mass, mass), kit->options.density,
            plates->n_plates, cli_plural(plates->n_plates, "plate", "plates"));
   thr_text_destroy(&kinds);
-  cli_note("arms %.3g mm wide, cord %.3g mm, walls %.3g mm or more", kit->options.width, kit->cord,
-           kit->options.wall);
+  cli_note("arms %s mm wide, cord %.3g mm, walls %.3g mm or more",
+           thr_plain_number(kit->options.width, 3, width), kit->cord, kit->options.wall);
 
   /* Notes are lines. */
   const char *line = kit->notes.data ? kit->notes.data : "";

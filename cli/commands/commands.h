@@ -36,9 +36,11 @@ thr_limits advice_limits(double seconds, double *work);
  * this was to be the one. */
 void advice_put_hint(const thr_plan *plan, bool unsaid, thr_text *text);
 
-/* Appends how many cords the recommended plan has, and what they are pulled with. hand: N, less
- * than thr_hand_always where the cord bears no more. */
-void advice_put_recommended(const thr_plan *plan, double hand, thr_text *text);
+/* Appends how many cords the recommended plan has, what they are pulled with until they are seated,
+ * and what holds them where that is much more. hand: N, less than thr_hand_always where the cord
+ * bears no more; holds: as seated_put_holding returns. Returns whether a hand can pull them at all;
+ * else appends nothing. */
+bool advice_put_recommended(const thr_plan *plan, double hand, double holds, thr_text *text);
 
 /* ---- thread eval --calibrate: computes frictions from weights and tilted boards at the bench, and
  * draws the piece that the weights hang from. */

@@ -154,9 +154,10 @@ static void put_order(const plan_arguments *args, const thr_plan *plan, thr_text
 
 /* Prints where the plan is and, unless folder is NULL, the drawings; and what to do if a hand
  * cannot pull the cords. Returns an exit code. */
-static int print_places(const plan_arguments *args, const thr_plan *plan, const char *plan_path,
-                        const char *folder)
+static int print_places(const plan_arguments *args, const planned_result *result,
+                        const char *plan_path, const char *folder)
 {
+  const thr_plan *plan = &result->plan;
   const bool unsaid = plan_is_recommended(args, &plan->options);
   char names[DRAWINGS_NAMES];
   thr_text text = {0};
@@ -178,9 +179,8 @@ static int print_places(const plan_arguments *args, const thr_plan *plan, const 
   if (plan->options.order == THR_ORDER_HAND || cli_verbose) put_order(args, plan, &text);
   const double strength = args->request.strength;
   const double bears = strength > 0 ? strength * thr_strength_left(0) : INFINITY;
-  if (unsaid && !thr_wants_length(&plan->options))
-    advice_put_recommended(plan, fmin(thr_hand_always, bears), &text);
-  advice_put_hint(plan, unsaid, &text);
+  if (!unsaid || !advice_put_recommended(plan, fmin(thr_hand_always, bears), result->holds, &text))
+    advice_put_hint(plan, unsaid, &text);
 
   return print_text(&text);
 }
@@ -225,7 +225,7 @@ int plan_write_outputs(const plan_arguments *args, planned_result *result, int *
   const int drawn = written ? EXIT_OK : write_drawings(args, plan, &places);
   if (!code) code = drawn;
   if (!code && !is_silent && !cli_json && !cli_quiet)
-    code = print_places(args, plan, places.plan, written ? NULL : places.folder);
+    code = print_places(args, result, places.plan, written ? NULL : places.folder);
 
   return written ? written : code;
 }

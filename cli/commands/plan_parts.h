@@ -31,6 +31,8 @@ typedef struct {
 typedef struct {
   thr_plan plan;
   thr_report report;
+  double holds; /* N at the hardest end below which nothing holds, once the summary is printed;
+                   NAN: not known */
 } planned_result;
 
 /* Where plan and diagrams go: where the options say; where they say nothing, in a folder named

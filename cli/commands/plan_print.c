@@ -18,12 +18,14 @@ static double deadline_of(const plan_arguments *args)
 }
 
 /* Adds the summary of the plan, as text or JSON. */
-static void put_plan(thr_writer *writer, const planned_result *result, const thr_rivals *rivals)
+static void put_plan(thr_writer *writer, const plan_arguments *args, planned_result *result,
+                     const thr_rivals *rivals)
 {
   if (cli_json)
     plan_put_json(writer, &result->plan, rivals, result->report.word);
   else
-    plan_put_summary(writer->out, &result->plan, rivals, result->report.word);
+    result->holds = plan_put_summary(writer->out, &result->plan, rivals, result->report.word,
+                                     plan_is_recommended(args, &result->plan.options));
 }
 
 /* Draws the frontier of length and turning into the file of --plot. Where there is none, says why.
@@ -80,7 +82,7 @@ static int put_turning(thr_writer *writer, const plan_arguments *args, planned_r
 
   /* What nobody asked for is held against nothing on the first screen. */
   if (plan_is_recommended(args, &result->plan.options) && !cli_json && !cli_verbose) {
-    put_plan(writer, result, NULL);
+    put_plan(writer, args, result, NULL);
     return EXIT_OK;
   }
 
@@ -95,7 +97,7 @@ static int put_turning(thr_writer *writer, const plan_arguments *args, planned_r
              "for the cord that turns most");
   if (rivals.no_frontier.code) cli_note("no frontier: %s", rivals.no_frontier.text);
 
-  put_plan(writer, result, &rivals);
+  put_plan(writer, args, result, &rivals);
   int code = st ? cli_fail(&err) : EXIT_OK;
   if (!code && args->request.plot) code = write_frontier(args, &result->plan, &rivals);
   thr_rivals_destroy(&rivals);
@@ -105,7 +107,7 @@ static int put_turning(thr_writer *writer, const plan_arguments *args, planned_r
 
 /* Adds the table of groups and the summary of a symmetric plan. At most 8 rows as text; all of them
  * as JSON. */
-static void put_symmetry(thr_writer *writer, const planned_result *result)
+static void put_symmetry(thr_writer *writer, const plan_arguments *args, planned_result *result)
 {
   enum { ROWS = 8 };
   const thr_plan *plan = &result->plan;
@@ -117,7 +119,7 @@ static void put_symmetry(thr_writer *writer, const planned_result *result)
   }
 
   /* The plan itself, and in JSON the table after it. */
-  put_plan(writer, result, NULL);
+  put_plan(writer, args, result, NULL);
   if (!cli_json) return;
   thr_write_object(writer, "symmetries");
   thr_symmetries_put_table(writer, &plan->options, &result->report.symmetries);
@@ -136,9 +138,9 @@ int plan_print_summary(const plan_arguments *args, planned_result *result)
   if (thr_wants_turning(&result->plan.options))
     code = put_turning(&writer, args, result);
   else if (thr_wants_symmetry(&result->plan.options))
-    put_symmetry(&writer, result);
+    put_symmetry(&writer, args, result);
   else
-    put_plan(&writer, result, NULL);
+    put_plan(&writer, args, result, NULL);
 
   if (args->compare) {
     int done = plan_put_comparison(&writer, args, &result->plan, deadline_of(args));

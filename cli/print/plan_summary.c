@@ -13,8 +13,10 @@
 #include "diagram/tables/tables.h"
 #include "graph/number.h"
 
+#include <stdio.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Returns whether the plan is one of least turning. */
 static bool minimizes_turning(const thr_plan *plan)
@@ -97,8 +99,8 @@ static void put_cords(thr_text *text, const thr_plan *plan, const double *pull,
 /* ---- text ---- */
 
 /* Appends how many cords were asked for, and what each of them has to keep to: even lengths, a
- * largest length, a largest pull in N. */
-static void put_number(thr_text *text, const thr_plan *plan, int components)
+ * largest length, a largest pull in N that somebody asked for. */
+static void put_number(thr_text *text, const thr_plan *plan, int components, bool recommended)
 {
   enum { NO_LIMIT = 1000 };
   const thr_request *options = &plan->options;
@@ -118,16 +120,18 @@ static void put_number(thr_text *text, const thr_plan *plan, int components)
 
   /* What limits single cords. */
   if (thr_wants_balance(options)) thr_text_append(text, "; of even length");
+  char most[THR_PLAIN_NUMBER];
   if (options->max_length > 0)
-    thr_text_printf(text, "; none longer than %g %s", options->max_length, plan->frame.units);
-  if (options->max_pull > 0)
-    thr_text_printf(text, "; none pulled by more than %g N",
-                    options->max_pull * options->physics.seating);
+    thr_text_printf(text, "; none longer than %s %s",
+                    thr_plain_number(options->max_length, 6, most), plan->frame.units);
+  if (options->max_pull > 0 && !recommended)
+    thr_text_printf(text, "; none pulled by more than %s N",
+                    thr_plain_newtons(options->max_pull * options->physics.seating, most));
 }
 
 /* Appends what was asked for: "49 pieces, 84 interfaces, 1 component; 1 pass per interface; ends:
  * closed". With tube joints the pieces are the edges. */
-static void put_head(thr_text *text, const thr_plan *plan)
+static void put_head(thr_text *text, const thr_plan *plan, bool recommended)
 {
   const thr_request *options = &plan->options;
   int components = thr_plan_components(plan);
@@ -151,7 +155,7 @@ static void put_head(thr_text *text, const thr_plan *plan)
   /* By which cords. */
   thr_text_printf(text, "; ends: %s", thr_ends_name(options->ends));
   if (tubes) thr_text_append(text, "; joints: tube");
-  put_number(text, plan, components);
+  put_number(text, plan, components, recommended);
   thr_text_append(text, "\n\n");
 }
 
@@ -197,21 +201,23 @@ static void put_claim(thr_text *text, const thr_plan *plan, thr_cords_word word)
 }
 
 /* Appends the largest pull where a limit on it was asked for, in N, and whether fewer cords would
- * do within that limit. */
-static void put_pull_limit(thr_text *text, const thr_plan *plan, double largest)
+ * do within that limit, or within that of a recommended plan. */
+static void put_pull_limit(thr_text *text, const thr_plan *plan, double largest, bool recommended)
 {
   const thr_request *options = &plan->options;
   const thr_pull_claim *claim = &plan->pull_claim;
   double seating = options->physics.seating;
-  char force[64], allowed[THR_PLAIN_NUMBER];
+  char force[64], allowed[THR_PLAIN_NUMBER], within[64];
 
   if (options->max_pull <= 0) return;
 
   /* A limit and a claim are factors on the seating tension. */
-  thr_text_printf(text, "hand     %s at most at the end of a cord; %s N are allowed\n",
-                  plain_force(largest * seating, force),
-                  thr_plain_number(options->max_pull * seating, 6, allowed));
-  if (claim->present) put_fewest(text, plan, claim->fewest, claim->optimal, " within that pull");
+  thr_plain_newtons(options->max_pull * seating, allowed);
+  if (!recommended)
+    thr_text_printf(text, "hand     %s at most at the end of a cord; %s N are allowed\n",
+                    plain_force(largest * seating, force), allowed);
+  snprintf(within, sizeof within, " within %s N", allowed);
+  if (claim->present) put_fewest(text, plan, claim->fewest, claim->optimal, within);
 }
 
 /* Appends, for those who ask, how many odd cuts prove the length, and whether GLPK's exact
@@ -409,8 +415,37 @@ void kit_put_json(thr_writer *writer, const thr_kit_estimate *kit)
   thr_write_close(writer);
 }
 
-/* Appends what cord and needle to take and which options say others; nothing where sizes in mm are
- * not known. */
+/* Appends how long the cords are between their ends, and how much is cut for each, in units. */
+static void put_lengths(thr_text *text, const thr_supplies *supplies)
+{
+  const thr_plan *plan = supplies->plan;
+  double range[2][2] = {{INFINITY, 0}, {INFINITY, 0}};
+  char words[2][2 * THR_PLAIN_NUMBER + 4];
+
+  for (int c = 0; c < plan->n_cords; c++) {
+    const thr_cut_length cut = thr_supplies_cut(supplies, c);
+    for (int i = 0; i < 2; i++) {
+      range[i][0] = fmin(range[i][0], i ? cut.cut : cut.length);
+      range[i][1] = fmax(range[i][1], i ? cut.cut : cut.length);
+    }
+  }
+
+  for (int i = 0; i < 2; i++) {
+    char least[THR_PLAIN_NUMBER], most[THR_PLAIN_NUMBER];
+    thr_plain_number(range[i][0], 3, least);
+    thr_plain_number(range[i][1], 3, most);
+    snprintf(words[i], sizeof *words, "%s%s%s", strcmp(least, most) ? least : "",
+             strcmp(least, most) ? " to " : "", most);
+  }
+  thr_text_printf(text, "to cut   %s %s of cord%s: %s threaded, the rest tails and knots%s\n",
+                  words[1], plan->frame.units, plan->n_cords > 1 ? " each" : "", words[0],
+                  range[1][1] * supplies->mm > THR_SUPPLIES_WORKING
+                      ? "; more where lengths are joined: cords.csv"
+                      : "");
+}
+
+/* Appends how much cord to cut, what cord and needle to take and which options say others; nothing
+ * where sizes in mm are not known. */
 static void put_supplies(thr_text *text, const thr_plan *plan)
 {
   thr_supplies supplies;
@@ -423,6 +458,7 @@ static void put_supplies(thr_text *text, const thr_plan *plan)
                  most = thr_supplies_extreme_bore(&supplies, false);
     const bool asked = plan->options.physics.cord_diameter > 0;
 
+    put_lengths(text, &supplies);
     thr_text_printf(
         text, "cord     %.3g mm thick%s, bores of %.4g", supplies.cord,
         !asked && supplies.cord < THR_CORD_THINNEST ? ", as thick as the pieces take" : "", least);
@@ -445,16 +481,17 @@ static bool estimate_kit(thr_text *text, const thr_plan *plan, thr_kit_estimate 
 }
 
 /* Appends the whole summary. pull[n_cords] and largest: factors on the seating tension. seated:
- * what pulls in N do, NULL if they are more than a number holds. rivals: what a plan of least
- * turning is compared with, else NULL. */
-static void put_text(thr_text *text, const thr_plan *plan, const double *pull, double largest,
-                     const thr_eval *seated, const thr_rivals *rivals, thr_cords_word word)
+ * what pulls in N do, NULL if they are more than a number holds. Others as in plan_put_summary. */
+static double put_text(thr_text *text, const thr_plan *plan, const double *pull, double largest,
+                       const thr_eval *seated, const thr_rivals *rivals, thr_cords_word word,
+                       bool recommended)
 {
+  double holds = NAN;
   const thr_metrics *metrics = &plan->metrics;
   const thr_physics *physics = &plan->options.physics;
 
   /* What was asked for and what each cord is. */
-  put_head(text, plan);
+  put_head(text, plan, recommended);
   put_cords(text, plan, pull, seated);
   if (plan->symmetry.present) symmetry_put_paths(text, plan);
 
@@ -476,7 +513,7 @@ static void put_text(thr_text *text, const thr_plan *plan, const double *pull, d
   put_claim(text, plan, word);
   put_distinct(text, plan);
   put_cut(text, plan);
-  put_pull_limit(text, plan, largest);
+  put_pull_limit(text, plan, largest, recommended);
 
   /* Turning and pull. */
   if (rivals) turning_put_status(text, plan, rivals);
@@ -489,7 +526,7 @@ static void put_text(thr_text *text, const thr_plan *plan, const double *pull, d
                   physics->seating, physics->mu);
 
   /* Holding, and comparisons. */
-  if (seated) seated_put_holding(text, "hold     ", plan, &seated->record);
+  if (seated) holds = seated_put_holding(text, "hold     ", plan, &seated->record);
   put_supplies(text, plan);
   thr_kit_estimate kit;
   if (estimate_kit(text, plan, &kit)) {
@@ -498,6 +535,7 @@ static void put_text(thr_text *text, const thr_plan *plan, const double *pull, d
   }
   if (rivals) turning_put_table(text, plan, rivals);
   if (rivals) turning_put_frontier(text, plan, rivals);
+  return holds;
 }
 
 /* Returns the pull of each cord as a factor on the seating tension; the caller frees it. NULL when
@@ -510,15 +548,17 @@ static double *compute_pulls(thr_text *text, const thr_plan *plan, double *large
   return pull;
 }
 
-void plan_put_summary(thr_text *text, const thr_plan *plan, const thr_rivals *rivals,
-                      thr_cords_word word)
+double plan_put_summary(thr_text *text, const thr_plan *plan, const thr_rivals *rivals,
+                        thr_cords_word word, bool recommended)
 {
-  double largest, *pull = compute_pulls(text, plan, &largest);
+  double largest, *pull = compute_pulls(text, plan, &largest), holds = NAN;
   thr_eval seated;
   const bool known = !thr_eval_closed_form(plan, plan->options.physics.seating, &seated, NULL);
-  if (pull) put_text(text, plan, pull, largest, known ? &seated : NULL, rivals, word);
+  if (pull)
+    holds = put_text(text, plan, pull, largest, known ? &seated : NULL, rivals, word, recommended);
   thr_eval_destroy(&seated);
   free(pull);
+  return holds;
 }
 
 /* ---- JSON ---- */

@@ -193,9 +193,10 @@ void seated_put(thr_text *text, const thr_plan *plan);
 /* Appends the line, with `label` before it, that says what holding the pieces together takes where
  * that is more than what seats them, or that it was left out as they are too many. Nothing if it is
  * no more or not decided, or the pieces are tubes. evaluation: of the plan's cords, pulled until
- * they are seated. */
-void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,
-                        const thr_evaluation *evaluation);
+ * they are seated. Returns the pull at the hardest end below which nothing holds, N; NAN: not
+ * known. */
+double seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,
+                          const thr_evaluation *evaluation);
 
 /* Writes the same as members: "holds_from", N at the hardest end, and null if no pull holds; none
  * if that is not decided. */
@@ -329,9 +330,10 @@ void kit_put(thr_text *text, const thr_kit_estimate *kit);
 void kit_put_json(thr_writer *writer, const thr_kit_estimate *kit);
 
 /* Appends the summary. rivals: what a plan of the least turning is compared with; NULL for others.
- * word: what the search found out beyond what is verified. */
-void plan_put_summary(thr_text *text, const thr_plan *plan, const thr_rivals *rivals,
-                      thr_cords_word word);
+ * word: what the search found out beyond what is verified. recommended: nobody asked for a limit on
+ * the pull. Returns what seated_put_holding does. */
+double plan_put_summary(thr_text *text, const thr_plan *plan, const thr_rivals *rivals,
+                        thr_cords_word word, bool recommended);
 
 /* Writes the same as members of an open object. */
 void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *rivals,

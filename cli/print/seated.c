@@ -136,8 +136,8 @@ static void put_clamped(thr_text *text, const thr_plan *plan, const thr_evaluati
     thr_text_append(text, "; with held feet (--clamp-feet) what seats the cords may do");
 }
 
-void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,
-                        const thr_evaluation *evaluation)
+double seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,
+                          const thr_evaluation *evaluation)
 {
   const double times = compute_holding_factor(text, plan, evaluation, false),
                largest = evaluation->largest;
@@ -151,10 +151,10 @@ void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,
                     "%swhat holding takes is not computed for more than %d pieces: thread eval "
                     "--method structure\n",
                     label, THR_HOLDS_LARGEST);
-    return;
+    return NAN;
   }
 
-  if (!(times > 1)) return;
+  if (!(times > 1)) return times * largest;
 
   /* The pulls that seat the cords, as one number if they are one. */
   for (int i = 0; i < evaluation->n_cords; i++)
@@ -185,6 +185,7 @@ void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,
                                          : ": support the pieces until all knots are tied");
   put_clamped(text, plan, evaluation, times);
   thr_text_append(text, "\n");
+  return times * largest;
 }
 
 void seated_put_holding_json(thr_writer *writer, const thr_plan *plan,

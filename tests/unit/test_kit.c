@@ -585,7 +585,7 @@ static const struct {
   const char *word;
 } refused[] = {
     {{.width = 4, .wall = 1.5}, 0, "--width 5"},
-    {{.width = 100, .wall = 9}, 0, "there is room for a piece"},
+    {{.width = 100, .wall = 9}, 0, "there is room for an arm"},
     {{.wall = 20}, 0, "--width 42"},
     {{.width = 6, .wall = 1.2}, 5, "--width 7.4"},
 };
@@ -668,7 +668,7 @@ START_TEST(what_has_no_kit_has_an_estimate)
   ck_assert_int_eq(thr_kit_estimate_make(&estimate, &p, &err), THR_OK);
   ck_assert_int_eq(estimate.pieces, 9);
   ck_assert_double_eq(estimate.volume, 0);
-  assert_one_line(&estimate.refused, "there is room for a piece");
+  assert_one_line(&estimate.refused, "there is room for an arm");
 
   /* A unit without a length. */
   snprintf(p.frame.units, sizeof p.frame.units, "unit");

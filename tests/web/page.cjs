@@ -168,8 +168,8 @@ const tests = {
     await page.getByLabel('What is engraved?').selectOption('none');
     await page.getByLabel('How wide are the arms, in mm?').fill('2');
     await make();
-    await page.getByRole('alert').filter({hasText: 'needs a width of'}).waitFor();
-    assert.match(await trouble(page), /^A1-A2: 1 channel of [\d.]+ mm with walls of [\d.]+ mm needs a width of [\d.]+ mm, not 2: width [\d.]+ or more$/);
+    await page.getByRole('alert').filter({hasText: 'needs arms'}).waitFor();
+    assert.match(await trouble(page), /^A1-A2: 1 channel of [\d.]+ mm with walls of [\d.]+ mm needs arms [\d.]+ mm wide, not 2: width [\d.]+ or more$/);
     await page.getByLabel('How wide are the arms, in mm?').fill('');
     await page.getByLabel("How large is the printer's bed, in mm?").fill('20 x 20');
     await make();
