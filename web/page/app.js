@@ -9,7 +9,7 @@ const LATER_QUESTIONS = ['width', 'bed', 'names', 'key', 'start', 'most', 'raise
 const text = (bytes) => new TextDecoder().decode(bytes);
 
 let frame = null; // thread-frame, as JSON
-let source = null; // {bytes, path, shownName, more}: the file that the framework was read from; null: of a plan
+let source = null; // {bytes, path, shownName, width, units}: the file that the framework was read from, and how wide it is as it is read; null: of a plan
 let name = ''; // of the file, without its ending
 let plan = ''; // text of plan.json
 let best = ''; // the same, while the search runs
@@ -24,9 +24,10 @@ const sketch = new Sketch($('sketch'), (node) => working || changeFeet(toggled(n
 // ---- words ----
 
 // A line of the program in the words of the page, which has no commands and no options: "--up y" is the question "Which way is
-// up?", "--width 4" is "width 4", and what only says which command to type is left out.
+// up?", "--bed 4" is "bed 4", a width is that of the arms, and what only says which command to type is left out.
 const inWords = (line) => line.replace(/ \((?:see )?`?(?:thread|plan|eval) [^)]*\)|[;:,] [^;:,`(]*`thread [^`]*`[^;]*|[;:,.] thread [a-z]+ [^;]*/g, '')
   .replace(/--(units|scale|up|weld|split|flat|pick|layers)\b(?! or )(?: (?:mm|cm|m|in|ft|[xyz]|all|NAME or N|N|[\d.]+(?:e[+-]?\d+)?)\b)?/g, (_, option) => questionOf(option))
+  .replace(/--width\b/g, 'width of the arms')
   .replace(/(^|[^\w-])--([a-z][a-z-]*)/g, (_, before, option) => before + option.replaceAll('-', ' '));
 
 const questionOf = (option) => `“${document.querySelector(`label[for=${option === 'scale' ? 'wide' : option}]`).textContent}”`;
@@ -161,15 +162,16 @@ const widthOf = (shown) => Math.max(...[0, 1].map((k) => shown.nodes.reduce((mos
 
 // The question how wide it is, in numbers of this framework.
 function askWidth() {
-  const chosen = $('units').value, wide = Number(widthOf(frame).toPrecision(4));
+  if (!source) return;
+  const chosen = $('units').value, wide = Number(source.width.toPrecision(4));
   const options = Object.entries(UNITS).map(([unit, words]) => new Option(`${wide} ${words}`, unit));
-  $('units').replaceChildren(new Option(`as the file is read: ${wide} ${frame.units || 'mm'}`, ''), ...options);
+  $('units').replaceChildren(new Option(`as the file is read: ${wide} ${source.units || 'mm'}`, ''), ...options);
   setReading({units: chosen});
   $('wide').placeholder = `${wide}`;
 }
 
-// Options of the program that say how the file is to be read. width: of the framework as it was read without them.
-function readingArgs(width) {
+// Options of the program that say how the file is to be read. width: of the framework as it is read by the other answers.
+function readingArgs({width}) {
   const {units, wide, up, weld, split, flat, pick, layers} = answers(), args = [];
   const scale = Number(wide) > 0 && width > 0 ? Number(wide) / width : 1;
   if (units) args.push('--units', units);
