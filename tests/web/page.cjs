@@ -317,6 +317,9 @@ const tests = {
     await part5.getByText(/Comes up at /).waitFor({timeout: 120000});
     assert.equal(await lifted.inputValue(), '2');
     assert.equal(await part5.getByRole('button', {name: 'Try with'}).count(), 0);
+    const tries = ['try more cords, each of which turns less (thread plan --cords 8)', 'or  lighter pieces (thread convert --scale)', 'or  more pull than that (--pull 150)'];
+    const helps = await page.evaluate((lines) => helpsRise(lines).map(([title]) => title), tries);
+    assert.deepEqual(helps.slice(0, 2), ['Try with 8 cords', 'Pull with up to 150 newtons'], 'what the program says comes first');
     await choose(page, file('dome3.json'));
     await part(page, 'Your framework').getByText(/^dome3: /).waitFor();
     await drawn(page);

@@ -782,7 +782,7 @@ async function wallsOf(given, width) {
   return exit === 0 ? JSON.parse(stdout) : {refused: exit > 0 ? lastLine(stderr) : ''};
 }
 
-const thinWords = ({refused, thinnest_mm: wall}) => refused ? `These pieces cannot be made. ${capital(refused)}.` : `The thinnest wall is ${Number(wall.toPrecision(2))} mm, too thin to print well: ${PRINTS} mm or more is firm.`;
+const thinWords = ({refused, thinnest_mm: wall}) => refused ? `These pieces cannot be made. ${capital(refused)}.` : `The thinnest wall is ${Number(wall.toPrecision(2))} mm, too thin to print well, which takes ${PRINTS} mm.`;
 
 // Measures the walls, and tries what makes them thick enough to be printed: wider arms, or where these have no room a larger whole.
 async function watchWalls(most = FEW_PIECES) {
@@ -902,34 +902,47 @@ async function makeRise(event) {
     return;
   }
   risenOn = $('paper').value;
-  showRise(files, stdout.trim().split('\n').map(inWords));
-  const {runs: [seen], advice} = JSON.parse(text(files['rise.json']));
-  if (!seen.came_up) warn('rise-help', `It does not come up like this. ${advice || 'One of these may help:'}`, helpsRise());
+  const lines = stdout.trim().split('\n');
+  showRise(files, lines.filter((line) => !HELPS[TRY.exec(line)?.[1]]).map(inWords));
+  const {runs: [seen]} = JSON.parse(text(files['rise.json']));
+  if (!seen.came_up) warn('rise-help', 'It does not come up like this. What may help, the likeliest first:', helpsRise(lines));
   hear(`${$('rise-said').textContent} ${$('rise-help').textContent}`);
   goTo('rise-title');
 }
 
-// What may make them rise, of what was not tried.
-function helpsRise() {
-  const {raised, start, most} = answers(), rises = () => $('rise-questions').requestSubmit(), cords = cordsOf(plan).length + 2;
+// What changes the rise, by the option that the program names, and how a button calls it.
+const HELPS = {
+  width: [(mm) => `Make the arms ${mm} mm wide`, (mm) => answerRise('width', mm)],
+  raise: [(piece) => `Lift ${piece}, the highest piece, by hand`, (piece) => answerRise('raised', piece)],
+  cords: [(n) => `Try with ${n} cords`, (n) => threadAgain(n)],
+  pull: [(force) => `Pull with up to ${force} newtons`, (force) => answerRise('most', force)],
+  start: [(start) => (start === 'heap' ? 'Drop them in a heap' : 'See whether it stands, once it is closed'), (start) => answerRise('start', start)],
+};
+
+// What the program says to try, "try words (--width 9)", then what the page knows; not what is so already.
+function helpsRise(lines) {
+  const {raised, start, most, width} = answers(), is = {raise: raised.trim(), start, pull: most, width};
   const top = frame.nodes.reduce((best, [, , z], node) => (z > frame.nodes[best][2] ? node : best), 0);
-  const answer = (id, value) => () => {
-    $(id).value = value;
-    remember();
-    rises();
-  };
-  return [
-    ...(raised.trim() ? [] : [[`Lift ${nameOf(top)}, the highest piece, by hand`, answer('raised', nameOf(top))]]),
-    [`Try with ${cords} cords`, () => threadAgain(String(cords), rises)],
-    ...(Number(most) >= 100 ? [] : [['Pull with up to 100 newtons', answer('most', '100')]]),
-    ...(start === 'shape' ? [] : [['See whether it stands, once it is closed', answer('start', 'shape')]]),
-  ];
+  const said = lines.map((line) => TRY.exec(line)).filter(Boolean).map(([, option, value]) => [option, value]);
+  const own = [['raise', nameOf(top)], ['cords', String(2 * cordsOf(plan).length)], ['pull', '100'], ['start', 'shape']];
+  const helps = new Map([...own, ...said].filter(([option, value]) => HELPS[option] && is[option] !== value));
+  return [...new Set([...said, ...own].map(([option]) => option))].filter((option) => helps.has(option))
+    .map((option) => [HELPS[option][0](helps.get(option)), () => HELPS[option][1](helps.get(option))]);
 }
 
-async function threadAgain(cords, then) {
+const TRY = /^(?:try|or) .*\((?:thread [a-z]+ )?--([a-z]+) ([^ )]+)\)$/;
+
+function answerRise(id, value) {
+  $(id).value = value;
+  remember();
+  if (id === 'width') watchWalls();
+  $('rise-questions').requestSubmit();
+}
+
+async function threadAgain(cords) {
   setAnswers({cords});
   await search();
-  if (cordsOf(plan).length === Number(cords)) then();
+  if (cordsOf(plan).length === Number(cords)) $('rise-questions').requestSubmit();
 }
 
 // ---- events ----
