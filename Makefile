@@ -462,8 +462,8 @@ $(DIR)/%.o: %.cpp $(DIR)/flags.list
 	@echo "  CXX   $@"
 	$(Q)$(COMPILER_CXX) -I. $(BULLET_CFLAGS) $(CPPFLAGS) $(THR_CXXFLAGS) $(STRICT) -MMD -MP -c -o $@ $<
 
-# dense work in long loops, which pays to be unrolled
-$(addprefix $(DIR)/lp/solver/,normal.o dense.o bundles.o rays.o interior.o cones.o): THR_CFLAGS += $(if $(filter release web static windows wheel,$(BUILD)),-O3)
+# dense work in long loops, which pays to be unrolled, and in a browser, two numbers at a time, which other processors do unasked
+$(addprefix $(DIR)/lp/solver/,normal.o dense.o bundles.o rays.o interior.o cones.o): THR_CFLAGS += $(if $(filter release web static windows wheel,$(BUILD)),-O3) $(if $(filter web,$(BUILD)),-msimd128)
 
 # the viewer's page, as it lies built in the tree, becomes bytes of the program
 $(DIR)/%.o: %.S %.html $(DIR)/flags.list

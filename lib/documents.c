@@ -35,6 +35,7 @@ typedef enum {
   MAT,
   COMPAS,
   PAGES,
+  MAT_PAGES,
   POSTER,
   KIT,
   PICTURE,
@@ -68,6 +69,7 @@ static const struct {
     [COMPAS] = {"compas", "cords.json", "cords.json: COMPAS polylines"},
     [PAGES] = {"sheets.html", "sheets.html",
                "the pages of sheets.pdf for any browser, which prints them"},
+    [MAT_PAGES] = {"mat.html", "mat.html", "the pages of mat.pdf for any browser"},
     [POSTER] =
         {"poster", "poster.pdf",
          "poster.pdf: the overview over several sheets, to glue together; --pitch says how large"},
@@ -243,8 +245,9 @@ static thr_status sheets(const thr_plan *plan, const thr_document_options *asked
   return st;
 }
 
-/* Makes the mat: the framework flat and true to size, over as many pages as it takes. */
-static thr_status mat(const thr_plan *plan, const thr_document_options *asked,
+/* Makes the mat as PDF or HTML: the framework flat and true to size, over as many pages as it
+ * takes. */
+static thr_status mat(const thr_plan *plan, const thr_document_options *asked, document which,
                       const thr_limits *limits, thr_text *out, thr_err *err)
 {
   thr_mat *pages = NULL;
@@ -252,8 +255,9 @@ static thr_status mat(const thr_plan *plan, const thr_document_options *asked,
   /* Laid out first, since the number of pages is told before they are drawn. */
   thr_status st =
       thr_mat_make(&pages, plan, (thr_page_size)asked->page, asked->kind_tolerance, err);
-  if (!st && asked->pages) asked->pages(documents[MAT].file, thr_mat_pages(pages));
-  if (!st) st = thr_mat_pdf(pages, limits, out, err);
+  if (!st && asked->pages) asked->pages(documents[which].file, thr_mat_pages(pages));
+  if (!st && which == MAT) st = thr_mat_pdf(pages, limits, out, err);
+  if (!st && which == MAT_PAGES) st = thr_mat_html(pages, out, err);
 
   thr_mat_destroy(pages);
   return st;
@@ -368,7 +372,8 @@ thr_status thr_document_make(const thr_plan *plan, int i, const thr_document_opt
     return thr_table_channels(plan, options->kind_tolerance, options->layout, out, err);
 
   /* What pieces are called and where they lie. */
-  case MAT: return mat(plan, options, limits, out, err);
+  case MAT:
+  case MAT_PAGES: return mat(plan, options, (document)i, limits, out, err);
 
   /* Pieces to print. */
   case KIT:

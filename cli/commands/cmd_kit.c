@@ -14,6 +14,7 @@
 #include "kit/kit.h"
 #include "lib/lib.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -169,6 +170,9 @@ static int answer(const thr_kit *kit, const thr_kit_plates *plates)
 {
   thr_text text = {0};
   thr_writer writer = {.out = &text};
+  double thinnest = INFINITY;
+  for (int p = 0; p < kit->n_pieces; p++)
+    thinnest = fmin(thinnest, kit->piece[p].thinnest);
 
   thr_write_object(&writer, NULL);
   answer_put_files(&writer);
@@ -181,6 +185,7 @@ static int answer(const thr_kit *kit, const thr_kit_plates *plates)
   thr_write_number(&writer, "width_mm", kit->options.width);
   thr_write_number(&writer, "cord_mm", kit->cord);
   thr_write_number(&writer, "wall_mm", kit->options.wall);
+  if (isfinite(thinnest)) thr_write_number(&writer, "thinnest_mm", thinnest);
   thr_write_array(&writer, "notes");
   for (const char *line = kit->notes.data ? kit->notes.data : ""; *line;) {
     const int n = (int)strcspn(line, "\n");

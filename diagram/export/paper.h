@@ -10,7 +10,8 @@
  * SVG) with svg_style.c (CSS), which draws on paper.c (one page's content stream), and pdf.c (the
  * file round all pages) with deflate.c. font_find.c (where fonts are), font.c (letters, widths, a
  * part of a font) serve pdf.c.
- * viewer.c and test_piece.c stand alone. export_parts.h: what only these files share. */
+ * pages_html.c, viewer.c and test_piece.c stand alone. export_parts.h: what only these files
+ * share. */
 #ifndef THR_PAPER_H
 #define THR_PAPER_H
 
@@ -180,6 +181,23 @@ thr_status thr_pages_add(thr_pages *pages, int page, thr_text *svg, thr_err *err
  * the same bytes, whatever the number of threads. out is unchanged on failure. */
 thr_status thr_pages_close(thr_pages *pages, bool last_first, thr_text *out,
                            thr_err *err) THR_MUST_CHECK;
+
+/* ---- pages_html.c: the same pages as one HTML file ---- */
+
+/* Pages that are laid out; all borrowed. draw appends page i, from 0, as a whole SVG document. */
+typedef struct {
+  const char *title; /* as HTML */
+  const double *mm;  /* [2] width and height of a page */
+  int n;
+  thr_status (*draw)(const void *laid_out, int i, thr_text *svg, thr_err *err);
+  const void *laid_out;
+} thr_drawn_pages;
+
+/* Appends all pages as one file without scripts or links to other files, for browsers, which print
+ * it as they show it. Names within a page's SVG get its number before them. html is unchanged on
+ * failure: THR_ENOMEM, or that of draw. O(bytes). */
+thr_status thr_pages_html(const thr_drawn_pages *pages, thr_text *html,
+                          thr_err *err) THR_MUST_CHECK;
 
 /* ---- test_piece.c: the piece in which a cord's friction is measured: a bore that turns by 90
  * degrees, as in a bead with two arms ---- */

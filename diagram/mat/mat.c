@@ -745,3 +745,15 @@ thr_status thr_mat_pdf(const thr_mat *mat, const thr_limits *limits, thr_text *p
   thr_pages_destroy(pages);
   return st;
 }
+
+/* Draws page i of a mat. */
+static thr_status draw_page(const void *mat, int i, thr_text *svg, thr_err *err)
+{
+  return thr_mat_svg(mat, i, svg, err);
+}
+
+thr_status thr_mat_html(const thr_mat *mat, thr_text *html, thr_err *err)
+{
+  const thr_drawn_pages pages = {"Mat", mat->size, mat->n, draw_page, mat};
+  return thr_pages_html(&pages, html, err);
+}

@@ -37,11 +37,9 @@ void thr_mat_corner(const thr_mat *mat, int i, double at[2]);
 /* Appends page i, from 0, as a whole SVG document in mm. THR_ENOMEM. */
 thr_status thr_mat_svg(const thr_mat *mat, int i, thr_text *svg, thr_err *err) THR_MUST_CHECK;
 
-/* Appends all pages as one PDF. */
+/* Append all pages as one PDF, or as one HTML file (thr_pages_html). */
 thr_status thr_mat_pdf(const thr_mat *mat, const thr_limits *limits, thr_text *pdf,
                        thr_err *err) THR_MUST_CHECK;
-
-/* ---- Writes the names of all pieces as closed outlines, true to size: to be raised on printed
- * pieces, engraved or cut. */
+thr_status thr_mat_html(const thr_mat *mat, thr_text *html, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -229,7 +229,20 @@ thr_status thr_sheets_svg(const thr_sheets *sheets, int i, thr_text *svg, thr_er
   return svg->failed ? thr_nomem(err) : THR_OK;
 }
 
-/* ---- PDF ---- */
+/* ---- HTML, PDF ---- */
+
+/* Draws page i of a booklet. */
+static thr_status draw_page(const void *sheets, int i, thr_text *svg, thr_err *err)
+{
+  return thr_sheets_svg(sheets, i, svg, err);
+}
+
+thr_status thr_sheets_html(const thr_sheets *sheets, thr_text *html, thr_err *err)
+{
+  const thr_drawn_pages pages = {sheets->flow.title, sheets->flow.size, sheets->flow.n_pages,
+                                 draw_page, sheets};
+  return thr_pages_html(&pages, html, err);
+}
 
 void thr_sheets_send(thr_flow *flow)
 {

@@ -12,7 +12,7 @@
  * tables); sheets_moves.c (the visits of the needle). Then the heart: sheets_divide.c (where steps
  * end, a dynamic programme), sheets_steps.c (steps on pages), sheets_rows.c (their words),
  * sheets_strip.c and sheets_hub.c (their icons). Then the other pages, in the booklet's order:
- * front, making, prepare with lengths, key, sections, copies, last. sheets_html.c stands alone. */
+ * front, making, prepare with lengths, key, sections, copies, last. */
 #ifndef THR_SHEETS_H
 #define THR_SHEETS_H
 
@@ -79,11 +79,8 @@ thr_status thr_sheets_write(const thr_plan *plan, const thr_sheets_options *opti
                             const thr_limits *limits, int *n_pages, thr_text *pdf,
                             thr_err *err) THR_MUST_CHECK;
 
-/* ---- sheets_html.c: the booklet for browsers, which print it as they show it ---- */
-
-/* Appends all pages as one HTML file without scripts or links, of the same words and pictures as
- * thr_sheets_write. Names within a page's SVG get its number before them. html is unchanged on
- * failure: THR_ENOMEM. O(bytes). */
+/* Appends all pages as one HTML file, of the same words and pictures as thr_sheets_write. html is
+ * unchanged on failure: THR_ENOMEM. */
 thr_status thr_sheets_html(const thr_sheets *sheets, thr_text *html, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -136,7 +136,14 @@ const tests = {
     const [zip] = await Promise.all([page.waitForEvent('download', {timeout: 60000}), page.getByRole('button', {name: 'Save everything as a zip'}).click()]);
     await zip.saveAs(file('all.zip'));
     const listed = execFileSync('python3', ['-c', 'import sys, zipfile; z = zipfile.ZipFile(sys.argv[1]); assert z.testzip() is None; print(*z.namelist())', file('all.zip')], {encoding: 'utf8'});
-    assert.match(listed, /plan\.json overview\.svg steps\.txt sheets\.html/);
+    assert.match(listed, /^README\.txt plan\.json sheets\.html mat\.html overview\.svg steps\.txt /);
+    const readme = execFileSync('python3', ['-c', 'import sys, zipfile; sys.stdout.write(zipfile.ZipFile(sys.argv[1]).read("README.txt").decode())', file('all.zip')], {encoding: 'utf8'});
+    assert.deepEqual(readme.match(/^\S+(?= {2,}\S)/gm), listed.trim().split(' ').slice(1), 'a line for each');
+    for (const words of await page.getByRole('list', {name: 'Files, one by one'}).getByRole('listitem').allInnerTexts())
+      assert.ok(readme.replace(/\s/g, '').includes(words.replace(/\s/g, '')), `${words} is not in it`);
+    const [mat] = await Promise.all([own.waitForEvent('page'), page.getByRole('button', {name: 'Open the mat'}).click()]);
+    await mat.getByText('is 100 mm').first().waitFor();
+    await mat.close();
     await close();
   },
 
@@ -190,7 +197,7 @@ const tests = {
     await listed.getByRole('listitem').first().waitFor({timeout: 120000});
     const own = file('kit');
     const said = spawnSync(program, ['kit', file('three-plan.json'), '--width', '9', '--bed', '180x180', '--names', 'none', '--key', 'cone', '--stl', '-o', own], {encoding: 'utf8'}).stderr;
-    assert.deepEqual((await listed.getByRole('listitem').allInnerTexts()).sort(), ['README.txt', 'kit.3mf', 'kit.csv', 'kit.html', 'kit.png', 'stl.zip']);
+    assert.deepEqual((await listed.getByRole('link').allInnerTexts()).sort(), ['README.txt', 'kit.3mf', 'kit.csv', 'kit.html', 'kit.png', 'stl.zip']);
     assert.ok((await pieces.innerText()).includes(said.split('\n')[0].replace('thread: ', '')), 'what the command says');
     for (const name of ['README.txt', 'kit.3mf', 'kit.csv', 'kit.html', 'kit.png'])
       assert.ok(fs.readFileSync(await download(page, name)).equals(fs.readFileSync(path.join(own, name))), `${name} differs`);
@@ -213,6 +220,28 @@ const tests = {
     await page.getByRole('button', {name: 'Stop', exact: true}).click();
     await page.getByRole('alert').filter({hasText: 'Stopped: no pieces were made.'}).waitFor();
     assert.equal(await listed.getByRole('listitem').count(), 0);
+    await close();
+  },
+
+  async 'walls that are too thin to print: said before they are made, with arms or a size that mend it'() {
+    thread('make', 'geodesic', '--size', '2', '-o', file('geo.json'));
+    fs.writeFileSync(file('small.obj'), 'v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 2 2 1\nl 1 2 3 4 1\nl 1 5 3\nl 2 5 4\n');
+    thread('plan', file('geo.json'), '-q', '-o', file('geo-plan.json'));
+    const {page, close} = await open(), pieces = part(page, 'Its pieces, to print'), arms = page.getByLabel('How wide are the arms, in mm?');
+    await choose(page, file('geo-plan.json'));
+    await drawn(page);
+    await pieces.getByText(/^The thinnest wall is 0\.\d+ mm, too thin to print/).waitFor({timeout: 120000});
+    const wider = pieces.getByRole('button', {name: /^Make the arms [\d.]+ mm wide$/});
+    await wider.click({timeout: 120000});
+    await until(() => pieces.locator('#thin').isHidden(), 'thick enough');
+    const {thinnest_mm: wall} = JSON.parse(thread('kit', file('geo-plan.json'), '--names', 'none', '--no-picture', '--json', '-q', '--width', await arms.inputValue(), '-o', file('geo-kit')));
+    assert.ok(wall >= 0.8, `${wall} mm`);
+    await choose(page, file('small.obj'));
+    await part(page, 'Your framework').getByText(/^small: /).waitFor();
+    await made(page);
+    await pieces.getByRole('button', {name: /^Build the whole [\d.]+ mm wide, not 4 mm$/}).click({timeout: 120000});
+    await until(() => page.evaluate(() => widthOf(frame) > 8), 'a larger whole');
+    await made(page);
     await close();
   },
 
@@ -244,7 +273,7 @@ const tests = {
     fs.copyFileSync(file('ring.json'), own('plan.json')); // the plot names the plan
     const written = ['--play', 'rise.html', '--film', 'rise.png', '--plot', 'rise.svg', '--booklet', 'booklet.html', '-o', 'rise.json'];
     const said = execFileSync(program, ['rise', 'plan.json', '--pull', '1', ...written], {cwd: file('rise'), encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe']});
-    assert.deepEqual((await listed.getByRole('listitem').allInnerTexts()).sort(), ['booklet.html', 'rise.html', 'rise.json', 'rise.png', 'rise.svg']);
+    assert.deepEqual((await listed.getByRole('link').allInnerTexts()).sort(), ['booklet.html', 'rise.html', 'rise.json', 'rise.png', 'rise.svg']);
     // Contacts make much of the last digit of a sine: the same shape at last, a step of the pull earlier or later.
     const plain = (text) => text.replace(/\d+(\.\d+)?/g, '#');
     assert.match(plain(await part5.innerText()), new RegExp(plain(said.split('\n')[1]), 'i'), 'what the command says');
@@ -283,9 +312,14 @@ const tests = {
     await pull.fill('2');
     await watch();
     await part5.getByText(/Does not come up[^]*The widest gap stays between/).waitFor({timeout: 120000});
-    await lifted.fill('2');
-    await watch();
+    await part5.getByText(/^It does not come up like this/).waitFor();
+    await part5.getByRole('button', {name: 'Lift 2, the highest piece, by hand'}).click();
     await part5.getByText(/Comes up at /).waitFor({timeout: 120000});
+    assert.equal(await lifted.inputValue(), '2');
+    assert.equal(await part5.getByRole('button', {name: 'Try with'}).count(), 0);
+    const tries = ['try more cords, each of which turns less (thread plan --cords 8)', 'or  lighter pieces (thread convert --scale)', 'or  more pull than that (--pull 150)'];
+    const helps = await page.evaluate((lines) => helpsRise(lines).map(([title]) => title), tries);
+    assert.deepEqual(helps.slice(0, 2), ['Try with 8 cords', 'Pull with up to 150 newtons'], 'what the program says comes first');
     await choose(page, file('dome3.json'));
     await part(page, 'Your framework').getByText(/^dome3: /).waitFor();
     await drawn(page);
@@ -462,7 +496,7 @@ const tests = {
     assert.match(execFileSync('pdfinfo', [file('letter.pdf')], {encoding: 'utf8'}), /Page size: +612 x 792/);
     await booklet.close();
     const words = await heard();
-    for (const part of [/25 pieces that meet at 40 interfaces/, /Searching/, /2 cords, each [\d.]+ m; pull/, /Every claim of this plan was verified/]) assert.match(words, part);
+    for (const part of [/25 pieces that meet at 40 interfaces/, /Searching/, /2 cords, each [\d.]+ m threaded, cut [\d.]+ m; pull/, /Every claim of this plan was verified/]) assert.match(words, part);
     fs.writeFileSync(file('broken.obj'), 'v 0 0\n');
     await choose(page, file('broken.obj'));
     await page.getByRole('alert').waitFor();
@@ -499,14 +533,18 @@ const tests = {
     await choose(page, file('wide.obj'));
     assert.match(await shown(page), /^wide: 5 pieces/);
     await page.getByText('Is it as it was meant?').click();
-    await page.getByLabel('How wide is it?').selectOption('8 metres');
+    await page.getByLabel('How wide is the whole?').selectOption('8 metres');
     await until(() => page.evaluate(() => frame.units === 'm'), 'metres');
     await page.getByLabel('Feet, where cord may come out').fill('1 2 3');
     await page.keyboard.press('Tab');
     await until(() => page.evaluate(() => String(frame.feet) === '0,1,2'), 'three feet, with blanks between them');
-    await page.getByLabel('How wide shall it be built').fill('2');
+    await page.getByLabel('How wide shall the whole be built').fill('2');
     await page.keyboard.press('Tab');
     await until(() => page.evaluate(() => Math.abs(Math.max(...frame.nodes.map(([x]) => x)) - 2) < 1e-9), 'a quarter as wide');
+    assert.match(await page.locator('#units option').first().innerText(), /^as the file is read: 8 mm$/);
+    await page.getByLabel('Which way is up?').selectOption('y');
+    await until(() => page.evaluate(() => frame.nodes.some(([, , z]) => z > 0.9)), 'the other way up');
+    assert.ok(await page.evaluate(() => Math.abs(widthOf(frame) - 2) < 1e-9), 'as wide as was asked');
     assert.deepEqual(await page.evaluate(() => [frame.units, frame.feet]), ['m', [0, 1, 2]]);
     await page.getByLabel('Which part of the file?').fill('7');
     await page.keyboard.press('Tab');

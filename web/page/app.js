@@ -9,7 +9,7 @@ const LATER_QUESTIONS = ['width', 'bed', 'names', 'key', 'start', 'most', 'raise
 const text = (bytes) => new TextDecoder().decode(bytes);
 
 let frame = null; // thread-frame, as JSON
-let source = null; // {bytes, path, shownName, more}: the file that the framework was read from; null: of a plan
+let source = null; // {bytes, path, shownName, width, units}: the file that the framework was read from, and how wide it is as it is read; null: of a plan
 let name = ''; // of the file, without its ending
 let plan = ''; // text of plan.json
 let best = ''; // the same, while the search runs
@@ -161,16 +161,17 @@ const widthOf = (shown) => Math.max(...[0, 1].map((k) => shown.nodes.reduce((mos
 
 // The question how wide it is, in numbers of this framework.
 function askWidth() {
-  const chosen = $('units').value, wide = Number(widthOf(frame).toPrecision(4));
+  if (!source) return;
+  const chosen = $('units').value, wide = Number(source.width.toPrecision(4));
   const options = Object.entries(UNITS).map(([unit, words]) => new Option(`${wide} ${words}`, unit));
-  $('units').replaceChildren(new Option(`as the file is read: ${wide} ${frame.units || 'mm'}`, ''), ...options);
+  $('units').replaceChildren(new Option(`as the file is read: ${wide} ${source.units}`, ''), ...options);
   setReading({units: chosen});
   $('wide').placeholder = `${wide}`;
 }
 
-// Options of the program that say how the file is to be read. width: of the framework as it was read without them.
-function readingArgs(width) {
-  const {units, wide, up, weld, split, flat, pick, layers} = answers(), args = [];
+// Options of the program that say how the file is to be read. width: of the framework as it is read by the other answers.
+function readingArgs({width}, wide = answers().wide) {
+  const {units, up, weld, split, flat, pick, layers} = answers(), args = [];
   const scale = Number(wide) > 0 && width > 0 ? Number(wide) / width : 1;
   if (units) args.push('--units', units);
   if (scale !== 1) args.push('--scale', String(scale));
@@ -189,9 +190,11 @@ const convert = (given, args) => engine.run(['convert', given.path, ...args, '-T
 async function readAgain() {
   if (!source) return;
   complain('');
-  const before = frame, given = source;
-  const {exit, stderr, files} = await convert(given, readingArgs(given.width));
+  const before = frame, given = source, plain = await convert(given, readingArgs(given, '')), isBuilt = Number(answers().wide) > 0;
+  if (plain.files['frame.json']) source = {...given, width: widthOf(JSON.parse(text(plain.files['frame.json'])))};
+  const {exit, stderr, files} = isBuilt ? await convert(given, readingArgs(source)) : plain;
   if (exit !== 0 || !files['frame.json']) {
+    source = given;
     complain(lastLine(stderr).replaceAll(given.path, given.shownName));
     setReading(settled?.answers || {});
     return;
@@ -224,7 +227,7 @@ async function readBytes(bytes, title, path, shownName, more = []) {
   putPlanAside();
   frame = JSON.parse(text(files['frame.json']));
   name = title;
-  source = isPlan ? null : {...given, width: widthOf(frame)};
+  source = isPlan ? null : {...given, width: widthOf(frame), units: frame.units || 'mm'};
   setReading(Object.fromEntries(READING_QUESTIONS.map((id) => [id, ''])));
   $('width').value = $('raised').value = ''; // arms and a piece of the shape before
   if (!frame.feet?.length && $('ends').value === 'feet') $('ends').value = '';
@@ -496,7 +499,7 @@ async function searchOrAdvice(command, hears) {
 }
 
 async function search(event) {
-  event.preventDefault();
+  event?.preventDefault();
   complain('');
   const seconds = Number(answers().seconds), command = wanted();
   busy('Searching ..', 'Stop and keep the best', 'Searching', seconds);
@@ -537,9 +540,9 @@ async function search(event) {
 
 // ---- 3: the result ----
 
-async function draw(type, file) {
+async function draw(type, file, tell = complain) {
   const {exit, stderr, files} = await engine.run(['draw', 'plan.json', '-T', type, '--page', $('paper').value, '-o', file], {'plan.json': plan});
-  if (exit || !files[file]) complain(lastLine(stderr));
+  if (exit || !files[file]) tell(lastLine(stderr));
   return files[file];
 }
 
@@ -556,11 +559,13 @@ const range = (values, words) => {
   return least === most ? most : `${least} to ${most}`;
 };
 
+const volumeWords = (cm3) => (cm3 < 1e5 ? `${Number(cm3.toPrecision(2))} cm³` : `${Number((cm3 / 1e6).toPrecision(2)).toLocaleString('en')} m³`);
+
 // The headline, the cords, and what to do.
 function showCords(rows, pulls, kit, first) {
   const lengths = rows.map((row) => Number(row.length)), cuts = rows.map((row) => Number(row.cut)), known = pulls.filter((pull) => pull?.known);
   const most = Math.max(...known.map((pull) => pull.force));
-  $('headline').textContent = `${plural(rows.length, 'cord')}, ${rows.length > 1 ? 'each ' : ''}${range(lengths, lengthWords)}${known.length ? `; pull ${newtons(most)} at both ends` : ''}`;
+  $('headline').textContent = `${plural(rows.length, 'cord')}, ${rows.length > 1 ? 'each ' : ''}${range(lengths, lengthWords)} threaded, cut ${range(cuts, lengthWords)}${known.length ? `; pull ${newtons(most)} at both ends` : ''}`;
   $('cord-table').tBodies[0].replaceChildren(...rows.map((row, i) => {
     const line = document.createElement('tr'), swatch = document.createElement('span'), pull = pulls[i];
     swatch.className = 'swatch';
@@ -571,7 +576,7 @@ function showCords(rows, pulls, kit, first) {
     return line;
   }));
   const steps = [`Cut ${plural(rows.length, 'cord')} of ${range(cuts, lengthWords)}: ends to hold and knots are in it.`,
-    kit ? `Print ${plural(kit.pieces, 'piece')} of ${plural(kit.kinds_with_channels ?? kit.kinds, 'kind')}${kit.volume_cm3 ? `, about ${Number(kit.volume_cm3.toPrecision(2))} cm³ of material` : ''}: part 4 below makes the files.` : 'Print the pieces: part 4 below makes the files.',
+    `Print ${kit ? `${plural(kit.pieces, 'piece')}${kit.volume_cm3 ? `, about ${volumeWords(kit.volume_cm3)} of material` : ''}` : 'the pieces'}: part 4 below makes the files.`,
     'Print the booklet, or open the steps below on a telephone.', first ? `Begin: ${first}.` : ''].filter(Boolean);
   $('to-do').replaceChildren(...steps.map((words) => {
     const item = document.createElement('li');
@@ -614,6 +619,7 @@ async function showResult() {
   goTo('result-title');
   const viewer = await draw('html', 'viewer.html');
   if (viewer && shown === plan) $('viewer').srcdoc = text(viewer);
+  watchWalls();
   listFiles($('files'), FILES.map(([type, file, what]) => [file, () => contentOf(type, file), what]));
   if (cordsOf(plan).flat().length <= FEW_PASSES) showFirstPages(await draw('sheets.html', 'sheets.html'), shown);
 }
@@ -638,12 +644,22 @@ function showFirstPages(bytes, shown) {
 }
 
 // Its type, its name, what it is for.
-const FILES = [['plan', 'plan.json', 'the plan; drop it here again'], ['svg', 'overview.svg', 'a picture of all cords'], ['steps', 'steps.txt', 'the steps in words'],
-  ['sheets.html', 'sheets.html', 'the booklet to print'], ['html', 'viewer.html', 'the steps in space'], ['cords.csv', 'cords.csv', 'what to cut'],
+const FILES = [['plan', 'plan.json', 'the plan; drop it here again'], ['sheets.html', 'sheets.html', 'the booklet to print: every step with its picture'],
+  ['mat.html', 'mat.html', 'the mat to print: outlines of all pieces, true to size, to lay them on'], ['svg', 'overview.svg', 'a picture of all cords'],
+  ['steps', 'steps.txt', 'the steps in words'], ['html', 'viewer.html', 'the steps in space'], ['cords.csv', 'cords.csv', 'what to cut'],
   ['beads.csv', 'beads.csv', 'which pieces'], ['steps.csv', 'steps.csv', 'the steps as a table'], ['channels.csv', 'channels.csv', 'the ways through pieces'],
-  ['obj', 'cords.obj', 'the cords for CAD'], ['gltf', 'cords.gltf', 'the cords in colours'], ['dxf', 'cords.dxf', 'the cords for CAD']];
+  ['obj', 'cords.obj', 'the cords for CAD'], ['gltf', 'cords.gltf', 'the cords in colours'], ['dxf', 'cords.dxf', 'the cords for CAD, a layer each']];
+const KIT_FILES = {'kit.3mf': "all pieces on plates: open it in your printer's program", 'README.txt': 'how many of what to print, and how', 'kit.csv': 'what each piece measures', 'kit.png': 'a picture of the pieces, cords in them',
+  'kit.html': 'the steps in space, with these pieces', 'stl.zip': 'each kind of piece as an STL file'};
+const RISE_FILES = {'rise.html': 'how they rise, to play', 'rise.png': 'the same as a moving picture', 'rise.svg': 'pull and closed faces as a chart',
+  'booklet.html': 'the booklet to print, with how they rise', 'rise.json': 'the same in numbers'};
+const purpose = (file) => FILES.find(([, name]) => name === file)?.[2] || KIT_FILES[file.replace('kit/', '').replace(/-\d+(?=\.3mf$)/, '')] || RISE_FILES[file] || 'a kind of piece';
 
-const contentOf = async (type, file) => (type === 'plan' ? new TextEncoder().encode(plan) : draw(type, file));
+// A line on each of some files, and on those that could not be made.
+const readme = (files, failed) => [`${name}: what thread made of it`, '', ...[...Object.keys(files).map((file) => [file, purpose(file)]), ...failed]
+  .map(([file, words]) => `${file.padEnd(24)} ${words}`), ''].join('\n');
+
+const contentOf = async (type, file, tell) => (type === 'plan' ? new TextEncoder().encode(plan) : draw(type, file, tell));
 
 function save(blob, title) {
   const link = document.createElement('a');
@@ -675,14 +691,15 @@ function listFiles(list, named) {
 }
 
 async function saveAll() {
-  const files = {};
+  const files = {}, failed = [];
   busy('Drawing everything ..', '', 'Drawing', 0, false);
   for (const [type, file] of FILES) {
-    const bytes = await contentOf(type, file);
+    const bytes = await contentOf(type, file, (why) => failed.push([file, `not made: ${why}`]));
     if (bytes) files[file] = bytes;
   }
   busy('');
-  save(zip({...files, ...kit, ...rise}), `${name || 'plan'}.zip`);
+  Object.assign(files, kit, rise);
+  save(zip({'README.txt': new TextEncoder().encode(readme(files, failed)), ...files}), `${name || 'plan'}.zip`);
 }
 
 // A large one is made while its number of pages is shown, and its first part can be had alone.
@@ -724,13 +741,81 @@ async function openBooklet() {
   choices[0].focus();
 }
 
+async function openMat() {
+  complain('');
+  const page = window.open('', '_blank'), bytes = await draw('mat.html', 'mat.html');
+  if (!bytes) return page?.close();
+  const blob = new Blob([bytes], {type: 'text/html'});
+  if (page) page.location = URL.createObjectURL(blob);
+  else save(blob, 'mat.html');
+}
+
 // How many pages come before the second section; without sections LARGE of them.
 function firstPart(pages) {
   const second = pages.findIndex((page) => />Section 2\b/.test(page));
   return second > 0 ? second : LARGE;
 }
 
+// What went wrong or will, and buttons that mend it: [words, what to do] ..
+function warn(id, words, mends = []) {
+  const line = document.createElement('span');
+  line.textContent = words;
+  $(id).hidden = !words;
+  $(id).replaceChildren(line, ...mends.map(([title, mend]) => {
+    const button = document.createElement('button');
+    button.type = 'button';
+    button.textContent = title;
+    button.addEventListener('click', mend);
+    return button;
+  }));
+}
+
 // ---- 4: the pieces ----
+
+const PRINTS = 0.8; // mm, a wall of two lines of the usual nozzle
+const FEW_PIECES = 120; // whose walls are measured before they are asked for
+let measured = 0;
+
+// The thinnest wall by arms of such a width in mm, '': the plan's.
+async function wallsOf(given, width) {
+  const {exit, stdout, stderr} = await adviser.run(['kit', 'plan.json', '--names', 'none', '--no-picture', '--json', ...(width ? ['--width', String(width)] : [])], {'plan.json': given});
+  return exit === 0 ? JSON.parse(stdout) : {refused: exit > 0 ? lastLine(stderr) : ''};
+}
+
+const thinWords = ({refused, thinnest_mm: wall}) => refused ? `These pieces cannot be made. ${capital(refused)}.` : `The thinnest wall is ${Number(wall.toPrecision(2))} mm, too thin to print well, which takes ${PRINTS} mm.`;
+
+// Measures the walls, and tries what makes them thick enough to be printed: wider arms, or where these have no room a larger whole.
+async function watchWalls(most = FEW_PIECES) {
+  const mine = ++measured, given = plan, {width: asked} = answers();
+  warn('thin', '');
+  if (!given || frame.nodes.length > most) return;
+  const first = await wallsOf(given, asked);
+  if (mine !== measured || !(first.refused || first.thinnest_mm < PRINTS)) return;
+  const words = thinWords(first);
+  warn('thin', words);
+  hear(words);
+  for (let wide = 1.1 * first.width_mm; wide < 2.1 * first.width_mm; wide *= 1.15) {
+    const arms = Number(wide.toPrecision(2)), tried = await wallsOf(given, arms);
+    if (mine !== measured) return;
+    if (tried.thinnest_mm >= PRINTS) return warn('thin', words, [[`Make the arms ${arms} mm wide`, () => setArms(arms)]]);
+  }
+  const size = widthOf(frame), larger = Number((size * (first.refused ? 4 : (1.05 * PRINTS) / first.thinnest_mm)).toPrecision(2)), units = frame.units || 'mm';
+  if (source && !(first.refused && asked)) warn('thin', first.refused ? words : `${words} Wider arms have no room: the whole is too small.`, [[`Build the whole ${larger} ${units} wide, not ${Number(size.toPrecision(3))} ${units}`, () => setWhole(larger)]]);
+}
+
+function setArms(width) {
+  $('width').value = String(width);
+  remember();
+  watchWalls();
+  $('kit').focus();
+}
+
+function setWhole(width) {
+  $('wide').value = String(width);
+  $('width').value = '';
+  readAgain();
+  goTo('question-title');
+}
 
 const capital = (words) => words[0].toUpperCase() + words.slice(1);
 const sentences = (lines) => lines.map((line) => `${capital(line)}.`).join(' ');
@@ -750,8 +835,8 @@ function showKit(files, lines = []) {
   kit = files;
   $('kit-said').textContent = sentences(lines);
   figure.replaceChildren(caption('The pieces appear here. Many of them take minutes.'));
-  listFiles($('kit-files'), [...Object.keys(files).filter((file) => !/\.stl$/.test(file)).map((file) => [file.replace('kit/', ''), () => files[file]]),
-    ...(parts.length ? [['stl.zip', () => zip(Object.fromEntries(parts.map(([file, bytes]) => [file.replace('kit/', ''), bytes])))]] : [])]);
+  listFiles($('kit-files'), [...Object.keys(files).filter((file) => !/\.stl$/.test(file)).map((file) => [file.replace('kit/', ''), () => files[file], purpose(file)]),
+    ...(parts.length ? [['stl.zip', () => zip(Object.fromEntries(parts.map(([file, bytes]) => [file.replace('kit/', ''), bytes]))), purpose('stl.zip')]] : [])]);
   if (!picture) return;
   const image = new Image();
   image.alt = 'The pieces in their places, translucent, with the cords in them';
@@ -765,7 +850,7 @@ async function makeKit(event) {
   busy('Making the pieces ..', 'Stop', 'Making the pieces', 0, false);
   const {width, bed, names, key} = answers(), args = ['kit', 'plan.json', '--bed', bed.replaceAll(' ', '').replace('×', 'x'), '--names', names, '--key', key];
   if (width) args.push('--width', width);
-  const {exit, stderr, files} = await engine.run([...args, '--stl', '--progress', '-o', 'kit'], {'plan.json': plan}, {onLine: showDone('Making the pieces')});
+  const {exit, stdout, stderr, files} = await engine.run([...args, '--stl', '--progress', '--json', '-o', 'kit'], {'plan.json': plan}, {onLine: showDone('Making the pieces')});
   busy('');
   if (exit !== 0) {
     showKit({});
@@ -775,19 +860,20 @@ async function makeKit(event) {
   const lines = stderr.trim().split('\n').filter((line) => /^thread: (?!written to )/.test(line));
   showKit(files, lines.map((line) => inWords(line.replace(/^thread: /, ''))));
   $('viewer').srcdoc = text(files['kit/kit.html']); // the same steps, with these pieces
+  const report = JSON.parse(stdout);
+  if (report.thinnest_mm < PRINTS && $('thin').hidden) warn('thin', thinWords(report), [['Find arms that are wide enough', () => watchWalls(Infinity)]]);
   hear($('kit-said').textContent);
   goTo('kit-title');
 }
 
 // ---- 5: how they rise ----
 
-const RISE_FILES = ['rise.html', 'rise.png', 'rise.svg', 'booklet.html', 'rise.json'];
-
 // What the command line writes of a rise: {'rise.html': bytes ..}, and what it says.
 function showRise(files, lines = []) {
   rise = files;
   $('rise-said').textContent = sentences(lines);
-  listFiles($('rise-files'), RISE_FILES.filter((file) => files[file]).map((file) => [file, () => files[file]]));
+  warn('rise-help', '');
+  listFiles($('rise-files'), Object.keys(RISE_FILES).filter((file) => files[file]).map((file) => [file, () => files[file], purpose(file)]));
   if (!files['rise.html']) {
     $('rise-picture').replaceChildren(caption('The pieces rise here, pulled by their cords in simulation. Many of them take minutes.'));
     return;
@@ -816,9 +902,47 @@ async function makeRise(event) {
     return;
   }
   risenOn = $('paper').value;
-  showRise(files, stdout.trim().split('\n').map(inWords));
-  hear($('rise-said').textContent);
+  const lines = stdout.trim().split('\n');
+  showRise(files, lines.filter((line) => !HELPS[TRY.exec(line)?.[1]]).map(inWords));
+  const {runs: [seen]} = JSON.parse(text(files['rise.json']));
+  if (!seen.came_up) warn('rise-help', 'It does not come up like this. What may help, the likeliest first:', helpsRise(lines));
+  hear(`${$('rise-said').textContent} ${$('rise-help').textContent}`);
   goTo('rise-title');
+}
+
+// What changes the rise, by the option that the program names, and how a button calls it.
+const HELPS = {
+  width: [(mm) => `Make the arms ${mm} mm wide`, (mm) => answerRise('width', mm)],
+  raise: [(piece) => `Lift ${piece}, the highest piece, by hand`, (piece) => answerRise('raised', piece)],
+  cords: [(n) => `Try with ${n} cords`, (n) => threadAgain(n)],
+  pull: [(force) => `Pull with up to ${force} newtons`, (force) => answerRise('most', force)],
+  start: [(start) => (start === 'heap' ? 'Drop them in a heap' : 'See whether it stands, once it is closed'), (start) => answerRise('start', start)],
+};
+
+// What the program says to try, "try words (--width 9)", then what the page knows; not what is so already.
+function helpsRise(lines) {
+  const {raised, start, most, width} = answers(), is = {raise: raised.trim(), start, pull: most, width};
+  const top = frame.nodes.reduce((best, [, , z], node) => (z > frame.nodes[best][2] ? node : best), 0);
+  const said = lines.map((line) => TRY.exec(line)).filter(Boolean).map(([, option, value]) => [option, value]);
+  const own = [['raise', nameOf(top)], ['cords', String(2 * cordsOf(plan).length)], ['pull', '100'], ['start', 'shape']];
+  const helps = new Map([...own, ...said].filter(([option, value]) => HELPS[option] && is[option] !== value));
+  return [...new Set([...said, ...own].map(([option]) => option))].filter((option) => helps.has(option))
+    .map((option) => [HELPS[option][0](helps.get(option)), () => HELPS[option][1](helps.get(option))]);
+}
+
+const TRY = /^(?:try|or) .*\((?:thread [a-z]+ )?--([a-z]+) ([^ )]+)\)$/;
+
+function answerRise(id, value) {
+  $(id).value = value;
+  remember();
+  if (id === 'width') watchWalls();
+  $('rise-questions').requestSubmit();
+}
+
+async function threadAgain(cords) {
+  setAnswers({cords});
+  await search();
+  if (cordsOf(plan).length === Number(cords)) $('rise-questions').requestSubmit();
 }
 
 // ---- events ----
@@ -857,6 +981,7 @@ async function begin() {
     $(form).addEventListener('submit', make);
     $(form).addEventListener('change', remember);
   }
+  $('width').addEventListener('change', () => watchWalls());
   $('stop').addEventListener('click', () => engine.stop());
   $('undo').addEventListener('click', undo);
   $('link').addEventListener('click', copyLink);
@@ -864,6 +989,7 @@ async function begin() {
   $('lowest').addEventListener('click', () => feetWhere('lowest'));
   $('rim').addEventListener('click', () => feetWhere('rim'));
   $('booklet').addEventListener('click', openBooklet);
+  $('mat').addEventListener('click', openMat);
   $('all').addEventListener('click', saveAll);
   document.addEventListener('keydown', (event) => {
     if ((event.ctrlKey || event.metaKey) && event.key === 'z' && event.target.tagName !== 'INPUT' && !working) undo();

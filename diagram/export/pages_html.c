@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes the booklet as one HTML file for browsers, which print it as they show it.
+/* Writes pages as one HTML file for browsers, which print it as they show it.
  *
  * Page after page holds the SVG that the PDF is drawn from, on paper of the same size (CSS @page).
  * All pages share one document, in which ids must be unique: each id, and each reference to one,
@@ -7,9 +7,11 @@
  *
  * Example: on page 3 id="clip-1" .. clip-path="url(#clip-1)" become id="p3-clip-1" ..
  * clip-path="url(#p3-clip-1)". */
-#include "diagram/sheets/sheets_parts.h"
+#include "diagram/export/paper.h"
 
-#include <stdio.h>
+#include "graph/status.h"
+#include "graph/text.h"
+
 #include <string.h>
 
 /* What stands before an id or a reference to one. */
@@ -68,15 +70,15 @@ static void put_page(thr_text *html, const thr_text *svg, int page)
 
 /* Appends the head of the document: title and style. A page is as large as the paper; on a screen
  * it shrinks with the window. */
-static void put_head(const thr_flow *flow, thr_text *html)
+static void put_head(const thr_drawn_pages *pages, thr_text *html)
 {
-  const double *mm = flow->size;
+  const double *mm = pages->mm;
 
   /* The language is for hyphens and for readers of screens. */
   thr_text_append(
       html, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>");
-  thr_text_append(html, flow->title);
+  thr_text_append(html, pages->title);
 
   /* One page per sheet of paper, without margins of the browser's own. */
   thr_text_printf(
@@ -90,16 +92,16 @@ static void put_head(const thr_flow *flow, thr_text *html)
       mm[0], mm[1], mm[0], mm[1], mm[0], mm[1]);
 }
 
-thr_status thr_sheets_html(const thr_sheets *sheets, thr_text *html, thr_err *err)
+thr_status thr_pages_html(const thr_drawn_pages *pages, thr_text *html, thr_err *err)
 {
   thr_status st = THR_OK;
   const size_t before = html->length;
-  put_head(&sheets->flow, html);
+  put_head(pages, html);
 
-  for (int i = 0; i < thr_sheets_pages(sheets) && !st; i++) {
+  for (int i = 0; i < pages->n && !st; i++) {
     /* One page at a time, so that memory does not hold all of them twice. */
     thr_text svg = {0};
-    st = thr_sheets_svg(sheets, i, &svg, err);
+    st = pages->draw(pages->laid_out, i, &svg, err);
     if (!st) put_page(html, &svg, i + 1);
     thr_text_destroy(&svg);
   }
