@@ -142,6 +142,8 @@ int thr_keep_fewest(const thr_quotient *quotient, const int *component)
       same += component[thr_tail(frame, half)] == component[frame->edge[e][0]];
     }
 
+    if (fixed == 0) continue; /* there are no elements */
+
     /* So the edge's images in the component are passed by so many cords at least. */
     int cords = (same + 2 * fixed - 1) / (2 * fixed);
     if (cords > fewest) fewest = cords;

@@ -233,7 +233,7 @@ static thr_status insert_detour(cord_cover *cover, const detour *way, thr_err *e
   int n = trace(cover, way, cover->queue), old = cord->n_passes;
   count_cord(cover, cord, -1);
 
-  int *half = thr_realloc(cord->half, (size_t)(old + n), sizeof *half);
+  int *half = thr_realloc(cord->half, (size_t)old + (size_t)n, sizeof *half);
   if (!half) return thr_nomem(err);
   cord->half = half;
 

@@ -92,7 +92,7 @@ thr_status thr_short_cycles_find(thr_short_cycles *cycles, const thr_turning_col
 {
   thr_scratch own = {0};
   path_finder finder;
-  int filled = 0, capacity = 0, half[THR_CYCLE_MOST];
+  int filled = 0, capacity = 0, half[THR_CYCLE_MOST] = {0};
 
   *cycles = (thr_short_cycles){
       .first = thr_calloc((size_t)columns->first_extra + 1, sizeof *cycles->first)};

@@ -37,7 +37,7 @@ static thr_status run_one(void *user, int k, const thr_limits *limits, thr_err *
   const thr_turning_columns *columns = state->branch->c;
   const int64_t steps = (int64_t)PER_EDGE * columns->f->n_edges + AT_LEAST;
   return thr_anneal_turns(columns, &state->cycles, state->round > 0, steps,
-                          (uint64_t)(state->round * RUNS + k), state->limits, state->x[k],
+                          (uint64_t)state->round * RUNS + (uint64_t)k, state->limits, state->x[k],
                           &state->better[k], err);
 }
 
