@@ -307,11 +307,12 @@ static thr_status plates_3mf(const thr_kit *kit, thr_text *out, thr_err *err)
 }
 
 /* Draws a kit, or the piece of it that is named. */
-static thr_status picture(const thr_kit *kit, const thr_document_options *asked, thr_text *out,
-                          thr_err *err)
+static thr_status picture(const thr_kit *kit, const thr_document_options *asked,
+                          const thr_limits *limits, thr_text *out, thr_err *err)
 {
   thr_kit_view view = asked->view;
   view.alone = kit->only;
+  view.limits = limits;
   return thr_kit_picture(kit, &view, out, err);
 }
 
@@ -335,7 +336,8 @@ static thr_status of_kit(const thr_plan *plan, document which, const thr_documen
   thr_kit kit;
 
   thr_status st = thr_kit_make(&kit, plan, &options, asked->layout, true, limits, err);
-  if (!st) st = which == PICTURE ? picture(&kit, asked, out, err) : plates_3mf(&kit, out, err);
+  if (!st)
+    st = which == PICTURE ? picture(&kit, asked, limits, out, err) : plates_3mf(&kit, out, err);
   thr_kit_destroy(&kit);
 
   return st;
