@@ -838,11 +838,20 @@ static thr_status prepare(drawing *work, const int size[2], thr_err *err)
   return find_normals(work, err);
 }
 
+/* Tells which part of the rows is drawn. */
+static void tell(const thr_kit_view *view, double done)
+{
+  if (view->limits && view->limits->advance)
+    view->limits->advance(view->limits->user, "drawing the pieces", done);
+}
+
 /* Draws all rows. pixel: as for thr_kit_pixels. */
 static void draw(drawing *work, const int size[2], unsigned char *pixel)
 {
-  for (int y = 0; y < size[1]; y += ROWS)
+  for (int y = 0; y < size[1]; y += ROWS) {
+    tell(work->asked, (double)y / size[1]);
     draw_rows(work, y, size, pixel);
+  }
   darken_hollows(work, size, pixel);
 }
 
@@ -869,6 +878,7 @@ thr_status thr_kit_pixels(const thr_kit *kit, const thr_kit_view *view, unsigned
       colour[i][k] = (double)(value >> (16 - 8 * k) & 255) / 255;
   }
 
+  tell(view, 0);
   thr_status st = prepare(&work, size, err);
   if (!st) *pixel = thr_calloc((size_t)size[0] * (size_t)size[1], 3);
   if (!st && !*pixel) st = thr_nomem(err);

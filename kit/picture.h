@@ -26,6 +26,7 @@ typedef struct {
                                 `from`, one looks into its largest mouth */
   bool opaque;               /* cords are seen only where they are outside */
   double explode; /* by which all pieces are further from their middle; 0 = 1, in their places */
+  const thr_limits *limits; /* whose advance hears which part is drawn; NULL: nobody; borrowed */
 } thr_kit_view;
 
 /* Makes the picture: *pixel[3 * size[0] * size[1]] receives red, green and blue row by row from the

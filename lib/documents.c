@@ -310,11 +310,12 @@ static thr_status plates_3mf(const thr_kit *kit, thr_text *out, thr_err *err)
 }
 
 /* Draws a kit, or the piece of it that is named. */
-static thr_status picture(const thr_kit *kit, const thr_document_options *asked, thr_text *out,
-                          thr_err *err)
+static thr_status picture(const thr_kit *kit, const thr_document_options *asked,
+                          const thr_limits *limits, thr_text *out, thr_err *err)
 {
   thr_kit_view view = asked->view;
   view.alone = kit->only;
+  view.limits = limits;
   return thr_kit_picture(kit, &view, out, err);
 }
 
@@ -338,21 +339,22 @@ static thr_status of_kit(const thr_plan *plan, document which, const thr_documen
   thr_kit kit;
 
   thr_status st = thr_kit_make(&kit, plan, &options, asked->layout, true, limits, err);
-  if (!st) st = which == PICTURE ? picture(&kit, asked, out, err) : plates_3mf(&kit, out, err);
+  if (!st)
+    st = which == PICTURE ? picture(&kit, asked, limits, out, err) : plates_3mf(&kit, out, err);
   thr_kit_destroy(&kit);
 
   return st;
 }
 
-/* Writes the cords as OBJ, with the names of the places that the booklet speaks of. */
-static thr_status obj(const thr_plan *plan, const thr_document_options *asked, thr_text *out,
-                      thr_err *err)
+/* Writes the cords as OBJ or DXF, with the names of the places that the booklet speaks of. */
+static thr_status placed_lines(const thr_plan *plan, document which,
+                               const thr_document_options *asked, thr_text *out, thr_err *err)
 {
   thr_line_options lines = asked->lines;
   thr_guide guide;
   thr_status st = thr_guide_make(&guide, &plan->frame, asked->layout, err);
   lines.label = (const char(*)[THR_LABEL])guide.label;
-  if (!st) st = thr_polylines_obj(plan, &lines, out, err);
+  if (!st) st = (which == OBJ ? thr_polylines_obj : thr_polylines_dxf)(plan, &lines, out, err);
   thr_guide_destroy(&guide);
   return st;
 }
@@ -380,9 +382,9 @@ thr_status thr_document_make(const thr_plan *plan, int i, const thr_document_opt
   case PICTURE: return of_kit(plan, (document)i, options, limits, out, err);
 
   /* Lines for CAD. */
-  case OBJ: return obj(plan, options, out, err);
+  case OBJ:
+  case DXF: return placed_lines(plan, (document)i, options, out, err);
   case GLTF: return thr_polylines_gltf(plan, &options->lines, out, err);
-  case DXF: return thr_polylines_dxf(plan, &options->lines, out, err);
   case COMPAS: return thr_polylines_compas(plan, &options->lines, out, err);
 
   /* The rest says what moves a path to its copies. */

@@ -234,6 +234,29 @@ static void put_polyline(thr_cord_lines *lines, int c, const char *layer, thr_te
   thr_dxf_pair(out, 8, layer);
 }
 
+/* Writes the name of each node's place beside it, on a layer of their own: a quarter of the
+ * shortest edge high. label[n_nodes]: the names. */
+static void put_texts(const thr_plan *plan, const thr_line_options *options, const char *layer,
+                      thr_text *out)
+{
+  const thr_frame *frame = &plan->frame;
+  double shortest = INFINITY;
+  for (int e = 0; e < frame->n_edges; e++)
+    shortest = fmin(shortest, frame->length[e]);
+
+  for (int v = 0; v < frame->n_nodes; v++) {
+    double at[3];
+    thr_cord_lines_turn(options, frame->xyz[v], at);
+    thr_dxf_pair(out, 0, "TEXT");
+    thr_dxf_pair(out, 8, layer);
+    thr_dxf_point(out, 0, at);
+    thr_text_append(out, "40\n");
+    thr_text_double(out, 0.25 * shortest);
+    thr_text_append(out, "\n");
+    thr_dxf_pair(out, 1, options->label[v]);
+  }
+}
+
 /* Names a cord's layer and chooses its colour. */
 static void name_layer(const thr_plan *plan, const thr_copy *copy, int c, thr_dxf_layer *layer)
 {
@@ -254,18 +277,21 @@ thr_status thr_polylines_dxf(const thr_plan *plan, const thr_line_options *optio
 
   /* Colours depend on which cords are copies. */
   thr_copy *copy = thr_calloc((size_t)plan->n_cords, sizeof *copy);
-  thr_dxf_layer *layer = thr_calloc((size_t)plan->n_cords, sizeof *layer);
+  const int n_layers = plan->n_cords + (options->label != NULL);
+  thr_dxf_layer *layer = thr_calloc((size_t)n_layers, sizeof *layer);
   st = thr_cord_lines_begin(&lines, plan, options, err);
   if (!st && (!copy || !layer)) st = thr_nomem(err);
   if (!st) st = thr_copies_find(plan, copy, err);
 
-  /* DXF lists all layers before the first polyline. */
+  /* DXF lists all layers before the first polyline; 7 is black on white, white on black. */
   for (int c = 0; c < plan->n_cords && !st; c++)
     name_layer(plan, copy, c, &layer[c]);
-  if (!st) thr_dxf_begin(&text, plan->frame.units, layer, plan->n_cords);
+  if (!st && options->label) layer[plan->n_cords] = (thr_dxf_layer){"places", 7};
+  if (!st) thr_dxf_begin(&text, plan->frame.units, layer, n_layers);
 
   for (int c = 0; c < plan->n_cords && !st; c++)
     put_polyline(&lines, c, layer[c].name, &text);
+  if (!st && options->label) put_texts(plan, options, layer[plan->n_cords].name, &text);
 
   thr_dxf_end(&text);
   thr_cord_lines_end(&lines);

@@ -493,8 +493,8 @@ void thr_pieces_say(const thr_pieces *pieces, const char (*label)[THR_LABEL],
 typedef struct {
   bool lanes; /* the passes of an edge run beside each other, so that none coincide */
   bool up_y;  /* y points up: a point at x, y, z stands at x, z, -y */
-  const char (*label)[THR_LABEL]; /* [n_nodes] places of the nodes, which OBJ lists in a comment;
-                                     NULL: not; borrowed */
+  const char (*label)[THR_LABEL]; /* [n_nodes] places of the nodes, which OBJ lists in a comment
+                                     and DXF writes beside them; NULL: not; borrowed */
 } thr_line_options;
 
 /* The cords of a plan, to be asked for one after the other. */
@@ -543,7 +543,8 @@ thr_status thr_polylines_gltf(const thr_plan *plan, const thr_line_options *opti
                               thr_err *err) THR_MUST_CHECK;
 
 /* Writes DXF of release 12 with $INSUNITS: per cord a layer in the colour nearest to the overview's
- * and a polyline in space, its vertices in the order of the passes. */
+ * and a polyline in space, its vertices in the order of the passes; the labels of the options as
+ * texts on a layer "places". */
 thr_status thr_polylines_dxf(const thr_plan *plan, const thr_line_options *options, thr_text *out,
                              thr_err *err) THR_MUST_CHECK;
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The cords as lines: OBJ read back by the reader of frameworks and record by record, glTF decoded
  * byte by byte. */
+#include "diagram/overview/overview_parts.h"
 #include "diagram/scene/scene.h"
 #include "graph/io/json.h"
 #include "graph/io/read.h"
@@ -310,6 +311,32 @@ static bool next_pair(const char **at, int *code, char value[64])
   return true;
 }
 
+/* A text beside every node, on a layer of their own. */
+START_TEST(dxf_names_the_places)
+{
+  thr_plan p = plan_number(0);
+  thr_guide guide;
+  thr_text t = {0};
+  assert_ok(thr_guide_make(&guide, &p.frame, NULL, NULL), NULL);
+  const thr_line_options options = {.label = (const char(*)[THR_LABEL])guide.label};
+  assert_ok(thr_polylines_dxf(&p, &options, &t, NULL), NULL);
+  const char *at = t.data;
+  int code, v = 0;
+  bool text = false;
+  char value[64];
+  while (next_pair(&at, &code, value)) {
+    if (code == 0) text = strcmp(value, "TEXT") == 0;
+    if (text && code == 8) ck_assert_str_eq(value, "places");
+    if (text && code == 10) ck_assert(strtod(value, NULL) == p.frame.xyz[v][0]);
+    if (text && code == 1) ck_assert_str_eq(value, guide.label[v++]);
+  }
+  ck_assert_int_eq(v, p.frame.n_nodes);
+  thr_text_destroy(&t);
+  thr_guide_destroy(&guide);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 /* Each cord on a layer that the table has, its vertices the nodes in the order of the passes. */
 START_TEST(dxf_runs_through_the_nodes)
 {
@@ -476,6 +503,7 @@ int main(void)
   ADD_LOOP(s, 30, obj_has_the_passes_in_order, 0, N_PLANS);
   ADD_LOOP(s, 30, gltf_runs_through_the_nodes, 0, N_PLANS);
   ADD_LOOP(s, 30, dxf_runs_through_the_nodes, 0, N_PLANS);
+  ADD_TEST(s, 30, dxf_names_the_places);
   ADD_LOOP(s, 30, compas_runs_through_the_nodes, 0, N_PLANS);
   ADD_LOOP(s, 30, lanes_do_not_coincide, 0, N_PLANS);
   ADD_LOOP(s, 30, up_is_said, 0, N_PLANS);
