@@ -5,6 +5,7 @@
 #include "diagram/mat/mat.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
+#include "graph/status.h"
 #include "graph/text.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
@@ -152,6 +153,37 @@ START_TEST(marks_of_two_pages_lie_on_each_other)
 }
 END_TEST
 
+/* All pages in one file, each with names of its own; nothing where memory runs out. */
+START_TEST(as_html)
+{
+  thr_plan p = plan_of(THR_MAKE_DOME, 7, 65, false);
+  thr_mat *mat = mat_of(&p, THR_PAGE_A4);
+  thr_text html = {0};
+  thr_err err = {0};
+  ck_assert_int_eq(thr_mat_html(mat, &html, &err), THR_OK);
+  int n = 0;
+  for (const char *c = html.data; (c = strstr(c, "<section class=\"page\"")) != NULL; c++)
+    n++;
+  ck_assert_int_eq(n, thr_mat_pages(mat));
+  ck_assert_ptr_nonnull(strstr(html.data, "url(#p6-window)"));
+  ck_assert_ptr_null(strstr(html.data, "url(#window)"));
+  thr_text_destroy(&html);
+
+  thr_status st = THR_ENOMEM;
+  for (int k = 1; st; k++) {
+    html = (thr_text){0};
+    thr_alloc_fail_at(k);
+    st = thr_mat_html(mat, &html, &err);
+    thr_alloc_fail_at(0);
+    if (st) ck_assert_int_eq(st, THR_ENOMEM);
+    if (st) ck_assert_uint_eq(html.length, 0);
+    thr_text_destroy(&html);
+  }
+  thr_mat_destroy(mat);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 START_TEST(what_has_no_mat)
 {
   thr_err err = {0};
@@ -175,6 +207,7 @@ int main(void)
   ADD_LOOP(s, 30, middles_are_true_to_size, 0, CASES);
   ADD_LOOP(s, 30, every_piece_is_whole_at_its_middle_on_a_page, 0, CASES);
   ADD_LOOP(s, 30, marks_of_two_pages_lie_on_each_other, 0, CASES);
+  ADD_TEST(s, 30, as_html);
   ADD_TEST(s, 30, what_has_no_mat);
   return run_suite(s);
 }

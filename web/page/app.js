@@ -903,7 +903,7 @@ async function makeRise(event) {
   }
   risenOn = $('paper').value;
   const lines = stdout.trim().split('\n');
-  showRise(files, lines.filter((line) => !HELPS[TRY.exec(line)?.[1]]).map(inWords));
+  showRise(files, lines.filter((line) => !HELPS[TRY.exec(line)?.[1]]).map((line) => inWords(line.replace(/^(try|or) +(.*) \(.*\)$/, '$1 $2'))));
   const {runs: [seen]} = JSON.parse(text(files['rise.json']));
   if (!seen.came_up) warn('rise-help', 'It does not come up like this. What may help, the likeliest first:', helpsRise(lines));
   hear(`${$('rise-said').textContent} ${$('rise-help').textContent}`);
@@ -924,7 +924,7 @@ function helpsRise(lines) {
   const {raised, start, most, width} = answers(), is = {raise: raised.trim(), start, pull: most, width};
   const top = frame.nodes.reduce((best, [, , z], node) => (z > frame.nodes[best][2] ? node : best), 0);
   const said = lines.map((line) => TRY.exec(line)).filter(Boolean).map(([, option, value]) => [option, value]);
-  const own = [['raise', nameOf(top)], ['cords', String(2 * cordsOf(plan).length)], ['pull', '100'], ['start', 'shape']];
+  const own = [['cords', String(2 * cordsOf(plan).length)], ['raise', nameOf(top)], ['pull', '100'], ['start', 'shape']];
   const helps = new Map([...own, ...said].filter(([option, value]) => HELPS[option] && is[option] !== value));
   return [...new Set([...said, ...own].map(([option]) => option))].filter((option) => helps.has(option))
     .map((option) => [HELPS[option][0](helps.get(option)), () => HELPS[option][1](helps.get(option))]);
