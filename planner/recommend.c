@@ -26,8 +26,8 @@ enum { MOST_TRIED = 5000 /* edges */, MOST_TRIALS = 8, MOST_IDLE = 2, ENOUGH = 2
 /* Counted work of a trial, s. */
 static const double work_of_trial = 0.3;
 
-/* Counted work of several components, and of the shortest cords of tubes, s. */
-static const double work_of_components = 2, work_of_tubes = 2;
+/* Counted work of cords within a limit on the pull, and of the shortest cords of tubes, s. */
+static const double work_of_limit = 2, work_of_tubes = 2;
 
 /* Times as many cords as could do by their turning are tried where cutting leaves no bound. */
 static const int most_times = 4;
@@ -129,11 +129,12 @@ static thr_status cut_shortest(const recommendation *of, const thr_plan *shortes
   return thr_cut_few(of->frame, &few, shortest, cut, err);
 }
 
-/* Plans several components, which take different numbers of cords, as a limit on the pull does. */
-static thr_status try_components(const recommendation *of, thr_plan *plan, thr_report *report,
-                                 thr_err *err)
+/* Plans cords as a limit on the pull does: in several components, which take different numbers, and
+ * where the framework is too large for anything but cutting its shortest cord. */
+static thr_status try_limit(const recommendation *of, thr_plan *plan, thr_report *report,
+                            thr_err *err)
 {
-  double work = work_of_components;
+  double work = work_of_limit;
   const thr_limits little = thr_limits_counted(of->limits, &work);
   thr_request few = as_few(of);
   thr_err why = {0};
@@ -222,7 +223,7 @@ static thr_status with_ends(recommendation *of, thr_ends ends, const thr_plan *s
   if (most > of->frame->n_edges) most = of->frame->n_edges;
   if (most > THR_MOST_CORDS) most = THR_MOST_CORDS;
 
-  if (!st && shortest->n_cords > 1) st = try_components(of, plan, report, err);
+  if (!st && shortest->n_cords > 1) st = try_limit(of, plan, report, err);
   if (!st && plan->n_cords == 0 && of->frame->n_edges <= MOST_TRIED)
     st = try_numbers(of, least < most ? least : most, most, plan, report, err);
 
@@ -234,6 +235,8 @@ static thr_status with_ends(recommendation *of, thr_ends ends, const thr_plan *s
       thr_plan_destroy(plan);
       thr_report_destroy(report);
     }
+    of->request.turning.length_slack = 0;
+    if (!st && plan->n_cords == 0) st = try_limit(of, plan, report, err);
   } else if (!st && plan->n_cords == 0 && of->frame->n_edges <= MOST_TRIED) {
     st = try_numbers(of, least, most, plan, report, err);
   }
