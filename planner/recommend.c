@@ -26,8 +26,8 @@ enum { MOST_TRIED = 5000 /* edges */, MOST_TRIALS = 8, MOST_IDLE = 2, ENOUGH = 2
 /* Counted work of a trial, s. */
 static const double work_of_trial = 0.3;
 
-/* Counted work of several components, and of the shortest cords of tubes, s. */
-static const double work_of_components = 2, work_of_tubes = 2;
+/* Counted work of cords within a limit on the pull, and of the shortest cords of tubes, s. */
+static const double work_of_limit = 2, work_of_tubes = 2;
 
 /* Times as many cords as could do by their turning are tried where cutting leaves no bound. */
 static const int most_times = 4;
@@ -88,6 +88,28 @@ static int fewest_of(const recommendation *of, const thr_plan *shortest)
   return fewest < 1 ? 1 : fewest > THR_MOST_CORDS ? THR_MOST_CORDS : (int)fewest;
 }
 
+/* Returns how many cords some component needs at least because a cord has to end at every node with
+ * an odd number of passes: where no edge has room for more passes than have to be. */
+static thr_status count_forced(const recommendation *of, int *fewest, thr_err *err)
+{
+  const thr_frame *frame = of->frame;
+  *fewest = 1;
+  if (of->request.capacity != of->request.cover) return THR_OK;
+
+  int *component = thr_calloc((size_t)frame->n_nodes, sizeof *component), n = 0;
+  int *odd = thr_calloc((size_t)frame->n_nodes, sizeof *odd);
+  thr_status st =
+      component && odd ? thr_frame_components(frame, component, &n, err) : thr_nomem(err);
+  for (int v = 0; v < frame->n_nodes && !st; v++)
+    odd[component[v]] += thr_degree(frame, v) * of->request.cover % 2;
+  for (int k = 0; k < n && !st; k++)
+    if (odd[k] / 2 > *fewest) *fewest = odd[k] / 2;
+
+  free(component);
+  free(odd);
+  return st;
+}
+
 /* As many cords as every component takes for itself, within the hand. */
 static thr_request as_few(const recommendation *of)
 {
@@ -107,11 +129,12 @@ static thr_status cut_shortest(const recommendation *of, const thr_plan *shortes
   return thr_cut_few(of->frame, &few, shortest, cut, err);
 }
 
-/* Plans several components, which take different numbers of cords, as a limit on the pull does. */
-static thr_status try_components(const recommendation *of, thr_plan *plan, thr_report *report,
-                                 thr_err *err)
+/* Plans cords as a limit on the pull does: in several components, which take different numbers, and
+ * where the framework is too large for anything but cutting its shortest cord. */
+static thr_status try_limit(const recommendation *of, thr_plan *plan, thr_report *report,
+                            thr_err *err)
 {
-  double work = work_of_components;
+  double work = work_of_limit;
   const thr_limits little = thr_limits_counted(of->limits, &work);
   thr_request few = as_few(of);
   thr_err why = {0};
@@ -192,13 +215,15 @@ static thr_status with_ends(recommendation *of, thr_ends ends, const thr_plan *s
 
   thr_status st = shortest->n_cords > 0 ? cut_shortest(of, shortest, &cut, err) : THR_OK;
   if (!st && cut.n_cords > 0) thr_limits_found(of->limits, cut.cord, cut.n_cords, NULL);
-  const int least = fewest_of(of, shortest);
-  int component,
-      most = cut.n_cords > 0 ? thr_planner_most_cords(&cut, &component) : most_times * least;
+  int component, forced = 1;
+  if (!st) st = count_forced(of, &forced, err);
+  int least = fewest_of(of, shortest);
+  if (least < forced) least = forced;
+  int most = cut.n_cords > 0 ? thr_planner_most_cords(&cut, &component) : most_times * least;
   if (most > of->frame->n_edges) most = of->frame->n_edges;
   if (most > THR_MOST_CORDS) most = THR_MOST_CORDS;
 
-  if (!st && shortest->n_cords > 1) st = try_components(of, plan, report, err);
+  if (!st && shortest->n_cords > 1) st = try_limit(of, plan, report, err);
   if (!st && plan->n_cords == 0 && of->frame->n_edges <= MOST_TRIED)
     st = try_numbers(of, least < most ? least : most, most, plan, report, err);
 
@@ -210,6 +235,8 @@ static thr_status with_ends(recommendation *of, thr_ends ends, const thr_plan *s
       thr_plan_destroy(plan);
       thr_report_destroy(report);
     }
+    of->request.turning.length_slack = 0;
+    if (!st && plan->n_cords == 0) st = try_limit(of, plan, report, err);
   } else if (!st && plan->n_cords == 0 && of->frame->n_edges <= MOST_TRIED) {
     st = try_numbers(of, least, most, plan, report, err);
   }
@@ -303,8 +330,9 @@ thr_status thr_plan_recommended(const thr_frame *frame, const thr_request *reque
     one.ends = unlimited.ends = THR_ENDS_ANY;
     st = thr_planner_length(frame, &unlimited, &shortly, &shortest, NULL, NULL);
   }
-  if (st == THR_ENOMEM || (st && is_shown && (st != THR_ELIMIT || shortest.n_cords == 0)))
+  if (st == THR_ENOMEM || (st && is_shown && st != THR_EINFEASIBLE && shortest.n_cords == 0))
     return thr_fail(err, st, "%s", why.text);
+  const bool is_there = shortest.n_cords > 0;
   if (is_shown) thr_limits_found(limits, shortest.cord, shortest.n_cords, NULL);
   if (unlimited.ends != THR_ENDS_CLOSED) thr_plan_destroy(&shortest);
 
@@ -315,11 +343,13 @@ thr_status thr_plan_recommended(const thr_frame *frame, const thr_request *reque
        : options->ends_given ? with_ends(&of, request->ends, &shortest, plan, report, err)
                              : with_best_ends(&of, &shortest, plan, report, err);
 
-  /* No number of cords stays within the hand: the shortest cord, which with given ends there may
-   * not be. */
+  /* No number of cords stays within the hand: the shortest cord, if there is one. */
   thr_limits last = *limits;
   if (!is_shown) last.found = NULL;
-  if (!st && plan->n_cords == 0) st = thr_plan_make(frame, &one, &last, plan, report, err);
+  if (!st && plan->n_cords == 0 && is_shown && !is_there)
+    st = thr_fail(err, why.code, "%s", why.text);
+  else if (!st && plan->n_cords == 0)
+    st = thr_plan_make(frame, &one, &last, plan, report, err);
 
   thr_plan_destroy(&shortest);
   return st;

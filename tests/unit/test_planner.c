@@ -118,6 +118,29 @@ START_TEST(what_is_recommended_keeps_ends_and_joints)
 }
 END_TEST
 
+/* Where no edge has room for a second pass, a cord ends at each of the eight odd nodes of a grid.
+ */
+START_TEST(what_is_recommended_ends_at_odd_nodes)
+{
+  thr_frame f = grid_make(4, 4);
+  thr_request o = thr_request_default();
+  thr_plan p;
+  thr_report r;
+  thr_err e = {0};
+  o.capacity = 1;
+  assert_ok(thr_plan_recommended(&f, &o, &(thr_recommend_options){.hand = thr_hand_always},
+                                 &(thr_limits){0}, &p, &r, &e),
+            &e);
+  assert_ok(thr_check_plan(&p, &e), &e);
+  ck_assert_int_eq(p.n_cords, 4);
+  ck_assert_int_eq(p.options.ends, THR_ENDS_ANY);
+  ck_assert_int_eq(p.metrics.most_passes, 1);
+  thr_report_destroy(&r);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* A grid takes several cords, and one edge beside it, a component for itself, only one. */
 START_TEST(what_is_recommended_counts_cords_in_every_component)
 {
@@ -463,6 +486,7 @@ int main(void)
            THR_N_OBJECTIVES);
   add_case(s, "recommended", 60, what_is_recommended_stays_within_the_hand, 0, 2);
   add_case(s, "recommended as given", 60, what_is_recommended_keeps_ends_and_joints, 0, 3);
+  ADD_TEST(s, 60, what_is_recommended_ends_at_odd_nodes);
   add_case(s, "recommended by parts", 60, what_is_recommended_counts_cords_in_every_component, 0,
            1);
   add_case(s, "proofs", 60, every_plan_comes_with_proofs, 0, 2 * THR_N_OBJECTIVES);
