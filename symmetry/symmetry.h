@@ -135,7 +135,8 @@ thr_status thr_symmetry_plan(const thr_frame *frame, const thr_request *options,
                              const thr_limits *limits, thr_symmetries *table, thr_plan *plan,
                              thr_err *err) THR_MUST_CHECK;
 
-/* The same from a plan, as thr_symmetries_find_from. */
+/* The same beside a plan (NULL = none) of the least length, or longest cord, that keeps to what is
+ * asked of cords: rows are measured by it. */
 thr_status thr_symmetry_plan_from(const thr_frame *frame, const thr_request *options,
                                   const thr_plan *shortest, const thr_limits *limits,
                                   thr_symmetries *table, thr_plan *plan,

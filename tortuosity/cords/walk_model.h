@@ -9,7 +9,7 @@
  *
  * Reading order: graph/plan/walk_proof.h first; walk_programme.c (the programme, and pricing by the
  * recursion over walks), walk_centre.c (prices near the middle) and walk_memory.c (stronger
- * programmes); then walk_dive.c and walk_near.c (cords from columns); last what others call,
+ * programmes); then walk_dive.c (cords from columns); last what others call,
  * walk_bound.c (turning and length) and walk_pull.c (pull). walk_search.c stands alone: single
  * short walks, by graph search. */
 #ifndef THR_WALK_MODEL_H

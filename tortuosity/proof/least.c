@@ -248,7 +248,7 @@ void thr_least_judge(thr_least *least, const char *why)
   for (int i = 0; i < least->n_cords; i++)
     passes += least->cord[i].n_passes;
 
-  /* twice what thr_branch_tolerance allows, for the roundings of the proof */
+  /* twice what branch_tolerance allows, for the roundings of the proof */
   least->optimal =
       least->bound >= least->price - 2e-9 * thr_turn_cost_of(least->task.cost, THR_PI) * passes;
   least->open = least->optimal ? NULL : why;
