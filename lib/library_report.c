@@ -159,7 +159,7 @@ static thr_status rise(const report *job, const thr_request *request, const thr_
     st = thr_rise_simulate(&pieces.made.structure, &options, &limits, &record, err);
   }
   const thr_rise_seen seen = {
-      .pieces = &pieces, .start = options.start, .first_seed = 1, .n = 1, .record = &record};
+      .pieces = &pieces, .options = &options, .first_seed = 1, .n = 1, .record = &record};
   if (!st || (st == THR_ELIMIT && record.held > 0)) thr_rise_put_json(writer, &seen);
 
   thr_rise_record_destroy(&record);

@@ -131,12 +131,44 @@ double thr_rise_pull_down(const thr_rise_record *record);
 /* Finds the least, the middle (of two: the lower) and the largest of n values, which are sorted. */
 void thr_rise_spread(double *value, int n, double out[3]);
 
+/* ---- rise_jam.c: why a structure did not come up. */
+
+typedef enum {
+  THR_RISE_LIGHTER,
+  THR_RISE_CARRY,
+  THR_RISE_MORE_CORDS,
+  THR_RISE_MORE_PULL,
+  THR_RISE_SHAKE,
+  THR_RISE_ANOTHER_SEED,
+  THR_RISE_LAY_FLAT
+} thr_rise_remedy;
+
+/* Returns what to change, in words without options. */
+const char *thr_rise_remedy_words(thr_rise_remedy remedy);
+
+/* What was measured when the hands stopped, and what may help. */
+enum { THR_RISE_MOST_REMEDIES = 3 };
+typedef struct {
+  int open;          /* passes whose faces have not met .. */
+  int cord, on_cord; /* .. most of them, so many, on this cord */
+  double pull;       /* N of the hands .. */
+  double tension;    /* .. of which so much is left in the slackest of these passes */
+  int top;           /* the piece that is highest as drawn */
+  int n;
+  thr_rise_remedy remedy[THR_RISE_MOST_REMEDIES]; /* [n] the likeliest first */
+} thr_rise_jam;
+
+/* Looks at a run with tensions. Returns false, with an empty jam, where all faces closed or hands
+ * did what a schedule says. O(passes). */
+bool thr_rise_jam_find(const thr_rise_pieces *pieces, const thr_rise_record *record,
+                       const thr_rise_options *options, thr_rise_jam *jam);
+
 /* What was seen of a structure, to be written. */
 typedef struct {
   const thr_rise_pieces *pieces;
   const thr_eval *after; /* what the closed form says that a schedule leaves; NULL: no schedule */
-  thr_rise_start start;
-  bool dented, motion; /* was a piece pushed; write the place of every piece, too? */
+  const thr_rise_options *options; /* of the first run */
+  bool dented, motion;             /* was a piece pushed; write the place of every piece, too? */
   int first_seed, n;
   const thr_rise_record *record; /* [n] of seeds from first_seed on */
 } thr_rise_seen;

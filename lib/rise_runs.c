@@ -115,6 +115,7 @@ static thr_status run_job(void *user, int i, void *result, thr_err *err)
       out->angle[record.n_passes + k] = record.twist[k];
     }
     out->record.kink = out->record.twist = NULL;
+    out->record.open = NULL;
     out->record.moment = NULL;
     out->record.pose = NULL;
     out->record.tension = NULL;
@@ -283,10 +284,27 @@ static void write_left(thr_writer *writer, const thr_rise_seen *seen)
   thr_write_close(writer);
 }
 
+/* Writes why the first run did not come up, and what may help. */
+static void write_jam(thr_writer *writer, const thr_rise_seen *seen, const thr_rise_jam *jam)
+{
+  thr_write_object(writer, "jam");
+  thr_write_int(writer, "open", jam->open);
+  thr_write_string(writer, "cord", seen->pieces->kit.plan->cord[jam->cord].id);
+  thr_write_int(writer, "on_cord", jam->on_cord);
+  thr_write_number(writer, "tension", jam->tension);
+  thr_write_string(writer, "top", seen->pieces->kit.name[jam->top]);
+  thr_write_row(writer, "try");
+  for (int i = 0; i < jam->n; i++)
+    thr_write_string(writer, NULL, thr_rise_remedy_words(jam->remedy[i]));
+  thr_write_close(writer);
+  thr_write_close(writer);
+}
+
 void thr_rise_put_json(thr_writer *writer, const thr_rise_seen *seen)
 {
   const thr_rise_record *record = &seen->record[0];
-  thr_write_string(writer, "start", thr_rise_start_name(seen->start));
+  thr_rise_jam jam;
+  thr_write_string(writer, "start", thr_rise_start_name(seen->options->start));
   thr_write_int(writer, "pieces", record->n_pieces);
   thr_write_int(writer, "faces", record->n_counted);
   thr_write_number(writer, "weight", record->weight);
@@ -294,6 +312,7 @@ void thr_rise_put_json(thr_writer *writer, const thr_rise_seen *seen)
   thr_write_number(writer, "closed_form", seen->pieces->seated);
   thr_write_number(writer, "limit_analysis", seen->pieces->stands);
   if (seen->after && record->finished) write_left(writer, seen);
+  if (thr_rise_jam_find(seen->pieces, record, seen->options, &jam)) write_jam(writer, seen, &jam);
   thr_write_array(writer, "runs");
   for (int i = 0; i < seen->n; i++)
     write_run(writer, seen, i);

@@ -407,33 +407,123 @@ static void put_outcome(const rise_runs *runs, thr_text *text)
   }
 }
 
+/* Appends what the pull of the rise does, and why the plan has another one: that seats the cords of
+ * the closed shape, and knows no weight. Nothing where the closed form is not known. */
+static void put_pulls(const rise_runs *runs, thr_text *text)
+{
+  const thr_rise_pieces *pieces = &runs->pieces;
+  const bool up = 2 * count_up(runs) > runs->n_runs,
+             shape = runs->args->rise.start == THR_RISE_SHAPE;
+  char seated[THR_PLAIN_NUMBER], force[THR_PLAIN_NUMBER];
+  if (!(pieces->seated > 0 && isfinite(pieces->seated))) return;
+
+  if (!runs->args->schedule) {
+    if (up)
+      put_spread(runs, thr_rise_pull_up, "N", text);
+    else
+      thr_text_printf(text, "%s N", thr_plain_newtons(runs->args->rise.pull, force));
+    thr_text_printf(text, " %s the pieces, which weigh %s N; ",
+                    shape ? (up ? "hold" : "do not hold")
+                    : up  ? "lift and turn"
+                          : "do not lift and turn all of",
+                    thr_plain_newtons(runs->record[0].weight, force));
+  }
+  thr_text_printf(text,
+                  "%s, %s N, leaves %.3g N in every pass once all is closed, against friction "
+                  "alone (closed form)",
+                  pieces->ends == THR_PULL_BOTH ? "the plan's pull" : "the pull that seats cords",
+                  thr_plain_newtons(pieces->seated, seated),
+                  pieces->made.structure.physics.seating);
+  if (pieces->stands > 0 && isfinite(pieces->stands))
+    thr_text_printf(text, "; below %s N it cannot stand while cords are drawn in (limit analysis)",
+                    thr_plain_newtons(pieces->stands, force));
+  thr_text_append(text, "\n");
+}
+
+/* Returns half of the arms' width, or what their channels and walls leave of that, mm. */
+static double narrower(const thr_kit *kit)
+{
+  double width = kit->options.width / 2;
+  for (int e = 0; e < kit->plan->frame.n_edges; e++)
+    width = fmax(width, kit->edges.edge[e].bore + 2 * kit->options.wall);
+  return width;
+}
+
+/* Appends what may help in words, and as an option. */
+static void put_remedy(const rise_runs *runs, const thr_rise_jam *jam, thr_rise_remedy remedy,
+                       thr_text *text)
+{
+  const thr_kit *kit = &runs->pieces.kit;
+  const double width = narrower(kit);
+  char number[THR_PLAIN_NUMBER];
+  thr_text_printf(text, "%s (", thr_rise_remedy_words(remedy));
+  switch (remedy) {
+  case THR_RISE_LIGHTER:
+    if (width < kit->options.width && kit->options.channels == THR_KIT_BORE)
+      thr_text_printf(text, "--width %s", thr_plain_number(1.01 * width, 3, number));
+    else
+      thr_text_append(text, "thread convert --scale");
+    break;
+  case THR_RISE_CARRY: thr_text_printf(text, "--raise %s", kit->name[jam->top]); break;
+  case THR_RISE_MORE_CORDS:
+    thr_text_printf(text, "thread plan --cords %d", 2 * kit->plan->n_cords);
+    break;
+  case THR_RISE_MORE_PULL:
+    thr_text_printf(text, "--pull %s", thr_plain_number(3 * jam->pull, 3, number));
+    break;
+  case THR_RISE_SHAKE: thr_text_append(text, "--shake 3mm@10Hz"); break;
+  case THR_RISE_ANOTHER_SEED: thr_text_append(text, "--seeds 5"); break;
+  case THR_RISE_LAY_FLAT: thr_text_append(text, "--start flat"); break;
+  }
+  thr_text_append(text, ")\n");
+}
+
+/* Appends why the first run did not come up, and what may help; nothing if its faces closed. */
+static void put_jam(const rise_runs *runs, thr_text *text)
+{
+  thr_rise_jam jam;
+  char left[THR_PLAIN_NUMBER], pull[THR_PLAIN_NUMBER], each[THR_PLAIN_NUMBER];
+  const thr_rise_record *record = &runs->record[0];
+  if (!thr_rise_jam_find(&runs->pieces, record, &runs->options, &jam)) return;
+
+  thr_text_printf(text, "in the end %d %s open", jam.open,
+                  cli_plural(jam.open, "face is", "faces are"));
+  if (runs->pieces.kit.plan->n_cords > 1)
+    thr_text_printf(text, ", %d of them on cord %s", jam.on_cord,
+                    runs->pieces.kit.plan->cord[jam.cord].id);
+  thr_text_printf(
+      text,
+      "; of %s N at the ends %s N are left in the slackest of these, and a piece weighs "
+      "%s N\n",
+      thr_plain_newtons(jam.pull, pull), thr_plain_newtons(jam.tension, left),
+      thr_plain_newtons(record->weight / record->n_pieces, each));
+  for (int i = 0; i < jam.n; i++) {
+    thr_text_append(text, i ? "or  " : "try ");
+    put_remedy(runs, &jam, jam.remedy[i], text);
+  }
+}
+
 /* Appends the lines for people. */
 static void put_text(const rise_runs *runs, thr_text *text)
 {
   const thr_rise_record *record = &runs->record[0];
   const thr_rise_moment *last = &record->moment[record->held ? record->held - 1 : 0];
-  char force[THR_PLAIN_NUMBER];
+  char height[THR_PLAIN_NUMBER], drawn[THR_PLAIN_NUMBER];
   put_title(runs, text);
   thr_text_append(text, "\n");
   put_outcome(runs, text);
   thr_text_printf(
-      text, "\n%d of %d faces closed, one a pass, highest node at %.3g mm, %.3g mm of cord %s\n",
-      record->most_closed, record->n_counted, last->height, fabs(last->drawn),
-      last->drawn < 0 ? "given out" : "drawn in");
+      text, "\n%d of %d faces closed, one a pass, highest node at %s mm, %s mm of cord %s\n",
+      record->most_closed, record->n_counted, thr_plain_number(last->height, 3, height),
+      thr_plain_number(fabs(last->drawn), 3, drawn), last->drawn < 0 ? "given out" : "drawn in");
   put_lying(runs, text);
   if (record->most_closed < record->n_counted) {
     const char *name[2] = {"", ""};
     thr_rise_pass_names(&runs->pieces, record->loosest, name);
     thr_text_printf(text, "the widest gap stays between %s and %s\n", name[0], name[1]);
   }
-  if (runs->pieces.seated > 0 && isfinite(runs->pieces.seated))
-    thr_text_printf(text, "beside that: %s N leave %.3g N in every pass (closed form)",
-                    thr_plain_newtons(runs->pieces.seated, force),
-                    runs->pieces.made.structure.physics.seating);
-  if (runs->pieces.stands > 0 && isfinite(runs->pieces.stands))
-    thr_text_printf(text, "; below %s N it cannot stand while cords are drawn in (limit analysis)",
-                    thr_plain_newtons(runs->pieces.stands, force));
-  if (runs->pieces.seated > 0) thr_text_append(text, "\n");
+  put_jam(runs, text);
+  put_pulls(runs, text);
   if (runs->args->dent) {
     thr_text_append(text, "dented, it differed from the drawn shape by ");
     put_spread(runs, dented_of, "mm at most", text);
@@ -459,7 +549,7 @@ static void put_json(const rise_runs *runs, bool motion, thr_text *text)
   const rise_arguments *args = runs->args;
   const thr_rise_seen seen = {.pieces = &runs->pieces,
                               .after = args->schedule ? &runs->after : NULL,
-                              .start = args->rise.start,
+                              .options = &runs->options,
                               .dented = args->dent != NULL,
                               .motion = motion,
                               .first_seed = args->first_seed,

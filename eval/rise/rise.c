@@ -508,7 +508,11 @@ static thr_status report(const rise_run *run, double time, double pull, double l
                          const thr_limits *limits, thr_rise_record *record, thr_err *err)
 {
   thr_status st = keep_frame(run, time, pull, lift, record, err);
-  if (!st && held) record->held = record->n_frames;
+  if (!st && held) {
+    record->held = record->n_frames;
+    for (int i = 0; i < run->n_passes; i++)
+      record->open[i] = !run->pass[i].slack && !is_closed(run, &run->pass[i]);
+  }
   if (!st && limits && thr_limits_stop(limits))
     st = thr_fail(err, THR_ELIMIT, "rise: stopped before all was seen");
   if (!st && limits && limits->advance) {
@@ -636,7 +640,8 @@ thr_status thr_rise_simulate(const thr_rise_structure *structure, const thr_rise
   run.drawn = thr_scratch_array(&run.own, (size_t)structure->n_cords, sizeof *run.drawn);
   run.pass = thr_scratch_array(&run.own, (size_t)run.n_passes, sizeof *run.pass);
   run.tie = thr_scratch_array(&run.own, (size_t)structure->n_pieces, sizeof *run.tie);
-  st = thr_scratch_check(&run.own, err);
+  record->open = thr_calloc((size_t)run.n_passes, sizeof *record->open);
+  st = record->open ? thr_scratch_check(&run.own, err) : thr_nomem(err);
 
   /* Everything takes longer where pieces are larger, as falling does. */
   double low = INFINITY, high = -INFINITY;
@@ -679,6 +684,7 @@ void thr_rise_record_destroy(thr_rise_record *record)
   free(record->moment);
   free(record->pose);
   free(record->tension);
+  free(record->open);
   free(record->kink);
   free(record->twist);
   *record = (thr_rise_record){0};

@@ -140,6 +140,7 @@ typedef struct {
   double dented; /* the same while a hand dents it, at most */
   double *kink, *twist; /* [n_passes] then, rad: between the axes of the two faces of a pass, and
                            how far the one that it enters is turned about them, -pi to pi */
+  bool *open;           /* [n_passes] whose faces have not met then; none of slack cords */
   int held;             /* frames until hands let down */
   bool scheduled;       /* it was pulled by a schedule .. */
   bool finished;        /* .. to its end; or all was seen that was asked for */

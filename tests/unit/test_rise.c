@@ -9,6 +9,7 @@
 #include "graph/number.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
+#include "lib/rise_pieces.h"
 #include "tests/support.h"
 
 #include <math.h>
@@ -607,6 +608,64 @@ START_TEST(kinks_and_twists)
 }
 END_TEST
 
+/* ---- what may help ---- */
+
+/* What is slack makes pieces too heavy, then cords too long; what is not has met askew. */
+START_TEST(what_may_help)
+{
+  const struct {
+    double slackest, weight; /* N */
+    int closed;
+    thr_rise_remedy first;
+  } row[] = {{0.5, 2, 0, THR_RISE_LIGHTER},
+             {0.5, 0.2, 4, THR_RISE_MORE_CORDS},
+             {0.5, 0.2, 0, THR_RISE_MORE_CORDS},
+             {4, 0.2, 4, THR_RISE_MORE_PULL},
+             {4, 0.2, 0, THR_RISE_CARRY}};
+  const thr_rise_piece piece[2] = {{.centre = {0, 0, 0}}, {.centre = {0, 0, 1}}};
+  const thr_rise_cord cord[2] = {{.n_passes = 2}, {.n_passes = 3}};
+  const thr_rise_pieces pieces = {
+      .made.structure = {.n_pieces = 2, .n_cords = 2, .piece = piece, .cord = cord}};
+  thr_rise_moment moment = {.pull = 10, .height = 1};
+
+  for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+    bool open[5] = {true, false, true, false, true};
+    double tension[5] = {9, 0.1, row[i].slackest, 0.1, 8};
+    const thr_rise_record record = {.n_pieces = 2,
+                                    .n_passes = 5,
+                                    .n_counted = 5,
+                                    .n_frames = 1,
+                                    .held = 1,
+                                    .most_closed = row[i].closed,
+                                    .moment = &moment,
+                                    .tension = tension,
+                                    .open = open,
+                                    .weight = row[i].weight,
+                                    .drawn_height = 1};
+    thr_rise_options options = {.pull = 10};
+    thr_rise_jam jam;
+    ck_assert(thr_rise_jam_find(&pieces, &record, &options, &jam));
+    ck_assert_int_eq(jam.open, 3);
+    ck_assert_int_eq(jam.cord, 1);
+    ck_assert_int_eq(jam.on_cord, 2);
+    ck_assert_int_eq(jam.top, 1);
+    ck_assert_double_eq_tol(jam.tension, row[i].slackest, 1e-12);
+    ck_assert_int_ge(jam.n, 2);
+    ck_assert_int_eq((int)jam.remedy[0], (int)row[i].first);
+    for (int k = 0; k < jam.n; k++)
+      ck_assert_ptr_null(strstr(thr_rise_remedy_words(jam.remedy[k]), "--"));
+
+    /* A hand that carries already is no advice; nor is there any where all is closed. */
+    options.lift = 1;
+    ck_assert(thr_rise_jam_find(&pieces, &record, &options, &jam));
+    for (int k = 0; k < jam.n; k++)
+      ck_assert_int_ne((int)jam.remedy[k], (int)THR_RISE_CARRY);
+    open[0] = open[2] = open[4] = false;
+    ck_assert(!thr_rise_jam_find(&pieces, &record, &options, &jam));
+  }
+}
+END_TEST
+
 /* What cannot be simulated is refused in one line. */
 START_TEST(refusals)
 {
@@ -664,6 +723,7 @@ int main(void)
   ADD_TEST(s, 20, shaken_ground);
   ADD_TEST(s, 20, best_fit);
   ADD_TEST(s, 10, kinks_and_twists);
+  ADD_TEST(s, 10, what_may_help);
   ADD_TEST(s, 20, refusals);
   return run_suite(s);
 }
