@@ -86,8 +86,8 @@ static void put_card(thr_sheets *sheets, int kind, double x, double y, double wi
   const thr_known *known = &sheets->known;
   thr_flow *flow = &sheets->flow;
   char name[24], count[24];
-  const thr_scene *scene;
-  int model = known->pieces.model[kind], point;
+  const thr_scene *scene = NULL;
+  int model = known->pieces.model[kind], point = 0;
   double at[2] = {x + 0.5 * width, y + 24};
   thr_text *text = thr_sheets_out(flow);
 

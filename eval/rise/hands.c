@@ -284,7 +284,7 @@ double thr_hands_pull(thr_hands *hands, double time, double dt, const double *dr
       if (cable->pulled[end]) largest = fmax(largest, cable->force[end]);
     }
   }
-  for (int k = hands->first; k < hands->next; k++)
+  for (int k = hands->first; schedule && k < hands->next; k++)
     if (schedule->step[k].deed == THR_DEED_GRIP) largest = fmax(largest, schedule->step[k].force);
   return largest;
 }

@@ -72,7 +72,8 @@ static void result_destroy(programme_result *result)
 {
   free(result->velocity);
   free(result->more);
-  *result = (programme_result){0};
+  result->velocity = NULL;
+  result->more = NULL;
 }
 
 /* Returns the unit of the unknown, N; of a stretch, N m. */

@@ -139,7 +139,7 @@ thr_status thr_structure_record(int n_beads, const thr_eval_options *options, th
   standing->strength = out->stretch.present ? options->strength : 0;
 
   /* At most one answer of each name, and one of every pull. */
-  standing->answer = thr_calloc((size_t)(NAMED + out->n_carries), sizeof *standing->answer);
+  standing->answer = thr_calloc((size_t)NAMED + (size_t)out->n_carries, sizeof *standing->answer);
   if (!standing->answer) return thr_nomem(err);
 
   /* The load first. */
