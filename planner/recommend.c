@@ -135,13 +135,21 @@ static thr_status try_limit(const recommendation *of, thr_plan *plan, thr_report
                             thr_err *err)
 {
   double work = work_of_limit;
-  const thr_limits little = thr_limits_counted(of->limits, &work);
+  thr_limits little = thr_limits_counted(of->limits, &work);
   thr_request few = as_few(of);
   thr_err why = {0};
 
+  little.found = NULL;
   few.aims = thr_aims_shortest;
   few.turning.length_slack = -1; /* fewest first */
   const thr_status st = thr_plan_make(of->frame, &few, &little, plan, report, &why);
+
+  /* Cords that were led otherwise afterwards may be harder to pull. */
+  if (!is_within(of, plan)) {
+    thr_plan_destroy(plan);
+    thr_report_destroy(report);
+  }
+  thr_limits_found(of->limits, plan->cord, plan->n_cords, NULL);
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
 }
 
@@ -236,7 +244,8 @@ static thr_status with_ends(recommendation *of, thr_ends ends, const thr_plan *s
       thr_report_destroy(report);
     }
     of->request.turning.length_slack = 0;
-    if (!st && plan->n_cords == 0) st = try_limit(of, plan, report, err);
+    if (!st && plan->n_cords == 0 && of->frame->n_edges > MOST_TRIED)
+      st = try_limit(of, plan, report, err);
   } else if (!st && plan->n_cords == 0 && of->frame->n_edges <= MOST_TRIED) {
     st = try_numbers(of, least, most, plan, report, err);
   }

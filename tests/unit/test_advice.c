@@ -352,7 +352,7 @@ int main(void)
   ADD_TEST(s, 5, the_fewest_at_the_feet_are_chosen);
   ADD_TEST(s, 30, known_frameworks);
   ADD_TEST(s, 30, large_frameworks_are_cut);
-  ADD_EXAMPLES(s, 60, advice_for_random_frameworks, 40);
+  ADD_EXAMPLES(s, 120, advice_for_random_frameworks, 40);
   ADD_EXAMPLES(s, 20, pictures_are_well_formed_and_texts_lie_apart, 40);
   return run_suite(s);
 }
