@@ -272,17 +272,18 @@ static bool take_amount(const cli_option *option, const char *name, const char *
 static bool take_value(int i, const char *value)
 {
   const cli_option *option = parser.option[i];
-  void *to = (char *)parser.into[i] + (parser.into[i] ? option->offset : 0);
   const char *name = parser.dashed[i];
+  void *to = parser.into[i];
   parser.given[i] = true;
   parser.value[i] = value;
+  if (option->take) return option->take(to, option, value);
 
   /* A row without a group, as --config, stores nothing. */
+  if (!to) return true;
+  to = (char *)to + option->offset;
   switch (option->kind) {
   case CLI_FLAG: *(bool *)to = true; return true;
-  case CLI_TEXT:
-    if (to) *(const char **)to = value;
-    return true;
+  case CLI_TEXT: *(const char **)to = value; return true;
   case CLI_OUTPUT:
     *(const char **)to = value;
     if (!*value) cli_usage(parser.command, "an empty name is no place to write to");
@@ -291,7 +292,7 @@ static bool take_value(int i, const char *value)
     return cli_int(parser.command, name, value, (int)option->low, (int)option->high, to);
   case CLI_AMOUNT: return take_amount(option, name, value, to);
   case CLI_WORD: return take_word(option, name, value, to);
-  default: return option->take(parser.into[i], option, value);
+  default: return false; /* the others take their values themselves */
   }
 }
 

@@ -720,7 +720,7 @@ static int write_booklet(const rise_runs *runs)
                      .n_panels = find_stills(record, frame),
                      .panel = panel,
                      .first_bead = -1};
-  double(*pose)[7] = thr_calloc((size_t)(still.n_panels * n_pieces), sizeof *pose);
+  double(*pose)[7] = thr_calloc((size_t)still.n_panels * (size_t)n_pieces, sizeof *pose);
   thr_text_append(&note, "In simulation: ");
   put_title(runs, &note);
   thr_text_append(&note, "; ");

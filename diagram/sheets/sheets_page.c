@@ -236,9 +236,9 @@ void thr_sheets_cells(thr_flow *flow, const double *column, bool bold, const cha
     *end = '\0';
 
     /* A negative column says where its right edge is. */
-    char attributes[64] = "";
-    if (*column < 0) strcat(attributes, " text-anchor=\"end\"");
-    if (bold) strcat(attributes, " font-weight=\"bold\"");
+    char attributes[64];
+    snprintf(attributes, sizeof attributes, "%s%s", *column < 0 ? " text-anchor=\"end\"" : "",
+             bold ? " font-weight=\"bold\"" : "");
     thr_svg_text(thr_sheets_out(flow), THR_SHEET_MARGIN + fabs(*column), flow->y, THR_SHEET_SMALL,
                  attributes, cell);
     cell = end + 1;
