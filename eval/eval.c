@@ -230,7 +230,6 @@ thr_status thr_eval_holding_factor(const thr_plan *plan, const thr_evaluation *e
                                    double *times, thr_err *err)
 {
   const thr_limits none = {0};
-  bool feet = false;
   *times = NAN;
 
   /* Tubes have no shape in the limit analysis; method structure and schedules have answers of their
@@ -243,9 +242,7 @@ thr_status thr_eval_holding_factor(const thr_plan *plan, const thr_evaluation *e
     if (!evaluation->cord[i].known) return THR_OK;
 
   thr_status st = thr_eval_holds_from(&plan->frame, plan->cord, evaluation, &none, times, err);
-  for (int v = 0; v < plan->frame.n_nodes; v++)
-    feet |= plan->frame.foot[v];
-  if (!st && isinf(*times) && !feet) *times = NAN;
+  if (!st && isinf(*times) && thr_frame_feet(&plan->frame) == 0) *times = NAN;
 
   return st;
 }

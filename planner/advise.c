@@ -657,10 +657,7 @@ static thr_status find_rows(const thr_frame *frame, const thr_request *request,
   /* Ends anywhere are one kind; ends at feet come first where the framework has feet. */
   ends_kind kinds[2] = {{.ends = THR_ENDS_ANY, .pull = INFINITY}};
   int n_kinds = 1;
-  bool feet = false;
-  for (int v = 0; v < frame->n_nodes; v++)
-    feet |= frame->foot[v];
-  if (feet) {
+  if (thr_frame_feet(frame) > 0) {
     kinds[1] = kinds[0];
     kinds[0].ends = THR_ENDS_FEET;
     n_kinds = 2;

@@ -100,14 +100,6 @@ void seated_put(thr_text *text, const thr_plan *plan)
   free(pull);
 }
 
-/* Returns whether the framework says on which nodes it stands. */
-static bool has_feet(const thr_frame *frame)
-{
-  for (int v = 0; v < frame->n_nodes; v++)
-    if (frame->foot[v]) return true;
-  return false;
-}
-
 /* Returns the factor on the pulls below which nothing holds the pieces (thr_eval_holding_factor),
  * on feet that stand free or are held. */
 static double compute_holding_factor(thr_text *text, const thr_plan *plan,
@@ -125,7 +117,7 @@ static void put_clamped(thr_text *text, const thr_plan *plan, const thr_evaluati
                         double times)
 {
   char force[64];
-  if (!has_feet(&plan->frame)) return;
+  if (thr_frame_feet(&plan->frame) == 0) return;
 
   const double clamped = compute_holding_factor(text, plan, evaluation, true);
   if (!(clamped < 0.99 * times)) return;
@@ -164,8 +156,8 @@ double seated_put_holding(thr_text *text, const char *label, const thr_plan *pla
 
   thr_text_printf(text, "%sseated by %s%s%s N, but while the cords are drawn in %s hold ", label,
                   from, strcmp(from, to) ? " to " : "", strcmp(from, to) ? to : "",
-                  has_feet(&plan->frame) ? "the pieces, their feet standing free,"
-                                         : "the pieces, on the lowest of them,");
+                  thr_frame_feet(&plan->frame) > 0 ? "the pieces, their feet standing free,"
+                                                   : "the pieces, on the lowest of them,");
 
   /* From which pull on: a factor where the cords need different pulls. */
   if (!isfinite(times))

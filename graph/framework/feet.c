@@ -48,14 +48,21 @@ static int mark_lowest(const thr_frame *frame, bool *foot)
   return mark_below(frame, lowest_of(frame) + 1e-6 * thr_frame_diagonal(frame), foot);
 }
 
-int thr_frame_standing(const thr_frame *frame, bool *foot)
+int thr_frame_feet(const thr_frame *frame)
 {
   int n = 0;
-  for (int v = 0; v < frame->n_nodes; v++) {
-    foot[v] = frame->foot[v];
-    n += foot[v];
-  }
-  return n > 0 ? n : mark_lowest(frame, foot);
+  for (int v = 0; v < frame->n_nodes; v++)
+    n += frame->foot[v];
+  return n;
+}
+
+int thr_frame_standing(const thr_frame *frame, bool *foot)
+{
+  const int n = thr_frame_feet(frame);
+  if (n == 0) return mark_lowest(frame, foot);
+
+  memcpy(foot, frame->foot, (size_t)frame->n_nodes * sizeof *foot);
+  return n;
 }
 
 void thr_frame_feet_lowest(thr_frame *frame)

@@ -216,6 +216,9 @@ thr_status thr_frame_bridges(const thr_frame *frame, bool *is_bridge, thr_err *e
 
 /* ---- feet.c: Feet: the nodes on which a framework stands, by height or as the rim of a shell. */
 
+/* Returns how many nodes are feet. */
+int thr_frame_feet(const thr_frame *frame);
+
 /* Marks in foot[n_nodes] on which nodes the framework stands: on its feet or, if it has none, on
  * the nodes within 1e-6 of the diagonal of the lowest z. Returns how many. */
 int thr_frame_standing(const thr_frame *frame, bool *foot);

@@ -13,14 +13,6 @@ static void write_point(const double xyz[3], const char *separator, thr_text *ou
   }
 }
 
-/* Returns whether any node is a foot. */
-static bool has_feet(const thr_frame *frame)
-{
-  for (int v = 0; v < frame->n_nodes; v++)
-    if (frame->foot[v]) return true;
-  return false;
-}
-
 /* Writes the nodes, a row of coordinates for each. */
 static void put_rows_of_nodes(const thr_frame *frame, thr_writer *writer)
 {
@@ -133,7 +125,7 @@ void thr_json_frame_write(const thr_frame *frame, thr_text *out)
   if (frame->own_lengths) put_lengths(frame, &writer);
   if (frame->cover) put_passes("covers", frame->cover, frame->n_edges, &writer);
   if (frame->capacity) put_passes("capacities", frame->capacity, frame->n_edges, &writer);
-  if (has_feet(frame)) put_feet(frame, &writer);
+  if (thr_frame_feet(frame) > 0) put_feet(frame, &writer);
   if (!thr_frame_names_are_indices(frame)) put_names(frame, &writer);
 
   thr_write_line(&writer, 0);
@@ -149,7 +141,7 @@ void thr_obj_write_nodes(const thr_frame *frame, bool up_y, thr_text *out)
   thr_text_append_clean(out, frame->units);
   thr_text_append(out, "\n");
 
-  if (has_feet(frame)) {
+  if (thr_frame_feet(frame) > 0) {
     thr_text_append(out, "# feet:");
     for (int v = 0; v < frame->n_nodes; v++)
       if (frame->foot[v]) thr_text_printf(out, " %d", v + 1);
