@@ -198,10 +198,7 @@ void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *
 void advice_put_holding(thr_text *text, const thr_plan *plan)
 {
   thr_eval eval;
-  if (thr_eval_closed_form(plan, plan->options.physics.seating, &eval, NULL)) {
-    thr_eval_destroy(&eval);
-    return;
-  }
+  if (thr_eval_closed_form(plan, plan->options.physics.seating, &eval, NULL)) return;
   seated_put_holding(text, "  ", plan, &eval.record);
   thr_eval_destroy(&eval);
 }
@@ -213,7 +210,11 @@ void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advic
 {
   thr_write_object(writer, NULL);
   thr_advice_put_json(writer, frame, advice, command);
-  if (chosen) turning_put_ends_json(writer, chosen);
+  thr_eval seated;
+  if (chosen && !thr_eval_closed_form(chosen, chosen->options.physics.seating, &seated, NULL)) {
+    turning_put_ends_json(writer, chosen, &seated);
+    thr_eval_destroy(&seated);
+  }
   answer_put_files(writer);
   thr_write_close(writer);
 }

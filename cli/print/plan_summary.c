@@ -697,10 +697,10 @@ void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *r
   double factor = NAN, *pull = compute_pulls(writer->out, plan, &factor);
   thr_write_number(writer, "pull_factor", factor);
   thr_write_number(writer, "pull", factor * plan->options.physics.seating);
-  turning_put_ends_json(writer, plan);
 
   thr_eval seated;
   const bool known = !thr_eval_closed_form(plan, plan->options.physics.seating, &seated, NULL);
+  if (known) turning_put_ends_json(writer, plan, &seated);
   put_each_cord_json(writer, plan, pull, known ? &seated : NULL);
   thr_eval_destroy(&seated);
   free(pull);

@@ -299,8 +299,8 @@ void symmetry_put_json(thr_writer *writer, const thr_plan *plan);
 static const double turning_right_angle = 1.57079632679489661923;
 
 /* Writes what the other end of the hardest cord takes, "other_pull", and what holding does,
- * "holds_from" (seated.c), both in N. */
-void turning_put_ends_json(thr_writer *writer, const thr_plan *plan);
+ * "holds_from" (seated.c), both in N. seated: the plan's pulls by the closed form. */
+void turning_put_ends_json(thr_writer *writer, const thr_plan *plan, const thr_eval *seated);
 
 /* Returns the largest pull of a plan by the closed form, as a factor on the tension at the slackest
  * point: INFINITY beyond 1e300, NAN if not known. cord (NULL or [n_cords]) receives that of each.

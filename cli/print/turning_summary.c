@@ -78,14 +78,10 @@ static const struct {
     [PULL] = {"largest pull, N", "pull_factor", FORMAT_FORCE, true}, /* times the seating tension */
 };
 
-void turning_put_ends_json(thr_writer *writer, const thr_plan *plan)
+void turning_put_ends_json(thr_writer *writer, const thr_plan *plan, const thr_eval *seated)
 {
-  thr_eval seated;
-  if (!thr_eval_closed_form(plan, plan->options.physics.seating, &seated, NULL)) {
-    thr_write_number(writer, "other_pull", thr_evaluation_hardest(&seated.record)->other_force);
-    seated_put_holding_json(writer, plan, &seated.record);
-  }
-  thr_eval_destroy(&seated);
+  thr_write_number(writer, "other_pull", thr_evaluation_hardest(&seated->record)->other_force);
+  seated_put_holding_json(writer, plan, &seated->record);
 }
 
 double turning_pull(const thr_plan *plan, double *cord)
