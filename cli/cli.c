@@ -142,6 +142,18 @@ int cli_usage(const char *command, const char *format, ...)
 
 /* ---- values of options ---- */
 
+bool cli_pixels(const char *command, const char *option, const char *text, int low, int high,
+                int size[2])
+{
+  int end = 0;
+  if (sscanf(text, "%5dx%5d%n", &size[0], &size[1], &end) == 2 && !text[end] && size[0] >= low &&
+      size[1] >= low && size[0] <= high && size[1] <= high)
+    return true;
+  cli_usage(command, "--%s %s: expected width x height in px, %d to %d, as 1200x900", option, text,
+            low, high);
+  return false;
+}
+
 bool cli_double(const char *command, const char *option, const char *text, double low, double high,
                 double *out)
 {

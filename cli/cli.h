@@ -149,6 +149,10 @@ bool cli_lengths_in_units(const char *units);
 bool cli_int(const char *command, const char *option, const char *text, int low, int high,
              int *out);
 
+/* Width and height of a picture in px, as 1200x900, each from `low` to `high`. */
+bool cli_pixels(const char *command, const char *option, const char *text, int low, int high,
+                int size[2]);
+
 /* Newtons for --hand: "one" and "two" hands are what these pull again and again (docs/method.md,
  * "Few cords within a pull"). */
 bool cli_hand(const char *command, const char *text, double *newtons);

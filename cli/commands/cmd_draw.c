@@ -69,13 +69,8 @@ typedef struct {
 /* Takes "1200x900". */
 static bool take_size(void *into, const cli_option *option, const char *value)
 {
-  int *size = ((draw_arguments *)into)->drawings.view.size, end = 0;
-  (void)option;
-  if (sscanf(value, "%5dx%5d%n", &size[0], &size[1], &end) == 2 && !value[end] && size[0] >= 16 &&
-      size[1] >= 16 && size[0] <= 10000 && size[1] <= 10000)
-    return true;
-  cli_usage("draw", "--size %s: expected width x height in px, 16 to 10000, as 1200x900", value);
-  return false;
+  return cli_pixels("draw", option->name, value, 16, 10000,
+                    ((draw_arguments *)into)->drawings.view.size);
 }
 
 /* Takes "-60,23", degrees. */

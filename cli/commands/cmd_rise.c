@@ -69,13 +69,7 @@ typedef struct {
 /* Takes "640x480". */
 static bool take_size(void *into, const cli_option *option, const char *value)
 {
-  int *size = ((rise_arguments *)into)->size, end = 0;
-  (void)option;
-  if (sscanf(value, "%4dx%4d%n", &size[0], &size[1], &end) == 2 && !value[end] && size[0] >= 64 &&
-      size[1] >= 64 && size[0] <= 4000 && size[1] <= 4000)
-    return true;
-  cli_usage("rise", "--size %s: expected width x height in px, 64 to 4000, as 640x480", value);
-  return false;
+  return cli_pixels("rise", option->name, value, 64, 4000, ((rise_arguments *)into)->size);
 }
 
 /* Takes "5@8" or "5mm@8Hz". */
