@@ -86,8 +86,8 @@ THREAD_API const char *thread_frame_notes(const thread_frame *frame);
 /* Where cord ends may come out with THREAD_FEET; n < 0: the lowest nodes. */
 THREAD_API thread_status thread_frame_set_feet(thread_frame *frame, int n, const int *node,
                                                thread_error *err);
-/* The same: "lowest", "rim" (all round the edges of a shell), "below=200mm"; else THREAD_BAD_INPUT.
- */
+/* The same: "lowest", "rim" (all along the borders of a shell, arches in the air too),
+ * "below=200mm"; else THREAD_BAD_INPUT. */
 THREAD_API thread_status thread_frame_set_feet_where(thread_frame *frame, const char *where,
                                                      thread_error *err);
 /* Passes that an edge needs (1 .. 100) and that fit through it (0 = any number). */

@@ -8,6 +8,21 @@
 #include "graph/plan/request.h"
 #include "lib/comparison.h"
 
+thr_status thr_compare_framework(const thr_compare_entry *entry, const thr_compare_entry *first,
+                                 thr_err *err)
+{
+  /* The hash of the entry's framework as if it had the first one's feet. */
+  thr_frame frame = entry->plan.frame;
+  const bool as_many = frame.n_nodes == first->plan.frame.n_nodes;
+  if (as_many) frame.foot = first->plan.frame.foot;
+  frame.hash = 0;
+  if (as_many && thr_frame_hash(&frame) == thr_frame_hash(&first->plan.frame)) return THR_OK;
+  return thr_fail(
+      err, THR_EINPUT,
+      "%s is for another framework than %s: pulls can be compared on one framework only",
+      entry->path, first->path);
+}
+
 bool thr_compare_same_physics(const thr_compare_entry *one, const thr_compare_entry *other)
 {
   const thr_physics *a = &one->eval[THR_CAPSTAN].record.physics,

@@ -186,6 +186,11 @@ thr_status thr_compare_rises(thr_compare_entry *entry, int n, const thr_compare_
 
 /* ---- compare_json.c: The comparison as JSON. */
 
+/* Checks that a plan is for the framework of the first one, whose feet may be other nodes; else
+ * THR_EINPUT, by the plans' paths. */
+thr_status thr_compare_framework(const thr_compare_entry *entry, const thr_compare_entry *first,
+                                 thr_err *err) THR_MUST_CHECK;
+
 /* Returns whether two plans were evaluated with the same cord and beads. */
 bool thr_compare_same_physics(const thr_compare_entry *one, const thr_compare_entry *other);
 

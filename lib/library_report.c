@@ -232,11 +232,7 @@ static thr_status compare(const report *job, const thr_request *request, const t
     snprintf(words[i], sizeof *words, "plan %d", i + 1);
     entries[i] = (thr_compare_entry){.path = words[i], .plan = job->plan[i]->plan};
     name[i] = words[i];
-    if (thr_frame_hash(&entries[i].plan.frame) != thr_frame_hash(&entries[0].plan.frame))
-      st = thr_fail(err, THR_EINPUT,
-                    "%s is for another framework than plan 1: pulls can be compared on one "
-                    "framework only",
-                    words[i]);
+    st = thr_compare_framework(&entries[i], &entries[0], err);
   }
 
   if (!st) st = evaluate(job, &limits, entries, err);

@@ -113,8 +113,10 @@ static void put_lengths(thr_text *out, const thr_frame *frame)
  * units. */
 static void put_unsaid(thr_text *out, const thr_frame *frame, const thr_read_report *report)
 {
-  enum { SHORT = 2, LONG = 1000 }; /* mm: hardly anybody threads pieces outside of these */
-  int n_short = 0, n_long = 0;
+  /* mm: hardly anybody threads pieces outside of the first two, and nobody beyond the third. */
+  enum { SHORT = 2, LONG = 1000, VAST = 50000 };
+  int n_short = 0, n_long = 0, n_vast = 0;
+  double mm;
 
   /* Which way is up. */
   if (report->up_from == THR_FROM_MAKER)
@@ -132,10 +134,13 @@ static void put_unsaid(thr_text *out, const thr_frame *frame, const thr_read_rep
   if (report->no_z)
     thr_text_append(out, "no node has a z: the framework is taken to be flat, z = 0\n");
 
-  /* Pieces that are hardly ever made, in mm: the unit may be another one. */
+  /* Pieces that are hardly ever made: the unit may be another one. Of a unit of unknown length none
+   * are vast. */
+  if (thr_units_in_mm(frame->units, &mm, NULL)) mm = 0;
   for (int e = 0; e < frame->n_edges; e++) {
     n_short += frame->length[e] < SHORT;
     n_long += frame->length[e] > LONG;
+    n_vast += frame->length[e] * mm > VAST;
   }
 
   if (report->units_from == THR_FROM_NOBODY &&
@@ -145,6 +150,10 @@ static void put_unsaid(thr_text *out, const thr_frame *frame, const thr_read_rep
                     "says what they are, "
                     "--scale 1000 makes them others\n",
                     n_short > n_long ? "shorter" : "longer", n_short > n_long ? SHORT : LONG);
+  else if (mm > 1 && n_vast > frame->n_edges / 2)
+    thr_text_printf(out,
+                    "most edges are longer than %d m; if the numbers are millimetres: --units mm\n",
+                    VAST / 1000);
 }
 
 /* Appends a line on nodes that are nearly one, and what welding them would come to. */

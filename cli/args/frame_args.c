@@ -91,8 +91,9 @@ static bool take_choice(void *into, const cli_option *option, const char *value)
 const cli_option cli_frame_options[] = {
     {"feet", .value = "lowest|rim|below=Z|FILE|NAME,..", .kind = CLI_TEXT, AT(feet),
      .help =
-         "where cord ends may come out: at the lowest nodes, all round the edges of a shell, up "
-         "to the height Z (200mm), or at these nodes (default: as the file says)"},
+         "where cord ends may come out: at the lowest nodes, all along the borders of a shell, "
+         "arches in the air too, up to the height Z (200mm), or at these nodes (default: as the "
+         "file says)"},
     {"edges", .value = "FILE", .kind = CLI_TEXT, AT(read.edges_path),
      .help = "tables in two files: FRAME holds the nodes, FILE the edges"},
     {"weld", .value = "TOL", .kind = CLI_AMOUNT, AT(read.weld), .high = 1e300,

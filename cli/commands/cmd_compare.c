@@ -67,7 +67,7 @@ typedef struct {
 typedef thr_compare_entry entry;
 
 /* Reads the plans into entries[n]. Pulls can be compared on one framework only: another one is an
- * error. Returns an exit code. */
+ * error, other feet are not. Returns an exit code. */
 static int read_entries(char **path, int n, entry *entries)
 {
   for (int i = 0; i < n; i++) {
@@ -75,12 +75,12 @@ static int read_entries(char **path, int n, entry *entries)
     int code = cli_read_plan(path[i], &entries[i].plan);
     if (code) return code;
 
-    /* Frameworks are equal if their hashes are. */
-    if (i == 0 || thr_frame_hash(&entries[i].plan.frame) == thr_frame_hash(&entries[0].plan.frame))
-      continue;
-    cli_error("%s is for another framework than %s: pulls can be compared on one framework only",
-              path[i], path[0]);
-    return EXIT_INPUT;
+    /* Plans of other feet can be ranked, but the user should know. */
+    thr_err err = {0};
+    if (thr_compare_framework(&entries[i], &entries[0], &err)) return cli_fail(&err);
+    if (thr_frame_hash(&entries[i].plan.frame) != thr_frame_hash(&entries[0].plan.frame))
+      cli_note("note: %s has other feet than %s: each stands, and ends its cords, on its own",
+               path[i], path[0]);
   }
 
   return EXIT_OK;

@@ -78,11 +78,11 @@ static void put_cord(thr_text *text, const thr_plan *plan, const thr_cord *cord,
   thr_text_printf(text, cord->closed ? "\v1  both at %s\n" : "\v1  %s and %s\n", from, to);
 }
 
-/* Appends the table of at most 12 cords. pull: of each, as a factor on the seating tension. */
+/* Appends the table of at most 30 cords. pull: of each, as a factor on the seating tension. */
 static void put_cords(thr_text *text, const thr_plan *plan, const double *pull,
                       const thr_eval *seated)
 {
-  enum { MOST = 12 };
+  enum { MOST = 30 };
 
   thr_text_printf(text, "%-5s\v4 %7s\v2 %14s\v0 %10s", "cord", "passes", "length", "turning");
   if (minimizes_turning(plan)) thr_text_printf(text, "\v5 %10s", "sharpest");
@@ -90,7 +90,7 @@ static void put_cords(thr_text *text, const thr_plan *plan, const double *pull,
   if (cli_verbose) thr_text_printf(text, "\v7 %12s", "capstan");
   thr_text_printf(text, "\v0 %18s\v1  %s\n", "pull", "ends");
 
-  /* A line per cord, the first twelve. */
+  /* A line per cord, the first MOST. */
   for (int i = 0; i < plan->n_cords && i < MOST; i++)
     put_cord(text, plan, &plan->cord[i], pull[i], seated ? &seated->record.cord[i] : NULL);
   if (plan->n_cords > MOST) thr_text_printf(text, "..    and %d more\n", plan->n_cords - MOST);

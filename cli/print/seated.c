@@ -122,10 +122,11 @@ static void put_clamped(thr_text *text, const thr_plan *plan, const thr_evaluati
   const double clamped = compute_holding_factor(text, plan, evaluation, true);
   if (!(clamped < 0.99 * times)) return;
   if (clamped > 1)
-    thr_text_printf(text, "; with held feet (--clamp-feet) only from %s",
+    thr_text_printf(text, "; with held feet (thread eval --clamp-feet) only from %s",
                     plain_force(clamped * evaluation->largest, force));
   else
-    thr_text_append(text, "; with held feet (--clamp-feet) what seats the cords may do");
+    thr_text_append(text,
+                    "; with held feet (thread eval --clamp-feet) what seats the cords may do");
 }
 
 double seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,

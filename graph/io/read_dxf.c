@@ -99,8 +99,8 @@ typedef struct {
   thr_draft *draft;
   thr_read_report *report;
   thr_err *err;
-  bool ended;
-  pair next; /* looked at, not yet taken */
+  bool ended; /* next is 0 EOF */
+  pair next;  /* looked at, not yet taken */
   pair *pair;
   int n_pairs, pairs_capacity; /* of the entity being read, without its 0 */
   thr_span type;               /* what its 0 says */
@@ -138,19 +138,18 @@ typedef struct {
 
 /* ---- pairs and entities ---- */
 
-/* Reads the next pair into reader->next. At the end of the text the pair is 0 EOF. */
+/* Reads the next pair into reader->next. THR_EINPUT if the text ends before the pair 0 EOF: what is
+ * missing may be edges, and the last number may have lost digits. */
 static thr_status read_next_pair(dxf_reader *reader)
 {
   thr_span code, value;
   int number;
 
-  /* A file may end without EOF, and with one blank line. */
+  /* A blank line at the end belongs to no pair. */
   if (!thr_scan_line(&reader->scan, &code) ||
-      (!thr_span_trim(code).n && reader->scan.at >= reader->scan.end)) {
-    reader->ended = true;
-    reader->next = (pair){0, thr_span_of("EOF")};
-    return THR_OK;
-  }
+      (!thr_span_trim(code).n && reader->scan.at >= reader->scan.end))
+    return thr_scan_fail(&reader->scan, reader->err,
+                         "the file ends without EOF: it is cut off; export it again");
 
   /* A code that is no number means that the two lines of a pair are out of step. */
   if (!thr_span_int(thr_span_trim(code), &number))
@@ -160,9 +159,11 @@ static thr_status read_next_pair(dxf_reader *reader)
         thr_span_width(code), code.s);
 
   if (!thr_scan_line(&reader->scan, &value))
-    return thr_scan_fail(&reader->scan, reader->err, "the file ends in the middle of a pair");
+    return thr_scan_fail(&reader->scan, reader->err,
+                         "the file ends in the middle of a pair: it is cut off; export it again");
 
   reader->next = (pair){number, thr_span_trim(value)};
+  reader->ended = number == 0 && thr_span_is(reader->next.value, "EOF");
   return THR_OK;
 }
 
@@ -1093,7 +1094,7 @@ static thr_status read_block(dxf_reader *reader)
                   reader->err);
 
   if (!st) reader->block[reader->n_blocks++] = read;
-  if (!st) st = take_entity(reader); /* ENDBLK */
+  if (!st && !reader->ended) st = take_entity(reader); /* ENDBLK */
   return st;
 }
 
@@ -1143,7 +1144,7 @@ static thr_status read_sections(dxf_reader *reader)
 {
   thr_status st = read_next_pair(reader);
 
-  while (!st && !reader->ended && !thr_span_is(reader->next.value, "EOF")) {
+  while (!st && !reader->ended) {
     st = take_entity(reader);
 
     /* Code 2 of SECTION names the section. */

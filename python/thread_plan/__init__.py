@@ -242,9 +242,9 @@ class Frame(_Owner):
         return [str(line) for line in _library.lib.thread_frame_notes(self._open()).decode().splitlines()]
 
     def set_feet(self, nodes: Union[str, Iterable[int]] = "lowest") -> "Frame":
-        """Says where cord ends may come out with ends="feet": at these nodes, at the "lowest" ones, all round the "rim" of a
-        shell, or up to a height, "below=200mm". A mask, True or False for every node, does as well. Returns the frame. BadInput: no
-        such nodes; nothing changes then."""
+        """Says where cord ends may come out with ends="feet": at these nodes, at the "lowest" ones, on the "rim", all
+        along the borders of a shell, arches in the air too, or up to a height, "below=200mm". A mask, True or False for every
+        node, does as well. Returns the frame. BadInput: no such nodes; nothing changes then."""
         if isinstance(nodes, str):
             _library.call(_library.lib.thread_frame_set_feet_where, self._open(), nodes.encode())
             return self

@@ -197,6 +197,17 @@ static void check_refused(const char *text, const char *name, const char *messag
   thr_draft_destroy(&d);
 }
 
+/* Checks that a drawing is refused as cut off. */
+static void check_cut(const char *text)
+{
+  thr_draft d = {0};
+  thr_read_report r = {0};
+  thr_err err = {0};
+  ck_assert_int_eq(thr_draft_parse(&d, &r, text, strlen(text), "a.dxf", NULL, &err), THR_EINPUT);
+  ck_assert_msg(strstr(err.text, "it is cut off; export it again"), "%s", err.text);
+  thr_draft_destroy(&d);
+}
+
 /* An icosahedron of side 2 has the corners (0, +-1, +-phi) and those that turn into each other: 30
  * edges, of which all others are at least 2 phi long. Scaled by phi/2 and moved it has sides of
  * phi. */
@@ -1174,7 +1185,7 @@ END_TEST
 
 START_TEST(drawings_that_are_wrong)
 {
-  check_refused("", "a.dxf",
+  check_refused(DXF(""), "a.dxf",
                 "a.dxf: no lines, polylines, faces or open curves in its model; draw its edges as "
                 "lines, or explode what has them");
   check_refused(DXF("0\nLINE\n10\nx\n"), "a.dxf",
@@ -1199,7 +1210,19 @@ START_TEST(drawings_that_are_wrong)
       "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\na\n0\nINSERT\n2\na\n0\nENDBLK\n0\nENDSEC\n" DXF(
           "0\nINSERT\n2\na\n"),
       "a.dxf", "a.dxf: blocks are nested more than 16 deep, or inserted more than 1000000 times");
-  check_refused("0\nSECTION\n2\n", "a.dxf", "a.dxf:3: the file ends in the middle of a pair");
+
+  /* A drawing that is cut off anywhere is refused; EOF without ENDSEC ends it. */
+  const char *whole = DXF("0\nLINE\n11\n125\n");
+  for (size_t n = 0; n < strlen(whole) - 1; n++) {
+    char text[100];
+    snprintf(text, sizeof text, "%.*s", (int)n, whole);
+    check_cut(text);
+  }
+  check_refused("0\nSECTION\n2\n", "a.dxf",
+                "a.dxf:3: the file ends in the middle of a pair: it is cut off; export it again");
+  check_refused("0\nSECTION\n2\nENTITIES\n0\nLINE\n11\n12", "a.dxf",
+                "a.dxf:8: the file ends without EOF: it is cut off; export it again");
+  ck_assert_double_eq(length_of("0\nSECTION\n2\nENTITIES\n0\nLINE\n11\n12\n0\nEOF"), 12);
   check_refused("AutoCAD Binary DXF\r\n\x1a", "a.dxf",
                 "a.dxf: binary DXF is not read; export it as text");
 }
