@@ -10,6 +10,7 @@
  * ended, so that errors of boxes do not add up.
  *
  * Example: the 7 x 7 dome has 49 pieces of about 62 cm3, of which the meshes have 61.7 cm3. */
+#include "kit/files.h"
 #include "kit/kit.h"
 
 #include "graph/number.h"
@@ -156,6 +157,8 @@ thr_status thr_kit_estimate_make(thr_kit_estimate *estimate, const thr_plan *pla
   estimate->shapes = pieces.n_kinds;
   estimate->solid = pieces.solid;
   thr_pieces_destroy(&pieces);
+  estimate->physics = plan->options.physics;
+  estimate->physics.bead_mass = 0;
   double mm;
   thr_err unknown;
   if (st || estimate->pieces > MOST_PIECES || thr_units_in_mm(plan->frame.units, &mm, &unknown))
@@ -169,6 +172,8 @@ thr_status thr_kit_estimate_make(thr_kit_estimate *estimate, const thr_plan *pla
     estimate->kinds = kit.n_unnamed_kinds;
     estimate->width = kit.options.width;
     st = thr_kit_sampled_volume(&kit, &estimate->volume, err);
+    estimate->mass = estimate->volume * kit.options.density / 1000; /* mm3 and g/cm3 */
+    if (!st) st = thr_kit_plates_check(&kit, &estimate->refused);
   }
   thr_kit_destroy(&kit);
 

@@ -365,12 +365,15 @@ void thr_kit_place(const thr_kit_piece *piece, const double at[3], double place[
 /* What is known of the kit without options. 0: not known, as for frameworks of more than 1000
  * pieces, and where the framework's unit has no length. */
 typedef struct {
-  bool solid;         /* else pieces are tubes */
-  int pieces, shapes; /* shapes: kinds of pieces without channels, as in all other documents */
-  int kinds;          /* with their channels, but without names */
-  double width;       /* of arms or tubes, mm */
-  double volume;      /* of all pieces, mm3, within 1 % */
-  thr_err refused;    /* why no kit can be made with the usual sizes; code 0: it can */
+  bool solid;          /* else pieces are tubes */
+  int pieces, shapes;  /* shapes: kinds of pieces without channels, as in all other documents */
+  int kinds;           /* with their channels, but without names */
+  double width;        /* of arms or tubes, mm */
+  double volume;       /* of all pieces, mm3, within 1 % */
+  double mass;         /* g, of the volume and the density */
+  thr_physics physics; /* as the plan asks for, of which the kit knows no bead_mass: 0 */
+  thr_err refused; /* why no kit can be made with the usual sizes, or, where the volume is known,
+                      why some pieces do not fit the usual bed; code 0: it can */
 } thr_kit_estimate;
 
 /* Estimates the kit of a plan. THR_ENOMEM, and THR_EINPUT for a plan without cords. Takes some

@@ -62,9 +62,11 @@ void advice_put_hint(const thr_plan *plan, bool unsaid, thr_text *text)
 }
 
 /* Appends what holds the pieces beside what seats the cords; nothing where it is hardly more. Both
- * are N at the hardest end; holds may be NAN: not known. */
-static void put_holds(double seats, double holds, thr_text *text)
+ * are N at the hardest end; holds may be NAN: not known. Where a hand cannot hold them, the weight
+ * says why. */
+static void put_holds(const thr_plan *plan, double seats, double holds, thr_text *text)
 {
+  const double weight = thr_eval_weight(&plan->frame, &plan->options.physics);
   char force[64];
   if (!(holds > much_more * seats)) return;
   thr_text_append(text, "         that seats the cords; to hold the pieces until all is knotted ");
@@ -74,6 +76,14 @@ static void put_holds(double seats, double holds, thr_text *text)
   }
   thr_text_printf(text, "takes %s, ", plain_force(holds, force));
   plain_put_hand(text, holds);
+
+  /* What holds is in proportion to the weight, which a maker can change. */
+  if (holds > thr_hand_most) {
+    thr_text_printf(text, ":\n         the pieces, with square arms, weigh %s N in all (",
+                    thr_plain_newtons(weight, force));
+    plain_put_material(text, &plan->options.physics);
+    thr_text_append(text, "); hollow pieces or a smaller scale take less, a scaffold carries them");
+  }
   thr_text_append(text, "\n");
 }
 
@@ -98,7 +108,7 @@ bool advice_put_recommended(const thr_plan *plan, double hand, double holds, thr
                   hand < thr_hand_always ? "the cord bears" : "a hand can pull time after time",
                   plain_force(hand, within));
   thr_text_append(text, plan->n_cords > 1 && !as_pulled ? "; --cords 1 is one cord\n" : "\n");
-  put_holds(pull[THR_ADVICE_MU], holds, text);
+  put_holds(plan, pull[THR_ADVICE_MU], holds, text);
   return true;
 }
 

@@ -147,6 +147,17 @@ bool plain_put_fewest(thr_text *text, const thr_plan *plan, int fewest, const ch
   return true;
 }
 
+void plain_put_material(thr_text *text, const thr_physics *physics)
+{
+  const double usual = thr_physics_default().density;
+  if (physics->bead_mass > 0)
+    thr_text_printf(text, "%g g each", physics->bead_mass);
+  else if (physics->density == usual && !physics->preset[0])
+    thr_text_printf(text, "assumed: printed solid in PLA, %g g/cm3", usual);
+  else
+    thr_text_printf(text, "%g g/cm3", physics->density);
+}
+
 void plain_put_hand(thr_text *text, double newton)
 {
   char force[64];

@@ -386,7 +386,7 @@ static double round_volume(double volume)
 void kit_put(thr_text *text, const thr_kit_estimate *kit)
 {
   const char *piece = kit->solid ? "piece" : "tube";
-  char volume[64], width[THR_PLAIN_NUMBER];
+  char volume[64], mass[64], width[THR_PLAIN_NUMBER];
 
   thr_text_printf(text, "%d %s%s, %d %s", kit->pieces, piece, kit->pieces == 1 ? "" : "s",
                   kit->shapes, cli_plural(kit->shapes, "kind", "kinds"));
@@ -396,7 +396,13 @@ void kit_put(thr_text *text, const thr_kit_estimate *kit)
     thr_text_printf(text, ", about %s%s %s mm wide",
                     plain_volume(round_volume(kit->volume), volume),
                     kit->solid ? " with arms" : ",", thr_plain_number(kit->width, 3, width));
-  if (kit->refused.code)
+
+  /* Pieces beyond a printer's bed are heavy, too, which is why they are hard to hold. */
+  if (kit->refused.code && kit->volume > 0) {
+    thr_text_printf(text, ", %s (", plain_mass(round_volume(kit->mass), mass));
+    plain_put_material(text, &kit->physics);
+    thr_text_printf(text, ");\n         too large to print: %s", kit->refused.text);
+  } else if (kit->refused.code)
     thr_text_printf(text, "; none can be printed with the usual sizes: %s", kit->refused.text);
   thr_text_append(text, "\n");
 }

@@ -81,6 +81,10 @@ void plain_put_largest_proof(thr_text *text, const thr_plan *plan);
 bool plain_put_fewest(thr_text *text, const thr_plan *plan, int fewest, const char *cords,
                       const char *within);
 
+/* Appends what pieces are taken to be made of: "assumed: printed solid in PLA, 1.24 g/cm3" where
+ * nobody said so, else "0.5 g/cm3". physics: as asked for. */
+void plain_put_material(thr_text *text, const thr_physics *physics);
+
 /* Appends whether a hand can pull that much: "too hard for a hand, which manages about 50 N (5.1
  * kg)"; "within the 10 N (1 kg) that a hand manages time after time". */
 void plain_put_hand(thr_text *text, double newton);
@@ -322,8 +326,8 @@ void turning_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals
  * and pull. */
 
 /* Appends what a kit of the pieces will be: "49 pieces, 13 kinds (49 with their channels), about 62
- * cm3 with arms 7.22 mm wide", with as many digits of the volume as are sure, or why there is none.
- */
+ * cm3 with arms 7.22 mm wide", with as many digits of the volume as are sure; what they weigh if
+ * some are too large to print; or why there is none. */
 void kit_put(thr_text *text, const thr_kit_estimate *kit);
 
 /* Writes the same as an object "kit". */
