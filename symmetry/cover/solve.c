@@ -2,11 +2,11 @@
 /* Finds the best symmetric threading under each group of the table, and shares the time among the
  * groups.
  *
- * With a deadline there are three rounds. In the first every row gets a cover with little overlap
- * and few learned steps; in the second the rows go on that may still become the default choice; in
- * the third what is left of the time goes to proofs and to cords. A row is left out as soon as
- * another is certain to be chosen before it, which its bounds tell: a row of order h has at least
- * n_edges / h learned steps, whatever its cover.
+ * With a deadline and no counted work there are three rounds. In the first every row gets a cover
+ * with little overlap and few learned steps; in the second the rows go on that may still become the
+ * default choice; in the third what is left of the time goes to proofs and to cords. A row is left
+ * out as soon as another is certain to be chosen before it, which its bounds tell: a row of order h
+ * has at least n_edges / h learned steps, whatever its cover.
  *
  * Example: of 22 groups of a sphere with 270 edges the one of order 24 has 12 steps. As 270 / 12 >
  * 22, groups of order 22 and less are left out if only the choice is asked for. */
@@ -615,11 +615,11 @@ thr_status thr_symmetry_solve(const thr_frame *frame, const thr_request *request
   thr_status st = solver_init(&solver, frame, request, symmetries, err);
   if (st) return st;
 
-  solver.end = limits->deadline;
+  solver.end = limits->work ? 0 : limits->deadline; /* counted work ends at the same place always */
   solver.only_choice = only_choice;
 
   /* Without a deadline every row is solved to the end in one round. */
-  for (int r = limits->deadline > 0 ? FIRST : PROOFS; r < N_ROUNDS && !st; r++)
+  for (int r = solver.end > 0 ? FIRST : PROOFS; r < N_ROUNDS && !st; r++)
     st = solve_round(&solver, (solving_round)r, limits, err);
 
   if (only_choice) note_behind(&solver);
