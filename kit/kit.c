@@ -896,65 +896,102 @@ static void note_feet(const maker *work)
                     n, n == 1 ? "foot has" : "feet have", kit->name[where]);
 }
 
+/* Makes room for the pieces, edges and feet. THR_ENOMEM. */
+static thr_status make_room(maker *work, thr_err *err)
+{
+  thr_kit *kit = work->kit;
+  const thr_plan *plan = kit->plan;
+  kit->n_pieces = thr_pieces_count(plan);
+  size_t n = (size_t)kit->n_pieces;
+  thr_kit_edges *edges = &kit->edges;
+  edges->edge = thr_scratch_array(&edges->own, (size_t)work->frame->n_edges, sizeof *edges->edge);
+  edges->first_pass =
+      thr_scratch_array(&edges->own, (size_t)plan->n_cords + 1, sizeof *edges->first_pass);
+  kit->piece = thr_calloc(n, sizeof *kit->piece);
+  kit->mesh = thr_calloc(n, sizeof *kit->mesh);
+  kit->report = thr_calloc(n, sizeof *kit->report);
+  work->foot = thr_scratch_array(&work->own, (size_t)work->frame->n_nodes, sizeof *work->foot);
+  thr_status st = kit->piece && kit->mesh && kit->report ? THR_OK : thr_nomem(err);
+  if (!st) st = thr_scratch_check(&edges->own, err);
+  return st ? st : thr_scratch_check(&work->own, err);
+}
+
+/* Finds what all pieces need to know: sizes, bores, labels, kinds, channels, edges and feet. */
+static thr_status find_common(maker *work, const thr_kit_options *options, const thr_layout *layout,
+                              thr_err *err)
+{
+  thr_kit *kit = work->kit;
+  const thr_plan *plan = kit->plan;
+  thr_status st = find_sizes(work, options, err);
+  if (!st) st = set_bores(work, err);
+  if (!st) st = thr_guide_make(&work->guide, work->frame, layout, err);
+  if (!st) st = thr_pieces_make(&work->pieces, plan, options->kind_tolerance, err);
+  if (!st) st = thr_channels_make(&work->channels, plan, err);
+  if (!st)
+    st = thr_kit_edges_make(&kit->edges, plan, &kit->options, &work->sizes,
+                            (const char(*)[THR_LABEL])work->guide.label, &kit->notes, err);
+  if (st) return st;
+
+  /* What lies flat stands on nothing in particular. */
+  if (2 * thr_frame_standing(work->frame, work->foot) > work->frame->n_nodes)
+    memset(work->foot, 0, (size_t)work->frame->n_nodes * sizeof *work->foot);
+  kit->options.wall = work->sizes.wall;
+  return THR_OK;
+}
+
+/* Shapes all pieces, finds their kinds and gives them names. Kinds are found a second time because
+ * names that are engraved make pieces differ. */
+static thr_status make_pieces(maker *work, bool solid, thr_err *err)
+{
+  thr_kit *kit = work->kit;
+  thr_status st = THR_OK;
+  for (int p = 0; p < kit->n_pieces && !st; p++) {
+    kit->piece[p].piece = p;
+    st =
+        solid ? shape_node(work, p, &kit->piece[p], err) : shape_tube(work, p, &kit->piece[p], err);
+  }
+  if (st) return st;
+
+  find_alike(work);
+  kit->n_unnamed_kinds = kit->n_kinds;
+  for (int p = 0; p < kit->n_pieces && !st; p++)
+    st = add_names(work, &kit->piece[p], err);
+  if (st) return st;
+  find_alike(work);
+  return give_names(work, err);
+}
+
+/* Makes the meshes of all pieces, or of the only one that is wanted, and adds up their volumes. */
+static thr_status make_meshes(thr_kit *kit, const thr_limits *limits, thr_err *err)
+{
+  meshing meshed = {.kit = kit};
+  thr_status st = check_lengths(kit, err);
+  if (!st && kit->options.to_print) st = thr_kit_plates_check(kit, err);
+  if (!st) st = thr_threads_run(kit->n_pieces, mesh_piece, &meshed, limits, err);
+  if (st) return st;
+  note_walls(kit);
+  sum_up(kit);
+  return THR_OK;
+}
+
 thr_status thr_kit_make(thr_kit *kit, const thr_plan *plan, const thr_kit_options *options,
                         const thr_layout *layout, bool meshes, const thr_limits *limits,
                         thr_err *err)
 {
-  const thr_frame *frame = &plan->frame;
   *kit = (thr_kit){.plan = plan};
-  maker work = {.kit = kit, .frame = frame, .letters = INFINITY};
+  maker work = {.kit = kit, .frame = &plan->frame, .letters = INFINITY};
   bool solid = plan->options.joint == THR_JOINT_SOLID;
-  kit->n_pieces = thr_pieces_count(plan);
-  size_t n = (size_t)kit->n_pieces;
-  kit->edges.edge =
-      thr_scratch_array(&kit->edges.own, (size_t)frame->n_edges, sizeof *kit->edges.edge);
-  kit->edges.first_pass =
-      thr_scratch_array(&kit->edges.own, (size_t)plan->n_cords + 1, sizeof *kit->edges.first_pass);
-  kit->piece = thr_calloc(n, sizeof *kit->piece);
-  kit->mesh = thr_calloc(n, sizeof *kit->mesh);
-  kit->report = thr_calloc(n, sizeof *kit->report);
-  work.foot = thr_scratch_array(&work.own, (size_t)frame->n_nodes, sizeof *work.foot);
-  thr_status st = kit->piece && kit->mesh && kit->report ? THR_OK : thr_nomem(err);
-  if (!st) st = thr_scratch_check(&kit->edges.own, err);
-  if (!st) st = thr_scratch_check(&work.own, err);
-
-  /* What all pieces need to know. */
-  if (!st) st = find_sizes(&work, options, err);
-  if (!st) st = set_bores(&work, err);
-  if (!st) st = thr_guide_make(&work.guide, frame, layout, err);
-  if (!st) st = thr_pieces_make(&work.pieces, plan, options->kind_tolerance, err);
-  if (!st) st = thr_channels_make(&work.channels, plan, err);
-  if (!st)
-    st = thr_kit_edges_make(&kit->edges, plan, &kit->options, &work.sizes,
-                            (const char(*)[THR_LABEL])work.guide.label, &kit->notes, err);
-
-  /* What lies flat stands on nothing in particular. */
-  if (!st && 2 * thr_frame_standing(frame, work.foot) > frame->n_nodes)
-    memset(work.foot, 0, (size_t)frame->n_nodes * sizeof *work.foot);
-  if (!st) kit->options.wall = work.sizes.wall;
-
-  /* Their shapes, kinds and names; then their meshes. */
-  for (int p = 0; p < kit->n_pieces && !st; p++) {
-    kit->piece[p].piece = p;
-    st = solid ? shape_node(&work, p, &kit->piece[p], err)
-               : shape_tube(&work, p, &kit->piece[p], err);
-  }
-  if (!st) find_alike(&work);
-  kit->n_unnamed_kinds = kit->n_kinds;
-  for (int p = 0; p < kit->n_pieces && !st; p++)
-    st = add_names(&work, &kit->piece[p], err);
-  if (!st) find_alike(&work);
-  if (!st) st = give_names(&work, err);
+  thr_status st = make_room(&work, err);
+  if (!st) st = find_common(&work, options, layout, err);
+  if (!st) st = make_pieces(&work, solid, err);
   if (!st) st = find_only(kit, options->only, err);
-  if (!st) note_channels(&work);
-  if (!st) note_cuts(kit);
-  if (!st && solid) note_feet(&work);
-  meshing meshed = {.kit = kit};
-  if (!st && meshes) st = check_lengths(kit, err);
-  if (!st && meshes && options->to_print) st = thr_kit_plates_check(kit, err);
-  if (!st && meshes) st = thr_threads_run(kit->n_pieces, mesh_piece, &meshed, limits, err);
-  if (!st && meshes) note_walls(kit);
-  if (!st && meshes) sum_up(kit);
+
+  if (!st) {
+    note_channels(&work);
+    note_cuts(kit);
+    if (solid) note_feet(&work);
+    if (meshes) st = make_meshes(kit, limits, err);
+  }
   if (!st && kit->notes.failed) st = thr_nomem(err);
 
   thr_channels_destroy(&work.channels);
