@@ -217,7 +217,25 @@ static thr_status find_pulls(const thr_plan *plan, thr_eval *eval, thr_sheets_op
     pulls = options->pulls = &eval->record;
   }
 
+  options->weight = thr_eval_weight(&plan->frame, &pulls->physics);
   return thr_eval_holding_factor(plan, pulls, &options->holding, err);
+}
+
+/* Finds whether a mat and printed pieces are too large to be asked for. */
+static thr_status find_sizes(const thr_plan *plan, thr_sheets_options *options, thr_err *err)
+{
+  thr_mat *mat;
+  thr_kit_estimate kit;
+  thr_err refused;
+  const thr_status st = thr_mat_make(&mat, plan, options->page, options->kind_tolerance, &refused);
+  thr_mat_destroy(mat);
+  if (st == THR_ENOMEM) return thr_nomem(err);
+
+  /* A volume is known of pieces that can be made, but may not fit the bed. */
+  const thr_status estimated = thr_kit_estimate_make(&kit, plan, err);
+  options->no_mat = st != THR_OK;
+  options->too_large = !estimated && kit.volume > 0 && kit.refused.code;
+  return estimated;
 }
 
 /* Makes the step sheets, as HTML or as PDF. */
@@ -229,6 +247,7 @@ static thr_status sheets(const thr_plan *plan, const thr_document_options *asked
   thr_sheets_options options = sheets_options(plan, asked, motion);
   thr_eval eval = {0};
   thr_status st = find_pulls(plan, &eval, &options, err);
+  if (!st) st = find_sizes(plan, &options, err);
   int n = 0;
 
   /* A PDF is written page by page as it is laid out. */

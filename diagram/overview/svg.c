@@ -190,8 +190,11 @@ void thr_svg_force(double newton, char text[32])
   double size = fabs(newton);
   int decimals = size >= 100 ? 0 : size >= 10 ? 1 : size >= 1 ? 2 : 3;
 
-  /* Forces without a sensible number of decimals have a power of ten. */
-  if (size >= 1e6 || (size > 0 && size < 0.01))
+  /* Large forces are rounded, those without a sensible number of decimals have a power of ten. */
+  char number[THR_PLAIN_NUMBER];
+  if (newton >= 1000)
+    snprintf(text, 32, "%s N", thr_plain_newtons(newton, number));
+  else if (size >= 1e6 || (size > 0 && size < 0.01))
     snprintf(text, 32, "%.2e N", newton);
   else
     snprintf(text, 32, "%.*f N", decimals, newton);

@@ -39,6 +39,10 @@ typedef struct {
                                   nothing; borrowed */
   double holding;              /* times the pulls, from where the pieces hold while the cords are
                                   drawn in (eval/eval.h); at most 1, or NAN: not said */
+  double weight;               /* N, of all pieces, where holding is more than a hand does; NAN: not
+                                  said */
+  bool no_mat, too_large;      /* a mat of true size takes too many pages; some pieces are larger
+                                  than a printer's usual bed */
   const char *name;            /* of the thing, for the cover; NULL: not said; borrowed */
   const thr_still *rise;       /* how the pieces come up as the cords are pulled, with its title and
                                   note, for the page "Last"; NULL: not shown; borrowed */

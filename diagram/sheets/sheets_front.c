@@ -91,7 +91,7 @@ static void put_counts(thr_flow *flow, const thr_known *known)
 }
 
 /* Writes what was minimised and what is proved of it: that no plan has less, or how much less is
- * not ruled out. gap: share of the plan's value. */
+ * perhaps possible. gap: share of the plan's value. */
 static void put_proof(thr_flow *flow, const char *goal, const char *of_what, bool present,
                       bool optimal, double gap)
 {
@@ -102,8 +102,9 @@ static void put_proof(thr_flow *flow, const char *goal, const char *of_what, boo
     thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
                    "Goal: %s; proved: with these options no plan has less %s.", goal, of_what);
   else
-    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH, "Goal: %s; at most %.3g %% less %s is not ruled out.",
-                   goal, 100 * gap, of_what);
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                   "Goal: %s; no plan can have more than %.0f %% less %s.", goal,
+                   ceil(100 * gap - 1e-9), of_what);
 }
 
 /* Writes the goal that was asked for, and what is proved of it: of the turning or the pull of the
@@ -120,12 +121,10 @@ static void put_goal(thr_flow *flow, const thr_known *known)
 
   if (thr_wants_turning(asked) && thr_wants_largest(asked))
     put_proof(flow,
-              thr_wants_pull(asked)
-                  ? "as little to overcome as possible at the end that is hardest "
-                    "to pull"
-                  : "as little turning as possible of the cord that turns most",
-              thr_wants_pull(asked) ? "to overcome there" : "turning of a cord", turning->present,
-              turning->largest_optimal,
+              thr_wants_pull(asked) ? "the hardest pull as easy as possible"
+                                    : "as little turning as possible of the cord that turns most",
+              thr_wants_pull(asked) ? "turning on the way to it" : "turning of a cord",
+              turning->present, turning->largest_optimal,
               turning->largest > 0 ? 1 - turning->largest_bound / turning->largest : 0);
   else if (thr_wants_turning(asked))
     put_proof(flow, "as little turning as possible", "turning", turning->present, turning->optimal,
@@ -180,7 +179,9 @@ static void put_needs(thr_flow *flow, const thr_known *known, double width, cons
   thr_sheets_put(flow, THR_BLOCK_TITLE, "You need");
   thr_text_printf(&words, "%d %s in %d kind%s by shape, %s", n, thr_pieces_word(known->plan, n),
                   known->pieces.n_kinds, plural(known->pieces.n_kinds),
-                  known->pieces.solid ? "printed or made by hand" : "printed or cut");
+                  known->o.too_large    ? "made by hand"
+                  : known->pieces.solid ? "printed or made by hand"
+                                        : "printed or cut");
   put_item(flow, width, 0, &words);
 
   thr_text_printf(&words, "%d cord%s", cords, plural(cords));
@@ -206,9 +207,27 @@ static void put_needs(thr_flow *flow, const thr_known *known, double width, cons
   put_item(flow, width, 0, &words);
 
   if (sized) {
-    thr_text_append(&words, "the mat, a file of its own, printed true to size");
+    thr_text_append(&words, known->o.no_mat ? "the overview, a file of its own"
+                                            : "the mat, a file of its own, printed true to size");
     put_item(flow, width, 0, &words);
   }
+}
+
+/* Appends how the pieces are made and laid out: what is too large for a printer or for pages of
+ * paper is not asked for. */
+static void put_making(const thr_known *known, thr_text *words)
+{
+  const char *pieces = thr_pieces_word(known->plan, known->pieces.n);
+  if (known->o.too_large)
+    thr_text_printf(words,
+                    "Have the %s made: some are larger than a printer's usual bed. A model at a "
+                    "smaller scale can be printed first",
+                    pieces);
+  else
+    thr_text_printf(words, "Print or make the %s", pieces);
+  thr_text_append(words, known->o.no_mat      ? "; no mat of true size can be printed."
+                         : known->o.too_large ? ". Print the mat."
+                                              : ", and print the mat.");
 }
 
 /* Writes the order of work, with the pages that say how. */
@@ -221,8 +240,7 @@ static void put_order(thr_flow *flow, const thr_known *known, double width, cons
   thr_sheets_put(flow, THR_BLOCK_TITLE, "In this order");
   thr_text_printf(&words, "Read how it is done: page %d.", first[THR_SHEET_PREPARE] + 2);
   put_item(flow, width, ++n, &words);
-  thr_text_printf(&words, "Print or make the %s, and print the mat.",
-                  thr_pieces_word(known->plan, known->pieces.n));
+  put_making(known, &words);
   put_item(flow, width, ++n, &words);
   if (first[THR_SHEET_NAMES] >= 0) {
     thr_text_printf(&words, "Put its name on every piece, if none is engraved: page %d.",
@@ -233,8 +251,9 @@ static void put_order(thr_flow *flow, const thr_known *known, double width, cons
   thr_text_printf(&words, "Cut the cord%s: page %d.", plural(known->plan->n_cords),
                   first[THR_SHEET_CUT] + 2);
   put_item(flow, width, ++n, &words);
-  thr_text_printf(&words, "Lay the %s on the mat and thread step by step, %d pass%s: from page %d.",
-                  thr_pieces_word(known->plan, known->pieces.n), known->n_passes,
+  thr_text_printf(&words, "Lay the %s %s and thread step by step, %d pass%s: from page %d.",
+                  thr_pieces_word(known->plan, known->pieces.n),
+                  known->o.no_mat ? "out by the overview" : "on the mat", known->n_passes,
                   known->n_passes == 1 ? "" : "es", first[THR_SHEET_STEPS] + 2);
   put_item(flow, width, ++n, &words);
   thr_text_printf(&words, "Pull tight, knot, check: page %d.", first[THR_SHEET_LAST] + 2);

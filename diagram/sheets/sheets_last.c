@@ -47,11 +47,17 @@ static const thr_eval_cord *evaluation_of(const thr_known *known, int c)
   return evaluation->present && evaluation->cord[c].known ? &evaluation->cord[c] : NULL;
 }
 
+/* Returns whether a hand can pull what holds the pieces. Else hands seat the cords, and something
+ * else carries the pieces. */
+static bool is_held_by_hand(const thr_known *known)
+{
+  return known->o.holding > 1 && known->o.holding * known->evaluation->largest <= thr_hand_most;
+}
+
 double thr_sheets_pull(const thr_known *known, int c)
 {
   const thr_eval_cord *found = &known->evaluation->cord[c];
-  const double times = known->o.holding;
-  return fmax(found->force, found->other_force) * (isfinite(times) ? fmax(times, 1) : 1);
+  return fmax(found->force, found->other_force) * (is_held_by_hand(known) ? known->o.holding : 1);
 }
 
 /* Returns how hard cord c is to pull. */
@@ -74,13 +80,15 @@ int thr_sheets_hardest(const thr_known *known)
   return first.cord;
 }
 
-void thr_sheets_too_hard(double newton, thr_text *words)
+void thr_sheets_too_hard(const thr_known *known, double newton, thr_text *words)
 {
   char force[32];
   thr_svg_force(thr_hand_most, force);
 
   if (newton > thr_hand_most)
     thr_text_printf(words, ": too hard for a hand, which manages about %s", force);
+  else if (known->o.holding > 1 && !is_held_by_hand(known))
+    thr_text_append(words, ", while the pieces are supported");
 }
 
 /* Writes how many cords ask for a larger force than a hand has, and what helps; nothing if none
@@ -157,20 +165,26 @@ static void put_cord(thr_flow *flow, const thr_known *known, int c, const double
 static void put_holding(thr_flow *flow, const thr_known *known)
 {
   const double times = known->o.holding;
-  char hardest[32];
+  char hardest[32], weight[32], heavy[96] = "";
   if (!(times > 1)) return;
 
-  thr_svg_force(thr_sheets_pull(known, thr_sheets_hardest(known)), hardest);
-  if (isfinite(times))
-    thr_sheets_put(
-        flow, THR_BLOCK_PARAGRAPH,
-        "These forces seat the cords, but while they are drawn in the pieces hold only "
-        "from %.3g times that, %s at the hardest end: %s.",
-        times, hardest,
-        thr_sheets_pull(known, thr_sheets_hardest(known)) <= thr_hand_most
-            ? "pull that much"
-            : "more than a hand pulls, so support the pieces, and hold the feet, until all "
-              "knots are tied");
+  /* What holds is in proportion to the weight. */
+  thr_svg_force(times * known->evaluation->largest, hardest);
+  thr_svg_force(known->o.weight, weight);
+  if (known->o.weight > 0)
+    snprintf(heavy, sizeof heavy, ", as the pieces weigh %s in all if they are solid", weight);
+
+  if (isfinite(times) && is_held_by_hand(known))
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                   "These forces seat the cords, but while they are drawn in the pieces hold only "
+                   "from %.3g times that, %s at the hardest end: pull that much.",
+                   times, hardest);
+  else if (isfinite(times))
+    thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
+                   "These forces seat the cords. To hold the pieces while they are drawn in takes "
+                   "%s at the hardest end%s: more than hands pull, so support the pieces, and hold "
+                   "the feet, until all knots are tied.",
+                   hardest, heavy);
   else
     thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
                    "These forces seat the cords, but no pull holds the pieces while they are drawn "

@@ -303,7 +303,9 @@ static void put_need(instruction_panel *panel, thr_text *words)
   else
     thr_text_append(words, " thinner than the bores; a stopper wider than they are");
 
-  thr_text_append(words, "; tape, scissors, and the mat to lay the pieces on, a file of its own.");
+  thr_text_append(words, known->o.no_mat ? "; tape, scissors."
+                                         : "; tape, scissors, and the mat to lay the pieces on, a "
+                                           "file of its own.");
 }
 
 /* Returns the visit that explains best how a piece lies: the first one that picks up a piece,
@@ -344,20 +346,22 @@ static void put_lay(instruction_panel *panel, thr_text *words)
     put_cord(panel, -28, 0, 5, 0);
   }
 
+  const char *mat = known->o.no_mat ? "overview" : "mat";
+
   /* The text names the same piece, for the maker to find it in the overview. */
   if (shown >= 0) {
-    thr_text_append(words, known->in_space
-                               ? "Lay each piece on the mat, its name upright. "
-                               : "Lay each piece as the mat shows it: its outer side up, its name "
-                                 "upright. ");
+    thr_text_printf(words, "Lay each piece as the %s shows it: %sits name upright. ", mat,
+                    known->in_space ? "" : "its outer side up, ");
     const thr_visit *visit = &known->visit[shown];
     thr_text_printf(words, "Here %s: in by the arm that faces %s, out by the one that faces %s.",
                     known->guide.label[visit->piece],
                     known->guide.label[thr_tail(known->f, visit->in)],
                     known->guide.label[thr_head(known->f, visit->out)]);
   } else
-    thr_text_append(words, "Lay each piece where the mat has it, its name upright. Rows say "
-                           "by which of its two ends the needle goes in.");
+    thr_text_printf(words,
+                    "Lay each piece where the %s has it, its name upright. Rows say by which of "
+                    "its two ends the needle goes in.",
+                    mat);
 }
 
 /* Fills the panel "How to start": stopper, tail and needle on the first piece of the first part. */
@@ -587,7 +591,7 @@ static void put_tighten(instruction_panel *panel, thr_text *words)
     double pull = thr_sheets_pull(known, c);
     thr_svg_force(pull, force);
     thr_text_printf(words, ", with %s at most", force);
-    thr_sheets_too_hard(pull, words);
+    thr_sheets_too_hard(known, pull, words);
   }
 
   thr_text_append(words, ". Then once more.");

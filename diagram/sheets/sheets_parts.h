@@ -213,11 +213,12 @@ void thr_sheets_last(thr_flow *flow, const thr_known *known);
 int thr_sheets_hardest(const thr_known *known);
 
 /* Returns what the harder end of cord c takes, N, where the evaluation knows it: so that the cord
- * is seated and the pieces hold (thr_sheets_options.holding). */
+ * is seated and, if a hand can do that, the pieces hold (thr_sheets_options.holding). */
 double thr_sheets_pull(const thr_known *known, int c);
 
-/* Appends that a hand does not manage so many newtons; nothing if a hand does. */
-void thr_sheets_too_hard(double newton, thr_text *words);
+/* Appends that a hand does not manage so many newtons, or that the pieces have to be supported
+ * meanwhile; nothing if a hand does both. */
+void thr_sheets_too_hard(const thr_known *known, double newton, thr_text *words);
 
 /* Writes the words of cord c: "Cord A (blue)", with its dash if it has one. */
 void thr_sheets_cord_words(const thr_known *known, int c, char words[96]);

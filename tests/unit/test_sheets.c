@@ -763,7 +763,7 @@ START_TEST(lengths_of_large_pieces_are_longer)
 END_TEST
 
 /* The goal is the one that was asked for; forces that are given are told, and more where the pieces
- * hold only from more. */
+ * hold only from more; what no hand, printer or mat can do is not asked for. */
 START_TEST(goal_and_forces_are_told)
 {
   thr_plan p = plan_of(shape_make(THR_MAKE_DOME, 4, 0), THR_ENDS_FEET, 1);
@@ -773,7 +773,10 @@ START_TEST(goal_and_forces_are_told)
   thr_sheets_options o = options_of(THR_PAGE_A4, false);
   int n;
   o.pulls = &pulls;
-  o.holding = _i ? 4 : NAN;
+  const bool heavy = _i == 2; /* beyond a hand, a printer and pages of paper */
+  o.holding = heavy ? 12000 : _i ? 4 : NAN;
+  o.weight = 91600;
+  o.no_mat = o.too_large = heavy;
   p.options.aims = (thr_aims){1, {_i ? THR_AIM_MAX_TURNING : THR_AIM_PULL}};
   thr_text pdf = {0};
   thr_err err = {0};
@@ -781,11 +784,15 @@ START_TEST(goal_and_forces_are_told)
   thr_text told = told_by("pdftotext", &pdf);
   for (char *c = told.data; *c; c++)
     if (*c == '\n') *c = ' ';
-  ck_assert_ptr_nonnull(
-      strstr(told.data, _i ? "Goal: as little turning as possible of the cord"
-                           : "Goal: as little to overcome as possible at the end"));
+  ck_assert_ptr_nonnull(strstr(told.data, _i ? "Goal: as little turning as possible of the cord"
+                                             : "Goal: the hardest pull as easy as possible"));
   ck_assert_ptr_nonnull(strstr(told.data, "2.50 N"));
-  ck_assert_int_eq(strstr(told.data, "only from 4 times that, 10.0 N") != NULL, _i);
+  ck_assert_int_eq(strstr(told.data, "only from 4 times that, 10.0 N") != NULL, _i == 1);
+  ck_assert_int_eq(strstr(told.data, "takes 30,000 N at the hardest end") != NULL, heavy);
+  ck_assert_int_eq(strstr(told.data, "the pieces weigh 91,600 N") != NULL, heavy);
+  ck_assert_int_eq(strstr(told.data, "Have the pieces made") != NULL, heavy);
+  ck_assert_int_eq(strstr(told.data, "out by the overview") != NULL, heavy);
+  ck_assert_ptr_null(strstr(told.data, "too hard for a hand"));
   ck_assert_ptr_null(strstr(told.data, "Forces are not known"));
   thr_text_destroy(&told);
   thr_text_destroy(&pdf);
@@ -1034,7 +1041,7 @@ int main(void)
   ADD_TEST(s, 20, making_is_told);
   ADD_EXAMPLES(s, 20, lengths_add_up_to_what_is_cut, 2);
   ADD_TEST(s, 20, lengths_of_large_pieces_are_longer);
-  ADD_EXAMPLES(s, 20, goal_and_forces_are_told, 2);
+  ADD_EXAMPLES(s, 20, goal_and_forces_are_told, 3);
   ADD_TEST(s, 20, what_fits_no_room_is_drawn_at_the_smallest_scale);
   ADD_TEST(s, 20, a_pdf_tells_no_time_and_no_place);
   ADD_TEST(s, 20, an_interrupt_stops_the_layout);
