@@ -752,10 +752,14 @@ static void copy_rows(const thr_request *asked, thr_request *request)
 static void note_useless(const request_args *args, const thr_frame *frame,
                          const thr_request *request)
 {
-  int passes = 0;
+  int passes = 0, at_feet = 0;
 
-  for (int e = 0; e < frame->n_edges; e++)
-    passes += thr_plan_cover(frame, request, e);
+  /* A pass from foot to foot counts twice at the feet: both ends of one cord find room in it. */
+  for (int e = 0; e < frame->n_edges; e++) {
+    const int cover = thr_plan_cover(frame, request, e);
+    passes += cover;
+    at_feet += cover * (frame->foot[frame->edge[e][0]] + frame->foot[frame->edge[e][1]]);
+  }
 
   /* More cords than passes: the others go where cords go already. A closed cord needs two passes.
    */
@@ -763,6 +767,11 @@ static void note_useless(const request_args *args, const thr_frame *frame,
     cli_note("note: %d cords for %d %s: some only repeat what others pass; with %d or fewer none "
              "has to",
              args->least, passes, cli_plural(passes, "pass", "passes"), passes);
+  else if (request->ends == THR_ENDS_FEET && at_feet > 1 && 2 * args->least > at_feet)
+    cli_note("note: %d cords have %d ends for %d passes at the feet: with more than %d %s passes "
+             "there are repeated",
+             args->least, 2 * args->least, at_feet, at_feet / 2,
+             cli_plural(at_feet / 2, "cord", "cords"));
   if (args->minimize && request->cords == 1 && thr_wants_largest(request) &&
       !thr_wants_pull(request))
     cli_note("note: one cord is the one that turns most: --minimize max-turning changes nothing; "
@@ -787,12 +796,15 @@ int request_args_apply(const request_args *args, const thr_frame *frame, thr_req
     cli_error("out of memory");
     return EXIT_INTERNAL;
   }
-  note_useless(args, frame, request);
   code = end_counts_parse(frame, args->ends, request->end_count);
-  if (code == EXIT_OK) return apply_counts(args, frame, request);
-  if (code > 0) return code;
-  free(request->end_count);
-  request->end_count = NULL;
+  if (code == EXIT_OK) {
+    code = apply_counts(args, frame, request);
+  } else if (code < 0) {
+    free(request->end_count);
+    request->end_count = NULL;
+    code = cli_resolve_ends(args->ends, frame, request);
+  }
 
-  return cli_resolve_ends(args->ends, frame, request);
+  if (!code) note_useless(args, frame, request);
+  return code;
 }
