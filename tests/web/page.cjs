@@ -231,9 +231,18 @@ const tests = {
     await choose(page, file('geo-plan.json'));
     await drawn(page);
     await pieces.getByText(/^The thinnest wall is 0\.\d+ mm, too thin to print/).waitFor({timeout: 120000});
-    const wider = pieces.getByRole('button', {name: /^Make the arms [\d.]+ mm wide$/});
+    await page.getByRole('button', {name: 'Go to the film'}).click();
+    await until(() => page.evaluate(() => document.activeElement.id === 'rise-title'), 'what comes first');
+    assert.ok(await page.evaluate(() => $('rise-part').getBoundingClientRect().top < $('kit-part').getBoundingClientRect().top), 'the film before the pieces');
+    const listed = pieces.getByRole('list', {name: 'Files to print, one by one'}), wider = pieces.getByRole('button', {name: /^Make the arms [\d.]+ mm wide$/});
     await wider.click({timeout: 120000});
+    await listed.getByRole('listitem').first().waitFor({timeout: 120000}); // made at once
     await until(() => pieces.locator('#thin').isHidden(), 'thick enough');
+    const said = await arms.inputValue();
+    await arms.fill(String(Number(said) + 1));
+    await page.keyboard.press('Tab');
+    await until(async () => (await listed.getByRole('listitem').count()) === 0, 'files of other arms are gone');
+    await arms.fill(said);
     const {thinnest_mm: wall} = JSON.parse(thread('kit', file('geo-plan.json'), '--names', 'none', '--no-picture', '--json', '-q', '--width', await arms.inputValue(), '-o', file('geo-kit')));
     assert.ok(wall >= 0.8, `${wall} mm`);
     await choose(page, file('small.obj'));
@@ -251,8 +260,8 @@ const tests = {
     thread('make', 'dome', '--size', '3', '-o', file('dome3.obj'));
     for (const name of ['ring', 'arch', 'dome3']) thread('plan', file(`${name}.obj`), '--ends', 'any', '--units', 'mm', '-q', '-o', file(`${name}.json`));
     const {page, close} = await open({viewport: {width: 1280, height: 800}}), heard = await listen(page);
-    const part5 = part(page, 'Watch it rise'), listed = part5.getByRole('list', {name: 'Files of the rise, one by one'});
-    const watch = () => part5.getByRole('button', {name: 'Watch it rise'}).click();
+    const film = part(page, 'Watch it rise'), listed = film.getByRole('list', {name: 'Files of the rise, one by one'});
+    const watch = () => film.getByRole('button', {name: 'Watch it rise'}).click();
     const pull = page.getByLabel('How hard does a hand pull each end, in newtons, at most?'), lifted = page.getByLabel('Which piece does another hand lift to its height?');
     await choose(page, file('ring.json'));
     await drawn(page);
@@ -276,7 +285,7 @@ const tests = {
     assert.deepEqual((await listed.getByRole('link').allInnerTexts()).sort(), ['booklet.html', 'rise.html', 'rise.json', 'rise.png', 'rise.svg']);
     // Contacts make much of the last digit of a sine: the same shape at last, a step of the pull earlier or later.
     const plain = (text) => text.replace(/\d+(\.\d+)?/g, '#');
-    assert.match(plain(await part5.innerText()), new RegExp(plain(said.split('\n')[1]), 'i'), 'what the command says');
+    assert.match(plain(await film.innerText()), new RegExp(plain(said.split('\n')[1]), 'i'), 'what the command says');
     const [here, there] = [await download(page, 'rise.json'), own('rise.json')].map((name) => JSON.parse(fs.readFileSync(name, 'utf8')).runs[0]);
     assert.equal(here.came_up, there.came_up);
     assert.ok(Math.abs(here.pull_up / there.pull_up - 1) < 0.16, `pulled with ${here.pull_up} and ${there.pull_up}`);
@@ -301,7 +310,7 @@ const tests = {
     await until(async () => Number(await player.locator('#slider').inputValue()) > 0, 'it plays by itself');
     await page.screenshot({path: file('rise-1280x800.png')});
     await page.setViewportSize({width: 390, height: 844});
-    await part5.screenshot({path: file('rise-390x844.png')});
+    await film.screenshot({path: file('rise-390x844.png')});
     assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 390, 'wider than a telephone');
 
     // An arch falls over; with a hand at its middle it comes up. Stopped on the way nothing is left.
@@ -311,12 +320,12 @@ const tests = {
     assert.equal(await listed.getByRole('listitem').count(), 0);
     await pull.fill('2');
     await watch();
-    await part5.getByText(/Does not come up[^]*The widest gap stays between/).waitFor({timeout: 120000});
-    await part5.getByText(/^It does not come up like this/).waitFor();
-    await part5.getByRole('button', {name: 'Lift 2, the highest piece, by hand'}).click();
-    await part5.getByText(/Comes up at /).waitFor({timeout: 120000});
+    await film.getByText(/Does not come up[^]*The widest gap stays between/).waitFor({timeout: 120000});
+    await film.getByText(/^It does not come up like this/).waitFor();
+    await film.getByRole('button', {name: 'Lift 2, the highest piece, by hand'}).click();
+    await film.getByText(/Comes up at /).waitFor({timeout: 120000});
     assert.equal(await lifted.inputValue(), '2');
-    assert.equal(await part5.getByRole('button', {name: 'Try with'}).count(), 0);
+    assert.equal(await film.getByRole('button', {name: 'Try with'}).count(), 0);
     const tries = ['try more cords, each of which turns less (thread plan --cords 8)', 'or  lighter pieces (thread convert --scale)', 'or  more pull than that (--pull 150)'];
     const helps = await page.evaluate((lines) => helpsRise(lines).map(([title]) => title), tries);
     assert.deepEqual(helps.slice(0, 2), ['Try with 8 cords', 'Pull with up to 150 newtons'], 'what the program says comes first');

@@ -575,14 +575,19 @@ function showCords(rows, pulls, kit, first) {
     line.cells[0].prepend(swatch);
     return line;
   }));
-  const steps = [`Cut ${plural(rows.length, 'cord')} of ${range(cuts, lengthWords)}: ends to hold and knots are in it.`,
-    `Print ${kit ? `${plural(kit.pieces, 'piece')}${kit.volume_cm3 ? `, about ${volumeWords(kit.volume_cm3)} of material` : ''}` : 'the pieces'}: part 4 below makes the files.`,
+  const film = document.createElement('button');
+  film.type = 'button';
+  film.textContent = 'Go to the film';
+  film.addEventListener('click', () => goTo('rise-title'));
+  const steps = ['Watch it rise in part 4 before anything is printed. The pull above seats the cords; the film shows whether they raise the pieces. ', `Cut ${plural(rows.length, 'cord')} of ${range(cuts, lengthWords)}: ends to hold and knots are in it.`,
+    `Print ${kit ? `${plural(kit.pieces, 'piece')}${kit.volume_cm3 ? `, about ${volumeWords(kit.volume_cm3)} of material` : ''}` : 'the pieces'}: part 5 below makes the files.`,
     'Print the booklet, or open the steps below on a telephone.', first ? `Begin: ${first}.` : ''].filter(Boolean);
   $('to-do').replaceChildren(...steps.map((words) => {
     const item = document.createElement('li');
     item.textContent = words;
     return item;
   }));
+  $('to-do').firstChild.append(film);
 }
 
 // "cord A: start, pick up L-1 (G7): out to G6", out of the steps in words.
@@ -606,7 +611,7 @@ async function showResult() {
   if (!plan) return;
   const shown = plan, given = {'plan.json': plan}, check = await engine.run(['check', 'plan.json'], given);
   if (shown !== plan) return;
-  $('verdict').textContent = check.exit === 0 ? 'Every claim of this plan was verified on this device.' : lastLine(check.stderr);
+  $('verdict').textContent = check.exit === 0 ? 'Every claim of this plan was verified on this device. Whether the pull raises the pieces, the film in part 4 shows.' : lastLine(check.stderr);
   $('summary').textContent = said || check.stdout.replace(/^plan\.json: /, '').trim() || lastLine(check.stderr);
   $('command').textContent = made?.command || '';
   const {stdout: cords} = await engine.run(['draw', 'plan.json', '-T', 'cords.csv', '-o', '-'], given);
@@ -770,103 +775,7 @@ function warn(id, words, mends = []) {
   }));
 }
 
-// ---- 4: the pieces ----
-
-const PRINTS = 0.8; // mm, a wall of two lines of the usual nozzle
-const FEW_PIECES = 120; // whose walls are measured before they are asked for
-let measured = 0;
-
-// The thinnest wall by arms of such a width in mm, '': the plan's.
-async function wallsOf(given, width) {
-  const {exit, stdout, stderr} = await adviser.run(['kit', 'plan.json', '--names', 'none', '--no-picture', '--json', ...(width ? ['--width', String(width)] : [])], {'plan.json': given});
-  return exit === 0 ? JSON.parse(stdout) : {refused: exit > 0 ? lastLine(stderr) : ''};
-}
-
-const thinWords = ({refused, thinnest_mm: wall}) => refused ? `These pieces cannot be made. ${capital(refused)}.` : `The thinnest wall is ${Number(wall.toPrecision(2))} mm, too thin to print well, which takes ${PRINTS} mm.`;
-
-// Measures the walls, and tries what makes them thick enough to be printed: wider arms, or where these have no room a larger whole.
-async function watchWalls(most = FEW_PIECES) {
-  const mine = ++measured, given = plan, {width: asked} = answers();
-  warn('thin', '');
-  if (!given || frame.nodes.length > most) return;
-  const first = await wallsOf(given, asked);
-  if (mine !== measured || !(first.refused || first.thinnest_mm < PRINTS)) return;
-  const words = thinWords(first);
-  warn('thin', words);
-  hear(words);
-  for (let wide = 1.1 * first.width_mm; wide < 2.1 * first.width_mm; wide *= 1.15) {
-    const arms = Number(wide.toPrecision(2)), tried = await wallsOf(given, arms);
-    if (mine !== measured) return;
-    if (tried.thinnest_mm >= PRINTS) return warn('thin', words, [[`Make the arms ${arms} mm wide`, () => setArms(arms)]]);
-  }
-  const size = widthOf(frame), larger = Number((size * (first.refused ? 4 : (1.05 * PRINTS) / first.thinnest_mm)).toPrecision(2)), units = frame.units || 'mm';
-  if (source && !(first.refused && asked)) warn('thin', first.refused ? words : `${words} Wider arms have no room: the whole is too small.`, [[`Build the whole ${larger} ${units} wide, not ${Number(size.toPrecision(3))} ${units}`, () => setWhole(larger)]]);
-}
-
-function setArms(width) {
-  $('width').value = String(width);
-  remember();
-  watchWalls();
-  $('kit').focus();
-}
-
-function setWhole(width) {
-  $('wide').value = String(width);
-  $('width').value = '';
-  readAgain();
-  goTo('question-title');
-}
-
-const capital = (words) => words[0].toUpperCase() + words.slice(1);
-const sentences = (lines) => lines.map((line) => `${capital(line)}.`).join(' ');
-
-// Hears of a part of the work that is done: the bar, and words, those of the program if none are given, with a percentage.
-const showDone = (words) => (line) => {
-  const {done, what} = progressWords(line);
-  if (!(done > 0)) return;
-  $('bar').value = done;
-  $('work').textContent = `${words ?? capital(what)} .. ${Math.floor(100 * done)} %`;
-  hear($('work').textContent, true);
-};
-
-// What the command line writes of a kit: {'kit/kit.3mf': bytes ..}, and what it says.
-function showKit(files, lines = []) {
-  const figure = $('kit-picture'), picture = files['kit/kit.png'], parts = Object.entries(files).filter(([file]) => /\.stl$/.test(file));
-  kit = files;
-  $('kit-said').textContent = sentences(lines);
-  figure.replaceChildren(caption('The pieces appear here. Many of them take minutes.'));
-  listFiles($('kit-files'), [...Object.keys(files).filter((file) => !/\.stl$/.test(file)).map((file) => [file.replace('kit/', ''), () => files[file], purpose(file)]),
-    ...(parts.length ? [['stl.zip', () => zip(Object.fromEntries(parts.map(([file, bytes]) => [file.replace('kit/', ''), bytes]))), purpose('stl.zip')]] : [])]);
-  if (!picture) return;
-  const image = new Image();
-  image.alt = 'The pieces in their places, translucent, with the cords in them';
-  image.src = URL.createObjectURL(new Blob([picture], {type: 'image/png'}));
-  figure.replaceChildren(image);
-}
-
-async function makeKit(event) {
-  event.preventDefault();
-  complain('');
-  busy('Making the pieces ..', 'Stop', 'Making the pieces', 0, false);
-  const {width, bed, names, key} = answers(), args = ['kit', 'plan.json', '--bed', bed.replaceAll(' ', '').replace('×', 'x'), '--names', names, '--key', key];
-  if (width) args.push('--width', width);
-  const {exit, stdout, stderr, files} = await engine.run([...args, '--stl', '--progress', '--json', '-o', 'kit'], {'plan.json': plan}, {onLine: showDone('Making the pieces')});
-  busy('');
-  if (exit !== 0) {
-    showKit({});
-    complain(exit === -1 ? 'Stopped: no pieces were made.' : lastLine(stderr));
-    return;
-  }
-  const lines = stderr.trim().split('\n').filter((line) => /^thread: (?!written to )/.test(line));
-  showKit(files, lines.map((line) => inWords(line.replace(/^thread: /, ''))));
-  $('viewer').srcdoc = text(files['kit/kit.html']); // the same steps, with these pieces
-  const report = JSON.parse(stdout);
-  if (report.thinnest_mm < PRINTS && $('thin').hidden) warn('thin', thinWords(report), [['Find arms that are wide enough', () => watchWalls(Infinity)]]);
-  hear($('kit-said').textContent);
-  goTo('kit-title');
-}
-
-// ---- 5: how they rise ----
+// ---- 4: how they rise ----
 
 // What the command line writes of a rise: {'rise.html': bytes ..}, and what it says.
 function showRise(files, lines = []) {
@@ -933,9 +842,9 @@ function helpsRise(lines) {
 const TRY = /^(?:try|or) .*\((?:thread [a-z]+ )?--([a-z]+) ([^ )]+)\)$/;
 
 function answerRise(id, value) {
-  $(id).value = value;
+  if (id === 'width') setArms(value);
+  else $(id).value = value;
   remember();
-  if (id === 'width') watchWalls();
   $('rise-questions').requestSubmit();
 }
 
@@ -943,6 +852,108 @@ async function threadAgain(cords) {
   setAnswers({cords});
   await search();
   if (cordsOf(plan).length === Number(cords)) $('rise-questions').requestSubmit();
+}
+
+// ---- 5: the pieces ----
+
+const PRINTS = 0.8; // mm, a wall of two lines of the usual nozzle
+const FEW_PIECES = 120; // whose walls are measured before they are asked for
+let measured = 0;
+
+// The thinnest wall by arms of such a width in mm, '': the plan's.
+async function wallsOf(given, width) {
+  const {exit, stdout, stderr} = await adviser.run(['kit', 'plan.json', '--names', 'none', '--no-picture', '--json', ...(width ? ['--width', String(width)] : [])], {'plan.json': given});
+  return exit === 0 ? JSON.parse(stdout) : {refused: exit > 0 ? lastLine(stderr) : ''};
+}
+
+const thinWords = ({refused, thinnest_mm: wall}) => refused ? `These pieces cannot be made. ${capital(refused)}.` : `The thinnest wall is ${Number(wall.toPrecision(2))} mm, too thin to print well, which takes ${PRINTS} mm.`;
+
+// Measures the walls, and tries what makes them thick enough to be printed: wider arms, or where these have no room a larger whole.
+async function watchWalls(most = FEW_PIECES) {
+  const mine = ++measured, given = plan, {width: asked} = answers();
+  warn('thin', '');
+  if (!given || frame.nodes.length > most) return;
+  const first = await wallsOf(given, asked);
+  if (mine !== measured || !(first.refused || first.thinnest_mm < PRINTS)) return;
+  const words = thinWords(first);
+  warn('thin', words);
+  hear(words);
+  for (let wide = 1.1 * first.width_mm; wide < 2.1 * first.width_mm; wide *= 1.15) {
+    const arms = Number(wide.toPrecision(2)), tried = await wallsOf(given, arms);
+    if (mine !== measured) return;
+    if (tried.thinnest_mm >= PRINTS) return warn('thin', words, [[`Make the arms ${arms} mm wide`, () => makeArms(arms)]]);
+  }
+  const size = widthOf(frame), larger = Number((size * (first.refused ? 4 : (1.05 * PRINTS) / first.thinnest_mm)).toPrecision(2)), units = frame.units || 'mm';
+  if (source && !(first.refused && asked)) warn('thin', first.refused ? words : `${words} Wider arms have no room: the whole is too small.`, [[`Build the whole ${larger} ${units} wide, not ${Number(size.toPrecision(3))} ${units}`, () => setWhole(larger)]]);
+}
+
+// Pieces of other arms than are asked for are shown and saved no longer.
+function setArms(width) {
+  $('width').value = String(width);
+  remember();
+  showKit({});
+  watchWalls();
+}
+
+function makeArms(width) {
+  setArms(width);
+  $('kit-questions').requestSubmit();
+}
+
+function setWhole(width) {
+  $('wide').value = String(width);
+  $('width').value = '';
+  readAgain();
+  goTo('question-title');
+}
+
+const capital = (words) => words[0].toUpperCase() + words.slice(1);
+const sentences = (lines) => lines.map((line) => `${capital(line)}.`).join(' ');
+
+// Hears of a part of the work that is done: the bar, and words, those of the program if none are given, with a percentage.
+const showDone = (words) => (line) => {
+  const {done, what} = progressWords(line);
+  if (!(done > 0)) return;
+  $('bar').value = done;
+  $('work').textContent = `${words ?? capital(what)} .. ${Math.floor(100 * done)} %`;
+  hear($('work').textContent, true);
+};
+
+// What the command line writes of a kit: {'kit/kit.3mf': bytes ..}, and what it says.
+function showKit(files, lines = []) {
+  const figure = $('kit-picture'), picture = files['kit/kit.png'], parts = Object.entries(files).filter(([file]) => /\.stl$/.test(file));
+  kit = files;
+  $('kit-said').textContent = sentences(lines);
+  figure.replaceChildren(caption('The pieces appear here. Many of them take minutes.'));
+  listFiles($('kit-files'), [...Object.keys(files).filter((file) => !/\.stl$/.test(file)).map((file) => [file.replace('kit/', ''), () => files[file], purpose(file)]),
+    ...(parts.length ? [['stl.zip', () => zip(Object.fromEntries(parts.map(([file, bytes]) => [file.replace('kit/', ''), bytes]))), purpose('stl.zip')]] : [])]);
+  if (!picture) return;
+  const image = new Image();
+  image.alt = 'The pieces in their places, translucent, with the cords in them';
+  image.src = URL.createObjectURL(new Blob([picture], {type: 'image/png'}));
+  figure.replaceChildren(image);
+}
+
+async function makeKit(event) {
+  event.preventDefault();
+  complain('');
+  showKit({});
+  busy('Making the pieces ..', 'Stop', 'Making the pieces', 0, false);
+  const {width, bed, names, key} = answers(), args = ['kit', 'plan.json', '--bed', bed.replaceAll(' ', '').replace('×', 'x'), '--names', names, '--key', key];
+  if (width) args.push('--width', width);
+  const {exit, stdout, stderr, files} = await engine.run([...args, '--stl', '--progress', '--json', '-o', 'kit'], {'plan.json': plan}, {onLine: showDone('Making the pieces')});
+  busy('');
+  if (exit !== 0) {
+    complain(exit === -1 ? 'Stopped: no pieces were made.' : lastLine(stderr));
+    return;
+  }
+  const lines = stderr.trim().split('\n').filter((line) => /^thread: (?!written to )/.test(line));
+  showKit(files, lines.map((line) => inWords(line.replace(/^thread: /, ''))));
+  $('viewer').srcdoc = text(files['kit/kit.html']); // the same steps, with these pieces
+  const report = JSON.parse(stdout);
+  if (report.thinnest_mm < PRINTS && $('thin').hidden) warn('thin', thinWords(report), [['Find arms that are wide enough', () => watchWalls(Infinity)]]);
+  hear($('kit-said').textContent);
+  goTo('kit-title');
 }
 
 // ---- events ----
@@ -981,6 +992,7 @@ async function begin() {
     $(form).addEventListener('submit', make);
     $(form).addEventListener('change', remember);
   }
+  $('kit-questions').addEventListener('change', () => showKit({}));
   $('width').addEventListener('change', () => watchWalls());
   $('stop').addEventListener('click', () => engine.stop());
   $('undo').addEventListener('click', undo);
