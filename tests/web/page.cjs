@@ -547,10 +547,12 @@ const tests = {
     await page.getByLabel('Feet, where cord may come out').fill('1 2 3');
     await page.keyboard.press('Tab');
     await until(() => page.evaluate(() => String(frame.feet) === '0,1,2'), 'three feet, with blanks between them');
-    await page.getByLabel('How wide shall the whole be built').fill('2');
+    await page.getByLabel('How wide shall it be?').fill('2');
     await page.keyboard.press('Tab');
     await until(() => page.evaluate(() => Math.abs(Math.max(...frame.nodes.map(([x]) => x)) - 2) < 1e-9), 'a quarter as wide');
     assert.match(await page.locator('#units option').first().innerText(), /^as the file is read: 8 mm$/);
+    await page.getByText('It is now 2 x 1 m, and 0.75 m high.').waitFor();
+    assert.equal(await page.locator('#example option:checked').textContent(), 'own file');
     await page.getByLabel('Which way is up?').selectOption('y');
     await until(() => page.evaluate(() => frame.nodes.some(([, , z]) => z > 0.9)), 'the other way up');
     assert.ok(await page.evaluate(() => Math.abs(widthOf(frame) - 2) < 1e-9), 'as wide as was asked');
@@ -559,6 +561,22 @@ const tests = {
     await page.keyboard.press('Tab');
     await page.getByRole('alert').waitFor();
     assert.doesNotMatch(await trouble(page), /--/);
+
+    // What the file leaves open has a button that comes to the question; an example is no file.
+    fs.writeFileSync(file('lies.obj'), 'v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 0.5 1 0.5\nl 1 2 3 4 1\nl 1 5 3\nl 2 5 4\n');
+    await choose(page, file('lies.obj'));
+    await page.getByText('It may lie on its side: only one line of pieces is at the bottom.', {exact: true}).waitFor();
+    await page.getByText('The file names no unit: its numbers are taken as millimetres, and most of its edges are shorter than 2 mm.', {exact: true}).waitFor();
+    for (const [question, id] of [['Which way is up?', 'up'], ['How wide is the whole?', 'units'], ['How wide shall it be?', 'wide']]) {
+      await page.getByRole('button', {name: question}).click();
+      assert.equal(await page.evaluate(() => document.activeElement.id), id);
+    }
+    await takeExample(page, 'arch');
+    await until(async () => /^as it is: /.test(await page.locator('#units option').first().textContent()), 'not as a file');
+    await page.getByLabel('How wide shall it be?').fill('300');
+    await page.keyboard.press('Enter');
+    await page.getByText(/^It is now 300 x /).waitFor();
+    assert.equal(await page.locator('#example option:checked').textContent(), 'arch');
     await close();
   },
 

@@ -29,7 +29,8 @@ const inWords = (line) => line.replace(/ \((?:see )?`?(?:thread|plan|eval) [^)]*
   .replace(/--(units|scale|up|weld|split|flat|pick|layers)\b(?! or )(?: (?:mm|cm|m|in|ft|[xyz]|all|NAME or N|N|[\d.]+(?:e[+-]?\d+)?)\b)?/g, (_, option) => questionOf(option))
   .replace(/(^|[^\w-])--([a-z][a-z-]*)/g, (_, before, option) => before + option.replaceAll('-', ' '));
 
-const questionOf = (option) => `“${document.querySelector(`label[for=${option === 'scale' ? 'wide' : option}]`).textContent}”`;
+const labelOf = (id) => document.querySelector(`label[for=${id}]`).textContent;
+const questionOf = (option) => `“${labelOf(option === 'scale' ? 'wide' : option)}”`;
 
 function complain(line) {
   $('trouble').hidden = !line;
@@ -45,7 +46,20 @@ function goTo(id) {
 // The line that the command line would print, without the name of the program, and the notes before it.
 const lastLine = (stderr) => inWords(stderr.trim().split('\n').filter((line) => !/^thread: note:/.test(line)).pop()?.replace(/^thread: /, '') || '');
 
-const notesOf = (stderr) => stderr.split('\n').filter((line) => /^thread: note:/.test(line)).map((line) => inWords(line.replace(/^thread: note: /, '')));
+// [what is noted, questions that it leaves open] ..; what option to give is left out: the question has a button.
+function notesOf(stderr, shown = (words) => words) {
+  const lines = stderr.split('\n').filter((line) => /^thread: note:/.test(line)).map((line) => shown(line.replace(/^thread: note: /, '')));
+  return lines.map((line) => [inWords(line.replace(/(?:; if [^;:]*)?(?:[;:] | \()--(?:units|scale|up|weld|split|flat|pick|layers)\b.*$/, '')
+    .replace('z is taken to point up, and only a line of nodes is lowest', 'it may lie on its side: only one line of pieces is at the bottom')
+    .replace('the file names no unit, ', 'the file names no unit: its numbers are taken as millimetres, ')),
+  [...line.matchAll(/--(units|scale|up|weld|split|flat|pick|layers)\b/g)].map(([, option]) => (option === 'scale' ? 'wide' : option))]);
+}
+
+function openQuestion(id) {
+  $('reading').open ||= $('reading').contains($(id));
+  $(id).focus({preventScroll: true});
+  $(id).scrollIntoView({block: 'center'});
+}
 
 // ---- state: undo, reload, link ----
 
@@ -157,16 +171,21 @@ function setReading(given) {
 }
 
 const UNITS = {mm: 'millimetres', cm: 'centimetres', m: 'metres', in: 'inches', ft: 'feet'};
-const widthOf = (shown) => Math.max(...[0, 1].map((k) => shown.nodes.reduce((most, p) => Math.max(most, p[k]), -Infinity) - shown.nodes.reduce((least, p) => Math.min(least, p[k]), Infinity)));
+const EXAMPLE = 'example.json'; // the path of one
+const spanOf = (shown, k) => shown.nodes.reduce((most, p) => Math.max(most, p[k]), -Infinity) - shown.nodes.reduce((least, p) => Math.min(least, p[k]), Infinity);
+const widthOf = (shown) => Math.max(spanOf(shown, 0), spanOf(shown, 1));
 
-// The question how wide it is, in numbers of this framework.
+// The questions how wide it is and shall be, in numbers of this framework.
 function askWidth() {
   if (!source) return;
-  const chosen = $('units').value, wide = Number(source.width.toPrecision(4));
+  const chosen = $('units').value, wide = Number(source.width.toPrecision(4)), units = frame.units || 'mm';
   const options = Object.entries(UNITS).map(([unit, words]) => new Option(`${wide} ${words}`, unit));
-  $('units').replaceChildren(new Option(`as the file is read: ${wide} ${source.units}`, ''), ...options);
+  $('units').replaceChildren(new Option(`${source.path === EXAMPLE ? 'as it is' : 'as the file is read'}: ${wide} ${source.units}`, ''), ...options);
   setReading({units: chosen});
   $('wide').placeholder = `${wide}`;
+  $('wide-unit').textContent = units;
+  const [x, y, z] = [0, 1, 2].map((k) => Number(spanOf(frame, k).toPrecision(3)));
+  $('wide-said').textContent = `${$('wide').value ? 'It is now' : 'It is'} ${x} x ${y} ${units}, and ${z} ${units} high.`;
 }
 
 // Options of the program that say how the file is to be read. width: of the framework as it is read by the other answers.
@@ -203,7 +222,7 @@ async function readAgain() {
   frame = JSON.parse(text(files['frame.json']));
   if (frame.nodes.length === before.nodes.length && before.feet) frame.feet = before.feet;
   remember();
-  showFrame(notesOf(stderr).map((note) => note.replaceAll(given.path, given.shownName)));
+  showFrame(notesOf(stderr, (words) => words.replaceAll(given.path, given.shownName)));
   showResult();
 }
 
@@ -233,7 +252,7 @@ async function readBytes(bytes, title, path, shownName, more = []) {
   if (!frame.feet?.length && $('ends').value === 'feet') $('ends').value = '';
   if (isPlan) plan = text(bytes);
   remember();
-  showFrame([...more, ...notesOf(stderr)].map((note) => note.replaceAll(path, shownName)));
+  showFrame([...more.map((note) => [note, []]), ...notesOf(stderr, (words) => words.replaceAll(path, shownName))]);
   if (!isPlan) goTo('frame-title');
   await showResult();
 }
@@ -242,7 +261,7 @@ async function example(words) {
   const [shape, size] = words.split(' ');
   const {files, exit, stderr} = await engine.run(['make', shape, '--size', size, '-o', 'frame.json']);
   if (exit) complain(lastLine(stderr));
-  else await readBytes(files['frame.json'], `${shape}${size}`, 'given.json', shape);
+  else await readBytes(files['frame.json'], `${shape}${size}`, EXAMPLE, shape);
 }
 
 // Also for those who hear the page: at once, or of what comes often now and then.
@@ -255,17 +274,26 @@ function hear(words, often = false) {
 
 const plural = (n, word) => `${n} ${word}${n === 1 ? '' : 's'}`;
 
+// notes: [words, questions] ..
 function showFrame(notes = []) {
   $('shown').hidden = $('question-part').hidden = !frame;
   document.querySelector('main').classList.toggle('open', Boolean(frame));
   if (!frame) return;
   const size = `${Number(widthOf(frame).toPrecision(3))} ${frame.units || 'mm'} wide`;
-  const said = [`${name}: ${plural(frame.nodes.length, 'piece')} that meet at ${plural(frame.edges.length, 'interface')}, ${size}`, ...notes.map(capital)];
+  const said = [`${name}: ${plural(frame.nodes.length, 'piece')} that meet at ${plural(frame.edges.length, 'interface')}, ${size}`];
+  const doubts = notes.filter(([, questions]) => questions.length);
+  said.push(...notes.filter((note) => !doubts.includes(note)).map(([words]) => capital(words)));
   $('counts').textContent = `${said.join('. ')}.`;
-  hear($('counts').textContent);
+  $('doubts').replaceChildren(...doubts.map(([words, questions]) => {
+    const item = document.createElement('li');
+    item.append(...mendable(sentences([words]), questions.map((id) => [labelOf(id), () => openQuestion(id)])));
+    return item;
+  }));
+  $('example').value = [...$('example').options].find(({value}) => source?.path === EXAMPLE && value.replace(' ', '') === name)?.value ?? '';
+  $('take-example').disabled = !$('example').value;
+  hear([$('counts').textContent, ...doubts.map(([words]) => sentences([words]))].join(' '));
   $('feet').value = (frame.feet || []).map(nameOf).join(', ');
-  $('reading').hidden = !source;
-  $('reading').open = Boolean(source) && (notes.length > 0 || $('reading').open);
+  $('reading').hidden = $('size').hidden = !source;
   askWidth();
   sketch.show(frame);
   advise();
@@ -762,17 +790,21 @@ function firstPart(pages) {
 }
 
 // What went wrong or will, and buttons that mend it: [words, what to do] ..
-function warn(id, words, mends = []) {
+function mendable(words, mends) {
   const line = document.createElement('span');
   line.textContent = words;
-  $(id).hidden = !words;
-  $(id).replaceChildren(line, ...mends.map(([title, mend]) => {
+  return [line, ...mends.map(([title, mend]) => {
     const button = document.createElement('button');
     button.type = 'button';
     button.textContent = title;
     button.addEventListener('click', mend);
     return button;
-  }));
+  })];
+}
+
+function warn(id, words, mends = []) {
+  $(id).hidden = !words;
+  $(id).replaceChildren(...mendable(words, mends));
 }
 
 // ---- 4: how they rise ----
@@ -967,6 +999,7 @@ function listenForFiles() {
       drop.classList.toggle('over', kind === 'dragover');
       if (kind === 'drop' && event.dataTransfer.files[0] && !working) openFile(event.dataTransfer.files[0]);
     });
+  $('example').addEventListener('change', () => ($('take-example').disabled = false));
   $('examples').addEventListener('submit', (event) => {
     event.preventDefault();
     example($('example').value);
@@ -982,6 +1015,7 @@ async function begin() {
     if (event.target.id === 'pull') advise();
   });
   $('reading-questions').addEventListener('change', readAgain);
+  $('wide').addEventListener('change', readAgain);
   $('reading-questions').addEventListener('submit', (event) => event.preventDefault());
   $('picking').addEventListener('change', () => (sketch.picksByTap = $('picking').checked));
   $('back').addEventListener('click', () => {
