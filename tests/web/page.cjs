@@ -426,6 +426,12 @@ const tests = {
     }
     await page.getByRole('button', {name: 'Undo'}).click();
     assert.match(await feet.inputValue(), /A1/);
+    for (const [names, words] of [['A1', 'one foot'], ['A1 A5', 'two feet'], ['A1 B2 E5', 'feet in one line'], ['A1 A5 C1', '']]) {
+      await feet.fill(names);
+      await page.keyboard.press('Tab');
+      await until(async () => (await page.locator('#feet-said').textContent()).startsWith(words && `A thing on ${words} falls over`), words);
+    }
+    assert.ok(await page.locator('#feet-said').isHidden());
     await close();
   },
 

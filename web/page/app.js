@@ -293,6 +293,7 @@ function showFrame(notes = []) {
   $('take-example').disabled = !$('example').value;
   hear([$('counts').textContent, ...doubts.map(([words]) => sentences([words]))].join(' '));
   $('feet').value = (frame.feet || []).map(nameOf).join(', ');
+  warn('feet-said', fallsOver() ? `A thing on ${frame.feet.length < 3 ? ['one foot', 'two feet'][frame.feet.length - 1] : 'feet in one line'} falls over, unless it is held: three or more, not all in a line, hold it.` : '');
   $('reading').hidden = $('size').hidden = !source;
   askWidth();
   sketch.show(frame);
@@ -300,6 +301,13 @@ function showFrame(notes = []) {
 }
 
 const nameOf = (node) => (frame.names ? String(frame.names[node]) : String(node));
+
+// Are there feet, and all of them in a line as seen from above?
+function fallsOver() {
+  const [[x, y] = [], ...others] = (frame.feet || []).map((node) => frame.nodes[node]), by = others.map(([u, v]) => [u - x, v - y]);
+  const [east, north] = by.reduce((best, at) => (Math.hypot(...at) > Math.hypot(...best) ? at : best), [0, 0]);
+  return x !== undefined && by.every(([u, v]) => Math.abs(u * north - v * east) <= 0.01 * (east * east + north * north));
+}
 
 function toggled(node) {
   const feet = new Set(frame.feet || []);

@@ -66,7 +66,25 @@ class Sketch {
       }
     this.drawCords(pen, at);
     pen.fillStyle = colour('--foot');
-    for (const v of feet) pen.fillRect(at[v][0] - wide / 2 - 2, at[v][1] - wide / 2 - 2, wide + 4, wide + 4);
+    const half = Math.max(wide / 2 + 2, 5);
+    for (const v of feet) pen.fillRect(at[v][0] - half, at[v][1] - half, 2 * half, 2 * half);
+    this.drawNames(pen, [...feet].map((v) => at[v]), [...feet].map((v) => String(frame.names ? frame.names[v] : v)), half, colour('--soft'));
+  }
+
+  // The name of every foot beside it, where there is room between the names before.
+  drawNames(pen, at, names, half, halo) {
+    const high = 15, taken = [];
+    pen.font = `600 ${high - 2}px system-ui, sans-serif`;
+    pen.textBaseline = 'middle';
+    pen.strokeStyle = halo;
+    pen.lineWidth = 4;
+    at.forEach(([x, y], i) => {
+      const wide = pen.measureText(names[i]).width, left = x + half + 3 + wide > this.canvas.clientWidth ? x - half - 3 - wide : x + half + 3;
+      if (taken.some(([from, to, level]) => left < to && left + wide > from && Math.abs(y - level) < high)) return;
+      taken.push([left, left + wide, y]);
+      pen.strokeText(names[i], left, y);
+      pen.fillText(names[i], left, y);
+    });
   }
 
   // Every pass in a lane of its own: the first in the middle of its edge, others left and right of it.
