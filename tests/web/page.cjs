@@ -534,8 +534,18 @@ const tests = {
     thread('make', 'dome', '--size', '5', '-o', file('unasked.json'));
     thread('plan', file('unasked.json'), '-q', '-o', file('unasked-plan.json'));
     const {page, close} = await open();
+    await page.evaluate(() => {
+      globalThis.saidOfRows = [];
+      new MutationObserver(() => saidOfRows.push($('advice-said').textContent)).observe($('advice-said'), {childList: true});
+    });
     await choose(page, file('unasked.json'));
     await page.getByText(/^Makes what is recommended: \d cords? with ends at the feet, [\d.]+ N to pull\.$/).waitFor({timeout: 60000});
+    await page.getByText(/^Done\. Marked are the fewest cords that a hand can pull again and again: its 10 N must do with rougher cord, too \(friction 0\.3: [\d.]+ N/).waitFor({timeout: 60000});
+    const counted = (await page.evaluate(() => saidOfRows)).map((words) => /^Still looking, (\d+) of (\d+) rows/.exec(words)).filter(Boolean).map(([, done]) => Number(done));
+    assert.ok(counted.length > 5 && counted.every((done, i) => i === 0 || done >= counted[i - 1]) && counted.at(-1) > 1, `${counted}`);
+    const offered = await page.locator('#cords option').allTextContents();
+    assert.deepEqual(offered.slice(1), offered.slice(1).sort((a, b) => a - b));
+    assert.ok(offered.includes(await page.evaluate(() => String(recommended.cords))));
     await made(page);
     const cords = (name) => JSON.parse(fs.readFileSync(name, 'utf8')).cords;
     assert.deepEqual(cords(await download(page, 'plan.json')), cords(file('unasked-plan.json')));

@@ -65,14 +65,19 @@ function openQuestion(id) {
 
 const answers = () => Object.fromEntries([...QUESTIONS, ...READING_QUESTIONS, ...LATER_QUESTIONS].map((id) => [id, $(id).value]));
 
-// Numbers of cords that are not in the list, which advice and links may bring, are added to it.
+// Numbers of cords that are not in the list, which advice and links may bring, are added to it in their place.
+function offerCords(number) {
+  const options = [...$('cords').options], next = options.find(({value}) => Number(value) >= Number(number));
+  if (next?.value !== number) $('cords').add(new Option(number), next ?? null);
+}
+
 function setAnswers(given) {
   for (const id of LATER_QUESTIONS) if (given[id] !== undefined) $(id).value = given[id];
   setReading(given);
   for (const id of QUESTIONS) {
     const value = given[id], known = [...$(id).options].some((option) => option.value === value);
     if (value === undefined) continue;
-    if (!known && id === 'cords' && /^[1-9]\d{0,2}$/.test(value)) $(id).add(new Option(value));
+    if (id === 'cords' && /^[1-9]\d{0,2}$/.test(value)) offerCords(value);
     else if (!known) continue;
     $(id).value = value;
   }
@@ -94,7 +99,7 @@ function restore(before) {
   $('dropped').hidden = true;
   setAnswers(before.answers);
   settled = state();
-  showFrame();
+  showFrame([]);
   showResult();
   keep('now', settled);
 }
@@ -274,8 +279,11 @@ function hear(words, often = false) {
 
 const plural = (n, word) => `${n} ${word}${n === 1 ? '' : 's'}`;
 
-// notes: [words, questions] ..
-function showFrame(notes = []) {
+let noted = []; // of the file, as it was read last
+
+// notes: [words, questions] ..; none given: those of before
+function showFrame(notes = noted) {
+  noted = notes;
   $('shown').hidden = $('question-part').hidden = !frame;
   document.querySelector('main').classList.toggle('open', Boolean(frame));
   if (!frame) return;
@@ -367,7 +375,7 @@ const hand = () => ({'': '10', any: '10'})[$('pull').value] ?? $('pull').value;
 
 // The rows as they are found, and the plan of the recommended one, which the page takes unless another answer is given.
 async function advise() {
-  const mine = ++asked, found = new Map();
+  const mine = ++asked, found = new Map(), times = new Map(); // rows by key, and how often each was told: first cheap, then searched for
   advised = [];
   recommended = null;
   advisedPlan = '';
@@ -379,8 +387,9 @@ async function advise() {
     if (row.what === 'recommended') recommended = row;
     else if (row.what !== 'row' || isKnown) return;
     found.set(keyOf(row), row);
+    times.set(keyOf(row), (times.get(keyOf(row)) || 0) + 1);
     advised = [...found.values()];
-    showAdvice('Looking further ..');
+    showAdvice(`Still looking, ${[...times.values()].filter((n) => n > 1).length} of ${found.size} rows are done ..`);
   };
   const onPlan = (found) => {
     if (mine !== asked || hand() !== '10') return;
@@ -391,12 +400,21 @@ async function advise() {
   const {exit, stdout, stderr} = await adviser.run(command, {[frameFile()]: frameText()}, {onLine, onPlan});
   if (mine !== asked || exit === -1) return;
   if (!stdout) return showAdvice(lastLine(stderr) || 'No advice for this framework.');
-  const {rows, recommended: best, command: typed} = JSON.parse(stdout);
+  const {rows, recommended: best, command: typed, mu_high: rough} = JSON.parse(stdout);
   advised = rows;
   recommended = rows[best] || null;
-  showAdvice(recommended ? 'The fewest cords that a hand can pull again and again are marked.' : 'No number of cords is easy enough for this hand.');
+  showAdvice(recommended ? `Done. ${whyMarked(rough)}` : 'Done. No number of cords is easy enough for this hand.');
   $('advice-more').hidden = !typed;
   $('advice-command').textContent = typed || '';
+}
+
+// Why fewer cords, which the hand could pull by their figure in the table, are not recommended. rough: friction of a rougher cord.
+function whyMarked(rough) {
+  const [fewer] = advised.filter(({cords, ends}) => ends === recommended.ends && cords < recommended.cords).sort((a, b) => b.cords - a.cords);
+  const words = 'Marked are the fewest cords that a hand can pull again and again';
+  if (!(recommended.pull_high <= Number(hand()))) return `${words}.`;
+  const than = fewer ? `, ${fewer.cords} would take ${newtons(fewer.pull_high)}` : '';
+  return `${words}: its ${newtons(Number(hand()))} must do with rougher cord, too (friction ${rough}: ${newtons(recommended.pull_high)}${than}).`;
 }
 
 const keyOf = ({cords, ends}) => `${cords} ${ends}`;
@@ -449,6 +467,7 @@ function isPlain() {
 }
 
 function showPromise() {
+  if (recommended) offerCords(String(recommended.cords));
   $('promise').textContent = isPlain() && recommended ? `Makes what is recommended: ${plural(recommended.cords, 'cord')} with ends ${ENDS[recommended.ends]}, ${newtons(recommended.pull)} to pull.` : '';
 }
 

@@ -71,19 +71,21 @@ class Sketch {
     this.drawNames(pen, [...feet].map((v) => at[v]), [...feet].map((v) => String(frame.names ? frame.names[v] : v)), half, colour('--soft'));
   }
 
-  // The name of every foot beside it, where there is room between the names before.
+  // The name of every foot beside, below or above it, where there is room between the other feet and the names before.
   drawNames(pen, at, names, half, halo) {
-    const high = 15, taken = [];
+    const high = 15, taken = at.map(([x, y]) => [x - half, x + half, y]);
     pen.font = `600 ${high - 2}px system-ui, sans-serif`;
     pen.textBaseline = 'middle';
     pen.strokeStyle = halo;
     pen.lineWidth = 4;
     at.forEach(([x, y], i) => {
-      const wide = pen.measureText(names[i]).width, left = x + half + 3 + wide > this.canvas.clientWidth ? x - half - 3 - wide : x + half + 3;
-      if (taken.some(([from, to, level]) => left < to && left + wide > from && Math.abs(y - level) < high)) return;
-      taken.push([left, left + wide, y]);
-      pen.strokeText(names[i], left, y);
-      pen.fillText(names[i], left, y);
+      const wide = pen.measureText(names[i]).width, aside = half + 3, over = half + high / 2 + 3;
+      const isFree = ([left, level]) => left >= 0 && left + wide <= this.canvas.clientWidth && !taken.some(([from, to, other]) => left < to && left + wide > from && Math.abs(level - other) < high);
+      const place = [[x + aside, y], [x - aside - wide, y], [x - wide / 2, y + over], [x - wide / 2, y - over]].find(isFree);
+      if (!place) return;
+      taken.push([place[0], place[0] + wide, place[1]]);
+      pen.strokeText(names[i], ...place);
+      pen.fillText(names[i], ...place);
     });
   }
 
