@@ -133,8 +133,17 @@ const tests = {
     const words = ['booklet.pdf', 'sheets.pdf'].map((name) => execFileSync('pdftotext', ['-layout', file(name), '-'], {encoding: 'utf8'}).split(/\s+/).sort());
     assert.deepEqual(words[0], words[1]);
     await booklet.close();
-    const [zip] = await Promise.all([page.waitForEvent('download', {timeout: 60000}), page.getByRole('button', {name: 'Save everything as a zip'}).click()]);
-    await zip.saveAs(file('all.zip'));
+    await page.getByRole('button', {name: 'Save as a zip'}).click();
+    const sizes = {};
+    for (const [title, name] of [[/^Save booklet, cords and pieces alone: [\d.]+ [kM]B$/, 'needed.zip'], [/^Save all: [\d.]+ [kM]B$/, 'all.zip']]) {
+      const button = page.getByRole('button', {name: title});
+      await button.waitFor({timeout: 60000});
+      const [zip] = await Promise.all([page.waitForEvent('download', {timeout: 60000}), button.click()]), [, n, unit] = /([\d.]+) (.)B$/.exec(await button.innerText());
+      await zip.saveAs(file(name));
+      sizes[name] = fs.statSync(file(name)).size;
+      assert.ok(Math.abs(Number(n) * (unit === 'M' ? 1e6 : 1e3) - sizes[name]) <= (unit === 'M' ? 5e4 : 1e3), `${n} ${unit}B of ${sizes[name]} bytes`);
+    }
+    assert.ok(sizes['needed.zip'] < sizes['all.zip']);
     const listed = execFileSync('python3', ['-c', 'import sys, zipfile; z = zipfile.ZipFile(sys.argv[1]); assert z.testzip() is None; print(*z.namelist())', file('all.zip')], {encoding: 'utf8'});
     assert.match(listed, /^README\.txt plan\.json sheets\.html mat\.html overview\.svg steps\.txt /);
     const readme = execFileSync('python3', ['-c', 'import sys, zipfile; sys.stdout.write(zipfile.ZipFile(sys.argv[1]).read("README.txt").decode())', file('all.zip')], {encoding: 'utf8'});
@@ -339,6 +348,9 @@ const tests = {
     await part(page, 'Pulling the cords').getByText(/ faces closed \.\. \d+ %$/).waitFor({timeout: 60000});
     await page.getByRole('button', {name: 'Stop', exact: true}).click();
     await page.getByRole('alert').filter({hasText: 'Stopped: nothing was seen.'}).waitFor();
+    await film.getByText(/^Here comes a film: /).waitFor();
+    const left = [[2, 0.5], [10, 0.01], [10, 0.5], [60, 0.25]];
+    assert.deepEqual(await page.evaluate((all) => all.map(([passed, done]) => leftWords(passed, done)), left), ['', '', ', about 10 s left', ', about 3 minutes left']);
     assert.equal(await listed.getByRole('listitem').count(), 0);
     await close();
   },

@@ -518,9 +518,16 @@ function busy(words, stop = '', title = 'At work', seconds = 0, inPicture = true
   const begun = performance.now();
   ticking = setInterval(() => {
     const passed = (performance.now() - begun) / 1000;
-    $('clock').textContent = seconds ? `${Math.floor(passed)} of ${seconds} s` : `${Math.floor(passed)} s`;
+    $('clock').textContent = seconds ? `${Math.floor(passed)} of ${seconds} s` : `${Math.floor(passed)} s${leftWords(passed, $('bar').position)}`;
     if (seconds) $('bar').value = Math.min(1, passed / seconds);
   }, 250);
+}
+
+// How long it takes yet, if it goes on as it did: by what is done of it, 0 to 1; nothing while that says little.
+function leftWords(passed, done) {
+  if (passed < 3 || done < 0.03) return '';
+  const left = (passed * (1 - done)) / done;
+  return `, about ${left < 90 ? `${5 * Math.ceil(left / 5)} s` : `${Math.ceil(left / 60)} minutes`} left`;
 }
 
 const degrees = (rad) => `${((rad * 180) / Math.PI).toFixed(0)} degrees`;
@@ -750,16 +757,27 @@ function listFiles(list, named) {
   }));
 }
 
-async function saveAll() {
-  const files = {}, failed = [];
+const sizeWords = (bytes) => (bytes < 1e6 ? `${Math.ceil(bytes / 1000)} kB` : `${(bytes / 1e6).toFixed(1)} MB`);
+const NEEDED = /^(plan\.json|sheets\.html|booklet\.html|cords\.csv|steps\.txt|kit\/(?:README\.txt|kit\.csv|.*\.3mf))$/; // by who makes it
+
+// Draws all that there is, then offers it with its size: all, or what is needed to make it.
+async function offerZip() {
+  const files = {}, failed = [], shown = plan;
   busy('Drawing everything ..', '', 'Drawing', 0, false);
   for (const [type, file] of FILES) {
     const bytes = await contentOf(type, file, (why) => failed.push([file, `not made: ${why}`]));
     if (bytes) files[file] = bytes;
   }
   busy('');
+  if (shown !== plan) return;
   Object.assign(files, kit, rise);
-  save(zip({'README.txt': new TextEncoder().encode(readme(files, failed)), ...files}), `${name || 'plan'}.zip`);
+  const needed = Object.fromEntries(Object.entries(files).filter(([file]) => NEEDED.test(file)));
+  const choices = [['Save all', files, failed], ['Save booklet, cords and pieces alone', needed, []]].map(([title, some, lost]) => {
+    const packed = zip({'README.txt': new TextEncoder().encode(readme(some, lost)), ...some});
+    return [`${title}: ${sizeWords(packed.size)}`, () => save(packed, `${name || 'plan'}.zip`)];
+  });
+  warn('zip-said', `${plural(Object.keys(files).length, 'file')}; pieces and film are among them once they are made.`, choices);
+  $('zip-said').querySelector('button').focus();
 }
 
 // A large one is made while its number of pages is shown, and its first part can be had alone.
@@ -839,11 +857,12 @@ function warn(id, words, mends = []) {
 // What the command line writes of a rise: {'rise.html': bytes ..}, and what it says.
 function showRise(files, lines = []) {
   rise = files;
+  warn('zip-said', '');
   $('rise-said').textContent = sentences(lines);
   warn('rise-help', '');
   listFiles($('rise-files'), Object.keys(RISE_FILES).filter((file) => files[file]).map((file) => [file, () => files[file], purpose(file)]));
   if (!files['rise.html']) {
-    $('rise-picture').replaceChildren(caption('The pieces rise here, pulled by their cords in simulation. Many of them take minutes.'));
+    $('rise-picture').replaceChildren(caption('Here comes a film: the pieces lie loose, their cords are pulled, and they come up or stay down. Play it, stop it, turn it. Ten pieces take seconds, fifty minutes.'));
     return;
   }
   const player = document.createElement('iframe');
@@ -982,8 +1001,9 @@ const showDone = (words) => (line) => {
 function showKit(files, lines = []) {
   const figure = $('kit-picture'), picture = files['kit/kit.png'], parts = Object.entries(files).filter(([file]) => /\.stl$/.test(file));
   kit = files;
+  warn('zip-said', ''); // of other files
   $('kit-said').textContent = sentences(lines);
-  figure.replaceChildren(caption('The pieces appear here. Many of them take minutes.'));
+  figure.replaceChildren(caption('Here comes a picture of the pieces with the cords in them, and below it the files for your printer. Ten pieces take seconds, fifty a minute or two.'));
   listFiles($('kit-files'), [...Object.keys(files).filter((file) => !/\.stl$/.test(file)).map((file) => [file.replace('kit/', ''), () => files[file], purpose(file)]),
     ...(parts.length ? [['stl.zip', () => zip(Object.fromEntries(parts.map(([file, bytes]) => [file.replace('kit/', ''), bytes]))), purpose('stl.zip')]] : [])]);
   if (!picture) return;
@@ -1063,7 +1083,7 @@ async function begin() {
   $('rim').addEventListener('click', () => feetWhere('rim'));
   $('booklet').addEventListener('click', openBooklet);
   $('mat').addEventListener('click', openMat);
-  $('all').addEventListener('click', saveAll);
+  $('all').addEventListener('click', offerZip);
   document.addEventListener('keydown', (event) => {
     if ((event.ctrlKey || event.metaKey) && event.key === 'z' && event.target.tagName !== 'INPUT' && !working) undo();
   });
