@@ -1073,7 +1073,7 @@ async function begin() {
     $(form).addEventListener('submit', make);
     $(form).addEventListener('change', remember);
   }
-  $('kit-questions').addEventListener('change', () => showKit({}));
+  $('kit-questions').addEventListener('input', () => showKit({})); // not at its end, when a finger is on the button, which would move
   $('width').addEventListener('change', () => watchWalls());
   $('stop').addEventListener('click', () => engine.stop());
   $('undo').addEventListener('click', undo);
