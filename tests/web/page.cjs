@@ -133,8 +133,17 @@ const tests = {
     const words = ['booklet.pdf', 'sheets.pdf'].map((name) => execFileSync('pdftotext', ['-layout', file(name), '-'], {encoding: 'utf8'}).split(/\s+/).sort());
     assert.deepEqual(words[0], words[1]);
     await booklet.close();
-    const [zip] = await Promise.all([page.waitForEvent('download', {timeout: 60000}), page.getByRole('button', {name: 'Save everything as a zip'}).click()]);
-    await zip.saveAs(file('all.zip'));
+    await page.getByRole('button', {name: 'Save as a zip'}).click();
+    const sizes = {};
+    for (const [title, name] of [[/^Save booklet, cords and pieces alone: [\d.]+ [kM]B$/, 'needed.zip'], [/^Save all: [\d.]+ [kM]B$/, 'all.zip']]) {
+      const button = page.getByRole('button', {name: title});
+      await button.waitFor({timeout: 60000});
+      const [zip] = await Promise.all([page.waitForEvent('download', {timeout: 60000}), button.click()]), [, n, unit] = /([\d.]+) (.)B$/.exec(await button.innerText());
+      await zip.saveAs(file(name));
+      sizes[name] = fs.statSync(file(name)).size;
+      assert.ok(Math.abs(Number(n) * (unit === 'M' ? 1e6 : 1e3) - sizes[name]) <= (unit === 'M' ? 5e4 : 1e3), `${n} ${unit}B of ${sizes[name]} bytes`);
+    }
+    assert.ok(sizes['needed.zip'] < sizes['all.zip']);
     const listed = execFileSync('python3', ['-c', 'import sys, zipfile; z = zipfile.ZipFile(sys.argv[1]); assert z.testzip() is None; print(*z.namelist())', file('all.zip')], {encoding: 'utf8'});
     assert.match(listed, /^README\.txt plan\.json sheets\.html mat\.html overview\.svg steps\.txt /);
     const readme = execFileSync('python3', ['-c', 'import sys, zipfile; sys.stdout.write(zipfile.ZipFile(sys.argv[1]).read("README.txt").decode())', file('all.zip')], {encoding: 'utf8'});
@@ -231,9 +240,18 @@ const tests = {
     await choose(page, file('geo-plan.json'));
     await drawn(page);
     await pieces.getByText(/^The thinnest wall is 0\.\d+ mm, too thin to print/).waitFor({timeout: 120000});
-    const wider = pieces.getByRole('button', {name: /^Make the arms [\d.]+ mm wide$/});
+    await page.getByRole('button', {name: 'Go to the film'}).click();
+    await until(() => page.evaluate(() => document.activeElement.id === 'rise-title'), 'what comes first');
+    assert.ok(await page.evaluate(() => $('rise-part').getBoundingClientRect().top < $('kit-part').getBoundingClientRect().top), 'the film before the pieces');
+    const listed = pieces.getByRole('list', {name: 'Files to print, one by one'}), wider = pieces.getByRole('button', {name: /^Make the arms [\d.]+ mm wide$/});
     await wider.click({timeout: 120000});
+    await listed.getByRole('listitem').first().waitFor({timeout: 120000}); // made at once
     await until(() => pieces.locator('#thin').isHidden(), 'thick enough');
+    const said = await arms.inputValue();
+    await arms.fill(String(Number(said) + 1));
+    await page.keyboard.press('Tab');
+    await until(async () => (await listed.getByRole('listitem').count()) === 0, 'files of other arms are gone');
+    await arms.fill(said);
     const {thinnest_mm: wall} = JSON.parse(thread('kit', file('geo-plan.json'), '--names', 'none', '--no-picture', '--json', '-q', '--width', await arms.inputValue(), '-o', file('geo-kit')));
     assert.ok(wall >= 0.8, `${wall} mm`);
     await choose(page, file('small.obj'));
@@ -251,8 +269,8 @@ const tests = {
     thread('make', 'dome', '--size', '3', '-o', file('dome3.obj'));
     for (const name of ['ring', 'arch', 'dome3']) thread('plan', file(`${name}.obj`), '--ends', 'any', '--units', 'mm', '-q', '-o', file(`${name}.json`));
     const {page, close} = await open({viewport: {width: 1280, height: 800}}), heard = await listen(page);
-    const part5 = part(page, 'Watch it rise'), listed = part5.getByRole('list', {name: 'Files of the rise, one by one'});
-    const watch = () => part5.getByRole('button', {name: 'Watch it rise'}).click();
+    const film = part(page, 'Watch it rise'), listed = film.getByRole('list', {name: 'Files of the rise, one by one'});
+    const watch = () => film.getByRole('button', {name: 'Watch it rise'}).click();
     const pull = page.getByLabel('How hard does a hand pull each end, in newtons, at most?'), lifted = page.getByLabel('Which piece does another hand lift to its height?');
     await choose(page, file('ring.json'));
     await drawn(page);
@@ -276,7 +294,7 @@ const tests = {
     assert.deepEqual((await listed.getByRole('link').allInnerTexts()).sort(), ['booklet.html', 'rise.html', 'rise.json', 'rise.png', 'rise.svg']);
     // Contacts make much of the last digit of a sine: the same shape at last, a step of the pull earlier or later.
     const plain = (text) => text.replace(/\d+(\.\d+)?/g, '#');
-    assert.match(plain(await part5.innerText()), new RegExp(plain(said.split('\n')[1]), 'i'), 'what the command says');
+    assert.match(plain(await film.innerText()), new RegExp(plain(said.split('\n')[1]), 'i'), 'what the command says');
     const [here, there] = [await download(page, 'rise.json'), own('rise.json')].map((name) => JSON.parse(fs.readFileSync(name, 'utf8')).runs[0]);
     assert.equal(here.came_up, there.came_up);
     assert.ok(Math.abs(here.pull_up / there.pull_up - 1) < 0.16, `pulled with ${here.pull_up} and ${there.pull_up}`);
@@ -301,7 +319,7 @@ const tests = {
     await until(async () => Number(await player.locator('#slider').inputValue()) > 0, 'it plays by itself');
     await page.screenshot({path: file('rise-1280x800.png')});
     await page.setViewportSize({width: 390, height: 844});
-    await part5.screenshot({path: file('rise-390x844.png')});
+    await film.screenshot({path: file('rise-390x844.png')});
     assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 390, 'wider than a telephone');
 
     // An arch falls over; with a hand at its middle it comes up. Stopped on the way nothing is left.
@@ -311,12 +329,12 @@ const tests = {
     assert.equal(await listed.getByRole('listitem').count(), 0);
     await pull.fill('2');
     await watch();
-    await part5.getByText(/Does not come up[^]*The widest gap stays between/).waitFor({timeout: 120000});
-    await part5.getByText(/^It does not come up like this/).waitFor();
-    await part5.getByRole('button', {name: 'Lift 2, the highest piece, by hand'}).click();
-    await part5.getByText(/Comes up at /).waitFor({timeout: 120000});
+    await film.getByText(/Does not come up[^]*The widest gap stays between/).waitFor({timeout: 120000});
+    await film.getByText(/^It does not come up like this/).waitFor();
+    await film.getByRole('button', {name: 'Lift 2, the highest piece, by hand'}).click();
+    await film.getByText(/Comes up at /).waitFor({timeout: 120000});
     assert.equal(await lifted.inputValue(), '2');
-    assert.equal(await part5.getByRole('button', {name: 'Try with'}).count(), 0);
+    assert.equal(await film.getByRole('button', {name: 'Try with'}).count(), 0);
     const tries = ['try more cords, each of which turns less (thread plan --cords 8)', 'or  lighter pieces (thread convert --scale)', 'or  more pull than that (--pull 150)'];
     const helps = await page.evaluate((lines) => helpsRise(lines).map(([title]) => title), tries);
     assert.deepEqual(helps.slice(0, 2), ['Try with 8 cords', 'Pull with up to 150 newtons'], 'what the program says comes first');
@@ -330,6 +348,9 @@ const tests = {
     await part(page, 'Pulling the cords').getByText(/ faces closed \.\. \d+ %$/).waitFor({timeout: 60000});
     await page.getByRole('button', {name: 'Stop', exact: true}).click();
     await page.getByRole('alert').filter({hasText: 'Stopped: nothing was seen.'}).waitFor();
+    await film.getByText(/^Here comes a film: /).waitFor();
+    const left = [[2, 0.5], [10, 0.01], [10, 0.5], [60, 0.25]];
+    assert.deepEqual(await page.evaluate((all) => all.map(([passed, done]) => leftWords(passed, done)), left), ['', '', ', about 10 s left', ', about 3 minutes left']);
     assert.equal(await listed.getByRole('listitem').count(), 0);
     await close();
   },
@@ -417,6 +438,12 @@ const tests = {
     }
     await page.getByRole('button', {name: 'Undo'}).click();
     assert.match(await feet.inputValue(), /A1/);
+    for (const [names, words] of [['A1', 'one foot'], ['A1 A5', 'two feet'], ['A1 B2 E5', 'feet in one line'], ['A1 A5 C1', '']]) {
+      await feet.fill(names);
+      await page.keyboard.press('Tab');
+      await until(async () => (await page.locator('#feet-said').textContent()).startsWith(words && `A thing on ${words} falls over`), words);
+    }
+    assert.ok(await page.locator('#feet-said').isHidden());
     await close();
   },
 
@@ -519,8 +546,18 @@ const tests = {
     thread('make', 'dome', '--size', '5', '-o', file('unasked.json'));
     thread('plan', file('unasked.json'), '-q', '-o', file('unasked-plan.json'));
     const {page, close} = await open();
+    await page.evaluate(() => {
+      globalThis.saidOfRows = [];
+      new MutationObserver(() => saidOfRows.push($('advice-said').textContent)).observe($('advice-said'), {childList: true});
+    });
     await choose(page, file('unasked.json'));
     await page.getByText(/^Makes what is recommended: \d cords? with ends at the feet, [\d.]+ N to pull\.$/).waitFor({timeout: 60000});
+    await page.getByText(/^Done\. Marked are the fewest cords that a hand can pull again and again: its 10 N must do with rougher cord, too \(friction 0\.3: [\d.]+ N/).waitFor({timeout: 60000});
+    const counted = (await page.evaluate(() => saidOfRows)).map((words) => /^Still looking, (\d+) of (\d+) rows/.exec(words)).filter(Boolean).map(([, done]) => Number(done));
+    assert.ok(counted.length > 5 && counted.every((done, i) => i === 0 || done >= counted[i - 1]) && counted.at(-1) > 1, `${counted}`);
+    const offered = await page.locator('#cords option').allTextContents();
+    assert.deepEqual(offered.slice(1), offered.slice(1).sort((a, b) => a - b));
+    assert.ok(offered.includes(await page.evaluate(() => String(recommended.cords))));
     await made(page);
     const cords = (name) => JSON.parse(fs.readFileSync(name, 'utf8')).cords;
     assert.deepEqual(cords(await download(page, 'plan.json')), cords(file('unasked-plan.json')));
@@ -538,10 +575,12 @@ const tests = {
     await page.getByLabel('Feet, where cord may come out').fill('1 2 3');
     await page.keyboard.press('Tab');
     await until(() => page.evaluate(() => String(frame.feet) === '0,1,2'), 'three feet, with blanks between them');
-    await page.getByLabel('How wide shall the whole be built').fill('2');
+    await page.getByLabel('How wide shall it be?').fill('2');
     await page.keyboard.press('Tab');
     await until(() => page.evaluate(() => Math.abs(Math.max(...frame.nodes.map(([x]) => x)) - 2) < 1e-9), 'a quarter as wide');
     assert.match(await page.locator('#units option').first().innerText(), /^as the file is read: 8 mm$/);
+    await page.getByText('It is now 2 x 1 m, and 0.75 m high.').waitFor();
+    assert.equal(await page.locator('#example option:checked').textContent(), 'own file');
     await page.getByLabel('Which way is up?').selectOption('y');
     await until(() => page.evaluate(() => frame.nodes.some(([, , z]) => z > 0.9)), 'the other way up');
     assert.ok(await page.evaluate(() => Math.abs(widthOf(frame) - 2) < 1e-9), 'as wide as was asked');
@@ -550,6 +589,22 @@ const tests = {
     await page.keyboard.press('Tab');
     await page.getByRole('alert').waitFor();
     assert.doesNotMatch(await trouble(page), /--/);
+
+    // What the file leaves open has a button that comes to the question; an example is no file.
+    fs.writeFileSync(file('lies.obj'), 'v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 0.5 1 0.5\nl 1 2 3 4 1\nl 1 5 3\nl 2 5 4\n');
+    await choose(page, file('lies.obj'));
+    await page.getByText('It may lie on its side: only one line of pieces is at the bottom.', {exact: true}).waitFor();
+    await page.getByText('The file names no unit: its numbers are taken as millimetres, and most of its edges are shorter than 2 mm.', {exact: true}).waitFor();
+    for (const [question, id] of [['Which way is up?', 'up'], ['How wide is the whole?', 'units'], ['How wide shall it be?', 'wide']]) {
+      await page.getByRole('button', {name: question}).click();
+      assert.equal(await page.evaluate(() => document.activeElement.id), id);
+    }
+    await takeExample(page, 'arch');
+    await until(async () => /^as it is: /.test(await page.locator('#units option').first().textContent()), 'not as a file');
+    await page.getByLabel('How wide shall it be?').fill('300');
+    await page.keyboard.press('Enter');
+    await page.getByText(/^It is now 300 x /).waitFor();
+    assert.equal(await page.locator('#example option:checked').textContent(), 'arch');
     await close();
   },
 

@@ -29,7 +29,8 @@ const inWords = (line) => line.replace(/ \((?:see )?`?(?:thread|plan|eval) [^)]*
   .replace(/--(units|scale|up|weld|split|flat|pick|layers)\b(?! or )(?: (?:mm|cm|m|in|ft|[xyz]|all|NAME or N|N|[\d.]+(?:e[+-]?\d+)?)\b)?/g, (_, option) => questionOf(option))
   .replace(/(^|[^\w-])--([a-z][a-z-]*)/g, (_, before, option) => before + option.replaceAll('-', ' '));
 
-const questionOf = (option) => `“${document.querySelector(`label[for=${option === 'scale' ? 'wide' : option}]`).textContent}”`;
+const labelOf = (id) => document.querySelector(`label[for=${id}]`).textContent;
+const questionOf = (option) => `“${labelOf(option === 'scale' ? 'wide' : option)}”`;
 
 function complain(line) {
   $('trouble').hidden = !line;
@@ -45,20 +46,38 @@ function goTo(id) {
 // The line that the command line would print, without the name of the program, and the notes before it.
 const lastLine = (stderr) => inWords(stderr.trim().split('\n').filter((line) => !/^thread: note:/.test(line)).pop()?.replace(/^thread: /, '') || '');
 
-const notesOf = (stderr) => stderr.split('\n').filter((line) => /^thread: note:/.test(line)).map((line) => inWords(line.replace(/^thread: note: /, '')));
+// [what is noted, questions that it leaves open] ..; what option to give is left out: the question has a button.
+function notesOf(stderr, shown = (words) => words) {
+  const lines = stderr.split('\n').filter((line) => /^thread: note:/.test(line)).map((line) => shown(line.replace(/^thread: note: /, '')));
+  return lines.map((line) => [inWords(line.replace(/(?:; if [^;:]*)?(?:[;:] | \()--(?:units|scale|up|weld|split|flat|pick|layers)\b.*$/, '')
+    .replace('z is taken to point up, and only a line of nodes is lowest', 'it may lie on its side: only one line of pieces is at the bottom')
+    .replace('the file names no unit, ', 'the file names no unit: its numbers are taken as millimetres, ')),
+  [...line.matchAll(/--(units|scale|up|weld|split|flat|pick|layers)\b/g)].map(([, option]) => (option === 'scale' ? 'wide' : option))]);
+}
+
+function openQuestion(id) {
+  $('reading').open ||= $('reading').contains($(id));
+  $(id).focus({preventScroll: true});
+  $(id).scrollIntoView({block: 'center'});
+}
 
 // ---- state: undo, reload, link ----
 
 const answers = () => Object.fromEntries([...QUESTIONS, ...READING_QUESTIONS, ...LATER_QUESTIONS].map((id) => [id, $(id).value]));
 
-// Numbers of cords that are not in the list, which advice and links may bring, are added to it.
+// Numbers of cords that are not in the list, which advice and links may bring, are added to it in their place.
+function offerCords(number) {
+  const options = [...$('cords').options], next = options.find(({value}) => Number(value) >= Number(number));
+  if (next?.value !== number) $('cords').add(new Option(number), next ?? null);
+}
+
 function setAnswers(given) {
   for (const id of LATER_QUESTIONS) if (given[id] !== undefined) $(id).value = given[id];
   setReading(given);
   for (const id of QUESTIONS) {
     const value = given[id], known = [...$(id).options].some((option) => option.value === value);
     if (value === undefined) continue;
-    if (!known && id === 'cords' && /^[1-9]\d{0,2}$/.test(value)) $(id).add(new Option(value));
+    if (id === 'cords' && /^[1-9]\d{0,2}$/.test(value)) offerCords(value);
     else if (!known) continue;
     $(id).value = value;
   }
@@ -80,7 +99,7 @@ function restore(before) {
   $('dropped').hidden = true;
   setAnswers(before.answers);
   settled = state();
-  showFrame();
+  showFrame([]);
   showResult();
   keep('now', settled);
 }
@@ -157,16 +176,21 @@ function setReading(given) {
 }
 
 const UNITS = {mm: 'millimetres', cm: 'centimetres', m: 'metres', in: 'inches', ft: 'feet'};
-const widthOf = (shown) => Math.max(...[0, 1].map((k) => shown.nodes.reduce((most, p) => Math.max(most, p[k]), -Infinity) - shown.nodes.reduce((least, p) => Math.min(least, p[k]), Infinity)));
+const EXAMPLE = 'example.json'; // the path of one
+const spanOf = (shown, k) => shown.nodes.reduce((most, p) => Math.max(most, p[k]), -Infinity) - shown.nodes.reduce((least, p) => Math.min(least, p[k]), Infinity);
+const widthOf = (shown) => Math.max(spanOf(shown, 0), spanOf(shown, 1));
 
-// The question how wide it is, in numbers of this framework.
+// The questions how wide it is and shall be, in numbers of this framework.
 function askWidth() {
   if (!source) return;
-  const chosen = $('units').value, wide = Number(source.width.toPrecision(4));
+  const chosen = $('units').value, wide = Number(source.width.toPrecision(4)), units = frame.units || 'mm';
   const options = Object.entries(UNITS).map(([unit, words]) => new Option(`${wide} ${words}`, unit));
-  $('units').replaceChildren(new Option(`as the file is read: ${wide} ${source.units}`, ''), ...options);
+  $('units').replaceChildren(new Option(`${source.path === EXAMPLE ? 'as it is' : 'as the file is read'}: ${wide} ${source.units}`, ''), ...options);
   setReading({units: chosen});
   $('wide').placeholder = `${wide}`;
+  $('wide-unit').textContent = units;
+  const [x, y, z] = [0, 1, 2].map((k) => Number(spanOf(frame, k).toPrecision(3)));
+  $('wide-said').textContent = `${$('wide').value ? 'It is now' : 'It is'} ${x} x ${y} ${units}, and ${z} ${units} high.`;
 }
 
 // Options of the program that say how the file is to be read. width: of the framework as it is read by the other answers.
@@ -203,7 +227,7 @@ async function readAgain() {
   frame = JSON.parse(text(files['frame.json']));
   if (frame.nodes.length === before.nodes.length && before.feet) frame.feet = before.feet;
   remember();
-  showFrame(notesOf(stderr).map((note) => note.replaceAll(given.path, given.shownName)));
+  showFrame(notesOf(stderr, (words) => words.replaceAll(given.path, given.shownName)));
   showResult();
 }
 
@@ -233,7 +257,7 @@ async function readBytes(bytes, title, path, shownName, more = []) {
   if (!frame.feet?.length && $('ends').value === 'feet') $('ends').value = '';
   if (isPlan) plan = text(bytes);
   remember();
-  showFrame([...more, ...notesOf(stderr)].map((note) => note.replaceAll(path, shownName)));
+  showFrame([...more.map((note) => [note, []]), ...notesOf(stderr, (words) => words.replaceAll(path, shownName))]);
   if (!isPlan) goTo('frame-title');
   await showResult();
 }
@@ -242,7 +266,7 @@ async function example(words) {
   const [shape, size] = words.split(' ');
   const {files, exit, stderr} = await engine.run(['make', shape, '--size', size, '-o', 'frame.json']);
   if (exit) complain(lastLine(stderr));
-  else await readBytes(files['frame.json'], `${shape}${size}`, 'given.json', shape);
+  else await readBytes(files['frame.json'], `${shape}${size}`, EXAMPLE, shape);
 }
 
 // Also for those who hear the page: at once, or of what comes often now and then.
@@ -255,23 +279,43 @@ function hear(words, often = false) {
 
 const plural = (n, word) => `${n} ${word}${n === 1 ? '' : 's'}`;
 
-function showFrame(notes = []) {
+let noted = []; // of the file, as it was read last
+
+// notes: [words, questions] ..; none given: those of before
+function showFrame(notes = noted) {
+  noted = notes;
   $('shown').hidden = $('question-part').hidden = !frame;
   document.querySelector('main').classList.toggle('open', Boolean(frame));
   if (!frame) return;
   const size = `${Number(widthOf(frame).toPrecision(3))} ${frame.units || 'mm'} wide`;
-  const said = [`${name}: ${plural(frame.nodes.length, 'piece')} that meet at ${plural(frame.edges.length, 'interface')}, ${size}`, ...notes.map(capital)];
+  const said = [`${name}: ${plural(frame.nodes.length, 'piece')} that meet at ${plural(frame.edges.length, 'interface')}, ${size}`];
+  const doubts = notes.filter(([, questions]) => questions.length);
+  said.push(...notes.filter((note) => !doubts.includes(note)).map(([words]) => capital(words)));
   $('counts').textContent = `${said.join('. ')}.`;
-  hear($('counts').textContent);
+  $('doubts').replaceChildren(...doubts.map(([words, questions]) => {
+    const item = document.createElement('li');
+    item.append(...mendable(sentences([words]), questions.map((id) => [labelOf(id), () => openQuestion(id)])));
+    return item;
+  }));
+  $('example').value = [...$('example').options].find(({value}) => source?.path === EXAMPLE && value.replace(' ', '') === name)?.value ?? '';
+  $('take-example').disabled = !$('example').value;
+  hear([$('counts').textContent, ...doubts.map(([words]) => sentences([words]))].join(' '));
   $('feet').value = (frame.feet || []).map(nameOf).join(', ');
-  $('reading').hidden = !source;
-  $('reading').open = Boolean(source) && (notes.length > 0 || $('reading').open);
+  warn('feet-said', fallsOver() ? `A thing on ${frame.feet.length < 3 ? ['one foot', 'two feet'][frame.feet.length - 1] : 'feet in one line'} falls over, unless it is held: three or more, not all in a line, hold it.` : '');
+  $('reading').hidden = $('size').hidden = !source;
   askWidth();
   sketch.show(frame);
   advise();
 }
 
 const nameOf = (node) => (frame.names ? String(frame.names[node]) : String(node));
+
+// Are there feet, and all of them in a line as seen from above?
+function fallsOver() {
+  const [[x, y] = [], ...others] = (frame.feet || []).map((node) => frame.nodes[node]), by = others.map(([u, v]) => [u - x, v - y]);
+  const [east, north] = by.reduce((best, at) => (Math.hypot(...at) > Math.hypot(...best) ? at : best), [0, 0]);
+  return x !== undefined && by.every(([u, v]) => Math.abs(u * north - v * east) <= 0.01 * (east * east + north * north));
+}
 
 function toggled(node) {
   const feet = new Set(frame.feet || []);
@@ -331,7 +375,7 @@ const hand = () => ({'': '10', any: '10'})[$('pull').value] ?? $('pull').value;
 
 // The rows as they are found, and the plan of the recommended one, which the page takes unless another answer is given.
 async function advise() {
-  const mine = ++asked, found = new Map();
+  const mine = ++asked, found = new Map(), times = new Map(); // rows by key, and how often each was told: first cheap, then searched for
   advised = [];
   recommended = null;
   advisedPlan = '';
@@ -343,8 +387,9 @@ async function advise() {
     if (row.what === 'recommended') recommended = row;
     else if (row.what !== 'row' || isKnown) return;
     found.set(keyOf(row), row);
+    times.set(keyOf(row), (times.get(keyOf(row)) || 0) + 1);
     advised = [...found.values()];
-    showAdvice('Looking further ..');
+    showAdvice(`Still looking, ${[...times.values()].filter((n) => n > 1).length} of ${found.size} rows are done ..`);
   };
   const onPlan = (found) => {
     if (mine !== asked || hand() !== '10') return;
@@ -355,12 +400,21 @@ async function advise() {
   const {exit, stdout, stderr} = await adviser.run(command, {[frameFile()]: frameText()}, {onLine, onPlan});
   if (mine !== asked || exit === -1) return;
   if (!stdout) return showAdvice(lastLine(stderr) || 'No advice for this framework.');
-  const {rows, recommended: best, command: typed} = JSON.parse(stdout);
+  const {rows, recommended: best, command: typed, mu_high: rough} = JSON.parse(stdout);
   advised = rows;
   recommended = rows[best] || null;
-  showAdvice(recommended ? 'The fewest cords that a hand can pull again and again are marked.' : 'No number of cords is easy enough for this hand.');
+  showAdvice(recommended ? `Done. ${whyMarked(rough)}` : 'Done. No number of cords is easy enough for this hand.');
   $('advice-more').hidden = !typed;
   $('advice-command').textContent = typed || '';
+}
+
+// Why fewer cords, which the hand could pull by their figure in the table, are not recommended. rough: friction of a rougher cord.
+function whyMarked(rough) {
+  const [fewer] = advised.filter(({cords, ends}) => ends === recommended.ends && cords < recommended.cords).sort((a, b) => b.cords - a.cords);
+  const words = 'Marked are the fewest cords that a hand can pull again and again';
+  if (!(recommended.pull_high <= Number(hand()))) return `${words}.`;
+  const than = fewer ? `, ${fewer.cords} would take ${newtons(fewer.pull_high)}` : '';
+  return `${words}: its ${newtons(Number(hand()))} must do with rougher cord, too (friction ${rough}: ${newtons(recommended.pull_high)}${than}).`;
 }
 
 const keyOf = ({cords, ends}) => `${cords} ${ends}`;
@@ -413,6 +467,7 @@ function isPlain() {
 }
 
 function showPromise() {
+  if (recommended) offerCords(String(recommended.cords));
   $('promise').textContent = isPlain() && recommended ? `Makes what is recommended: ${plural(recommended.cords, 'cord')} with ends ${ENDS[recommended.ends]}, ${newtons(recommended.pull)} to pull.` : '';
 }
 
@@ -463,9 +518,16 @@ function busy(words, stop = '', title = 'At work', seconds = 0, inPicture = true
   const begun = performance.now();
   ticking = setInterval(() => {
     const passed = (performance.now() - begun) / 1000;
-    $('clock').textContent = seconds ? `${Math.floor(passed)} of ${seconds} s` : `${Math.floor(passed)} s`;
+    $('clock').textContent = seconds ? `${Math.floor(passed)} of ${seconds} s` : `${Math.floor(passed)} s${leftWords(passed, $('bar').position)}`;
     if (seconds) $('bar').value = Math.min(1, passed / seconds);
   }, 250);
+}
+
+// How long it takes yet, if it goes on as it did: by what is done of it, 0 to 1; nothing while that says little.
+function leftWords(passed, done) {
+  if (passed < 3 || done < 0.03) return '';
+  const left = (passed * (1 - done)) / done;
+  return `, about ${left < 90 ? `${5 * Math.ceil(left / 5)} s` : `${Math.ceil(left / 60)} minutes`} left`;
 }
 
 const degrees = (rad) => `${((rad * 180) / Math.PI).toFixed(0)} degrees`;
@@ -575,14 +637,19 @@ function showCords(rows, pulls, kit, first) {
     line.cells[0].prepend(swatch);
     return line;
   }));
-  const steps = [`Cut ${plural(rows.length, 'cord')} of ${range(cuts, lengthWords)}: ends to hold and knots are in it.`,
-    `Print ${kit ? `${plural(kit.pieces, 'piece')}${kit.volume_cm3 ? `, about ${volumeWords(kit.volume_cm3)} of material` : ''}` : 'the pieces'}: part 4 below makes the files.`,
+  const film = document.createElement('button');
+  film.type = 'button';
+  film.textContent = 'Go to the film';
+  film.addEventListener('click', () => goTo('rise-title'));
+  const steps = ['Watch it rise in part 4 before anything is printed. The pull above seats the cords; the film shows whether they raise the pieces. ', `Cut ${plural(rows.length, 'cord')} of ${range(cuts, lengthWords)}: ends to hold and knots are in it.`,
+    `Print ${kit ? `${plural(kit.pieces, 'piece')}${kit.volume_cm3 ? `, about ${volumeWords(kit.volume_cm3)} of material` : ''}` : 'the pieces'}: part 5 below makes the files.`,
     'Print the booklet, or open the steps below on a telephone.', first ? `Begin: ${first}.` : ''].filter(Boolean);
   $('to-do').replaceChildren(...steps.map((words) => {
     const item = document.createElement('li');
     item.textContent = words;
     return item;
   }));
+  $('to-do').firstChild.append(film);
 }
 
 // "cord A: start, pick up L-1 (G7): out to G6", out of the steps in words.
@@ -606,7 +673,7 @@ async function showResult() {
   if (!plan) return;
   const shown = plan, given = {'plan.json': plan}, check = await engine.run(['check', 'plan.json'], given);
   if (shown !== plan) return;
-  $('verdict').textContent = check.exit === 0 ? 'Every claim of this plan was verified on this device.' : lastLine(check.stderr);
+  $('verdict').textContent = check.exit === 0 ? 'Every claim of this plan was verified on this device. Whether the pull raises the pieces, the film in part 4 shows.' : lastLine(check.stderr);
   $('summary').textContent = said || check.stdout.replace(/^plan\.json: /, '').trim() || lastLine(check.stderr);
   $('command').textContent = made?.command || '';
   const {stdout: cords} = await engine.run(['draw', 'plan.json', '-T', 'cords.csv', '-o', '-'], given);
@@ -690,16 +757,27 @@ function listFiles(list, named) {
   }));
 }
 
-async function saveAll() {
-  const files = {}, failed = [];
+const sizeWords = (bytes) => (bytes < 1e6 ? `${Math.ceil(bytes / 1000)} kB` : `${(bytes / 1e6).toFixed(1)} MB`);
+const NEEDED = /^(plan\.json|sheets\.html|booklet\.html|cords\.csv|steps\.txt|kit\/(?:README\.txt|kit\.csv|.*\.3mf))$/; // by who makes it
+
+// Draws all that there is, then offers it with its size: all, or what is needed to make it.
+async function offerZip() {
+  const files = {}, failed = [], shown = plan;
   busy('Drawing everything ..', '', 'Drawing', 0, false);
   for (const [type, file] of FILES) {
     const bytes = await contentOf(type, file, (why) => failed.push([file, `not made: ${why}`]));
     if (bytes) files[file] = bytes;
   }
   busy('');
+  if (shown !== plan) return;
   Object.assign(files, kit, rise);
-  save(zip({'README.txt': new TextEncoder().encode(readme(files, failed)), ...files}), `${name || 'plan'}.zip`);
+  const needed = Object.fromEntries(Object.entries(files).filter(([file]) => NEEDED.test(file)));
+  const choices = [['Save all', files, failed], ['Save booklet, cords and pieces alone', needed, []]].map(([title, some, lost]) => {
+    const packed = zip({'README.txt': new TextEncoder().encode(readme(some, lost)), ...some});
+    return [`${title}: ${sizeWords(packed.size)}`, () => save(packed, `${name || 'plan'}.zip`)];
+  });
+  warn('zip-said', `${plural(Object.keys(files).length, 'file')}; pieces and film are among them once they are made.`, choices);
+  $('zip-said').querySelector('button').focus();
 }
 
 // A large one is made while its number of pages is shown, and its first part can be had alone.
@@ -757,125 +835,34 @@ function firstPart(pages) {
 }
 
 // What went wrong or will, and buttons that mend it: [words, what to do] ..
-function warn(id, words, mends = []) {
+function mendable(words, mends) {
   const line = document.createElement('span');
   line.textContent = words;
-  $(id).hidden = !words;
-  $(id).replaceChildren(line, ...mends.map(([title, mend]) => {
+  return [line, ...mends.map(([title, mend]) => {
     const button = document.createElement('button');
     button.type = 'button';
     button.textContent = title;
     button.addEventListener('click', mend);
     return button;
-  }));
+  })];
 }
 
-// ---- 4: the pieces ----
-
-const PRINTS = 0.8; // mm, a wall of two lines of the usual nozzle
-const FEW_PIECES = 120; // whose walls are measured before they are asked for
-let measured = 0;
-
-// The thinnest wall by arms of such a width in mm, '': the plan's.
-async function wallsOf(given, width) {
-  const {exit, stdout, stderr} = await adviser.run(['kit', 'plan.json', '--names', 'none', '--no-picture', '--json', ...(width ? ['--width', String(width)] : [])], {'plan.json': given});
-  return exit === 0 ? JSON.parse(stdout) : {refused: exit > 0 ? lastLine(stderr) : ''};
+function warn(id, words, mends = []) {
+  $(id).hidden = !words;
+  $(id).replaceChildren(...mendable(words, mends));
 }
 
-const thinWords = ({refused, thinnest_mm: wall}) => refused ? `These pieces cannot be made. ${capital(refused)}.` : `The thinnest wall is ${Number(wall.toPrecision(2))} mm, too thin to print well, which takes ${PRINTS} mm.`;
-
-// Measures the walls, and tries what makes them thick enough to be printed: wider arms, or where these have no room a larger whole.
-async function watchWalls(most = FEW_PIECES) {
-  const mine = ++measured, given = plan, {width: asked} = answers();
-  warn('thin', '');
-  if (!given || frame.nodes.length > most) return;
-  const first = await wallsOf(given, asked);
-  if (mine !== measured || !(first.refused || first.thinnest_mm < PRINTS)) return;
-  const words = thinWords(first);
-  warn('thin', words);
-  hear(words);
-  for (let wide = 1.1 * first.width_mm; wide < 2.1 * first.width_mm; wide *= 1.15) {
-    const arms = Number(wide.toPrecision(2)), tried = await wallsOf(given, arms);
-    if (mine !== measured) return;
-    if (tried.thinnest_mm >= PRINTS) return warn('thin', words, [[`Make the arms ${arms} mm wide`, () => setArms(arms)]]);
-  }
-  const size = widthOf(frame), larger = Number((size * (first.refused ? 4 : (1.05 * PRINTS) / first.thinnest_mm)).toPrecision(2)), units = frame.units || 'mm';
-  if (source && !(first.refused && asked)) warn('thin', first.refused ? words : `${words} Wider arms have no room: the whole is too small.`, [[`Build the whole ${larger} ${units} wide, not ${Number(size.toPrecision(3))} ${units}`, () => setWhole(larger)]]);
-}
-
-function setArms(width) {
-  $('width').value = String(width);
-  remember();
-  watchWalls();
-  $('kit').focus();
-}
-
-function setWhole(width) {
-  $('wide').value = String(width);
-  $('width').value = '';
-  readAgain();
-  goTo('question-title');
-}
-
-const capital = (words) => words[0].toUpperCase() + words.slice(1);
-const sentences = (lines) => lines.map((line) => `${capital(line)}.`).join(' ');
-
-// Hears of a part of the work that is done: the bar, and words, those of the program if none are given, with a percentage.
-const showDone = (words) => (line) => {
-  const {done, what} = progressWords(line);
-  if (!(done > 0)) return;
-  $('bar').value = done;
-  $('work').textContent = `${words ?? capital(what)} .. ${Math.floor(100 * done)} %`;
-  hear($('work').textContent, true);
-};
-
-// What the command line writes of a kit: {'kit/kit.3mf': bytes ..}, and what it says.
-function showKit(files, lines = []) {
-  const figure = $('kit-picture'), picture = files['kit/kit.png'], parts = Object.entries(files).filter(([file]) => /\.stl$/.test(file));
-  kit = files;
-  $('kit-said').textContent = sentences(lines);
-  figure.replaceChildren(caption('The pieces appear here. Many of them take minutes.'));
-  listFiles($('kit-files'), [...Object.keys(files).filter((file) => !/\.stl$/.test(file)).map((file) => [file.replace('kit/', ''), () => files[file], purpose(file)]),
-    ...(parts.length ? [['stl.zip', () => zip(Object.fromEntries(parts.map(([file, bytes]) => [file.replace('kit/', ''), bytes]))), purpose('stl.zip')]] : [])]);
-  if (!picture) return;
-  const image = new Image();
-  image.alt = 'The pieces in their places, translucent, with the cords in them';
-  image.src = URL.createObjectURL(new Blob([picture], {type: 'image/png'}));
-  figure.replaceChildren(image);
-}
-
-async function makeKit(event) {
-  event.preventDefault();
-  complain('');
-  busy('Making the pieces ..', 'Stop', 'Making the pieces', 0, false);
-  const {width, bed, names, key} = answers(), args = ['kit', 'plan.json', '--bed', bed.replaceAll(' ', '').replace('×', 'x'), '--names', names, '--key', key];
-  if (width) args.push('--width', width);
-  const {exit, stdout, stderr, files} = await engine.run([...args, '--stl', '--progress', '--json', '-o', 'kit'], {'plan.json': plan}, {onLine: showDone('Making the pieces')});
-  busy('');
-  if (exit !== 0) {
-    showKit({});
-    complain(exit === -1 ? 'Stopped: no pieces were made.' : lastLine(stderr));
-    return;
-  }
-  const lines = stderr.trim().split('\n').filter((line) => /^thread: (?!written to )/.test(line));
-  showKit(files, lines.map((line) => inWords(line.replace(/^thread: /, ''))));
-  $('viewer').srcdoc = text(files['kit/kit.html']); // the same steps, with these pieces
-  const report = JSON.parse(stdout);
-  if (report.thinnest_mm < PRINTS && $('thin').hidden) warn('thin', thinWords(report), [['Find arms that are wide enough', () => watchWalls(Infinity)]]);
-  hear($('kit-said').textContent);
-  goTo('kit-title');
-}
-
-// ---- 5: how they rise ----
+// ---- 4: how they rise ----
 
 // What the command line writes of a rise: {'rise.html': bytes ..}, and what it says.
 function showRise(files, lines = []) {
   rise = files;
+  warn('zip-said', '');
   $('rise-said').textContent = sentences(lines);
   warn('rise-help', '');
   listFiles($('rise-files'), Object.keys(RISE_FILES).filter((file) => files[file]).map((file) => [file, () => files[file], purpose(file)]));
   if (!files['rise.html']) {
-    $('rise-picture').replaceChildren(caption('The pieces rise here, pulled by their cords in simulation. Many of them take minutes.'));
+    $('rise-picture').replaceChildren(caption('Here comes a film: the pieces lie loose, their cords are pulled, and they come up or stay down. Play it, stop it, turn it. Ten pieces take seconds, fifty minutes.'));
     return;
   }
   const player = document.createElement('iframe');
@@ -933,9 +920,9 @@ function helpsRise(lines) {
 const TRY = /^(?:try|or) .*\((?:thread [a-z]+ )?--([a-z]+) ([^ )]+)\)$/;
 
 function answerRise(id, value) {
-  $(id).value = value;
+  if (id === 'width') setArms(value);
+  else $(id).value = value;
   remember();
-  if (id === 'width') watchWalls();
   $('rise-questions').requestSubmit();
 }
 
@@ -943,6 +930,109 @@ async function threadAgain(cords) {
   setAnswers({cords});
   await search();
   if (cordsOf(plan).length === Number(cords)) $('rise-questions').requestSubmit();
+}
+
+// ---- 5: the pieces ----
+
+const PRINTS = 0.8; // mm, a wall of two lines of the usual nozzle
+const FEW_PIECES = 120; // whose walls are measured before they are asked for
+let measured = 0;
+
+// The thinnest wall by arms of such a width in mm, '': the plan's.
+async function wallsOf(given, width) {
+  const {exit, stdout, stderr} = await adviser.run(['kit', 'plan.json', '--names', 'none', '--no-picture', '--json', ...(width ? ['--width', String(width)] : [])], {'plan.json': given});
+  return exit === 0 ? JSON.parse(stdout) : {refused: exit > 0 ? lastLine(stderr) : ''};
+}
+
+const thinWords = ({refused, thinnest_mm: wall}) => refused ? `These pieces cannot be made. ${capital(refused)}.` : `The thinnest wall is ${Number(wall.toPrecision(2))} mm, too thin to print well, which takes ${PRINTS} mm.`;
+
+// Measures the walls, and tries what makes them thick enough to be printed: wider arms, or where these have no room a larger whole.
+async function watchWalls(most = FEW_PIECES) {
+  const mine = ++measured, given = plan, {width: asked} = answers();
+  warn('thin', '');
+  if (!given || frame.nodes.length > most) return;
+  const first = await wallsOf(given, asked);
+  if (mine !== measured || !(first.refused || first.thinnest_mm < PRINTS)) return;
+  const words = thinWords(first);
+  warn('thin', words);
+  hear(words);
+  for (let wide = 1.1 * first.width_mm; wide < 2.1 * first.width_mm; wide *= 1.15) {
+    const arms = Number(wide.toPrecision(2)), tried = await wallsOf(given, arms);
+    if (mine !== measured) return;
+    if (tried.thinnest_mm >= PRINTS) return warn('thin', words, [[`Make the arms ${arms} mm wide`, () => makeArms(arms)]]);
+  }
+  const size = widthOf(frame), larger = Number((size * (first.refused ? 4 : (1.05 * PRINTS) / first.thinnest_mm)).toPrecision(2)), units = frame.units || 'mm';
+  if (source && !(first.refused && asked)) warn('thin', first.refused ? words : `${words} Wider arms have no room: the whole is too small.`, [[`Build the whole ${larger} ${units} wide, not ${Number(size.toPrecision(3))} ${units}`, () => setWhole(larger)]]);
+}
+
+// Pieces of other arms than are asked for are shown and saved no longer.
+function setArms(width) {
+  $('width').value = String(width);
+  remember();
+  showKit({});
+  watchWalls();
+}
+
+function makeArms(width) {
+  setArms(width);
+  $('kit-questions').requestSubmit();
+}
+
+function setWhole(width) {
+  $('wide').value = String(width);
+  $('width').value = '';
+  readAgain();
+  goTo('question-title');
+}
+
+const capital = (words) => words[0].toUpperCase() + words.slice(1);
+const sentences = (lines) => lines.map((line) => `${capital(line)}.`).join(' ');
+
+// Hears of a part of the work that is done: the bar, and words, those of the program if none are given, with a percentage.
+const showDone = (words) => (line) => {
+  const {done, what} = progressWords(line);
+  if (!(done > 0)) return;
+  $('bar').value = done;
+  $('work').textContent = `${words ?? capital(what)} .. ${Math.floor(100 * done)} %`;
+  hear($('work').textContent, true);
+};
+
+// What the command line writes of a kit: {'kit/kit.3mf': bytes ..}, and what it says.
+function showKit(files, lines = []) {
+  const figure = $('kit-picture'), picture = files['kit/kit.png'], parts = Object.entries(files).filter(([file]) => /\.stl$/.test(file));
+  kit = files;
+  warn('zip-said', ''); // of other files
+  $('kit-said').textContent = sentences(lines);
+  figure.replaceChildren(caption('Here comes a picture of the pieces with the cords in them, and below it the files for your printer. Ten pieces take seconds, fifty a minute or two.'));
+  listFiles($('kit-files'), [...Object.keys(files).filter((file) => !/\.stl$/.test(file)).map((file) => [file.replace('kit/', ''), () => files[file], purpose(file)]),
+    ...(parts.length ? [['stl.zip', () => zip(Object.fromEntries(parts.map(([file, bytes]) => [file.replace('kit/', ''), bytes]))), purpose('stl.zip')]] : [])]);
+  if (!picture) return;
+  const image = new Image();
+  image.alt = 'The pieces in their places, translucent, with the cords in them';
+  image.src = URL.createObjectURL(new Blob([picture], {type: 'image/png'}));
+  figure.replaceChildren(image);
+}
+
+async function makeKit(event) {
+  event.preventDefault();
+  complain('');
+  showKit({});
+  busy('Making the pieces ..', 'Stop', 'Making the pieces', 0, false);
+  const {width, bed, names, key} = answers(), args = ['kit', 'plan.json', '--bed', bed.replaceAll(' ', '').replace('×', 'x'), '--names', names, '--key', key];
+  if (width) args.push('--width', width);
+  const {exit, stdout, stderr, files} = await engine.run([...args, '--stl', '--progress', '--json', '-o', 'kit'], {'plan.json': plan}, {onLine: showDone('Making the pieces')});
+  busy('');
+  if (exit !== 0) {
+    complain(exit === -1 ? 'Stopped: no pieces were made.' : lastLine(stderr));
+    return;
+  }
+  const lines = stderr.trim().split('\n').filter((line) => /^thread: (?!written to )/.test(line));
+  showKit(files, lines.map((line) => inWords(line.replace(/^thread: /, ''))));
+  $('viewer').srcdoc = text(files['kit/kit.html']); // the same steps, with these pieces
+  const report = JSON.parse(stdout);
+  if (report.thinnest_mm < PRINTS && $('thin').hidden) warn('thin', thinWords(report), [['Find arms that are wide enough', () => watchWalls(Infinity)]]);
+  hear($('kit-said').textContent);
+  goTo('kit-title');
 }
 
 // ---- events ----
@@ -956,6 +1046,7 @@ function listenForFiles() {
       drop.classList.toggle('over', kind === 'dragover');
       if (kind === 'drop' && event.dataTransfer.files[0] && !working) openFile(event.dataTransfer.files[0]);
     });
+  $('example').addEventListener('change', () => ($('take-example').disabled = false));
   $('examples').addEventListener('submit', (event) => {
     event.preventDefault();
     example($('example').value);
@@ -971,6 +1062,7 @@ async function begin() {
     if (event.target.id === 'pull') advise();
   });
   $('reading-questions').addEventListener('change', readAgain);
+  $('wide').addEventListener('change', readAgain);
   $('reading-questions').addEventListener('submit', (event) => event.preventDefault());
   $('picking').addEventListener('change', () => (sketch.picksByTap = $('picking').checked));
   $('back').addEventListener('click', () => {
@@ -981,6 +1073,7 @@ async function begin() {
     $(form).addEventListener('submit', make);
     $(form).addEventListener('change', remember);
   }
+  $('kit-questions').addEventListener('input', () => showKit({})); // not at its end, when a finger is on the button, which would move
   $('width').addEventListener('change', () => watchWalls());
   $('stop').addEventListener('click', () => engine.stop());
   $('undo').addEventListener('click', undo);
@@ -990,7 +1083,7 @@ async function begin() {
   $('rim').addEventListener('click', () => feetWhere('rim'));
   $('booklet').addEventListener('click', openBooklet);
   $('mat').addEventListener('click', openMat);
-  $('all').addEventListener('click', saveAll);
+  $('all').addEventListener('click', offerZip);
   document.addEventListener('keydown', (event) => {
     if ((event.ctrlKey || event.metaKey) && event.key === 'z' && event.target.tagName !== 'INPUT' && !working) undo();
   });

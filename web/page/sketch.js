@@ -66,7 +66,27 @@ class Sketch {
       }
     this.drawCords(pen, at);
     pen.fillStyle = colour('--foot');
-    for (const v of feet) pen.fillRect(at[v][0] - wide / 2 - 2, at[v][1] - wide / 2 - 2, wide + 4, wide + 4);
+    const half = Math.max(wide / 2 + 2, 5);
+    for (const v of feet) pen.fillRect(at[v][0] - half, at[v][1] - half, 2 * half, 2 * half);
+    this.drawNames(pen, [...feet].map((v) => at[v]), [...feet].map((v) => String(frame.names ? frame.names[v] : v)), half, colour('--soft'));
+  }
+
+  // The name of every foot beside, below or above it, where there is room between the other feet and the names before.
+  drawNames(pen, at, names, half, halo) {
+    const high = 15, taken = at.map(([x, y]) => [x - half, x + half, y]);
+    pen.font = `600 ${high - 2}px system-ui, sans-serif`;
+    pen.textBaseline = 'middle';
+    pen.strokeStyle = halo;
+    pen.lineWidth = 4;
+    at.forEach(([x, y], i) => {
+      const wide = pen.measureText(names[i]).width, aside = half + 3, over = half + high / 2 + 3;
+      const isFree = ([left, level]) => left >= 0 && left + wide <= this.canvas.clientWidth && !taken.some(([from, to, other]) => left < to && left + wide > from && Math.abs(level - other) < high);
+      const place = [[x + aside, y], [x - aside - wide, y], [x - wide / 2, y + over], [x - wide / 2, y - over]].find(isFree);
+      if (!place) return;
+      taken.push([place[0], place[0] + wide, place[1]]);
+      pen.strokeText(names[i], ...place);
+      pen.fillText(names[i], ...place);
+    });
   }
 
   // Every pass in a lane of its own: the first in the middle of its edge, others left and right of it.
