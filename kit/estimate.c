@@ -18,9 +18,9 @@
 #include <math.h>
 
 /* Points in all pieces together, by which their volume is known within 1 % (tests/unit/test_kit.c;
- * deviations from the meshes are 0.5 % and less), and how many pieces a kit is estimated for: both
- * bound the time, to 0.2 s. */
-enum { POINTS = 100000, MOST_PIECES = 1000 };
+ * deviations from the meshes are 0.5 % and less), and of how many pieces and edges a kit is
+ * estimated: they bound the time, to 0.2 s. */
+enum { POINTS = 100000, MOST_PIECES = 1000, MOST_EDGES = 4000 };
 
 /* Returns whether a point is inside the solid. */
 static bool is_inside(thr_kit_solid *solid, const double at[3])
@@ -161,7 +161,8 @@ thr_status thr_kit_estimate_make(thr_kit_estimate *estimate, const thr_plan *pla
   estimate->physics.bead_mass = 0;
   double mm;
   thr_err unknown;
-  if (st || estimate->pieces > MOST_PIECES || thr_units_in_mm(plan->frame.units, &mm, &unknown))
+  if (st || estimate->pieces > MOST_PIECES || plan->frame.n_edges > MOST_EDGES ||
+      thr_units_in_mm(plan->frame.units, &mm, &unknown))
     return st;
 
   thr_kit kit;

@@ -227,6 +227,12 @@ static thr_status find_sizes(const thr_plan *plan, thr_sheets_options *options, 
   thr_mat *mat;
   thr_kit_estimate kit;
   thr_err refused;
+
+  /* Of what is larger nobody prints a mat; its sizes would take longer than its sheets. */
+  enum { MOST_EDGES = 4000 };
+  options->no_mat = plan->frame.n_edges > MOST_EDGES;
+  if (options->no_mat) return THR_OK;
+
   const thr_status st = thr_mat_make(&mat, plan, options->page, options->kind_tolerance, &refused);
   thr_mat_destroy(mat);
   if (st == THR_ENOMEM) return thr_nomem(err);
