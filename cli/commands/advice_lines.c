@@ -66,7 +66,6 @@ void advice_put_hint(const thr_plan *plan, bool unsaid, thr_text *text)
  * says why. */
 static void put_holds(const thr_plan *plan, double seats, double holds, thr_text *text)
 {
-  const double weight = thr_eval_weight(&plan->frame, &plan->options.physics);
   char force[64];
   if (!(holds > much_more * seats)) return;
   thr_text_append(text, "         that seats the cords; to hold the pieces until all is knotted ");
@@ -79,6 +78,7 @@ static void put_holds(const thr_plan *plan, double seats, double holds, thr_text
 
   /* What holds is in proportion to the weight, which a maker can change. */
   if (holds > thr_hand_most) {
+    const double weight = thr_eval_weight(&plan->frame, &plan->options.physics);
     thr_text_printf(text, ":\n         the pieces, with square arms, weigh %s N in all (",
                     thr_plain_newtons(weight, force));
     plain_put_material(text, &plan->options.physics);
