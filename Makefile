@@ -20,7 +20,7 @@ V ?=
 
 # What the demo runs; DEMO_OUT holds plan.json and the drawing
 DEMO_OUT = $(OUT)/demo
-DEMO = plan data/dome7.json --objective length -o $(DEMO_OUT)/plan.json --draw $(DEMO_OUT)
+DEMO = plan data/dome7.json -o $(DEMO_OUT)/plan.json --draw $(DEMO_OUT)
 
 # Debian 12 packages
 BUILD_PACKAGES := build-essential pkg-config libglpk-dev libigraph-dev libnauty2-dev libbullet-dev \
