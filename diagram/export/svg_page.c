@@ -496,7 +496,7 @@ static thr_status draw_text(svg_reader *reader, const svg_tag *tag)
 {
   static const char *const name[] = {"x", "y"};
   double at[2];
-  thr_slice words;
+  thr_slice words = {0};
   thr_line line;
 
   thr_status st = push(reader, tag);
@@ -596,7 +596,7 @@ static thr_status close_element(svg_reader *reader, const svg_tag *tag)
 /* Reads one element, or its beginning or end. */
 static thr_status read_element(svg_reader *reader, const svg_tag *tag)
 {
-  thr_slice words;
+  thr_slice words = {0};
   if (tag->closes) return close_element(reader, tag);
 
   /* Shapes have no content. */
