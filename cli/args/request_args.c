@@ -748,30 +748,9 @@ static void copy_rows(const thr_request *asked, thr_request *request)
   }
 }
 
-/* Notes what was asked for and changes nothing, or costs cord for nothing. */
-static void note_useless(const request_args *args, const thr_frame *frame,
-                         const thr_request *request)
+/* Notes what was asked for and changes nothing. */
+static void note_useless(const request_args *args, const thr_request *request)
 {
-  int passes = 0, at_feet = 0;
-
-  /* A pass from foot to foot counts twice at the feet: both ends of one cord find room in it. */
-  for (int e = 0; e < frame->n_edges; e++) {
-    const int cover = thr_plan_cover(frame, request, e);
-    passes += cover;
-    at_feet += cover * (frame->foot[frame->edge[e][0]] + frame->foot[frame->edge[e][1]]);
-  }
-
-  /* More cords than passes: the others go where cords go already. A closed cord needs two passes.
-   */
-  if (args->least > passes)
-    cli_note("note: %d cords for %d %s: some only repeat what others pass; with %d or fewer none "
-             "has to",
-             args->least, passes, cli_plural(passes, "pass", "passes"), passes);
-  else if (request->ends == THR_ENDS_FEET && at_feet > 1 && 2 * args->least > at_feet)
-    cli_note("note: %d cords have %d ends for %d passes at the feet: with more than %d %s passes "
-             "there are repeated",
-             args->least, 2 * args->least, at_feet, at_feet / 2,
-             cli_plural(at_feet / 2, "cord", "cords"));
   if (args->minimize && request->cords == 1 && thr_wants_largest(request) &&
       !thr_wants_pull(request))
     cli_note("note: one cord is the one that turns most: --minimize max-turning changes nothing; "
@@ -805,6 +784,6 @@ int request_args_apply(const request_args *args, const thr_frame *frame, thr_req
     code = cli_resolve_ends(args->ends, frame, request);
   }
 
-  if (!code) note_useless(args, frame, request);
+  if (!code) note_useless(args, request);
   return code;
 }

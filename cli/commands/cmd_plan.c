@@ -216,6 +216,35 @@ static void note_idle_limit(const plan_arguments *args, const thr_plan *plan)
              limit);
 }
 
+/* Notes the cords without which every interface would still be covered: more were asked for than
+ * are of use. O(passes). */
+static void note_repeats(const plan_arguments *args, const thr_plan *plan)
+{
+  if (args->request.most < 2 || plan->options.distinct > 1) return;
+  int *passes = thr_calloc((size_t)plan->frame.n_edges, sizeof *passes);
+  if (!passes) return;
+
+  /* The last ones first: a cord is taken away for good if enough passes are left where it goes. */
+  int n = 0;
+  thr_cords_add_passes(plan->cord, plan->n_cords, 1, passes);
+  for (int i = plan->n_cords - 1; i >= 0; i--) {
+    const thr_cord *cord = &plan->cord[i];
+    bool is_needed = false;
+    thr_cords_add_passes(cord, 1, -1, passes);
+    for (int j = 0; j < cord->n_passes && !is_needed; j++) {
+      const int edge = cord->half[j] / 2;
+      is_needed = passes[edge] < thr_plan_cover(&plan->frame, &plan->options, edge);
+    }
+    if (is_needed) thr_cords_add_passes(cord, 1, 1, passes);
+    n += !is_needed;
+  }
+  free(passes);
+
+  if (n)
+    cli_note("note: %d of the %d cords only %s what others pass: %d would do", n, plan->n_cords,
+             n > 1 ? "repeat" : "repeats", plan->n_cords - n);
+}
+
 /* Makes a plan for a framework and writes all that is asked for. Releases the framework, of which
  * the plan has a copy. Returns an exit code. */
 static int plan_frame(const plan_arguments *args, thr_frame *framework)
@@ -242,6 +271,7 @@ static int plan_frame(const plan_arguments *args, thr_frame *framework)
     int planned_code = st ? EXIT_LIMIT : EXIT_OK;
     const bool is_plan = st == THR_OK || (st == THR_ELIMIT && result.plan.n_cords > 0);
     if (is_plan) note_idle_limit(args, &result.plan);
+    if (is_plan) note_repeats(args, &result.plan);
     if (is_plan) code = plan_write_outputs(args, &result, &planned_code);
     if (code == EXIT_OK) code = st ? cli_fail(&err) : planned_code;
   }
