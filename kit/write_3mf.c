@@ -12,7 +12,6 @@
 
 #include "diagram/export/export_parts.h"
 #include "graph/arrays.h"
-#include "graph/number.h"
 
 #include <math.h>
 #include <stdlib.h>

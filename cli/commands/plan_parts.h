@@ -11,7 +11,6 @@
 #include "graph/io/json.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
-#include "graph/status.h"
 #include "planner/planner.h"
 
 /* The command line. Strings point into argv. */

@@ -10,7 +10,6 @@
 #include "graph/arrays.h"
 
 #include <ctype.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
