@@ -9,8 +9,6 @@
  * sharp. */
 #include "kit/picture.h"
 
-#include "diagram/scene/scene.h"
-#include "diagram/space/space.h"
 #include "graph/number.h"
 
 #include <math.h>

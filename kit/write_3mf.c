@@ -11,7 +11,6 @@
 #include "kit/files.h"
 
 #include "diagram/export/export_parts.h"
-#include "graph/arrays.h"
 
 #include <math.h>
 #include <stdlib.h>
