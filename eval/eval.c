@@ -10,8 +10,6 @@
  * Example: a cord that turns by 360 degrees, mu = 0.2, seating tension 1 N, pulled at one end: 1 N
  * x exp(0.2 x 2 pi) = 3.5 N. */
 #include "eval/eval.h"
-#include "eval/structure/beads.h"
-#include "graph/plan/physics.h"
 #include "graph/plan/plan_measures.h"
 
 #include <inttypes.h>

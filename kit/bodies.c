@@ -11,7 +11,6 @@
  * middle. */
 #include "kit/kit.h"
 
-#include "graph/arrays.h"
 #include "graph/number.h"
 
 #include <math.h>

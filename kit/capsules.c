@@ -15,7 +15,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* So short a list is not worth parting; so deep is the tree at most. */
 enum { SHORT = 3, DEEPEST = 12 };

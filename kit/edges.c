@@ -6,7 +6,6 @@
  * then channels bend least and seldom meet. */
 #include "kit/kit.h"
 
-#include "graph/arrays.h"
 #include "graph/number.h"
 
 #include <math.h>

@@ -11,7 +11,6 @@
  *
  * Example: the 7 x 7 dome has 49 pieces of about 62 cm3, of which the meshes have 61.7 cm3. */
 #include "kit/files.h"
-#include "kit/kit.h"
 
 #include "graph/number.h"
 

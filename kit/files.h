@@ -7,10 +7,7 @@
 #ifndef THR_KIT_FILES_H
 #define THR_KIT_FILES_H
 
-#include "diagram/layout/layout.h"
 #include "diagram/scene/movement.h"
-#include "graph/status.h"
-#include "graph/text.h"
 #include "kit/kit.h"
 
 #include <stdbool.h>

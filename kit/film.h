@@ -17,11 +17,6 @@
 #define THR_FILM_H
 
 #include "diagram/scene/movement.h"
-#include "diagram/space/space.h"
-#include "graph/limits.h"
-#include "graph/status.h"
-#include "graph/text.h"
-#include "kit/kit.h"
 #include "kit/picture.h"
 
 #include <stdbool.h>

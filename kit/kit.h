@@ -19,8 +19,6 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
-#include "graph/limits.h"
-#include "graph/status.h"
 #include "graph/text.h"
 #include "kit/mesh.h"
 

@@ -14,8 +14,6 @@
 
 #include "diagram/overview/overview_parts.h"
 #include "diagram/tables/tables.h"
-#include "graph/arrays.h"
-#include "graph/framework/frame.h"
 #include "graph/number.h"
 
 #include <math.h>

@@ -9,12 +9,9 @@
  * sharp. */
 #include "kit/picture.h"
 
-#include "diagram/scene/scene.h"
-#include "diagram/space/space.h"
 #include "graph/number.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

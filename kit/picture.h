@@ -8,8 +8,6 @@
 #define THR_KIT_PICTURE_H
 
 #include "diagram/space/space.h"
-#include "graph/status.h"
-#include "graph/text.h"
 #include "kit/kit.h"
 
 #include <stdbool.h>

@@ -11,7 +11,6 @@
  * they are round. */
 #include "kit/files.h"
 
-#include "graph/arrays.h"
 #include "graph/number.h"
 
 #include <math.h>

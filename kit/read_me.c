@@ -9,7 +9,6 @@
  * Example: "X-13-print-4x.stl ..: print 4 of it". */
 #include "kit/files.h"
 
-#include "diagram/scene/scene.h"
 #include "graph/number.h"
 
 #include <math.h>

@@ -11,8 +11,6 @@
 #include "kit/files.h"
 
 #include "diagram/export/export_parts.h"
-#include "graph/arrays.h"
-#include "graph/number.h"
 
 #include <math.h>
 #include <stdlib.h>

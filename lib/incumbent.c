@@ -8,8 +8,6 @@
  * that. Better cords that come sooner wait, the best of them, until it is time, and the plan that
  * the search ends with is always told last. */
 #include "graph/check/check.h"
-#include "graph/plan/physics.h"
-#include "graph/plan/plan_measures.h"
 #include "lib/lib.h"
 #include "planner/planner.h"
 #include "symmetry/cover/cover.h"

@@ -13,7 +13,6 @@
  * Example: a geodesic dome of 26 pieces, 200 mm wide, on 4 cords has 31 of 71 faces open at 50 N,
  * of which 3 N are left in the middle of cord B. On 8 cords it comes up at 37 N, on 4 at 340 N;
  * from a heap 5 faces close. */
-#include "graph/number.h"
 #include "lib/rise_pieces.h"
 
 #include <math.h>

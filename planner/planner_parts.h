@@ -5,7 +5,6 @@
 #ifndef THR_PLANNER_PARTS_H
 #define THR_PLANNER_PARTS_H
 
-#include "graph/plan/plan_measures.h"
 #include "graph/plan/turning_proof.h"
 #include "planner/planner.h"
 #include "tortuosity/proof/branch.h"

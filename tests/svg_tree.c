@@ -4,7 +4,6 @@
 #include "graph/status.h"
 
 #include <check.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -6,7 +6,6 @@
 #include "tests/attack.h"
 #include "tests/plans.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -10,7 +10,6 @@
 
 #include "cli/commands/commands.h"
 #include "cli/print/print.h"
-#include "graph/plan/physics.h"
 #include "graph/plan/plan_measures.h"
 #include "graph/plan/request.h"
 #include "planner/planner.h"

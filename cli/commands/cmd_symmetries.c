@@ -25,7 +25,6 @@
 #include "lib/lib.h"
 #include "symmetry/symmetry.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

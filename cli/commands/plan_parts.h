@@ -4,14 +4,11 @@
 #ifndef THR_PLAN_PARTS_H
 #define THR_PLAN_PARTS_H
 
-#include "cli/args/args.h"
 #include "cli/commands/commands.h"
 #include "cli/print/print.h"
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"
-#include "graph/plan/plan.h"
 #include "graph/plan/request.h"
-#include "graph/status.h"
 #include "planner/planner.h"
 
 /* The command line. Strings point into argv. */

@@ -9,9 +9,6 @@
  * clip-path="url(#p3-clip-1)". */
 #include "diagram/export/paper.h"
 
-#include "graph/status.h"
-#include "graph/text.h"
-
 #include <string.h>
 
 /* What stands before an id or a reference to one. */

@@ -16,7 +16,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 enum { SIDES = 16, STATIONS = 3 }; /* of the bore; along it */
 static const double ARM = 25;      /* mm from the corner to an end */

@@ -14,7 +14,6 @@
 #include "diagram/overview/overview.h"
 #include "diagram/overview/overview_parts.h"
 #include "diagram/scene/scene.h"
-#include "graph/framework/frame.h"
 #include "graph/io/json.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"

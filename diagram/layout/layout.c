@@ -11,7 +11,6 @@
  * since no ratio (at most 1) can be 1.25 times as large. */
 
 #include "diagram/layout/layout.h"
-#include "graph/framework/frame.h"
 #include "graph/arrays.h"
 
 #include <math.h>

@@ -18,7 +18,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static const double SMALLER =
     0.97; /* so much smaller a sheet is worth another direction or a cut off the equator */

@@ -12,7 +12,6 @@
  * Example: a cube opened below is a small square in a large one, with four edges between their
  * corners. */
 #include "diagram/layout/layout.h"
-#include "graph/number.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -11,7 +11,6 @@
 
 #include "diagram/overview/overview.h"
 #include "graph/plan/plan_measures.h"
-#include "graph/plan/physics.h"
 
 #include <math.h>
 #include <stdio.h>

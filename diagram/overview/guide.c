@@ -17,7 +17,6 @@
 #include "graph/plan/plan_measures.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -14,7 +14,6 @@
  * line with steps at x = 50 and 100, a triangle at (0, 20) and a circle at (125, 7). */
 #include "diagram/overview/chart.h"
 #include "diagram/overview/overview.h"
-#include "diagram/scene/scene.h"
 #include "graph/plan/plan_measures.h"
 #include "graph/plan/physics.h"
 

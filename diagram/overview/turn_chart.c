@@ -5,9 +5,6 @@
 #include "diagram/overview/charts.h"
 #include "graph/number.h"
 
-#include <math.h>
-#include <stdio.h>
-
 /* Lengths in mm on paper. */
 static const double LEFT = 22, RIGHT = 12, PLOT = 80;
 enum { MOST_TICKS = 8 };

@@ -8,7 +8,6 @@
 #include "diagram/scene/scene.h"
 
 #include "diagram/overview/overview.h"
-#include "graph/number.h"
 
 #include <math.h>
 

@@ -7,7 +7,6 @@
  * lanes the cord runs straight. */
 #include "diagram/scene/scene.h"
 
-#include "graph/arrays.h"
 #include "graph/number.h"
 
 #include <math.h>

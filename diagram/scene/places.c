@@ -7,10 +7,8 @@
  * ("C4"), columns and rows are marked at the picture's rim. A place has one name everywhere, on
  * paper and on screen: that of its node in the file, or its number. */
 #include "diagram/scene/scene.h"
-#include "graph/arrays.h"
 
 #include <ctype.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

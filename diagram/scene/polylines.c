@@ -9,7 +9,6 @@
  * Example, OBJ: "o cord-A", "l 1 2 5" for a cord from node 0 by 1 to 4. */
 #include "diagram/scene/scene.h"
 
-#include "graph/framework/frame.h"
 #include "graph/io/read.h"
 #include "graph/io/json.h"
 

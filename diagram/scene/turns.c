@@ -4,8 +4,6 @@
  * than THR_SCENE_SHARP, 90 degrees, are sharp. */
 #include "diagram/scene/scene.h"
 
-#include <math.h>
-
 enum { MAX_PLACES = 5 };
 
 static const double SHARP_AT[MAX_PLACES] = {0.5, 0.4, 0.6, 0.3, 0.7}; /* along the curve */

@@ -11,8 +11,6 @@
  * is known. */
 #include "diagram/sheets/sheets_parts.h"
 
-#include "diagram/overview/overview.h"
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -5,7 +5,6 @@
  * Example: "49 pieces (4 L, 20 T, 25 X) that meet in 84 places, face to face; 4 feet; 1 cord, 86
  * passes, 1771 mm of cord." and "Goal: as little cord as possible; proved: with these options no
  * plan has less cord." */
-#include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "graph/plan/request.h"
 

@@ -4,7 +4,6 @@
  * The arms of such a hub run together in the picture and in an icon. The inset shows all of them
  * with one length, the two arms of the visit bold, and says by how many arms the needle goes on,
  * which can be counted on the piece in the hand: "out 4 on from in, clockwise". */
-#include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "graph/number.h"
 

@@ -7,7 +7,6 @@
  * ROOM mm. At most MOST_CARDS kinds have one, and none those that rows call by their places.
  *
  * Example: 25 kinds in rows of four make seven rows of 46 mm: two pages. */
-#include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "graph/plan/plan_measures.h"
 

@@ -6,11 +6,9 @@
  * force of a cord's two ends where the plan was evaluated (thread eval), else the cord's total
  * turning: by the capstan equation the force at the end grows as exp(mu * turning), so that the
  * order by turning is the order by force among cords that are pulled at one end. */
-#include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "graph/number.h"
 #include "graph/plan/plan_measures.h"
-#include "graph/plan/evaluation.h"
 
 #include <math.h>
 #include <stdio.h>

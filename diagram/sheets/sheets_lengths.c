@@ -8,7 +8,6 @@
  *
  * Example: 4 passes of 100 mm draw 300 + 200 + 100 + 0 = 600 mm from the end; from the fold 2 *
  * (100 + 0) = 200 mm. */
-#include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 
 #include <stdio.h>

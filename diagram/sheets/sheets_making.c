@@ -8,11 +8,8 @@
  *
  * Example: "8 Knots .. an overhand knot at each end (it takes 17 mm of the tail)", as a tight
  * overhand knot takes THR_SUPPLIES_KNOT = 16.4 diameters of a cord, here one of 1 mm. */
-#include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "graph/number.h"
-#include "graph/plan/evaluation.h"
-#include "graph/plan/plan.h"
 
 #include <math.h>
 #include <stdio.h>

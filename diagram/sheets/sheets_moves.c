@@ -9,7 +9,6 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Fills first_pass, first_visit, visited, threaded and move from the visits of all parts. */
 static void index_visits(thr_known *known)

@@ -5,7 +5,6 @@
  * Text is measured without the font, by a table of widths that is rather too wide than too narrow,
  * so that no line runs over the margin whatever font replaces DejaVu Sans. Coordinates are mm from
  * the page's upper left corner; flow->y is where the next line goes. */
-#include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 
 #include <ctype.h>

@@ -8,7 +8,6 @@
  *
  * Example: 40 kinds X-1 .. X-40 of one piece each, 2 cords in a bore of 3.2 mm, become the row "X
  * 40 pieces  4 arms  2 cords  3.20 mm". */
-#include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 
 #include <math.h>

@@ -6,7 +6,6 @@
  * their height decides which steps share a page (sheets_steps.c).
  *
  * Example of a row: "[ ] 17  pick up X-10 (B5): in from A5, out to C5". */
-#include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 
 #include <math.h>

@@ -7,7 +7,6 @@
  * layer: one element per stroke would make the booklet several times larger.
  *
  * Example: 17 visits make two rows of MANY = 12 places, the second with five icons. */
-#include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "graph/number.h"
 

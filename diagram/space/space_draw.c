@@ -5,7 +5,6 @@
  * Colours are paler the further away from the step a thing is in depth: a part FADE of white at
  * DEEP pitches. Within a layer pieces are sorted by depth (the painter's algorithm).
  * thr_space_whole draws all pieces in the same way, each with what runs in it. */
-#include "diagram/overview/overview.h"
 #include "diagram/space/space.h"
 #include "graph/arrays.h"
 #include "graph/number.h"

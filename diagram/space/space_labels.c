@@ -5,12 +5,10 @@
  * Each looks for the place where it hides least: numbers may not cover numbers, and names neither
  * numbers nor names, nor if possible cords and pieces. Numbers come first, then the names of the
  * places that the step comes to, then those of their neighbours where there is room. */
-#include "diagram/overview/overview.h"
 #include "diagram/space/space.h"
 #include "graph/number.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Draws the whole framework in small, from the same direction as a step's picture, with the step's
  * passes bold: where on the framework the step is. */
-#include "diagram/overview/overview.h"
 #include "diagram/space/space.h"
 
 #include <math.h>

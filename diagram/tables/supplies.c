@@ -10,9 +10,7 @@
  * = 63 mm more. */
 #include "diagram/tables/tables.h"
 
-#include "diagram/scene/scene.h"
 #include "graph/arrays.h"
-#include "graph/framework/frame.h"
 #include "graph/plan/physics.h"
 
 #include <math.h>

@@ -12,9 +12,7 @@
 #include "diagram/tables/tables.h"
 
 #include "diagram/overview/overview_parts.h"
-#include "diagram/scene/scene.h"
 #include "graph/number.h"
-#include "graph/framework/frame.h"
 #include "graph/plan/plan_measures.h"
 
 #include <math.h>

@@ -6,14 +6,10 @@
 
 #include "graph/arrays.h"
 #include "graph/check/check.h"
-#include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
-#include "graph/plan/plan.h"
 #include "graph/plan/plan_measures.h"
-#include "graph/plan/request.h"
-#include "graph/status.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -21,7 +21,6 @@
 
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"
-#include "graph/text.h"
 
 /* ---- stand.c: What a file may leave unsaid: which of its coordinates points up, and how large its
  * numbers are meant. */

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rows of advice: pull, order, choice, and what buys nothing. */
-#include "graph/plan/physics.h"
 #include "graph/plan/plan_measures.h"
 
 #include <math.h>

@@ -10,7 +10,6 @@
 #include "tests/plans.h"
 #include "tests/truth.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -14,7 +14,6 @@
 #include "tests/plans.h"
 #include "tests/support.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

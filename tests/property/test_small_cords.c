@@ -8,7 +8,6 @@
 #include "tests/support.h"
 #include "tests/walks.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

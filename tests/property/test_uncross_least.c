@@ -12,7 +12,6 @@
 #include "tests/frameworks.h"
 #include "tests/support.h"
 
-#include <stdio.h>
 #include <string.h>
 
 enum { MOST_EDGES = 9, MOST_PASSES = 64, MOST_STEPS = 300000 };

@@ -7,7 +7,6 @@
 #include "tests/plans.h"
 #include "tests/support.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -7,7 +7,6 @@
 #include "tests/processes.h"
 #include "tests/support.h"
 
-#include <errno.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdlib.h>

@@ -11,7 +11,6 @@
 #include "tests/support.h"
 #include "tortuosity/cords/join.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -14,8 +14,6 @@
 #include "tests/sample_plans.h"
 
 #include <check.h>
-#include <ctype.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -6,7 +6,6 @@
 #include "tests/frameworks.h"
 #include "tests/support.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

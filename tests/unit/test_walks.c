@@ -15,7 +15,6 @@
 #include "tortuosity/cords/walk_model.h"
 #include "tortuosity/proof/branch.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 enum { MOST = 64 };

@@ -6,7 +6,6 @@
 #include "tests/processes.h"
 #include "tests/support.h"
 
-#include <errno.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>

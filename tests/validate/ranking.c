@@ -8,7 +8,6 @@
 #include "graph/process/process.h"
 #include "tests/validate/validate.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <unistd.h>
 

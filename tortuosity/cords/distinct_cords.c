@@ -368,11 +368,6 @@ static thr_status try_from(distinct_search *search, const thr_cord *from, int de
   int steps = st ? 0 : steps_for(cord, search->n_cords);
   if (!st) st = exchange(search, first * pow(2, tries % 4), steps, cord, &found, err);
 
-  if (!st && found.lacking == 0) { /* the passes may be more than it takes now */
-    st = thr_distinct_shorten(search->frame, search->request, cord, search->n_cords, err);
-    if (!st) st = exchange(search, 0, 0, cord, &found, err);
-  }
-
   /* Exchange the cords with those of the incumbent, which are released below. */
   if (!st && is_better(search, found, best->objective)) {
     best->objective = found;
@@ -394,12 +389,11 @@ static bool has_faults(const incumbent *best)
 }
 
 /* Tries starts with the passes as they are, then with single detours, then with as many as edges
- * lack cords; then the other cords; and again what may be shorter. Later starts are only tried if
- * they are needed. */
+ * lack cords; then the other cords. Later starts are only tried if they are needed. */
 static thr_status try_all(distinct_search *search, const thr_cord *start, const thr_cord *other,
                           incumbent *best, thr_err *err)
 {
-  enum { PLAIN = 6, DETOURS = 4, AGAIN = 4 };
+  enum { PLAIN = 6, DETOURS = 4 };
   thr_status st = THR_OK;
   const bool aims = thr_wants_turning(search->request) ||
                     thr_wants_balance(search->request); /* that exchanges serve */
@@ -419,12 +413,6 @@ static thr_status try_all(distinct_search *search, const thr_cord *start, const 
   /* The other plan may be shorter, or serve the aims better. */
   bool longer = has_faults(best) || best->objective.length > length_of(search, start) * (1 + 1e-9);
   if (!st && other && (longer || aims)) st = try_from(search, other, 0, best, err);
-
-  /* Detours made the cords longer: other pairs may make some of them unnecessary. */
-  for (int i = 0; i < AGAIN && !st && !thr_limits_stop(search->limits) &&
-                  best->objective.length > length_of(search, start) * (1 + 1e-9);
-       i++)
-    st = try_from(search, best->cord, 0, best, err);
 
   return st;
 }

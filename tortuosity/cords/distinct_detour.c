@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Changes the passes of cords such that more different cords pass the edges: leads cords over edges
- * that lack cords by shortest detours, and removes circuits that are no longer needed.
+ * that lack cords by shortest detours.
  *
  * A detour leaves a cord at a node, passes the edge once and comes back to the node. It consists of
  * two shortest walks, one from either side of the edge to the node, the first of them reversed.
@@ -91,8 +91,6 @@ static bool may_follow(const cord_cover *cover, int in, int out)
          (thr_degree(cover->frame, thr_head(cover->frame, in)) == 1 &&
           cover->request->joint == THR_JOINT_SOLID);
 }
-
-/* ---- detours ---- */
 
 /* Computes the lengths of shortest walks without forbidden U-turns from half-edge start to all
  * half-edges, and the half-edge before each. Uses the queue of R. Bellman (1958) and E. F. Moore
@@ -286,91 +284,6 @@ thr_status thr_distinct_detours(const thr_frame *frame, const thr_request *optio
       st = detour_over(&cover, e, &found, err);
       done += found;
     }
-
-  cover_destroy(&cover);
-  return st;
-}
-
-/* ---- circuits ---- */
-
-/* Finds the longest circuit that begins with pass number `from` and is not needed. Returns the
- * number of its passes, or 0 if there is none. own_passes must be those of the cord. */
-static int find_spare_circuit(cord_cover *cover, const thr_cord *cord, int from, double *length)
-{
-  const int start = thr_tail(cover->frame, cord->half[from]),
-            in = from > 0 ? cord->half[from - 1] : -1;
-  int k = from, best = 0;
-  double sum = 0;
-  *length = 0;
-
-  /* Remove one pass after the other as long as its edge does not need the pass. */
-  for (; k < cord->n_passes; k++) {
-    int e = cord->half[k] >> 1, out = k + 1 < cord->n_passes ? cord->half[k + 1] : -1;
-    cover->passes[e]--;
-    cover->own_passes[e]--;
-    sum += cover->frame->length[e];
-    bool needed = cover->passes[e] < thr_plan_cover(cover->frame, cover->request, e) ||
-                  (cover->own_passes[e] == 0 && cover->different[e] <= cover->request->distinct);
-    bool last = needed || k + 1 == cord->n_passes;
-
-    /* Back at the start: the circuit may be removed if the rest makes no U-turn. */
-    if (!needed && thr_head(cover->frame, cord->half[k]) == start && in >= 0 && out >= 0 &&
-        may_follow(cover, in, out)) {
-      best = k + 1 - from;
-      *length = sum;
-    }
-    if (last) break;
-  }
-
-  /* Restore the counts. */
-  for (k = k < cord->n_passes ? k : cord->n_passes - 1; k >= from; k--) {
-    cover->passes[cord->half[k] >> 1]++;
-    cover->own_passes[cord->half[k] >> 1]++;
-  }
-
-  return best;
-}
-
-/* Removes the longest circuit of a cord that is not needed. Returns false if there is none. */
-static bool remove_circuit(cord_cover *cover, thr_cord *cord)
-{
-  int at = 0, n = 0;
-  double most = 0;
-  count_cord(cover, cord, 0);
-
-  /* Find the longest one over all beginnings. */
-  for (int from = 1; from < cord->n_passes; from++) {
-    double length;
-    int spare = find_spare_circuit(cover, cord, from, &length);
-    if (length <= most) continue;
-    most = length;
-    at = from;
-    n = spare;
-  }
-  if (n == 0) return false;
-
-  /* Remove its passes, and update the counts. */
-  count_cord(cover, cord, -1);
-  for (int k = at; k < at + n; k++)
-    cover->passes[cord->half[k] >> 1]--;
-  memmove(cord->half + at, cord->half + at + n,
-          (size_t)(cord->n_passes - at - n) * sizeof *cord->half);
-  cord->n_passes -= n;
-  count_cord(cover, cord, 1);
-  return true;
-}
-
-thr_status thr_distinct_shorten(const thr_frame *frame, const thr_request *options, thr_cord *cord,
-                                int n_cords, thr_err *err)
-{
-  cord_cover cover = {.frame = frame, .request = options, .cord = cord, .n_cords = n_cords};
-  if (options->joint == THR_JOINT_TUBE) return THR_OK;
-
-  /* Cord by cord, one circuit after the other, until none can be spared. */
-  thr_status st = cover_init(&cover, err);
-  for (int i = 0; i < n_cords && !st; i++)
-    while (remove_circuit(&cover, &cord[i]))
-      ;
 
   cover_destroy(&cover);
   return st;

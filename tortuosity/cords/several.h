@@ -91,30 +91,23 @@ thr_status thr_max_turning_small(const thr_turning_columns *turning_columns, con
 /* Changes cord[n_cords], a plan of the options (whose array is owned) of just so many cords, so
  * that more edges are passed by options.distinct different cords: by exchanges at the nodes at
  * random (simulated annealing), which keep the passes and serve the aims, too; where that does not
- * suffice, by detours over the edges that lack cords, as short as can be, and circuits that are
- * then no longer needed left out; and from other[n_cords] (NULL: none), another plan of the
- * options. Cords that keep to the options' greatest length and pull still do, and all together are
- * not longer than length_limit (< 0: none) unless they were. They stay a plan of the options, which
- * is perhaps longer, and are as before where nothing better is found. Counted steps: the same input
- * gives the same cords, unless the limits stop it. */
+ * suffice, by detours over the edges that lack cords, as short as can be; and from other[n_cords]
+ * (NULL: none), another plan of the options. Cords that keep to the options' greatest length and
+ * pull still do, and all together are not longer than length_limit (< 0: none) unless they were.
+ * They stay a plan of the options, which is perhaps longer, and are as before where nothing better
+ * is found. Counted steps: the same input gives the same cords, unless the limits stop it. */
 thr_status thr_distinct_make(const thr_frame *frame, const thr_request *options,
                              const thr_limits *limits, double length_limit, const thr_cord *other,
                              thr_cord *cord, int n_cords, thr_err *err) THR_MUST_CHECK;
 
-/* ---- distinct_detour.c: Detours and circuits. Private to the files for different cords. */
+/* ---- distinct_detour.c: Detours. Private to the files for different cords. */
 
 /* Leads some of the cords cord[n_cords] over edges that fewer than options.distinct different cords
- * pass, by at most `most` detours. A detour leaves a cord at a node,
- * turns back nowhere but at nodes with one edge, and comes back to its node. Each is a shortest one
- * for its edge. O(half-edges log half-edges + passes) each. */
+ * pass, by at most `most` detours. A detour leaves a cord at a node, turns back nowhere but at
+ * nodes with one edge, and comes back to its node. Each is a shortest one for its edge.
+ * O(half-edges log half-edges + passes) each. */
 thr_status thr_distinct_detours(const thr_frame *frame, const thr_request *options, thr_cord *cord,
                                 int n_cords, int most, thr_err *err) THR_MUST_CHECK;
-
-/* Removes circuits between two visits of a cord to one node that neither cover nor distinct needs,
- * the longest first; none with tube joints, which the circuits may tie. O(passes squared) of a cord
- * for each circuit. */
-thr_status thr_distinct_shorten(const thr_frame *frame, const thr_request *options, thr_cord *cord,
-                                int n_cords, thr_err *err) THR_MUST_CHECK;
 
 /* ---- Simulated annealing of turns and extra passes, for the least turning of single cords. Read
  * join.h first, then anneal_turns.c (the proposals and the run), then anneal_turns_parts.c (the
