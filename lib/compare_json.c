@@ -2,7 +2,7 @@
 /* Writes a comparison of plans as JSON, for `thread compare --json` and libthread.
  *
  * Example: {"plans": [{"plan": "a.json", "cords": 4, "largest_pull": 6.4, ..}, ..], "rankings":
- * [..], "agree": true}. */
+ * [..], "agree": true, "take": "a.json", "why": "3.5 N a cord instead of 6.4 N"}. */
 #include "graph/framework/frame.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/request.h"
@@ -93,4 +93,12 @@ void thr_compare_put_json(thr_writer *writer, int method, const thr_compare_entr
 
   /* Ties do not contradict each other. */
   thr_write_bool(writer, "agree", thr_compare_agree(rankings, count));
+  if (n < 2) return;
+
+  thr_text why = {0};
+  thr_compare_put_why(entries, n, method, &why);
+  thr_write_string(writer, "take", name[thr_compare_take(entries, n, method, -1)]);
+  thr_write_string(writer, "why", why.failed ? "" : why.data);
+  writer->out->failed |= why.failed;
+  thr_text_destroy(&why);
 }

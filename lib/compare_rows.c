@@ -73,7 +73,7 @@ const thr_compare_row thr_compare_rows[THR_COMPARE_ROWS] = {
     [LENGTH] = {"length", "length", true, 3, THR_CAPSTAN, false, false},
     [OVERLAP] = {"overlap", "overlap", true, 3, THR_CAPSTAN, false, false},
     [OVERLAP_PERCENT] = {"overlap %", "overlap_percent", true, 2, THR_CAPSTAN, false, false},
-    [ABOVE_SHORTEST] = {"above the shortest possible, %", "above_shortest_percent", false, -3,
+    [ABOVE_SHORTEST] = {"above shortest of its kind, %", "above_shortest_percent", false, -3,
                         THR_CAPSTAN, false, false},
     [GAP_PERCENT] = {"length: gap to its bound %", "gap_percent", false, -6, THR_CAPSTAN, false,
                      true},
@@ -266,22 +266,24 @@ bool thr_compare_is_best(const thr_compare_entry *entries, int n, int row, int i
   return true;
 }
 
-bool thr_compare_on_frontier(const thr_compare_entry *entries, int n, int i)
+thr_price thr_compare_price(const thr_compare_entry *entries, int n, int i)
 {
   thr_method method = THR_JOINT;
 
   for (int k = 0; k < n; k++)
     if (!is_known(&entries[k], THR_JOINT)) method = THR_CAPSTAN;
+  return (thr_price){entries[i].plan.n_cords, entries[i].plan.metrics.length,
+                     thr_compare_largest(&entries[i], method)};
+}
 
-  /* Pulls are measured ones if every plan has one, else those of the closed form. */
-  const thr_price mine = {entries[i].plan.n_cords, entries[i].plan.metrics.length,
-                          thr_compare_largest(&entries[i], method)};
+bool thr_compare_on_frontier(const thr_compare_entry *entries, int n, int i)
+{
+  const thr_price mine = thr_compare_price(entries, n, i);
 
-  for (int k = 0; k < n; k++)
-    if (thr_price_beats(&(thr_price){entries[k].plan.n_cords, entries[k].plan.metrics.length,
-                                     thr_compare_largest(&entries[k], method)},
-                        &mine))
-      return false;
+  for (int k = 0; k < n; k++) {
+    const thr_price other = thr_compare_price(entries, n, k);
+    if (thr_price_beats(&other, &mine)) return false;
+  }
 
   return true;
 }

@@ -13,6 +13,7 @@
 #include "graph/limits.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/status.h"
 #include "graph/text.h"
 
@@ -140,8 +141,11 @@ double thr_compare_largest(const thr_compare_entry *e, thr_method method);
  */
 bool thr_compare_is_best(const thr_compare_entry *e, int n, int row, int i);
 
-/* Returns whether plan i is on the frontier: no other plan beats it in cord, number of cords and
- * pull (as measured, if that of every plan is). */
+/* Returns what plan i of n costs: its pull is the measured one if that of every plan is known, else
+ * that of the closed form. */
+thr_price thr_compare_price(const thr_compare_entry *e, int n, int i);
+
+/* Returns whether plan i is on the frontier: no other plan beats its price. */
 bool thr_compare_on_frontier(const thr_compare_entry *e, int n, int i);
 
 /* ---- compare_rankings.c: A ranking for each question that was asked of the plans. */
@@ -165,6 +169,15 @@ bool thr_compare_agree(const thr_ranking *rankings, int count);
  * agreement says little, and the sentence says so. */
 void thr_compare_put_agreement(const thr_ranking *rankings, int count, const char *const *name,
                                thr_text *text);
+
+/* ---- compare_take.c: Which of several plans to take, and why. */
+
+/* Returns which of n plans to take by a method that was asked for; `without` is left out, -1:
+ * none. At least one plan must be left. */
+int thr_compare_take(const thr_compare_entry *entries, int n, int method, int without);
+
+/* Appends why that plan is to be taken rather than the next best one, of n >= 2. */
+void thr_compare_put_why(const thr_compare_entry *entries, int n, int method, thr_text *text);
 
 /* ---- compare_rise.c: Lets the structures that are compared rise. */
 
@@ -194,7 +207,8 @@ thr_status thr_compare_framework(const thr_compare_entry *entry, const thr_compa
 /* Returns whether two plans were evaluated with the same cord and beads. */
 bool thr_compare_same_physics(const thr_compare_entry *one, const thr_compare_entry *other);
 
-/* Writes the members of an open object: a row per plan, the rankings, and whether these agree.
+/* Writes the members of an open object: a row per plan, the rankings, whether these agree, and, of
+ * two plans and more, which one to take and why.
  * name[n]: of the plans. */
 void thr_compare_put_json(thr_writer *writer, int method, const thr_compare_entry *entries, int n,
                           const thr_ranking *rankings, int count, const char *const *name);

@@ -142,11 +142,18 @@ void compare_put_text(thr_text *text, const pull_args *args, const thr_compare_e
   else
     thr_text_append(text, "each plan's own\n");
 
+  thr_text_append(text, "of its kind: with as many cords, the same ends, as many passes an edge\n");
+
   /* One plan alone has nothing to be ranked with. */
   if (n < 2) return;
   thr_text_append(text, "frontier: no other plan is as good in cord, number of cords and pull, and "
                         "better in one of them\n");
-  thr_text_append(text, "\n");
+  thr_text_printf(
+      text, "\ntake %s rather than %s: ", name[thr_compare_take(entries, n, args->method, -1)],
+      name[thr_compare_take(entries, n, args->method,
+                            thr_compare_take(entries, n, args->method, -1))]);
+  thr_compare_put_why(entries, n, args->method, text);
+  thr_text_append(text, "\n\n");
 
   /* Rankings of two plans and more. */
   char at[THR_RANKING_ENDS][40];

@@ -122,7 +122,7 @@ const tests = {
     await made(page);
     assert.match(await result(page), /Every claim of this plan was verified/);
     await part(page, 'Your plan').getByText(/^The booklet has /).waitFor({timeout: 60000});
-    assert.match(await result(page), /\d cords?, [^]*m; pull [\d.]+ N at both ends[^]*Print 25 pieces[^]*The booklet has \d+ pages/);
+    assert.match(await result(page), /\d cords?, [^]*m; pull [\d.]+ N at both ends[^]*[\d.]+ m of cord, [\d.]+ mm thick: \d cords of[^]*25 pieces from a 3D printer, the largest about \d+ mm long: \d+ cm³, \d+ g of plastic[^]*Print 25 pieces[^]*The booklet has \d+ pages/);
     await part(page, 'Your plan').screenshot({path: file('result.png')});
     const plan = await download(page, 'plan.json');
     assert.match(thread('check', plan), /: holds: /, 'the installed program agrees');
@@ -144,8 +144,9 @@ const tests = {
       assert.ok(Math.abs(Number(n) * (unit === 'M' ? 1e6 : 1e3) - sizes[name]) <= (unit === 'M' ? 5e4 : 1e3), `${n} ${unit}B of ${sizes[name]} bytes`);
     }
     assert.ok(sizes['needed.zip'] < sizes['all.zip']);
+    assert.ok(sizes['all.zip'] < 0.6 * Number(execFileSync('python3', ['-c', 'import sys, zipfile; print(sum(i.file_size for i in zipfile.ZipFile(sys.argv[1]).infolist()))', file('all.zip')])), 'deflated');
     const listed = execFileSync('python3', ['-c', 'import sys, zipfile; z = zipfile.ZipFile(sys.argv[1]); assert z.testzip() is None; print(*z.namelist())', file('all.zip')], {encoding: 'utf8'});
-    assert.match(listed, /^README\.txt plan\.json sheets\.html mat\.html overview\.svg steps\.txt /);
+    assert.match(listed, /^README\.txt plan\.json booklet\.html mat\.html overview\.svg steps\.txt /);
     const readme = execFileSync('python3', ['-c', 'import sys, zipfile; sys.stdout.write(zipfile.ZipFile(sys.argv[1]).read("README.txt").decode())', file('all.zip')], {encoding: 'utf8'});
     assert.deepEqual(readme.match(/^\S+(?= {2,}\S)/gm), listed.trim().split(' ').slice(1), 'a line for each');
     for (const words of await page.getByRole('list', {name: 'Files, one by one'}).getByRole('listitem').allInnerTexts())
@@ -291,7 +292,7 @@ const tests = {
     fs.copyFileSync(file('ring.json'), own('plan.json')); // the plot names the plan
     const written = ['--play', 'rise.html', '--film', 'rise.png', '--plot', 'rise.svg', '--booklet', 'booklet.html', '-o', 'rise.json'];
     const said = execFileSync(program, ['rise', 'plan.json', '--pull', '1', ...written], {cwd: file('rise'), encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe']});
-    assert.deepEqual((await listed.getByRole('link').allInnerTexts()).sort(), ['booklet.html', 'rise.html', 'rise.json', 'rise.png', 'rise.svg']);
+    assert.deepEqual((await listed.getByRole('link').allInnerTexts()).sort(), ['rise.html', 'rise.json', 'rise.png', 'rise.svg']);
     // Contacts make much of the last digit of a sine: the same shape at last, a step of the pull earlier or later.
     const plain = (text) => text.replace(/\d+(\.\d+)?/g, '#');
     assert.match(plain(await film.innerText()), new RegExp(plain(said.split('\n')[1]), 'i'), 'what the command says');
@@ -313,6 +314,15 @@ const tests = {
     const [risen] = await Promise.all([page.context().waitForEvent('page'), page.getByRole('button', {name: 'Open the booklet to print'}).click()]);
     await risen.getByText('How it comes up').first().waitFor();
     await risen.close();
+
+    // Other arms for the pieces: the film says which it shows, and offers theirs.
+    assert.match(await film.innerText(), /Arms [\d.]+ mm wide, as for the pieces in part 5\.[^]*With arms [\d.]+ mm wide\./);
+    await page.getByLabel('How wide are the arms, in mm?').fill('9');
+    await page.getByLabel('How wide are the arms, in mm?').press('Tab');
+    await film.getByText(/^The film shows arms [\d.]+ mm wide, those of the pieces in part 5 are 9 mm wide\.$/).waitFor();
+    await film.getByRole('button', {name: 'Watch it with arms 9 mm wide'}).click();
+    await film.getByText(/^With arms 9 mm wide\. /).waitFor({timeout: 120000});
+    assert.equal(await film.getByRole('button', {name: 'Watch it with arms'}).count(), 0);
 
     // The player: it plays, and stops at the end; wide enough on a telephone.
     const player = page.frameLocator('iframe[title="The pieces as they rise"]');
@@ -552,7 +562,7 @@ const tests = {
     });
     await choose(page, file('unasked.json'));
     await page.getByText(/^Makes what is recommended: \d cords? with ends at the feet, [\d.]+ N to pull\.$/).waitFor({timeout: 60000});
-    await page.getByText(/^Done\. Marked are the fewest cords that a hand can pull again and again: its 10 N must do with rougher cord, too \(friction 0\.3: [\d.]+ N/).waitFor({timeout: 60000});
+    await page.getByText(/^Done\. Take \d+ cords at the feet: [\d.]+ N a cord instead of [\d.]+ N with \d+, for [^.]*cord\. Fewer cords are too hard for a hand: its 10 N must do with rougher cord, too \(friction 0\.3: [\d.]+ N/).waitFor({timeout: 60000});
     const counted = (await page.evaluate(() => saidOfRows)).map((words) => /^Still looking, (\d+) of (\d+) rows/.exec(words)).filter(Boolean).map(([, done]) => Number(done));
     assert.ok(counted.length > 5 && counted.every((done, i) => i === 0 || done >= counted[i - 1]) && counted.at(-1) > 1, `${counted}`);
     const offered = await page.locator('#cords option').allTextContents();

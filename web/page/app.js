@@ -1,7 +1,7 @@
 // The page: a framework, questions in plain words, a search, a plan.
 
 const $ = (id) => document.getElementById(id);
-const sources = [$('worker').textContent, inflate($('wasm').textContent).then((bytes) => WebAssembly.compile(bytes))];
+const sources = [$('worker').textContent, WebAssembly.compileStreaming(inflated($('wasm').textContent, 'application/wasm'))];
 const engine = new EngineClient(...sources), adviser = new EngineClient(...sources); // advice does not wait for a search
 const QUESTIONS = ['pull', 'cords', 'ends', 'aim', 'joint', 'seconds'];
 const READING_QUESTIONS = ['units', 'wide', 'up', 'weld', 'split', 'flat', 'pick', 'layers']; // about the file
@@ -193,6 +193,38 @@ function askWidth() {
   $('wide-said').textContent = `${$('wide').value ? 'It is now' : 'It is'} ${x} x ${y} ${units}, and ${z} ${units} high.`;
 }
 
+const DENSITY = 1.24; // g/cm3 of PLA, as the program has it
+
+const massWords = (grams) => (grams < 1000 ? `${Number(grams.toPrecision(2))} g` : `${Number((grams / 1000).toPrecision(2)).toLocaleString('en')} kg`);
+const materialWords = (cm3) => `${volumeWords(cm3)}, ${massWords(DENSITY * cm3)} of plastic (PLA, solid)`;
+
+// How far the ends of the largest piece are from each other, in mm: a piece reaches to the middles of its edges. NaN: of no unit.
+function largestPiece() {
+  const ends = frame.nodes.map(() => []);
+  for (const [a, b] of frame.edges) for (const node of [a, b]) ends[node].push(frame.nodes[a].map((x, k) => (x + frame.nodes[b][k]) / 2));
+  const across = ends.flatMap((all, node) => all.flatMap((p) => [...all, frame.nodes[node]].map((q) => Math.hypot(...p.map((x, k) => x - q[k])))));
+  return across.reduce((most, far) => Math.max(most, far), 0) * 1000 * (METRES[frame.units || 'mm'] ?? NaN);
+}
+
+// What is to be printed at this width, where it is asked. kit: what the program estimates of a plan; null: not known.
+function showNeeds(kit) {
+  const words = kit || !source ? [] : ['What there is to print at this width appears here.'];
+  if (kit?.volume_cm3) {
+    const largest = largestPiece() + kit.width_mm, bed = Number(/\d+/.exec($('bed').value) || Infinity);
+    words.push(`To print at this width: ${plural(kit.pieces, 'piece')}, the largest about ${sizeOf(largest)} long; ${materialWords(kit.volume_cm3)}.`);
+    if (largest > bed) words.push(`Too long for a printer's bed of ${bed} mm, unless they lie from corner to corner: less width helps.`);
+  }
+  if (kit?.refused) words.push(`${capital(inWords(kit.refused))}.`);
+  $('needs').textContent = words.join(' ');
+}
+
+const sizeOf = (mm) => (mm < 1000 ? `${Math.round(mm)} mm` : `${(mm / 1000).toFixed(1)} m`);
+
+const kitOf = async (client, given) => {
+  const {stdout} = await client.run(['info', 'plan.json', '--json'], {'plan.json': given});
+  return stdout.startsWith('{') ? JSON.parse(stdout).kit : null;
+};
+
 // Options of the program that say how the file is to be read. width: of the framework as it is read by the other answers.
 function readingArgs({width}, wide = answers().wide) {
   const {units, up, weld, split, flat, pick, layers} = answers(), args = [];
@@ -361,7 +393,7 @@ let advisedPlan = ''; // its plan, text of plan.json
 let takeAdvised = () => {}; // is told when it is there
 
 const ENDS = {feet: 'at the feet', any: 'anywhere', closed: 'in loops'};
-const newtons = (force) => `${force < 100 ? Number(force.toPrecision(2)) : Math.round(force)} N`;
+const newtons = (force, digits = 2) => `${force < 100 ? Number(force.toPrecision(digits)) : Math.round(force)} N`;
 
 // A length in the framework's units, in m where it is known how many there are.
 const METRES = {mm: 0.001, cm: 0.01, m: 1, in: 0.0254, ft: 0.3048};
@@ -379,6 +411,7 @@ async function advise() {
   advised = [];
   recommended = null;
   advisedPlan = '';
+  showNeeds(null);
   showAdvice('Looking how many cords a hand can pull ..');
   adviser.stop();
   const onLine = (line) => {
@@ -403,18 +436,23 @@ async function advise() {
   const {rows, recommended: best, command: typed, mu_high: rough} = JSON.parse(stdout);
   advised = rows;
   recommended = rows[best] || null;
-  showAdvice(recommended ? `Done. ${whyMarked(rough)}` : 'Done. No number of cords is easy enough for this hand.');
+  showAdvice(recommended ? `Done. ${whyTaken(rough)}` : 'Done. No number of cords is easy enough for this hand.');
   $('advice-more').hidden = !typed;
   $('advice-command').textContent = typed || '';
+  const needed = advisedPlan && (await kitOf(adviser, advisedPlan));
+  if (mine === asked && needed) showNeeds(needed);
 }
 
-// Why fewer cords, which the hand could pull by their figure in the table, are not recommended. rough: friction of a rougher cord.
-function whyMarked(rough) {
-  const [fewer] = advised.filter(({cords, ends}) => ends === recommended.ends && cords < recommended.cords).sort((a, b) => b.cords - a.cords);
-  const words = 'Marked are the fewest cords that a hand can pull again and again';
-  if (!(recommended.pull_high <= Number(hand()))) return `${words}.`;
-  const than = fewer ? `, ${fewer.cords} would take ${newtons(fewer.pull_high)}` : '';
-  return `${words}: its ${newtons(Number(hand()))} must do with rougher cord, too (friction ${rough}: ${newtons(recommended.pull_high)}${than}).`;
+// Which row to take and why: what a hand manages, then fewer cords, then less cord. rough: friction of a rougher cord.
+function whyTaken(rough) {
+  const {cords, ends, pull, length, pull_high: high} = recommended, force = Number(hand());
+  const [fewer] = advised.filter((row) => row.ends === ends && row.cords < cords).sort((a, b) => b.cords - a.cords);
+  const cordWords = (than) => (Math.abs(length / than - 1) < 0.001 ? 'for as much cord' : `for ${Number((100 * Math.abs(length / than - 1)).toPrecision(2))} % ${length > than ? 'more' : 'less'} cord`);
+  const words = [`Take ${plural(cords, 'cord')} ${ENDS[ends]}: ${newtons(pull)} a cord${fewer ? ` instead of ${newtons(fewer.pull)} with ${fewer.cords}, ${cordWords(fewer.length)}` : ''}.`];
+  if (high <= force) words.push(`Fewer cords are too hard for a hand: its ${newtons(force)} must do with rougher cord, too (friction ${rough}: ${newtons(high, 3)}${fewer ? `, with ${plural(fewer.cords, 'cord')} ${newtons(fewer.pull_high, 3)}` : ''}).`);
+  const other = advised.find((row) => row.ends !== ends && row.ends !== 'closed' && row.pull_high <= force && row.cords <= cords && row.length < 0.99 * length);
+  if (other) words.push(`A matter of taste: ${plural(other.cords, 'cord')} ${ENDS[other.ends]}, ${newtons(other.pull)} each, would be ${lengthWords(other.length)} in all, not ${lengthWords(length)}.`);
+  return words.join(' ');
 }
 
 const keyOf = ({cords, ends}) => `${cords} ${ends}`;
@@ -602,7 +640,10 @@ async function search(event) {
 
 // ---- 3: the result ----
 
+// The booklet shows how the pieces rise once that was seen.
 async function draw(type, file, tell = complain) {
+  const risen = type === 'sheets.html' && $('paper').value === risenOn && rise[RISEN];
+  if (risen) return risen;
   const {exit, stderr, files} = await engine.run(['draw', 'plan.json', '-T', type, '--page', $('paper').value, '-o', file], {'plan.json': plan});
   if (exit || !files[file]) tell(lastLine(stderr));
   return files[file];
@@ -623,8 +664,8 @@ const range = (values, words) => {
 
 const volumeWords = (cm3) => (cm3 < 1e5 ? `${Number(cm3.toPrecision(2))} cm³` : `${Number((cm3 / 1e6).toPrecision(2)).toLocaleString('en')} m³`);
 
-// The headline, the cords, and what to do.
-function showCords(rows, pulls, kit, first) {
+// The headline, the cords, what is needed and what to do.
+function showCords(rows, {cords: pulls, physics}, kit, first) {
   const lengths = rows.map((row) => Number(row.length)), cuts = rows.map((row) => Number(row.cut)), known = pulls.filter((pull) => pull?.known);
   const most = Math.max(...known.map((pull) => pull.force));
   $('headline').textContent = `${plural(rows.length, 'cord')}, ${rows.length > 1 ? 'each ' : ''}${range(lengths, lengthWords)} threaded, cut ${range(cuts, lengthWords)}${known.length ? `; pull ${newtons(most)} at both ends` : ''}`;
@@ -641,10 +682,14 @@ function showCords(rows, pulls, kit, first) {
   film.type = 'button';
   film.textContent = 'Go to the film';
   film.addEventListener('click', () => goTo('rise-title'));
-  const steps = ['Watch it rise in part 4 before anything is printed. The pull above seats the cords; the film shows whether they raise the pieces. ', `Cut ${plural(rows.length, 'cord')} of ${range(cuts, lengthWords)}: ends to hold and knots are in it.`,
-    `Print ${kit ? `${plural(kit.pieces, 'piece')}${kit.volume_cm3 ? `, about ${volumeWords(kit.volume_cm3)} of material` : ''}` : 'the pieces'}: part 5 below makes the files.`,
-    'Print the booklet, or open the steps below on a telephone.', first ? `Begin: ${first}.` : ''].filter(Boolean);
-  $('to-do').replaceChildren(...steps.map((words) => {
+  const thick = physics ? `, ${Number((physics.cord_diameter).toPrecision(2))} mm thick` : '', total = lengthWords(cuts.reduce((sum, cut) => sum + cut, 0));
+  const needs = [`${total} of cord${thick}: ${plural(rows.length, 'cord')} of ${range(cuts, lengthWords)}, ends to hold and knots in it`,
+    kit ? `${plural(kit.pieces, 'piece')} from a 3D printer, the largest about ${sizeOf(largestPiece() + (kit.width_mm || 0))} long${kit.volume_cm3 ? `: ${materialWords(kit.volume_cm3)}` : ''}` : 'the pieces',
+    known.length ? `a hand that pulls ${newtons(most)} at each end` : ''].filter(Boolean);
+  const steps = ['Watch it rise in part 4 before anything is printed. The pull above seats the cords; the film shows whether they raise the pieces. ',
+    `Print ${kit ? plural(kit.pieces, 'piece') : 'the pieces'}: part 5 below makes the files.`, 'Print the booklet, or open the steps below on a telephone.', 'Cut the cords.',
+    first ? `Begin: ${first}.` : ''].filter(Boolean);
+  for (const [list, lines] of [['needed', needs], ['to-do', steps]]) $(list).replaceChildren(...lines.map((words) => {
     const item = document.createElement('li');
     item.textContent = words;
     return item;
@@ -678,11 +723,14 @@ async function showResult() {
   $('command').textContent = made?.command || '';
   const {stdout: cords} = await engine.run(['draw', 'plan.json', '-T', 'cords.csv', '-o', '-'], given);
   const evaluated = await engine.run(['eval', 'plan.json', '--json'], given);
-  const {stdout: about} = await engine.run(['info', 'plan.json', '--json'], given);
+  const estimated = await kitOf(engine, plan);
   const {stdout: steps} = await engine.run(['draw', 'plan.json', '-T', 'steps', '-o', '-'], given);
   if (shown !== plan) return;
-  const pulls = evaluated.stdout.startsWith('{') ? JSON.parse(evaluated.stdout).evaluation.cords : [];
-  showCords(rowsOf(cords), pulls, about.startsWith('{') ? JSON.parse(about).kit : null, firstStep(steps));
+  const evaluation = evaluated.stdout.startsWith('{') ? JSON.parse(evaluated.stdout).evaluation : {cords: []};
+  planArms = estimated?.width_mm;
+  showNeeds(estimated);
+  showArms();
+  showCords(rowsOf(cords), evaluation, estimated, firstStep(steps));
   goTo('result-title');
   const viewer = await draw('html', 'viewer.html');
   if (viewer && shown === plan) $('viewer').srcdoc = text(viewer);
@@ -711,15 +759,15 @@ function showFirstPages(bytes, shown) {
 }
 
 // Its type, its name, what it is for.
-const FILES = [['plan', 'plan.json', 'the plan; drop it here again'], ['sheets.html', 'sheets.html', 'the booklet to print: every step with its picture'],
+const FILES = [['plan', 'plan.json', 'the plan; drop it here again'], ['sheets.html', 'booklet.html', 'the booklet to print: every step with its picture, and how they rise, once that was seen'],
   ['mat.html', 'mat.html', 'the mat to print: outlines of all pieces, true to size, to lay them on'], ['svg', 'overview.svg', 'a picture of all cords'],
   ['steps', 'steps.txt', 'the steps in words'], ['html', 'viewer.html', 'the steps in space'], ['cords.csv', 'cords.csv', 'what to cut'],
   ['beads.csv', 'beads.csv', 'which pieces'], ['steps.csv', 'steps.csv', 'the steps as a table'], ['channels.csv', 'channels.csv', 'the ways through pieces'],
   ['obj', 'cords.obj', 'the cords for CAD'], ['gltf', 'cords.gltf', 'the cords in colours'], ['dxf', 'cords.dxf', 'the cords for CAD, a layer each']];
 const KIT_FILES = {'kit.3mf': "all pieces on plates: open it in your printer's program", 'README.txt': 'how many of what to print, and how', 'kit.csv': 'what each piece measures', 'kit.png': 'a picture of the pieces, cords in them',
   'kit.html': 'the steps in space, with these pieces', 'stl.zip': 'each kind of piece as an STL file'};
-const RISE_FILES = {'rise.html': 'how they rise, to play', 'rise.png': 'the same as a moving picture', 'rise.svg': 'pull and closed faces as a chart',
-  'booklet.html': 'the booklet to print, with how they rise', 'rise.json': 'the same in numbers'};
+const RISEN = 'risen.html'; // the booklet with how the pieces rise, as the program writes it beside a film
+const RISE_FILES = {'rise.html': 'how they rise, to play', 'rise.png': 'the same as a moving picture', 'rise.svg': 'pull and closed faces as a chart', 'rise.json': 'the same in numbers'};
 const purpose = (file) => FILES.find(([, name]) => name === file)?.[2] || KIT_FILES[file.replace('kit/', '').replace(/-\d+(?=\.3mf$)/, '')] || RISE_FILES[file] || 'a kind of piece';
 
 // A line on each of some files, and on those that could not be made.
@@ -758,7 +806,7 @@ function listFiles(list, named) {
 }
 
 const sizeWords = (bytes) => (bytes < 1e6 ? `${Math.ceil(bytes / 1000)} kB` : `${(bytes / 1e6).toFixed(1)} MB`);
-const NEEDED = /^(plan\.json|sheets\.html|booklet\.html|cords\.csv|steps\.txt|kit\/(?:README\.txt|kit\.csv|.*\.3mf))$/; // by who makes it
+const NEEDED = /^(plan\.json|booklet\.html|cords\.csv|steps\.txt|kit\/(?:README\.txt|kit\.csv|.*\.3mf))$/; // by who makes it
 
 // Draws all that there is, then offers it with its size: all, or what is needed to make it.
 async function offerZip() {
@@ -768,14 +816,15 @@ async function offerZip() {
     const bytes = await contentOf(type, file, (why) => failed.push([file, `not made: ${why}`]));
     if (bytes) files[file] = bytes;
   }
+  Object.assign(files, kit, rise);
+  delete files[RISEN]; // is the booklet
+  const needed = Object.fromEntries(Object.entries(files).filter(([file]) => NEEDED.test(file)));
+  const choices = await Promise.all([['Save all', files, failed], ['Save booklet, cords and pieces alone', needed, []]].map(async ([title, some, lost]) => {
+    const packed = await zip({'README.txt': new TextEncoder().encode(readme(some, lost)), ...some});
+    return [`${title}: ${sizeWords(packed.size)}`, () => save(packed, `${name || 'plan'}.zip`)];
+  }));
   busy('');
   if (shown !== plan) return;
-  Object.assign(files, kit, rise);
-  const needed = Object.fromEntries(Object.entries(files).filter(([file]) => NEEDED.test(file)));
-  const choices = [['Save all', files, failed], ['Save booklet, cords and pieces alone', needed, []]].map(([title, some, lost]) => {
-    const packed = zip({'README.txt': new TextEncoder().encode(readme(some, lost)), ...some});
-    return [`${title}: ${sizeWords(packed.size)}`, () => save(packed, `${name || 'plan'}.zip`)];
-  });
   warn('zip-said', `${plural(Object.keys(files).length, 'file')}; pieces and film are among them once they are made.`, choices);
   $('zip-said').querySelector('button').focus();
 }
@@ -788,7 +837,7 @@ async function openBooklet() {
     const pages = /: (\d+ pages)/.exec(line)?.[1];
     if (pages) $('work').textContent = `Drawing the booklet: ${pages} ..`;
   };
-  const risen = $('paper').value === risenOn && rise['booklet.html']; // the same, and how it comes up
+  const risen = $('paper').value === risenOn && rise[RISEN]; // the same, and how it comes up
   const {exit, stderr, files} = risen ? {exit: 0, stderr: '', files: {'sheets.html': risen}}
     : await engine.run(['draw', 'plan.json', '-T', 'sheets.html', '--page', $('paper').value, '-o', 'sheets.html'], given, {onLine});
   busy('');
@@ -800,7 +849,7 @@ async function openBooklet() {
   const [head, pages] = pagesOf(bytes), show = (shown) => {
     const blob = new Blob([head, ...shown, '</body></html>'], {type: 'text/html'});
     if (page && !page.closed) page.location = URL.createObjectURL(blob);
-    else save(blob, 'sheets.html');
+    else save(blob, 'booklet.html');
   };
   if (pages.length <= LARGE) return show(pages);
   const first = firstPart(pages), words = $('booklet-said');
@@ -810,7 +859,7 @@ async function openBooklet() {
     button.textContent = title;
     button.addEventListener('click', () => {
       const opened = window.open(URL.createObjectURL(new Blob([head, ...pages.slice(0, n), '</body></html>'], {type: 'text/html'})), '_blank');
-      if (!opened) save(new Blob([head, ...pages.slice(0, n), '</body></html>'], {type: 'text/html'}), 'sheets.html');
+      if (!opened) save(new Blob([head, ...pages.slice(0, n), '</body></html>'], {type: 'text/html'}), 'booklet.html');
     });
     return button;
   });
@@ -860,6 +909,7 @@ function showRise(files, lines = []) {
   warn('zip-said', '');
   $('rise-said').textContent = sentences(lines);
   warn('rise-help', '');
+  showArms();
   listFiles($('rise-files'), Object.keys(RISE_FILES).filter((file) => files[file]).map((file) => [file, () => files[file], purpose(file)]));
   if (!files['rise.html']) {
     $('rise-picture').replaceChildren(caption('Here comes a film: the pieces lie loose, their cords are pulled, and they come up or stay down. Play it, stop it, turn it. Ten pieces take seconds, fifty minutes.'));
@@ -871,6 +921,19 @@ function showRise(files, lines = []) {
   $('rise-picture').replaceChildren(player);
 }
 
+let planArms; // mm, of the pieces unless another width is asked for
+let risenArms; // those of the film that is shown
+const armsNow = () => Number($('width').value) || planArms;
+const armsWords = (mm) => (mm ? `${Number(mm.toPrecision(3))} mm wide` : 'as the plan has them');
+
+// With which arms it rises, where that is asked; where the film shows others than the pieces have, the way to the same.
+function showArms() {
+  $('rise-arms').textContent = `Arms ${armsWords(armsNow())}, as for the pieces in part 5.`;
+  const differs = rise['rise.html'] && risenArms !== armsNow();
+  warn('rise-other', differs ? `The film shows arms ${armsWords(risenArms)}, those of the pieces in part 5 are ${armsWords(armsNow())}.` : '',
+    differs ? [[`Watch it with arms ${armsWords(armsNow())}`, () => $('rise-questions').requestSubmit()]] : []);
+}
+
 // The pieces are as wide as those to print.
 async function makeRise(event) {
   event.preventDefault();
@@ -880,7 +943,7 @@ async function makeRise(event) {
   if (most) args.push('--pull', most);
   if (raised.trim()) args.push('--raise', raised.trim());
   if (width) args.push('--width', width);
-  const outputs = ['--play', 'rise.html', '--film', 'rise.png', '--plot', 'rise.svg', '--booklet', 'booklet.html', '--page', $('paper').value, '-o', 'rise.json'];
+  const outputs = ['--play', 'rise.html', '--film', 'rise.png', '--plot', 'rise.svg', '--booklet', RISEN, '--page', $('paper').value, '-o', 'rise.json'];
   const {exit, stdout, stderr, files} = await engine.run([...args, ...outputs, '--progress'], {'plan.json': plan}, {onLine: showDone()});
   busy('');
   if (exit !== 0) {
@@ -889,8 +952,9 @@ async function makeRise(event) {
     return;
   }
   risenOn = $('paper').value;
+  risenArms = Number(width) || planArms;
   const lines = stdout.trim().split('\n');
-  showRise(files, lines.filter((line) => !HELPS[TRY.exec(line)?.[1]]).map((line) => inWords(line.replace(/^(try|or) +(.*) \(.*\)$/, '$1 $2'))));
+  showRise(files, [`with arms ${armsWords(risenArms)}`, ...lines].filter((line) => !HELPS[TRY.exec(line)?.[1]]).map((line) => inWords(line.replace(/^(try|or) +(.*) \(.*\)$/, '$1 $2'))));
   const {runs: [seen]} = JSON.parse(text(files['rise.json']));
   if (!seen.came_up) warn('rise-help', 'It does not come up like this. What may help, the likeliest first:', helpsRise(lines));
   hear(`${$('rise-said').textContent} ${$('rise-help').textContent}`);
@@ -970,6 +1034,7 @@ function setArms(width) {
   $('width').value = String(width);
   remember();
   showKit({});
+  showArms();
   watchWalls();
 }
 
@@ -1074,7 +1139,10 @@ async function begin() {
     $(form).addEventListener('change', remember);
   }
   $('kit-questions').addEventListener('input', () => showKit({})); // not at its end, when a finger is on the button, which would move
-  $('width').addEventListener('change', () => watchWalls());
+  $('width').addEventListener('change', () => {
+    showArms();
+    watchWalls();
+  });
   $('stop').addEventListener('click', () => engine.stop());
   $('undo').addEventListener('click', undo);
   $('link').addEventListener('click', copyLink);

@@ -1,8 +1,9 @@
 // Commands for the worker. Ending the worker ends its command; the next command begins another worker.
 
-async function inflate(base64) {
+// What was compressed, as a response that can be read while it is inflated.
+function inflated(base64, type) {
   const bytes = Uint8Array.from(atob(base64.trim()), (letter) => letter.charCodeAt(0));
-  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip')), {headers: {'Content-Type': type}});
 }
 
 class EngineClient {
