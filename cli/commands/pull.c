@@ -235,30 +235,18 @@ static void note_thin_cord(const thr_frame *frame, const thr_physics *asked,
                            const thr_physics *resolved)
 {
   static bool said;
-  double mm = 1, shortest = INFINITY;
-  int edge = 0;
+  thr_edge_sizes sizes;
 
-  if (said || asked->cord_diameter > 0 || thr_units_in_mm(frame->units, &mm, NULL)) return;
-
-  /* The shortest edge, mm. */
-  for (int e = 0; e < frame->n_edges; e++) {
-    const double *a = frame->xyz[frame->edge[e][0]], *b = frame->xyz[frame->edge[e][1]];
-    double length = mm * hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
-    if (length < shortest) {
-      shortest = length;
-      edge = e;
-    }
-  }
-
-  /* The usual cord is at most a quarter of the shortest edge. */
-  if (fabs(resolved->cord_diameter - shortest / 4) > 1e-9 * shortest) return;
+  /* Sizes are good, or the plan would not have been resolved. */
+  if (said || asked->cord_diameter > 0 || thr_measure_edges(frame, &sizes, NULL)) return;
+  if (!sizes.in_mm || resolved->cord_diameter >= thr_usual_cord(&sizes)) return;
 
   /* Once for all plans and methods of this run. */
   said = true;
   cli_note("note: the cord is taken to be %.3g mm thick, as the edge from %s to %s is only %.3g mm "
            "long; --cord-diameter says it",
-           resolved->cord_diameter, frame->name[frame->edge[edge][0]],
-           frame->name[frame->edge[edge][1]], shortest);
+           resolved->cord_diameter, frame->name[frame->edge[sizes.shortest_edge][0]],
+           frame->name[frame->edge[sizes.shortest_edge][1]], sizes.shortest);
 }
 
 int pull_eval(const pull_args *args, const char *path, const thr_plan *plan, thr_method method,

@@ -53,7 +53,8 @@ const thr_physics_field thr_physics_fields[] = {
     [CORD_DIAMETER] = {FIELD(cord_diameter), 0, 1e9, false, false, "mm",
                        "thickness of the cord (0: 1/20 of the median edge within 1 to 3 mm, "
                        "thinner as edges under "
-                       "9 mm take it, at most 1/4 of the shortest)"},
+                       "9 mm take it, at most 1/4 of the shortest, rounded down to one that is "
+                       "sold)"},
     [BORE] = {FIELD(bore), 0, 1e9, false, false, "mm",
               "inner diameter of the channels (0: twice the cord)"},
     [BEAD_DIAMETER] = {FIELD(bead_diameter), 0, 1e9, false, false, "mm",
@@ -395,27 +396,26 @@ void thr_physics_write(const thr_physics *physics, thr_writer *writer, const cha
 
 /* ---- against a framework ---- */
 
-/* Sizes of the edges. */
-typedef struct {
-  double median, shortest; /* mm; in units of the framework if nobody knows how long they are */
-  int shortest_edge;
-  bool in_mm;
-} edge_sizes;
+/* An arm's usual width as a part of the median edge, and its least width in bores. */
+static const double ARM_EDGES = 0.35, ARM_BORES = 1.5;
+/* The least length of an edge, in cords. */
+static const double EDGE_CORDS = 4;
 
-/* Measures the edges between their nodes. THR_EINPUT if they have no size of beads, which most
- * often means wrong units. */
-static thr_status measure_edges(const thr_frame *frame, double mm, edge_sizes *out, thr_err *err)
+thr_status thr_measure_edges(const thr_frame *frame, thr_edge_sizes *out, thr_err *err)
 {
   double *length = thr_calloc((size_t)frame->n_edges, sizeof *length);
+  double mm;
 
   if (!length) return thr_nomem(err);
-  *out = (edge_sizes){.shortest = INFINITY};
+  *out = (thr_edge_sizes){.shortest = INFINITY};
+  out->in_mm = thr_units_in_mm(frame->units, &mm, NULL) == THR_OK;
+  if (!out->in_mm) mm = 1;
 
   /* Distances of the nodes, whatever lengths the framework gives. */
   for (int e = 0; e < frame->n_edges; e++) {
     const double *a = frame->xyz[frame->edge[e][0]], *b = frame->xyz[frame->edge[e][1]];
     length[e] = mm * hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
-    if (length[e] < out->shortest) *out = (edge_sizes){.shortest = length[e], .shortest_edge = e};
+    if (length[e] < out->shortest) out->shortest = length[e], out->shortest_edge = e;
   }
 
   /* Sorted only now that the shortest has been found, with its number. */
@@ -439,33 +439,52 @@ static double rounded(double mu)
   return nearbyint(mu * 1e9) / 1e9;
 }
 
+/* Returns the thickest cord that is sold and is no thicker than a limit > 0, both in mm: 1, 1.2,
+ * 1.5, 2, 2.5 or 3 mm, and below 1 mm a tenth, a hundredth, .. of a row of round numbers, as fine
+ * lines are sold: 0.8, 0.6, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.12, 0.1, 0.08, .. */
+static double round_to_sold(double limit)
+{
+  static const double sold[] = {80, 60, 50, 40, 30, 25, 20, 15, 12, 10};
+  const int n = (int)(sizeof sold / sizeof *sold);
+
+  /* Where a limit is a size itself, the rounding of coordinates must not make it the next one. */
+  for (double per = 10;; per *= 10)
+    for (int i = 0; i < n; i++)
+      if (sold[i] / per <= limit * (1 + 1e-9)) return sold[i] / per;
+}
+
+double thr_usual_cord(const thr_edge_sizes *sizes)
+{
+  const double fits = ARM_EDGES * sizes->median / (ARM_BORES * THR_BORE_CORDS);
+  const double cord = sizes->median / 20;
+
+  /* In mm it is one that hands thread and pull, however large the beads are. */
+  return sizes->in_mm
+             ? round_to_sold(fmax(fmin(THR_CORD_THINNEST, fits), fmin(cord, THR_CORD_THICKEST)))
+             : cord;
+}
+
 /* Fills in what is 0 = "work it out". */
-static void fill_in(thr_physics *physics, const edge_sizes *sizes)
+static void fill_in(thr_physics *physics, const thr_edge_sizes *sizes)
 {
   /* The band of mu, and the tension at which mu holds. */
   if (physics->mu_low == 0) physics->mu_low = fmin(physics->mu, rounded(physics->mu / 2));
   if (physics->mu_high == 0) physics->mu_high = fmax(physics->mu, rounded(1.5 * physics->mu));
   if (physics->mu_power > 0 && physics->mu_tension == 0) physics->mu_tension = physics->seating;
 
-  const double arm = 0.35 * sizes->median, bores = 1.5; /* usual width of an arm; its least width */
-
-  /* From the inside outwards: cord, bore, bead. The cord is one that hands thread and pull, however
-   * large the beads are, and thinner only where the usual arms or the shortest edge take no more.
-   */
+  /* From the inside outwards: cord, bore, bead. */
   if (physics->cord_diameter == 0) {
-    const double fits = arm / (bores * THR_BORE_CORDS);
-    double cord = sizes->median / 20;
-    if (sizes->in_mm) cord = fmax(fmin(THR_CORD_THINNEST, fits), fmin(cord, THR_CORD_THICKEST));
-    physics->cord_diameter = fmin(cord, sizes->shortest / 4);
+    const double most = sizes->shortest / EDGE_CORDS;
+    physics->cord_diameter = fmin(thr_usual_cord(sizes), sizes->in_mm ? round_to_sold(most) : most);
   }
-
   if (physics->bore == 0) physics->bore = THR_BORE_CORDS * physics->cord_diameter;
-  if (physics->bead_diameter == 0) physics->bead_diameter = fmax(arm, bores * physics->bore);
+  if (physics->bead_diameter == 0)
+    physics->bead_diameter = fmax(ARM_EDGES * sizes->median, ARM_BORES * physics->bore);
 }
 
 /* Checks that cord, bore, bead and shortest edge fit into each other. */
 static thr_status check_sizes(const thr_physics *physics, const thr_frame *frame,
-                              const edge_sizes *sizes, thr_err *err)
+                              const thr_edge_sizes *sizes, thr_err *err)
 {
   if (!(physics->bore > physics->cord_diameter))
     return thr_fail(
@@ -519,18 +538,16 @@ thr_status thr_physics_resolve(const thr_physics *physics, const thr_frame *fram
                                thr_err *err)
 {
   thr_physics resolved = *physics;
-  edge_sizes sizes;
+  thr_edge_sizes sizes;
   double mm;
   *out = (thr_physics){0};
 
   /* Sizes in mm need a unit that is known; without any, a unit counts as a mm. */
   thr_status st = check_values(physics, err);
   bool sized = physics->cord_diameter > 0 || physics->bore > 0 || physics->bead_diameter > 0;
-  thr_status known = thr_units_in_mm(frame->units, &mm, !st && sized ? err : NULL);
-  if (!st && sized) st = known;
-  if (!st) st = measure_edges(frame, known ? 1 : mm, &sizes, err);
+  if (!st && sized) st = thr_units_in_mm(frame->units, &mm, err);
+  if (!st) st = thr_measure_edges(frame, &sizes, err);
   if (st) return st;
-  sizes.in_mm = !known;
 
   /* Fill in, and check that all fits. */
   fill_in(&resolved, &sizes);

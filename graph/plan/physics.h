@@ -23,7 +23,8 @@ typedef struct {
   double mu_ground; /* friction foot on ground */
   double cord_diameter; /* mm; 0 = a twentieth of the median edge within 1 .. 3, but no thicker than
                            arms of 0.35 median edge take (1/3 of them), and at most a quarter of
-                           the shortest */
+                           the shortest; rounded down to one that is sold (1, 1.2, 1.5, 2, 2.5, 3;
+                           .., 0.4, 0.5, 0.6, 0.8) if the units are known */
   double bore;          /* mm, inner diameter of the channels; 0 = twice the cord */
   double bead_diameter; /* mm, outer width of a bead's arm; 0 = the larger of 0.35 median edge
                            and 1.5 bores */
@@ -83,6 +84,22 @@ thr_status thr_physics_from_json(thr_physics *p, const thr_json *object, const c
 thr_status thr_physics_read(thr_physics *p, const char *path, thr_err *err) THR_MUST_CHECK;
 /* That object, on one line. */
 void thr_physics_write(const thr_physics *p, thr_writer *writer, const char *key);
+
+/* Sizes of the edges of a framework, between their nodes. */
+typedef struct {
+  double median, shortest; /* mm; in units of the framework if nobody knows how long they are */
+  int shortest_edge;
+  bool in_mm; /* the units are known */
+} thr_edge_sizes;
+
+/* Measures the edges. THR_EINPUT if they have no size of beads, which most often means wrong units.
+ * O(m log m). */
+thr_status thr_measure_edges(const thr_frame *frame, thr_edge_sizes *out,
+                             thr_err *err) THR_MUST_CHECK;
+
+/* Returns the diameter of the cord that is taken if none is given and if no edge is very short: mm,
+ * as it is sold; in units of the framework, as it comes, if these are not known. */
+double thr_usual_cord(const thr_edge_sizes *sizes);
 
 /* Fills in what is 0 = "work it out" and checks that the parts fit: bore > cord, bead > bore,
  * shortest edge > bore, mu_low <= mu <= mu_high, some mass. THR_EINPUT says which value does not

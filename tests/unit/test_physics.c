@@ -286,6 +286,27 @@ START_TEST(sizes_come_from_the_framework)
 }
 END_TEST
 
+/* The cord of edges of one length, which is rounded down to one that is sold. */
+START_TEST(cords_are_as_they_are_sold)
+{
+  static const double edge_and_cord[][2] = {
+      {1000, 3},    {60, 3},    {59.9, 2.5}, {49, 2},        {30, 1.5},  {29.9, 1.2},
+      {20.6, 1},    {9, 1},     {8.5, 0.8},  {7, 0.8},       {5.9, 0.6}, {2.56, 0.25},
+      {1.17, 0.12}, {0.9, 0.1}, {0.8, 0.08}, {0.1525, 0.015}};
+  for (size_t i = 0; i < sizeof edge_and_cord / sizeof *edge_and_cord; i++) {
+    const double xyz[2][3] = {{0, 0, 0}, {edge_and_cord[i][0], 0, 0}};
+    thr_frame f = frame_make(2, xyz, 1, (const int[1][2]){{0, 1}}, NULL, NULL);
+    memcpy(f.units, "mm", 3);
+    thr_physics p = thr_physics_default(), r;
+    thr_err err = {0};
+    assert_ok(thr_physics_resolve(&p, &f, &r, &err), &err);
+    ck_assert_double_eq(r.cord_diameter, edge_and_cord[i][1]);
+    ck_assert_double_eq(r.bore, 2 * r.cord_diameter);
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
 START_TEST(sizes_that_are_left_open_always_fit)
 {
   rng r = rng_make((uint64_t)_i);
@@ -362,6 +383,7 @@ int main(void)
   ADD_TEST(s, 10, files_are_read);
   ADD_TEST(s, 10, units);
   ADD_TEST(s, 10, sizes_come_from_the_framework);
+  ADD_TEST(s, 10, cords_are_as_they_are_sold);
   ADD_LOOP(s, 10, sizes_that_are_left_open_always_fit, 0, 20);
   ADD_TEST(s, 10, what_does_not_fit_is_refused);
   return run_suite(s);
