@@ -728,8 +728,7 @@ static int write_booklet(const rise_runs *runs)
     double(*own)[7] = pose + i * n_pieces;
     memcpy(own, record->pose + frame[i] * n_pieces, (size_t)n_pieces * sizeof *own);
     for (int v = 0; v < n_pieces; v++)
-      for (int k = 0; k < 3; k++)
-        own[v][k] /= runs->pieces.kit.mm;
+      thr_divide(own[v], runs->pieces.kit.mm);
     snprintf(caption[i], sizeof *caption, "%d of %d faces closed, %.3g N at every end",
              moment->closed, record->n_counted, moment->pull);
     panel[i] = (thr_still_panel){id[i], caption[i], (const double(*)[7])own};

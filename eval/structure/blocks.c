@@ -217,8 +217,7 @@ static void add_force(const thr_blocks *blocks, double (*wrench)[6], int bead,
   double lever[3], moment[3];
 
   /* Moment = lever x force, with the lever from the body's origin. */
-  for (int k = 0; k < 3; k++)
-    lever[k] = at[k] - blocks->origin[body][k];
+  thr_between(blocks->origin[body], at, lever);
   thr_cross(lever, force, moment);
 
   for (int k = 0; k < 3; k++) {
