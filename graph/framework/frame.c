@@ -1044,16 +1044,18 @@ void thr_frame_keep_hash(thr_frame *frame)
 /* Numbers components by searches from the lowest node that has none. */
 thr_status thr_frame_components(const thr_frame *frame, int *component, int *count, thr_err *err)
 {
-  int *stack = thr_calloc((size_t)frame->n_nodes, sizeof *stack);
+  thr_scratch own = {0};
+  int *stack = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *stack);
+  if (!component) component = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *component);
+  const thr_status st = thr_scratch_check(&own, err);
 
-  if (!stack) return thr_nomem(err);
   *count = 0;
-  for (int v = 0; v < frame->n_nodes; v++)
+  for (int v = 0; v < frame->n_nodes && !st; v++)
     component[v] = -1;
 
   /* A depth-first search with a stack of its own from every node that has no component yet; roots
    * ascend, so components are numbered by their lowest node. */
-  for (int root = 0; root < frame->n_nodes; root++) {
+  for (int root = 0; root < frame->n_nodes && !st; root++) {
     if (component[root] >= 0) continue;
     int top = 0;
     component[root] = *count;
@@ -1071,8 +1073,8 @@ thr_status thr_frame_components(const thr_frame *frame, int *component, int *cou
     ++*count;
   }
 
-  free(stack);
-  return THR_OK;
+  thr_scratch_free(&own);
+  return st;
 }
 
 /* Runs one depth-first search from root and marks the bridges of its component (Tarjan 1974).

@@ -470,15 +470,6 @@ static thr_status add_part(const thr_frame *frame, int e, int a, int b, double p
                                     frame->capacity ? frame->capacity[e] : 0, err);
 }
 
-/* Counts the components of a framework. */
-static thr_status count_components(const thr_frame *frame, int *count, thr_err *err)
-{
-  int *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
-  thr_status st = component ? thr_frame_components(frame, component, count, err) : thr_nomem(err);
-  free(component);
-  return st;
-}
-
 /* Computes what welding with the tolerance near->weld would change. */
 static thr_status try_weld(const thr_frame *frame, thr_near *near, thr_err *err)
 {
@@ -493,7 +484,7 @@ static thr_status try_weld(const thr_frame *frame, thr_near *near, thr_err *err)
 
   /* Build, and count what has been welded. */
   if (!st) st = thr_draft_build(&draft, near->weld, &welded, &report, err);
-  if (!st) st = count_components(&welded, &near->components_welded, err);
+  if (!st) st = thr_frame_components(&welded, NULL, &near->components_welded, err);
   near->n_welded = report.welded_nodes;
   near->n_lost = report.zero_length_edges;
   near->n_merged = report.duplicate_edges;
@@ -531,7 +522,7 @@ thr_status thr_frame_near(const thr_frame *frame, thr_near *near, thr_err *err)
   if (search.n_touches) near->on_edge[0] = search.touch[0].node;
   if (search.n_touches) near->on_edge[1] = search.touch[0].edge;
 
-  if (!st) st = count_components(frame, &near->components, err);
+  if (!st) st = thr_frame_components(frame, NULL, &near->components, err);
   if (!st && near->n_close) st = choose_weld(&search, near);
   end_search(&search);
 
