@@ -93,12 +93,6 @@ static bool take_shake(void *into, const cli_option *option, const char *value)
   return false;
 }
 
-/* Words of ends, and what feet do. */
-static const char *end_name(int end)
-{
-  return thr_pull_name((thr_pull)end);
-}
-
 static const char *feet_meaning(int feet)
 {
   static const char *const meaning[] = {"stand on the ground as all pieces do, slide, and lift off",
@@ -122,7 +116,7 @@ static const cli_option own_options[] = {
     {"pull", .value = "N", .kind = CLI_AMOUNT, AT(rise.pull), .low = CLI_ABOVE_0, .high = 1e6,
      .help = "hands pull every end with more and more, up to so much (default: 50, the most of a "
              "hand)"},
-    {"ends", .kind = CLI_WORD, AT(ends), .word = end_name, .n_words = THR_PULL_NONE,
+    {"ends", .kind = CLI_WORD, AT(ends), .word = thr_pull_name, .n_words = THR_PULL_NONE,
      .help = "which ends of every cord hands pull; the others are tied (default: both)"},
     {"rate", .value = "MM/S", .kind = CLI_AMOUNT, AT(rise.rate), .low = CLI_ABOVE_0, .high = 1e6,
      .help = "a hand draws in so many mm a second, and pulls as hard as that takes, but no harder "
