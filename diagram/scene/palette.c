@@ -11,7 +11,6 @@
 #include "graph/number.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <stdio.h>
 
 thr_colour thr_palette(int i)

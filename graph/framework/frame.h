@@ -17,8 +17,6 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-#include <stddef.h>
-
 /* ---- frame.c: The framework: a simple graph whose nodes have coordinates. */
 
 /* Half-edge h = 2*e + s is edge e seen from its end s: it leaves node edge[e][s] and arrives at

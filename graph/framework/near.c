@@ -18,7 +18,6 @@
 #include "graph/number.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -7,8 +7,6 @@
 #include "graph/io/json.h"
 #include "graph/status.h"
 
-#include <stdbool.h>
-
 /* ---- physics.c: What the simulation is told about cord and beads: friction, sizes, weights. */
 
 /* Lengths in mm whatever the framework's units. 0 where it says so means "work it out":
