@@ -29,9 +29,6 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-#include <stdbool.h>
-#include <stddef.h>
-
 /* ---- cli.c: What the subcommands share. */
 
 /* Documented in the man page; scripts rely on them. */

@@ -6,9 +6,6 @@
 
 #include "graph/status.h"
 
-#include <stddef.h>
-#include <stdint.h>
-
 /* ---- Arrays that live as long as a call or an object: taken as they are needed, asked about once,
  * freed at once.
  *

@@ -6,7 +6,6 @@
 #include "graph/plan/plan.h"
 
 #include <signal.h>
-#include <stdbool.h>
 
 struct thr_cord;
 struct thr_symmetry_record;

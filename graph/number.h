@@ -53,6 +53,42 @@ static inline double thr_distance(const double a[3], const double b[3])
   return sqrt(thr_dot(between, between));
 }
 
+/* out: the vector from `from` to `to`. Here and below, out may be an argument. */
+static inline void thr_between(const double *from, const double *to, double *out)
+{
+  for (int k = 0; k < 3; k++)
+    out[k] = to[k] - from[k];
+}
+
+/* out: the point that is `part` times `direction` away from `from`. */
+static inline void thr_along(const double *from, double part, const double *direction, double *out)
+{
+  for (int k = 0; k < 3; k++)
+    out[k] = from[k] + part * direction[k];
+}
+
+/* out: the point that divides the way from a to b; part 0: a, 1: b. */
+static inline void thr_mix(const double *a, const double *b, double part, double *out)
+{
+  for (int k = 0; k < 3; k++)
+    out[k] = a[k] + part * (b[k] - a[k]);
+}
+
+static inline void thr_divide(double *v, double by)
+{
+  for (int k = 0; k < 3; k++)
+    v[k] /= by;
+}
+
+/* Widens the box from low to high, in n dimensions, until `at` is in it. */
+static inline void thr_widen(double *low, double *high, const double *at, int n)
+{
+  for (int k = 0; k < n; k++) {
+    low[k] = fmin(low[k], at[k]);
+    high[k] = fmax(high[k], at[k]);
+  }
+}
+
 /* Makes a vector 1 long, unless it is 0; returns how long it was. */
 static inline double thr_normalize(double v[3])
 {

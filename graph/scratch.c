@@ -2,7 +2,6 @@
 /* Arrays in a list, the last one first. */
 #include "graph/arrays.h"
 
-#include <stdint.h>
 #include <stdlib.h>
 
 struct thr_scratch_array {

@@ -7,7 +7,7 @@
 #ifndef THR_STATUS_H
 #define THR_STATUS_H
 
-#include <stdbool.h>
+#include <stdbool.h> /* these three for all who include this header */
 #include <stddef.h>
 #include <stdint.h>
 

@@ -23,8 +23,7 @@ static bool frame_of(const double a[3], const double b[3], double rows[3][3])
     length += rows[1][k] * rows[1][k];
   }
   if (length < 1e-4) return false;
-  for (int k = 0; k < 3; k++)
-    rows[1][k] /= sqrt(length);
+  thr_divide(rows[1], sqrt(length));
   rows[2][0] = a[1] * rows[1][2] - a[2] * rows[1][1];
   rows[2][1] = a[2] * rows[1][0] - a[0] * rows[1][2];
   rows[2][2] = a[0] * rows[1][1] - a[1] * rows[1][0];

@@ -81,8 +81,7 @@ static double segment_distance(const double at[3], const double a[3], const doub
   }
   double length2 = thr_dot(d, d);
   *part = length2 > 0 ? fmin(fmax(thr_dot(e, d) / length2, 0), 1) : 0;
-  for (int k = 0; k < 3; k++)
-    e[k] -= *part * d[k];
+  thr_along(e, -*part, d, e);
   return sqrt(thr_dot(e, e));
 }
 

@@ -22,12 +22,10 @@ enum { SHORT = 3, DEEPEST = 12 };
 double thr_capsule_distance(const thr_capsule *capsule, const double at[3], double *part)
 {
   double off[3];
-  for (int k = 0; k < 3; k++)
-    off[k] = at[k] - capsule->from[k];
+  thr_between(capsule->from, at, off);
   double along = thr_dot(off, capsule->along) * capsule->inverse;
   *part = along < 0 ? 0 : along > 1 ? 1 : along;
-  for (int k = 0; k < 3; k++)
-    off[k] -= *part * capsule->along[k];
+  thr_along(off, -*part, capsule->along, off);
   return sqrt(thr_dot(off, off));
 }
 

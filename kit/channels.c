@@ -91,10 +91,7 @@ void thr_kit_channel_measure(const thr_kit_piece *piece, thr_kit_channel *channe
   memcpy(low, channel->point[0], sizeof low);
   memcpy(high, channel->point[0], sizeof high);
   for (int i = 0; i < channel->n; i++)
-    for (int k = 0; k < 3; k++) {
-      low[k] = fmin(low[k], channel->point[i][k]);
-      high[k] = fmax(high[k], channel->point[i][k]);
-    }
+    thr_widen(low, high, channel->point[i], 3);
   channel->reach = 0;
   for (int k = 0; k < 3; k++) {
     channel->middle[k] = 0.5 * (low[k] + high[k]);

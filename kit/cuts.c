@@ -131,8 +131,7 @@ static double bump(const thr_kit_channel *channel, double place)
 static void bend_by(thr_kit_channel *channel, const double move[3])
 {
   for (int i = 1; i + 1 < channel->n; i++)
-    for (int k = 0; k < 3; k++)
-      channel->point[i][k] += bump(channel, i) * move[k];
+    thr_along(channel->point[i], bump(channel, i), move, channel->point[i]);
 }
 
 /* Sums the directions in which arms look up, and how far a channel's arms rise in it. */

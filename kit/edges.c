@@ -30,8 +30,7 @@ static void outward(const thr_frame *frame, int v, const double centre[3], doubl
     for (int k = 0; k < 3; k++)
       sum[k] -= along[k];
   }
-  for (int k = 0; k < 3; k++)
-    out[k] = frame->xyz[v][k] - centre[k];
+  thr_between(centre, frame->xyz[v], out);
   thr_normalize(out);
   if (thr_normalize(sum) > 0.2 && thr_dot(sum, out) > 0) memcpy(out, sum, sizeof sum);
 }
@@ -58,8 +57,7 @@ static void set_directions(const thr_frame *frame, double mm, thr_kit_edge *edge
       here->up[k] = first[k] + second[k];
     for (int attempt = 0; attempt < 3; attempt++) {
       double part = thr_dot(here->up, here->along);
-      for (int k = 0; k < 3; k++)
-        here->up[k] -= part * here->along[k];
+      thr_along(here->up, -part, here->along, here->up);
       if (thr_normalize(here->up) > 1e-3) break;
       memcpy(here->up, attempt ? (double[]){1, 0, 0} : (double[]){0, 0, 1}, sizeof here->up);
     }

@@ -104,8 +104,7 @@ static double sample_box(thr_kit_solid *solid, int i, int n, int64_t *number)
       step /= root;
       double place = 0.5 + step * (double)*number;
       place = b.low[k] + b.size[k] * (place - floor(place));
-      for (int l = 0; l < 3; l++)
-        at[l] += place * b.axis[k][l];
+      thr_along(at, place, b.axis[k], at);
     }
     if (is_inside(solid, at)) inside += 1.0 / fmax(boxes_around(piece, at), 1);
   }

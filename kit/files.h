@@ -10,9 +10,6 @@
 #include "diagram/scene/movement.h"
 #include "kit/kit.h"
 
-#include <stdbool.h>
-#include <stdint.h>
-
 /* ---- plates.c: pieces on the bed of a printer. */
 
 /* How a mesh stands. Directions are those of the mesh. */

@@ -19,8 +19,6 @@
 #include "diagram/scene/movement.h"
 #include "kit/picture.h"
 
-#include <stdbool.h>
-
 /* How a film is made. {0} is the usual film. */
 typedef struct {
   int size[2];               /* px; 0 = 640 x 480 */

@@ -35,8 +35,7 @@ void thr_film_tensions(double colour[THR_FILM_TENSIONS][3])
   for (int i = 0; i < KNOWN; i++) {
     double at = (double)i * (STOPS - 1) / (KNOWN - 1);
     int from = at < STOPS - 2 ? (int)at : STOPS - 2;
-    for (int k = 0; k < 3; k++)
-      colour[i][k] = stop[from][k] + (at - from) * (stop[from + 1][k] - stop[from][k]);
+    thr_mix(stop[from], stop[from + 1], at - from, colour[i]);
   }
   memcpy(colour[KNOWN], unknown, sizeof unknown);
 }

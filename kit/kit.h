@@ -22,8 +22,6 @@
 #include "graph/text.h"
 #include "kit/mesh.h"
 
-#include <stdbool.h>
-
 /* ---- what is asked for ---- */
 
 typedef enum { THR_KIT_ROUND, THR_KIT_SQUARE, THR_KIT_HEX, THR_KIT_N_PROFILES } thr_kit_profile;

@@ -258,10 +258,7 @@ thr_status thr_mesh_examine(const thr_mesh *mesh, bool crossings, thr_mesh_repor
 
   for (int v = 0; v < mesh->n_points; v++) {
     set[v] = v;
-    for (int k = 0; k < 3; k++) {
-      out->low[k] = fmin(out->low[k], mesh->point[v][k]);
-      out->high[k] = fmax(out->high[k], mesh->point[v][k]);
-    }
+    thr_widen(out->low, out->high, mesh->point[v], 3);
   }
   out->parts = mesh->n_points;
   for (int t = 0; t < mesh->n_triangles; t++) {

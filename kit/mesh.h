@@ -7,8 +7,6 @@
 #include "graph/limits.h"
 #include "graph/status.h"
 
-#include <stdbool.h>
-
 /* A closed surface of triangles, each counter-clockwise as seen from outside. {0} is valid and
  * empty. Arrays are owned. */
 typedef struct {

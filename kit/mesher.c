@@ -10,6 +10,7 @@
  * A corner on which the surface lies by chance would make triangles without area. So corners near
  * the cut are moved off it, across it, and points on edges keep a little away from the ends. */
 #include "kit/mesh.h"
+#include "graph/number.h"
 
 #include "graph/arrays.h"
 
@@ -359,8 +360,7 @@ static void move_off_cut(mesher *work)
     if (fabs(c->cut) >= least) continue;
 
     double by = (c->cut < 0 ? -least : least) - c->cut;
-    for (int i = 0; i < 3; i++)
-      c->at[i] += by * c->across[i];
+    thr_along(c->at, by, c->across, c->at);
     thr_solid_sample here = {0};
     work->solid->sample(work->solid->user, c->at, &here);
     c->distance = here.distance;
@@ -383,8 +383,7 @@ static thr_status section_of(mesher *work, int a, int b, int *number, thr_err *e
 
   /* Where the cut leaps, the corner itself would be the point, and tetrahedra have no volume. */
   part = fmin(fmax(part, LEAST), 1 - LEAST);
-  for (int i = 0; i < 3; i++)
-    at[i] = p->at[i] + part * (q->at[i] - p->at[i]);
+  thr_mix(p->at, q->at, part, at);
 
   return add_corner(work, at, number, err);
 }
@@ -415,8 +414,7 @@ static thr_status point_of(mesher *work, int a, int b, int *number, thr_err *err
   for (int round = 0; round < 2; round++) {
     part = at_from / (at_from - at_to);
     part = from + (to - from) * (isfinite(part) ? part : 0.5);
-    for (int i = 0; i < 3; i++)
-      at[i] = p->at[i] + part * (q->at[i] - p->at[i]);
+    thr_mix(p->at, q->at, part, at);
     thr_solid_sample here = {0};
     work->solid->sample(work->solid->user, at, &here);
 
@@ -441,8 +439,7 @@ static thr_status point_of(mesher *work, int a, int b, int *number, thr_err *err
 
   st = thr_grow(&mesh->point, mesh->n_points, &mesh->points_capacity, sizeof *mesh->point, err);
   if (st) return st;
-  for (int i = 0; i < 3; i++)
-    mesh->point[mesh->n_points][i] = p->at[i] + part * (q->at[i] - p->at[i]);
+  thr_mix(p->at, q->at, part, mesh->point[mesh->n_points]);
   mesh->n_points++;
 
   return THR_OK;
@@ -506,8 +503,7 @@ static double volume_of(const mesher *work, const int v[4])
   const double *o = work->corner[v[0]].at;
   double e[3][3];
   for (int i = 0; i < 3; i++)
-    for (int k = 0; k < 3; k++)
-      e[i][k] = work->corner[v[i + 1]].at[k] - o[k];
+    thr_between(o, work->corner[v[i + 1]].at, e[i]);
   return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
          e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);

@@ -115,8 +115,7 @@ static thr_status follow(drawing *work, const thr_kit_piece *piece, const thr_ki
                         : TAIL * piece->node_radius;
       double length = arm >= 0 ? thr_dot(at, along) : sqrt(thr_dot(at, at));
       double unit = arm >= 0 || length <= 0 ? 1 : 1 / length;
-      for (int k = 0; k < 3; k++)
-        at[k] += fmin(most - length, 0) * unit * along[k];
+      thr_along(at, fmin(most - length, 0) * unit, along, at);
     }
     if (piece->foot) at[2] = fmax(at[2], -piece->base);
     for (int k = 0; k < 3; k++)
@@ -302,10 +301,7 @@ static void find_boxes(drawing *work)
     }
     for (int i = 0; i < mesh->n_points && is_drawn(work, p); i++) {
       look_at(work, p, mesh->point[i], at);
-      for (int k = 0; k < 3; k++) {
-        work->low[p][k] = fmin(work->low[p][k], at[k]);
-        work->high[p][k] = fmax(work->high[p][k], at[k]);
-      }
+      thr_widen(work->low[p], work->high[p], at, 3);
     }
   }
 }
@@ -333,10 +329,7 @@ static void fit(drawing *work, const int size[2])
   for (int i = 0; i < work->n_points; i++) {
     const double at[2] = {thr_dot(work->point[i], camera->right),
                           thr_dot(work->point[i], camera->up)};
-    for (int k = 0; k < 2; k++) {
-      low[k] = fmin(low[k], at[k]);
-      high[k] = fmax(high[k], at[k]);
-    }
+    thr_widen(low, high, at, 2);
   }
 
   work->view.scale = HUGE_VAL;
@@ -378,10 +371,7 @@ static void find_ground(drawing *work)
     double at[3];
     for (int i = 0; i < mesh->n_points && is_drawn(work, p); i++) {
       place_point(work, p, mesh->point[i], at);
-      for (int k = 0; k < 3; k++) {
-        low[k] = fmin(low[k], at[k]);
-        high[k] = fmax(high[k], at[k]);
-      }
+      thr_widen(low, high, at, 3);
     }
   }
   double wide = fmax(high[0] - low[0], high[1] - low[1]);
@@ -478,8 +468,7 @@ static void weigh_corners(const thr_mesh *mesh, int triangle, double normal[3], 
   for (int i = 0; i < 3; i++) {
     const double *from = mesh->point[mesh->triangle[triangle][i]];
     const double *to = mesh->point[mesh->triangle[triangle][(i + 1) % 3]];
-    for (int k = 0; k < 3; k++)
-      side[i][k] = to[k] - from[k];
+    thr_between(from, to, side[i]);
     length[i] = sqrt(thr_dot(side[i], side[i]));
   }
   thr_cross(side[0], side[1], normal);
@@ -526,8 +515,7 @@ static thr_status smooth(const thr_mesh *mesh, float *normal, thr_err *err)
     for (int j = first[p]; j < first[p + 1]; j++) {
       const double *other = face[at[j] / 3];
       if (thr_dot(own_face, other) < SMOOTH) continue;
-      for (int k = 0; k < 3; k++)
-        sum[k] += weight[at[j]] * other[k];
+      thr_along(sum, weight[at[j]], other, sum);
     }
     if (thr_normalize(sum) <= 0) memcpy(sum, own_face, sizeof sum);
     for (int k = 0; k < 3; k++)
@@ -631,8 +619,7 @@ static void draw_strand(drawing *work, const strand *line)
     /* A ring at right angles to the curve, turned as little as can be against the one before. */
     const double *before = point[i > 0 ? i - 1 : 0], *after = point[i + 1 < line->n ? i + 1 : i];
     double along[3], side[3];
-    for (int k = 0; k < 3; k++)
-      along[k] = after[k] - before[k];
+    thr_between(before, after, along);
     thr_normalize(along);
     thr_cross(along, up, side);
     if (thr_normalize(side) < 1e-6) {
@@ -647,8 +634,7 @@ static void draw_strand(drawing *work, const strand *line)
       for (int k = 0; k < 3; k++)
         off[k] = cos(angle) * up[k] - sin(angle) * side[k];
       double place[3];
-      for (int k = 0; k < 3; k++)
-        place[k] = point[i][k] + radius * off[k];
+      thr_along(point[i], radius, off, place);
       at[0] = thr_dot(place, camera->right);
       at[1] = thr_dot(place, camera->up);
       at[2] = thr_dot(place, camera->eye);

@@ -10,9 +10,6 @@
 #include "diagram/space/space.h"
 #include "kit/kit.h"
 
-#include <stdbool.h>
-#include <stdint.h>
-
 /* ---- picture.c ---- */
 
 /* What is drawn, and from where. {0} is the usual picture. */

@@ -95,8 +95,7 @@ static bool bears(const simplifier *work, int u, int v, const int *list, int n, 
   const thr_mesh *mesh = work->mesh;
   const double *to = mesh->point[v];
   double step[3];
-  for (int k = 0; k < 3; k++)
-    step[k] = to[k] - mesh->point[u][k];
+  thr_between(mesh->point[u], to, step);
 
   *off = 0;
   for (int i = 0; i < n; i++) {

@@ -17,8 +17,7 @@ static double surface_distance(thr_kit_solid *solid, const double from[3], const
                                double by, double at[3])
 {
   thr_solid_sample sample;
-  for (int k = 0; k < 3; k++)
-    at[k] = from[k] + by * along[k];
+  thr_along(from, by, along, at);
   thr_kit_sample(solid, at, &sample);
   return fmax(sample.distance, sample.cut);
 }
@@ -92,8 +91,7 @@ static double channel_wall(thr_kit_solid *solid, const thr_kit_channel *channel,
     for (int step = 0; step < steps && length > 0; step++) {
       double part = (step + 0.5) / steps, at[3], whole = (i + part) / (channel->n - 1);
       double radius = channel->radii[0] + whole * (channel->radii[1] - channel->radii[0]);
-      for (int k = 0; k < 3; k++)
-        at[k] = a[k] + part * (b[k] - a[k]);
+      thr_mix(a, b, part, at);
 
       /* No ray is shorter than the surface is near. */
       double near = -thr_kit_body(piece, at, NULL) - radius;
@@ -140,12 +138,10 @@ static double stroke_wall(const thr_kit_piece *piece, const thr_kit_stroke *stro
     }
     for (int i = 0; i < 60 && away < -1e-3; i++) {
       if (i) by -= away;
-      for (int k = 0; k < 3; k++)
-        at[k] = from[k] + by * out[k];
+      thr_along(from, by, out, at);
       away = thr_kit_body(piece, at, NULL);
     }
-    for (int k = 0; k < 3; k++)
-      at[k] -= piece->letter_depth * out[k];
+    thr_along(at, -piece->letter_depth, out, at);
     best = fmin(best, channels_away(piece, at));
   }
   return best;

@@ -17,9 +17,6 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-#include <stdbool.h>
-#include <stdint.h>
-
 /* What plans are compared by beside a thr_method: rising in simulation, or all that compute a pull.
  */
 enum { THR_BY_RISE = THR_N_METHODS, THR_BY_ALL };

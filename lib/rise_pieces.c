@@ -73,8 +73,7 @@ static void make_piece(const thr_kit *kit, int p, int *n_corners, double (*corne
     const double length = arm->length, share = length * arm->width * arm->width;
     volume += share;
     moment += share * (length * length / 3 + arm->width * arm->width / 6);
-    for (int k = 0; k < 3; k++)
-      centre[k] += share * 0.5 * length * arm->along[k];
+    thr_along(centre, share * 0.5 * length, arm->along, centre);
   }
   if (piece->foot) {
     const double down[3] = {0, 0, -1}, x[3] = {1, 0, 0}, y[3] = {0, 1, 0};
@@ -92,8 +91,7 @@ static void make_piece(const thr_kit *kit, int p, int *n_corners, double (*corne
     double place[3];
     solid = report->volume;
     thr_kit_place(piece, report->centre, place);
-    for (int k = 0; k < 3; k++)
-      out->mass_centre[k] = place[k] - piece->centre[k];
+    thr_between(piece->centre, place, out->mass_centre);
   }
   out->mass = solid * kit->options.density / 1000;
   const double off = thr_dot(out->mass_centre, out->mass_centre);

@@ -16,8 +16,6 @@
 #include "graph/status.h"
 #include "kit/kit.h"
 
-#include <stdbool.h>
-
 /* What feet can do. */
 typedef enum {
   THR_RISE_FREE,   /* stand on the ground like all pieces, slide and lift off */

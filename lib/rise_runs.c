@@ -191,15 +191,9 @@ double thr_rise_pull_down(const thr_rise_record *record)
   return record->fell >= 0 ? record->moment[record->fell].pull : 0;
 }
 
-static int ascending(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 void thr_rise_spread(double *value, int n, double out[3])
 {
-  qsort(value, (size_t)n, sizeof *value, ascending);
+  thr_sort_doubles(value, (size_t)n);
   out[0] = value[0];
   out[1] = value[(n - 1) / 2];
   out[2] = value[n - 1];

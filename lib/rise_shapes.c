@@ -19,8 +19,7 @@ static const double AS_DRAWN = 0.01; /* pull towards the drawn rotation where ar
 /* The unit vector from node a to node b of a framework; false: they are in one place. */
 static bool direction(const thr_frame *shape, int a, int b, double out[3])
 {
-  for (int k = 0; k < 3; k++)
-    out[k] = shape->xyz[b][k] - shape->xyz[a][k];
+  thr_between(shape->xyz[a], shape->xyz[b], out);
   return thr_normalize(out) > 0;
 }
 
@@ -199,8 +198,7 @@ static thr_status seat_pass(const thr_kit *kit, int c, int k, const double (*pla
   double reach[2];
   int arm[2];
 
-  for (int i = 0; i < 3; i++)
-    along[i] = place[piece[1]][i] - place[piece[0]][i];
+  thr_between(place[piece[0]], place[piece[1]], along);
   const double distance = thr_normalize(along);
   for (int end = 0; end < 2; end++) {
     const double out[3] = {end ? -along[0] : along[0], end ? -along[1] : along[1],

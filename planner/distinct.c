@@ -519,10 +519,8 @@ static thr_status check_room(const distinct_maker *maker, thr_err *err)
  * free. */
 static thr_status make_cords(distinct_maker *maker, const thr_plan *from, thr_err *err)
 {
-  int n, *component = thr_calloc((size_t)maker->frame->n_nodes, sizeof *component);
-  thr_status st =
-      component ? thr_frame_components(maker->frame, component, &n, err) : thr_nomem(err);
-  free(component);
+  int n;
+  thr_status st = thr_frame_components(maker->frame, NULL, &n, err);
 
   if (from->turning.present && from->turning.length_limit >= 0)
     maker->length_limit = from->turning.length_limit;

@@ -93,14 +93,6 @@ static thr_status plan_components(component_planner *one, const thr_limits *limi
   return st;
 }
 
-static thr_status count_components(const thr_frame *frame, int *n, thr_err *err)
-{
-  int *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
-  thr_status st = component ? thr_frame_components(frame, component, n, err) : thr_nomem(err);
-  free(component);
-  return st;
-}
-
 /* ---- solid joints ---- */
 
 /* States what the components' certificates prove of all cords together. */
@@ -159,7 +151,7 @@ static thr_status plan_solid(const thr_frame *frame, const thr_request *options,
 {
   int n = 1;
 
-  thr_status st = one_each(options) ? THR_OK : count_components(frame, &n, err);
+  thr_status st = one_each(options) ? THR_OK : thr_frame_components(frame, NULL, &n, err);
   if (st) return st;
   if (n == 1) return one_component(frame, options, limits, plan, word, err);
 
@@ -204,7 +196,7 @@ static thr_status plan_tied(const thr_frame *frame, const thr_request *options,
   if (proved && proved != THR_ELIMIT) return thr_fail(err, proved, "%s", why.text);
 
   thr_status st = thr_plan_request(plan, frame, options, err);
-  if (!st) st = count_components(frame, &n, err);
+  if (!st) st = thr_frame_components(frame, NULL, &n, err);
 
   if (!st)
     st = n > 1 && thr_tube_shares(options) ? plan_components(plan_tied, limits, plan, word, err)
@@ -238,7 +230,7 @@ static thr_status few_short(const thr_frame *frame, const thr_request *options,
       (plan->cords_claim.present && plan->cords_claim.fewest_optimal))
     return st;
 
-  thr_status found = count_components(frame, &n, &why);
+  thr_status found = thr_frame_components(frame, NULL, &n, &why);
   if (!found && n == 1) found = thr_planner_short_few(frame, options, limits, plan, &longest, &why);
   if (found == THR_ENOMEM) return thr_nomem(err);
 

@@ -76,11 +76,9 @@ thr_status thr_plan_tells_bounds(const thr_frame *frame, const thr_request *requ
            !thr_wants_pull(request) && !thr_wants_symmetry(request) && !thr_wants_balance(request);
   if (!*tells || !thr_wants_turning(request)) return THR_OK;
 
-  int n = 0, *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
-  const thr_status st =
-      component ? thr_frame_components(frame, component, &n, err) : thr_nomem(err);
+  int n = 0;
+  const thr_status st = thr_frame_components(frame, NULL, &n, err);
   *tells = n == 1;
-  free(component);
   return st;
 }
 

@@ -23,8 +23,6 @@
 #include "graph/plan/physics.h"
 #include "graph/plan/request.h"
 
-#include <stdbool.h>
-
 /* ---- config.c: --config FILE: options from a file, as if they stood before those of the command
  * line. */
 

@@ -7,8 +7,6 @@
 #include "graph/text.h"
 
 #include <getopt.h> /* optind */
-#include <stdbool.h>
-#include <stddef.h>
 
 /* What an option takes, and what becomes of it in the struct of its group. */
 typedef enum {

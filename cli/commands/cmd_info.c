@@ -60,10 +60,9 @@ static thr_status find_facts(const thr_frame *frame, frame_facts *info, thr_err 
   info->shortest = frame->length[0];
 
   /* One pass over nodes and edges each; the analysis of rigidity is a rank, which may take long. */
-  int *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
   bool *bridge = thr_calloc((size_t)frame->n_edges, sizeof *bridge);
-  thr_status st = component && bridge ? THR_OK : thr_nomem(err);
-  if (!st) st = thr_frame_components(frame, component, &info->components, err);
+  thr_status st =
+      bridge ? thr_frame_components(frame, NULL, &info->components, err) : thr_nomem(err);
   if (!st) st = thr_frame_bridges(frame, bridge, err);
 
   /* Nodes: degrees, odd ones, feet. */
@@ -80,7 +79,6 @@ static thr_status find_facts(const thr_frame *frame, frame_facts *info, thr_err 
     if (frame->length[e] < info->shortest) info->shortest = frame->length[e];
     if (frame->length[e] > info->longest) info->longest = frame->length[e];
   }
-  free(component);
   free(bridge);
 
   info->analysed = can_analyse(frame);

@@ -93,12 +93,6 @@ static bool take_shake(void *into, const cli_option *option, const char *value)
   return false;
 }
 
-/* Words of ends, and what feet do. */
-static const char *end_name(int end)
-{
-  return thr_pull_name((thr_pull)end);
-}
-
 static const char *feet_meaning(int feet)
 {
   static const char *const meaning[] = {"stand on the ground as all pieces do, slide, and lift off",
@@ -122,7 +116,7 @@ static const cli_option own_options[] = {
     {"pull", .value = "N", .kind = CLI_AMOUNT, AT(rise.pull), .low = CLI_ABOVE_0, .high = 1e6,
      .help = "hands pull every end with more and more, up to so much (default: 50, the most of a "
              "hand)"},
-    {"ends", .kind = CLI_WORD, AT(ends), .word = end_name, .n_words = THR_PULL_NONE,
+    {"ends", .kind = CLI_WORD, AT(ends), .word = thr_pull_name, .n_words = THR_PULL_NONE,
      .help = "which ends of every cord hands pull; the others are tied (default: both)"},
     {"rate", .value = "MM/S", .kind = CLI_AMOUNT, AT(rise.rate), .low = CLI_ABOVE_0, .high = 1e6,
      .help = "a hand draws in so many mm a second, and pulls as hard as that takes, but no harder "
@@ -728,8 +722,7 @@ static int write_booklet(const rise_runs *runs)
     double(*own)[7] = pose + i * n_pieces;
     memcpy(own, record->pose + frame[i] * n_pieces, (size_t)n_pieces * sizeof *own);
     for (int v = 0; v < n_pieces; v++)
-      for (int k = 0; k < 3; k++)
-        own[v][k] /= runs->pieces.kit.mm;
+      thr_divide(own[v], runs->pieces.kit.mm);
     snprintf(caption[i], sizeof *caption, "%d of %d faces closed, %.3g N at every end",
              moment->closed, record->n_counted, moment->pull);
     panel[i] = (thr_still_panel){id[i], caption[i], (const double(*)[7])own};

@@ -18,8 +18,6 @@
 #include "kit/picture.h"
 #include "lib/comparison.h"
 
-#include <stdbool.h>
-
 /* ---- Prints advice on the number of cords beside a plan: shared by `thread advise` and by the
  * last lines of `thread plan`. */
 

@@ -9,8 +9,6 @@
 #include "eval/rise/turn.h"
 #include "graph/framework/frame.h"
 
-#include <stdbool.h>
-
 /* What was asked of motions. Strings point into argv. */
 typedef struct {
   bool wanted;

@@ -36,7 +36,7 @@ void pull_args_init(pull_args *args, thr_method method)
 static bool pull_by_name(const char *value, size_t n, thr_pull *pull)
 {
   for (int i = 0; i < THR_N_PULLS; i++) {
-    const char *name = thr_pull_name((thr_pull)i);
+    const char *name = thr_pull_name(i);
     if (strlen(name) != n || strncmp(value, name, n) != 0) continue;
     *pull = (thr_pull)i;
     return true;

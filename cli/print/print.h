@@ -36,8 +36,6 @@
 #include "planner/planner.h"
 #include "symmetry/symmetry.h"
 
-#include <stdbool.h>
-
 /* ---- plain.c: Formats forces and proofs in plain words, for the first screen of every command:
  * newtons with the mass that weighs as much, and one clause for what is proved. */
 

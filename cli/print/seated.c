@@ -15,7 +15,6 @@
 #include "cli/print/print.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -6,8 +6,6 @@
 
 #include "diagram/export/paper.h"
 
-#include <stddef.h>
-
 /* ---- bytes of a font, for the files font*.c ---- */
 
 /* Return the byte, or the number of 16 bits without or with a sign, at a byte of the file.

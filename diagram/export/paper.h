@@ -22,9 +22,6 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-#include <stdbool.h>
-#include <stdint.h>
-
 /* ---- font.c: TrueType fonts (ISO/IEC 14496-22, "OpenType") ---- */
 
 enum { THR_FONT_LETTERS = 65536 }; /* the letters of Unicode's basic plane */

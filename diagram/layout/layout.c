@@ -11,6 +11,7 @@
  * since no ratio (at most 1) can be 1.25 times as large. */
 
 #include "diagram/layout/layout.h"
+#include "graph/number.h"
 #include "graph/arrays.h"
 
 #include <math.h>
@@ -236,11 +237,8 @@ static void project_plane(thr_layout *layout, const thr_frame *frame)
 
   /* The part of that direction that lies in the plane, as a unit vector. */
   double along = thr_dot(top, normal);
-  for (int i = 0; i < 3; i++)
-    up[i] = top[i] - along * normal[i];
-  double size = sqrt(thr_dot(up, up));
-  for (int i = 0; i < 3; i++)
-    up[i] /= size;
+  thr_along(top, -along, normal, up);
+  thr_normalize(up);
 
   /* To the right on paper, so that right, up and normal are right-handed. */
   thr_cross(up, normal, right);

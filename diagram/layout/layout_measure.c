@@ -11,6 +11,7 @@
  * Example: a square with both diagonals has one crossing, no squeezed edge, a median of 1 (four
  * sides, two diagonals of 1.41) and a ratio of 1. */
 #include "diagram/layout/layout.h"
+#include "graph/number.h"
 #include "graph/arrays.h"
 
 #include <math.h>
@@ -190,10 +191,7 @@ static void size_grid(edge_grid *grid, double mean)
   /* The bounding box of all points. */
   grid->low[0] = grid->low[1] = HUGE_VAL;
   for (int v = 0; v < grid->paper->n_nodes; v++)
-    for (int i = 0; i < 2; i++) {
-      grid->low[i] = fmin(grid->low[i], grid->xy[v][i]);
-      high[i] = fmax(high[i], grid->xy[v][i]);
-    }
+    thr_widen(grid->low, high, grid->xy[v], 2);
 
   /* At most some 2 n_edges cells, also where the layout is much longer than wide. */
   double width = high[0] - grid->low[0], height = high[1] - grid->low[1];

@@ -12,6 +12,7 @@
  * Example: a cube opened below is a small square in a large one, with four edges between their
  * corners. */
 #include "diagram/layout/layout.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -70,9 +71,7 @@ static double centre_opening(const double (*unit)[3], int n, double direction[3]
     for (int k = 0; k < 6; k++) {
       double moved_to[3] = {direction[0], direction[1], direction[2]};
       moved_to[k / 2] += k % 2 ? step : -step;
-      double size = sqrt(thr_dot(moved_to, moved_to));
-      for (int j = 0; j < 3; j++)
-        moved_to[j] /= size;
+      thr_normalize(moved_to);
 
       /* A larger cosine is a nearer node: the cap is not wider. */
       double near = nearest_node(unit, n, moved_to);
@@ -114,12 +113,9 @@ static void lay_spread(thr_layout *layout, const double (*unit)[3], const double
    * the view. */
   const double axis[3] = {-opening[0], -opening[1], -opening[2]},
                top[3] = {0, fabs(axis[2]) > 0.7, fabs(axis[2]) <= 0.7};
-  double up[3], along = thr_dot(top, axis), size = 0, right[3];
-  for (int i = 0; i < 3; i++)
-    up[i] = top[i] - along * axis[i];
-  size = sqrt(thr_dot(up, up));
-  for (int i = 0; i < 3; i++)
-    up[i] /= size;
+  double up[3], along = thr_dot(top, axis), right[3];
+  thr_along(top, -along, axis, up);
+  thr_normalize(up);
   thr_cross(up, axis, right);
 
   /* The radius of the farthest node that is not on the rim. */

@@ -165,8 +165,7 @@ static double mean_length(const thr_frame *frame)
   double sum = 0;
   for (int e = 0; e < frame->n_edges; e++) {
     const double *from = frame->xyz[frame->edge[e][0]], *to = frame->xyz[frame->edge[e][1]];
-    double offset[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
-    sum += sqrt(thr_dot(offset, offset));
+    sum += thr_distance(from, to);
   }
   return sum / frame->n_edges;
 }

@@ -11,8 +11,6 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-#include <stdbool.h>
-
 /* mm: margins of the sheet and the usual width between them, sizes of letters, rows, radius of a
  * point, width of a bar. */
 static const double THR_CHART_MARGIN = 10, THR_CHART_WIDTH = 190, THR_CHART_TITLE = 6,

@@ -15,8 +15,6 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-#include <stdbool.h>
-
 /* ---- advice_chart.c: The picture of advice: pull and cord against the number of cords. */
 
 typedef struct {

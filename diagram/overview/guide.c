@@ -37,12 +37,8 @@ static bool direction(const thr_frame *frame, int h, double unit[3])
 {
   const double *from = frame->xyz[thr_tail(frame, h)], *to = frame->xyz[thr_head(frame, h)];
 
-  for (int i = 0; i < 3; i++)
-    unit[i] = to[i] - from[i];
-  double length = sqrt(thr_dot(unit, unit));
-  for (int i = 0; i < 3 && length > 0; i++)
-    unit[i] /= length;
-  return length > 0;
+  thr_between(from, to, unit);
+  return thr_normalize(unit) > 0;
 }
 
 /* Adds to normal the cross product of two edges that follow each other counter-clockwise round a

@@ -40,8 +40,7 @@ static void project(drawing *d, double fastest)
   /* Nodes and tips on the plane of view, in units; y grows downwards on paper. */
   for (int v = 0; v < frame->n_nodes; v++) {
     double moved[3];
-    for (int i = 0; i < 3; i++)
-      moved[i] = frame->xyz[v][i] + d->longest / fastest * d->what->velocity[v][i];
+    thr_along(frame->xyz[v], d->longest / fastest, d->what->velocity[v], moved);
     d->at[v][0] = thr_dot(frame->xyz[v], d->right), d->at[v][1] = -thr_dot(frame->xyz[v], d->up);
     d->tip[v][0] = thr_dot(moved, d->right), d->tip[v][1] = -thr_dot(moved, d->up);
     for (int k = 0; k < 2; k++) {

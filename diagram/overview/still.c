@@ -58,13 +58,11 @@ static void turn(const double pose[7], const double v[3], double out[3])
   const double *axis = pose + 3;
   double once[3], twice[3];
   thr_cross(axis, v, once);
-  for (int k = 0; k < 3; k++)
-    once[k] += axis[3] * v[k];
+  thr_along(once, axis[3], v, once);
 
   /* v + 2 u x once */
   thr_cross(axis, once, twice);
-  for (int k = 0; k < 3; k++)
-    out[k] = v[k] + 2 * twice[k];
+  thr_along(v, 2, twice, out);
 }
 
 /* Sets the directions of the view: the eye, to the right, and up; unit vectors at right angles.
@@ -97,8 +95,7 @@ static void arm_corners(const still_view *view, int h, double axis[3], double si
                *to = view->frame->xyz[thr_head(view->frame, h)], width = view->still->width;
 
   /* The direction; that of an edge without length is x. */
-  for (int k = 0; k < 3; k++)
-    axis[k] = to[k] - from[k];
+  thr_between(from, to, axis);
   double length = sqrt(thr_dot(axis, axis));
   for (int k = 0; k < 3; k++)
     axis[k] = length > 0 ? axis[k] / length : k == 0;
@@ -216,22 +213,13 @@ static int collect(still_view *view, const double (*pose)[7])
 
 /* ---- paper ---- */
 
-/* Extends a box, low to high, to a point. */
-static void stretch(double low[2], double high[2], const double at[2])
-{
-  for (int k = 0; k < 2; k++) {
-    low[k] = fmin(low[k], at[k]);
-    high[k] = fmax(high[k], at[k]);
-  }
-}
-
 /* Computes the corners of the ground on the plane of view: a rectangle round where the beads stand
  * in the first panel, with a margin of two widths. */
 static void ground_corners(const still_view *view, double at[4][2])
 {
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
   for (int v = 0; v < view->frame->n_nodes; v++)
-    stretch(low, high, view->still->panel[0].pose[v]);
+    thr_widen(low, high, view->still->panel[0].pose[v], 2);
 
   /* The corners in space, at the height of the ground. */
   double margin = 2 * view->still->width;
@@ -249,7 +237,7 @@ static void bound(still_view *view, const double (*pose)[7], double low[2], doub
   const int n = collect(view, pose);
   for (int i = 0; i < n; i++)
     for (int k = 0; k < 4; k++)
-      stretch(low, high, view->face[i].at[k]);
+      thr_widen(low, high, view->face[i].at[k], 2);
 }
 
 /* Chooses what part of the plane of view is shown, the same for all panels: all of the first panel
@@ -264,7 +252,7 @@ static void measure(still_view *view, double width, double height)
   bound(view, view->still->panel[0].pose, low, high);
   ground_corners(view, corner);
   for (int i = 0; i < 4; i++)
-    stretch(low, high, corner[i]);
+    thr_widen(low, high, corner[i], 2);
 
   /* The others, cut off where they are too far away. */
   const double margin = ROAM * fmax(high[0] - low[0], high[1] - low[1]);

@@ -79,9 +79,7 @@ static void across(const double along[3], double out[3])
   thr_cross(along, up, out);
   if (thr_dot(out, out) < 1e-12 * thr_dot(along, along)) thr_cross(along, aside, out);
 
-  const double length = sqrt(thr_dot(out, out));
-  for (int i = 0; i < 3; i++)
-    out[i] /= length;
+  thr_normalize(out);
 }
 
 /* Appends the two ends of the straight part of a pass in its lane. */

@@ -11,7 +11,6 @@
 #include "graph/number.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <stdio.h>
 
 thr_colour thr_palette(int i)
@@ -78,8 +77,7 @@ void thr_turning_colour(double angle, char hex[8])
                       dark[3] = {0.27, 0.0700, -0.1212}; /* lightness, a, b */
   double part = fmin(fmax(angle / THR_PI, 0), 1), at[3], cone[3];
 
-  for (int i = 0; i < 3; i++)
-    at[i] = pale[i] + part * (dark[i] - pale[i]);
+  thr_mix(pale, dark, part, at);
 
   /* From Oklab to the responses of the three kinds of cones, and on to linear sRGB. */
   cone[0] = pow(at[0] + 0.3963377774 * at[1] + 0.2158037573 * at[2], 3);

@@ -319,12 +319,8 @@ static void put_compas(thr_cord_lines *lines, int c, thr_writer *writer)
   thr_write_array(writer, "points");
 
   /* One row of three numbers for each point. */
-  for (int i = 0; i < lines->n_points; i++) {
-    thr_write_row(writer, NULL);
-    for (int k = 0; k < 3; k++)
-      thr_write_number(writer, NULL, lines->point[i][k]);
-    thr_write_close(writer);
-  }
+  for (int i = 0; i < lines->n_points; i++)
+    thr_write_numbers(writer, NULL, lines->point[i], 3);
 
   thr_write_close(writer);
   thr_write_close(writer);

@@ -304,10 +304,7 @@ static thr_status place_nodes(thr_scene *scene, double pitch_mm, thr_err *err)
 
   /* The layout's bounding box. */
   for (int v = 0; v < layout->n_points; v++)
-    for (int i = 0; i < 2; i++) {
-      low[i] = fmin(low[i], layout->xy[v][i]);
-      high[i] = fmax(high[i], layout->xy[v][i]);
-    }
+    thr_widen(low, high, layout->xy[v], 2);
 
   /* The length that becomes the pitch: the median edge, unless edges have no length. */
   double extent = fmax(high[0] - low[0], high[1] - low[1]);

@@ -19,8 +19,6 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-#include <stdbool.h>
-
 /* ---- boxes.c: keeps what lies where on paper: rectangles in a grid, asked for overlaps when a
  * number or a name looks for room. */
 

@@ -88,10 +88,7 @@ static void look(const thr_camera_scene *scene, const thr_camera *camera, const 
       double *at = end ? sight->to[i] : sight->from[i];
       at[0] = thr_dot(point, camera->right);
       at[1] = -thr_dot(point, camera->up);
-      for (int k = 0; k < 2; k++) {
-        low[k] = fmin(low[k], at[k]);
-        high[k] = fmax(high[k], at[k]);
-      }
+      thr_widen(low, high, at, 2);
     }
 
   /* The box and a ring of context fill the paper. */

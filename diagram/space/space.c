@@ -112,8 +112,7 @@ static void find_outward(const thr_space *space, int h, double outward[3])
 static void find_along(const thr_frame *frame, int h, double along[3])
 {
   const double *from = frame->xyz[thr_tail(frame, h)], *to = frame->xyz[thr_head(frame, h)];
-  for (int k = 0; k < 3; k++)
-    along[k] = to[k] - from[k];
+  thr_between(from, to, along);
 }
 
 /* Adds the planes that a pass spans with the other edges at its ends. */

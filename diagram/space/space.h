@@ -18,8 +18,6 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-#include <stdbool.h>
-
 /* ---- Chooses from where a part of a framework in space is drawn: in parallel projection, upright,
  * from the direction in which the passes of a step are best told apart on paper. */
 

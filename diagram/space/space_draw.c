@@ -769,10 +769,7 @@ static thr_camera_view view_of_all(const thr_space *space, const thr_space_look 
   /* The nodes' bounding box at scale 1. */
   for (int v = 0; v < space->f->n_nodes; v++) {
     thr_camera_project(&view, space->f->xyz[v], at[v]);
-    for (int k = 0; k < 2; k++) {
-      low[k] = fmin(low[k], at[v][k]);
-      high[k] = fmax(high[k], at[v][k]);
-    }
+    thr_widen(low, high, at[v], 2);
   }
 
   /* As large as the paper takes, with a rim. */

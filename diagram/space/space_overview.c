@@ -27,10 +27,7 @@ static double width_of(const thr_space *space, double pitch_mm)
   double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL},
          square = 0;
   for (int v = 0; v < space->f->n_nodes; v++)
-    for (int k = 0; k < 3; k++) {
-      low[k] = fmin(low[k], space->f->xyz[v][k]);
-      high[k] = fmax(high[k], space->f->xyz[v][k]);
-    }
+    thr_widen(low, high, space->f->xyz[v], 3);
   for (int k = 0; k < 3; k++)
     square += (high[k] - low[k]) * (high[k] - low[k]);
 

@@ -82,20 +82,14 @@ static double scale_to_unit(double a[3])
   double largest = fmax(fabs(a[0]), fmax(fabs(a[1]), fabs(a[2])));
   if (largest == 0) return 0;
 
-  for (int k = 0; k < 3; k++)
-    a[k] /= largest;
-
-  double norm = sqrt(thr_dot(a, a));
-  for (int k = 0; k < 3; k++)
-    a[k] /= norm;
-  return norm * largest;
+  thr_divide(a, largest);
+  return thr_normalize(a) * largest;
 }
 
 /* Fills d with the vector along a half-edge, in units of the framework; returns its length. */
 static double edge_vector(const thr_frame *frame, int half, double d[3])
 {
-  for (int k = 0; k < 3; k++)
-    d[k] = frame->xyz[thr_head(frame, half)][k] - frame->xyz[thr_tail(frame, half)][k];
+  thr_between(frame->xyz[thr_tail(frame, half)], frame->xyz[thr_head(frame, half)], d);
 
   double unit[3] = {d[0], d[1], d[2]};
   return scale_to_unit(unit);
@@ -185,8 +179,7 @@ static thr_status path_make(taut_path *path, const thr_frame *frame, const thr_c
   /* Edges in clearances. */
   for (int i = 0; i < path->n; i++) {
     edge_vector(frame, cord->half[i], path->straight[i]);
-    for (int k = 0; k < 3; k++)
-      path->straight[i][k] /= clearance;
+    thr_divide(path->straight[i], clearance);
   }
 
   /* Openings at the inner nodes; both ends of the cord stay at their nodes (axes 0). */
@@ -563,8 +556,7 @@ static void taut_points(const taut_path *path, const thr_frame *frame, const thr
 
     /* From offsets in clearances to places in units. */
     offset(path, (const double(*)[2])path->z, i, point[i]);
-    for (int k = 0; k < 3; k++)
-      point[i][k] = node[k] + clearance * point[i][k];
+    thr_along(node, clearance, point[i], point[i]);
   }
 
   if (length) *length = clearance * sum;

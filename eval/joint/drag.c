@@ -103,23 +103,11 @@ enum {
 
 /* ---- vectors ---- */
 
-/* Computes out = from + t d. */
-static void along(const double from[3], double t, const double d[3], double out[3])
-{
-  for (int k = 0; k < 3; k++)
-    out[k] = from[k] + t * d[k];
-}
-
 /* Computes the unit vector from a to b, or 0 if they are at one place; returns their distance. */
 static double between(const double a[3], const double b[3], double unit[3])
 {
-  double n = 0;
-  for (int k = 0; k < 3; k++)
-    unit[k] = b[k] - a[k];
-  n = sqrt(thr_dot(unit, unit));
-  for (int k = 0; k < 3; k++)
-    unit[k] = n > 0 ? unit[k] / n : 0;
-  return n;
+  thr_between(a, b, unit);
+  return thr_normalize(unit);
 }
 
 /* Turns an orientation, the quaternion q (x y z w), by `by` rad about its own axis 0, 1 or 2: the
@@ -346,14 +334,14 @@ static thr_status make_joints(drag_run *run, thr_err *err)
      * meet. */
     turned(orientation, 0, drag->twist ? drag->twist[i] : 0, joint->before);
     axes(joint->before, ahead, inside);
-    if (i) along(at, segment, ahead, at);
+    if (i) thr_along(at, segment, ahead, at);
     memcpy(joint->at, at, sizeof at);
 
     /* On the bisector of the turn, a cord of radius 1 that touches the inner edge has its axis
      * (bore - 1) / cos(angle / 2) from the channel's. */
     turned(joint->before, 2, joint->angle / 2, orientation);
     axes(orientation, ahead, inside);
-    along(at, (drag->bore - 1) / cos(joint->angle / 2), inside, joint->via);
+    thr_along(at, (drag->bore - 1) / cos(joint->angle / 2), inside, joint->via);
 
     /* The frame behind the turn. */
     turned(joint->before, 2, joint->angle, joint->behind);
@@ -456,8 +444,8 @@ static bool make_path(const drag_run *run, chain_piece *piece, double *links)
 
   /* The hold end is still `lead` radii before the first arc when the travel is over. */
   const bead_joint *first = &run->joint[0], *last = &run->joint[n - 1];
-  along(first->via, -(run->travel + protocol.lead + tan(first->angle / 2)), run->hold, begin);
-  along(last->via, protocol.lead + tan(last->angle / 2), run->drag, end);
+  thr_along(first->via, -(run->travel + protocol.lead + tan(first->angle / 2)), run->hold, begin);
+  thr_along(last->via, protocol.lead + tan(last->angle / 2), run->drag, end);
 
   /* Straight pieces between the ends and the via points. */
   for (int i = 0; i <= n; i++)
@@ -468,7 +456,7 @@ static bool make_path(const drag_run *run, chain_piece *piece, double *links)
   /* Round every corner by an arc of radius 1, which takes tan(arc / 2) from either straight. */
   for (int i = 0; i <= n; i++) {
     piece[i].arc = i < n ? thr_angle_between(piece[i].direction, piece[i + 1].direction) : 0;
-    along(i ? run->joint[i - 1].via : begin, cut, piece[i].direction, piece[i].from);
+    thr_along(i ? run->joint[i - 1].via : begin, cut, piece[i].direction, piece[i].from);
     double next = tan(piece[i].arc / 2), toward[3];
     piece[i].straight = (piece[i].straight - cut - next) / run->spacing;
     if (piece[i].straight < 0) return false;
@@ -476,7 +464,7 @@ static bool make_path(const drag_run *run, chain_piece *piece, double *links)
 
     /* The arc bends towards the part of the next direction that is across this one. */
     if (piece[i].arc > 0) {
-      along(piece[i + 1].direction, -cos(piece[i].arc), piece[i].direction, toward);
+      thr_along(piece[i + 1].direction, -cos(piece[i].arc), piece[i].direction, toward);
       between((double[3]){0}, toward, piece[i].inside);
     }
 
@@ -497,10 +485,10 @@ static void path_at(const drag_run *run, const chain_piece *piece, double links,
 
   /* Within a piece: straight, then an arc of radius 1 by `bend` rad. */
   double straight = fmin(links, piece->straight), bend = (links - straight) * link_angle(run);
-  along(piece->from, straight * run->spacing + sin(bend), piece->direction, at);
-  along(at, 1 - cos(bend), piece->inside, at);
-  along((double[3]){0}, cos(bend), piece->direction, direction);
-  along(direction, sin(bend), piece->inside, direction);
+  thr_along(piece->from, straight * run->spacing + sin(bend), piece->direction, at);
+  thr_along(at, 1 - cos(bend), piece->inside, at);
+  thr_along((double[3]){0}, cos(bend), piece->direction, direction);
+  thr_along(direction, sin(bend), piece->inside, direction);
 }
 
 /* Adds a sphere at its speed, and the link to the sphere before. The last sphere, which is dragged,
@@ -516,7 +504,7 @@ static thr_status add_sphere(drag_run *run, const double at[3], const double dir
   if (st != THR_OK) return st;
 
   /* The chain starts in motion. */
-  along((double[3]){0}, protocol.speed, direction, v);
+  thr_along((double[3]){0}, protocol.speed, direction, v);
   thr_world_set_velocity(run->world, body, v, (double[3]){0});
 
   /* The first sphere has no link. */
@@ -564,8 +552,8 @@ static thr_status add_chain(drag_run *run, bool *fits, thr_err *err)
 static thr_status step(drag_run *run, thr_err *err)
 {
   double back[3], v[3];
-  along((double[3]){0}, -1, run->hold, back);
-  along((double[3]){0}, protocol.speed, run->drag, v);
+  thr_along((double[3]){0}, -1, run->hold, back);
+  thr_along((double[3]){0}, protocol.speed, run->drag, v);
 
   thr_world_force(run->world, run->sphere, back);
   thr_world_set_velocity(run->world, run->sphere + run->spheres - 1, v, (double[3]){0});
@@ -622,8 +610,8 @@ static void add_to_path(const drag_run *run, double blocks, double (*path)[3])
   for (int i = whole + 1; i < run->spheres; i++) {
     thr_world_position(run->world, run->sphere + i - whole, at);
     thr_world_position(run->world, run->sphere + i - whole - 1, behind);
-    along(path[i], weight * (1 - (blocks - whole)), at, path[i]);
-    along(path[i], weight * (blocks - whole), behind, path[i]);
+    thr_along(path[i], weight * (1 - (blocks - whole)), at, path[i]);
+    thr_along(path[i], weight * (blocks - whole), behind, path[i]);
   }
 }
 

@@ -26,8 +26,6 @@
 #include "eval/cord/profile.h"
 #include "graph/plan/physics.h"
 
-#include <stdbool.h>
-
 /* [n] passes. Arrays are owned by who made the cable. */
 typedef struct {
   int n;

@@ -89,8 +89,7 @@ double thr_fit_points(const double (*from)[3], const double (*to)[3], int n, dou
   double most = 0;
   for (int i = 0; i < n; i++) {
     double off[3], turned[3];
-    for (int k = 0; k < 3; k++)
-      off[k] = from[i][k] - mean[0][k];
+    thr_between(mean[0], from[i], off);
     rotated(q, off, turned);
     for (int k = 0; k < 3; k++)
       turned[k] += mean[1][k];
@@ -101,8 +100,7 @@ double thr_fit_points(const double (*from)[3], const double (*to)[3], int n, dou
   if (shift) {
     double turned[3];
     rotated(q, mean[0], turned);
-    for (int k = 0; k < 3; k++)
-      shift[k] = mean[1][k] - turned[k];
+    thr_between(turned, mean[1], shift);
   }
   return most;
 }

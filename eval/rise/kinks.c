@@ -50,8 +50,7 @@ void thr_rise_drawn(const thr_rise_structure *structure, const thr_rise_cord *co
 {
   const double *node = cord->place ? cord->place[piece] : structure->piece[piece].centre;
   double from[3];
-  for (int i = 0; i < 3; i++)
-    from[i] = at[i] - node[i];
+  thr_between(node, at, from);
   thr_rise_drawn_turn(cord, piece, from, out);
 }
 

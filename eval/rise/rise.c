@@ -159,8 +159,7 @@ static void look_at(const rise_run *run, const thr_rise_cord *cord, int k, rise_
   thr_rise_turned(&run->bodies, from, axis[0], pass->in_axis);
   thr_rise_turned(&run->bodies, to, axis[1], pass->out_axis);
 
-  for (int i = 0; i < 3; i++)
-    pass->direction[i] = end[i] - start[i];
+  thr_between(start, end, pass->direction);
   pass->gap = thr_normalize(pass->direction) - 2 * depth / run->bodies.length;
   if (thr_dot(pass->direction, pass->direction) == 0)
     memcpy(pass->direction, pass->in_axis, sizeof pass->direction);

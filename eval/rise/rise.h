@@ -19,9 +19,6 @@
 #include "graph/plan/physics.h"
 #include "graph/status.h"
 
-#include <stdbool.h>
-#include <stdint.h>
-
 /* ---- what rises ---- */
 
 /* A piece as it is drawn in the closed structure. Arrays are owned by who made them. */

@@ -160,8 +160,7 @@ static thr_status turn_on(turn_world *turn, double *angle, thr_err *err)
     hold(turn, place);
     for (int end = -1; end <= 1; end += 2) {
       double force[3] = {-end * push * axis[2], 0, end * push * axis[0]};
-      for (int k = 0; k < 3; k++)
-        at[k] = pose[k] + 0.5 * end * LONG * axis[k];
+      thr_along(pose, 0.5 * end * LONG, axis, at);
       thr_world_force_at(turn->world, turn->body[1], force, at);
     }
     thr_world_force_at(turn->world, turn->body[1], turn->aside, place);

@@ -106,12 +106,8 @@ static bool append(orthonormal *basis, double size)
 static double direction(const thr_bars *bars, const double (*at)[3], int e, double unit[3])
 {
   const double *from = at[bars->frame->edge[e][0]], *to = at[bars->frame->edge[e][1]];
-  for (int i = 0; i < 3; i++)
-    unit[i] = to[i] - from[i];
-  double length = sqrt(thr_dot(unit, unit));
-  for (int i = 0; i < 3; i++)
-    unit[i] /= length;
-  return length;
+  thr_between(from, to, unit);
+  return thr_normalize(unit);
 }
 
 /* Returns whether an edge is a bar. */
@@ -177,16 +173,14 @@ static void append_rigid(orthonormal *basis, const thr_bars *bars, const double 
         middle[i] += at[v][i];
         nodes += i == 0;
       }
-    for (int i = 0; i < 3; i++)
-      middle[i] /= nodes;
+    thr_divide(middle, nodes);
 
     /* Its velocity; a straight piece does not turn about itself. */
     memset(basis->row, 0, basis->n * sizeof *basis->row);
     for (int v = 0; v < n; v++) {
       if (component[v] != k / 6) continue;
       double lever[3], axis[3] = {k % 3 == 0, k % 3 == 1, k % 3 == 2};
-      for (int i = 0; i < 3; i++)
-        lever[i] = at[v][i] - middle[i];
+      thr_between(middle, at[v], lever);
       if (k % 6 < 3)
         memcpy(basis->row + 3 * v, axis, sizeof axis);
       else

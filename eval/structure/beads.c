@@ -17,13 +17,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Computes the cross product of two vectors. */
-static void cross(const double a[3], const double b[3], double out[3])
-{
-  for (int k = 0; k < 3; k++)
-    out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-}
-
 /* Allocates the arrays. Fields that are not zero at first get their usual values. */
 static thr_status allocate(thr_beads *beads, thr_err *err)
 {
@@ -107,7 +100,7 @@ static void section(const thr_beads *beads, const double axis[3], double side[2]
   side[0][0] = level > VERTICAL ? -axis[1] / level : beads->level[0];
   side[0][1] = level > VERTICAL ? axis[0] / level : beads->level[1];
   side[0][2] = 0;
-  cross(axis, side[0], side[1]);
+  thr_cross(axis, side[0], side[1]);
 }
 
 /* Computes axis, middle and corners of the face of edge e. */
@@ -130,8 +123,7 @@ static thr_status place_face(thr_beads *beads, const thr_frame *frame, int e, th
         "edge between nodes %s and %s has no length in space: a bead needs an arm there",
         frame->name[frame->edge[e][0]], frame->name[frame->edge[e][1]]);
 
-  for (int k = 0; k < 3; k++)
-    beads->axis[e][k] /= length;
+  thr_divide(beads->axis[e], length);
   section(beads, beads->axis[e], side);
 
   /* The corners, in order round the axis. */
@@ -161,8 +153,7 @@ static void compute_mass(thr_beads *beads, const thr_frame *frame, const thr_phy
   /* Volume and first moment, arm by arm. */
   for (int i = frame->first[v]; i < frame->first[v + 1]; i++) {
     double arm[3], length = 0;
-    for (int k = 0; k < 3; k++)
-      arm[k] = beads->middle[frame->half[i] >> 1][k] - beads->centre[v][k];
+    thr_between(beads->centre[v], beads->middle[frame->half[i] >> 1], arm);
     length = sqrt(thr_dot(arm, arm));
 
     /* The first half width counts by its share only. */
@@ -172,8 +163,7 @@ static void compute_mass(thr_beads *beads, const thr_frame *frame, const thr_phy
     double lever = 0.5 * (length * length - (1 - share) * shared * shared) / length;
 
     volume += section_area * part;
-    for (int k = 0; k < 3; k++)
-      moment[k] += section_area * lever * arm[k];
+    thr_along(moment, section_area * lever, arm, moment);
   }
 
   /* A given mass keeps the mass centre of the volume. */
@@ -300,7 +290,7 @@ void thr_beads_corner(const thr_beads *beads, int face, int i, bool outside, dou
 
   double side[3];
   const double *corner = bodies->outline[outside][i], half = 0.5e-3 * bodies->width[face];
-  cross(bodies->up[face], beads->axis[face], side);
+  thr_cross(bodies->up[face], beads->axis[face], side);
   for (int k = 0; k < 3; k++)
     at[k] = beads->middle[face][k] + half * (corner[0] * bodies->up[face][k] + corner[1] * side[k]);
 }

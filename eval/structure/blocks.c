@@ -217,8 +217,7 @@ static void add_force(const thr_blocks *blocks, double (*wrench)[6], int bead,
   double lever[3], moment[3];
 
   /* Moment = lever x force, with the lever from the body's origin. */
-  for (int k = 0; k < 3; k++)
-    lever[k] = at[k] - blocks->origin[body][k];
+  thr_between(blocks->origin[body], at, lever);
   thr_cross(lever, force, moment);
 
   for (int k = 0; k < 3; k++) {
@@ -357,12 +356,6 @@ double thr_blocks_friction(const thr_blocks *blocks, const thr_contact *contact)
 }
 
 /* ---- the programme ---- */
-
-/* Frees the arrays. */
-static void programme_destroy(equilibrium_programme *programme)
-{
-  thr_scratch_free(&programme->own);
-}
 
 /* Adds an entry to the last column. */
 static void entry(equilibrium_programme *programme, int row, double value)
@@ -703,7 +696,7 @@ static thr_status programme_make(const thr_blocks *blocks, aim what,
   programme->row = thr_scratch_array(&programme->own, entries, sizeof *programme->row);
   programme->value = thr_scratch_array(&programme->own, entries, sizeof *programme->value);
   if (thr_scratch_check(&programme->own, err)) {
-    programme_destroy(programme);
+    thr_scratch_free(&programme->own);
     return THR_ENOMEM;
   }
 
@@ -900,7 +893,7 @@ static thr_status solve(const thr_blocks *blocks, aim what, const thr_limits *li
 
   /* Objective and violation, from the numbers themselves. */
   if (!st) st = measure_solution(blocks, &programme, out, err);
-  programme_destroy(&programme);
+  thr_scratch_free(&programme.own);
 
   if (st) thr_blocks_solution_destroy(out);
   return st;

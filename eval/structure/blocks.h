@@ -9,8 +9,6 @@
 #include "graph/plan/plan_measures.h"
 #include "lp/solver/solver.h"
 
-#include <stdbool.h>
-
 /* ---- blocks.c: The framework as rigid blocks, and the linear programme of their equilibrium
  * (eval/structure/holding.c says what for). */
 

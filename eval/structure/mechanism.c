@@ -25,8 +25,7 @@ static void point_velocity(const thr_blocks *blocks, int bead, const double (*ve
                            const double at[3], double out[3])
 {
   double lever[3];
-  for (int k = 0; k < 3; k++)
-    lever[k] = at[k] - blocks->b->mass_centre[bead][k];
+  thr_between(blocks->b->mass_centre[bead], at, lever);
   thr_cross(velocity[bead] + 3, lever, out);
   for (int k = 0; k < 3; k++)
     out[k] += velocity[bead][k];
@@ -146,8 +145,7 @@ static void move_with_body(const thr_blocks *blocks, int bead, const double *dua
     velocity[k] = -dual[row + k] / (k < 3 ? 1 : blocks->length);
 
   /* From the origin of the body to the mass centre of the bead. */
-  for (int k = 0; k < 3; k++)
-    lever[k] = blocks->b->mass_centre[bead][k] - blocks->origin[body][k];
+  thr_between(blocks->origin[body], blocks->b->mass_centre[bead], lever);
   thr_cross(velocity + 3, lever, turn);
 
   for (int k = 0; k < 3; k++)

@@ -128,8 +128,7 @@ static void widen(span *piece_span, const double direction[3])
   for (int pass = 0; pass < 2; pass++)
     for (int i = 0; i < piece_span->dimension; i++) {
       double along = thr_dot(rest, piece_span->basis[i]);
-      for (int k = 0; k < 3; k++)
-        rest[k] -= along * piece_span->basis[i][k];
+      thr_along(rest, -along, piece_span->basis[i], rest);
     }
 
   /* What is left is a new direction, unless it is as small as doubt. */

@@ -21,9 +21,7 @@ bool thr_check_close(double a, double b, double whole)
 static void unit_direction(const thr_frame *frame, int half, double unit[3])
 {
   thr_direction(frame, half, unit);
-  double size = sqrt(thr_dot(unit, unit));
-  for (int i = 0; i < 3; i++)
-    unit[i] /= size;
+  thr_normalize(unit);
 }
 
 /* Returns the angle between two unit vectors by Kahan's formula. */

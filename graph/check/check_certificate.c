@@ -60,12 +60,8 @@ typedef struct {
   thr_scratch own;   /* the arrays */
 } forest;
 
-static void forest_destroy(forest *cuts)
-{
-  thr_scratch_free(&cuts->own);
-}
-
-/* Allocates the arrays of a forest; no cut is linked yet. Release with forest_destroy. */
+/* Allocates the arrays of a forest; no cut is linked yet. Release own with
+ * thr_scratch_free. */
 static thr_status forest_init(forest *cuts, const thr_certificate *certificate, thr_err *err)
 {
   size_t n = (size_t)certificate->n_cuts;
@@ -496,13 +492,8 @@ static thr_status run_certificate(workspace *work, const thr_certificate *certif
   if (!st) st = check_loads(work, certificate, err);
   if (!st) st = judge(work, certificate, sum, places, out, err);
 
-  forest_destroy(&cuts);
+  thr_scratch_free(&cuts.own);
   return st;
-}
-
-static void workspace_destroy(workspace *work)
-{
-  thr_scratch_free(&work->scratch);
 }
 
 /* Groups nodes and edges by component: a counting sort, shifted by one place so that filling leaves
@@ -546,8 +537,8 @@ static void point(workspace *work)
   }
 }
 
-/* Allocates the work space and fills what no certificate changes. Release with workspace_destroy.
- */
+/* Allocates the work space and fills what no certificate changes. Release scratch with
+ * thr_scratch_free. */
 static thr_status workspace_init(workspace *work, const thr_frame *frame,
                                  const thr_request *options, const thr_check_walked *check_walked,
                                  thr_err *err)
@@ -608,6 +599,6 @@ thr_status thr_check_certificates(const thr_frame *frame, const thr_request *opt
       st = run_certificate(&work, &certificate[i], &verdict[i], err);
   }
 
-  workspace_destroy(&work);
+  thr_scratch_free(&work.scratch);
   return st;
 }

@@ -11,9 +11,6 @@
 #include "graph/plan/physics.h"
 #include "graph/plan/plan_measures.h"
 
-#include <stdbool.h>
-#include <stdint.h>
-
 /* Lengths, angles and forces are sums of doubles, taken in an order of the plan's own: equal up to
  * 1e-9 of what they are parts of. */
 bool thr_check_close(double a, double b, double whole);

@@ -62,8 +62,7 @@ static bool is_vertical(const double axis[3])
 static void axis_of(const bead_bodies *bodies, int e, double axis[3])
 {
   const int *end = bodies->plan->frame.edge[e];
-  for (int k = 0; k < 3; k++)
-    axis[k] = bodies->centre[end[1]][k] - bodies->centre[end[0]][k];
+  thr_between(bodies->centre[end[0]], bodies->centre[end[1]], axis);
 
   const double length = sqrt(thr_dot(axis, axis)), inverse = 1 / length;
   for (int k = 0; k < 3; k++)
@@ -97,8 +96,7 @@ static void find_knotted(bead_bodies *bodies)
          k++) {
       const int *end = plan->frame.edge[plan->cord[i].half[k] >> 1];
       double way[3];
-      for (int j = 0; j < 3; j++)
-        way[j] = bodies->centre[end[1]][j] - bodies->centre[end[0]][j];
+      thr_between(bodies->centre[end[0]], bodies->centre[end[1]], way);
       bodies->knotted[plan->cord[i].half[k] >> 1] = sqrt(thr_dot(way, way));
     }
 }
@@ -268,8 +266,7 @@ static void point_velocity(const bead_bodies *bodies, const thr_answer *answer, 
                            const double at[3], double out[3])
 {
   double lever[3];
-  for (int k = 0; k < 3; k++)
-    lever[k] = at[k] - bodies->mass_centre[v][k];
+  thr_between(bodies->mass_centre[v], at, lever);
   thr_cross(answer->velocity[v] + 3, lever, out);
   for (int k = 0; k < 3; k++)
     out[k] += answer->velocity[v][k];
@@ -282,8 +279,7 @@ static bool opens(const double apart[3], const double normal[3], double mu, doub
   const double along = thr_dot(apart, normal);
   double across[3];
 
-  for (int k = 0; k < 3; k++)
-    across[k] = apart[k] - along * normal[k];
+  thr_along(apart, -along, normal, across);
 
   return along >= mu * sqrt(thr_dot(across, across)) - closing;
 }
@@ -402,8 +398,7 @@ static bool face_opens(const bead_bodies *bodies, const thr_answer *answer, int 
 
   /* The velocity of the second bead relative to the first one. */
   for (int i = 0; i < 4; i++) {
-    for (int k = 0; k < 3; k++)
-      apart[k] = velocity[1][i][k] - velocity[0][i][k];
+    thr_between(velocity[0][i], velocity[1][i], apart);
     if (!opens(apart, axis, bodies->evaluation->physics.mu_bead, closing)) return false;
   }
   return true;

@@ -101,12 +101,7 @@ typedef struct {
   thr_scratch own;      /* the arrays */
 } cord_paths;
 
-static void paths_destroy(cord_paths *paths)
-{
-  thr_scratch_free(&paths->own);
-}
-
-/* Allocates the tables. Release with paths_destroy, after a failure too. */
+/* Allocates the tables. Release own with thr_scratch_free, after a failure too. */
 static thr_status paths_init(cord_paths *paths, const thr_plan *plan, thr_err *err)
 {
   size_t n = (size_t)plan->n_cords, all = 0, longest = 0;
@@ -368,7 +363,7 @@ thr_status thr_check_symmetry(const thr_plan *plan, thr_err *err)
 
   if (!st) st = check_copies(&paths, &check_elements, err);
 
-  paths_destroy(&paths);
+  thr_scratch_free(&paths.own);
   free(check_elements.image);
   return st;
 }

@@ -42,10 +42,8 @@ static void walked_destroy(walked_cords *walked)
  * plan has. */
 static thr_status count_cords(walked_cords *walked, thr_err *err)
 {
-  int components, *component = thr_calloc((size_t)walked->frame->n_nodes, sizeof *component);
-  thr_status st =
-      component ? thr_frame_components(walked->frame, component, &components, err) : thr_nomem(err);
-  free(component);
+  int components;
+  const thr_status st = thr_frame_components(walked->frame, NULL, &components, err);
   if (st) return st;
 
   bool counts = walked->request->ends == THR_ENDS_COUNTS;

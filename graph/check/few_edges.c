@@ -23,7 +23,6 @@
 #include "graph/check/check_parts.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -25,7 +25,6 @@
 #include "graph/check/check_parts.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -240,9 +239,8 @@ static void find_sets(set_search *search)
 static thr_status is_supported(const thr_frame *frame, const thr_request *options, bool *supported,
                                thr_err *err)
 {
-  int n = 0, *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
-  thr_status st = component ? thr_frame_components(frame, component, &n, err) : thr_nomem(err);
-  free(component);
+  int n = 0;
+  const thr_status st = thr_frame_components(frame, NULL, &n, err);
   *supported = n == 1 && frame->n_edges <= THR_SHORT_EDGES && options->joint == THR_JOINT_SOLID &&
                options->ends != THR_ENDS_COUNTS;
   return st;

@@ -8,7 +8,6 @@
  * THR_RANK_DEGREE half-edges. */
 #include "graph/plan/turning_proof.h"
 
-#include <stdbool.h>
 #include <string.h>
 
 typedef struct {

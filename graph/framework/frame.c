@@ -226,13 +226,6 @@ static thr_status sort_projected(projected *item, int n, thr_err *err)
   return st;
 }
 
-/* Returns the distance between two points. */
-static double distance(const double a[3], const double b[3])
-{
-  return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
-              (a[2] - b[2]) * (a[2] - b[2]));
-}
-
 /* Fills parent[n_nodes] with the lowest node of each node's welded group: the connected components
  * of the graph of all pairs within the tolerance. Groups can be wider than the tolerance. */
 static thr_status weld(const thr_draft *draft, double tolerance, int *parent, thr_err *err)
@@ -257,7 +250,7 @@ static thr_status weld(const thr_draft *draft, double tolerance, int *parent, th
    * away. */
   for (int i = 0; i < n && !st; i++)
     for (int j = i - 1; j >= 0 && !(order[i].along - order[j].along > tolerance); j--) {
-      double apart = distance(order[i].xyz, order[j].xyz);
+      double apart = thr_distance(order[i].xyz, order[j].xyz);
       if (apart <= tolerance) thr_disjoint_join(parent, order[i].node, order[j].node);
 
       if (apart == 0) break;     /* what is close to this node was compared with its twin already */
@@ -285,7 +278,7 @@ static double diagonal_of(const double (*xyz)[3], int n, size_t stride)
     }
   }
 
-  return distance(low, high);
+  return thr_distance(low, high);
 }
 
 /* Computes the tolerance for welding where none is given: 1e-6 of the bounding box's diagonal, but
@@ -300,7 +293,8 @@ static thr_status default_tolerance(const thr_draft *draft, double *tolerance, t
   /* The lengths of edges, but for those between nodes at one place. */
   int n = 0;
   for (int e = 0; e < draft->n_edges; e++) {
-    double apart = distance(draft->node[draft->edge[e].a].xyz, draft->node[draft->edge[e].b].xyz);
+    double apart =
+        thr_distance(draft->node[draft->edge[e].a].xyz, draft->node[draft->edge[e].b].xyz);
     if (apart > 0) length[n++] = apart;
   }
   *tolerance = 1e-6 * diagonal_of((const double(*)[3])draft->node[0].xyz, draft->n_nodes,
@@ -353,7 +347,7 @@ static thr_status list_by_ends(const thr_draft *draft, const int *parent, joinin
     const int a = parent[draft->edge[e].a], b = parent[draft->edge[e].b];
     const double given = draft->edge[e].length;
     if (a == b) continue;
-    const double length = given != 0 ? given : distance(draft->node[a].xyz, draft->node[b].xyz);
+    const double length = given != 0 ? given : thr_distance(draft->node[a].xyz, draft->node[b].xyz);
     (*list)[(*n)++] = (joining){a < b ? a : b, a < b ? b : a, e, length};
   }
 
@@ -479,7 +473,7 @@ static thr_status part_edge(thr_draft *draft, int e, double share, int number, t
   for (int i = 0; i < 3; i++)
     xyz[i] = (1 - share) * a->xyz[i] + share * b->xyz[i];
 
-  const double length = edge.length != 0 ? edge.length : distance(a->xyz, b->xyz);
+  const double length = edge.length != 0 ? edge.length : thr_distance(a->xyz, b->xyz);
 
   /* The name. */
   append_node(name, sizeof name, draft, edge.a);
@@ -731,7 +725,7 @@ static thr_status fill_edges(thr_frame *frame, const thr_draft *draft, const int
     int a = index[parent[draft->edge[e].a]], b = index[parent[draft->edge[e].b]];
 
     /* A length that is given counts, even if it is shorter than the distance of the nodes. */
-    double given = draft->edge[e].length, euclidean = distance(frame->xyz[a], frame->xyz[b]);
+    double given = draft->edge[e].length, euclidean = thr_distance(frame->xyz[a], frame->xyz[b]);
     double length = given != 0 ? given : euclidean;
 
     /* Nodes at one place give the edge no direction, and so no angles of turning. */
@@ -898,7 +892,7 @@ static bool says_edge(const thr_draft *draft, const thr_frame *frame, int e)
 {
   const struct thr_draft_edge *edge = &draft->edge[e];
   const double length =
-      frame->own_lengths ? edge->length : distance(frame->xyz[edge->a], frame->xyz[edge->b]);
+      frame->own_lengths ? edge->length : thr_distance(frame->xyz[edge->a], frame->xyz[edge->b]);
 
   return edge->a == frame->edge[e][0] && edge->b == frame->edge[e][1] &&
          length == frame->length[e] && frame->own_lengths == (edge->length != 0) &&
@@ -1050,16 +1044,18 @@ void thr_frame_keep_hash(thr_frame *frame)
 /* Numbers components by searches from the lowest node that has none. */
 thr_status thr_frame_components(const thr_frame *frame, int *component, int *count, thr_err *err)
 {
-  int *stack = thr_calloc((size_t)frame->n_nodes, sizeof *stack);
+  thr_scratch own = {0};
+  int *stack = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *stack);
+  if (!component) component = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *component);
+  const thr_status st = thr_scratch_check(&own, err);
 
-  if (!stack) return thr_nomem(err);
   *count = 0;
-  for (int v = 0; v < frame->n_nodes; v++)
+  for (int v = 0; v < frame->n_nodes && !st; v++)
     component[v] = -1;
 
   /* A depth-first search with a stack of its own from every node that has no component yet; roots
    * ascend, so components are numbered by their lowest node. */
-  for (int root = 0; root < frame->n_nodes; root++) {
+  for (int root = 0; root < frame->n_nodes && !st; root++) {
     if (component[root] >= 0) continue;
     int top = 0;
     component[root] = *count;
@@ -1077,8 +1073,8 @@ thr_status thr_frame_components(const thr_frame *frame, int *component, int *cou
     ++*count;
   }
 
-  free(stack);
-  return THR_OK;
+  thr_scratch_free(&own);
+  return st;
 }
 
 /* Runs one depth-first search from root and marks the bridges of its component (Tarjan 1974).
@@ -1148,6 +1144,5 @@ void thr_direction(const thr_frame *frame, int half, double d[3])
     largest = fabs(d[i]) > largest ? fabs(d[i]) : largest;
   }
 
-  for (int i = 0; i < 3; i++)
-    d[i] /= largest;
+  thr_divide(d, largest);
 }

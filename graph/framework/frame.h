@@ -17,8 +17,6 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-#include <stddef.h>
-
 /* ---- frame.c: The framework: a simple graph whose nodes have coordinates. */
 
 /* Half-edge h = 2*e + s is edge e seen from its end s: it leaves node edge[e][s] and arrives at
@@ -205,8 +203,8 @@ uint64_t thr_frame_hash(const thr_frame *frame);
  * reads it back. */
 void thr_frame_keep_hash(thr_frame *frame);
 
-/* Component number of every node (0, 1, .. by lowest node) in component[n_nodes]; *count receives
- * how many. */
+/* Component number of every node (0, 1, .. by lowest node) in component[n_nodes], unless that is
+ * NULL; *count receives how many. */
 thr_status thr_frame_components(const thr_frame *frame, int *component, int *count,
                                 thr_err *err) THR_MUST_CHECK;
 

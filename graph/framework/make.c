@@ -198,8 +198,7 @@ static thr_status make_alternating(thr_draft *draft, const thr_make_options *opt
   memcpy(axis[0], node[n - 1], sizeof axis[0]);
   thr_normalize(axis[0]);
   const double slope = thr_dot(axis[0], axis[2]);
-  for (int k = 0; k < 3; k++)
-    axis[2][k] -= slope * axis[0][k];
+  thr_along(axis[2], -slope, axis[0], axis[2]);
   thr_normalize(axis[2]);
   thr_cross(axis[2], axis[0], axis[1]);
   for (int i = 0; i < n; i++)
@@ -270,8 +269,7 @@ static void on_sphere(const double a[3], int wa, const double b[3], int wb, cons
     norm += xyz[i] * xyz[i];
   }
 
-  for (int i = 0; i < 3; i++)
-    xyz[i] /= sqrt(norm);
+  thr_divide(xyz, sqrt(norm));
 }
 
 /* Computes the place of node i of row r. In its sector the node is on a face of the icosahedron,
@@ -339,8 +337,7 @@ static void scale_to_pitch(thr_draft *draft, double pitch)
   /* The sum of the lengths of all edges. */
   for (int e = 0; e < draft->n_edges; e++) {
     const double *a = draft->node[draft->edge[e].a].xyz, *b = draft->node[draft->edge[e].b].xyz;
-    sum += sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
-                (a[2] - b[2]) * (a[2] - b[2]));
+    sum += thr_distance(a, b);
   }
 
   /* The unit sphere's edges are sum / n_edges long on average. */

@@ -18,7 +18,6 @@
 #include "graph/number.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -61,13 +60,6 @@ typedef struct {
 
 /* ---- geometry ---- */
 
-/* Returns the distance between two points. */
-static double distance(const double a[3], const double b[3])
-{
-  const double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  return sqrt(thr_dot(d, d));
-}
-
 /* Returns the coordinates of an end of an edge. */
 static const double *end_of(const near_search *search, int e, int side)
 {
@@ -78,8 +70,7 @@ static const double *end_of(const near_search *search, int e, int side)
 static void point_on(const near_search *search, int e, double at, double out[3])
 {
   const double *a = end_of(search, e, 0), *b = end_of(search, e, 1);
-  for (int i = 0; i < 3; i++)
-    out[i] = a[i] + at * (b[i] - a[i]);
+  thr_mix(a, b, at, out);
 }
 
 /* Returns whether an edge is as long as its nodes are apart, within 1 %. Longer edges are curves,
@@ -251,7 +242,7 @@ static bool goes_on(near_search *search)
 /* Counts a pair of nodes that is close but has no edge, and keeps the closest one. */
 static void compare_nodes(near_search *search, int v, int w)
 {
-  const double gap = distance(search->frame->xyz[v], search->frame->xyz[w]);
+  const double gap = thr_distance(search->frame->xyz[v], search->frame->xyz[w]);
 
   /* Close means a tenth of the shortest edge at either node. */
   if (gap > CLOSE * fmin(fmin(search->shortest[v], search->shortest[w]), search->cell) ||
@@ -283,7 +274,8 @@ static void find_close_nodes(near_search *search, int v)
         for (int i = search->nodes.start[bucket];
              i < search->nodes.start[bucket + 1] && goes_on(search); i++) {
           const int w = search->nodes.member[i];
-          if (w <= v || distance(search->frame->xyz[v], search->frame->xyz[w]) > reach) continue;
+          if (w <= v || thr_distance(search->frame->xyz[v], search->frame->xyz[w]) > reach)
+            continue;
 
           /* The bucket may hold nodes of other cells, which get their turn there. */
           const place own = place_of(search, search->frame->xyz[w], 0);
@@ -315,13 +307,13 @@ static thr_status compare_node(near_search *search, int v, int e)
 
   /* Is the node close enough? */
   point_on(search, e, at, foot);
-  if (distance(point, foot) >
+  if (thr_distance(point, foot) >
       TOUCHING * fmin(search->apart[e], fmin(search->shortest[v], 10 * search->cell)))
     return THR_OK;
 
   /* A node close to one of the ends is a matter of welding. */
   for (int side = 0; side < 2; side++)
-    if (distance(point, end_of(search, e, side)) <=
+    if (thr_distance(point, end_of(search, e, side)) <=
         CLOSE * fmin(search->shortest[v], search->shortest[search->frame->edge[e][side]]))
       return THR_OK;
 
@@ -375,7 +367,7 @@ static void compare_edges(near_search *search, int e, int f, uint32_t bucket)
   /* Close enough? */
   point_on(search, e, at1, here);
   point_on(search, f, at2, there);
-  if (distance(here, there) >
+  if (thr_distance(here, there) >
       TOUCHING * fmin(fmin(search->apart[e], search->apart[f]), 10 * search->cell))
     return;
 
@@ -433,7 +425,7 @@ static thr_status begin_search(near_search *search, const thr_frame *frame, thr_
   for (int v = 0; v < frame->n_nodes; v++)
     search->shortest[v] = INFINITY;
   for (int e = 0; e < frame->n_edges; e++) {
-    search->apart[e] = distance(end_of(search, e, 0), end_of(search, e, 1));
+    search->apart[e] = thr_distance(end_of(search, e, 0), end_of(search, e, 1));
     for (int side = 0; side < 2; side++)
       search->shortest[frame->edge[e][side]] =
           fmin(search->shortest[frame->edge[e][side]], search->apart[e]);
@@ -477,15 +469,6 @@ static thr_status add_part(const thr_frame *frame, int e, int a, int b, double p
                                     frame->capacity ? frame->capacity[e] : 0, err);
 }
 
-/* Counts the components of a framework. */
-static thr_status count_components(const thr_frame *frame, int *count, thr_err *err)
-{
-  int *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
-  thr_status st = component ? thr_frame_components(frame, component, count, err) : thr_nomem(err);
-  free(component);
-  return st;
-}
-
 /* Computes what welding with the tolerance near->weld would change. */
 static thr_status try_weld(const thr_frame *frame, thr_near *near, thr_err *err)
 {
@@ -500,7 +483,7 @@ static thr_status try_weld(const thr_frame *frame, thr_near *near, thr_err *err)
 
   /* Build, and count what has been welded. */
   if (!st) st = thr_draft_build(&draft, near->weld, &welded, &report, err);
-  if (!st) st = count_components(&welded, &near->components_welded, err);
+  if (!st) st = thr_frame_components(&welded, NULL, &near->components_welded, err);
   near->n_welded = report.welded_nodes;
   near->n_lost = report.zero_length_edges;
   near->n_merged = report.duplicate_edges;
@@ -538,7 +521,7 @@ thr_status thr_frame_near(const thr_frame *frame, thr_near *near, thr_err *err)
   if (search.n_touches) near->on_edge[0] = search.touch[0].node;
   if (search.n_touches) near->on_edge[1] = search.touch[0].edge;
 
-  if (!st) st = count_components(frame, &near->components, err);
+  if (!st) st = thr_frame_components(frame, NULL, &near->components, err);
   if (!st && near->n_close) st = choose_weld(&search, near);
   end_search(&search);
 

@@ -77,9 +77,7 @@ static void any_orthogonal(const double a[3], double out[3])
   bool second = fabs(a[0]) > fabs(a[1]);
   double axis[3] = {!second, second, 0}; /* 45 degrees or more from a */
   thr_cross(a, axis, out);
-  double norm = sqrt(thr_dot(out, out));
-  for (int i = 0; i < 3; i++)
-    out[i] /= norm;
+  thr_normalize(out);
 }
 
 /* Completes the left singular vectors u that rounding has left open, from the right ones v. rank:
@@ -94,8 +92,7 @@ static void complete(double u[3][3], double v[3][3], int rank)
     thr_cross(v[0], u[0], v[1]);
     double norm = sqrt(thr_dot(v[1], v[1]));
     if (norm > 1e-9)
-      for (int i = 0; i < 3; i++)
-        v[1][i] /= norm;
+      thr_divide(v[1], norm);
     else
       any_orthogonal(v[0], v[1]);
     memcpy(u[1], v[1], sizeof u[1]);
@@ -140,8 +137,7 @@ static void polar(double h[3][3], double q[3][3], bool *flat)
     s[i] = sqrt(thr_dot(h[i], h[i]));
     if (s[i] <= FLAT * s[0]) break; /* of no extent: rank 0 */
     rank = i + 1;
-    for (int k = 0; k < 3; k++)
-      h[i][k] /= s[i];
+    thr_divide(h[i], s[i]);
   }
   *flat = rank < 3;
 

@@ -320,15 +320,6 @@ static placing after(const placing *a, const placing *b)
   return both;
 }
 
-/* Scales v to length 1. Returns false, with v unchanged, if v is zero. */
-static bool normalize(double v[3])
-{
-  double length = sqrt(thr_dot(v, v));
-  for (int i = 0; i < 3; i++)
-    v[i] /= length > 0 ? length : 1;
-  return length > 0;
-}
-
 /* Computes the map from an entity's own coordinates, which the direction of their z axis tells
  * (codes 210 to 230), to those of the block: the "arbitrary axis algorithm" of the DXF
  * Reference. */
@@ -339,13 +330,13 @@ static thr_status own_coordinates(dxf_reader *reader, placing *place)
 
   /* Without a direction the entity's coordinates are the block's. */
   thr_status st = read_point(reader, 210, z);
-  if (st || !normalize(z)) return st;
+  if (st || thr_normalize(z) == 0) return st;
 
   /* x is orthogonal to z and to the world's z axis, or to the world's y axis if z is close to the
    * world's z axis. */
   const double world_y[3] = {0, 1, 0}, world_z[3] = {0, 0, 1};
   thr_cross(fabs(z[0]) < 1. / 64 && fabs(z[1]) < 1. / 64 ? world_y : world_z, z, x);
-  normalize(x);
+  thr_normalize(x);
   thr_cross(z, x, y);
 
   /* The columns of m are the images of the three axes. */
@@ -400,13 +391,6 @@ static thr_status add_segment(dxf_reader *reader, const placing *place, const do
   thr_status st = add_point(reader, place, a);
   if (!st) st = add_point(reader, place, b);
   return st ? st : add_shape(reader, PATH, first, reader->n_points, curve_length);
-}
-
-/* Returns the distance between two points. */
-static double distance(const double a[3], const double b[3])
-{
-  const double v[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  return sqrt(thr_dot(v, v));
 }
 
 /* ---- curves ---- */
@@ -500,7 +484,7 @@ static thr_status add_bulge(dxf_reader *reader, const placing *place, const doub
   /* The centre is on the chord's perpendicular bisector, to the left of the chord where the bulge
    * is between 0 and 1. The radius is chord / (2 sin(angle / 2)). */
   const double aside = (1 - bulge * bulge) / (4 * bulge),
-               length = distance(a, b) * angle / (2 * half);
+               length = thr_distance(a, b) * angle / (2 * half);
   const double center[3] = {(a[0] + b[0]) / 2 - aside * (b[1] - a[1]),
                             (a[1] + b[1]) / 2 + aside * (b[0] - a[0]), a[2]};
 
@@ -625,7 +609,7 @@ static thr_status read_face(dxf_reader *reader)
 /* Returns whether a curve ends where it begins. Such a curve leads from no node to another one. */
 static bool is_closed(const double a[3], const double b[3], double length)
 {
-  return length > 0 && distance(a, b) <= 1e-6 * length;
+  return length > 0 && thr_distance(a, b) <= 1e-6 * length;
 }
 
 /* Appends a part of an ellipse as an edge, counterclockwise from one angle to the other (rad), less
@@ -693,7 +677,7 @@ static thr_status read_ellipse(dxf_reader *reader)
 
   /* Without an extrusion direction the normal is the z axis. The minor axis is orthogonal to the
    * normal and to the major axis. */
-  if (!normalize(normal)) normal[2] = 1;
+  if (thr_normalize(normal) == 0) normal[2] = 1;
   thr_cross(normal, e.major, e.minor);
   for (int k = 0; k < 3; k++)
     e.minor[k] *= ratio;

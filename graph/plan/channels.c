@@ -21,9 +21,7 @@
 static void find_unit(const thr_frame *frame, int h, double unit_vector[3])
 {
   thr_direction(frame, h, unit_vector);
-  double length = sqrt(thr_dot(unit_vector, unit_vector));
-  for (int k = 0; k < 3; k++)
-    unit_vector[k] = length > 0 ? unit_vector[k] / length : 0;
+  thr_normalize(unit_vector);
 }
 
 /* Computes the direction in which the arms of node v spread least: the eigenvector of the least
@@ -43,8 +41,7 @@ static void find_normal(const thr_frame *frame, int v, double normal[3])
     thr_cross(first, arm, cross);
     double size = thr_dot(cross, cross);
     for (int k = 0; k < 3; k++) {
-      for (int l = 0; l < 3; l++)
-        sum[k][l] += arm[k] * arm[l];
+      thr_along(sum[k], arm[k], arm, sum[k]);
       if (size > most * (1 + 1e-9)) normal[k] = cross[k];
     }
     most = fmax(most, size);
@@ -55,8 +52,7 @@ static void find_normal(const thr_frame *frame, int v, double normal[3])
   for (int round = 0; round < ROUNDS; round++) {
     double length = sqrt(thr_dot(normal, normal)), next[3];
     if (!(length > 0)) return;
-    for (int k = 0; k < 3; k++)
-      normal[k] /= length;
+    thr_divide(normal, length);
     for (int k = 0; k < 3; k++)
       next[k] = trace * normal[k] - thr_dot(sum[k], normal);
     for (int k = 0; k < 3 && round + 1 < ROUNDS; k++)
@@ -74,8 +70,7 @@ static void sort_arms(const thr_frame *frame, int v, const double normal[3], thr
     double flat[3];
     find_unit(frame, frame->half[frame->first[v] + i], arm);
     double up = thr_dot(arm, normal);
-    for (int k = 0; k < 3; k++)
-      flat[k] = arm[k] - up * normal[k];
+    thr_along(arm, -up, normal, flat);
     double size = thr_dot(flat, flat);
     if (size <= most + 1e-9) continue;
     most = size;

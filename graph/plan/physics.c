@@ -11,7 +11,6 @@
 #include "graph/text.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -7,8 +7,6 @@
 #include "graph/io/json.h"
 #include "graph/status.h"
 
-#include <stdbool.h>
-
 /* ---- physics.c: What the simulation is told about cord and beads: friction, sizes, weights. */
 
 /* Lengths in mm whatever the framework's units. 0 where it says so means "work it out":
@@ -185,7 +183,7 @@ bool thr_least_pull_next(thr_least_pull_walk *walk, double turn);
 
 typedef enum { THR_PULL_START, THR_PULL_END, THR_PULL_BOTH, THR_PULL_NONE, THR_N_PULLS } thr_pull;
 
-const char *thr_pull_name(thr_pull p); /* "start", "end", "both", "none" */
+const char *thr_pull_name(int p); /* "start", "end", "both", "none" */
 
 /* The one with this name, or -1; NULL has none. */
 int thr_pull_named(const char *name);

@@ -5,8 +5,6 @@
 
 #include "graph/plan/plan.h"
 
-#include <stddef.h>
-
 /* ---- plan_fields.c: How plan.json is read: members of JSON objects, and what is wrong with them
  * as "file: place: what". */
 

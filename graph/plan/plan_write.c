@@ -48,10 +48,7 @@ static void put_nodes(thr_writer *writer, const thr_frame *frame)
 
   for (int v = 0; v < frame->n_nodes; v++) {
     thr_write_line(writer, 4);
-    thr_write_row(writer, NULL);
-    for (int i = 0; i < 3; i++)
-      thr_write_number(writer, NULL, frame->xyz[v][i]);
-    thr_write_close(writer);
+    thr_write_numbers(writer, NULL, frame->xyz[v], 3);
   }
 
   thr_write_line(writer, 2);

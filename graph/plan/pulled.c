@@ -6,7 +6,7 @@
 
 static const char *const pull_name[] = {"start", "end", "both", "none"};
 
-const char *thr_pull_name(thr_pull p)
+const char *thr_pull_name(int p)
 {
   return pull_name[p];
 }

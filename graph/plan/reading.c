@@ -13,7 +13,6 @@
 #include "graph/number.h"
 
 #include <math.h>
-#include <stdbool.h>
 
 /* A plan that is read, and the distance up to which two places are the same, in units. */
 typedef struct {

@@ -130,11 +130,6 @@ static int word_of(const thr_json *value, const char *(*name)(int), int n)
   return -1;
 }
 
-static const char *end_name(int i)
-{
-  return thr_pull_name((thr_pull)i);
-}
-
 /* Returns the cord with this id, or -1. */
 static int cord_of(const char *id, int n_cords)
 {
@@ -160,7 +155,7 @@ static const char *read_step(const thr_json *object, int n_cords, thr_schedule_s
   static const char *const known[] = {"cord", "do", "end", "pass", "force", "slip", NULL};
   double pass;
   const int deed = word_of(thr_json_get(object, "do"), thr_deed_name, THR_N_DEEDS),
-            end = word_of(thr_json_get(object, "end"), end_name, THR_PULL_NONE);
+            end = word_of(thr_json_get(object, "end"), thr_pull_name, THR_PULL_NONE);
 
   if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known))
     return "not an object with known members";

@@ -30,7 +30,7 @@ static thr_status expected(const step_reader *reader, thr_span found, const char
 static thr_status read_end(const step_reader *reader, thr_span word, thr_pull *end)
 {
   for (int i = 0; i < THR_PULL_NONE; i++)
-    if (thr_span_is(word, thr_pull_name((thr_pull)i))) {
+    if (thr_span_is(word, thr_pull_name(i))) {
       *end = (thr_pull)i;
       return THR_OK;
     }

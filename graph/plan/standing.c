@@ -61,11 +61,6 @@ static bool is_proved(const void *answer)
   return ((const thr_answer *)answer)->n_beads > 0;
 }
 
-static const char *pull_name(int pull)
-{
-  return thr_pull_name((thr_pull)pull);
-}
-
 static const char not_amount[] = "not a number from 0 on",
                   not_angle[] = "not an angle from 0 to a right one";
 
@@ -91,7 +86,7 @@ static const thr_field load_fields[] = {{"node", THR_FIELD_COUNT,
                                         {0}};
 
 static const thr_field drawn_fields[] = {
-    {"pull", THR_FIELD_WORD, .offset = offsetof(thr_drawn, pull), .name = pull_name,
+    {"pull", THR_FIELD_WORD, .offset = offsetof(thr_drawn, pull), .name = thr_pull_name,
      .n_names = THR_N_PULLS, .wrong = "an unknown word"},
     {"slackest", THR_FIELD_COUNT, .offset = offsetof(thr_drawn, slackest),
      .wrong = "not a number of a pass"},

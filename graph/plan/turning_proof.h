@@ -9,8 +9,6 @@
 #include "graph/arrays.h"
 #include "graph/status.h"
 
-#include <stdint.h>
-
 /* ---- Proof of a lower bound on the turning of all cords of a plan, and its check without a
  * solver.
  *

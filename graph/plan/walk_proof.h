@@ -55,8 +55,6 @@
 
 #include "graph/plan/request.h"
 
-#include <stdint.h>
-
 /* What a limit is on: each cord's price of turns, or its length, or the turning that a pull has to
  * overcome. */
 typedef enum { THR_WALK_TURNING, THR_WALK_LENGTH, THR_WALK_PULL } thr_walk_measure;

@@ -19,8 +19,6 @@
 #include "graph/plan/walk_proof.h"
 #include "graph/status.h"
 
-#include <stdint.h>
-
 /* ---- Euler tours: a multigraph of passes, pairings at its nodes, and tours that keep to a
  * pairing. This is the first header of the room to read; threading.h builds on it. multigraph.c
  * comes first, then pairing.c for one node and tour.c for one cord. */

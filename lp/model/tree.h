@@ -14,8 +14,6 @@
 #include "graph/status.h"
 #include "lp/solver/solver.h"
 
-#include <stdint.h>
-
 /* ---- pool.c: the rows of a relaxation that separation has found ---- */
 
 /* A row: sum of value[k] x[column[k]] >= lower. The caller fills in what comes before lower. */

@@ -16,7 +16,6 @@
 #include "graph/status.h"
 
 #include <math.h>
-#include <stddef.h>
 
 /* ---- Linear programmes behind one neutral interface: minimize cost x, row bounds on A x, column
  * bounds on x. One backend: lp_glpk.c. GLPK's environment is the thread's: a programme is changed,

@@ -25,11 +25,6 @@ typedef struct {
   thr_scratch own;    /* the arrays */
 } cut_index;
 
-static void index_destroy(cut_index *by_node)
-{
-  thr_scratch_free(&by_node->own);
-}
-
 /* Fills the index; children must come before their parents. */
 static thr_status index_init(cut_index *by_node, const thr_tjoin_problem *tjoin_problem,
                              const thr_tjoin *tjoin, thr_err *err)
@@ -227,7 +222,7 @@ thr_status thr_cut_programme_init(thr_cut_programme *cut_programme,
     st = choose_basis(&by_node, cut_programme->basic, cut_programme->basic + tjoin_problem->n_edges,
                       err);
 
-  index_destroy(&by_node);
+  thr_scratch_free(&by_node.own);
   if (st) thr_cut_programme_destroy(cut_programme);
   return st;
 }

@@ -87,11 +87,6 @@ typedef struct {
   thr_scratch own; /* the arrays */
 } cut_nesting;
 
-static void nesting_destroy(cut_nesting *nesting)
-{
-  thr_scratch_free(&nesting->own);
-}
-
 /* Lists the cuts of every tree and counts their nodes. */
 static thr_status nesting_init(cut_nesting *nesting, const thr_cuts *cuts, thr_err *err)
 {
@@ -173,7 +168,7 @@ thr_status thr_cuts_nest(thr_cuts *cuts, thr_err *err)
     for (int i = nesting.first[nesting.by_size[k].index]; i >= 0; i = nesting.next[i])
       adopt(cuts, &nesting, i);
 
-  nesting_destroy(&nesting);
+  thr_scratch_free(&nesting.own);
   return st ? st : reorder(cuts, err);
 }
 
@@ -294,7 +289,7 @@ thr_status thr_cuts_avoid_last(thr_cuts *cuts, thr_err *err)
   if (!st) cuts->n_nodes--;
 
   chains_destroy(&chains, cuts->n);
-  nesting_destroy(&nesting);
+  thr_scratch_free(&nesting.own);
   return st;
 }
 

@@ -273,11 +273,6 @@ typedef struct {
   thr_scratch own;   /* the arrays */
 } join_difference;
 
-static void difference_destroy(join_difference *difference)
-{
-  thr_scratch_free(&difference->own);
-}
-
 /* Lists at every node the edges that one of the two joins has and the other has not. */
 static thr_status difference_init(join_difference *difference, const price_search *search,
                                   thr_err *err)
@@ -381,7 +376,7 @@ static thr_status take_over(price_search *search, bool *lower_price, thr_err *er
       *lower_price |= at_lower_price;
     }
 
-  difference_destroy(&difference);
+  thr_scratch_free(&difference.own);
   return st;
 }
 

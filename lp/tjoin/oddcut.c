@@ -307,11 +307,6 @@ static thr_status voronoi_init(voronoi_diagram *voronoi, const thr_tjoin_problem
   return thr_scratch_check(&voronoi->own, err);
 }
 
-static void voronoi_destroy(voronoi_diagram *voronoi)
-{
-  thr_scratch_free(&voronoi->own);
-}
-
 /* Joins the components of the support {e : x_e > threshold} in parent; x NULL: single nodes. */
 static void components(const thr_tjoin_problem *tjoin_problem, const double *x, double threshold,
                        int *parent)
@@ -356,7 +351,7 @@ thr_status thr_oddcut_moats(const thr_oddcut_graph *graph, const double *x, doub
 
   st = add_balls(graph, &voronoi, start, by_owner, pool, err);
 done:
-  voronoi_destroy(&voronoi);
+  thr_scratch_free(&voronoi.own);
   thr_scratch_free(&own);
   return st;
 }
@@ -374,11 +369,6 @@ typedef struct {
   bool *side;       /* [n_nodes] */
   thr_scratch own;  /* the arrays */
 } contracted_support;
-
-static void support_destroy(contracted_support *support)
-{
-  thr_scratch_free(&support->own);
-}
 
 /* Allocates for n nodes and m edges. */
 static thr_status support_init(contracted_support *support, int n, int m, thr_err *err)
@@ -462,7 +452,7 @@ static thr_status separate_component(const thr_oddcut_graph *graph, const double
     if (support.flow[i] < 1 - tolerance)
       st = add_side(graph, &support, i, node, contracted_of, n, list, pool, err);
 
-  support_destroy(&support);
+  thr_scratch_free(&support.own);
   return st;
 }
 

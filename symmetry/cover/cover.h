@@ -23,8 +23,6 @@
 #include "graph/status.h"
 #include "symmetry/group/group.h"
 
-#include <stdbool.h>
-
 /* ---- What is asked of a symmetric cover (symmetry/cover/cover.h). */
 
 typedef struct {

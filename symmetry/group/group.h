@@ -76,6 +76,12 @@ typedef struct {
   int *power_order; /* [order] least k > 0 with g^k = 1; owned */
 } thr_group;
 
+/* Returns element a after element b. */
+static inline int thr_group_product(const thr_group *group, int a, int b)
+{
+  return group->product[(size_t)a * (size_t)group->order + (size_t)b];
+}
+
 /* All products of the generators (image lists of length degree, one after the other). THR_ELIMIT:
  * more than cap elements (at most THR_GROUP_CAP); THR_EINPUT: a generator is no permutation; out is
  * then empty. O(order * (n_generators * degree + order)). */
@@ -230,6 +236,12 @@ typedef struct {
   thr_dart_type *dart; /* owned */
   thr_pair_type *pair; /* owned */
 } thr_quotient;
+
+/* Returns the image of a half-edge under the i-th element of H. */
+static inline int thr_quotient_image(const thr_quotient *quotient, int i, int half)
+{
+  return quotient->half_image[(size_t)i * 2 * (size_t)quotient->f->n_edges + (size_t)half];
+}
 
 /* All types, in a fixed order (by edge, then by descending stabilizer; by half-edge; by darts and
  * half-edges). THR_ELIMIT: more than `most` types (frameworks with many interchangeable parts); out

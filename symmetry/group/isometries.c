@@ -396,12 +396,6 @@ static thr_status try_bases(isometry_search *search, double from[3][3], double t
   return st;
 }
 
-static double distance(const double *a, const double *b)
-{
-  double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-  return sqrt(thr_dot(d, d));
-}
-
 /* Tries the identity and the reversal, which are all isometries of a line. */
 static thr_status try_line(isometry_search *search, int cap, thr_err *err)
 {
@@ -433,7 +427,7 @@ static thr_status try_all(isometry_search *search, int cap, thr_err *err)
                    *to_second = search->position[search->like[j].node];
       if (search->work++ > MOST_WORK || thr_limits_stop(search->limits))
         return fail_too_many(search, err);
-      if (fabs(distance(first_position, second_position) - distance(to_first, to_second)) >
+      if (fabs(thr_distance(first_position, second_position) - thr_distance(to_first, to_second)) >
               2 * search->tolerance ||
           !base_of(to_first, to_second, to))
         continue;

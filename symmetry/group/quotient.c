@@ -51,22 +51,10 @@ typedef struct {
   thr_scratch own; /* the arrays */
 } quotient_builder;
 
-/* Returns the image of a half-edge under the i-th element of H. */
-static int image(const thr_quotient *quotient, int i, int half)
-{
-  return quotient->half_image[(size_t)i * 2 * (size_t)quotient->f->n_edges + (size_t)half];
-}
-
-/* Returns a after b. */
-static int product(const thr_group *group, int a, int b)
-{
-  return group->product[(size_t)a * (size_t)group->order + (size_t)b];
-}
-
 /* Returns by a by^-1. */
 static int conjugated(const thr_group *group, int by, int a)
 {
-  return product(group, product(group, by, a), group->inverse[by]);
+  return thr_group_product(group, thr_group_product(group, by, a), group->inverse[by]);
 }
 
 static thr_status fail_too_many(const quotient_builder *builder, thr_err *err)
@@ -147,7 +135,7 @@ static thr_status find_edge_orbits(thr_quotient *quotient, thr_err *err)
     /* All images of the edge. */
     int orbit = quotient->n_edge_orbits++;
     for (int i = 0; i < quotient->h->order; i++) {
-      int to = image(quotient, i, 2 * e) >> 1;
+      int to = thr_quotient_image(quotient, i, 2 * e) >> 1;
       if (quotient->edge_orbit[to] >= 0) continue;
       quotient->edge_orbit[to] = orbit;
       quotient->orbit_size[orbit]++;
@@ -212,12 +200,13 @@ static int least_conjugate(const quotient_builder *builder, int half, const thr_
 
   /* The lowest image. */
   for (int i = 0; half >= 0 && i < quotient->h->order; i++)
-    if (image(quotient, i, half) < lowest) lowest = image(quotient, i, half);
+    if (thr_quotient_image(quotient, i, half) < lowest)
+      lowest = thr_quotient_image(quotient, i, half);
 
   /* The least conjugate; of the trivial subgroup there is one. */
   bool first = true;
   for (int i = 0; i < quotient->h->order; i++) {
-    if (half >= 0 && image(quotient, i, half) != lowest) continue;
+    if (half >= 0 && thr_quotient_image(quotient, i, half) != lowest) continue;
     /* Mark the conjugate, and keep it if it is the least so far. */
     if (!first && subgroup->order == 1) break;
     mark_conjugate(quotient->group, quotient->h->element[i], subgroup, builder->set);
@@ -314,7 +303,7 @@ static thr_status edge_stabilizer(const quotient_builder *builder, int e, thr_gr
 
   /* The elements, and their numbers in the new group. */
   for (int i = 0; i < quotient->h->order && !st; i++)
-    if (image(quotient, i, 2 * e) >> 1 == e) {
+    if (thr_quotient_image(quotient, i, 2 * e) >> 1 == e) {
       number[quotient->h->element[i]] = count;
       (*element)[count++] = quotient->h->element[i];
     }
@@ -329,7 +318,8 @@ static thr_status edge_stabilizer(const quotient_builder *builder, int e, thr_gr
   for (int i = 0; i < count && !st; i++) {
     own->inverse[i] = number[quotient->group->inverse[(*element)[i]]];
     for (int k = 0; k < count; k++)
-      own->product[i * count + k] = number[product(quotient->group, (*element)[i], (*element)[k])];
+      own->product[i * count + k] =
+          number[thr_group_product(quotient->group, (*element)[i], (*element)[k])];
   }
 
   free(number);
@@ -343,7 +333,8 @@ static thr_status edge_keepers(const quotient_builder *builder, int e, const thr
   *out = (thr_subgroup){0, thr_calloc((size_t)subgroup->order, sizeof(int))};
   if (!out->element) return thr_nomem(err);
   for (int i = 0; i < subgroup->order; i++)
-    if (image(builder->quotient, builder->position[subgroup->element[i]], 2 * e) == 2 * e)
+    if (thr_quotient_image(builder->quotient, builder->position[subgroup->element[i]], 2 * e) ==
+        2 * e)
       out->element[out->order++] = subgroup->element[i];
   return THR_OK;
 }
@@ -506,7 +497,8 @@ static double mean_angle(const thr_quotient *quotient, int a, int b)
 {
   double sum = 0;
   for (int i = 0; i < quotient->h->order; i++)
-    sum += thr_turn_angle(quotient->f, image(quotient, i, a) ^ 1, image(quotient, i, b));
+    sum += thr_turn_angle(quotient->f, thr_quotient_image(quotient, i, a) ^ 1,
+                          thr_quotient_image(quotient, i, b));
   return sum / quotient->h->order;
 }
 
@@ -526,7 +518,7 @@ static int lowest_by_normal(const quotient_builder *builder, int half)
 {
   int lowest = half;
   for (int k = 0; k < builder->n_normal; k++) {
-    int to = image(builder->quotient, builder->normal[k], half);
+    int to = thr_quotient_image(builder->quotient, builder->normal[k], half);
     if (to < lowest) lowest = to;
   }
   return lowest;
@@ -541,9 +533,9 @@ static int find_exchange(const quotient_builder *builder, int own_half, int othe
   for (int k = 0; k < builder->n_at; k++) {
     int i = builder->at[k], g = quotient->h->element[i];
     /* It exchanges the half-edges, is an involution modulo the subgroup, and normalizes it. */
-    if (image(quotient, i, own_half) == other_half && image(quotient, i, other_half) == own_half &&
-        !thr_subgroup_has(subgroup, g) &&
-        thr_subgroup_has(subgroup, product(quotient->group, g, g)) &&
+    if (thr_quotient_image(quotient, i, own_half) == other_half &&
+        thr_quotient_image(quotient, i, other_half) == own_half && !thr_subgroup_has(subgroup, g) &&
+        thr_subgroup_has(subgroup, thr_group_product(quotient->group, g, g)) &&
         normalizes(builder, i, subgroup))
       return g;
   }
@@ -557,10 +549,10 @@ static bool lower_side(const quotient_builder *builder, int own_half, int other_
                        const thr_subgroup *subgroup)
 {
   for (int k = 0; k < builder->n_at; k++)
-    if (image(builder->quotient, builder->at[k], other_half) == own_half &&
+    if (thr_quotient_image(builder->quotient, builder->at[k], other_half) == own_half &&
         normalizes(builder, builder->at[k], subgroup))
-      return other_half <=
-             lowest_by_normal(builder, image(builder->quotient, builder->at[k], own_half));
+      return other_half <= lowest_by_normal(builder, thr_quotient_image(builder->quotient,
+                                                                        builder->at[k], own_half));
   return false;
 }
 
@@ -600,9 +592,9 @@ static thr_status add_pairs(quotient_builder *builder, int dart, thr_err *err)
   /* H_v, and N within it. */
   builder->n_at = builder->n_normal = 0;
   for (int i = 0; i < quotient->h->order; i++) {
-    if (thr_tail(frame, image(quotient, i, own_half)) != node) continue;
+    if (thr_tail(frame, thr_quotient_image(quotient, i, own_half)) != node) continue;
     builder->at[builder->n_at++] = i;
-    if (image(quotient, i, own_half) == own_half && normalizes(builder, i, subgroup))
+    if (thr_quotient_image(quotient, i, own_half) == own_half && normalizes(builder, i, subgroup))
       builder->normal[builder->n_normal++] = i;
   }
 
@@ -611,7 +603,7 @@ static thr_status add_pairs(quotient_builder *builder, int dart, thr_err *err)
     int half = frame->half[k];
     bool fixed = lowest_by_normal(builder, half) == half;
     for (int i = 0; i < subgroup->order && fixed; i++)
-      fixed = image(quotient, builder->position[subgroup->element[i]], half) == half;
+      fixed = thr_quotient_image(quotient, builder->position[subgroup->element[i]], half) == half;
     if (!fixed) continue;
 
     int other = find_dart(builder, half, subgroup, &lowest);

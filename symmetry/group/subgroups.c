@@ -39,11 +39,6 @@ static bool is_same(const element_set *a, const element_set *b)
   return memcmp(a->bit, b->bit, sizeof a->bit) == 0;
 }
 
-static int product(const thr_group *group, int a, int b)
-{
-  return group->product[(size_t)a * (size_t)group->order + (size_t)b];
-}
-
 /* Adds to a set everything that the generators generate. The set holds the identity alone, or a
  * group that all generators but the last one generate: then whole cosets of that are added. O(order
  * of the result * generators). */
@@ -57,13 +52,13 @@ static void close_set(const thr_group *group, element_set *set, const int *gener
   member[count++] = 0;
   for (int i = 0; i < count; i++)
     for (int k = 0; k < n; k++) {
-      int element = product(group, generator[k], member[i]);
+      int element = thr_group_product(group, generator[k], member[i]);
       if (has_element(set, element)) continue;
 
       /* A new coset. */
       member[count++] = element;
       for (int j = 0; j < n_core; j++)
-        add_element(set, product(group, element, core[j]));
+        add_element(set, thr_group_product(group, element, core[j]));
     }
 }
 
@@ -209,7 +204,8 @@ static element_set conjugate(const thr_group *group, const element_set *set, int
   element_set conjugates = {{0}, 0};
   for (int a = 0; a < group->order; a++)
     if (has_element(set, a))
-      add_element(&conjugates, product(group, product(group, b, a), group->inverse[b]));
+      add_element(&conjugates,
+                  thr_group_product(group, thr_group_product(group, b, a), group->inverse[b]));
   return conjugates;
 }
 
@@ -274,7 +270,7 @@ static thr_status extend(subgroup_atlas *atlas, int k, bool *complete, thr_err *
 
     /* The whole coset generates the same group. */
     for (int i = 0; i < n_elements; i++)
-      add_element(&tried, product(group, extension, element[i]));
+      add_element(&tried, thr_group_product(group, extension, element[i]));
 
     /* The extension, unless it is known. */
     element_set made = from;

@@ -19,18 +19,12 @@
 /* Returns a after b. */
 static int product(const thr_quotient *quotient, int a, int b)
 {
-  return quotient->group->product[(size_t)a * (size_t)quotient->group->order + (size_t)b];
+  return thr_group_product(quotient->group, a, b);
 }
 
 static int inverse(const thr_quotient *quotient, int a)
 {
   return quotient->group->inverse[a];
-}
-
-/* Returns the image of a half-edge under the element of H at this place. */
-static int half_image(const thr_quotient *quotient, int place, int half)
-{
-  return quotient->half_image[(size_t)place * 2 * (size_t)quotient->f->n_edges + (size_t)half];
 }
 
 /* Tells whether transport a transport^-1 = b, for subgroups a and b of one order. */
@@ -51,7 +45,7 @@ static int carrier(const thr_quotient *quotient, int from, const thr_subgroup *f
 {
   if (from_stabilizer->order != to_stabilizer->order) return -1;
   for (int i = 0; i < quotient->h->order; i++)
-    if (half_image(quotient, i, from) == to &&
+    if (thr_quotient_image(quotient, i, from) == to &&
         conjugates(quotient, quotient->h->element[i], from_stabilizer, to_stabilizer))
       return quotient->h->element[i];
   return -1;
@@ -82,8 +76,8 @@ static int dart_of(const thr_strands *strands, int orbit, int element)
 
 int thr_strands_half(const thr_strands *strands, int dart)
 {
-  return half_image(strands->q, strands->place[element_of(strands, dart)],
-                    strands->q->dart[strands->type[strands->orbit[dart]]].half);
+  return thr_quotient_image(strands->q, strands->place[element_of(strands, dart)],
+                            strands->q->dart[strands->type[strands->orbit[dart]]].half);
 }
 
 int thr_strands_across(const thr_strands *strands, int dart)
@@ -198,8 +192,8 @@ static int turner(const thr_strands *strands, const thr_copy_type *type)
 {
   int i = 0;
   while (i + 1 < type->stabilizer.order &&
-         half_image(strands->q, strands->place[type->stabilizer.element[i]], 2 * type->edge) ==
-             2 * type->edge)
+         thr_quotient_image(strands->q, strands->place[type->stabilizer.element[i]],
+                            2 * type->edge) == 2 * type->edge)
     i++;
   return type->stabilizer.element[i];
 }
@@ -214,7 +208,7 @@ static int fold_carrier(const thr_quotient *quotient, const thr_copy_type *type)
     /* The half-edge fits, and every element of the dart's stabilizer, seen from the edge, is in the
      * copy's. */
     int element = quotient->h->element[i];
-    bool fits = half_image(quotient, i, 2 * type->edge) == dart_type->half;
+    bool fits = thr_quotient_image(quotient, i, 2 * type->edge) == dart_type->half;
     for (int k = 0; k < dart_type->stabilizer.order && fits; k++)
       fits = thr_subgroup_has(
           &type->stabilizer,
@@ -514,8 +508,8 @@ static bool may_turn(const thr_strands *strands, int orbit, int turn)
                       *b = &quotient->dart[strands->type[strands->partner[orbit]]];
 
   /* The same half-edge of the partner. */
-  if (half_image(quotient, strands->place[turn], b->half) !=
-      half_image(quotient, strands->place[strands->turn[orbit]], b->half))
+  if (thr_quotient_image(quotient, strands->place[turn], b->half) !=
+      thr_quotient_image(quotient, strands->place[strands->turn[orbit]], b->half))
     return false;
 
   /* Stabilizers must fit, and a fold must be of order two. */

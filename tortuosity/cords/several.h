@@ -15,8 +15,6 @@
 #include "tortuosity/cords/join.h"
 #include "tortuosity/proof/branch.h"
 
-#include <stdint.h>
-
 /* ---- several.c: Plans with several closed cords in every component, to begin the search with:
  * covers by short circuits, the same number of passes everywhere, and in tiny frameworks all
  * choices of extra passes. */

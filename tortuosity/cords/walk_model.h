@@ -26,8 +26,6 @@
 #include "lp/model/tree.h"
 #include "tortuosity/proof/branch.h"
 
-#include <stdint.h>
-
 /* ---- walk_bound.c: lower bounds on the largest turning, length or pull of a cord, and cords
  * little above the bound ---- */
 

@@ -13,6 +13,7 @@
  * Example: a node with three edges whose turns cost 1, 2 and 4 has the tree of 1 and 2: the bound
  * 3, proved by the junction of single edges with value 1 and the one of {1, 1, 2} with value 1. */
 #include "tortuosity/proof/relax_parts.h"
+#include "lp/solver/solver.h"
 #include "graph/number.h"
 #include "graph/arrays.h"
 
@@ -243,15 +244,6 @@ static double bound_at(ascent_state *state, const double *u)
 
 /* ---- steps ---- */
 
-/* Returns the scalar product of two vectors. */
-static double product(const double *a, const double *b, int n)
-{
-  double sum = 0;
-  for (int i = 0; i < n; i++)
-    sum += a[i] * b[i];
-  return sum;
-}
-
 /* Moves mean towards x by the given part of the distance. */
 static void mix(double *mean, const double *x, int n, double part)
 {
@@ -274,7 +266,7 @@ static void step(ascent_state *state, double part, double missing, double steep)
  * within limits. along: scalar product of both subgradients. */
 static void take_mean(ascent_state *state, double steep, double along)
 {
-  double apart = product(state->rise, state->rise, state->n) - 2 * along + steep;
+  double apart = thr_sums_product(state->rise, state->rise, state->n) - 2 * along + steep;
   double part = apart > 0 ? (steep - along) / apart : most_new;
   part = fmin(most_new, fmax(most_new / 10, part));
 
@@ -297,14 +289,15 @@ static void climb(ascent_state *state, double target, const thr_limits *limits)
   memcpy(state->mean_ends, state->ends, 2 * (size_t)state->m * sizeof *state->ends);
 
   for (int i = 0, failed = 0; i < STEPS && value < target && !thr_limits_stop(limits); i++) {
-    double steep = product(state->uphill, state->uphill, state->n),
+    double steep = thr_sums_product(state->uphill, state->uphill, state->n),
            hoped = fmax(0.1 * value, 0.01 * u_turn * state->m);
     if (steep < 1e-12) break;
 
     /* No bound far above the present one is aimed at, however far the target is. */
     step(state, part, fmin(hoped, target - value), steep);
 
-    double now = bound_at(state, state->at), along = product(state->uphill, state->rise, state->n);
+    double now = bound_at(state, state->at),
+           along = thr_sums_product(state->uphill, state->rise, state->n);
     take_mean(state, steep, along);
 
     /* A better bound moves the best point; several failures in turn shorten the steps. */
