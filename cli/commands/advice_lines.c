@@ -131,7 +131,12 @@ bool advice_put_recommended(const thr_plan *plan, double hand, double holds, thr
   thr_text_printf(text, "         that %s, with %s",
                   hand < thr_hand_always ? "the cord bears" : "a hand can pull time after time",
                   plain_force(hand, within));
-  thr_text_append(text, plan->n_cords > 1 && !as_pulled ? "; --cords 1 is one cord\n" : "\n");
+
+  /* One cord is there for sure where it may pass every edge twice, and need not tie tubes. */
+  bool one = plan->n_cords > 1 && !as_pulled && options->joint == THR_JOINT_SOLID;
+  for (int e = 0; e < plan->frame.n_edges && one; e++)
+    one = thr_plan_capacity(&plan->frame, options, e) >= 2 * options->cover;
+  thr_text_append(text, one ? "; --cords 1 is one cord\n" : "\n");
   put_holds(plan, pull[THR_ADVICE_MU], holds, text);
   return true;
 }
