@@ -54,6 +54,18 @@ typedef struct {
   thr_plan *promised; /* what is recommended, empty until it is made (make_promised); borrowed */
 } advice_search;
 
+/* Returns what rows ask for: little turning of the cord that turns most. Of the request only cover,
+ * capacity and physics count. */
+static thr_request row_request(const thr_request *request)
+{
+  thr_request asked = thr_request_default();
+  asked.aims = (thr_aims){.n = 1, .aim = {THR_AIM_MAX_TURNING}};
+  asked.cover = request->cover;
+  asked.capacity = request->capacity;
+  asked.physics = request->physics;
+  return asked;
+}
+
 /* ---- learned steps ---- */
 
 /* Does the image of cord a run as cord b does, one way or the other? The framework has one edge at
@@ -148,23 +160,12 @@ static thr_status new_row(advice_search *adviser, thr_advice_row **row, thr_err 
   return THR_OK;
 }
 
-/* Sets what the ends of the cord that is hardest to pull take. reach, other: rad that they have to
- * overcome. */
-static void set_pulls(const advice_search *adviser, double reach, double other, thr_advice_row *row)
-{
-  double pull[THR_ADVICE_PULLS];
-  thr_advice_pulls(&adviser->out->physics, other, pull);
-
-  row->other = pull[THR_ADVICE_MU];
-  thr_advice_pulls(&adviser->out->physics, reach, row->pull);
-}
-
 /* Fills a row with the cords of the plan and with what they measure. */
 static thr_status measure_row(advice_search *adviser, const ends_kind *kind, const thr_plan *plan,
                               thr_advice_row *row, thr_err *err)
 {
-  double other,
-      reach = thr_cords_pulled_turnings(adviser->frame, plan->cord, plan->n_cords, &other);
+  double other, pull[THR_ADVICE_PULLS];
+  const double reach = thr_cords_pulled_turnings(adviser->frame, plan->cord, plan->n_cords, &other);
 
   thr_cords_destroy(row->cord, row->all);
   const thr_status st = thr_cords_copy(plan->cord, plan->n_cords, &row->cord, err);
@@ -179,7 +180,10 @@ static thr_status measure_row(advice_search *adviser, const ends_kind *kind, con
   row->passes = plan->metrics.passes;
   row->steps = learned(adviser, plan);
 
-  set_pulls(adviser, reach, other, row);
+  /* What the ends of the cord take that is hardest to pull. */
+  thr_advice_pulls(&adviser->out->physics, other, pull);
+  row->other = pull[THR_ADVICE_MU];
+  thr_advice_pulls(&adviser->out->physics, reach, row->pull);
   adviser->out->base_length = plan->metrics.base_length;
   return THR_OK;
 }
@@ -478,8 +482,8 @@ static thr_status add_bare(advice_search *adviser, ends_kind *kind, bool *added,
   thr_request request = request_of(adviser, kind, 1);
   thr_plan plan = {0};
   int cords;
-  request.aims = adviser->searches ? (thr_aims){1, {THR_AIM_PULL}} : thr_aims_shortest;
-  request.turning.length_slack = adviser->searches ? 0 : request.turning.length_slack;
+  request.aims = (thr_aims){1, {THR_AIM_PULL}};
+  request.turning.length_slack = 0;
 
   thr_status st = thr_planner_bare_cords(adviser->frame, &request, &cords, err);
   if (!st && cords > 1)
@@ -574,13 +578,11 @@ static thr_status cut_plan(advice_search *adviser, ends_kind *kind, const thr_pl
   return st || !find_row(adviser, kind, 1) ? st : cut_numbers(adviser, kind, err);
 }
 
-/* Makes the rows of a framework that is small enough for searches, in the order of their use: one
- * cord, cut and symmetric cords, what is recommended, the fewest cords within the hand's force, all
- * others. */
-static thr_status search_all(advice_search *adviser, ends_kind *kinds, int n_kinds, thr_err *err)
+/* Searches for the rows of one cord, cuts them into more, and finds symmetric ones. */
+static thr_status begin_searches(advice_search *adviser, ends_kind *kinds, int n_kinds,
+                                 thr_err *err)
 {
   ends_kind closed = {.ends = THR_ENDS_CLOSED, .pull = INFINITY};
-  bool added = false;
   thr_status st = find_group(adviser, err);
   if (!st) st = search_cords(adviser, &closed, 1, part_first, err);
 
@@ -588,75 +590,77 @@ static thr_status search_all(advice_search *adviser, ends_kind *kinds, int n_kin
     st = try_first(adviser, &kinds[i], &closed.first, err);
   for (int i = 0; i < n_kinds && !st; i++)
     st = cut_numbers(adviser, &kinds[i], err);
-  if (!st) st = promise_early(adviser, err);
-  for (int i = 0; i < n_kinds && !st && !added; i++)
-    st = add_bare(adviser, &kinds[i], &added, err);
-  for (int i = 0; i < n_kinds && !st; i++)
-    st = search_fewest(adviser, &kinds[i], err);
-
   kind_destroy(&closed);
-  return st ? st : search_numbers(adviser, kinds, n_kinds, err);
-}
-
-/* Cuts the shortest closed cords of a framework that is too large for searches. */
-static thr_status cut_shortest(advice_search *adviser, ends_kind *kinds, int n_kinds,
-                               const thr_plan *plan, thr_err *err)
-{
-  thr_request request = adviser->request;
-
-  thr_plan shortest = {0};
-  bool added = false;
-  request.aims = thr_aims_shortest;
-
-  /* Without a plan to cut, plan the shortest closed cords. */
-  thr_status st =
-      plan ? THR_OK
-           : thr_plan_make(adviser->frame, &request, adviser->limits, &shortest, NULL, err);
-  if (st == THR_ELIMIT && shortest.n_cords > 0) st = THR_OK; /* not proved, but cords */
-
-  for (int i = 0; i < n_kinds && !st; i++)
-    st = cut_plan(adviser, &kinds[i], plan ? plan : &shortest, err);
-  thr_plan_destroy(&shortest);
-  if (!st) st = promise_early(adviser, err);
-  for (int i = 0; i < n_kinds && !st && !added; i++)
-    st = add_bare(adviser, &kinds[i], &added, err);
   return st;
 }
 
-/* Appends the rows of a framework of one component, or of all components alike. promised: receives
- * what is recommended where that does not depend on the rows; NULL: nobody asks. */
+/* Cuts the shortest closed cords of a framework that is too large for searches. */
+static thr_status cut_shortest(advice_search *adviser, ends_kind *kinds, int n_kinds, thr_err *err)
+{
+  thr_request request = adviser->request;
+  thr_plan shortest = {0};
+  request.aims = thr_aims_shortest;
+
+  thr_status st = thr_plan_make(adviser->frame, &request, adviser->limits, &shortest, NULL, err);
+  if (st == THR_ELIMIT && shortest.n_cords > 0) st = THR_OK; /* not proved, but cords */
+
+  for (int i = 0; i < n_kinds && !st; i++)
+    st = cut_plan(adviser, &kinds[i], &shortest, err);
+  thr_plan_destroy(&shortest);
+  return st;
+}
+
+/* Appends the rows of a framework of one component, or of all components alike, in the order of
+ * their use: cut and symmetric cords, what is recommended, cords without overlap, the fewest cords
+ * within the hand's force, all others. By the clock, first those of the work that is counted where
+ * no time is given, on which more time improves: its searches take other ways, and may lead to more
+ * cord. promised: receives what is recommended, unless it has done;
+ * NULL: nobody asks. */
 static thr_status find_rows(const thr_frame *frame, const thr_request *request,
                             const thr_advise_options *options, bool searches,
                             const thr_limits *limits, thr_plan *promised, thr_advice *out,
                             thr_err *err)
 {
   advice_search adviser = {.frame = frame,
-                           .request = thr_request_default(),
+                           .request = row_request(request),
                            .limits = limits,
                            .options = options,
                            .room = out->n,
                            .out = out,
+                           .searches = searches && frame->n_edges <= MOST_SEARCHED,
                            .promised = promised};
+
+  double work = thr_advise_work;
+  const thr_limits counted = thr_limits_counted(limits, &work);
+  thr_err why = {0};
+
+  if (!limits->work && adviser.searches) {
+    if (find_rows(frame, request, options, true, &counted, promised, out, &why) == THR_ENOMEM)
+      return thr_nomem(err);
+    for (int i = 0; i < out->n; i++)
+      out->row[i].searched = false;
+    out->complete = true;
+    adviser.room = out->n;
+  }
 
   /* Ends anywhere are one kind; ends at feet come first where the framework has feet. */
   ends_kind kinds[2] = {{.ends = THR_ENDS_ANY, .pull = INFINITY}};
   int n_kinds = 1;
+  bool added = false;
   if (thr_frame_feet(frame) > 0) {
     kinds[1] = kinds[0];
     kinds[0].ends = THR_ENDS_FEET;
     n_kinds = 2;
   }
 
-  /* All rows ask for little turning of the cord that turns most; of the request only cover,
-   * capacity and physics count. */
-  adviser.request.aims = (thr_aims){.n = 1, .aim = {THR_AIM_MAX_TURNING}};
-  adviser.request.cover = request->cover;
-  adviser.request.capacity = request->capacity;
-  adviser.request.physics = request->physics;
-  adviser.searches = searches && frame->n_edges <= MOST_SEARCHED;
-
-  thr_status st = adviser.searches ? search_all(&adviser, kinds, n_kinds, err)
-                                   : cut_shortest(&adviser, kinds, n_kinds, options->plan, err);
+  thr_status st = adviser.searches ? begin_searches(&adviser, kinds, n_kinds, err)
+                                   : cut_shortest(&adviser, kinds, n_kinds, err);
+  if (!st) st = promise_early(&adviser, err);
+  for (int i = 0; i < n_kinds && !st && !added && adviser.searches; i++)
+    st = add_bare(&adviser, &kinds[i], &added, err);
+  for (int i = 0; i < n_kinds && !st && adviser.searches; i++)
+    st = search_fewest(&adviser, &kinds[i], err);
+  if (!st && adviser.searches) st = search_numbers(&adviser, kinds, n_kinds, err);
   if (!st && out->n == 0)
     st = thr_fail(err, stopped(&adviser) ? THR_ELIMIT : THR_EINFEASIBLE,
                   "no threading with one cord or more was found");
@@ -665,27 +669,6 @@ static thr_status find_rows(const thr_frame *frame, const thr_request *request,
     kind_destroy(&kinds[i]);
   thr_group_destroy(&adviser.group);
   return st;
-}
-
-/* The same; by the clock, rows first of the work that is counted where no time is given, which more
- * time improves on: their searches may take other ways, and lead to more cord. */
-static thr_status find_rows_in_time(const thr_frame *frame, const thr_request *request,
-                                    const thr_advise_options *options, bool searches,
-                                    const thr_limits *limits, thr_plan *promised, thr_advice *out,
-                                    thr_err *err)
-{
-  double work = thr_advise_work;
-  const thr_limits counted = thr_limits_counted(limits, &work);
-  thr_err why = {0};
-
-  if (!limits->work && searches && frame->n_edges <= MOST_SEARCHED) {
-    const thr_status st = find_rows(frame, request, options, true, &counted, promised, out, &why);
-    if (st == THR_ENOMEM) return thr_nomem(err);
-    for (int i = 0; i < out->n; i++)
-      out->row[i].searched = false;
-    out->complete = true;
-  }
-  return find_rows(frame, request, options, searches, limits, promised, out, err);
 }
 
 /* ---- several components ---- */
@@ -836,8 +819,8 @@ static thr_status find_by_components(const thr_components *components, const thr
     if ((st = thr_component_take(components, k, &asked, err))) break;
     part[k] = (thr_advice){.physics = out->physics, .hand = options->hand, .complete = true};
 
-    st = find_rows_in_time(&asked.frame, request, &quiet, n <= MOST_COMPONENTS, &share, NULL,
-                           &part[k], err);
+    st =
+        find_rows(&asked.frame, request, &quiet, n <= MOST_COMPONENTS, &share, NULL, &part[k], err);
     out->base_length += part[k].base_length;
     out->complete &= part[k].complete;
     thr_plan_destroy(&asked);
@@ -887,12 +870,8 @@ static thr_status tell_chosen(const thr_advice *advice, const thr_frame *frame,
 thr_status thr_advice_plan(const thr_frame *frame, const thr_request *request,
                            const thr_advice_row *row, thr_plan *plan, thr_err *err)
 {
-  thr_request asked = thr_request_default();
+  thr_request asked = row_request(request);
   *plan = (thr_plan){0};
-  asked.aims = (thr_aims){.n = 1, .aim = {THR_AIM_MAX_TURNING}};
-  asked.cover = request->cover;
-  asked.capacity = request->capacity;
-  asked.physics = request->physics;
   asked.ends = row->ends;
   asked.cords = row->cords;
   asked.cords_least = row->uneven ? 1 : row->cords;
@@ -919,20 +898,17 @@ thr_status thr_advise(const thr_frame *frame, const thr_request *request,
 
   /* What is recommended is what its command makes. */
   advice_search promising = {.frame = frame,
-                             .request = thr_request_default(),
+                             .request = row_request(request),
                              .limits = limits,
                              .options = options,
                              .out = out};
-  promising.request.cover = request->cover;
-  promising.request.capacity = request->capacity;
-  promising.request.physics = request->physics;
   if (!st && frame->n_edges <= MOST_SEARCHED) st = find_group(&promising, err);
 
   /* Of several components, whose rows come last, it is told first. */
   thr_plan plan = {0};
   promising.promised = &plan;
   if (!st && components.n == 1)
-    st = find_rows_in_time(frame, request, options, true, limits, &plan, out, err);
+    st = find_rows(frame, request, options, true, limits, &plan, out, err);
   else if (!st && !(st = promise_early(&promising, err)))
     st = find_by_components(&components, request, options, limits, out, err);
 

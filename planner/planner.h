@@ -262,9 +262,7 @@ thr_status thr_plan_recommended(const thr_frame *frame, const thr_request *reque
 extern const double thr_advise_work;
 
 typedef struct {
-  double hand;          /* N: what the pull is to stay within */
-  const thr_plan *plan; /* NULL; or the shortest closed cords, for a framework that is too large for
-                           searches. Borrowed */
+  double hand; /* N: what the pull is to stay within */
   /* Hears of every row as soon as it is there or better, before any is dropped, borrowed with its
    * cords; NULL = nobody. */
   void (*row)(void *user, const thr_advice_row *row);

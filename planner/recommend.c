@@ -78,13 +78,6 @@ thr_status thr_planner_try_cords(const thr_frame *frame, const thr_request *aske
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves no plan */
 }
 
-/* Plans so many cords in every component; *plan stays empty where none are found. */
-static thr_status try_number(const recommendation *of, int cords, thr_plan *plan,
-                             thr_report *report, thr_err *err)
-{
-  return thr_planner_try_cords(of->frame, &of->request, cords, of->limits, plan, report, err);
-}
-
 /* Returns how few cords could share out the turning of the shortest cords: each turns by the reach
  * of both its ends, and by one turn of at most 180 degrees between them. */
 static int fewest_of(const recommendation *of, const thr_plan *shortest)
@@ -127,15 +120,6 @@ static thr_request as_few(const recommendation *of)
   few.cords = THR_MOST_CORDS;
   few.max_pull = exp(few.physics.mu * of->reach);
   return few;
-}
-
-/* Cuts the shortest closed cords into as few as stay within the hand. *cut stays empty where they
- * do not come by enough nodes for ends. */
-static thr_status cut_shortest(const recommendation *of, const thr_plan *shortest, thr_plan *cut,
-                               thr_err *err)
-{
-  const thr_request few = as_few(of);
-  return thr_cut_few(of->frame, &few, shortest, cut, err);
 }
 
 /* Plans cords as a limit on the pull does: in several components, which take different numbers, and
@@ -202,7 +186,7 @@ static thr_status try_numbers(const recommendation *of, int least, int most, int
     /* Fewer than the fewest so far that stay within the hand, more than those that do not. */
     if (of->limits->advance)
       of->limits->advance(of->limits->user, "numbers of cords", (trial + 0.5) / MOST_TRIALS);
-    st = try_number(of, cords, &tried, &found, err);
+    st = thr_planner_try_cords(of->frame, &of->request, cords, of->limits, &tried, &found, err);
     const double hardest = st ? INFINITY : hardest_of(of, &tried);
     const bool fits = !st && is_within(of, &tried);
     if (!fits && within > most) idle = hardest < easiest ? 0 : idle + 1;
@@ -232,7 +216,11 @@ static thr_status with_ends(recommendation *of, thr_ends ends, const thr_plan *s
   thr_plan cut = {0};
   of->request.ends = ends;
 
-  thr_status st = shortest->n_cords > 0 ? cut_shortest(of, shortest, &cut, err) : THR_OK;
+  /* The shortest closed cords, cut into as few as stay within the hand. *cut stays empty where they
+   * do not come by enough nodes for ends. */
+  const thr_request few = as_few(of);
+  thr_status st =
+      shortest->n_cords > 0 ? thr_cut_few(of->frame, &few, shortest, &cut, err) : THR_OK;
   if (!st && cut.n_cords > 0) thr_limits_found(of->limits, cut.cord, cut.n_cords, NULL);
   int component, bare = 0;
   if (!st) st = thr_planner_bare_cords(of->frame, &of->request, &bare, err);
@@ -251,7 +239,7 @@ static thr_status with_ends(recommendation *of, thr_ends ends, const thr_plan *s
   /* Of any length where no trial found any: as many as the cut cords, or once more all. */
   of->request.turning.length_slack = -1;
   if (!st && plan->n_cords == 0 && cut.n_cords > 0) {
-    st = try_number(of, most, plan, report, err);
+    st = thr_planner_try_cords(of->frame, &of->request, most, of->limits, plan, report, err);
     if (!is_within(of, plan)) {
       thr_plan_destroy(plan);
       thr_report_destroy(report);
