@@ -168,10 +168,13 @@ thr_status thr_end_counts_cords(const thr_frame *frame, const int *counts, int *
 /* Writes the members of a row of advice: lengths in units, turning in rad, pulls in N. */
 void thr_advice_put_row(thr_writer *writer, const thr_advice_row *row);
 
-/* Writes the rows of advice, and the recommended one with the command that makes it (NULL: no such
- * member). */
+/* Appends the command that makes the plan of a row. */
+typedef void thr_advice_command(const void *user, const thr_advice_row *row, thr_text *text);
+
+/* Writes the rows of advice, each with its command, and which one is recommended, again with its
+ * command (NULL: no such members). user: for command. */
 void thr_advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advice *advice,
-                         const char *command);
+                         thr_advice_command *command, const void *user);
 
 /* Writes the groups, and the best threading under each; before them what the frame is and what was
  * asked for, or the table alone. */

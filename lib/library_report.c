@@ -60,7 +60,7 @@ static void send_advice(advice_so_far *so_far)
   thr_advice_settle(&shown);
 
   thr_write_object(&writer, NULL);
-  thr_advice_put_json(&writer, so_far->job->frame, &shown, NULL);
+  thr_advice_put_json(&writer, so_far->job->frame, &shown, NULL, NULL);
   thr_write_close(&writer);
   thr_text_append(&text, "\n");
   const thr_status unsent = thr_reply_send(so_far->job->reply, &text, NULL);
@@ -71,12 +71,11 @@ static void send_advice(advice_so_far *so_far)
 
 /* Takes a row, in place of the one of the same cords and ends. Signature of thr_advise_options.row.
  */
-static void take_row(void *user, const thr_advice_row *row, const thr_plan *plan)
+static void take_row(void *user, const thr_advice_row *row)
 {
   advice_so_far *so_far = user;
   thr_advice *advice = &so_far->advice;
   int i = 0;
-  (void)plan;
 
   while (i < advice->n && (advice->row[i].ends != row->ends || advice->row[i].cords != row->cords))
     i++;
@@ -87,6 +86,7 @@ static void take_row(void *user, const thr_advice_row *row, const thr_plan *plan
     advice->n++;
   }
   advice->row[i] = *row;
+  advice->row[i].cord = NULL; /* they stay with the rows of the search */
   send_advice(so_far);
 }
 
@@ -112,7 +112,7 @@ static thr_status advise(const report *job, const thr_request *request, const th
   st = thr_advise(job->frame, request, &how, &limits, &advice, err);
   free(so_far.advice.row);
   if (st) return st;
-  thr_advice_put_json(writer, job->frame, &advice, NULL);
+  thr_advice_put_json(writer, job->frame, &advice, NULL, NULL);
   const bool complete = advice.complete || options->seconds < 0;
   thr_advice_destroy(&advice);
   return complete ? THR_OK

@@ -49,8 +49,21 @@ static void put_framework(thr_writer *writer, const thr_frame *frame)
   thr_write_string(writer, "units", frame->units);
 }
 
+/* Writes the command that makes the plan of a row. */
+static void put_command(thr_writer *writer, thr_advice_command *command, const void *user,
+                        const thr_advice_row *row)
+{
+  thr_text text = {0};
+  if (!command) return;
+
+  command(user, row, &text);
+  thr_write_string(writer, "command", text.failed ? "" : text.data);
+  writer->out->failed |= text.failed;
+  thr_text_destroy(&text);
+}
+
 void thr_advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advice *advice,
-                         const char *command)
+                         thr_advice_command *command, const void *user)
 {
   put_framework(writer, frame);
 
@@ -69,6 +82,7 @@ void thr_advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_a
     thr_write_object(writer, NULL);
     thr_advice_put_row(writer, &advice->row[i]);
     thr_write_bool(writer, "frontier", advice->row[i].frontier);
+    put_command(writer, command, user, &advice->row[i]);
     thr_write_close(writer);
   }
   thr_write_close(writer);
@@ -79,7 +93,7 @@ void thr_advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_a
     if (command) thr_write_null(writer, "command");
   } else {
     thr_write_int(writer, "recommended", advice->chosen);
-    if (command) thr_write_string(writer, "command", command);
+    put_command(writer, command, user, &advice->row[advice->chosen]);
   }
 }
 

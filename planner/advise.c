@@ -35,8 +35,7 @@ enum { MOST_ORDER = 240, IDLE = 2, TIMES = 4, MOST_SEARCHED = 5000 }; /* edges *
 /* Plans with ends of one kind. */
 typedef struct {
   thr_ends ends;
-  thr_plan first; /* with one cord in every component */
-  thr_parts cuts; /* of first, where no cord needs to be looked at; empty until it is asked for */
+  thr_plan first;            /* with one cord in every component */
   thr_symmetries symmetries; /* with these ends */
   bool over;                 /* no more cords than were tried have a plan */
   double pull;               /* least so far, N at mu */
@@ -54,6 +53,18 @@ typedef struct {
   thr_advice *out;
   thr_plan *promised; /* what is recommended, empty until it is made (make_promised); borrowed */
 } advice_search;
+
+/* Returns what rows ask for: little turning of the cord that turns most. Of the request only cover,
+ * capacity and physics count. */
+static thr_request row_request(const thr_request *request)
+{
+  thr_request asked = thr_request_default();
+  asked.aims = (thr_aims){.n = 1, .aim = {THR_AIM_MAX_TURNING}};
+  asked.cover = request->cover;
+  asked.capacity = request->capacity;
+  asked.physics = request->physics;
+  return asked;
+}
 
 /* ---- learned steps ---- */
 
@@ -149,23 +160,16 @@ static thr_status new_row(advice_search *adviser, thr_advice_row **row, thr_err 
   return THR_OK;
 }
 
-/* Sets what the ends of the cord that is hardest to pull take. reach, other: rad that they have to
- * overcome. */
-static void set_pulls(const advice_search *adviser, double reach, double other, thr_advice_row *row)
+/* Fills a row with the cords of the plan and with what they measure. */
+static thr_status measure_row(advice_search *adviser, const ends_kind *kind, const thr_plan *plan,
+                              thr_advice_row *row, thr_err *err)
 {
-  double pull[THR_ADVICE_PULLS];
-  thr_advice_pulls(&adviser->out->physics, other, pull);
+  double other, pull[THR_ADVICE_PULLS];
+  const double reach = thr_cords_pulled_turnings(adviser->frame, plan->cord, plan->n_cords, &other);
 
-  row->other = pull[THR_ADVICE_MU];
-  thr_advice_pulls(&adviser->out->physics, reach, row->pull);
-}
-
-/* Fills a row with what the cords of the plan measure. */
-static void measure_row(advice_search *adviser, const ends_kind *kind, const thr_plan *plan,
-                        thr_advice_row *row)
-{
-  double other,
-      reach = thr_cords_pulled_turnings(adviser->frame, plan->cord, plan->n_cords, &other);
+  thr_cords_destroy(row->cord, row->all);
+  const thr_status st = thr_cords_copy(plan->cord, plan->n_cords, &row->cord, err);
+  if (st) return st;
 
   row->ends = kind->ends;
   row->cords = plan->options.cords;
@@ -176,45 +180,28 @@ static void measure_row(advice_search *adviser, const ends_kind *kind, const thr
   row->passes = plan->metrics.passes;
   row->steps = learned(adviser, plan);
 
-  set_pulls(adviser, reach, other, row);
+  /* What the ends of the cord take that is hardest to pull. */
+  thr_advice_pulls(&adviser->out->physics, other, pull);
+  row->other = pull[THR_ADVICE_MU];
+  thr_advice_pulls(&adviser->out->physics, reach, row->pull);
   adviser->out->base_length = plan->metrics.base_length;
-}
-
-/* Fills the row of cuts->plan cut into so many parts: what measure_row would say of the cords, none
- * of which is a copy. */
-static void measure_cuts(advice_search *adviser, const ends_kind *kind, int cords,
-                         thr_advice_row *row)
-{
-  const thr_metrics *whole = &kind->first.metrics;
-
-  const thr_parts_measures parts = thr_parts_measure(&kind->cuts);
-  const int ends = kind->ends == THR_ENDS_ANY ? 2 * kind->first.n_cords * cords : 0;
-
-  *row = (thr_advice_row){.ends = kind->ends,
-                          .cords = cords,
-                          .all = cords * kind->first.n_cords,
-                          .length = whole->length,
-                          .longest = parts.longest,
-                          .turning = parts.turning,
-                          .passes = whole->passes,
-                          .steps = whole->passes + ends};
-  set_pulls(adviser, parts.pulled, parts.other, row);
+  return THR_OK;
 }
 
 /* Looks what the row buys, and tells it. */
-static void settle_row(advice_search *adviser, ends_kind *kind, bool added, thr_advice_row *row,
-                       const thr_plan *plan)
+static void settle_row(advice_search *adviser, ends_kind *kind, bool added, thr_advice_row *row)
 {
   row->optimal = row->turning <= row->bound * (1 + 1e-9);
 
   /* Count the rows in sequence that lowered the pull too little. */
   if (added) kind->idle = row->pull[THR_ADVICE_MU] * little < kind->pull ? 0 : kind->idle + 1;
   kind->pull = fmin(kind->pull, row->pull[THR_ADVICE_MU]);
-  if (adviser->options->row) adviser->options->row(adviser->options->user, row, plan);
+  if (adviser->options->row) adviser->options->row(adviser->options->user, row);
 }
 
 /* Adds a row for the cords of plan, or improves the row of this number if the cord that turns most
- * turns less. claim: NULL = the cords were not searched. */
+ * turns less, by a larger part than all cords are longer. Cords without overlap give way to no
+ * others. claim: NULL = the cords were not searched. */
 static thr_status set_row(advice_search *adviser, ends_kind *kind, const thr_plan *plan,
                           const thr_turning_claim *claim, thr_err *err)
 {
@@ -224,13 +211,17 @@ static thr_status set_row(advice_search *adviser, ends_kind *kind, const thr_pla
   thr_status st = added ? new_row(adviser, &row, err) : THR_OK;
   if (st) return st;
 
-  /* The row keeps the cords that turn less, and the better of the bounds. */
-  const bool better = plan->metrics.max_turning < row->turning;
-  if (better) measure_row(adviser, kind, plan, row);
+  /* The row keeps the better cords, and the better of the bounds. */
+  const thr_metrics *metrics = &plan->metrics;
+  const bool bare = row->length <= metrics->base_length * (1 + 1e-9);
+  const bool better =
+      added || ((!bare || metrics->length <= row->length * (1 + 1e-9)) &&
+                metrics->max_turning * metrics->length < row->turning * row->length);
+  if (better && (st = measure_row(adviser, kind, plan, row, err))) return st;
   if (claim && claim->present) row->bound = fmax(row->bound, claim->largest_bound);
   row->searched |= claim != NULL;
 
-  settle_row(adviser, kind, added, row, better ? plan : NULL);
+  settle_row(adviser, kind, added, row);
   return THR_OK;
 }
 
@@ -297,29 +288,9 @@ static thr_status find_seed(const advice_search *adviser, ends_kind *kind,
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
 }
 
-/* Adds a row without a search where no cords can be copies, or symmetric: the cords themselves are
- * never laid out. */
-static thr_status cut_large(advice_search *adviser, ends_kind *kind, int cords, thr_err *err)
-{
-  const thr_request request = request_of(adviser, kind, cords);
-  thr_advice_row *row;
-
-  /* Cut the cords only once; without such cuts there is no row. */
-  thr_status st =
-      kind->cuts.plan ? THR_OK : thr_parts_open(&kind->cuts, &kind->first, &request, err);
-  if (st || find_row(adviser, kind, cords) || !thr_parts_into(&kind->cuts, cords)) return st;
-
-  if ((st = new_row(adviser, &row, err))) return st;
-  measure_cuts(adviser, kind, cords, row);
-  settle_row(adviser, kind, true, row, NULL);
-  return THR_OK;
-}
-
 /* Adds a row without a search, if there are cords for one. */
 static thr_status cut_cords(advice_search *adviser, ends_kind *kind, int cords, thr_err *err)
 {
-  if (!adviser->searches) return cut_large(adviser, kind, cords, err);
-
   const thr_request request = request_of(adviser, kind, cords);
   thr_plan seed = {0};
   thr_status st = find_seed(adviser, kind, &request, adviser->limits, &seed, err);
@@ -502,37 +473,44 @@ static thr_status search_numbers(advice_search *adviser, ends_kind *kinds, int n
   return st;
 }
 
+/* ---- without overlap ---- */
+
+/* Adds a row of as few cords as need no overlap, where their ends may be: one from odd node to odd
+ * node for every two of them. *added becomes true if there is such a plan. */
+static thr_status add_bare(advice_search *adviser, ends_kind *kind, bool *added, thr_err *err)
+{
+  thr_request request = request_of(adviser, kind, 1);
+  thr_plan plan = {0};
+  int cords;
+  request.aims = (thr_aims){1, {THR_AIM_PULL}};
+  request.turning.length_slack = 0;
+
+  thr_status st = thr_planner_bare_cords(adviser->frame, &request, &cords, err);
+  if (!st && cords > 1)
+    st = thr_planner_try_cords(adviser->frame, &request, cords, adviser->limits, &plan, NULL, err);
+  if (!st && plan.n_cords > 0) st = set_row(adviser, kind, &plan, NULL, err);
+  *added = plan.n_cords > 0;
+  thr_plan_destroy(&plan);
+  return st;
+}
+
 /* ---- what is promised ---- */
 
-/* Makes the plan that the command for the recommended row makes: within what a hand always manages
- * the plan of `thread plan` alone (recommend.c), else the one of least pull with as many cords, in
- * the work that is usual for it. */
+/* Makes the plan that is recommended (recommend.c), as `thread plan` alone does for what a hand
+ * always manages. */
 static thr_status make_promised(const advice_search *adviser, thr_plan *plan, thr_err *err)
 {
-  const thr_advice *out = adviser->out;
+  const thr_recommend_options options = {.hand = adviser->out->hand};
   thr_limits limits = *adviser->limits;
-  thr_request request = adviser->request;
   thr_report report = {0};
   thr_err why = {0};
-  thr_status st = THR_OK;
 
   /* Nothing was counted before the command, and nobody hears of its cords. */
   limits.work = NULL;
   limits.usual = true;
   limits.found = NULL;
-
-  if (out->hand == thr_hand_always) {
-    st = thr_plan_recommended(adviser->frame, &request, &(thr_recommend_options){.hand = out->hand},
-                              &limits, plan, &report, &why);
-  } else if (out->chosen >= 0) {
-    const thr_advice_row *row = &out->row[out->chosen];
-    request.aims = (thr_aims){1, {THR_AIM_PULL}};
-    request.ends = row->ends;
-    request.cords = request.cords_least = row->cords;
-    double work = thr_dispatch_work(&request);
-    const thr_limits counted = thr_limits_counted(&limits, &work);
-    st = thr_plan_make(adviser->frame, &request, &counted, plan, &report, &why);
-  }
+  const thr_status st = thr_plan_recommended(adviser->frame, &adviser->request, &options, &limits,
+                                             plan, &report, &why);
 
   thr_report_destroy(&report);
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails promises nothing */
@@ -543,33 +521,36 @@ static bool is_promise(const thr_plan *plan)
   return plan->n_cords > 0 && plan->options.ends != THR_ENDS_CLOSED;
 }
 
-/* Fills a row with what the command's plan measures, keeps the bound that the row had, and tells
- * it. */
-static void tell_promised(advice_search *adviser, const thr_plan *plan, thr_advice_row *row)
+/* Fills a row with the plan that is recommended, keeps the bound that the row had, and tells it. */
+static thr_status tell_promised(advice_search *adviser, const thr_plan *plan, thr_advice_row *row,
+                                thr_err *err)
 {
   const ends_kind kind = {.ends = plan->options.ends};
-  const double bound = row->bound, base_length = adviser->out->base_length;
+  const double base_length = adviser->out->base_length;
 
-  *row = (thr_advice_row){.bound = bound, .searched = adviser->frame->n_edges <= MOST_SEARCHED};
-  measure_row(adviser, &kind, plan, row);
+  const thr_status st = measure_row(adviser, &kind, plan, row, err);
+  row->planned = true;
+  row->searched = adviser->frame->n_edges <= MOST_SEARCHED;
   row->optimal = row->turning <= row->bound * (1 + 1e-9);
   adviser->out->base_length = base_length;
-  if (adviser->options->row) adviser->options->row(adviser->options->user, row, plan);
+  if (!st && adviser->options->row) adviser->options->row(adviser->options->user, row);
+  return st;
 }
 
-/* Makes what is recommended and tells it, where it does not depend on the rows: within what a hand
- * always manages. */
+/* Makes the plan that is recommended, and tells it before all rows are there. */
 static thr_status promise_early(advice_search *adviser, thr_err *err)
 {
   thr_advice_row row = {0};
-  if (!adviser->promised || adviser->out->hand != thr_hand_always) return THR_OK;
+  thr_plan *plan = adviser->promised;
+  if (!plan || plan->n_cords > 0) return THR_OK;
 
-  const thr_status st = make_promised(adviser, adviser->promised, err);
-  if (st || !is_promise(adviser->promised)) return st;
-  tell_promised(adviser, adviser->promised, &row);
-  if (adviser->options->recommended)
-    adviser->options->recommended(adviser->options->user, &row, adviser->promised);
-  return THR_OK;
+  thr_status st = make_promised(adviser, plan, err);
+  if (st || !is_promise(plan)) return st;
+  st = tell_promised(adviser, plan, &row, err);
+  if (!st && adviser->options->recommended && thr_advice_within(adviser->out, &row))
+    adviser->options->recommended(adviser->options->user, &row, plan);
+  thr_cords_destroy(row.cord, row.all);
+  return st;
 }
 
 /* ---- the order of work ---- */
@@ -577,7 +558,6 @@ static thr_status promise_early(advice_search *adviser, thr_err *err)
 static void kind_destroy(ends_kind *kind)
 {
   thr_plan_destroy(&kind->first);
-  thr_parts_destroy(&kind->cuts);
   thr_symmetries_destroy(&kind->symmetries);
 }
 
@@ -598,10 +578,9 @@ static thr_status cut_plan(advice_search *adviser, ends_kind *kind, const thr_pl
   return st || !find_row(adviser, kind, 1) ? st : cut_numbers(adviser, kind, err);
 }
 
-/* Makes the rows of a framework that is small enough for searches, in the order of their use: one
- * cord, cut and symmetric cords, what is recommended, the fewest cords within the hand's force, all
- * others. */
-static thr_status search_all(advice_search *adviser, ends_kind *kinds, int n_kinds, thr_err *err)
+/* Searches for the rows of one cord, cuts them into more, and finds symmetric ones. */
+static thr_status begin_searches(advice_search *adviser, ends_kind *kinds, int n_kinds,
+                                 thr_err *err)
 {
   ends_kind closed = {.ends = THR_ENDS_CLOSED, .pull = INFINITY};
   thr_status st = find_group(adviser, err);
@@ -611,68 +590,77 @@ static thr_status search_all(advice_search *adviser, ends_kind *kinds, int n_kin
     st = try_first(adviser, &kinds[i], &closed.first, err);
   for (int i = 0; i < n_kinds && !st; i++)
     st = cut_numbers(adviser, &kinds[i], err);
-  if (!st) st = promise_early(adviser, err);
-  for (int i = 0; i < n_kinds && !st; i++)
-    st = search_fewest(adviser, &kinds[i], err);
-
   kind_destroy(&closed);
-  return st ? st : search_numbers(adviser, kinds, n_kinds, err);
+  return st;
 }
 
 /* Cuts the shortest closed cords of a framework that is too large for searches. */
-static thr_status cut_shortest(advice_search *adviser, ends_kind *kinds, int n_kinds,
-                               const thr_plan *plan, thr_err *err)
+static thr_status cut_shortest(advice_search *adviser, ends_kind *kinds, int n_kinds, thr_err *err)
 {
   thr_request request = adviser->request;
-
   thr_plan shortest = {0};
   request.aims = thr_aims_shortest;
 
-  /* Without a plan to cut, plan the shortest closed cords. */
-  thr_status st =
-      plan ? THR_OK
-           : thr_plan_make(adviser->frame, &request, adviser->limits, &shortest, NULL, err);
+  thr_status st = thr_plan_make(adviser->frame, &request, adviser->limits, &shortest, NULL, err);
   if (st == THR_ELIMIT && shortest.n_cords > 0) st = THR_OK; /* not proved, but cords */
 
   for (int i = 0; i < n_kinds && !st; i++)
-    st = cut_plan(adviser, &kinds[i], plan ? plan : &shortest, err);
+    st = cut_plan(adviser, &kinds[i], &shortest, err);
   thr_plan_destroy(&shortest);
-  return st ? st : promise_early(adviser, err);
+  return st;
 }
 
-/* Appends the rows of a framework of one component, or of all components alike. promised: receives
- * what is recommended where that does not depend on the rows; NULL: nobody asks. */
+/* Appends the rows of a framework of one component, or of all components alike, in the order of
+ * their use: cut and symmetric cords, what is recommended, cords without overlap, the fewest cords
+ * within the hand's force, all others. By the clock, first those of the work that is counted where
+ * no time is given, on which more time improves: its searches take other ways, and may lead to more
+ * cord. promised: receives what is recommended, unless it has done;
+ * NULL: nobody asks. */
 static thr_status find_rows(const thr_frame *frame, const thr_request *request,
                             const thr_advise_options *options, bool searches,
                             const thr_limits *limits, thr_plan *promised, thr_advice *out,
                             thr_err *err)
 {
   advice_search adviser = {.frame = frame,
-                           .request = thr_request_default(),
+                           .request = row_request(request),
                            .limits = limits,
                            .options = options,
+                           .room = out->n,
                            .out = out,
+                           .searches = searches && frame->n_edges <= MOST_SEARCHED,
                            .promised = promised};
+
+  double work = thr_advise_work;
+  const thr_limits counted = thr_limits_counted(limits, &work);
+  thr_err why = {0};
+
+  if (!limits->work && adviser.searches) {
+    if (find_rows(frame, request, options, true, &counted, promised, out, &why) == THR_ENOMEM)
+      return thr_nomem(err);
+    for (int i = 0; i < out->n; i++)
+      out->row[i].searched = false;
+    out->complete = true;
+    adviser.room = out->n;
+  }
 
   /* Ends anywhere are one kind; ends at feet come first where the framework has feet. */
   ends_kind kinds[2] = {{.ends = THR_ENDS_ANY, .pull = INFINITY}};
   int n_kinds = 1;
+  bool added = false;
   if (thr_frame_feet(frame) > 0) {
     kinds[1] = kinds[0];
     kinds[0].ends = THR_ENDS_FEET;
     n_kinds = 2;
   }
 
-  /* All rows ask for little turning of the cord that turns most; of the request only cover,
-   * capacity and physics count. */
-  adviser.request.aims = (thr_aims){.n = 1, .aim = {THR_AIM_MAX_TURNING}};
-  adviser.request.cover = request->cover;
-  adviser.request.capacity = request->capacity;
-  adviser.request.physics = request->physics;
-  adviser.searches = searches && frame->n_edges <= MOST_SEARCHED;
-
-  thr_status st = adviser.searches ? search_all(&adviser, kinds, n_kinds, err)
-                                   : cut_shortest(&adviser, kinds, n_kinds, options->plan, err);
+  thr_status st = adviser.searches ? begin_searches(&adviser, kinds, n_kinds, err)
+                                   : cut_shortest(&adviser, kinds, n_kinds, err);
+  if (!st) st = promise_early(&adviser, err);
+  for (int i = 0; i < n_kinds && !st && !added && adviser.searches; i++)
+    st = add_bare(&adviser, &kinds[i], &added, err);
+  for (int i = 0; i < n_kinds && !st && adviser.searches; i++)
+    st = search_fewest(&adviser, &kinds[i], err);
+  if (!st && adviser.searches) st = search_numbers(&adviser, kinds, n_kinds, err);
   if (!st && out->n == 0)
     st = thr_fail(err, stopped(&adviser) ? THR_ELIMIT : THR_EINFEASIBLE,
                   "no threading with one cord or more was found");
@@ -729,6 +717,30 @@ static void add_to_row(thr_advice_row *sum, const thr_advice_row *row)
     sum->pull[i] = fmax(sum->pull[i], row->pull[i]);
 }
 
+/* Gathers the cords of a joined row, which become those of the whole framework. */
+static thr_status gather_cords(const thr_components *components, const thr_advice *part,
+                               thr_advice_row *sum, thr_err *err)
+{
+  int n = 0;
+  sum->cord = thr_calloc((size_t)sum->all, sizeof *sum->cord);
+  if (!sum->cord) return thr_nomem(err);
+
+  for (int k = 0; k < components->n; k++) {
+    const thr_advice_row *row = fewest_cords_row(&part[k], sum->ends, sum->pull[THR_ADVICE_MU]);
+    for (int i = 0; i < row->all; i++) {
+      thr_cord *cord = &sum->cord[n];
+      *cord = row->cord[i];
+      cord->component = k;
+      thr_cord_id(n++, cord->id);
+      cord->half = thr_calloc((size_t)cord->n_passes, sizeof *cord->half);
+      if (!cord->half) return thr_nomem(err);
+      for (int j = 0; j < cord->n_passes; j++)
+        cord->half[j] = thr_component_half(components, k, row->cord[i].half[j]);
+    }
+  }
+  return THR_OK;
+}
+
 /* Makes the row of at most so many cords in every component: each has as few as the pull of the one
  * that is hardest allows. False: some component has no such cords. */
 static bool join_row(const thr_advice *part, int n, thr_ends ends, int cords, thr_advice_row *sum)
@@ -753,9 +765,10 @@ static bool join_row(const thr_advice *part, int n, thr_ends ends, int cords, th
 
 /* Joins the rows of all components: one for every number of cords that some component has a row of.
  */
-static thr_status join_rows(const thr_advice *part, int n, const thr_advise_options *options,
-                            thr_advice *out, thr_err *err)
+static thr_status join_rows(const thr_components *components, const thr_advice *part,
+                            const thr_advise_options *options, thr_advice *out, thr_err *err)
 {
+  const int n = components->n;
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_FEET, THR_ENDS_ANY};
   bool *has = thr_calloc(THR_MOST_CORDS + 1, sizeof *has);
   advice_search adviser = {.options = options, .out = out};
@@ -777,7 +790,8 @@ static thr_status join_rows(const thr_advice *part, int n, const thr_advise_opti
       if ((st = new_row(&adviser, &row, err))) break;
       *row = sum;
       last = sum.cords;
-      if (options->row) options->row(options->user, row, NULL);
+      st = gather_cords(components, part, row, err);
+      if (!st && options->row) options->row(options->user, row);
     }
   }
 
@@ -812,7 +826,7 @@ static thr_status find_by_components(const thr_components *components, const thr
     thr_plan_destroy(&asked);
   }
 
-  if (!st) st = join_rows(part, n, options, out, err);
+  if (!st) st = join_rows(components, part, options, out, err);
   for (int k = 0; part && k < n; k++)
     thr_advice_destroy(&part[k]);
   free(part);
@@ -821,30 +835,54 @@ static thr_status find_by_components(const thr_components *components, const thr
 
 /* ---- all of it ---- */
 
-/* Puts what the command's plan measures in the place of the recommended row. */
-static thr_status promise(advice_search *adviser, thr_plan *plan, thr_err *err)
+/* Puts the plan that is recommended in the place of the row of its number, and orders all rows. */
+static thr_status promise(advice_search *adviser, const thr_plan *plan, thr_err *err)
 {
   thr_advice *out = adviser->out;
-  if (!is_promise(plan)) return THR_OK;
+  thr_status st = THR_OK;
 
-  const ends_kind kind = {.ends = plan->options.ends};
-  const int cords = plan->options.cords;
-  adviser->room = out->n;
-  thr_advice_row *row = find_row(adviser, &kind, cords);
-  thr_status st = row ? THR_OK : new_row(adviser, &row, err);
-  if (!st) tell_promised(adviser, plan, row);
-
-  /* The rows in order, with the promised one, which is kept whatever it buys. */
-  const thr_advice_row promised = st ? (thr_advice_row){0} : *row;
+  if (is_promise(plan)) {
+    const ends_kind kind = {.ends = plan->options.ends};
+    adviser->room = out->n;
+    thr_advice_row *row = find_row(adviser, &kind, plan->options.cords);
+    if (!row) st = new_row(adviser, &row, err);
+    if (!st) st = tell_promised(adviser, plan, row, err);
+  }
   if (!st) thr_advice_settle(out);
-  row = st ? NULL : find_row(adviser, &kind, cords);
-  adviser->room = out->n;
-  if (!st && !row && !(st = new_row(adviser, &row, err))) *row = promised;
-  if (!st) out->chosen = thr_advice_within(out, row) ? (int)(row - out->row) : -1;
+  return st;
+}
 
-  /* What depends on the rows is told here, anything else was told early. */
-  if (!st && adviser->options->recommended && out->hand != thr_hand_always && out->chosen >= 0)
-    adviser->options->recommended(adviser->options->user, row, plan);
+/* Tells which row is recommended where it is another than was told early. */
+static thr_status tell_chosen(const thr_advice *advice, const thr_frame *frame,
+                              const thr_request *request, const thr_advise_options *options,
+                              thr_err *err)
+{
+  const thr_advice_row *row = &advice->row[advice->chosen];
+  thr_plan plan = {0};
+  if (advice->chosen < 0 || row->planned || !options->recommended) return THR_OK;
+
+  const thr_status st = thr_advice_plan(frame, request, row, &plan, err);
+  if (!st) options->recommended(options->user, row, &plan);
+  thr_plan_destroy(&plan);
+  return st;
+}
+
+thr_status thr_advice_plan(const thr_frame *frame, const thr_request *request,
+                           const thr_advice_row *row, thr_plan *plan, thr_err *err)
+{
+  thr_request asked = row_request(request);
+  *plan = (thr_plan){0};
+  asked.ends = row->ends;
+  asked.cords = row->cords;
+  asked.cords_least = row->uneven ? 1 : row->cords;
+
+  thr_status st = thr_plan_request(plan, frame, &asked, err);
+  if (!st) st = thr_cords_copy(row->cord, row->all, &plan->cord, err);
+  if (!st) plan->n_cords = row->all;
+  if (!st)
+    st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics,
+                          err);
+  if (st) thr_plan_destroy(plan);
   return st;
 }
 
@@ -860,13 +898,10 @@ thr_status thr_advise(const thr_frame *frame, const thr_request *request,
 
   /* What is recommended is what its command makes. */
   advice_search promising = {.frame = frame,
-                             .request = thr_request_default(),
+                             .request = row_request(request),
                              .limits = limits,
                              .options = options,
                              .out = out};
-  promising.request.cover = request->cover;
-  promising.request.capacity = request->capacity;
-  promising.request.physics = request->physics;
   if (!st && frame->n_edges <= MOST_SEARCHED) st = find_group(&promising, err);
 
   /* Of several components, whose rows come last, it is told first. */
@@ -877,9 +912,8 @@ thr_status thr_advise(const thr_frame *frame, const thr_request *request,
   else if (!st && !(st = promise_early(&promising, err)))
     st = find_by_components(&components, request, options, limits, out, err);
 
-  if (!st) thr_advice_settle(out);
-  if (!st && out->hand != thr_hand_always) st = make_promised(&promising, &plan, err);
   if (!st) st = promise(&promising, &plan, err);
+  if (!st) st = tell_chosen(out, frame, request, options, err);
   thr_plan_destroy(&plan);
   thr_group_destroy(&promising.group);
   thr_components_destroy(&components);

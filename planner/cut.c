@@ -16,8 +16,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* What parts may turn, need at an end and be long at most, rad, rad, units. */
+typedef struct {
+  double turning, pulled, longest;
+} part_limits;
+
 /* Of one cord: a part of it is passes a .. b, and turns by before[b] - before[a]. */
-typedef struct thr_cut {
+typedef struct {
   int n;          /* passes */
   double *before; /* [n] turning before the pass, rad; owned */
   double *length; /* [n + 1] of the passes before; owned */
@@ -63,8 +68,7 @@ static thr_status cutter_init(cord_cutter *cutter, const thr_plan *plan, const t
 }
 
 /* Is a part within all limits? Each of them holds for whatever is inside such a part as well. */
-static bool is_within(const cord_cutter *cutter, int first, int last,
-                      const thr_parts_measures *limit)
+static bool is_within(const cord_cutter *cutter, int first, int last, const part_limits *limit)
 {
   if (cutter->before[last] - cutter->before[first] > limit->turning) return false;
   if (cutter->length[last + 1] - cutter->length[first] > limit->longest) return false;
@@ -76,7 +80,7 @@ static bool is_within(const cord_cutter *cutter, int first, int last,
 
 /* Returns the last pass with which a part from first on is within the limits, or first. O(log^2
  * passes). */
-static int reach_of(const cord_cutter *cutter, int first, const thr_parts_measures *limit)
+static int reach_of(const cord_cutter *cutter, int first, const part_limits *limit)
 {
   /* Bisection: whatever is inside a part within the limits is within them, too. */
   int low = first, high = cutter->n;
@@ -92,7 +96,7 @@ static int reach_of(const cord_cutter *cutter, int first, const thr_parts_measur
 
 /* Parts within the limits, each as long as can be: there are no fewer such parts. False: some part
  * is not. */
-static bool cut_within(cord_cutter *cutter, const thr_parts_measures *limit)
+static bool cut_within(cord_cutter *cutter, const part_limits *limit)
 {
   cutter->n_parts = 0;
   for (int first = 0; first < cutter->n;) {
@@ -141,7 +145,7 @@ static bool cut_evenly(cord_cutter *cutter, int parts)
 {
   enum { HALVINGS = 60 };
 
-  thr_parts_measures limit = {
+  part_limits limit = {
       .turning = cutter->before[cutter->n - 1], .pulled = INFINITY, .longest = INFINITY};
   double low = 0, high = limit.turning;
 
@@ -181,10 +185,18 @@ static thr_status add_parts(const cord_cutter *cutter, const thr_cord *cord, thr
   return THR_OK;
 }
 
-thr_status thr_parts_open(thr_parts *cuts, const thr_plan *plan, const thr_request *options,
-                          thr_err *err)
+/* The cords of a plan with what they turn up to each pass. */
+typedef struct {
+  const thr_plan *plan; /* borrowed; must stay */
+  int n;                /* its cords */
+  cord_cutter *cord;    /* [n]; owned */
+} plan_cuts;
+
+/* Opens cuts, to be released with cuts_destroy, after a failure too. options: where ends may be. */
+static thr_status cuts_open(plan_cuts *cuts, const thr_plan *plan, const thr_request *options,
+                            thr_err *err)
 {
-  *cuts = (thr_parts){.plan = plan, .cord = thr_calloc((size_t)plan->n_cords, sizeof *cuts->cord)};
+  *cuts = (plan_cuts){.plan = plan, .cord = thr_calloc((size_t)plan->n_cords, sizeof *cuts->cord)};
 
   thr_status st = cuts->cord ? THR_OK : thr_nomem(err);
   while (!st && cuts->n < plan->n_cords) {
@@ -194,41 +206,22 @@ thr_status thr_parts_open(thr_parts *cuts, const thr_plan *plan, const thr_reque
   return st;
 }
 
-void thr_parts_destroy(thr_parts *cuts)
+static void cuts_destroy(plan_cuts *cuts)
 {
   for (int i = 0; i < cuts->n; i++)
     cutter_destroy(&cuts->cord[i]);
   free(cuts->cord);
-  *cuts = (thr_parts){0};
+  *cuts = (plan_cuts){0};
 }
 
-bool thr_parts_into(thr_parts *cuts, int parts)
+/* Cuts every cord, one in each component, into so many. False where the cords do not come by enough
+ * nodes that may hold an end. O(parts log passes) for each of some 60 limits. */
+static bool cut_into(plan_cuts *cuts, int parts)
 {
   bool done = cuts->n > 0;
   for (int i = 0; i < cuts->n && done; i++)
     done = cut_evenly(&cuts->cord[i], parts);
   return done;
-}
-
-thr_parts_measures thr_parts_measure(const thr_parts *cuts)
-{
-  thr_parts_measures measures = {0};
-
-  for (int c = 0; c < cuts->n; c++) {
-    const cord_cutter *cutter = &cuts->cord[c];
-    for (int i = 0, first = 0; i < cutter->n_parts; first = cutter->last[i++] + 1) {
-      const int last = cutter->last[i];
-
-      measures.turning = fmax(measures.turning, cutter->before[last] - cutter->before[first]);
-      const thr_parting parting = thr_least_pull(cutter->before, first, last);
-      if (thr_parting_larger(&parting) > measures.pulled)
-        measures.other = thr_least_pull_other(cutter->before, first, last);
-      measures.pulled = fmax(measures.pulled, thr_parting_larger(&parting));
-
-      measures.longest = fmax(measures.longest, cutter->length[last + 1] - cutter->length[first]);
-    }
-  }
-  return measures;
 }
 
 /* ---- the shortest cords, opened and cut ---- */
@@ -284,12 +277,11 @@ thr_status thr_cut_open(const thr_frame *frame, const thr_request *request, cons
 
 /* Cuts every cord into as few parts as keep to the limits, at least as many as asked for. False:
  * more are needed than allowed. */
-static bool cut_few(thr_parts *cuts, const thr_request *options)
+static bool cut_few(plan_cuts *cuts, const thr_request *options)
 {
-  const thr_parts_measures limit = {.turning = INFINITY,
-                                    .pulled = thr_request_most_pulled(options),
-                                    .longest =
-                                        options->max_length > 0 ? options->max_length : INFINITY};
+  const part_limits limit = {.turning = INFINITY,
+                             .pulled = thr_request_most_pulled(options),
+                             .longest = options->max_length > 0 ? options->max_length : INFINITY};
   bool done = cuts->n > 0;
 
   /* Cut each cord greedily, and then on until the parts are as many as the least number. */
@@ -302,7 +294,7 @@ static bool cut_few(thr_parts *cuts, const thr_request *options)
   return done;
 }
 
-static int count_parts(const thr_parts *cuts)
+static int count_parts(const plan_cuts *cuts)
 {
   int n = 0;
   for (int i = 0; i < cuts->n; i++)
@@ -311,7 +303,7 @@ static int count_parts(const thr_parts *cuts)
 }
 
 /* Makes a plan of the parts that the cords of a plan are cut into. On failure seed is empty. */
-static thr_status plan_parts(const thr_parts *cuts, const thr_request *options, thr_plan *seed,
+static thr_status plan_parts(const plan_cuts *cuts, const thr_request *options, thr_plan *seed,
                              thr_err *err)
 {
   const thr_plan *plan = cuts->plan;
@@ -335,20 +327,20 @@ thr_status thr_cut_few(const thr_frame *frame, const thr_request *options, const
   const bool is_range = options->cords_least < options->cords;
   const bool is_limited = options->max_pull > 0 || options->max_length > 0;
   thr_plan opened = {0};
-  thr_parts cuts = {0};
+  plan_cuts cuts = {0};
   *seed = (thr_plan){0};
 
   if (options->ends == THR_ENDS_COUNTS || options->joint == THR_JOINT_TUBE) return THR_OK;
 
   /* Open the closed cords, and cut them by the limits, or evenly into a given number. */
   thr_status st = thr_cut_open(frame, options, closed, &opened, err);
-  if (!st && opened.n_cords > 0) st = thr_parts_open(&cuts, &opened, options, err);
-  bool done = !st && (is_range && is_limited ? cut_few(&cuts, options)
-                                             : thr_parts_into(&cuts, options->cords));
+  if (!st && opened.n_cords > 0) st = cuts_open(&cuts, &opened, options, err);
+  bool done =
+      !st && (is_range && is_limited ? cut_few(&cuts, options) : cut_into(&cuts, options->cords));
 
   if (options->ends == THR_ENDS_CLOSED && count_parts(&cuts) > cuts.n) done = false;
   if (done) st = plan_parts(&cuts, options, seed, err);
-  thr_parts_destroy(&cuts);
+  cuts_destroy(&cuts);
   thr_plan_destroy(&opened);
   return st;
 }
@@ -356,9 +348,9 @@ thr_status thr_cut_few(const thr_frame *frame, const thr_request *options, const
 thr_status thr_cut_seed(const thr_plan *plan, const thr_request *options, thr_plan *seed,
                         thr_err *err)
 {
-  thr_parts cuts;
-  thr_status st = thr_parts_open(&cuts, plan, options, err);
-  if (!st && thr_parts_into(&cuts, options->cords)) st = plan_parts(&cuts, options, seed, err);
-  thr_parts_destroy(&cuts);
+  plan_cuts cuts;
+  thr_status st = cuts_open(&cuts, plan, options, err);
+  if (!st && cut_into(&cuts, options->cords)) st = plan_parts(&cuts, options, seed, err);
+  cuts_destroy(&cuts);
   return st;
 }

@@ -262,16 +262,13 @@ thr_status thr_plan_recommended(const thr_frame *frame, const thr_request *reque
 extern const double thr_advise_work;
 
 typedef struct {
-  double hand;          /* N: what the pull is to stay within */
-  const thr_plan *plan; /* NULL; or the shortest closed cords, for a framework that is too large for
-                           searches. Borrowed */
-  /* Hears of every row as soon as it is there or better, before any is dropped; NULL = nobody.
-   * plan: whose cords the row measures, NULL if the row measures those that it did before, or its
-   * cords were never laid out. Borrowed. */
-  void (*row)(void *user, const thr_advice_row *row, const thr_plan *plan);
-  /* Hears once, where there is such a plan, of the row that is recommended, and of its plan, which
-   * the command for it makes (recommend.c, where `hand` is thr_hand_always: then before most of the
-   * searches). Borrowed; the plan may be confirmed (thr_plan_confirm). NULL = nobody. */
+  double hand; /* N: what the pull is to stay within */
+  /* Hears of every row as soon as it is there or better, before any is dropped, borrowed with its
+   * cords; NULL = nobody. */
+  void (*row)(void *user, const thr_advice_row *row);
+  /* Hears, where a plan stays within the hand, of the row that is recommended, and of its plan:
+   * before most of the searches of what recommend.c makes, and at the end where another row became
+   * the better one. Borrowed; the plan may be confirmed (thr_plan_confirm). NULL = nobody. */
   void (*recommended)(void *user, const thr_advice_row *row, thr_plan *plan);
   void *user;
 } thr_advise_options;
@@ -279,19 +276,24 @@ typedef struct {
 /* Of the request only cover, capacity and physics count. Rows: one closed cord; for ends at the
  * feet, if there are any, and ends anywhere, 1, 2, 3, 4, 6, 8, 12, .. cords until the pull is that
  * of the seating tension, two more numbers have bought nothing, or there are four times as many
- * cords as stay within the hand; and numbers below the fewest that do. (More closed cords than one
- * buy nothing that cords with ends anywhere do not.) First the cord that turns least is cut evenly
- * into every number of cords, or symmetric cords are taken if they turn less; then what is
- * recommended is planned, unless it depends on the rows; then every number has a search from there,
- * the fewest within the hand first, each with a part of the time that is left: where they end
- * before it is over the same input gives the same rows. Of more than 5,000 edges only the shortest
- * closed cords are cut. Of several components each has rows of its own; a row of all is of the most
- * cords in a component, and every other one has as few as need no more pull. THR_EINPUT: physics
- * that do not fit. THR_ELIMIT, THR_EINFEASIBLE: no row has a plan. THR_OK also if the time was over
- * before all searches had their turn (complete says so), as long as there is a row. Release with
- * thr_advice_destroy. */
+ * cords as stay within the hand; numbers below the fewest that do; and as few as need no overlap.
+ * (More closed cords than one buy nothing that cords with ends anywhere do not.) First the cord
+ * that turns least is cut evenly into every number of cords, or symmetric cords are taken if they
+ * turn less; then what is recommended is planned (recommend.c); then every number has a search from
+ * there, the fewest within the hand first, each with a part of the time that is left: where they
+ * end before it is over the same input gives the same rows. Of more than 5,000 edges only the
+ * shortest closed cords are cut. Of several components each has rows of its own; a row of all is of
+ * the most cords in a component, and every other one has as few as need no more pull. THR_EINPUT:
+ * physics that do not fit. THR_ELIMIT, THR_EINFEASIBLE: no row has a plan. THR_OK also if the time
+ * was over before all searches had their turn (complete says so), as long as there is a row.
+ * Release with thr_advice_destroy. */
 thr_status thr_advise(const thr_frame *frame, const thr_request *request,
                       const thr_advise_options *options, const thr_limits *limits, thr_advice *out,
                       thr_err *err) THR_MUST_CHECK;
+
+/* Makes a plan, which claims nothing, of the cords of a row of that frame and request. On failure
+ * *plan is empty. O(passes). */
+thr_status thr_advice_plan(const thr_frame *frame, const thr_request *request,
+                           const thr_advice_row *row, thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -139,34 +139,24 @@ thr_status thr_planner_mixed(const thr_frame *frame, const thr_request *options,
  * edge stay as they are. O(passes) beside the search. */
 thr_status thr_plan_trim(thr_plan *plan, bool *trimmed, thr_err *err) THR_MUST_CHECK;
 
+/* ---- recommend.c: what it tries, which advice does, too. */
+
+/* Plans so many cords in every component, as asked but for their number, with little counted work
+ * and without pricing walks. *plan stays empty where none are found; THR_ENOMEM else. report may be
+ * NULL. */
+thr_status thr_planner_try_cords(const thr_frame *frame, const thr_request *asked, int cords,
+                                 const thr_limits *limits, thr_plan *plan, thr_report *report,
+                                 thr_err *err) THR_MUST_CHECK;
+
+/* *cords: the fewest in every component with which no edge needs more passes than request->cover:
+ * half its nodes with an odd number of passes, where a cord has to end, or 1 where there are none.
+ * 0: no cord may end at one of these nodes, or they are more than there may be. O(nodes + edges).
+ */
+thr_status thr_planner_bare_cords(const thr_frame *frame, const thr_request *request, int *cords,
+                                  thr_err *err) THR_MUST_CHECK;
+
 /* ---- cut.c: More cords by cutting few: a start for the cord that turns most, and the rows of
  * advice. */
-
-/* The cords of a plan with what they turn up to each pass. */
-typedef struct {
-  const thr_plan *plan; /* borrowed; must stay */
-  int n;                /* its cords */
-  struct thr_cut *cord; /* [n]; owned */
-} thr_parts;
-
-/* options: where ends may be. O(passes). Release with thr_parts_destroy, after a failure too. */
-thr_status thr_parts_open(thr_parts *cuts, const thr_plan *plan, const thr_request *options,
-                          thr_err *err) THR_MUST_CHECK;
-void thr_parts_destroy(thr_parts *cuts);
-
-/* Cuts every cord, one in each component, into so many where a pass ends at a node that may hold an
- * end, such that of all such cuts the part that turns most turns least: a limit is halved, and
- * parts are made as long as it lets them be. The turns at the cuts are saved. False where the cords
- * do not come by enough such nodes. O(parts log passes) for each of some 60 limits. */
-bool thr_parts_into(thr_parts *cuts, int parts);
-
-/* Of the parts: what the one turns that turns most, what an end of one of them has to overcome at
- * most when both its ends are pulled (thr_cord_pulled_turning), and its other end, rad, and the
- * length of the longest. O(passes). */
-typedef struct {
-  double turning, pulled, other, longest;
-} thr_parts_measures;
-thr_parts_measures thr_parts_measure(const thr_parts *cuts);
 
 /* Makes of one closed cord in every component a plan with cords that begin and end at one node
  * where an end may be, of these nodes where they turn most. opened is an empty plan; it stays empty

@@ -59,21 +59,21 @@ static bool is_within(const recommendation *of, const thr_plan *plan)
   return hardest_of(of, plan) <= of->reach * (1 + 1e-9);
 }
 
-/* Plans so many cords in every component; *plan stays empty where none are found. */
-static thr_status try_number(const recommendation *of, int cords, thr_plan *plan,
-                             thr_report *report, thr_err *err)
+thr_status thr_planner_try_cords(const thr_frame *frame, const thr_request *asked, int cords,
+                                 const thr_limits *limits, thr_plan *plan, thr_report *report,
+                                 thr_err *err)
 {
   double work = work_of_trial;
-  thr_limits little = thr_limits_counted(of->limits, &work);
-  thr_request request = of->request;
+  thr_limits little = thr_limits_counted(limits, &work);
+  thr_request request = *asked;
   thr_err why = {0};
 
   little.usual = little.unpriced = true;
   little.advance = NULL; /* a part of this trial, as cords that it finds on the way */
   little.found = NULL;
   request.cords = request.cords_least = cords;
-  const thr_status st = thr_plan_make(of->frame, &request, &little, plan, report, &why);
-  thr_limits_found(of->limits, plan->cord, plan->n_cords, NULL);
+  const thr_status st = thr_plan_make(frame, &request, &little, plan, report, &why);
+  thr_limits_found(limits, plan->cord, plan->n_cords, NULL);
 
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves no plan */
 }
@@ -88,22 +88,24 @@ static int fewest_of(const recommendation *of, const thr_plan *shortest)
   return fewest < 1 ? 1 : fewest > THR_MOST_CORDS ? THR_MOST_CORDS : (int)fewest;
 }
 
-/* Returns how many cords some component needs at least because a cord has to end at every node with
- * an odd number of passes: where no edge has room for more passes than have to be. */
-static thr_status count_forced(const recommendation *of, int *fewest, thr_err *err)
+thr_status thr_planner_bare_cords(const thr_frame *frame, const thr_request *request, int *cords,
+                                  thr_err *err)
 {
-  const thr_frame *frame = of->frame;
-  *fewest = 1;
-  if (of->request.capacity != of->request.cover) return THR_OK;
+  bool allowed = true;
+  *cords = 1;
 
   int *component = thr_calloc((size_t)frame->n_nodes, sizeof *component), n = 0;
   int *odd = thr_calloc((size_t)frame->n_nodes, sizeof *odd);
   thr_status st =
       component && odd ? thr_frame_components(frame, component, &n, err) : thr_nomem(err);
-  for (int v = 0; v < frame->n_nodes && !st; v++)
-    odd[component[v]] += thr_degree(frame, v) * of->request.cover % 2;
+  for (int v = 0; v < frame->n_nodes && !st; v++) {
+    const bool is_odd = thr_degree(frame, v) * request->cover % 2;
+    odd[component[v]] += is_odd;
+    allowed &= !is_odd || thr_plan_end_allowed(frame, request, v);
+  }
   for (int k = 0; k < n && !st; k++)
-    if (odd[k] / 2 > *fewest) *fewest = odd[k] / 2;
+    if (odd[k] / 2 > *cords) *cords = odd[k] / 2;
+  if (!allowed || *cords > THR_MOST_CORDS) *cords = 0;
 
   free(component);
   free(odd);
@@ -118,15 +120,6 @@ static thr_request as_few(const recommendation *of)
   few.cords = THR_MOST_CORDS;
   few.max_pull = exp(few.physics.mu * of->reach);
   return few;
-}
-
-/* Cuts the shortest closed cords into as few as stay within the hand. *cut stays empty where they
- * do not come by enough nodes for ends. */
-static thr_status cut_shortest(const recommendation *of, const thr_plan *shortest, thr_plan *cut,
-                               thr_err *err)
-{
-  const thr_request few = as_few(of);
-  return thr_cut_few(of->frame, &few, shortest, cut, err);
 }
 
 /* Plans cords as a limit on the pull does: in several components, which take different numbers, and
@@ -171,12 +164,13 @@ static double limit_of(int cords, double hardest, int more, double less)
   return hardest - (hardest - less) * more / (more - cords);
 }
 
-/* Finds the fewest cords within the hand, between what the turning allows and `most`. Where ends
+/* Finds the fewest cords within the hand, between what the turning allows and `most`; so many that
+ * need no overlap, `bare`, are tried before those beside them. Where ends
  * are at few feet more cords of the least length are short ones beside a long one: upwards it is
  * given up when two numbers in sequence have not lowered the pull, or when from the third on the
  * pull tends to more than the hand. */
-static thr_status try_numbers(const recommendation *of, int least, int most, thr_plan *plan,
-                              thr_report *report, thr_err *err)
+static thr_status try_numbers(const recommendation *of, int least, int most, int bare,
+                              thr_plan *plan, thr_report *report, thr_err *err)
 {
   thr_status st = THR_OK;
   int beyond = least - 1, within = most + 1, cords = least, step = 1, idle = 0;
@@ -192,7 +186,7 @@ static thr_status try_numbers(const recommendation *of, int least, int most, thr
     /* Fewer than the fewest so far that stay within the hand, more than those that do not. */
     if (of->limits->advance)
       of->limits->advance(of->limits->user, "numbers of cords", (trial + 0.5) / MOST_TRIALS);
-    st = try_number(of, cords, &tried, &found, err);
+    st = thr_planner_try_cords(of->frame, &of->request, cords, of->limits, &tried, &found, err);
     const double hardest = st ? INFINITY : hardest_of(of, &tried);
     const bool fits = !st && is_within(of, &tried);
     if (!fits && within > most) idle = hardest < easiest ? 0 : idle + 1;
@@ -209,6 +203,7 @@ static thr_status try_numbers(const recommendation *of, int least, int most, thr
 
     /* Growing steps until some stay within, then halves. */
     cords = within > most && beyond + step < most ? beyond + step : (beyond + within) / 2;
+    if (beyond < bare && bare < within && (within <= most || bare < cords)) cords = bare;
     step *= 2;
   }
   return st;
@@ -221,24 +216,30 @@ static thr_status with_ends(recommendation *of, thr_ends ends, const thr_plan *s
   thr_plan cut = {0};
   of->request.ends = ends;
 
-  thr_status st = shortest->n_cords > 0 ? cut_shortest(of, shortest, &cut, err) : THR_OK;
+  /* The shortest closed cords, cut into as few as stay within the hand. *cut stays empty where they
+   * do not come by enough nodes for ends. */
+  const thr_request few = as_few(of);
+  thr_status st =
+      shortest->n_cords > 0 ? thr_cut_few(of->frame, &few, shortest, &cut, err) : THR_OK;
   if (!st && cut.n_cords > 0) thr_limits_found(of->limits, cut.cord, cut.n_cords, NULL);
-  int component, forced = 1;
-  if (!st) st = count_forced(of, &forced, err);
+  int component, bare = 0;
+  if (!st) st = thr_planner_bare_cords(of->frame, &of->request, &bare, err);
+
+  /* Where no edge has room for more passes than have to be, there are no fewer. */
   int least = fewest_of(of, shortest);
-  if (least < forced) least = forced;
+  if (of->request.capacity == of->request.cover && least < bare) least = bare;
   int most = cut.n_cords > 0 ? thr_planner_most_cords(&cut, &component) : most_times * least;
   if (most > of->frame->n_edges) most = of->frame->n_edges;
   if (most > THR_MOST_CORDS) most = THR_MOST_CORDS;
 
   if (!st && shortest->n_cords > 1) st = try_limit(of, plan, report, err);
   if (!st && plan->n_cords == 0 && of->frame->n_edges <= MOST_TRIED)
-    st = try_numbers(of, least < most ? least : most, most, plan, report, err);
+    st = try_numbers(of, least < most ? least : most, most, bare, plan, report, err);
 
   /* Of any length where no trial found any: as many as the cut cords, or once more all. */
   of->request.turning.length_slack = -1;
   if (!st && plan->n_cords == 0 && cut.n_cords > 0) {
-    st = try_number(of, most, plan, report, err);
+    st = thr_planner_try_cords(of->frame, &of->request, most, of->limits, plan, report, err);
     if (!is_within(of, plan)) {
       thr_plan_destroy(plan);
       thr_report_destroy(report);
@@ -247,7 +248,7 @@ static thr_status with_ends(recommendation *of, thr_ends ends, const thr_plan *s
     if (!st && plan->n_cords == 0 && of->frame->n_edges > MOST_TRIED)
       st = try_limit(of, plan, report, err);
   } else if (!st && plan->n_cords == 0 && of->frame->n_edges <= MOST_TRIED) {
-    st = try_numbers(of, least, most, plan, report, err);
+    st = try_numbers(of, least, most, bare, plan, report, err);
   }
   of->request.turning.length_slack = 0;
 

@@ -25,7 +25,8 @@ static void put_option(thr_text *text, const char *option, const char *value)
   advice_put_word(text, value);
 }
 
-void advice_command_options(const cli_physics *physics, thr_text *text)
+/* Appends the options that were given of how FRAME is read and of what cord and beads are. */
+static void put_command_options(thr_text *text, const cli_physics *physics)
 {
   for (const cli_option *option = cli_frame_options; option->name; option++) {
     const char *value = cli_given(option->name) ? cli_given_value(option->name) : NULL;
@@ -38,6 +39,29 @@ void advice_command_options(const cli_physics *physics, thr_text *text)
   for (int i = 0; i < physics->n; i++) {
     put_option(text, physics->given[i].option->name, physics->given[i].value);
   }
+  if (cli_given("cover")) put_option(text, "cover", cli_given_value("cover"));
+}
+
+void advice_put_command(const void *user, const thr_advice_row *row, thr_text *text)
+{
+  static const char *const again[] = {"hand", "time-limit"};
+  const advice_commands *of = user;
+
+  /* What a hand always manages is what `thread plan` makes unasked. */
+  const bool unasked = row && row->planned && of->hand == thr_hand_always;
+  thr_text_append(text, unasked ? "thread plan " : "thread advise ");
+  advice_put_word(text, of->path);
+  put_command_options(text, of->physics);
+  if (unasked) return;
+
+  /* Any other row is found again. */
+  for (int i = 0; i < 2; i++)
+    if (cli_given(again[i])) put_option(text, again[i], cli_given_value(again[i]));
+  if (row)
+    thr_text_printf(text, " --cords %d --ends %s", row->cords, thr_ends_name((int)row->ends));
+  else
+    thr_text_append(text, " --cords K --ends closed|feet|any");
+  thr_text_append(text, " -T plan -o plan.json");
 }
 
 /* Appends that so much is beyond a hand; the line goes on. */
@@ -106,7 +130,12 @@ bool advice_put_recommended(const thr_plan *plan, double hand, double holds, thr
   thr_text_printf(text, "         that %s, with %s",
                   hand < thr_hand_always ? "the cord bears" : "a hand can pull time after time",
                   plain_force(hand, within));
-  thr_text_append(text, plan->n_cords > 1 && !as_pulled ? "; --cords 1 is one cord\n" : "\n");
+
+  /* One cord is there for sure where it may pass every edge twice, and need not tie tubes. */
+  bool one = plan->n_cords > 1 && !as_pulled && options->joint == THR_JOINT_SOLID;
+  for (int e = 0; e < plan->frame.n_edges && one; e++)
+    one = thr_plan_capacity(&plan->frame, options, e) >= 2 * options->cover;
+  thr_text_append(text, one ? "; --cords 1 is one cord\n" : "\n");
   put_holds(plan, pull[THR_ADVICE_MU], holds, text);
   return true;
 }

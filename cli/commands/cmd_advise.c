@@ -8,9 +8,9 @@
  * end of the band of mu.
  *
  * The searches are thr_advise's (planner/advise.c), the table is cli/print/advice_table.c. This
- * file parses the options, shows rows on a terminal as they are found, keeps the cords of every row
- * so that the recommended ones can be asked from which pull on they hold the pieces, and writes
- * table, picture, plan or JSON.
+ * file parses the options, shows rows on a terminal as they are found, asks the recommended cords
+ * from which pull on they hold the pieces, and writes table, picture, plan or JSON. --cords, with
+ * --ends, takes another row than the recommended one, and its plan is the one that is written.
  *
  * Example: of the 7 x 7 dome `thread advise dome.json` recommends 4 cords to the feet, pulled with
  * 3.27 N at most. */
@@ -56,7 +56,7 @@ typedef struct {
   thr_request request;
   const char *path, *output;
   double hand;
-  int type;
+  int type, cords, ends; /* cords: of the row that is taken; 0 = the recommended one */
   bool progress;
 } advise_arguments;
 
@@ -77,6 +77,11 @@ static bool take_hand(void *into, const cli_option *option, const char *value)
 static const cli_option own_options[] = {
     {"type", 'T', NULL, "a table (default), a picture, or the recommended plan", .kind = CLI_WORD,
      AT(type), .word = type_name, .n_words = N_TYPES},
+    {"cords", .value = "K", .kind = CLI_COUNT, AT(cords), .low = 1, .high = THR_MOST_CORDS,
+     .help = "with -T plan: the plan of the row of K cords instead, the first one if --ends does "
+             "not say which"},
+    {"ends", .kind = CLI_WORD, AT(ends), .word = thr_ends_name, .n_words = THR_ENDS_FEET + 1,
+     .help = "of the row that --cords takes"},
     {"output", 'o', "FILE", "(default: stdout)", .kind = CLI_OUTPUT, AT(output)},
     {"progress", .kind = CLI_FLAG, AT(progress),
      .help = "a line of JSON on stderr each time a row is found or better, and as soon as it is "
@@ -121,6 +126,9 @@ static int parse(int argc, char **argv, advise_arguments *args)
 
   /* Outputs. */
   const bool is_plan = args->type == TYPE_PLAN;
+  if (args->cords > 0 && !is_plan) return cli_usage("advise", "--cords takes a row for -T plan");
+  if (cli_given("ends") && args->cords == 0)
+    return cli_usage("advise", "--ends says which row --cords takes: give both");
   if (is_plan && cli_no_plan_name("advise", args->output)) return EXIT_USAGE;
   if (cli_json && args->type != TYPE_TEXT && strcmp(args->output, "-") == 0)
     return cli_usage("advise", "--json and the %s both want stdout; -o FILE takes the %s",
@@ -131,13 +139,6 @@ static int parse(int argc, char **argv, advise_arguments *args)
 
 /* ---- rows as they are found ---- */
 
-/* The cords that a row measures. */
-typedef struct {
-  thr_ends ends;
-  int cords, n;
-  thr_cord *cord; /* [n] owned */
-} kept_cords;
-
 /* Columns that a terminal has at least on which rows are shown as they are found. */
 enum { WIDE = 125 };
 
@@ -146,68 +147,13 @@ typedef struct {
   const thr_frame *frame;
   const thr_physics *physics;
   double base_length;
-  bool shown;       /* on a terminal: rows are printed as they are found .. */
-  int lines;        /* .. so many lines, which the finished table takes the place of */
-  kept_cords *kept; /* [n_kept] owned */
-  int n_kept;
+  bool shown; /* on a terminal: rows are printed as they are found .. */
+  int lines;  /* .. so many lines, which the finished table takes the place of */
   bool wants_plan;
   thr_text plan; /* the recommended one as JSON, if it is wanted and there is one .. */
   thr_status st; /* .. and whether it passed its check */
   thr_err err;
 } table_state;
-
-/* Keeps a copy of the cords of a plan as those of a row. Without memory for a copy there is nothing
- * to say of these cords. */
-static void keep_cords(table_state *state, const thr_advice_row *row, const thr_plan *plan)
-{
-  int i = 0;
-
-  /* A row is known by its kind of ends and its number of cords. */
-  while (i < state->n_kept &&
-         (state->kept[i].ends != row->ends || state->kept[i].cords != row->cords))
-    i++;
-
-  /* The first cords of this row. */
-  if (i == state->n_kept) {
-    kept_cords *more = thr_realloc(state->kept, (size_t)i + 1, sizeof *more);
-    if (!more) return;
-    state->kept = more;
-    state->kept[state->n_kept++] = (kept_cords){.ends = row->ends, .cords = row->cords};
-  }
-
-  /* Better cords take the place of those that the row had. */
-  thr_cords_destroy(state->kept[i].cord, state->kept[i].n);
-  const thr_status st = thr_cords_copy(plan->cord, plan->n_cords, &state->kept[i].cord, NULL);
-  state->kept[i].n = st ? 0 : plan->n_cords;
-}
-
-/* Frees all cords and the plan that were kept. */
-static void forget_cords(table_state *state)
-{
-  thr_text_destroy(&state->plan);
-  for (int i = 0; i < state->n_kept; i++)
-    thr_cords_destroy(state->kept[i].cord, state->kept[i].n);
-  free(state->kept);
-}
-
-/* Lays out a plan with the recommended cords, all of it borrowed. Returns false if they are not
- * kept. */
-static bool lay_out_chosen(const table_state *state, const thr_request *request,
-                           const thr_advice *advice, thr_plan *plan)
-{
-  for (int i = 0; i < state->n_kept && advice->chosen >= 0; i++) {
-    const thr_advice_row *row = &advice->row[advice->chosen];
-    const kept_cords *kept = &state->kept[i];
-    if (kept->ends != row->ends || kept->cords != row->cords || kept->n == 0) continue;
-
-    /* Only what the limit analysis asks for is filled in. */
-    *plan = (thr_plan){
-        .frame = *state->frame, .cord = kept->cord, .n_cords = kept->n, .options = *request};
-    return true;
-  }
-
-  return false;
-}
 
 /* Tells programs of a row. */
 static void tell_row(const char *what, const thr_advice_row *row)
@@ -220,29 +166,32 @@ static void tell_row(const char *what, const thr_advice_row *row)
   progress_close(&writer);
 }
 
-/* Tells which row is recommended, and keeps its plan as `thread plan` writes it, which a page has
- * before the table is whole. Signature of thr_advise_options.recommended. */
-static void keep_recommended(void *user, const thr_advice_row *row, thr_plan *plan)
+/* Keeps a plan as `thread plan` writes it. */
+static void keep_plan(table_state *state, thr_plan *plan)
 {
-  table_state *state = user;
   int dropped;
-  tell_row("recommended", row);
-  if (!state->wants_plan) return;
-
+  thr_text_destroy(&state->plan);
   thr_frame_keep_hash(&plan->frame);
   thr_plan_write(plan, &state->plan);
   state->st = thr_plan_confirm(plan, &state->plan, "plan.json", &dropped, &state->err);
   if (!state->st) guard_keep(&state->plan);
 }
 
-/* Keeps the cords of a row that was found or got better, and shows the row on a terminal. Signature
- * of thr_advise_options.row. */
-static void show_row(void *user, const thr_advice_row *row, const thr_plan *plan)
+/* Tells which row is recommended, and keeps its plan as `thread plan` writes it, which a page has
+ * before the table is whole. Signature of thr_advise_options.recommended. */
+static void keep_recommended(void *user, const thr_advice_row *row, thr_plan *plan)
+{
+  table_state *state = user;
+  tell_row("recommended", row);
+  if (state->wants_plan) keep_plan(state, plan);
+}
+
+/* Shows a row that was found or got better on a terminal. Signature of thr_advise_options.row. */
+static void show_row(void *user, const thr_advice_row *row)
 {
   table_state *state = user;
   thr_text text = {0};
 
-  if (plan) keep_cords(state, row, plan);
   tell_row("row", row);
   if (!state->shown) return;
 
@@ -284,71 +233,100 @@ static thr_status draw(const advise_arguments *args, const thr_frame *frame,
 
 /* Writes the table as JSON: to stdout where the picture has the file. Returns an exit code. */
 static int write_json(const advise_arguments *args, const thr_frame *frame,
-                      const thr_advice *advice, const char *command, const thr_plan *chosen)
+                      const thr_advice *advice, const advice_commands *commands,
+                      const thr_plan *chosen)
 {
   thr_text text = {0};
-  advice_put_json(&(thr_writer){.out = &text}, frame, advice, command, chosen);
+  advice_put_json(&(thr_writer){.out = &text}, frame, advice, advice_put_command, commands, chosen);
   thr_text_append(&text, "\n");
   return cli_write(&text, args->type == TYPE_TEXT ? args->output : "-");
 }
 
-/* Writes table, picture, plan or JSON; with JSON and a picture or a plan both. state: knows the
- * cords of the recommended row. Returns an exit code. */
+/* Writes table, picture or JSON; with JSON and a picture both. Returns an exit code. */
 static int write_advice(const advise_arguments *args, const thr_frame *frame,
-                        const thr_advice *advice, table_state *state)
+                        const thr_advice *advice)
 {
-  thr_text text = {0}, options = {0}, command = {0};
+  const advice_commands commands = {args->path, &args->physics, advice->hand};
+  const thr_advice_row *row = advice->chosen >= 0 ? &advice->row[advice->chosen] : NULL;
+  const bool is_table = args->type == TYPE_TEXT;
+  thr_text text = {0}, command = {0};
   thr_err err = {0};
   thr_status st = THR_OK;
   int code = EXIT_OK;
-  thr_plan chosen;
-  const bool laid_out = lay_out_chosen(state, &args->request, advice, &chosen);
+  thr_plan chosen = {0};
 
-  /* The command that makes the recommended plan, with the options that the framework was read
-   * with. */
-  advice_command_options(&args->physics, &options);
-  if (advice->chosen >= 0)
-    advice_put_command(&command, args->path, options.data ? options.data : "", advice->hand,
-                       &advice->row[advice->chosen]);
-  const char *words = command.data ? command.data : "";
+  if (row) st = thr_advice_plan(frame, &args->request, row, &chosen, &err);
 
-  /* Text or picture. */
-  if (options.failed || command.failed)
-    st = thr_nomem(&err);
-  else if (args->type == TYPE_SVG)
-    st = draw(args, frame, advice, words, &text, &err);
-  else if (args->type == TYPE_TEXT && !cli_json)
-    advice_put_table(&text, frame, advice, words);
-
-  /* The plan, if a row is recommended. */
-  const bool is_table = args->type == TYPE_TEXT;
-  if (!st && (st = state->st)) err = state->err;
+  /* Text or picture, which names the command that makes the recommended plan. */
+  if (row) advice_put_command(&commands, row, &command);
+  if (!st && args->type == TYPE_SVG)
+    st = draw(args, frame, advice, command.data ? command.data : "", &text, &err);
+  else if (!st && is_table && !cli_json)
+    advice_put_table(&text, frame, advice, advice_put_command, &commands);
+  text.failed |= command.failed;
 
   /* From which pull on the recommended cords hold the pieces. */
-  if (!st && !cli_json && is_table && laid_out) advice_put_holding(&text, &chosen);
-  if (args->type != TYPE_TEXT)
-    answer_file(args->output,
-                args->type == TYPE_PLAN ? "the recommended plan" : "the table as a picture");
-  if (!st && cli_json) code = write_json(args, frame, advice, words, laid_out ? &chosen : NULL);
+  if (!st && !cli_json && is_table && row) advice_put_holding(&text, &chosen);
+  if (args->type == TYPE_SVG) answer_file(args->output, "the table as a picture");
+  if (!st && cli_json) code = write_json(args, frame, advice, &commands, row ? &chosen : NULL);
 
   if (!st && is_table)
     print_fit(&text, strcmp(args->output, "-") == 0 ? thr_os_columns(STDOUT_FILENO) : 0);
 
-  /* With --json text on stdout is the table; picture and plan go to their file all the same. */
-  if (args->type == TYPE_PLAN && !st) {
-    const bool is_there = state->plan.length > 0;
-    if (!code && is_there) code = cli_write(&state->plan, args->output);
-    if (!code && !is_there) code = EXIT_INFEASIBLE;
-    if (!is_there && !cli_json) cli_error("no plan: no number of cords stays within the hand");
-  } else if (!code && (st || !cli_json || !is_table)) {
+  /* With --json text on stdout is the table; the picture goes to its file all the same. */
+  if (!code && args->type != TYPE_PLAN && (st || !cli_json || !is_table))
     code = cli_write_drawn(st, &text, args->output, &err);
-  }
+  else if (st)
+    code = cli_fail(&err);
 
+  thr_plan_destroy(&chosen);
   thr_text_destroy(&text);
-  thr_text_destroy(&options);
   thr_text_destroy(&command);
-
   return code;
+}
+
+/* Returns the row that the command line takes: the recommended one, or what --cords and --ends say;
+ * NULL: there is none, which is said. */
+static const thr_advice_row *taken_row(const advise_arguments *args, const thr_advice *advice)
+{
+  for (int i = 0; i < advice->n && args->cords > 0; i++)
+    if (advice->row[i].cords == args->cords &&
+        (!cli_given("ends") || (int)advice->row[i].ends == args->ends))
+      return &advice->row[i];
+
+  if (args->cords == 0 && advice->chosen >= 0) return &advice->row[advice->chosen];
+  if (args->cords == 0 && !cli_json)
+    cli_error("no plan: no number of cords stays within the hand");
+  else if (args->cords > 0)
+    cli_error("--cords %d: the table has no such row%s", args->cords,
+              cli_given("ends") ? " with these --ends" : "");
+  return NULL;
+}
+
+/* Writes the table, or the plan of the row that is taken, or with --json both. Returns an exit
+ * code.
+ */
+static int write_all(const advise_arguments *args, const thr_frame *frame, const thr_advice *advice,
+                     table_state *state)
+{
+  if (args->type != TYPE_PLAN) return write_advice(args, frame, advice);
+
+  const thr_advice_row *row = taken_row(args, advice);
+  if (!row && args->cords > 0) return EXIT_INFEASIBLE;
+  if (row)
+    answer_file(args->output, args->cords > 0 ? "the plan of the row" : "the recommended plan");
+  const int code = cli_json ? write_advice(args, frame, advice) : EXIT_OK;
+  if (code || !row) return code ? code : EXIT_INFEASIBLE;
+
+  /* The recommended plan is kept with its proofs. */
+  if (advice->chosen < 0 || row != &advice->row[advice->chosen]) {
+    thr_plan plan;
+    thr_text_destroy(&state->plan);
+    state->st = thr_advice_plan(frame, &args->request, row, &plan, &state->err);
+    if (!state->st) keep_plan(state, &plan);
+    thr_plan_destroy(&plan);
+  }
+  return state->st ? cli_fail(&state->err) : cli_write(&state->plan, args->output);
 }
 
 /* Finds and writes the advice for a framework. Returns an exit code. */
@@ -382,15 +360,15 @@ static int advise(advise_arguments *args, const thr_frame *frame)
 
   /* The finished table takes the place of the rows. */
   wipe_rows(&state);
-  if (!st) code = write_advice(args, frame, &advice, &state);
-  forget_cords(&state);
+  if (!st) code = write_all(args, frame, &advice, &state);
+  thr_text_destroy(&state.plan);
   if (st) return cli_fail(&err);
 
   /* What a user should know of the table. */
   if (!advice.complete)
     cli_note(
         "note: the time was over before all numbers of cords were tried; --time-limit gives more");
-  if (!code && advice.chosen < 0) code = EXIT_INFEASIBLE;
+  if (!code && advice.chosen < 0 && args->cords == 0) code = EXIT_INFEASIBLE;
   thr_advice_destroy(&advice);
 
   return code;

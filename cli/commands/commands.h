@@ -13,6 +13,7 @@
 #include "graph/limits.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/status.h"
 #include "graph/text.h"
 #include "kit/picture.h"
@@ -21,9 +22,18 @@
 /* ---- Prints advice on the number of cords beside a plan: shared by `thread advise` and by the
  * last lines of `thread plan`. */
 
-/* The options that were given of how FRAME is read and of what cord and beads are, each with a
- * blank before it, for a shell. */
-void advice_command_options(const cli_physics *physics, thr_text *text);
+/* What commands have in common that make the plans of advice; borrowed. */
+typedef struct {
+  const char *path; /* of FRAME */
+  const cli_physics *physics;
+  double hand; /* N */
+} advice_commands;
+
+/* Appends, for a shell, the command that makes the plan of a row, with the options that FRAME was
+ * read with and what was said of cord and beads: "thread plan FRAME" where that makes it, else
+ * "thread advise FRAME --cords 4 --ends feet -T plan -o plan.json"; row NULL: of any row. user:
+ * advice_commands. Signature of thr_advice_command. */
+void advice_put_command(const void *user, const thr_advice_row *row, thr_text *text);
 
 /* Returns limits for so many seconds by the clock, 0 = none, silent but for --verbose; and for so
  * much counted work, 0 = any. Seconds below 0: as much work as advice is usually given, which *work

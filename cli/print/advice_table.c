@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Prints the table of `thread advise`, as text and as JSON, and the command that makes the
- * recommended plan.
+/* Prints the table of `thread advise`, as text and as JSON, and the commands that make its plans.
  *
  * A row is a number of cords and a kind of ends, with the cord that turns most turning as little as
  * was found. The pull at the harder end of a cord is seating tension x exp(mu x reach), N
@@ -38,33 +37,6 @@ void advice_put_word(thr_text *text, const char *word)
     else
       thr_text_byte(text, *word);
   thr_text_append(text, "'");
-}
-
-void advice_put_command(thr_text *text, const char *path, const char *options, double hand,
-                        const thr_advice_row *row)
-{
-  thr_text_append(text, "thread plan ");
-  advice_put_word(text, path);
-
-  /* What a hand always manages is what the command makes unasked. */
-  if (hand == thr_hand_always) {
-    thr_text_append(text, options);
-    return;
-  }
-
-  /* Where each component has a number of cords of its own, no --cords says that: a limit on the
-   * pull makes the same plan, rounded up at the fourth digit so that the row's own pull keeps to
-   * it. */
-  if (row->uneven) { /* each component has a number of its own */
-    const double digits = pow(10, 3 - floor(log10(row->pull[THR_ADVICE_MU])));
-    thr_text_printf(text, "%s --max-pull %g --ends %s", options,
-                    ceil(row->pull[THR_ADVICE_MU] * digits) / digits,
-                    thr_ends_name((int)row->ends));
-    return;
-  }
-
-  thr_text_printf(text, "%s --cords %d --ends %s --objective tortuosity --minimize pull", options,
-                  row->cords, thr_ends_name((int)row->ends));
 }
 
 void advice_put_cords(thr_text *text, const thr_advice_row *row)
@@ -139,7 +111,8 @@ static const char *hand_words(double hand)
 }
 
 /* Appends the recommended row with its command, or that no row stays within the hand. */
-static void put_choice(thr_text *text, const thr_advice *advice, const char *command)
+static void put_choice(thr_text *text, const thr_advice *advice, thr_advice_command *command,
+                       const void *user)
 {
   char low[24], pull[64], high[24], hand[64];
 
@@ -165,12 +138,12 @@ static void put_choice(thr_text *text, const thr_advice *advice, const char *com
       thr_plain_newtons(row->pull[THR_ADVICE_HIGH], high), hand, hand_words(advice->hand),
       advice->physics.mu_high);
 
-  thr_text_append_clean(text, command);
+  command(user, row, text);
   thr_text_append(text, "\n");
 }
 
 void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *advice,
-                      const char *command)
+                      thr_advice_command *command, const void *user)
 {
   advice_put_head(text, frame, &advice->physics);
 
@@ -192,7 +165,10 @@ void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *
                     cli_plural(advice->left_out, "is", "are"));
   thr_text_append(text, "\n");
 
-  put_choice(text, advice, command);
+  put_choice(text, advice, command, user);
+  thr_text_append(text, "any row's plan: ");
+  command(user, NULL, text);
+  thr_text_append(text, "\n");
 }
 
 void advice_put_holding(thr_text *text, const thr_plan *plan)
@@ -206,10 +182,10 @@ void advice_put_holding(thr_text *text, const thr_plan *plan)
 /* ---- JSON ---- */
 
 void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advice *advice,
-                     const char *command, const thr_plan *chosen)
+                     thr_advice_command *command, const void *user, const thr_plan *chosen)
 {
   thr_write_object(writer, NULL);
-  thr_advice_put_json(writer, frame, advice, command);
+  thr_advice_put_json(writer, frame, advice, command, user);
   thr_eval seated;
   if (chosen && !thr_eval_closed_form(chosen, chosen->options.physics.seating, &seated, NULL)) {
     turning_put_ends_json(writer, chosen, &seated);

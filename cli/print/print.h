@@ -255,20 +255,15 @@ void advice_put_row(thr_text *text, const thr_advice_row *row, double base_lengt
  * more than what seats its cords. The plan needs no proof. */
 void advice_put_holding(thr_text *text, const thr_plan *plan);
 
-/* Appends all rows and, below, the recommended one with its command. */
+/* Appends all rows and, below, the recommended one with its command (lib/lib.h), and that of any
+ * other row (NULL). */
 void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *advice,
-                      const char *command);
+                      thr_advice_command *command, const void *user);
 
-/* Writes the table as an object. chosen: a plan with the recommended cords, or NULL. */
+/* Writes the table as an object. command: of a row. chosen: a plan with the recommended
+ * cords, or NULL. */
 void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advice *advice,
-                     const char *command, const thr_plan *chosen);
-
-/* Appends the command that makes the plan of a row that was recommended for a hand, N: "thread plan
- * PATH" for thr_hand_always, else "thread plan PATH --cords 4 --ends feet --objective tortuosity
- * --minimize pull", with the options that FRAME was read with (each with a blank before it), for a
- * shell. */
-void advice_put_command(thr_text *text, const char *path, const char *options, double hand,
-                        const thr_advice_row *row);
+                     thr_advice_command *command, const void *user, const thr_plan *chosen);
 
 /* Appends a word as a shell reads it: in quotes where it needs them. */
 void advice_put_word(thr_text *text, const char *word);

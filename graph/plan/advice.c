@@ -14,6 +14,8 @@ static const double same_cord = 1.001; /* as much cord, to the eye */
 
 void thr_advice_destroy(thr_advice *advice)
 {
+  for (int i = 0; i < advice->n; i++)
+    thr_cords_destroy(advice->row[i].cord, advice->row[i].all);
   free(advice->row);
   *advice = (thr_advice){0};
 }
@@ -96,6 +98,11 @@ static int choose(const thr_advice *advice)
 {
   const double most = 1.5; /* as much cord, for ends at the feet */
   const int feet = fewest(advice, true), all = fewest(advice, false);
+
+  /* What `thread plan` alone makes. */
+  for (int i = 0; i < advice->n && advice->hand == thr_hand_always; i++)
+    if (advice->row[i].planned && thr_advice_within(advice, &advice->row[i])) return i;
+
   return feet >= 0 && advice->row[feet].length <= most * advice->row[all].length ? feet : all;
 }
 
@@ -147,11 +154,13 @@ static void drop_rows(thr_advice *advice)
     bool useful = true;
 
     /* Compared with rows that stay, so that of two equal rows one stays. */
-    for (int j = 0; j < kept && i != advice->chosen; j++)
+    for (int j = 0; j < kept && i != advice->chosen && !row.planned; j++)
       useful &= !buys_nothing(&row, &advice->row[j]);
-    if (!useful) continue;
     if (i == advice->chosen) chosen = kept;
-    advice->row[kept++] = row;
+    if (useful)
+      advice->row[kept++] = row;
+    else
+      thr_cords_destroy(row.cord, row.all);
   }
 
   /* The chosen row has another place now. */
@@ -179,9 +188,12 @@ static void drop_longer(thr_advice *advice)
 
     /* A row is of use if its longest cord is no longer, or if none before it was within the
      * hand. */
-    const bool useful = row.longest <= longest * (1 + 1e-9) || (fits && !within);
+    const bool useful = row.longest <= longest * (1 + 1e-9) || (fits && !within) || row.planned;
     within |= fits;
-    if (!useful) continue;
+    if (!useful) {
+      thr_cords_destroy(row.cord, row.all);
+      continue;
+    }
     longest = row.longest;
     advice->row[kept++] = row;
   }

@@ -273,6 +273,8 @@ typedef struct {
                 with THR_ENDS_ANY their ends */
   bool frontier; /* no other row has no more cords, no more cord and no more pull at mu, and less of
                     one of them */
+  bool planned;  /* the row measures what `thread plan` alone would make within this hand */
+  thr_cord *cord; /* [all] that the row measures, of the whole framework; owned by the advice */
 } thr_advice_row;
 
 /* {0} is empty. */
@@ -312,10 +314,12 @@ bool thr_advice_within(const thr_advice *advice, const thr_advice_row *row);
 
 /* Sorts the rows, chooses, marks the frontier and drops what buys nothing, and rows of more cords
  * of which one is longer than the longest of fewer, unless none of fewer stays within the hand.
- * Chosen is the row with the fewest cords that stays within the hand at mu_high: of those with ends
- * at the feet, if one of them does and needs no more than half as much cord again as the fewest of
- * all, else of all. A row buys nothing if another with no more cords, and ends of the same kind or
- * at the feet, has at most a twentieth more pull and no more cord. O(n^2). */
+ * Chosen is, within thr_hand_always, the row that is planned, which is never dropped; else, or
+ * where it is beyond the hand, the row with the fewest cords that stays within the hand at mu_high:
+ * of those with ends at the feet, if one of them does and needs no more than half as much cord
+ * again as the fewest of all, else of all. A row buys nothing if another with no more cords, and
+ * ends of the same kind or at the feet, has at most a twentieth more pull and no more cord. O(n^2).
+ */
 void thr_advice_settle(thr_advice *advice);
 
 /* "closed", "at the feet", "anywhere". */

@@ -3,6 +3,7 @@
  * and the picture. */
 #include "diagram/overview/charts.h"
 #include "eval/eval.h"
+#include "graph/check/check.h"
 #include "graph/number.h"
 #include "graph/limits.h"
 #include "graph/plan/plan_measures.h"
@@ -218,22 +219,18 @@ START_TEST(known_frameworks)
 }
 END_TEST
 
-/* In the work that is usual. Knowing the shortest plan changes nothing: the last line of `thread
- * plan` recommends what `thread advise` does. */
+/* In the work that is usual, twice: the same rows. */
 START_TEST(advice_for_random_frameworks)
 {
   rng r = rng_make((uint64_t)_i + 5000);
   const thr_request request = thr_request_default();
-  thr_advise_options options = {.hand = 1 + 3 * rng_unit(&r)};
+  const thr_advise_options options = {.hand = 1 + 3 * rng_unit(&r)};
   double work = thr_advise_work;
   const thr_limits limits = thr_limits_counted(&(thr_limits){0}, &work);
   thr_advice advice, again;
-  thr_plan plan;
   thr_frame f = random_frame(&r, rng_between(&r, 3, 7), 4, LENGTHS_EUCLID);
   ck_assert_int_eq(thr_advise(&f, &request, &options, &limits, &advice, NULL), THR_OK);
   check_advice(&f, &advice);
-  ck_assert_int_eq(thr_plan_make(&f, &request, &(thr_limits){0}, &plan, NULL, NULL), THR_OK);
-  options.plan = &plan;
   work = thr_advise_work;
   ck_assert_int_eq(thr_advise(&f, &request, &options, &limits, &again, NULL), THR_OK);
   ck_assert_int_eq(again.n, advice.n);
@@ -246,7 +243,99 @@ START_TEST(advice_for_random_frameworks)
   }
   thr_advice_destroy(&advice);
   thr_advice_destroy(&again);
-  thr_plan_destroy(&plan);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* A ring of rings: a torus of 6 x 8 nodes, edges all around, without feet. */
+static thr_frame torus_make(void)
+{
+  enum { AROUND = 8, ACROSS = 6, NODES = AROUND * ACROSS };
+  double xyz[NODES][3];
+  int edge[2 * NODES][2];
+  for (int i = 0; i < AROUND; i++)
+    for (int j = 0; j < ACROSS; j++) {
+      const int v = i * ACROSS + j;
+      const double a = 2 * THR_PI * i / AROUND, b = 2 * THR_PI * j / ACROSS, r = 3 + cos(b);
+      memcpy(xyz[v], (double[3]){r * cos(a), r * sin(a), sin(b)}, sizeof xyz[v]);
+      edge[2 * v][0] = edge[2 * v + 1][0] = v;
+      edge[2 * v][1] = (i + 1) % AROUND * ACROSS + j;
+      edge[2 * v + 1][1] = i * ACROSS + (j + 1) % ACROSS;
+    }
+  return frame_make(NODES, (const double(*)[3])xyz, 2 * NODES, (const int(*)[2])edge, 0, NULL);
+}
+
+/* The plan of every row has the cords, ends, length and pulls that the row says, and passes the
+ * checker: of frameworks with feet, without, of several components, and too large for searches. */
+START_TEST(rows_have_their_plans)
+{
+  const thr_request request = thr_request_default();
+  const thr_advise_options options = {.hand = _i % 2 ? 10 : 2.5};
+  double work = thr_advise_work;
+  const thr_limits limits = thr_limits_counted(&(thr_limits){0}, &work);
+  thr_advice advice;
+  thr_err err = {0};
+  thr_frame f = _i == 0   ? grid_make(5, 5)
+                : _i == 1 ? ring_make(12)
+                : _i == 2 ? torus_make()
+                : _i == 3 ? triangles_make(3)
+                : _i == 4 ? grid_make(3, 7)
+                          : ring_make(5001);
+  assert_ok(thr_advise(&f, &request, &options, &limits, &advice, &err), &err);
+  for (int i = 0; i < advice.n; i++) {
+    const thr_advice_row *row = &advice.row[i];
+    double pull[THR_ADVICE_PULLS];
+    thr_plan plan;
+    assert_ok(thr_advice_plan(&f, &request, row, &plan, &err), &err);
+    assert_ok(thr_check_plan(&plan, &err), &err);
+    ck_assert_int_eq(plan.n_cords, row->all);
+    ck_assert_int_eq(plan.options.ends, row->ends);
+    ck_assert_double_eq_tol(plan.metrics.length, row->length, 1e-9 * row->length);
+    ck_assert_double_eq_tol(plan.metrics.max_turning, row->turning, 1e-9);
+    thr_plan_pulls(&plan, pull);
+    for (int k = 0; k < THR_ADVICE_PULLS; k++)
+      ck_assert(isinf(pull[k]) ? isinf(row->pull[k])
+                               : fabs(pull[k] - row->pull[k]) <= 1e-9 * row->pull[k]);
+    thr_plan_destroy(&plan);
+  }
+  thr_advice_destroy(&advice);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* From odd node to odd node no cord is passed twice: always a row, and of all with as few cords the
+ * shortest. */
+START_TEST(half_the_odd_nodes_are_a_row)
+{
+  const thr_request request = thr_request_default();
+  const thr_advise_options options = {.hand = 10};
+  double work = thr_advise_work;
+  const thr_limits limits = thr_limits_counted(&(thr_limits){0}, &work);
+  thr_frame f = grid_make(5, 5); /* 12 nodes of degree 3 */
+  thr_advice advice;
+  bool seen = false;
+  ck_assert_int_eq(thr_advise(&f, &request, &options, &limits, &advice, NULL), THR_OK);
+  for (int i = 0; i < advice.n; i++)
+    seen |= advice.row[i].cords == 6 && advice.row[i].length <= advice.base_length * (1 + 1e-12);
+  ck_assert(seen);
+  thr_advice_destroy(&advice);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* A smaller hand never gets more cords than another plan with such ends within that hand has. */
+START_TEST(no_row_within_the_hand_has_fewer_cords)
+{
+  const thr_request request = thr_request_default();
+  const thr_advise_options options = {.hand = 2 + _i};
+  double work = thr_advise_work;
+  const thr_limits limits = thr_limits_counted(&(thr_limits){0}, &work);
+  thr_frame f = grid_make(6, 6);
+  thr_advice advice;
+  ck_assert_int_eq(thr_advise(&f, &request, &options, &limits, &advice, NULL), THR_OK);
+  check_advice(&f, &advice);
+  ck_assert_int_ge(advice.chosen, 0);
+  thr_advice_destroy(&advice);
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -256,20 +345,16 @@ END_TEST
 START_TEST(large_frameworks_are_cut)
 {
   const thr_request request = thr_request_default();
-  thr_advise_options options = {.hand = 10};
+  const thr_advise_options options = {.hand = 10};
   thr_advice advice;
-  thr_plan plan;
   thr_frame f = ring_make(5001);
-  ck_assert_int_eq(thr_plan_make(&f, &request, &(thr_limits){0}, &plan, NULL, NULL), THR_OK);
-  options.plan = &plan;
   ck_assert_int_eq(thr_advise(&f, &request, &options, &(thr_limits){0}, &advice, NULL), THR_OK);
   check_advice(&f, &advice);
   for (int i = 0; i < advice.n; i++) {
     ck_assert(advice.row[i].ends != THR_ENDS_CLOSED && !advice.row[i].searched);
-    ck_assert_double_eq_tol(advice.row[i].length, plan.metrics.length, 1e-9 * plan.metrics.length);
+    ck_assert_double_eq_tol(advice.row[i].length, advice.base_length, 1e-9 * advice.base_length);
   }
   thr_advice_destroy(&advice);
-  thr_plan_destroy(&plan);
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -351,6 +436,9 @@ int main(void)
   ADD_EXAMPLES(s, 20, cords_are_cut_as_evenly_as_can_be, 400);
   ADD_TEST(s, 5, the_fewest_at_the_feet_are_chosen);
   ADD_TEST(s, 30, known_frameworks);
+  ADD_EXAMPLES(s, 60, rows_have_their_plans, 6);
+  ADD_TEST(s, 30, half_the_odd_nodes_are_a_row);
+  ADD_EXAMPLES(s, 30, no_row_within_the_hand_has_fewer_cords, 3);
   ADD_TEST(s, 30, large_frameworks_are_cut);
   ADD_EXAMPLES(s, 120, advice_for_random_frameworks, 40);
   ADD_EXAMPLES(s, 20, pictures_are_well_formed_and_texts_lie_apart, 40);
