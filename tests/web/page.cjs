@@ -118,6 +118,7 @@ const tests = {
       await until(async () => (await page.getByLabel('Feet, where cord may come out').inputValue()).split(',').length === n, `${n} feet`);
     }
     await page.getByRole('button', {name: /^Take \d+ cords?.*recommended/}).click({timeout: 60000});
+    await page.getByText(/^To print at this width: 25 pieces, the largest about \d+ mm long; \d+ cm³, \d+ g of plastic/).waitFor({timeout: 120000});
     await page.screenshot({path: file('questions.png'), fullPage: true});
     await made(page);
     assert.match(await result(page), /Every claim of this plan was verified/);
@@ -128,6 +129,8 @@ const tests = {
     assert.match(thread('check', plan), /: holds: /, 'the installed program agrees');
     const [booklet] = await Promise.all([own.waitForEvent('page'), page.getByRole('button', {name: 'Open the booklet to print'}).click()]);
     await booklet.locator('.page').first().waitFor();
+    const [, at] = /the first step, on page (\d+)\.$/m.exec(await result(page));
+    assert.match(await booklet.locator('.page').nth(at - 1).innerText(), /: passes 1-/);
     await booklet.pdf({path: file('booklet.pdf'), preferCSSPageSize: true, printBackground: true});
     thread('draw', plan, '-T', 'pdf', '-o', file('sheets.pdf'));
     const words = ['booklet.pdf', 'sheets.pdf'].map((name) => execFileSync('pdftotext', ['-layout', file(name), '-'], {encoding: 'utf8'}).split(/\s+/).sort());
