@@ -248,6 +248,7 @@ const tests = {
     await until(() => page.evaluate(() => document.activeElement.id === 'rise-title'), 'what comes first');
     assert.ok(await page.evaluate(() => $('rise-part').getBoundingClientRect().top < $('kit-part').getBoundingClientRect().top), 'the film before the pieces');
     const listed = pieces.getByRole('list', {name: 'Files to print, one by one'}), wider = pieces.getByRole('button', {name: /^Make the arms [\d.]+ mm wide$/});
+    await part(page, 'Watch it rise').getByRole('button', {name: /^Let arms [\d.]+ mm wide rise$/}).waitFor({timeout: 120000});
     await wider.click({timeout: 120000});
     await listed.getByRole('listitem').first().waitFor({timeout: 120000}); // made at once
     await until(() => pieces.locator('#thin').isHidden(), 'thick enough');
@@ -317,6 +318,8 @@ const tests = {
     const [risen] = await Promise.all([page.context().waitForEvent('page'), page.getByRole('button', {name: 'Open the booklet to print'}).click()]);
     await risen.getByText('How it comes up').first().waitFor();
     await risen.close();
+
+    assert.match(await result(page), /a hand that pulls [^]*raised the pieces in the film/);
 
     // Other arms for the pieces: the film says which it shows, and offers theirs.
     assert.match(await film.innerText(), /Arms [\d.]+ mm wide, as for the pieces in part 5\.[^]*With arms [\d.]+ mm wide\./);
