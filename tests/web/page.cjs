@@ -118,6 +118,7 @@ const tests = {
       await until(async () => (await page.getByLabel('Feet, where cord may come out').inputValue()).split(',').length === n, `${n} feet`);
     }
     await page.getByRole('button', {name: /^Take \d+ cords?.*recommended/}).click({timeout: 60000});
+    await page.getByText(/^To print at this width: 25 pieces, the largest about \d+ mm long; \d+ cm³, \d+ g of plastic/).waitFor({timeout: 120000});
     await page.screenshot({path: file('questions.png'), fullPage: true});
     await made(page);
     assert.match(await result(page), /Every claim of this plan was verified/);
@@ -128,6 +129,8 @@ const tests = {
     assert.match(thread('check', plan), /: holds: /, 'the installed program agrees');
     const [booklet] = await Promise.all([own.waitForEvent('page'), page.getByRole('button', {name: 'Open the booklet to print'}).click()]);
     await booklet.locator('.page').first().waitFor();
+    const [, at] = /the first step, on page (\d+)\.$/m.exec(await result(page));
+    assert.match(await booklet.locator('.page').nth(at - 1).innerText(), /: passes 1-/);
     await booklet.pdf({path: file('booklet.pdf'), preferCSSPageSize: true, printBackground: true});
     thread('draw', plan, '-T', 'pdf', '-o', file('sheets.pdf'));
     const words = ['booklet.pdf', 'sheets.pdf'].map((name) => execFileSync('pdftotext', ['-layout', file(name), '-'], {encoding: 'utf8'}).split(/\s+/).sort());
@@ -245,6 +248,7 @@ const tests = {
     await until(() => page.evaluate(() => document.activeElement.id === 'rise-title'), 'what comes first');
     assert.ok(await page.evaluate(() => $('rise-part').getBoundingClientRect().top < $('kit-part').getBoundingClientRect().top), 'the film before the pieces');
     const listed = pieces.getByRole('list', {name: 'Files to print, one by one'}), wider = pieces.getByRole('button', {name: /^Make the arms [\d.]+ mm wide$/});
+    await part(page, 'Watch it rise').getByRole('button', {name: /^Let arms [\d.]+ mm wide rise$/}).waitFor({timeout: 120000});
     await wider.click({timeout: 120000});
     await listed.getByRole('listitem').first().waitFor({timeout: 120000}); // made at once
     await until(() => pieces.locator('#thin').isHidden(), 'thick enough');
@@ -314,6 +318,8 @@ const tests = {
     const [risen] = await Promise.all([page.context().waitForEvent('page'), page.getByRole('button', {name: 'Open the booklet to print'}).click()]);
     await risen.getByText('How it comes up').first().waitFor();
     await risen.close();
+
+    assert.match(await result(page), /a hand that pulls [^]*raised the pieces in the film/);
 
     // Other arms for the pieces: the film says which it shows, and offers theirs.
     assert.match(await film.innerText(), /Arms [\d.]+ mm wide, as for the pieces in part 5\.[^]*With arms [\d.]+ mm wide\./);

@@ -212,9 +212,10 @@ function showNeeds(kit) {
   if (kit?.volume_cm3) {
     const largest = largestPiece() + kit.width_mm, bed = Number(/\d+/.exec($('bed').value) || Infinity);
     words.push(`To print at this width: ${plural(kit.pieces, 'piece')}, the largest about ${sizeOf(largest)} long; ${materialWords(kit.volume_cm3)}.`);
-    if (largest > bed) words.push(`Too long for a printer's bed of ${bed} mm, unless they lie from corner to corner: less width helps.`);
+    if (largest < 10) words.push('Too small to print: more width helps.');
+    if (largest > bed && !kit.refused) words.push(`Too long for a printer's bed of ${bed} mm, unless they lie from corner to corner: less width helps.`);
   }
-  if (kit?.refused) words.push(`${capital(inWords(kit.refused))}.`);
+  if (kit?.refused) words.push(`They cannot be printed so: ${inWords(kit.refused)}.`);
   $('needs').textContent = words.join(' ');
 }
 
@@ -449,9 +450,11 @@ function whyTaken(rough) {
   const [fewer] = advised.filter((row) => row.ends === ends && row.cords < cords).sort((a, b) => b.cords - a.cords);
   const cordWords = (than) => (Math.abs(length / than - 1) < 0.001 ? 'for as much cord' : `for ${Number((100 * Math.abs(length / than - 1)).toPrecision(2))} % ${length > than ? 'more' : 'less'} cord`);
   const words = [`Take ${plural(cords, 'cord')} ${ENDS[ends]}: ${newtons(pull)} a cord${fewer ? ` instead of ${newtons(fewer.pull)} with ${fewer.cords}, ${cordWords(fewer.length)}` : ''}.`];
-  if (high <= force) words.push(`Fewer cords are too hard for a hand: its ${newtons(force)} must do with rougher cord, too (friction ${rough}: ${newtons(high, 3)}${fewer ? `, with ${plural(fewer.cords, 'cord')} ${newtons(fewer.pull_high, 3)}` : ''}).`);
+  const isManaged = fewer?.pull_high <= force;
+  if (isManaged) words.push(`A matter of taste: a hand manages ${plural(fewer.cords, 'cord')}, too.`);
+  else if (high <= force) words.push(`Fewer cords are too hard for a hand: its ${newtons(force)} must do with rougher cord, too (friction ${rough}: ${newtons(high, 3)}${fewer ? `, with ${plural(fewer.cords, 'cord')} ${newtons(fewer.pull_high, 3)}` : ''}).`);
   const other = advised.find((row) => row.ends !== ends && row.ends !== 'closed' && row.pull_high <= force && row.cords <= cords && row.length < 0.99 * length);
-  if (other) words.push(`A matter of taste: ${plural(other.cords, 'cord')} ${ENDS[other.ends]}, ${newtons(other.pull)} each, would be ${lengthWords(other.length)} in all, not ${lengthWords(length)}.`);
+  if (other && !isManaged) words.push(`A matter of taste: ${plural(other.cords, 'cord')} ${ENDS[other.ends]}, ${newtons(other.pull)} each, would be ${lengthWords(other.length)} in all, not ${lengthWords(length)}.`);
   return words.join(' ');
 }
 
@@ -662,7 +665,17 @@ const range = (values, words) => {
   return least === most ? most : `${least} to ${most}`;
 };
 
-const volumeWords = (cm3) => (cm3 < 1e5 ? `${Number(cm3.toPrecision(2))} cm³` : `${Number((cm3 / 1e6).toPrecision(2)).toLocaleString('en')} m³`);
+const volumeWords = (cm3) => (cm3 < 1e3 ? `${Number(cm3.toPrecision(2))} cm³` : cm3 < 1e6 ? `${Number((cm3 / 1e3).toPrecision(2))} litres` : `${Number((cm3 / 1e6).toPrecision(2)).toLocaleString('en')} m³`);
+
+let seats = NaN; // N, the pull that seats the cords; NaN: not known
+
+// What a hand must do, the last of what is needed. seen: the film's run, once there is one.
+function handWords(seen) {
+  const seating = seats > 0 ? `a hand that pulls ${newtons(seats)} at each end to seat the cords` : 'a hand that pulls';
+  if (!seen) return `${seating}; what raises the pieces, the film in part 4 shows`;
+  if (!seen.came_up) return `${seating}; in the film this did not raise the pieces`;
+  return seen.pull_up > seats ? `a hand that pulls ${newtons(seen.pull_up)} at each end: so much raised the pieces in the film, ${newtons(seats)} seat the cords` : `${seating}; ${newtons(seen.pull_up)} raised the pieces in the film`;
+}
 
 // The headline, the cords, what is needed and what to do.
 function showCords(rows, {cords: pulls, physics}, kit, first) {
@@ -682,12 +695,13 @@ function showCords(rows, {cords: pulls, physics}, kit, first) {
   film.type = 'button';
   film.textContent = 'Go to the film';
   film.addEventListener('click', () => goTo('rise-title'));
+  seats = known.length ? most : NaN;
   const thick = physics ? `, ${Number((physics.cord_diameter).toPrecision(2))} mm thick` : '', total = lengthWords(cuts.reduce((sum, cut) => sum + cut, 0));
   const needs = [`${total} of cord${thick}: ${plural(rows.length, 'cord')} of ${range(cuts, lengthWords)}, ends to hold and knots in it`,
     kit ? `${plural(kit.pieces, 'piece')} from a 3D printer, the largest about ${sizeOf(largestPiece() + (kit.width_mm || 0))} long${kit.volume_cm3 ? `: ${materialWords(kit.volume_cm3)}` : ''}` : 'the pieces',
-    known.length ? `a hand that pulls ${newtons(most)} at each end` : ''].filter(Boolean);
+    handWords()];
   const steps = ['Watch it rise in part 4 before anything is printed. The pull above seats the cords; the film shows whether they raise the pieces. ',
-    `Print ${kit ? plural(kit.pieces, 'piece') : 'the pieces'}: part 5 below makes the files.`, 'Print the booklet, or open the steps below on a telephone.', 'Cut the cords.',
+    `Print ${kit ? plural(kit.pieces, 'piece') : 'the pieces'}: part 5 below makes the files.${kit?.refused ? ' But so large they fit on no usual printer: ask for less width in part 1, or for a larger bed in part 5.' : ''}`, 'Print the booklet, or open the steps below on a telephone.', 'Cut the cords.',
     first ? `Begin: ${first}.` : ''].filter(Boolean);
   for (const [list, lines] of [['needed', needs], ['to-do', steps]]) $(list).replaceChildren(...lines.map((words) => {
     const item = document.createElement('li');
@@ -748,14 +762,14 @@ function pagesOf(bytes) {
 // Its first page, and the first with a step, as pictures.
 function showFirstPages(bytes, shown) {
   if (!bytes || shown !== plan) return;
-  const [, pages] = pagesOf(bytes), at = Number(/Steps: from page (\d+)/.exec(pages[0])?.[1] || 2);
+  const [, pages] = pagesOf(bytes), at = 1 + pages.findIndex((page) => /: pass(?:es)? 1\b/.test(page));
   $('booklet-said').textContent = `The booklet has ${plural(pages.length, 'page')}.`;
   $('first-step').replaceChildren(...[[1, 'The first page of the booklet'], [at, 'The first step']].filter(([page]) => pages[page - 1]).map(([page, words]) => {
     const image = new Image(), svg = /<svg[^]*<\/svg>/.exec(pages[page - 1])[0];
     image.alt = `${words}, page ${page}`;
     image.src = URL.createObjectURL(new Blob([svg], {type: 'image/svg+xml'}));
     return image;
-  }), caption(`The first page of the booklet, and the first step, on page ${at}.`));
+  }), caption(`The first page of the booklet${at ? `, and the first step, on page ${at}` : ''}.`));
 }
 
 // Its type, its name, what it is for.
@@ -922,14 +936,17 @@ function showRise(files, lines = []) {
 }
 
 let planArms; // mm, of the pieces unless another width is asked for
+let printedArms = 0; // mm, which walls take to be printed well; 0: those there are do, or it is not known
 let risenArms; // those of the film that is shown
 const armsNow = () => Number($('width').value) || planArms;
 const armsWords = (mm) => (mm ? `${Number(mm.toPrecision(3))} mm wide` : 'as the plan has them');
 
 // With which arms it rises, where that is asked; where the film shows others than the pieces have, the way to the same.
 function showArms() {
+  $('width').placeholder = planArms ? `${Number(planArms.toPrecision(3))}, as the plan has it` : 'as the plan has it';
   $('rise-arms').textContent = `Arms ${armsWords(armsNow())}, as for the pieces in part 5.`;
   const differs = rise['rise.html'] && risenArms !== armsNow();
+  if (printedArms) return warn('rise-other', `Arms ${armsWords(armsNow())} are too thin to print well.`, [[`Let arms ${armsWords(printedArms)} rise`, () => answerRise('width', printedArms)]]);
   warn('rise-other', differs ? `The film shows arms ${armsWords(risenArms)}, those of the pieces in part 5 are ${armsWords(armsNow())}.` : '',
     differs ? [[`Watch it with arms ${armsWords(armsNow())}`, () => $('rise-questions').requestSubmit()]] : []);
 }
@@ -956,6 +973,7 @@ async function makeRise(event) {
   const lines = stdout.trim().split('\n');
   showRise(files, [`with arms ${armsWords(risenArms)}`, ...lines].filter((line) => !HELPS[TRY.exec(line)?.[1]]).map((line) => inWords(line.replace(/^(try|or) +(.*) \(.*\)$/, '$1 $2'))));
   const {runs: [seen]} = JSON.parse(text(files['rise.json']));
+  $('needed').lastElementChild.textContent = handWords(seen);
   if (!seen.came_up) warn('rise-help', 'It does not come up like this. What may help, the likeliest first:', helpsRise(lines));
   hear(`${$('rise-said').textContent} ${$('rise-help').textContent}`);
   goTo('rise-title');
@@ -1013,6 +1031,8 @@ const thinWords = ({refused, thinnest_mm: wall}) => refused ? `These pieces cann
 // Measures the walls, and tries what makes them thick enough to be printed: wider arms, or where these have no room a larger whole.
 async function watchWalls(most = FEW_PIECES) {
   const mine = ++measured, given = plan, {width: asked} = answers();
+  printedArms = 0;
+  showArms();
   warn('thin', '');
   if (!given || frame.nodes.length > most) return;
   const first = await wallsOf(given, asked);
@@ -1023,7 +1043,10 @@ async function watchWalls(most = FEW_PIECES) {
   for (let wide = 1.1 * first.width_mm; wide < 2.1 * first.width_mm; wide *= 1.15) {
     const arms = Number(wide.toPrecision(2)), tried = await wallsOf(given, arms);
     if (mine !== measured) return;
-    if (tried.thinnest_mm >= PRINTS) return warn('thin', words, [[`Make the arms ${arms} mm wide`, () => makeArms(arms)]]);
+    if (tried.thinnest_mm < PRINTS) continue;
+    printedArms = arms;
+    showArms();
+    return warn('thin', words, [[`Make the arms ${arms} mm wide`, () => makeArms(arms)]]);
   }
   const size = widthOf(frame), larger = Number((size * (first.refused ? 4 : (1.05 * PRINTS) / first.thinnest_mm)).toPrecision(2)), units = frame.units || 'mm';
   if (source && !(first.refused && asked)) warn('thin', first.refused ? words : `${words} Wider arms have no room: the whole is too small.`, [[`Build the whole ${larger} ${units} wide, not ${Number(size.toPrecision(3))} ${units}`, () => setWhole(larger)]]);
@@ -1118,6 +1141,13 @@ function listenForFiles() {
   });
 }
 
+// Advice on a small dome while the first screen is read: a browser compiles what runs often once more, better, and the first advice
+// that is asked for takes half as long. Whatever is asked for ends it.
+async function warmUp() {
+  const {files} = await adviser.run(['make', 'dome', '--size', '4', '-o', 'frame.json']);
+  if (!frame) await adviser.run(['advise', 'frame.json', '--json'], files);
+}
+
 async function begin() {
   listenForFiles();
   $('questions').addEventListener('submit', search);
@@ -1164,6 +1194,7 @@ async function begin() {
     keep('search', null);
   }
   takeLink();
+  if (!frame) warmUp();
   document.documentElement.dataset.ready = '';
 }
 
