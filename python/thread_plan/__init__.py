@@ -30,7 +30,6 @@ from __future__ import annotations
 
 import importlib
 import json
-import operator
 import os
 import signal
 import threading
@@ -167,10 +166,9 @@ class Frame(_Owner):
         if any(len(p) != 3 for p in points) or any(len(e) != 2 for e in pairs):
             raise BadInput(_library.BAD_INPUT, "a point has three coordinates, and an edge two nodes")
         flat = [float(x) for p in points for x in p]
-        nodes = [operator.index(v) for e in pairs for v in e]
         self._handle = c_void_p()
         _library.call(_library.lib.thread_frame_make, c_int(len(points)), (c_double * len(flat))(*flat), c_int(len(pairs)),
-                      (c_int * len(nodes))(*nodes), units.encode(), byref(self._handle))
+                      _library.ints("edges", (v for e in pairs for v in e)), units.encode(), byref(self._handle))
 
     def __reduce__(self) -> Any:
         return parse, (self.write("json"), "frame.json")
@@ -248,12 +246,18 @@ class Frame(_Owner):
         if isinstance(nodes, str):
             _library.call(_library.lib.thread_frame_set_feet_where, self._open(), nodes.encode())
             return self
-        feet = list(nodes)
-        if feet and all(type(v).__name__ in ("bool", "bool_") for v in feet) and len(feet) == len(self.nodes):
-            feet = [v for v, is_foot in enumerate(feet) if is_foot]
-        feet = [operator.index(v) for v in feet]
-        _library.call(_library.lib.thread_frame_set_feet, self._open(), c_int(len(feet)), (c_int * len(feet))(*feet))
+        feet = self._nodes("feet", nodes)
+        _library.call(_library.lib.thread_frame_set_feet, self._open(), c_int(len(feet)), feet)
         return self
+
+    def _nodes(self, name: str, nodes: Iterable[int]) -> Any:
+        """An array of C ints of nodes, or of a mask that has True or False for every node."""
+        given = list(nodes)
+        if given and all(type(v).__name__ in ("bool", "bool_") for v in given):
+            if len(given) != len(self.nodes):
+                raise BadInput(_library.BAD_INPUT, "%s: a mask of %d, but there are %d nodes" % (name, len(given), len(self.nodes)))
+            given = [v for v, is_one in enumerate(given) if is_one]
+        return _library.ints(name, given)
 
     def set_passes(self, edge: int, cover: int, capacity: int = 0) -> None:
         """Says how many passes an edge, from 0, needs (1 to 100), and how many fit through it (0 = any number). BadInput: no such
@@ -273,22 +277,30 @@ class Frame(_Owner):
              threads: Optional[int] = None, request: Optional[Physics] = None) -> "Plan":
         """Makes the best plan that the time allows; Plan.proved says whether nothing is better, Plan.stopped whether it was ended.
 
-        If none of cords, aims and limits are said it is the recommended plan, as of `thread plan FRAME`: as few cords as `hand`
-        can pull. One that was stopped before some were found that it can is a StoppedWarning.
+        If of cords, aims, distinct, max_length, max_pull, gap and request nothing is said it is the recommended plan, as of
+        `thread plan FRAME`: as few cords as `hand` can pull, from the best ends, the shortest. One that was stopped before some
+        were found that it can is a StoppedWarning. Else it is what `thread plan FRAME` makes with the same options.
 
-        ends: "closed", "any", "feet" (set_feet), a list of nodes, or {node: number of ends}.
-        cords: exactly so many in every component, or (least, most).
-        aims: first, second, ..: "length", "turning", "max-turning", "pull", "longest", "overlap", "steps"; "length+5%,turning".
-        seconds: for the call; 0 = until it is proved.
-        cover, capacity: passes of every edge, from .. to; capacity 0 = any number.
-        distinct: different cords that pass every edge.
-        max_length: of a cord, in units of the frame. max_pull: at its ends, times the seating tension.
-        tube: only edges are pieces, and the cord ties them at every node.
-        physics: of cord and beads, {"mu": 0.3, "seating": 5} or as JSON.
-        hand: N that an end may need where cords are not said; 10 without.
-        gap: %, the search ends so near to its bound.
-        threads: processors that it may use; they change no result but of a search that time ends.
+        ends: "closed", "any", "feet" (set_feet), a list of nodes, a mask, or {node: number of ends}; of the recommended plan the
+            best ones if they are not said, else "closed".
+        cords: exactly so many in every component, 1 to 1000, or (least, most); without them as few as max_length and max_pull
+            take, else as many as distinct, else 1.
+        aims: first, second, ..: "length" (if nothing is said), "turning", "max-turning", "pull", "longest", "overlap", "steps",
+            "paths"; "length+5%,turning".
+        seconds: for the call; 0 = until it is proved. Without them 20, or until it is proved of the shortest cords.
+        cover, capacity: passes of every edge, from .. to; 1, or as many as distinct, to any number (0), or what goes through the
+            bore that physics say.
+        distinct: different cords that pass every edge, from 2; 0 = any.
+        max_length: of a cord, in units of the frame. max_pull: at its ends, times the seating tension, from 1. 0 = any.
+        tube: only edges are pieces, and the cord ties them at every node. False without.
+        physics: of cord and beads, {"mu": 0.3, "seating": 5} or as JSON. Without them mu 0.2 (cord on bead), seating 1 N (the
+            tension that is left in the slackest pass), and so on: Plan.json has all of them, `thread eval --help` explains them.
+        hand: N that an end of the recommended plan may need; 10 without, which a hand manages time after time.
+        gap: %, 0 to 100, the search ends so near to its bound.
+        threads: processors that it may use, 1 to 1000, 1 without; they change no result but of a search that time ends.
         request: all that is asked for, as "options" of a plan's JSON (Plan.json); the rest but seconds, gap and threads does not count.
+
+        A frame in several components is planned in one go: every component has cords of its own, as many as are said.
 
         BadInput: an option is wrong. Infeasible: there is no such threading. NotProved: nothing was found in time.
         """
@@ -324,20 +336,23 @@ class Frame(_Owner):
             aims=aims, cover=cover, tube=tube, physics=physics, seconds=seconds, threads=threads))
 
     def _asked(self, ends: Optional[Ends], cords: Optional[Union[int, Tuple[int, int]]], options: Mapping[str, Any]) -> Any:
-        given = _library.filled(_library.PlanOptions(), _library.lib.thread_plan_options_init, options)
-        if cords is not None:
-            least, most = cords if isinstance(cords, (list, tuple)) else (cords, cords)
-            given.cords_least, given.cords = operator.index(least), operator.index(most)
+        least, most = cords if isinstance(cords, (list, tuple)) else (None, cords)
+        given = _library.filled(_library.PlanOptions(), _library.lib.thread_plan_options_init,
+                                dict(options, cords_least=least, cords=most))
         if isinstance(ends, str):
             if ends not in _ends:
                 raise BadInput(_library.BAD_INPUT, 'ends: %r is not "closed", "any", "feet", a list of nodes or numbers of ends' % ends)
             given.ends = _ends[ends]
         elif isinstance(ends, Mapping):
-            count = [int(ends.get(v, 0)) for v in range(len(self.nodes))]
-            given.ends, given.end_count = 4, (c_int * len(count))(*count)
+            count = [0] * len(self.nodes)
+            for v, n in zip(_library.ints("ends", ends), ends.values()):
+                if not 0 <= v < len(count):
+                    raise BadInput(_library.BAD_INPUT, "ends: there is no node %d, only 0 to %d" % (v, len(count) - 1))
+                count[v] = n
+            given.ends, given.end_count = 4, _library.ints("ends", count)
         elif ends is not None:
-            node = [operator.index(v) for v in ends]
-            given.ends, given.n_end_nodes, given.end_node = 3, len(node), (c_int * len(node))(*node)
+            node = self._nodes("ends", ends)
+            given.ends, given.n_end_nodes, given.end_node = 3, len(node), node
         return given
 
     def _report(self, what: str, ends: Optional[Ends], progress: Optional[Heard], options: Mapping[str, Any]) -> Dict[str, Any]:
@@ -366,9 +381,9 @@ class Plan(_Owner):
             return "<Plan, closed>"
         facts, n = self.summary, int(_library.lib.thread_plan_cords(self._open()))
         known = "proved the shortest" if facts.shortest else "proved the straightest" if facts.straightest else (
-            "stopped" if facts.stopped else "not proved")
+            "not proved")
         return "<Plan: %d %s, %.7g %s, at most %.3g N at an end, %s>" % (
-            n, "cord" if n == 1 else "cords", facts.length, self.frame.units, facts.pull, known)
+            n, "cord" if n == 1 else "cords", facts.length, self.frame.units, facts.pull, known + (", stopped" if facts.stopped else ""))
 
     @classmethod
     def read(cls, path: Path) -> "Plan":
@@ -529,9 +544,15 @@ def read(path: Path, *, edges: Optional[str] = None, units: Optional[str] = None
 
     OSError: it cannot be read. BadInput says where, what, and what to do.
     """
-    return Frame._made(_library.lib.thread_frame_read, os.fsencode(path), _read_options(dict(
-        edges=edges, units=units, weld=weld, scale=scale, flat=flat, up=up, split=split, pick=pick, part=part, all_layers=all_layers,
-        parallel=parallel, columns=columns)))
+    try:
+        return Frame._made(_library.lib.thread_frame_read, os.fsencode(path), _read_options(dict(
+            edges=edges, units=units, weld=weld, scale=scale, flat=flat, up=up, split=split, pick=pick, part=part, all_layers=all_layers,
+            parallel=parallel, columns=columns)))
+    except OSError:
+        for name in (path, edges):  # as Python says it: FileNotFoundError, PermissionError, ..
+            if name is not None:
+                open(name, "rb").close()
+        raise
 
 
 def parse(data: Union[str, bytes], name: str, *, units: Optional[str] = None, weld: Optional[float] = None,
@@ -554,6 +575,9 @@ def compare(plans: Sequence[Plan], method: str = "joint", seconds: float = 0.0, 
     """Plans of one frame side by side, as `thread compare --json` says it: a row each in "plans", where they are called "plan 1", "plan
     2" and so on, and in "rankings" their order. method: "joint", "capstan", "structure", "all" of these, or "rise", of three runs each.
     BadInput: no such method, or plans of different frames. NotProved: nothing was known in time."""
+    for plan in plans:
+        if not isinstance(plan, Plan):
+            raise TypeError("compare takes a list of plans: %r is none" % (plan,))
     handles = (c_void_p * len(plans))(*[plan._open() for plan in plans])
     what = "compare" if method == "joint" else "compare " + method
     return _reported(_options(dict(seconds=float(seconds), threads=threads)), progress, _library.lib.thread_report_plans, handles,
