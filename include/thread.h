@@ -161,8 +161,8 @@ THREAD_API int thread_plan_cords(const thread_plan *plan);
  * borrowed. 0: no such cord. */
 THREAD_API int thread_plan_cord(const thread_plan *plan, int i, const int **node);
 
-/* One cord. Forces are those of the plan's evaluation (thread_eval); without one, of the closed
- * form while both ends are pulled. */
+/* One cord. Forces are those of the plan's evaluation (thread_eval; "structure": 0 N = it stands
+ * unpulled); without one, of the closed form while both ends are pulled. */
 typedef struct {
   size_t size;
   const char *name;            /* "A"; borrowed */
@@ -203,9 +203,9 @@ THREAD_API thread_status thread_eval_with(thread_plan *plan, const char *method,
 THREAD_API thread_status thread_draw_with(const thread_plan *plan, const char *type,
                                           const thread_plan_options *options, char **bytes,
                                           size_t *n, thread_error *err);
-/* What is known of a frame, as JSON: "advice": plans for every number of cords and kind of ends
- * that may be worth it, and which is recommended; "symmetries": its groups, and the best threading
- * under each. THREAD_NOT_PROVED: *bytes is the table as far as it came, or NULL. */
+/* What is known of a frame, as JSON (docs/outputs.md): "advice": plans for every number of cords
+ * and kind of ends that may be worth it, and which is recommended; "symmetries": its groups, and
+ * the best threading under each. THREAD_NOT_PROVED: *bytes has what there is so far, or is NULL. */
 THREAD_API thread_status thread_report(const thread_frame *frame, const char *what,
                                        const thread_plan_options *options, char **bytes, size_t *n,
                                        thread_error *err);

@@ -7,10 +7,12 @@ import json
 import math
 import os
 import pickle
+import re
 import signal
 import tempfile
 import threading
 import time
+import typing
 import warnings
 
 import thread_plan
@@ -85,6 +87,8 @@ with tempfile.TemporaryDirectory() as folder:
     assert plan.draw("svg", os.path.join(folder, "a.svg")) == open(os.path.join(folder, "a.svg"), "rb").read()
     frame.write("obj", os.path.join(folder, "a.obj"))
     assert thread_plan.read(os.path.join(folder, "a.obj"), units="m", scale=2).nodes[1] == (60.0, 0.0, 0.0)
+told = "the file says mm, but its numbers are taken to be cm, as asked for"
+assert thread_plan.parse(frame.write(), "a.json", units="cm").notes == [told] and not thread_plan.parse(frame.write(), "a.json", units="mm").notes
 assert thread_plan.parse(frame.write("ply"), "a.ply").edges == SIDES
 lie = plan.json().replace(b'"length": 240', b'"length": 140')
 refused((thread_plan.Violated, thread_plan.BadInput), "length", lambda: thread_plan.Plan(lie).check())
@@ -144,6 +148,14 @@ assert repr(dome) == "<Frame: 49 nodes, 84 edges, 4 feet, in mm>" and dome.units
 assert repr(chosen).startswith("<Plan: %d cords, " % len(chosen.cords)) and repr(plan).endswith("proved the shortest>"), (chosen, plan)
 assert repr(cord).startswith("<Cord A: 6 passes from node "), cord
 
+# What stands by its weight and friction needs no pull, and says so.
+with warnings.catch_warnings():
+    warnings.simplefilter("error")
+    stands = Frame.shape("dome", 5).set_feet().plan(ends="feet").eval("structure")
+assert all((c.pull_start == c.pull_end == 0) == ("unpulled" in repr(c)) for c in stands.cords)
+assert ("stands without any pull" in repr(stands)) == (stands.summary.pull == 0) == (max(c.pull_start for c in stands.cords) == 0)
+assert len({cord, *plan.cords}) == 1 and {cord: 1}[plan.cords[0]] == 1
+
 # Copies are of their own; errors travel between processes.
 for made in (copy.copy(plan), copy.deepcopy(plan), pickle.loads(pickle.dumps(plan))):
     assert made.json() == plan.json() and made.proved == plan.proved
@@ -202,6 +214,17 @@ for call, path in ((thread_plan.read, "no.obj"), (lambda path: thread_plan.read(
         assert (reason.errno, reason.filename) == (errno.ENOENT, path), reason
     else:
         raise AssertionError("read what is not there")
+
+# The names that are typed are those that the library knows.
+for kind, call, before in (
+        (thread_plan.Shape, lambda: Frame.shape("?"), "only "), (thread_plan.Format, lambda: frame.write("?"), "these are: "),
+        (thread_plan.Method, lambda: plan.eval("?"), "only "), (thread_plan.Document, lambda: plan.draw("?"), "only "),
+        (thread_plan.Comparison, lambda: thread_plan.compare([plan], "?"), "and compare, ")):
+    try:
+        call()
+    except thread_plan.BadInput as reason:
+        known = re.split(", | and ", str(reason).split(before)[1].replace("compare ", ""))
+        assert sorted(typing.get_args(kind)) == sorted(known + ["joint"] * (kind == thread_plan.Comparison)), (kind, known)
 
 # A frame that is no frame: which node, which edge.
 for points, pairs, words in (
