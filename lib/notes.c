@@ -135,7 +135,7 @@ static void put_unsaid(thr_text *out, const thr_frame *frame, const thr_read_rep
     thr_text_append(out, "no node has a z: the framework is taken to be flat, z = 0\n");
 
   if (report->units_of_file[0])
-    thr_text_printf(out, "the file says %s, but its numbers are taken to be %s, as asked for\n",
+    thr_text_printf(out, "the file says that its unit is %s; --units %s is taken instead\n",
                     report->units_of_file, frame->units);
 
   /* Pieces that are hardly ever made: the unit may be another one. Of a unit of unknown length none
