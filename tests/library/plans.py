@@ -18,14 +18,14 @@ QUESTIONS = [
     ("--joint tube", {"tube": True}),
     ("--gap 1", {"gap": 1}),
     ("--max-length 300 --ends any", {"max_length": 300, "ends": "any"}),
-    ("--max-pull 20x", {"max_pull": 20}),
-    ("--aims max-turning --cords 2", {"aims": "max-turning", "cords": 2}),
+    ("--max-pull 30x", {"max_pull": 30}),
+    ("--aims longest,length --cords 2", {"aims": "longest,length", "cords": 2}),
     ("--mu 0.1 --cord-diameter 1 --bore 2", {"physics": {"mu": 0.1, "cord_diameter": 1, "bore": 2}}),
 ]
 
 with tempfile.TemporaryDirectory() as folder:
     path, out = os.path.join(folder, "frame.json"), os.path.join(folder, "plan.json")
-    for shape, size in (("dome", 4), ("tube", 4)):
+    for shape, size in (("dome", 4), ("honeycomb", 1)):
         frame = Frame.shape(shape, size)
         for feet in ([], ["--feet", "lowest"]):
             if feet:
