@@ -75,7 +75,7 @@ THREAD_API thread_status thread_frame_shape(const char *shape, int size, thread_
                                             thread_error *err);
 THREAD_API void thread_frame_free(thread_frame *frame); /* NULL ok */
 
-/* Counts; xyz and ends (NULL ok) receive 3 coordinates a node and 2 nodes an edge, borrowed. */
+/* Counts; xyz and ends (NULL ok) receive 3 coordinates a node, 2 nodes an edge, borrowed. */
 THREAD_API int thread_frame_nodes(const thread_frame *frame, const double **xyz);
 THREAD_API int thread_frame_edges(const thread_frame *frame, const int **ends);
 /* Names are borrowed. NULL, -1: there is no such node. */
@@ -101,7 +101,7 @@ THREAD_API thread_status thread_frame_write(const thread_frame *frame, const cha
 /* ---- plans ---- */
 
 typedef enum {
-  THREAD_UNSAID = -1, /* the best ones if cords and aims are not said either; else closed */
+  THREAD_UNSAID = -1, /* the best ones of a recommended plan (cords), else closed */
   THREAD_CLOSED,      /* both ends of a cord at one node */
   THREAD_ANY,
   THREAD_FEET,
@@ -114,22 +114,24 @@ typedef struct {
                           second, ..; NULL = "length" */
   const char *request; /* all that is asked for, as "options" of a plan's JSON; then what is above
                           and below down to physics does not count; NULL = none */
-  int cords_least, cords; /* in every component, from .. to; cords_least 0 = exactly so many; cords
-                             0 = as few as a hand can pull, from the best ends, the shortest first,
-                             if no aims are said: as thread plan FRAME; else 1 */
-  int cover, capacity;    /* passes of every edge, from .. to; 0 = no capacity */
-  int distinct;           /* cords that pass every edge; 0 = any */
-  double max_length;      /* of a cord; 0 = any */
-  double max_pull;        /* of a cord at its ends, times the seating tension; 0 = any */
-  int tube;               /* 1: only edges are pieces, and the cord ties them at every node */
-  thread_ends ends;       /* where cords end */
+  int cords_least, cords; /* in every component, from .. to; cords_least < 0 = exactly so many.
+                             cords < 0, and no aims, distinct, limits, gap, request: as few as a
+                             hand can pull, from the best ends, the shortest, as thread plan FRAME;
+                             with a limit as few as it takes; else as distinct, or 1 */
+  int cover, capacity; /* passes of every edge, from .. to; cover < 0 = as distinct, or 1; 0 = any
+                          capacity, or that of the bore in physics */
+  int distinct;        /* different cords that pass every edge; 0 = any */
+  double max_length;   /* of a cord; 0 = any */
+  double max_pull;     /* of a cord at its ends, times the seating tension; 0 = any */
+  int tube;            /* 1: only edges are pieces, and the cord ties them at every node */
+  thread_ends ends;    /* where cords end */
   int n_end_nodes;
   const int *end_node; /* of THREAD_NODES */
   const char *physics; /* of cord and beads, as the file of --physics: "{\"mu\": 0.3, \"seating\":
-                          5}"; NULL = usual */
+                          5}"; what it does not say is usual: mu 0.2, seating 1 N, .. */
   double seconds;      /* for the call, which takes at most a tenth and 0.2 s more; 0 = until it is
                           proved; < 0 = as thread plan: 20, but 0 for the shortest cords */
-  int threads;         /* change no result but of a search that time ends */
+  int threads;         /* 1 to 1000; change no result but of a search that time ends */
   /* Hears, in the caller's thread and at least every 0.1 s, what is being done, the best value so
    * far (units, or rad of turning; INFINITY = none yet) and what it cannot be less than. Not 0 =
    * stop: it is not called again, and the call returns within 0.5 s. NULL = nobody */
@@ -138,8 +140,7 @@ typedef struct {
   double gap; /* %, 0 to 100: the search ends when the plan is so near to its bound, which is
                  THREAD_OK; < 0 = as thread plan */
   const int *end_count; /* of THREAD_COUNTS: [nodes] */
-  double hand; /* N that an end may need where cords are not said, and of advice; 0 = 10, which a
-                  hand manages time after time */
+  double hand;          /* N of an end where cords are not said, and of advice; < 0 = 10 */
 } thread_plan_options;
 THREAD_API void thread_plan_options_init(thread_plan_options *options, size_t size);
 
@@ -160,8 +161,8 @@ THREAD_API int thread_plan_cords(const thread_plan *plan);
  * borrowed. 0: no such cord. */
 THREAD_API int thread_plan_cord(const thread_plan *plan, int i, const int **node);
 
-/* One cord. Forces are those of the plan's evaluation (thread_eval); without one, of the closed
- * form while both ends are pulled. */
+/* One cord. Forces are those of the plan's evaluation (thread_eval; "structure": 0 N = it stands
+ * unpulled); without one, of the closed form while both ends are pulled. */
 typedef struct {
   size_t size;
   const char *name;            /* "A"; borrowed */
@@ -202,15 +203,14 @@ THREAD_API thread_status thread_eval_with(thread_plan *plan, const char *method,
 THREAD_API thread_status thread_draw_with(const thread_plan *plan, const char *type,
                                           const thread_plan_options *options, char **bytes,
                                           size_t *n, thread_error *err);
-/* What is known of a frame, as JSON: "advice": plans for every number of cords and kind of ends
- * that may be worth it, and which is recommended; "symmetries": its groups, and the best threading
- * under each. THREAD_NOT_PROVED: *bytes is the table as far as it came, or NULL. */
+/* What is known of a frame, as JSON (docs/outputs.md): "advice": plans for every number of cords
+ * and kind of ends that may be worth it, and which is recommended; "symmetries": its groups, and
+ * the best threading under each. THREAD_NOT_PROVED: *bytes has what there is so far, or is NULL. */
 THREAD_API thread_status thread_report(const thread_frame *frame, const char *what,
                                        const thread_plan_options *options, char **bytes, size_t *n,
                                        thread_error *err);
-/* The same of plans: "rise": whether the pieces of one come up in simulation; of plans of one frame
- * "compare": values and rankings by simulated joints; "compare capstan", .. structure, all, rise.
- */
+/* The same of plans: "rise": whether the pieces of one come up in simulation; of some of one frame
+ * "compare": values and rankings by simulated joints; "compare capstan", .. structure, all, rise */
 THREAD_API thread_status thread_report_plans(const thread_plan *const *plan, int n_plans,
                                              const char *what, const thread_plan_options *options,
                                              char **bytes, size_t *n, thread_error *err);

@@ -60,13 +60,19 @@ thread_status thr_library_status(thr_status st, const thr_err *from, thread_erro
 /* Makes words for the command line those for programs: options are members. THR_ENOMEM. */
 thr_status thr_library_words(thr_text *text, thr_err *err) THR_MUST_CHECK;
 
+/* Fails with THR_EINPUT: there is no shape, method, .. (kind) of the name given, only the names of
+ * 0 .. n - 1. */
+thr_status thr_library_none(const char *kind, const char *given, const char *(*name)(int), int n,
+                            thr_err *err) THR_MUST_CHECK;
+
 /* Copies a program's options over the usual ones in *own. The first member of both is their size,
  * and a program knows only so many bytes; theirs may be NULL. THR_EINPUT if the size is absurd.
  * what: the name of the struct. */
 thr_status thr_library_options(void *own, size_t own_size, const void *theirs, const char *what,
                                thr_err *err) THR_MUST_CHECK;
 
-/* The same for the options of plans, which become the usual ones first. */
+/* The same for the options of plans, which become the usual ones first. THR_EINPUT, too: a member
+ * is out of its range, or does not go with another one; its name, the value, what it may be. */
 thr_status thr_library_plan_options(const thread_plan_options *theirs, thread_plan_options *own,
                                     thr_err *err) THR_MUST_CHECK;
 

@@ -142,6 +142,17 @@ thread_status thr_library_status(thr_status st, const thr_err *from, thread_erro
   return same[st];
 }
 
+thr_status thr_library_none(const char *kind, const char *given, const char *(*name)(int), int n,
+                            thr_err *err)
+{
+  char list[400] = "";
+  for (int i = 0; i < n; i++) {
+    const size_t length = strlen(list);
+    snprintf(list + length, sizeof list - length, "%s%s", i ? ", " : "", name(i));
+  }
+  return thr_fail(err, THR_EINPUT, "there is no %s %.60s, only %s", kind, given, list);
+}
+
 /* Copies a program's options over the usual ones; see lib.h. */
 thr_status thr_library_options(void *own, size_t own_size, const void *theirs, const char *what,
                                thr_err *err)

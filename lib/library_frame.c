@@ -133,25 +133,71 @@ thread_status thread_frame_parse(const char *text, size_t n, const char *name,
   return hand_over(st, &frame, &report, out, &why, err);
 }
 
-/* Builds a framework of a draft all of which must be there: what reading would merge or drop is an
- * error. */
-static thr_status build_whole(const thr_draft *draft, thr_frame *frame, thr_read_report *report,
-                              thr_err *err)
+/* A node by its place, or an edge by its two nodes. */
+typedef struct {
+  double key[3];
+  int i;
+} keyed;
+
+/* Orders by key, then by number, for qsort. */
+static int compare_keyed(const void *a, const void *b)
 {
-  thr_status st = thr_draft_build(draft, 0, frame, report, err);
+  const keyed *one = a, *other = b;
+  for (int k = 0; k < 3; k++)
+    if (one->key[k] != other->key[k]) return one->key[k] < other->key[k] ? -1 : 1;
+  return one->i - other->i;
+}
 
-  /* In the order in which a draft is built, so that the first loss is told. */
-  const char *lost = st                          ? NULL
-                     : report->welded_nodes      ? "two nodes are in one place"
-                     : report->zero_length_edges ? "an edge has no length"
-                     : report->duplicate_edges   ? "an edge is given twice"
-                     : report->isolated_nodes    ? "a node has no edge"
-                                                 : NULL;
+/* Finds two of one key, of which the second comes as early as possible; *second = -1: none. Sorts
+ * the list. */
+static void find_twins(keyed *list, int n, int *first, int *second)
+{
+  qsort(list, (size_t)n, sizeof *list, compare_keyed);
+  *first = *second = -1;
+  for (int k = 1; k < n; k++)
+    if (memcmp(list[k].key, list[k - 1].key, sizeof list->key) == 0 &&
+        (*second < 0 || list[k].i < *second)) {
+      *first = list[k - 1].i;
+      *second = list[k].i;
+    }
+}
 
-  if (!lost) return st;
+/* Fails with the node or edge that reading would merge or drop; THR_OK: there is none. xyz, ends:
+ * as in thread_frame_make, all of them finite and within range. O(n log n). */
+static thr_status find_loss(int n_nodes, const double *xyz, int n_edges, const int *ends,
+                            thr_err *err)
+{
+  if (n_nodes < 1 || n_edges < 1) return THR_OK; /* that there is none is said later */
+  const int n = n_nodes > n_edges ? n_nodes : n_edges;
+  keyed *list = thr_calloc((size_t)n, sizeof *list);
+  int *degree = thr_calloc((size_t)n_nodes, sizeof *degree), first, second;
+  thr_status st = list && degree ? THR_OK : thr_nomem(err);
 
-  thr_frame_destroy(frame);
-  return thr_fail(err, THR_EINPUT, "%s", lost);
+  /* Two nodes in one place; adding 0 makes one number of 0 and -0. */
+  for (int v = 0; v < n_nodes && !st; v++)
+    list[v] = (keyed){{xyz[3 * v] + 0.0, xyz[3 * v + 1] + 0.0, xyz[3 * v + 2] + 0.0}, v};
+  if (!st) find_twins(list, n_nodes, &first, &second);
+  if (!st && second >= 0)
+    st = thr_fail(err, THR_EINPUT, "two nodes are in one place: %d and %d", first, second);
+
+  for (int e = 0; e < n_edges && !st; e++) {
+    const int a = ends[2 * e], b = ends[2 * e + 1];
+    if (a == b)
+      st = thr_fail(err, THR_EINPUT, "edge %d has no length: it joins node %d to itself", e, a);
+    list[e] = (keyed){{a < b ? a : b, a < b ? b : a}, e};
+    degree[a]++;
+    degree[b]++;
+  }
+  if (!st) find_twins(list, n_edges, &first, &second);
+  if (!st && second >= 0)
+    st = thr_fail(err, THR_EINPUT, "an edge is given twice: %d and %d join node %d to node %d",
+                  first, second, ends[2 * second], ends[2 * second + 1]);
+  for (int v = 0; v < n_nodes && !st; v++)
+    if (degree[v] == 0) st = thr_fail(err, THR_EINPUT, "node %d has no edge", v);
+
+  free(list);
+  free(degree);
+  return st;
 }
 
 /* Makes a framework of arrays; see include/thread.h. */
@@ -176,7 +222,8 @@ thread_status thread_frame_make(int n_nodes, const double *xyz, int n_edges, con
     st = thr_draft_add_edge(&draft, ends[2 * (size_t)e], ends[2 * (size_t)e + 1], 0, &why);
 
   /* Indices must stay those of the caller. */
-  if (!st) st = build_whole(&draft, &frame, &report, &why);
+  if (!st) st = find_loss(n_nodes, xyz, n_edges, ends, &why);
+  if (!st) st = thr_draft_build(&draft, 0, &frame, &report, &why);
 
   thr_draft_destroy(&draft);
   return hand_over(st, &frame, &report, out, &why, err);
@@ -200,7 +247,7 @@ thread_status thread_frame_shape(const char *shape, int size, thread_frame **out
   while (kind < THR_N_SHAPES && strcmp(shape, thr_shape_name(kind)) != 0)
     kind++;
   if (kind == THR_N_SHAPES)
-    st = thr_fail(&why, THR_EINPUT, "there is no shape %s", shape);
+    st = thr_library_none("shape", shape, thr_shape_name, THR_N_SHAPES, &why);
   else {
     thr_make_options options = thr_make_options_default((thr_shape)kind);
     if (size) options.size = size;
@@ -342,7 +389,12 @@ thread_status thread_frame_write(const thread_frame *frame, const char *format, 
   if (n) *n = 0;
 
   /* Text in a format, for the caller to free. */
-  if (!written) st = thr_fail(&why, THR_EINPUT, "%s is no format that is written", format);
+  if (!written) {
+    char list[160];
+    thr_formats_written(list, sizeof list, "", ", ", " and ");
+    st = thr_fail(&why, THR_EINPUT, "%.60s is no format that is written; these are: %s", format,
+                  list);
+  }
   if (!st) thr_frame_write(&frame->frame, written, &text);
   if (!st) st = thr_library_give(&text, bytes, n, &why);
 

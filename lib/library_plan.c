@@ -485,7 +485,7 @@ thread_status thread_eval_with(thread_plan *plan, const char *method,
   thr_library_lock();
   thr_status st = thr_library_plan_options(options, &own, &why);
   if (!st && job.which == THR_N_METHODS)
-    st = thr_fail(&why, THR_EINPUT, "there is no method %s", method);
+    st = thr_library_none("method", method, thr_method_name, THR_N_METHODS, &why);
   if (!st)
     st =
         thr_library_do(&(thr_job){"evaluating", evaluate_and_send, &job, false}, &own, &json, &why);
@@ -534,8 +534,9 @@ thread_status thread_draw_with(const thread_plan *plan, const char *type,
   thread_plan_options own;
   deed job = {.plan = &plan->plan, .which = thr_document_find(type), .options = &own};
   const thr_job work = {"drawing", draw_and_send, &job, false};
-  const thr_status st =
-      job.which < 0 ? thr_fail(&why, THR_EINPUT, "there is no document %s", type) : THR_OK;
+  const thr_status st = job.which < 0 ? thr_library_none("document", type, thr_document_type,
+                                                         thr_documents_count(), &why)
+                                      : THR_OK;
   return thr_library_document(st, &work, options, &own, &why, bytes, n, err);
 }
 

@@ -3,30 +3,35 @@
  *
  * A request as JSON has precedence over the members before it. Where neither cords nor aims
  * are said, the plan is the recommended one (planner/recommend.c), as of `thread plan FRAME`.
- * Texts of failures name members of the options, never options of a command line. */
+ * Every member is checked against the table `ranges`; what is not said follows from the rest as on
+ * the command line. Texts of failures name members of the options, never options of a command line.
+ */
 #include "graph/plan/physics.h"
 #include "graph/plan/plan_fields.h"
 #include "lib/lib.h"
 #include "planner/planner.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+enum { MOST_PASSES = 100, MOST_THREADS = 1000 };
+
 /* Fills in the usual options, of which a program knows the first `size` bytes. */
 void thread_plan_options_init(thread_plan_options *options, size_t size)
 {
-  const thread_plan_options usual = {
-      .size = size, .cover = 1, .ends = THREAD_UNSAID, .seconds = -1, .threads = 1, .gap = -1};
+  const thread_plan_options usual = {.size = size,
+                                     .cords_least = -1,
+                                     .cords = -1,
+                                     .cover = -1,
+                                     .ends = THREAD_UNSAID,
+                                     .seconds = -1,
+                                     .threads = 1,
+                                     .gap = -1,
+                                     .hand = -1};
   memset(options, 0, size);
   memcpy(options, &usual, size < sizeof usual ? size : sizeof usual);
-}
-
-thr_status thr_library_plan_options(const thread_plan_options *theirs, thread_plan_options *own,
-                                    thr_err *err)
-{
-  thread_plan_options_init(own, sizeof *own);
-  return thr_library_options(own, sizeof *own, theirs, "thread_plan_options", err);
 }
 
 /* Reads a request given as JSON, as the "options" of a plan. The reader knows whole plans, so that
@@ -60,42 +65,71 @@ static thr_status parse_physics(const char *text, thr_physics *out, thr_err *err
   return st;
 }
 
-/* Checks the ranges of options that are numbers. */
+/* The members that are numbers, and what they may be: low .. high, or less than 0 (`unsaid`) where
+ * the usual value is not one of these, or 0 for no limit. */
+#define COUNT(member) #member, offsetof(thread_plan_options, member), true
+#define AMOUNT(member) #member, offsetof(thread_plan_options, member), false
+static const struct {
+  const char *name;
+  size_t offset;
+  bool is_int, unsaid, none;
+  double low, high;
+  const char *allowed;
+} ranges[] = {
+    {COUNT(cords), true, false, 1, THR_MOST_CORDS, "1 to 1000"},
+    {COUNT(cords_least), true, false, 1, THR_MOST_CORDS, "1 to 1000"},
+    {COUNT(cover), true, false, 1, MOST_PASSES, "1 to 100"},
+    {COUNT(capacity), false, true, 1, INT_MAX, "1 or more, or 0 for any number"},
+    {COUNT(distinct), false, true, 2, MOST_PASSES, "2 to 100, or 0"},
+    {AMOUNT(max_length), false, true, 0, HUGE_VAL, "a length, or 0 for any"},
+    {AMOUNT(max_pull), false, true, 1, HUGE_VAL,
+     "1 or more, times the seating tension, or 0 for any"},
+    {COUNT(tube), false, false, 0, 1, "0 or 1"},
+    {COUNT(ends), false, false, THREAD_UNSAID, THREAD_COUNTS, "a thread_ends"},
+    {AMOUNT(seconds), true, true, 0, HUGE_VAL, "a time, or 0 for any"},
+    {COUNT(threads), false, false, 1, MOST_THREADS, "1 to 1000"},
+    {AMOUNT(gap), true, true, 0, 100, "0 to 100 percent"},
+    {AMOUNT(hand), true, false, 1e-9, HUGE_VAL, "a force above 0"},
+};
+
+/* Checks the ranges of options that are numbers, and that they go together. */
 static thr_status check_ranges(const thread_plan_options *options, thr_err *err)
 {
-  /* Cords, from .. to, and the passes of every edge. */
-  if (options->cords < 0 || options->cords > THR_MOST_CORDS || options->cords_least < 0 ||
-      options->cords_least > options->cords)
-    return thr_fail(err, THR_EINPUT, "cords: not 1 to %d, or cords_least is no less number",
-                    THR_MOST_CORDS);
-  if (options->cover < 1 || options->cover > 100 || options->capacity < 0 ||
-      (options->capacity && options->capacity < options->cover))
-    return thr_fail(err, THR_EINPUT, "cover: not 1 to 100, or capacity leaves no room for it");
+  for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
+    const char *at = (const char *)options + ranges[i].offset;
+    const double value =
+        ranges[i].is_int ? *(const int *)(const void *)at : *(const double *)(const void *)at;
 
-  /* What limits a cord: edges passed by different ones, length, pull. */
-  const int least = options->cords_least ? options->cords_least : options->cords;
-  if (options->distinct < 0 || options->distinct == 1 || options->distinct > options->cover ||
-      options->distinct > (least ? least : 1))
-    return thr_fail(err, THR_EINPUT,
-                    "distinct: not 0 or from 2 to the least of cover and cords_least");
-  if (!(options->max_length >= 0 && options->max_length < INFINITY))
-    return thr_fail(err, THR_EINPUT, "max_length: not 0 or a length");
-  if (!(options->max_pull == 0 || (options->max_pull >= 1 && options->max_pull < INFINITY)))
-    return thr_fail(err, THR_EINPUT, "max_pull: neither 0 nor 1 or more");
+    /* NaN is in no range, and infinity is no number of anything. */
+    if ((ranges[i].unsaid && value < 0) || (ranges[i].none && value == 0)) continue;
+    if (!(value >= ranges[i].low && value <= ranges[i].high && isfinite(value)))
+      return thr_fail(err, THR_EINPUT, "%s: %g is not %s", ranges[i].name, value,
+                      ranges[i].allowed);
+  }
 
-  /* Where cords end. */
-  if (options->ends < THREAD_UNSAID || options->ends > THREAD_COUNTS)
-    return thr_fail(err, THR_EINPUT, "ends: no thread_ends");
+  /* Numbers of cords and passes, the least before the most. */
+  if (options->cords_least > 0 && options->cords_least > options->cords)
+    return thr_fail(err, THR_EINPUT, "cords_least: %d is more than cords, %d", options->cords_least,
+                    options->cords);
+  const int cover = options->cover > 0 ? options->cover : options->distinct ? options->distinct : 1;
+  if (options->capacity && options->capacity < cover)
+    return thr_fail(err, THR_EINPUT, "capacity: %d leaves no room for %s %d", options->capacity,
+                    options->cover > 0 || !options->distinct ? "cover" : "distinct", cover);
+  if (options->distinct > cover)
+    return thr_fail(err, THR_EINPUT, "cover: %d, but distinct %d needs as many passes", cover,
+                    options->distinct);
   if (options->ends == THREAD_COUNTS && !options->end_count)
     return thr_fail(err, THR_EINPUT, "end_count: NULL, but ends are to be counted");
 
-  /* What ends a search, and what a hand does. */
-  if (!(options->gap <= 100))
-    return thr_fail(err, THR_EINPUT, "gap: neither below 0 nor from 0 to 100 percent");
-  if (!(options->hand >= 0 && options->hand < INFINITY))
-    return thr_fail(err, THR_EINPUT, "hand: not 0 or a force");
-
   return THR_OK;
+}
+
+thr_status thr_library_plan_options(const thread_plan_options *theirs, thread_plan_options *own,
+                                    thr_err *err)
+{
+  thread_plan_options_init(own, sizeof *own);
+  const thr_status st = thr_library_options(own, sizeof *own, theirs, "thread_plan_options", err);
+  return st ? st : check_ranges(own, err);
 }
 
 /* Marks the nodes where cords may end. */
@@ -131,10 +165,16 @@ static thr_status read_end_counts(const thread_plan_options *options, const thr_
 
   const thr_status st = thr_end_counts_cords(frame, out->end_count, &least, &most, err);
   if (st) return st;
-  if (most > THR_MOST_CORDS || (options->cords && (out->cords < most || out->cords_least > least)))
+  if (most > THR_MOST_CORDS ||
+      (options->cords > 0 && (out->cords < most || out->cords_least > least)))
     return thr_fail(
         err, THR_EINFEASIBLE,
         "end_count: these are the ends of %d cords in a component; cords says otherwise", most);
+  if (least < options->distinct)
+    return thr_fail(
+        err, THR_EINFEASIBLE,
+        "end_count: these are the ends of %d cords in a component; distinct %d needs as many",
+        least, options->distinct);
   out->cords_least = least;
   out->cords = most;
   return THR_OK;
@@ -176,7 +216,7 @@ thr_status thr_end_counts_cords(const thr_frame *frame, const int *counts, int *
 
 bool thr_library_recommends(const thread_plan_options *options)
 {
-  return !options->request && !options->aims && options->cords == 0 &&
+  return !options->request && !options->aims && options->cords < 0 &&
          options->ends != THREAD_COUNTS && options->distinct == 0 && options->max_length == 0 &&
          options->max_pull == 0 && options->gap < 0;
 }
@@ -192,19 +232,29 @@ static thr_status read_members(const thread_plan_options *options, const thr_fra
   if (!st && options->physics) st = parse_physics(options->physics, &out->physics, err);
   if (st) return st;
 
-  /* The rest is copied. */
-  out->cords = options->cords ? options->cords : 1;
-  out->cords_least = options->cords_least ? options->cords_least : out->cords;
+  /* The rest is copied. Without a number of cords a limit takes as few as need be, and symmetric
+   * ones as many as they need. */
+  const bool is_said = options->cords > 0,
+             is_free = !is_said && (options->max_length > 0 || options->max_pull > 0),
+             is_counted = is_said || is_free || !thr_wants_symmetry(out);
+  const int usual = options->distinct && is_counted ? options->distinct : 1;
+  out->cords = is_said ? options->cords : is_free ? THR_MOST_CORDS : usual;
+  out->cords_least = options->cords_least > 0 ? options->cords_least : is_said ? out->cords : usual;
+  if (out->cords_least < usual) out->cords_least = usual;
+  if (is_said && options->cords < options->distinct)
+    return thr_fail(err, THR_EINFEASIBLE,
+                    "cords: %d, but no edge is passed by %d different cords then (proved)",
+                    options->cords, options->distinct);
 
-  /* Of several cords that are to be symmetric, the number counts, too. */
-  out->symmetry.counted = thr_wants_symmetry(out) && options->cords > 1;
-  out->cover = options->cover;
-  out->capacity = options->capacity;
+  out->symmetry.counted = thr_wants_symmetry(out) && (is_said || is_free);
   out->distinct = options->distinct;
+  out->cover = options->cover > 0 ? options->cover : out->distinct ? out->distinct : 1;
+  out->capacity = options->capacity;
   out->max_length = options->max_length;
   out->max_pull = options->max_pull;
   out->joint = options->tube ? THR_JOINT_TUBE : THR_JOINT_SOLID;
   out->ends = options->ends == THREAD_UNSAID ? THR_ENDS_CLOSED : (thr_ends)options->ends;
+  if ((st = thr_request_fit_bore(out, err))) return st;
 
   return options->ends == THREAD_NODES    ? read_end_nodes(options, frame, out, err)
          : options->ends == THREAD_COUNTS ? read_end_counts(options, frame, out, err)
@@ -215,11 +265,10 @@ thr_status thr_library_request(const thread_plan_options *options, const thr_fra
                                thr_request *out, thr_err *err)
 {
   *out = thr_request_default();
-  thr_status st = check_ranges(options, err);
 
   /* A request as JSON has precedence over the other options, but for a gap. */
-  if (!st && options->request) st = parse_request(options->request, frame, out, err);
-  if (!st && !options->request) st = read_members(options, frame, out, err);
+  thr_status st = options->request ? parse_request(options->request, frame, out, err)
+                                   : read_members(options, frame, out, err);
   if (st) return st;
 
   if (options->gap >= 0) out->gap = options->gap;

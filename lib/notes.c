@@ -134,6 +134,10 @@ static void put_unsaid(thr_text *out, const thr_frame *frame, const thr_read_rep
   if (report->no_z)
     thr_text_append(out, "no node has a z: the framework is taken to be flat, z = 0\n");
 
+  if (report->units_of_file[0])
+    thr_text_printf(out, "the file says that its unit is %s; --units %s is taken instead\n",
+                    report->units_of_file, frame->units);
+
   /* Pieces that are hardly ever made: the unit may be another one. Of a unit of unknown length none
    * are vast. */
   if (thr_units_in_mm(frame->units, &mm, NULL)) mm = 0;

@@ -247,9 +247,9 @@ typedef struct {
  * they are at the feet where these take at most 1.5 times as much cord as ends anywhere. A limit of
  * the request on the pull makes the hand smaller. Of the request aims, cords and slack do not
  * count; plan->options says what was chosen. Work is counted: the same plan on every machine. Where
- * no number of cords stays within the hand: the shortest cord, closed unless ends are given.
- * THR_OK: a plan, whatever is proved of it, which its claims say. Otherwise as thr_plan_make. The
- * report must be released in any case. */
+ * no number of cords stays within the hand: the shortest cord, closed unless ends are given; what
+ * is easiest to pull if the time ends the search. THR_OK: a plan, whatever is proved of it, which
+ * its claims say. Otherwise as thr_plan_make. The report must be released in any case. */
 thr_status thr_plan_recommended(const thr_frame *frame, const thr_request *request,
                                 const thr_recommend_options *options, const thr_limits *limits,
                                 thr_plan *plan, thr_report *report, thr_err *err) THR_MUST_CHECK;

@@ -273,21 +273,24 @@ static thr_status try_number(fewest_search *search, int n, thr_step step, bool *
 
 /* Short cords, which may turn back at their ends where those that turn little do not; closed ones
  * over single edges are within many a limit. Numbers that are not excluded are tried from the least
- * on, as a small framework may hold some of them. */
-static thr_status try_short(fewest_search *search, thr_err *err)
+ * on, as a small framework may hold some of them. any: of a framework of any size, from eight cords
+ * on in growing steps. */
+static thr_status try_short(fewest_search *search, bool any, thr_err *err)
 {
-  enum { MOST_EDGES = 18 };
+  enum { MOST_EDGES = 18, SINGLY = 8 };
   const int most = search->request->cords < search->frame->n_edges ? search->request->cords
                                                                    : search->frame->n_edges;
   thr_status st = THR_OK;
 
-  if (search->request->ends != THR_ENDS_CLOSED || search->request->joint == THR_JOINT_TUBE ||
-      search->frame->n_edges > MOST_EDGES)
+  if (search->request->joint == THR_JOINT_TUBE) return THR_OK;
+  if (!any && (search->request->ends != THR_ENDS_CLOSED || search->frame->n_edges > MOST_EDGES))
     return THR_OK;
 
-  /* Try every number that is not excluded, the least first. */
-  for (int n = search->claim.excluded + 1;
-       n <= most && !st && search->found.n_cords == 0 && !thr_limits_stop(search->limits); n++) {
+  /* Try the numbers that are not excluded, the least first. */
+  for (int n = search->claim.excluded + 1, step = 1;
+       n <= most && !st && search->found.n_cords == 0 && !thr_limits_stop(search->limits);
+       n = any && n < most && n + step > most ? most : n + step,
+           step *= any && n >= SINGLY ? 2 : 1) {
     thr_plan plan;
     st = plan_number(search, n, THR_AIM_LENGTH, THR_STEP_FEW_TRY, &plan, err);
     if (!st && keeps(search, &plan)) take_found(search, &plan, n);
@@ -489,7 +492,7 @@ static thr_status find_fewest(fewest_search *search, const thr_limits *limits, t
     st = is_range(search->request)
              ? bound_all(search, err)
              : try_number(search, search->request->cords, THR_STEP_FEW_TRY, &fits, err);
-  if (!st) st = try_short(search, err);
+  if (!st) st = try_short(search, false, err);
   if (!st && is_range(search->request)) st = search_numbers(search, err);
 
   /* With a second part look for fewer cords by walks and by annealing. */
@@ -561,7 +564,12 @@ static thr_status find_together(fewest_search *search, const thr_limits *limits,
 {
   thr_plan fallback;
   int component;
+  const bool is_timed = limits->deadline > 0 && !limits->usual;
   thr_status st = cut_first(search, &fallback, err);
+
+  /* Who has little time gets something before the search. */
+  if (!st && is_timed && is_range(search->request) && search->found.n_cords == 0)
+    st = try_short(search, true, err);
   if (!st && !thr_tortuosity_too_large(search->frame, search->request))
     st = find_fewest(search, limits, err);
   if (!st && search->found.n_cords == 0 && fallback.n_cords > 0)
@@ -733,6 +741,8 @@ thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options,
     st = find_numbers(&search, limits, &why, &found);
     search.request = options;
   }
+  if (!st && !why.code && !found.code && search.found.n_cords == 0 && is_range(options))
+    st = try_short(&search, true, &found);
 
   if (why.code) { /* of a component: there is no plan, perhaps of another one not even without the
                      limit */

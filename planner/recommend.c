@@ -43,7 +43,9 @@ typedef struct {
   const thr_frame *frame;
   thr_request request; /* with the ends, cords and aims of the trial */
   const thr_limits *limits;
-  double reach; /* rad that an end may have to overcome within the hand */
+  double reach;     /* rad that an end may have to overcome within the hand */
+  thr_plan easiest; /* of what was tried beyond the hand: the answer if the time ends the search */
+  thr_report easiest_report;
 } recommendation;
 
 /* Returns what the hardest end of the plan's cords has to overcome, rad; INFINITY without cords. */
@@ -169,8 +171,8 @@ static double limit_of(int cords, double hardest, int more, double less)
  * are at few feet more cords of the least length are short ones beside a long one: upwards it is
  * given up when two numbers in sequence have not lowered the pull, or when from the third on the
  * pull tends to more than the hand. */
-static thr_status try_numbers(const recommendation *of, int least, int most, int bare,
-                              thr_plan *plan, thr_report *report, thr_err *err)
+static thr_status try_numbers(recommendation *of, int least, int most, int bare, thr_plan *plan,
+                              thr_report *report, thr_err *err)
 {
   thr_status st = THR_OK;
   int beyond = least - 1, within = most + 1, cords = least, step = 1, idle = 0;
@@ -195,7 +197,10 @@ static thr_status try_numbers(const recommendation *of, int least, int most, int
     if (!fits && within > most && trial >= ENOUGH && isfinite(first) &&
         limit_of(least, first, cords, easiest) > of->reach * most_beyond)
       idle = MOST_IDLE;
-    if (fits) take(plan, report, &tried, &found);
+    if (fits)
+      take(plan, report, &tried, &found);
+    else if (!st && hardest < hardest_of(of, &of->easiest))
+      take(&of->easiest, &of->easiest_report, &tried, &found);
     if (fits) within = cords;
     if (!fits) beyond = cords;
     thr_plan_destroy(&tried);
@@ -352,6 +357,13 @@ thr_status thr_plan_recommended(const thr_frame *frame, const thr_request *reque
   st = of.reach < 0          ? THR_OK
        : options->ends_given ? with_ends(&of, request->ends, &shortest, plan, report, err)
                              : with_best_ends(&of, &shortest, plan, report, err);
+
+  /* The time is over: what was tried is easier to pull than the shortest cord. */
+  if (!st && plan->n_cords == 0 && thr_limits_stop(limits) &&
+      hardest_of(&of, &of.easiest) < hardest_of(&of, &shortest))
+    take(plan, report, &of.easiest, &of.easiest_report);
+  thr_plan_destroy(&of.easiest);
+  thr_report_destroy(&of.easiest_report);
 
   /* No number of cords stays within the hand: the shortest cord, if there is one. */
   thr_limits last = *limits;

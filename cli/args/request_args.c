@@ -623,31 +623,6 @@ int request_args_check(request_args *args, symmetry_args *symmetry, thr_request 
 
 /* ---- with the framework ---- */
 
-/* Limits the passes of each edge to as many as go through the bore, if the diameters of cord and
- * bore were both given. Symmetric plans are not limited so. Returns an exit code. */
-static int apply_bore(thr_request *request)
-{
-  const thr_physics *physics = &request->physics;
-  if (physics->bore == 0 || physics->cord_diameter == 0 || thr_wants_symmetry(request))
-    return EXIT_OK;
-  const int fit = thr_bore_fits(physics->bore, physics->cord_diameter);
-
-  /* Fewer than the cover needs: no plan exists. */
-  if (fit < request->cover) {
-    cli_error("%d %s of a cord of %g mm %s through a bore of %g mm with ease; --cover asks for %d",
-              fit, cli_plural(fit, "pass", "passes"), physics->cord_diameter,
-              fit == 1 ? "goes" : "go", physics->bore, request->cover);
-    return EXIT_INFEASIBLE;
-  }
-
-  /* The tighter of the two limits holds. */
-  if (request->capacity == 0 || fit < request->capacity) {
-    request->capacity = fit;
-  }
-
-  return EXIT_OK;
-}
-
 /* Sets request->max_pull, a factor on the seating tension, from --max-pull, --hand or
  * --cord-strength. Returns an exit code. */
 static int apply_pull(const request_args *args, thr_request *request)
@@ -763,8 +738,9 @@ int request_args_apply(const request_args *args, const thr_frame *frame, thr_req
   request->cover = cover_of(args);
 
   /* Limits that follow from cord and bead. */
-  int code = apply_bore(request);
-  if (!code) code = apply_pull(args, request);
+  thr_err err = {0};
+  if (thr_request_fit_bore(request, &err)) return cli_fail(&err);
+  int code = apply_pull(args, request);
   if (code) return code;
 
   apply_number(args, request);

@@ -132,6 +132,7 @@ typedef struct {
   int missing_blocks;     /* insertions of blocks that the file does not hold, left out */
   char missing_block[32]; /* the first one's name */
   thr_whence units_from;  /* nobody: they are taken to be mm */
+  char units_of_file[16]; /* what the file names, where the user says another unit; else "" */
   thr_whence up_from;     /* nobody: z is taken to point up */
   bool y_up;              /* y was taken to point up */
   bool lies; /* z was taken to point up, but it may be y: the structure seems to lie on its side */

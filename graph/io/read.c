@@ -166,9 +166,10 @@ static thr_status build(const thr_read_options *options, const char *name, thr_d
                        : draft->units[0] ? THR_FROM_FILE
                                          : THR_FROM_NOBODY;
 
-  if (options->units)
-    st = thr_draft_set_units(draft, options->units, &why);
-  else if (draft->other[0])
+  memcpy(report->units_of_file, draft->units, sizeof report->units_of_file);
+  if (options->units) st = thr_draft_set_units(draft, options->units, &why);
+  if (strcmp(draft->units, report->units_of_file) == 0) report->units_of_file[0] = '\0';
+  if (!options->units && draft->other[0])
     st = thr_fail(&why, THR_EINPUT,
                   "comments name two units of length, %s and %s; say which with --units",
                   draft->other, draft->units);

@@ -500,3 +500,23 @@ thr_turning_task thr_turning_task_of(const thr_frame *frame, const thr_request *
                             .cost = request->turning.cost,
                             .extra_limit = -1};
 }
+
+thr_status thr_request_fit_bore(thr_request *request, thr_err *err)
+{
+  const thr_physics *physics = &request->physics;
+  if (physics->bore == 0 || physics->cord_diameter == 0 || thr_wants_symmetry(request))
+    return THR_OK;
+  const int fit = thr_bore_fits(physics->bore, physics->cord_diameter);
+
+  /* Fewer than the cover needs: no plan exists. */
+  if (fit < request->cover)
+    return thr_fail(err, THR_EINFEASIBLE,
+                    "%d %s of a cord of %g mm %s through a bore of %g mm with ease; --cover asks "
+                    "for %d",
+                    fit, fit == 1 ? "pass" : "passes", physics->cord_diameter,
+                    fit == 1 ? "goes" : "go", physics->bore, request->cover);
+
+  /* The tighter of the two limits holds. */
+  if (request->capacity == 0 || fit < request->capacity) request->capacity = fit;
+  return THR_OK;
+}

@@ -271,6 +271,10 @@ static inline int thr_plan_capacity(const thr_frame *frame, const thr_request *o
   return options->capacity > 0 && options->capacity < own ? options->capacity : own;
 }
 
+/* Limits the capacity to what goes through the bore, if the diameters of cord and bore are both
+ * given. Symmetric plans are not limited so. THR_EINFEASIBLE: the cover needs more. */
+thr_status thr_request_fit_bore(thr_request *request, thr_err *err) THR_MUST_CHECK;
+
 /* ---- distinct_needs.c: Passes that edges need where several different cords are to pass each of
  * them. */
 

@@ -30,14 +30,13 @@ from __future__ import annotations
 
 import importlib
 import json
-import operator
 import os
 import signal
 import threading
 import warnings
 from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_size_t, c_void_p, sizeof
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, TypeVar, Union
+from typing import Any, Callable, Dict, Iterable, List, Literal, Mapping, Optional, Sequence, Tuple, TypeVar, Union
 
 from . import _library
 from ._library import BadInput, Error, Infeasible, NotProved, Violated
@@ -46,7 +45,13 @@ __all__ = ["BadInput", "Cord", "Error", "Frame", "Infeasible", "NotProved", "Pla
            "libraries", "parse", "read", "version"]
 
 Heard = Callable[[str, float, float], Optional[bool]]
-Ends = Union[str, Iterable[int], Mapping[int, int]]
+Ends = Union[Literal["closed", "any", "feet"], Iterable[int], Mapping[int, int]]
+Shape = Literal["dome", "geodesic", "tube", "sphere", "honeycomb", "row", "arch", "alternating"]
+Format = Literal["json", "obj", "csv", "ply", "dxf", "graphml"]
+Method = Literal["capstan", "joint", "structure"]
+Comparison = Literal["joint", "capstan", "structure", "all", "rise"]
+Document = Literal["svg", "pdf", "steps", "html", "steps.csv", "cords.csv", "beads.csv", "channels.csv", "obj", "dxf", "gltf", "mat",
+                   "compas", "sheets.html", "mat.html", "poster", "kit", "picture"]
 Path = Union[str, "os.PathLike[str]"]
 Words = Union[str, Sequence[str]]
 Physics = Union[str, Mapping[str, Any]]
@@ -71,7 +76,7 @@ class Cord:
     turning: float
     """rad, of all its turns on the way."""
     pull_start: float
-    """N at nodes[0]: 0 = not pulled there, inf = beyond all numbers."""
+    """N at nodes[0]: 0 = not pulled there, or after eval("structure") needed by nothing to stand; inf = beyond all numbers."""
     pull_end: float
     """N at nodes[-1]."""
     tension: Optional[List[float]]
@@ -80,8 +85,12 @@ class Cord:
     """On the way, the fewest by which a hand of 10 N seats every pass; None: not known."""
 
     def __repr__(self) -> str:
-        return "<Cord %s: %d passes from node %d to %d, %.6g long, pulled with %.3g and %.3g N>" % (
-            self.name, self.passes, *self.ends, self.length, self.pull_start, self.pull_end)
+        pulled = "pulled with %.3g and %.3g N" % (self.pull_start, self.pull_end)
+        return "<Cord %s: %d passes from node %d to %d, %.6g long, %s>" % (
+            self.name, self.passes, *self.ends, self.length, pulled if self.pull_start or self.pull_end else "stands unpulled")
+
+    def __hash__(self) -> int:  # of what cannot be hashed by itself, as nodes are a list, which numpy takes as indices
+        return hash((self.name, tuple(self.nodes)))
 
     @property
     def ends(self) -> Tuple[int, int]:
@@ -153,7 +162,8 @@ class _Owner:
 
 
 class Frame(_Owner):
-    """Nodes in space and edges between them, which are bead pieces.
+    """Nodes in space, which are bead pieces with an arm to the middle of each edge, and edges between them, the interfaces of two
+    pieces, which cords pass. (With tube=True each edge is a piece.)
 
     Frame(xyz, edges, units="mm"): xyz are n points of three numbers, edges pairs of nodes from 0; both are copied, and may be numpy
     arrays of n x 3 and m x 2. units: of the numbers: "mm", "cm", "m", "in" or "ft". BadInput: two nodes in one place, an edge given
@@ -167,10 +177,9 @@ class Frame(_Owner):
         if any(len(p) != 3 for p in points) or any(len(e) != 2 for e in pairs):
             raise BadInput(_library.BAD_INPUT, "a point has three coordinates, and an edge two nodes")
         flat = [float(x) for p in points for x in p]
-        nodes = [operator.index(v) for e in pairs for v in e]
         self._handle = c_void_p()
         _library.call(_library.lib.thread_frame_make, c_int(len(points)), (c_double * len(flat))(*flat), c_int(len(pairs)),
-                      (c_int * len(nodes))(*nodes), units.encode(), byref(self._handle))
+                      _library.ints("edges", (v for e in pairs for v in e)), units.encode(), byref(self._handle))
 
     def __reduce__(self) -> Any:
         return parse, (self.write("json"), "frame.json")
@@ -188,7 +197,7 @@ class Frame(_Owner):
         return frame
 
     @classmethod
-    def shape(cls, shape: str, size: int = 0) -> "Frame":
+    def shape(cls, shape: Shape, size: int = 0) -> "Frame":
         """An example: "dome", "geodesic", "sphere", "tube", "honeycomb", "row", "arch" or "alternating". size: what `thread make`
         counts, of a dome the nodes per side; 0 is the usual one. In mm. BadInput: no such shape or size."""
         return cls._made(_library.lib.thread_frame_shape, shape.encode(), c_int(size))
@@ -248,19 +257,25 @@ class Frame(_Owner):
         if isinstance(nodes, str):
             _library.call(_library.lib.thread_frame_set_feet_where, self._open(), nodes.encode())
             return self
-        feet = list(nodes)
-        if feet and all(type(v).__name__ in ("bool", "bool_") for v in feet) and len(feet) == len(self.nodes):
-            feet = [v for v, is_foot in enumerate(feet) if is_foot]
-        feet = [operator.index(v) for v in feet]
-        _library.call(_library.lib.thread_frame_set_feet, self._open(), c_int(len(feet)), (c_int * len(feet))(*feet))
+        feet = self._nodes("feet", nodes)
+        _library.call(_library.lib.thread_frame_set_feet, self._open(), c_int(len(feet)), feet)
         return self
+
+    def _nodes(self, name: str, nodes: Iterable[int]) -> Any:
+        """An array of C ints of nodes, or of a mask that has True or False for every node."""
+        given = list(nodes)
+        if given and all(type(v).__name__ in ("bool", "bool_") for v in given):
+            if len(given) != len(self.nodes):
+                raise BadInput(_library.BAD_INPUT, "%s: a mask of %d, but there are %d nodes" % (name, len(given), len(self.nodes)))
+            given = [v for v, is_one in enumerate(given) if is_one]
+        return _library.ints(name, given)
 
     def set_passes(self, edge: int, cover: int, capacity: int = 0) -> None:
         """Says how many passes an edge, from 0, needs (1 to 100), and how many fit through it (0 = any number). BadInput: no such
         edge, or capacity below cover."""
         _library.call(_library.lib.thread_frame_set_passes, self._open(), c_int(edge), c_int(cover), c_int(capacity))
 
-    def write(self, format: str = "json", path: Optional[Path] = None) -> bytes:
+    def write(self, format: Format = "json", path: Optional[Path] = None) -> bytes:
         """The bytes of the frame as "json", "obj", "csv", "ply", "dxf" or "graphml", which are also written to path, if there is one.
         BadInput: no such format."""
         return _kept(_library.received(_library.lib.thread_frame_write, self._open(), format.encode()), path)
@@ -273,22 +288,30 @@ class Frame(_Owner):
              threads: Optional[int] = None, request: Optional[Physics] = None) -> "Plan":
         """Makes the best plan that the time allows; Plan.proved says whether nothing is better, Plan.stopped whether it was ended.
 
-        If none of cords, aims and limits are said it is the recommended plan, as of `thread plan FRAME`: as few cords as `hand`
-        can pull. One that was stopped before some were found that it can is a StoppedWarning.
+        If of cords, aims, distinct, max_length, max_pull, gap and request nothing is said it is the recommended plan, as of
+        `thread plan FRAME`: as few cords as `hand` can pull, from the best ends, the shortest. One that was stopped before some
+        were found that it can is a StoppedWarning. Else it is what `thread plan FRAME` makes with the same options.
 
-        ends: "closed", "any", "feet" (set_feet), a list of nodes, or {node: number of ends}.
-        cords: exactly so many in every component, or (least, most).
-        aims: first, second, ..: "length", "turning", "max-turning", "pull", "longest", "overlap", "steps"; "length+5%,turning".
-        seconds: for the call; 0 = until it is proved.
-        cover, capacity: passes of every edge, from .. to; capacity 0 = any number.
-        distinct: different cords that pass every edge.
-        max_length: of a cord, in units of the frame. max_pull: at its ends, times the seating tension.
-        tube: only edges are pieces, and the cord ties them at every node.
-        physics: of cord and beads, {"mu": 0.3, "seating": 5} or as JSON.
-        hand: N that an end may need where cords are not said; 10 without.
-        gap: %, the search ends so near to its bound.
-        threads: processors that it may use; they change no result but of a search that time ends.
+        ends: "closed", "any", "feet" (set_feet), a list of nodes, a mask, or {node: number of ends}; of the recommended plan the
+            best ones if they are not said, else "closed".
+        cords: exactly so many in every component, 1 to 1000, or (least, most); without them as few as max_length and max_pull
+            take, else as many as distinct, else 1.
+        aims: first, second, ..: "length" (if nothing is said), "turning", "max-turning", "pull", "longest", "overlap", "steps",
+            "paths"; "length+5%,turning".
+        seconds: for the call; 0 = until it is proved. Without them 20, or until it is proved of the shortest cords.
+        cover, capacity: passes of every edge, from .. to; 1, or as many as distinct, to any number (0), or what goes through the
+            bore that physics say.
+        distinct: different cords that pass every edge, from 2; 0 = any.
+        max_length: of a cord, in units of the frame. max_pull: at its ends, times the seating tension, from 1. 0 = any.
+        tube: only edges are pieces, and the cord ties them at every node. False without.
+        physics: of cord and beads, {"mu": 0.3, "seating": 5} or as JSON. Without them mu 0.2 (cord on bead), seating 1 N (the
+            tension that is left in the slackest pass), and so on: Plan.json has all of them, `thread eval --help` explains them.
+        hand: N that an end of the recommended plan may need; 10 without, which a hand manages time after time.
+        gap: %, 0 to 100, the search ends so near to its bound.
+        threads: processors that it may use, 1 to 1000, 1 without; they change no result but of a search that time ends.
         request: all that is asked for, as "options" of a plan's JSON (Plan.json); the rest but seconds, gap and threads does not count.
+
+        A frame in several components is planned in one go: every component has cords of its own, as many as are said.
 
         BadInput: an option is wrong. Infeasible: there is no such threading. NotProved: nothing was found in time.
         """
@@ -311,7 +334,11 @@ class Frame(_Owner):
                capacity: Optional[int] = None, physics: Optional[Physics] = None, seconds: Optional[float] = None,
                threads: Optional[int] = None) -> Dict[str, Any]:
         """Plans for every number of cords and kind of ends that may be worth it, in numbers, as `thread advise --json` says it: "rows",
-        and in "recommended" which one of them, from 0, or None. Options as of plan(). NotProved: no row was found in time."""
+        and in "recommended" which one of them, from 0, or None: no row stays within "hand". Options as of plan(). NotProved: no row
+        was found in time. Of a row: "cords" in every component and their "ends"; "length" of all and "longest" cord, in units;
+        "max_turning", rad, of the cord that turns most, and the bound on it; "pull", "pull_low", "pull_high": N at the hardest end
+        with mu, mu_low and mu_high, both ends pulled, and "other_pull" at that cord's other end; "passes" of all cords, and "steps",
+        those that no symmetry repeats; "frontier": no other row is as good in cords, length and pull, and better in one."""
         return self._report("advice", None, progress, dict(
             hand=hand, cover=cover, capacity=capacity, physics=physics, seconds=seconds, threads=threads))
 
@@ -324,20 +351,23 @@ class Frame(_Owner):
             aims=aims, cover=cover, tube=tube, physics=physics, seconds=seconds, threads=threads))
 
     def _asked(self, ends: Optional[Ends], cords: Optional[Union[int, Tuple[int, int]]], options: Mapping[str, Any]) -> Any:
-        given = _library.filled(_library.PlanOptions(), _library.lib.thread_plan_options_init, options)
-        if cords is not None:
-            least, most = cords if isinstance(cords, (list, tuple)) else (cords, cords)
-            given.cords_least, given.cords = operator.index(least), operator.index(most)
+        least, most = cords if isinstance(cords, (list, tuple)) else (None, cords)
+        given = _library.filled(_library.PlanOptions(), _library.lib.thread_plan_options_init,
+                                dict(options, cords_least=least, cords=most))
         if isinstance(ends, str):
             if ends not in _ends:
                 raise BadInput(_library.BAD_INPUT, 'ends: %r is not "closed", "any", "feet", a list of nodes or numbers of ends' % ends)
             given.ends = _ends[ends]
         elif isinstance(ends, Mapping):
-            count = [int(ends.get(v, 0)) for v in range(len(self.nodes))]
-            given.ends, given.end_count = 4, (c_int * len(count))(*count)
+            count = [0] * len(self.nodes)
+            for v, n in zip(_library.ints("ends", ends), ends.values()):
+                if not 0 <= v < len(count):
+                    raise BadInput(_library.BAD_INPUT, "ends: there is no node %d, only 0 to %d" % (v, len(count) - 1))
+                count[v] = n
+            given.ends, given.end_count = 4, _library.ints("ends", count)
         elif ends is not None:
-            node = [operator.index(v) for v in ends]
-            given.ends, given.n_end_nodes, given.end_node = 3, len(node), (c_int * len(node))(*node)
+            node = self._nodes("ends", ends)
+            given.ends, given.n_end_nodes, given.end_node = 3, len(node), node
         return given
 
     def _report(self, what: str, ends: Optional[Ends], progress: Optional[Heard], options: Mapping[str, Any]) -> Dict[str, Any]:
@@ -366,9 +396,10 @@ class Plan(_Owner):
             return "<Plan, closed>"
         facts, n = self.summary, int(_library.lib.thread_plan_cords(self._open()))
         known = "proved the shortest" if facts.shortest else "proved the straightest" if facts.straightest else (
-            "stopped" if facts.stopped else "not proved")
-        return "<Plan: %d %s, %.7g %s, at most %.3g N at an end, %s>" % (
-            n, "cord" if n == 1 else "cords", facts.length, self.frame.units, facts.pull, known)
+            "not proved")
+        pulled = "at most %.3g N at an end" % facts.pull if facts.pull else "stands without any pull"
+        return "<Plan: %d %s, %.7g %s, %s, %s>" % (
+            n, "cord" if n == 1 else "cords", facts.length, self.frame.units, pulled, known + (", stopped" if facts.stopped else ""))
 
     @classmethod
     def read(cls, path: Path) -> "Plan":
@@ -419,10 +450,12 @@ class Plan(_Owner):
         """Verifies every claim of the plan without a solver; raises Violated, which says what is not true."""
         _library.call(_library.lib.thread_check, self._open())
 
-    def eval(self, method: str = "capstan", seconds: float = 0.0, progress: Optional[Heard] = None,
+    def eval(self, method: Method = "capstan", seconds: float = 0.0, progress: Optional[Heard] = None,
              threads: Optional[int] = None) -> "Plan":
-        """Puts pulls and tensions by "capstan" (the closed form), "joint" (joints measured in simulation) or "structure" (what holds
-        the pieces, by limit analysis) into the plan, which is returned; Plan.cords has them. seconds 0 = as long as it takes.
+        """Puts pulls and tensions by "capstan" (the closed form), "joint" (joints measured in simulation) or "structure" into the plan,
+        which is returned; Plan.cords has them. seconds 0 = as long as it takes. "capstan" and "joint": the pulls that leave the
+        seating tension in every pass. "structure": the least pulls at which the rigid pieces can stand while cords are drawn in,
+        by limit analysis; 0 N, in every pass, too, is true of what weight and friction hold by themselves.
         BadInput: no such method. NotProved: the time was too short; the plan is as it was."""
         given = _options(dict(seconds=float(seconds), threads=threads))
         status, error = _heard(given, progress, lambda text: int(_library.lib.thread_eval_with(
@@ -432,8 +465,16 @@ class Plan(_Owner):
         return self
 
     def rise(self, seconds: float = 0.0, progress: Optional[Heard] = None) -> Dict[str, Any]:
-        """Whether its pieces come up in simulation, pulled from flat on the ground, as `thread rise --json` says it: "came_up" and
-        "pull_up", N, of the one run in "runs". It takes a minute of a processor for 49 pieces. NotProved: nothing was seen in time."""
+        """Whether its pieces come up in simulation: laid flat on the ground, all ends of the cords pulled with a force that grows to
+        50 N, as `thread rise --json` says it. It takes a minute of a processor for 49 pieces. NotProved: nothing was seen in time.
+
+        "pieces": how many. "faces": passes of cords over faces between two pieces. "weight": N, of all pieces as they are printed.
+        "closed_form", "limit_analysis": N at every end, what seats every pass, and what the closed shape cannot stand below.
+        "seconds_a_frame": between two moments. "jam": where faces stay open, and what to try; not there if none do.
+        "runs": one. In it "came_up": all faces are closed in the end, and it is upright; "pull_up", "pull_down": N at every end at
+        which that was so, and below which it fell when it was let down; "most_closed": faces closed at once; "off": mm, of the
+        node farthest from the drawn shape; "tilt": degrees; "kink", "twist": degrees for every pass; "moments": rows of time in s,
+        N at every end, mm of cord drawn in, closed faces, mm of height, N of a hand that lifts."""
         return _reported(_options(dict(seconds=float(seconds))), progress, _library.lib.thread_report_plans,
                          byref(self._open()), c_int(1), b"rise")
 
@@ -445,11 +486,12 @@ class Plan(_Owner):
         """Writes the plan to a file. OSError."""
         _kept(self.json(), path)
 
-    def draw(self, type: str = "svg", path: Optional[Path] = None, progress: Optional[Heard] = None,
+    def draw(self, type: Document = "svg", path: Optional[Path] = None, progress: Optional[Heard] = None,
              seconds: float = 0.0) -> bytes:
         """The bytes of a document as `thread draw --type` makes it, which are also written to path, if there is one: "svg", "pdf" and
-        "sheets.html" (the booklet), "html" (the viewer), "steps", "steps.csv", "cords.csv", "beads.csv", "channels.csv", "obj", "gltf",
-        "dxf", "mat", "poster", "kit", "picture". BadInput: no such document, or the plan has not what it shows."""
+        "sheets.html" (the booklet), "html" (the viewer), "kit" (the pieces to print as 3MF: draw("kit", "kit.3mf"); `thread kit` with
+        the file of the plan makes STL, too, and other sizes), and the others of Document. BadInput: no such document, or the plan
+        has not what it shows."""
         given = _options(dict(seconds=float(seconds)))
         return _kept(_made(given, progress, _library.lib.thread_draw_with, self._open(), type.encode())[0], path)
 
@@ -529,9 +571,15 @@ def read(path: Path, *, edges: Optional[str] = None, units: Optional[str] = None
 
     OSError: it cannot be read. BadInput says where, what, and what to do.
     """
-    return Frame._made(_library.lib.thread_frame_read, os.fsencode(path), _read_options(dict(
-        edges=edges, units=units, weld=weld, scale=scale, flat=flat, up=up, split=split, pick=pick, part=part, all_layers=all_layers,
-        parallel=parallel, columns=columns)))
+    try:
+        return Frame._made(_library.lib.thread_frame_read, os.fsencode(path), _read_options(dict(
+            edges=edges, units=units, weld=weld, scale=scale, flat=flat, up=up, split=split, pick=pick, part=part, all_layers=all_layers,
+            parallel=parallel, columns=columns)))
+    except OSError:
+        for name in (path, edges):  # as Python says it: FileNotFoundError, PermissionError, ..
+            if name is not None:
+                open(name, "rb").close()
+        raise
 
 
 def parse(data: Union[str, bytes], name: str, *, units: Optional[str] = None, weld: Optional[float] = None,
@@ -549,11 +597,18 @@ def _read_options(options: Mapping[str, Any]) -> Any:
     return byref(_library.filled(_library.ReadOptions(), _library.lib.thread_read_options_init, options))
 
 
-def compare(plans: Sequence[Plan], method: str = "joint", seconds: float = 0.0, progress: Optional[Heard] = None,
+def compare(plans: Sequence[Plan], method: Comparison = "joint", seconds: float = 0.0, progress: Optional[Heard] = None,
             threads: Optional[int] = None) -> Dict[str, Any]:
     """Plans of one frame side by side, as `thread compare --json` says it: a row each in "plans", where they are called "plan 1", "plan
     2" and so on, and in "rankings" their order. method: "joint", "capstan", "structure", "all" of these, or "rise", of three runs each.
+    Of a row: lengths in units, "turning_deg" and what ends with _deg in degrees, what ends with _percent in percent; "largest_pull",
+    "other_pull", "total_pull": N by the closed form at the hardest end, the other end of that cord, all ends; "joint_pull" and so on
+    by simulated joints; "holding_pull": what the structure needs to stand; "rise_up" of "rise_runs" come up, at a median "rise_pull",
+    and fall below "rise_fall"; "rise_closed" of "rise_faces"; "frontier"; "best": the columns in which it is. None: not known.
     BadInput: no such method, or plans of different frames. NotProved: nothing was known in time."""
+    for plan in plans:
+        if not isinstance(plan, Plan):
+            raise TypeError("compare takes a list of plans: %r is none" % (plan,))
     handles = (c_void_p * len(plans))(*[plan._open() for plan in plans])
     what = "compare" if method == "joint" else "compare " + method
     return _reported(_options(dict(seconds=float(seconds), threads=threads)), progress, _library.lib.thread_report_plans, handles,

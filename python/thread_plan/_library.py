@@ -7,9 +7,10 @@ from __future__ import annotations
 
 import ctypes
 import json
+import operator
 import os
 from ctypes import POINTER, byref, c_char, c_char_p, c_double, c_int, c_size_t, c_void_p
-from typing import Any, Mapping
+from typing import Any, Iterable, Mapping
 
 OK, NO_MEMORY, IO, BAD_INPUT, INFEASIBLE, NOT_PROVED, SOLVER, VIOLATED = range(8)
 Progress = ctypes.CFUNCTYPE(c_int, c_void_p, c_char_p, c_double, c_double)
@@ -98,10 +99,28 @@ lib.thread_plan_frame.restype = c_void_p
 def encoded(value: Any) -> Any:
     """Text as bytes, a mapping as its JSON, a list of words with commas."""
     if isinstance(value, Mapping):
-        value = json.dumps(value)
+        # NaN and infinity become texts, so that the library says at which key there is no number.
+        value = json.dumps(json.loads(json.dumps(value), parse_constant=str))
     elif isinstance(value, (list, tuple)) and all(isinstance(word, str) for word in value):
         value = ",".join(value)
     return value.encode() if isinstance(value, str) else value
+
+
+def whole(name: str, value: Any) -> int:
+    """The integer, of any type that has integers, if a C int holds it. TypeError, BadInput."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError("%s: %r is no integer" % (name, value)) from None
+    if type(value).__name__ in ("bool", "bool_") or not -2**31 <= number < 2**31:
+        raise BadInput(BAD_INPUT, "%s: %r is no number of anything" % (name, value))
+    return number
+
+
+def ints(name: str, values: Iterable[Any]) -> Any:
+    """An array of C ints."""
+    numbers = [whole("%s[%d]" % (name, i), value) for i, value in enumerate(values)]
+    return (c_int * len(numbers))(*numbers)
 
 
 def call(function: Any, *args: Any) -> None:
@@ -151,8 +170,15 @@ def filled(options: Any, init: Any, given: Mapping[str, Any]) -> Any:
     for name, value in given.items():
         if value is None:
             continue
+        kind, usual = known[name], getattr(options, name)
         try:
-            setattr(options, name, encoded(value) if known[name] != c_char or not isinstance(value, bool) else bytes([value]))
+            if kind is c_int and name != "tube":
+                value = whole(name, value)
+            if kind in (c_int, c_double) and usual < 0 and value < 0:  # which says nothing in C
+                raise BadInput(BAD_INPUT, "%s: %r is below 0; without it what is usual is taken" % (name, value))
+            if kind is c_double and isinstance(value, bool):
+                raise BadInput(BAD_INPUT, "%s: %r is no number of anything" % (name, value))
+            setattr(options, name, bytes([value]) if kind is c_char and isinstance(value, bool) else encoded(value))
         except TypeError:
             raise TypeError("option %s: %r is no value for it" % (name, value)) from None
     return options

@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
 """The package thread_plan: what it gives beside what geometry says, and what it refuses. Says nothing if all is well."""
 import copy
+import errno
 import inspect
 import json
 import math
 import os
 import pickle
+import re
 import signal
 import tempfile
 import threading
 import time
+import typing
 import warnings
 
 import thread_plan
@@ -84,6 +87,8 @@ with tempfile.TemporaryDirectory() as folder:
     assert plan.draw("svg", os.path.join(folder, "a.svg")) == open(os.path.join(folder, "a.svg"), "rb").read()
     frame.write("obj", os.path.join(folder, "a.obj"))
     assert thread_plan.read(os.path.join(folder, "a.obj"), units="m", scale=2).nodes[1] == (60.0, 0.0, 0.0)
+told = "the file says that its unit is mm; units cm is taken instead"
+assert thread_plan.parse(frame.write(), "a.json", units="cm").notes == [told] and not thread_plan.parse(frame.write(), "a.json", units="mm").notes
 assert thread_plan.parse(frame.write("ply"), "a.ply").edges == SIDES
 lie = plan.json().replace(b'"length": 240', b'"length": 140')
 refused((thread_plan.Violated, thread_plan.BadInput), "length", lambda: thread_plan.Plan(lie).check())
@@ -143,6 +148,14 @@ assert repr(dome) == "<Frame: 49 nodes, 84 edges, 4 feet, in mm>" and dome.units
 assert repr(chosen).startswith("<Plan: %d cords, " % len(chosen.cords)) and repr(plan).endswith("proved the shortest>"), (chosen, plan)
 assert repr(cord).startswith("<Cord A: 6 passes from node "), cord
 
+# What stands by its weight and friction needs no pull, and says so.
+with warnings.catch_warnings():
+    warnings.simplefilter("error")
+    stands = Frame.shape("dome", 5).set_feet().plan(ends="feet").eval("structure")
+assert all((c.pull_start == c.pull_end == 0) == ("unpulled" in repr(c)) for c in stands.cords)
+assert ("stands without any pull" in repr(stands)) == (stands.summary.pull == 0) == (max(c.pull_start for c in stands.cords) == 0)
+assert len({cord, *plan.cords}) == 1 and {cord: 1}[plan.cords[0]] == 1
+
 # Copies are of their own; errors travel between processes.
 for made in (copy.copy(plan), copy.deepcopy(plan), pickle.loads(pickle.dumps(plan))):
     assert made.json() == plan.json() and made.proved == plan.proved
@@ -170,6 +183,68 @@ refused(thread_plan.BadInput, "three", lambda: Frame([(0, 0)], []))
 with Frame(SQUARE, SIDES) as lent:
     assert len(lent.edges) == 5
 refused(ValueError, "closed", lambda: lent.nodes)
+
+# Of a value that is no answer: its name, what was said, and what may be.
+NAN = float("nan")
+for asked, words in (
+        (dict(cords=0), "cords: 0 is not 1 to 1000"), (dict(cords=(0, 2)), "the least of cords: 0 is not 1 to"),
+        (dict(cords=True), "cords: True"), (dict(cords=-1), "cords: -1"), (dict(cords=10**12), "cords: 1000000000000"),
+        (dict(cover=0), "cover: 0 is not 1 to 100"), (dict(cover=3, capacity=2), "capacity: 2 leaves no room for cover 3"),
+        (dict(distinct=3, cover=2), "cover: 2, but distinct 3"), (dict(seconds=-1), "seconds: -1"), (dict(seconds=NAN), "seconds: nan"),
+        (dict(threads=0), "threads: 0 is not 1 to 1000"), (dict(hand=0), "hand: 0 is not a force above 0"), (dict(hand=NAN), "hand: nan"),
+        (dict(gap=-1), "gap: -1"), (dict(max_pull=0.5), "max_pull: 0.5 is not 1 or more"), (dict(max_length=NAN), "max_length: nan"),
+        (dict(physics={"mu": NAN}), "physics: mu: not a finite number; expected 0 to 2"),
+        (dict(physics={"seating": -1}), "physics: seating: -1 is out of range; expected more than 0 N"),
+        (dict(physics={"bore": 1, "cord_diameter": 2}), "0 passes of a cord of 2 mm go through a bore of 1 mm"),
+        (dict(ends=[True, False]), "ends: a mask of 2, but there are 49 nodes"), (dict(ends={99: 2}), "ends: there is no node 99, only 0 to 48"),
+        (dict(aims="beauty"), "there are length, longest, turning")):
+    refused((ValueError, thread_plan.Infeasible), words, lambda: dome.plan(**asked))
+for flags in ([True] * 48, [True] * 50):
+    refused(thread_plan.BadInput, "feet: a mask of %d, but there are 49 nodes" % len(flags), lambda: dome.set_feet(flags))
+refused(thread_plan.BadInput, "seconds: nan", lambda: plan.eval(seconds=NAN))
+refused(thread_plan.BadInput, "no method guess, only capstan, joint, structure", lambda: plan.eval("guess"))
+refused(thread_plan.BadInput, "no document stl, only svg, ", lambda: plan.draw("stl"))
+refused(thread_plan.BadInput, "no shape cube, only dome, ", lambda: Frame.shape("cube"))
+refused(thread_plan.BadInput, "step is no format that is written; these are: ", lambda: frame.write("step"))
+refused(TypeError, "plans: 'a' is none", lambda: thread_plan.compare(["a"]))
+for call, path in ((thread_plan.read, "no.obj"), (lambda path: thread_plan.read("no.obj", edges=path), "no.obj"), (thread_plan.Plan.read, "no.json")):
+    try:
+        call(path)
+    except FileNotFoundError as reason:
+        assert (reason.errno, reason.filename) == (errno.ENOENT, path), reason
+    else:
+        raise AssertionError("read what is not there")
+
+# The names that are typed are those that the library knows.
+for kind, call, before in (
+        (thread_plan.Shape, lambda: Frame.shape("?"), "only "), (thread_plan.Format, lambda: frame.write("?"), "these are: "),
+        (thread_plan.Method, lambda: plan.eval("?"), "only "), (thread_plan.Document, lambda: plan.draw("?"), "only "),
+        (thread_plan.Comparison, lambda: thread_plan.compare([plan], "?"), "and compare, ")):
+    try:
+        call()
+    except thread_plan.BadInput as reason:
+        known = re.split(", | and ", str(reason).split(before)[1].replace("compare ", ""))
+        assert sorted(typing.get_args(kind)) == sorted(known + ["joint"] * (kind == thread_plan.Comparison)), (kind, known)
+
+# A frame that is no frame: which node, which edge.
+for points, pairs, words in (
+        ([*SQUARE, (0, NAN, 0)], SIDES, "node 4 has a coordinate that is not a finite number"),
+        (SQUARE, [*SIDES, (3, 40)], "edge 5 names node 40, but there are 4 nodes"),
+        (SQUARE, [*SIDES, (3, 3)], "edge 5 has no length: it joins node 3 to itself"),
+        (SQUARE, [*SIDES, (2, 0)], "an edge is given twice: 4 and 5 join node 2 to node 0"),
+        ([*SQUARE, (30, -0.0, 0)], [*SIDES, (4, 3)], "two nodes are in one place: 1 and 4"),
+        ([*SQUARE, (9, 9, 9)], SIDES, "node 4 has no edge")):
+    refused(thread_plan.BadInput, words, lambda: Frame(points, pairs))
+
+# What time ends keeps the best of what was tried: beyond the hand, and within a limit on the pull.
+rings = [(math.pi / 6 * (1 + r), math.pi / 4 * k) for r in range(3) for k in range(8)]
+shell = Frame([(0, 0, 300), *((300 * math.sin(a) * math.cos(b), 300 * math.sin(a) * math.sin(b), 300 * math.cos(a)) for a, b in rings)],
+              [(1 + 8 * r + k, 1 + 8 * r + (k + 1) % 8) for r in range(3) for k in range(8)] + [(max(0, i - 8), i) for i in range(1, 25)])
+with warnings.catch_warnings():
+    warnings.simplefilter("ignore")
+    hasty = shell.set_feet().plan(physics={"mu": 0.3, "seating": 5}, seconds=2)
+assert hasty.summary.pull < 50 and (not hasty.stopped or repr(hasty).endswith("stopped>")), hasty
+assert all(c.pull_start <= 4 and c.pull_end <= 4 for c in shell.plan(max_pull=4, cords=(1, 6), seconds=8).cords)
 
 refused(thread_plan.BadInput, "ends[0]: there is no node 999", lambda: dome.plan(ends=[999]))
 refused(thread_plan.Infeasible, "with set_feet or ends", lambda: Frame(SQUARE, SIDES).plan(ends="feet"))

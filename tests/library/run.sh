@@ -72,6 +72,7 @@ package=$(dirname "$(find "$root" -path '*/thread_plan/__init__.py')")
 python() { PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$(dirname "$package") LIBTHREAD=$usr/lib/libthread.so.0 python3 "$@"; }
 python_example() { prints_length python "$examples/python/dome.py" "$out/python.svg"; }
 python_package() { python tests/library/package.py; }
+same_plans() { python tests/library/plans.py "$usr/bin/thread"; }
 same_advice() { # the rows of program and library, for three frames
   local shape
   for shape in 'dome --size 5' 'tube --size 6' 'honeycomb --size 2'; do
@@ -191,6 +192,7 @@ test_that 'texts name members, not options' library_words
 test_that 'the Python example prints the least length' python_example
 test_that 'C and Python draw the same picture' same_picture
 test_that 'the Python package does what it says' python_package
+test_that 'program and library plan the same' same_plans
 test_that 'program and library advise the same' same_advice
 if command -v mypy >/dev/null; then test_that 'the Python package is typed' python_types; fi
 test_that 'the wheel has the same files, and the same bytes twice' python_wheel

@@ -296,7 +296,7 @@ START_TEST(what_is_wrong_is_said)
   assert_refused(thread_frame_make(2, square_xyz, 1, far, NULL, &frame, &err), THREAD_BAD_INPUT,
                  &err, frame, "7");
   assert_refused(thread_frame_make(2, square_xyz, 2, doubled, NULL, &frame, &err), THREAD_BAD_INPUT,
-                 &err, frame, "twice");
+                 &err, frame, "twice: 0 and 1 join node 1 to node 0");
   assert_refused(thread_frame_make(3, square_xyz, 1, edge, NULL, &frame, &err), THREAD_BAD_INPUT,
                  &err, frame, "no edge");
   assert_refused(thread_frame_make(2, square_xyz, 1, edge, "furlong", &frame, &err),
@@ -337,6 +337,11 @@ START_TEST(what_is_wrong_is_said)
   o.gap = (double)NAN;
   assert_refused(thread_plan_make(good, &o, &plan, &err), THREAD_BAD_INPUT, &err, plan, "gap");
   o.gap = -1;
+  o.cords = 0; /* not said is less than that */
+  assert_refused(thread_plan_make(good, &o, &plan, &err), THREAD_BAD_INPUT, &err, plan,
+                 "cords: 0 is not 1 to 1000");
+  assert_refused(thread_report(good, "advice", &o, &bytes, NULL, &err), THREAD_BAD_INPUT, &err,
+                 bytes, "cords: 0");
   o.cords = 1;
   o.cover = o.capacity = 1; /* the odd nodes need an extra pass */
   assert_refused(thread_plan_make(good, &o, &plan, &err), THREAD_INFEASIBLE, &err, plan, "");
@@ -546,12 +551,12 @@ START_TEST(whoever_listens_hears_of_every_search)
     int cords, tube;
     thread_ends ends;
     double max_pull, max_length;
-  } search[] = {{.cords = 0, .ends = THREAD_UNSAID},
+  } search[] = {{.cords = -1, .ends = THREAD_UNSAID},
                 {"turning", 4, .ends = THREAD_FEET},
                 {"max-turning", 4, .ends = THREAD_FEET},
                 {"pull", 3, .ends = THREAD_ANY},
                 {"longest", 20, .ends = THREAD_ANY},
-                {"overlap,steps", .ends = THREAD_ANY},
+                {"overlap,steps", -1, .ends = THREAD_ANY},
                 {"length", 1, .tube = 1, .ends = THREAD_ANY},
                 {NULL, 6, .ends = THREAD_ANY, .max_length = 600}};
   thread_error err;
@@ -565,7 +570,7 @@ START_TEST(whoever_listens_hears_of_every_search)
     thread_plan_options_init(&o, sizeof o);
     o.aims = search[i].aims;
     o.cords = search[i].cords;
-    o.cords_least = search[i].max_length > 0;
+    if (search[i].max_length > 0) o.cords_least = 1;
     o.tube = search[i].tube;
     o.ends = search[i].ends;
     o.max_length = search[i].max_length;
@@ -605,7 +610,7 @@ START_TEST(seconds_are_kept)
     o.seconds = time;
     if (i < 8) {
       o.aims = aims[i / 2];
-      o.cords = i < 2 ? 0 : 4;
+      o.cords = i < 2 ? -1 : 4;
     }
     const thread_status st = i < 8 ? thread_plan_make(frame, &o, &plan, &err)
                                    : thread_report(frame, "advice", &o, &bytes, NULL, &err);
