@@ -10,7 +10,6 @@
  * Example: a cord that turns by 360 degrees, mu = 0.2, seating tension 1 N, pulled at one end: 1 N
  * x exp(0.2 x 2 pi) = 3.5 N. */
 #include "eval/eval.h"
-#include "eval/structure/beads.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan_measures.h"
 
@@ -247,20 +246,4 @@ thr_status thr_eval_holding_factor(const thr_plan *plan, const thr_evaluation *e
   if (!st && isinf(*times) && thr_frame_feet(&plan->frame) == 0) *times = NAN;
 
   return st;
-}
-
-double thr_eval_weight(const thr_frame *frame, const thr_physics *physics)
-{
-  thr_physics resolved;
-  thr_beads beads = {0};
-  thr_err unknown;
-  double weight = 0;
-  thr_status st = thr_physics_resolve(physics, frame, &resolved, &unknown);
-  if (!st) st = thr_beads_make(frame, &resolved, &beads, &unknown);
-
-  for (int v = 0; v < beads.n_beads; v++)
-    weight += beads.mass[v] * resolved.gravity;
-  thr_beads_destroy(&beads);
-
-  return st ? NAN : weight;
 }
