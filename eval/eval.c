@@ -246,19 +246,3 @@ thr_status thr_eval_holding_factor(const thr_plan *plan, const thr_evaluation *e
 
   return st;
 }
-
-double thr_eval_weight(const thr_frame *frame, const thr_physics *physics)
-{
-  thr_physics resolved;
-  thr_beads beads = {0};
-  thr_err unknown;
-  double weight = 0;
-  thr_status st = thr_physics_resolve(physics, frame, &resolved, &unknown);
-  if (!st) st = thr_beads_make(frame, &resolved, &beads, &unknown);
-
-  for (int v = 0; v < beads.n_beads; v++)
-    weight += beads.mass[v] * resolved.gravity;
-  thr_beads_destroy(&beads);
-
-  return st ? NAN : weight;
-}

@@ -150,11 +150,6 @@ thr_status thr_eval_holds_from(const thr_frame *frame, const thr_cord *cord,
 thr_status thr_eval_holding_factor(const thr_plan *plan, const thr_evaluation *evaluation,
                                    double *times, thr_err *err) THR_MUST_CHECK;
 
-/* Returns the weight of all pieces as the limit analysis takes them, N: solid, of the density or
- * the mass that physics say; sizes that physics leave open are worked out. The pull that holds
- * pieces is in proportion to it. NAN where sizes are not known in mm. O(n). */
-double thr_eval_weight(const thr_frame *frame, const thr_physics *physics);
-
 /* ---- The three methods, called by thr_eval_plan with resolved physics (out->record.physics) and
  * record.cord allocated. Private to eval/. */
 

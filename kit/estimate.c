@@ -178,3 +178,10 @@ thr_status thr_kit_estimate_make(thr_kit_estimate *estimate, const thr_plan *pla
 
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
 }
+
+double thr_kit_weight(const thr_kit_estimate *estimate, const thr_physics *physics)
+{
+  const double mass = physics->bead_mass > 0 ? physics->bead_mass * estimate->pieces
+                                             : estimate->volume * physics->density / 1000;
+  return mass / 1000 * physics->gravity;
+}

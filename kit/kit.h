@@ -377,6 +377,10 @@ typedef struct {
 thr_status thr_kit_estimate_make(thr_kit_estimate *estimate, const thr_plan *plan,
                                  thr_err *err) THR_MUST_CHECK;
 
+/* Returns what all pieces of an estimate weigh, N: solid, of the mass that physics give each, else
+ * of their density. The pull that holds pieces is in proportion to it. 0 where it is not known. */
+double thr_kit_weight(const thr_kit_estimate *estimate, const thr_physics *physics);
+
 /* Fills volume with that of all pieces in mm3, sampled within 1 % from their shapes. The kit needs
  * no meshes. THR_ENOMEM. */
 thr_status thr_kit_sampled_volume(const thr_kit *kit, double *volume, thr_err *err) THR_MUST_CHECK;

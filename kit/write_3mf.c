@@ -21,9 +21,12 @@ static const double BETWEEN = 30;
 
 /* ---- ZIP ---- */
 
-/* A package that grows member by member. */
+/* A package that grows member by member, and its last member, which grows piece by piece. */
 typedef struct {
-  thr_text *out, directory;
+  thr_text *out, directory, piece; /* piece: what is not yet compressed */
+  size_t begin, at, length; /* in out: the package, the member; bytes of the member that are */
+  uint32_t checksum;        /* of these */
+  thr_deflater *deflater;   /* NULL between members */
   int n_members;
 } package;
 
@@ -46,58 +49,81 @@ void thr_kit_number(thr_text *out, uint64_t value, int bytes)
     thr_text_byte(out, (char)(value & 0xff));
 }
 
-/* Adds a member: its head and bytes to the file, its entry to the directory. */
-static thr_status add_member(package *zip, const char *name, const thr_text *bytes, thr_err *err)
+/* Begins a member, whose bytes are put into the piece. Its checksum and sizes are left 0. */
+static thr_status begin_member(package *zip, const char *name, thr_err *err)
 {
-  /* A stream of zlib is two bytes of heading, what ZIP calls deflated, and four bytes of checksum.
-   */
-  thr_text small = {0};
-  thr_status st = bytes->failed ? thr_nomem(err) : thr_deflate_load(err);
-  if (!st) st = thr_deflate(bytes->data, bytes->length, THR_DEFLATE_FAST, &small, err);
-  size_t length = st ? 0 : small.length - 6;
-  size_t at = zip->out->length;
-  if (!st && at + bytes->length + length > UINT32_MAX / 2)
+  thr_text *out = zip->out;
+  zip->at = out->length;
+  zip->length = zip->checksum = 0;
+
+  /* Version, flags, method, time and date, checksum, sizes, lengths of names. */
+  thr_text_append_bytes(out, "PK\3\4", 4);
+  thr_kit_number(out, 20, 2);
+  thr_kit_number(out, 0, 2);
+  thr_kit_number(out, 8, 2);
+  thr_kit_number(out, 0, 2);
+  thr_kit_number(out, 1 << 5 | 1, 2); /* the first of January of 1980 */
+  thr_kit_number(out, 0, 12);
+  thr_kit_number(out, strlen(name), 2);
+  thr_kit_number(out, 0, 2);
+  thr_text_append(out, name);
+  return thr_deflater_make(&zip->deflater, THR_DEFLATE_FAST, true, err);
+}
+
+/* Compresses the piece, and empties it. */
+static thr_status put_piece(package *zip, bool last, thr_err *err)
+{
+  thr_text *piece = &zip->piece;
+  if (piece->failed) return thr_nomem(err);
+  zip->checksum = thr_kit_checksum(zip->checksum, piece->data, piece->length);
+  zip->length += piece->length;
+  thr_status st = thr_deflater_put(zip->deflater, piece->data, piece->length, last, zip->out, err);
+  piece->length = 0;
+  if (!st && zip->length + zip->out->length > UINT32_MAX / 2)
     st = thr_fail(err, THR_EINPUT, "kit.3mf would have more than 2 GB: write STL instead");
-
-  if (!st) {
-    /* What both entries say: version, flags, method, time and date, checksum, sizes, names. */
-    thr_text entry = {0};
-    thr_kit_number(&entry, 20, 2);
-    thr_kit_number(&entry, 0, 2);
-    thr_kit_number(&entry, 8, 2);
-    thr_kit_number(&entry, 0, 2);
-    thr_kit_number(&entry, 1 << 5 | 1, 2); /* the first of January of 1980 */
-    thr_kit_number(&entry, thr_kit_checksum(0, bytes->data, bytes->length), 4);
-    thr_kit_number(&entry, length, 4);
-    thr_kit_number(&entry, bytes->length, 4);
-    thr_kit_number(&entry, strlen(name), 2);
-    thr_kit_number(&entry, 0, 2);
-
-    thr_text_append_bytes(zip->out, "PK\3\4", 4);
-    thr_text_append_bytes(zip->out, entry.data, entry.failed ? 0 : entry.length);
-    thr_text_append(zip->out, name);
-    thr_text_append_bytes(zip->out, small.data + 2, length);
-
-    /* In the directory also: no comment, first disk, no attributes, where the member is. */
-    thr_text *directory = &zip->directory;
-    thr_text_append_bytes(directory, "PK\1\2", 4);
-    thr_kit_number(directory, 20, 2);
-    thr_text_append_bytes(directory, entry.data, entry.failed ? 0 : entry.length);
-    thr_kit_number(directory, 0, 10);
-    thr_kit_number(directory, at, 4);
-    thr_text_append(directory, name);
-    zip->n_members++;
-    if (entry.failed) st = thr_nomem(err);
-    thr_text_destroy(&entry);
-  }
-  thr_text_destroy(&small);
   return st;
+}
+
+/* Ends the member: its checksum and sizes, and its entry in the directory. */
+static thr_status end_member(package *zip, const char *name, thr_err *err)
+{
+  enum { HEAD = 30, SAME = 26, NUMBERS = 14 }; /* bytes: all, those of both entries; to the sums */
+  thr_status st = put_piece(zip, true, err);
+  thr_deflater_destroy(zip->deflater);
+  zip->deflater = NULL;
+  if (st) return st;
+
+  char *head = zip->out->data + zip->at;
+  const uint64_t known[] = {zip->checksum, zip->out->length - zip->at - HEAD - strlen(name),
+                            zip->length};
+  for (int i = 0; i < 12; i++)
+    head[NUMBERS + i] = (char)(known[i / 4] >> 8 * (i % 4) & 0xff);
+
+  /* In the directory also: no comment, first disk, no attributes, where the member is. */
+  thr_text *directory = &zip->directory;
+  thr_text_append_bytes(directory, "PK\1\2", 4);
+  thr_kit_number(directory, 20, 2);
+  thr_text_append_bytes(directory, head + HEAD - SAME, SAME);
+  thr_kit_number(directory, 0, 10);
+  thr_kit_number(directory, zip->at - zip->begin, 4);
+  thr_text_append(directory, name);
+  zip->n_members++;
+  return THR_OK;
+}
+
+/* Adds a member that is short. */
+static thr_status add_member(package *zip, const char *name, const char *text, thr_err *err)
+{
+  thr_status st = begin_member(zip, name, err);
+  thr_text_append(&zip->piece, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+  thr_text_append(&zip->piece, text);
+  return st ? st : end_member(zip, name, err);
 }
 
 /* Ends the file with the directory. */
 static void end_package(package *zip)
 {
-  size_t at = zip->out->length, length = zip->directory.length;
+  size_t at = zip->out->length - zip->begin, length = zip->directory.length;
   thr_text_append_bytes(zip->out, zip->directory.data, length);
   thr_text_append_bytes(zip->out, "PK\5\6", 4);
   thr_kit_number(zip->out, 0, 4);
@@ -190,13 +216,14 @@ static bool is_on(const thr_kit_plates *plates, int p, int plate)
   return plate < 0 || plates->plate[p] == plate;
 }
 
-/* Appends the objects: a mesh each that is on the plate, called as its kind; one that no other
+/* Writes the objects: a mesh each that is on the plate, called as its kind; one that no other
  * piece shares, as its kind and piece. The number of an object is that of its kind. used: scratch,
  * [n_pieces] all false. */
-static thr_status put_objects(const thr_kit_plates *plates, int plate, bool *used, thr_text *xml,
+static thr_status put_objects(const thr_kit_plates *plates, int plate, bool *used, package *zip,
                               thr_err *err)
 {
   const thr_kit *kit = plates->kit;
+  thr_text *xml = &zip->piece;
   thr_status st = THR_OK;
   for (int p = 0; p < kit->n_pieces; p++)
     used[kit->piece[p].like] |= is_on(plates, p, plate);
@@ -216,6 +243,7 @@ static thr_status put_objects(const thr_kit_plates *plates, int plate, bool *use
     thr_text_append(xml, "\">\n");
     st = put_mesh(&kit->mesh[p], xml, err);
     thr_text_append(xml, "  </object>\n");
+    if (!st) st = put_piece(zip, false, err);
   }
   return st;
 }
@@ -245,51 +273,54 @@ static void put_items(const thr_kit_plates *plates, int plate, thr_text *xml)
   }
 }
 
+/* Writes the model, object by object: its XML is four times as long as the file. */
+static thr_status put_model(const thr_kit_plates *plates, int plate, package *zip, thr_err *err)
+{
+  thr_text *xml = &zip->piece;
+  bool *used = thr_calloc((size_t)plates->kit->n_pieces, sizeof *used);
+  thr_status st = used ? begin_member(zip, "3D/3dmodel.model", err) : thr_nomem(err);
+  thr_text_append(xml, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                       "<model unit=\"millimeter\" xml:lang=\"en-US\" "
+                       "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n"
+                       " <metadata name=\"Application\">thread</metadata>\n <resources>\n");
+  if (!st) st = put_objects(plates, plate, used, zip, err);
+  free(used);
+  thr_text_append(xml, " </resources>\n <build>\n");
+  put_items(plates, plate, xml);
+  thr_text_append(xml, " </build>\n</model>\n");
+  return st ? st : end_member(zip, "3D/3dmodel.model", err);
+}
+
 thr_status thr_kit_3mf(const thr_kit_plates *plates, int plate, thr_text *out, thr_err *err)
 {
-  static const char head[] = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
-  thr_text types = {0}, links = {0}, model = {0};
-  thr_text_append(&types, head);
-  thr_text_append(&types,
-                  "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">\n"
-                  " <Default Extension=\"rels\" "
-                  "ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>\n"
-                  " <Default Extension=\"model\" "
-                  "ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/>\n"
-                  "</Types>\n");
-  thr_text_append(&links, head);
-  thr_text_append(
-      &links,
-      "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">\n"
-      " <Relationship Id=\"model\" Target=\"/3D/3dmodel.model\" "
-      "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/>\n"
-      "</Relationships>\n");
-
-  thr_text_append(&model, head);
-  thr_text_append(&model, "<model unit=\"millimeter\" xml:lang=\"en-US\" "
-                          "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n"
-                          " <metadata name=\"Application\">thread</metadata>\n <resources>\n");
-  bool *used = thr_calloc((size_t)plates->kit->n_pieces, sizeof *used);
-  thr_status st = used ? put_objects(plates, plate, used, &model, err) : thr_nomem(err);
-  free(used);
-  thr_text_append(&model, " </resources>\n <build>\n");
-  put_items(plates, plate, &model);
-  thr_text_append(&model, " </build>\n</model>\n");
-
-  /* The package is a text of its own until nothing can fail any more. */
-  thr_text whole = {0};
-  package zip = {.out = &whole};
-  if (!st) st = add_member(&zip, "[Content_Types].xml", &types, err);
-  if (!st) st = add_member(&zip, "_rels/.rels", &links, err);
-  if (!st) st = add_member(&zip, "3D/3dmodel.model", &model, err);
+  package zip = {.out = out, .begin = out->length};
+  thr_status st = thr_deflate_load(err);
+  if (!st)
+    st = add_member(
+        &zip, "[Content_Types].xml",
+        "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">\n"
+        " <Default Extension=\"rels\" "
+        "ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>\n"
+        " <Default Extension=\"model\" "
+        "ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/>\n"
+        "</Types>\n",
+        err);
+  if (!st)
+    st = add_member(
+        &zip, "_rels/.rels",
+        "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">\n"
+        " <Relationship Id=\"model\" Target=\"/3D/3dmodel.model\" "
+        "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/>\n"
+        "</Relationships>\n",
+        err);
+  if (!st) st = put_model(plates, plate, &zip, err);
   if (!st) end_package(&zip);
-  if (!st && (whole.failed || zip.directory.failed)) st = thr_nomem(err);
-  if (!st) thr_text_append_bytes(out, whole.data, whole.length);
+  if (!st && (out->failed || zip.directory.failed)) st = thr_nomem(err);
 
-  thr_text_destroy(&whole);
+  /* After a failure nothing has been appended. */
+  if (st && out->data) out->data[out->length = zip.begin] = '\0';
+  thr_deflater_destroy(zip.deflater);
+  thr_text_destroy(&zip.piece);
   thr_text_destroy(&zip.directory);
-  thr_text_destroy(&types);
-  thr_text_destroy(&links);
-  thr_text_destroy(&model);
   return st;
 }

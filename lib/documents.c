@@ -217,7 +217,6 @@ static thr_status find_pulls(const thr_plan *plan, thr_eval *eval, thr_sheets_op
     pulls = options->pulls = &eval->record;
   }
 
-  options->weight = thr_eval_weight(&plan->frame, &pulls->physics);
   return thr_eval_holding_factor(plan, pulls, &options->holding, err);
 }
 
@@ -241,6 +240,8 @@ static thr_status find_sizes(const thr_plan *plan, thr_sheets_options *options, 
   const thr_status estimated = thr_kit_estimate_make(&kit, plan, err);
   options->no_mat = st != THR_OK;
   options->too_large = !estimated && kit.volume > 0 && kit.refused.code;
+  options->weight =
+      thr_kit_weight(&kit, &(options->pulls ? options->pulls : &plan->evaluation)->physics);
   return estimated;
 }
 

@@ -100,10 +100,13 @@ static void put_holds(const thr_plan *plan, double seats, double holds, thr_text
   plain_put_hand(text, holds);
 
   /* What holds is in proportion to the weight, which a maker can change. */
-  if (holds > thr_hand_most) {
-    const double weight = thr_eval_weight(&plan->frame, &plan->options.physics);
-    thr_text_printf(text, ":\n         the pieces, with square arms, weigh %s N in all (",
-                    thr_plain_newtons(weight, force));
+  thr_kit_estimate kit;
+  thr_err unknown;
+  const bool weighed = holds > thr_hand_most && !thr_kit_estimate_make(&kit, plan, &unknown);
+  const double weight = weighed ? thr_kit_weight(&kit, &plan->options.physics) : 0;
+  if (weight > 0) {
+    thr_text_printf(text, ":\n         the pieces weigh about %s in all (",
+                    plain_force(weight, force));
     plain_put_material(text, &plan->options.physics);
     thr_text_append(text, "); hollow pieces or a smaller scale take less, a scaffold carries them");
   }

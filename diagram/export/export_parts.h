@@ -164,13 +164,26 @@ void thr_svg_sheet_apply(const thr_svg_sheet *sheet, const thr_svg_element *cons
 
 void thr_svg_sheet_destroy(thr_svg_sheet *sheet);
 
-/* ---- deflate.c: bytes compressed for a PDF (FlateDecode) by zlib ---- */
+/* ---- deflate.c: bytes compressed by zlib ---- */
 
-/* Loads zlib. To be called before the first thr_deflate, in one thread. */
+/* Loads zlib. To be called before the others, in one thread. */
 thr_status thr_deflate_load(thr_err *err) THR_MUST_CHECK;
 
 /* Levels of zlib, of 9: a small result takes two to four times as long for a tenth less. */
 typedef enum { THR_DEFLATE_FAST = 1, THR_DEFLATE_SMALL = 6 } thr_deflate_level;
+
+/* Bytes that are compressed as they come, so that they are never held as a whole. Owned, NULL after
+ * a failure; thr_deflater_destroy takes NULL. raw: as in a ZIP file (RFC 1951), else a zlib stream
+ * (RFC 1950). THR_ENOMEM. */
+typedef struct thr_deflater thr_deflater;
+thr_status thr_deflater_make(thr_deflater **out, thr_deflate_level level, bool raw,
+                             thr_err *err) THR_MUST_CHECK;
+
+/* Compresses n bytes more, and appends what is ready; last: nothing follows. The same bytes give
+ * the same stream, however they are parted. THR_ENOMEM. */
+thr_status thr_deflater_put(thr_deflater *deflater, const char *bytes, size_t n, bool last,
+                            thr_text *out, thr_err *err) THR_MUST_CHECK;
+void thr_deflater_destroy(thr_deflater *deflater);
 
 /* Appends bytes as a zlib stream (RFC 1950). The same bytes give the same stream. Any thread.
  * THR_ENOMEM. */

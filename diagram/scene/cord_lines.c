@@ -2,9 +2,10 @@
 /* Computes where a cord runs in space: as a line through the nodes, or with a lane for each of its
  * passes.
  *
- * The lanes of an edge lie side by side in a level direction (unless the edge is upright),
- * `spacing` apart and symmetric about the edge; each takes the middle 0.7 of the edge. Between two
- * lanes the cord runs straight. */
+ * The lanes of an edge that has several passes lie side by side in a level direction (unless the
+ * edge is upright), `spacing` apart and symmetric about the edge; each takes the middle 0.7 of the
+ * edge. Between two lanes the cord runs straight. A pass that is alone lies on its edge, from node
+ * to node. */
 #include "diagram/scene/scene.h"
 
 #include "graph/number.h"
@@ -82,7 +83,7 @@ static void across(const double along[3], double out[3])
   thr_normalize(out);
 }
 
-/* Appends the two ends of the straight part of a pass in its lane. */
+/* Appends the two ends of the straight part of a pass in its lane, of two or more. */
 static void put_lane(thr_cord_lines *lines, int half)
 {
   const thr_frame *frame = &lines->plan->frame;
@@ -93,7 +94,7 @@ static void put_lane(thr_cord_lines *lines, int half)
                apart = sqrt(thr_dot(along, along));
 
   /* On short edges all lanes keep within half the edge's length. Passes take lanes as they come. */
-  const double step = n > 1 ? fmin(lines->spacing, apart / 2 / (n - 1)) : 0,
+  const double step = fmin(lines->spacing, apart / 2 / (n - 1)),
                shift = step * (lines->seen[e]++ - (n - 1) / 2.0);
 
   double normal[3];
@@ -117,11 +118,15 @@ void thr_cord_lines_next(thr_cord_lines *lines, int c)
   lines->n_points = 0;
   put(lines, frame->xyz[thr_cord_start(frame, cord)]);
 
-  /* With lanes the nodes between are left out: only the last one ends the cord. */
+  /* Between two lanes the node is left out. */
+  bool at_node = true;
   for (int k = 0; k < cord->n_passes; k++) {
-    const int head = thr_head(frame, cord->half[k]);
-    if (lines->options.lanes) put_lane(lines, cord->half[k]);
-    if (!lines->options.lanes || k + 1 == cord->n_passes) put(lines, frame->xyz[head]);
+    const int half = cord->half[k];
+    const bool lane = lines->options.lanes && lines->passes[half >> 1] > 1;
+    if (!lane && !at_node) put(lines, frame->xyz[thr_tail(frame, half)]);
+    if (lane) put_lane(lines, half);
+    at_node = !lane || k + 1 == cord->n_passes;
+    if (at_node) put(lines, frame->xyz[thr_head(frame, half)]);
   }
 }
 

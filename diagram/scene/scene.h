@@ -513,8 +513,8 @@ thr_status thr_cord_lines_begin(thr_cord_lines *lines, const thr_plan *plan,
                                 const thr_line_options *options, thr_err *err) THR_MUST_CHECK;
 
 /* Sets point and n_points to those of cord c; cords are asked for in order. Without lanes the nodes
- * along the cord; with lanes the node where it starts, two points for each pass, side by side with
- * those of other passes on the edge, and the node where it ends. */
+ * along the cord; with lanes, of an edge with several passes two points for each pass, side by
+ * side, and no node between two of these. */
 void thr_cord_lines_next(thr_cord_lines *lines, int c);
 
 /* Turns xyz as the options say which way is up. */

@@ -39,7 +39,7 @@ typedef struct {
                                   nothing; borrowed */
   double holding;              /* times the pulls, from where the pieces hold while the cords are
                                   drawn in (eval/eval.h); at most 1, or NAN: not said */
-  double weight;               /* N, of all pieces, where holding is more than a hand does; NAN: not
+  double weight;               /* N, of all pieces, where holding is more than a hand does; 0: not
                                   said */
   bool no_mat, too_large;      /* a mat of true size takes too many pages; some pieces are larger
                                   than a printer's usual bed */

@@ -242,7 +242,7 @@ static void put_order(thr_flow *flow, const thr_known *known, double width, cons
   put_making(known, &words);
   put_item(flow, width, ++n, &words);
   if (first[THR_SHEET_NAMES] >= 0) {
-    thr_text_printf(&words, "Put its name on every piece, if none is engraved: page %d.",
+    thr_text_printf(&words, "Cut out the names of the pieces, if none is engraved: page %d.",
                     first[THR_SHEET_NAMES] + 2);
     put_item(flow, width, ++n, &words);
   }

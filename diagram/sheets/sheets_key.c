@@ -174,7 +174,7 @@ void thr_sheets_key(thr_sheets *sheets)
 {
   const thr_known *known = &sheets->known;
   thr_flow *flow = &sheets->flow;
-  char title[96];
+  char title[96], rest[96] = "";
   const thr_pieces *pieces = &known->pieces;
   int cards = 0;
   double width = (thr_sheets_width(flow) - (CARDS - 1) * AIR) / CARDS;
@@ -185,9 +185,14 @@ void thr_sheets_key(thr_sheets *sheets)
   /* Kinds that rows call by their places have no cards, nor have those beyond a number. */
   for (int k = 1; k <= pieces->n_kinds; k++)
     cards += !thr_pieces_alone(pieces, k);
-  const bool many = cards > MOST_CARDS;
-  cards = many ? MOST_CARDS : cards;
   if (!cards) return;
+  if (cards > MOST_CARDS)
+    snprintf(rest, sizeof rest, " %d kinds are drawn, the other %d are in the table of beads.",
+             MOST_CARDS, pieces->n_kinds - MOST_CARDS);
+  else if (cards < pieces->n_kinds)
+    snprintf(rest, sizeof rest,
+             " Kinds of one piece, which rows call by its place: the table of beads.");
+  if (cards > MOST_CARDS) cards = MOST_CARDS;
   snprintf(title, sizeof title, "The %d %s: %d kind%s", pieces->n,
            thr_pieces_word(known->plan, pieces->n), pieces->n_kinds,
            pieces->n_kinds == 1 ? "" : "s");
@@ -199,11 +204,7 @@ void thr_sheets_key(thr_sheets *sheets)
                  "%s Numbers: arms from the hub to the face, in %.15s.%s",
                  known->in_space ? "Each turned so that its arms are told best."
                                  : "Outer side up, as in the picture.",
-                 known->f->units,
-                 many                      ? " The other kinds: the table of beads."
-                 : cards < pieces->n_kinds ? " Kinds of one piece, which rows call by its place: "
-                                             "the table of beads."
-                                           : "");
+                 known->f->units, rest);
 
   /* Kinds count from 1. */
   for (int k = 1, card = 0; k <= pieces->n_kinds && card < cards && !flow->why.code; k++) {

@@ -170,7 +170,8 @@ static void put_holding(thr_flow *flow, const thr_known *known)
   thr_svg_force(times * known->evaluation->largest, hardest);
   thr_svg_force(known->o.weight, weight);
   if (known->o.weight > 0)
-    snprintf(heavy, sizeof heavy, ", as the pieces weigh %s in all if they are solid", weight);
+    snprintf(heavy, sizeof heavy, ", as the pieces weigh about %s in all if they are solid",
+             weight);
 
   if (isfinite(times) && is_held_by_hand(known))
     thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,

@@ -290,10 +290,13 @@ static void put_reading(thr_flow *flow, const thr_known *known)
             "picture.");
 
   /* What a name says. */
-  thr_sheets_put(flow, THR_BLOCK_PARAGRAPH,
-                 "A piece has its kind in the box, by letter and number, and its place in the "
-                 "whole: X-10 (B5) is one of kind X-10 that comes to B5. Put its place on it when "
-                 "it goes on the cord: later rows call it by that.%s",
+  thr_sheets_put(flow, THR_BLOCK_PARAGRAPH, "%s%s",
+                 known->pieces.solid
+                     ? "A piece has its kind in the box, by letter and number, and its place in "
+                       "the whole: X-10 (B5) is one of kind X-10 that comes to B5. Put its place "
+                       "on it when it goes on the cord: later rows call it by that."
+                     : "Tube 4 (11-17) is one of kind 4 that comes between the places 11 and 17: "
+                       "later rows call it by these.",
                  known->plan->n_cords > 1
                      ? " With a colon, A:5 is no piece, but pass 5 of cord A: there it is drawn in "
                        "that cord's colour."
@@ -323,9 +326,14 @@ void thr_sheets_prepare(thr_flow *flow, const thr_known *known)
   put_pieces(flow, known);
   flow->y += 1;
   thr_sheets_put(
-      flow, THR_BLOCK_PARAGRAPH,
-      "Cords: the most in one arm of such a piece; the bore holds them side by side. "
-      "Which piece is of which kind, and which way the cords take through each: the "
-      "tables of beads and of channels, files of their own. Printed pieces of a kind that "
-      "differ inside or by their names have a letter more: T-2a and T-2b are of kind T-2.");
+      flow, THR_BLOCK_PARAGRAPH, "%s",
+      known->pieces.solid
+          ? "Cords: the most in one arm of such a piece; the bore holds them side by side. "
+            "Which piece is of which kind, and which way the cords take through each: the "
+            "tables of beads and of channels, files of their own. Printed pieces of a kind that "
+            "differ inside or by their names have a letter more: T-2a and T-2b are of kind T-2."
+          : "Cords: the most in one tube of such a kind; the bore holds them side by side. Tubes "
+            "of "
+            "a kind are alike but for their cut ends, and are not drawn one by one: which tube is "
+            "of which kind is in the table of beads, a file of its own.");
 }
