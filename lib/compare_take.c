@@ -83,7 +83,7 @@ static bool put_differences(const thr_price *mine, const thr_price *other, thr_t
   return *comma;
 }
 
-void thr_compare_put_why(const thr_compare_entry *entries, int n, int method, thr_text *text)
+bool thr_compare_put_why(const thr_compare_entry *entries, int n, int method, thr_text *text)
 {
   const int taken = thr_compare_take(entries, n, method, -1),
             next = thr_compare_take(entries, n, method, taken);
@@ -100,4 +100,5 @@ void thr_compare_put_why(const thr_compare_entry *entries, int n, int method, th
                                : "; the other takes more than a hand's 10 N in rougher cord");
   else if (differs && !thr_price_beats(&mine, &other))
     thr_text_append(text, "; a matter of taste, as a hand manages both");
+  return differs;
 }

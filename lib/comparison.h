@@ -173,8 +173,9 @@ void thr_compare_put_agreement(const thr_ranking *rankings, int count, const cha
  * none. At least one plan must be left. */
 int thr_compare_take(const thr_compare_entry *entries, int n, int method, int without);
 
-/* Appends why that plan is to be taken rather than the next best one, of n >= 2. */
-void thr_compare_put_why(const thr_compare_entry *entries, int n, int method, thr_text *text);
+/* Appends why that plan is to be taken rather than the next best one, of n >= 2. Returns whether
+ * they differ. */
+bool thr_compare_put_why(const thr_compare_entry *entries, int n, int method, thr_text *text);
 
 /* ---- compare_rise.c: Lets the structures that are compared rise. */
 

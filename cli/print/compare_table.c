@@ -148,12 +148,15 @@ void compare_put_text(thr_text *text, const pull_args *args, const thr_compare_e
   if (n < 2) return;
   thr_text_append(text, "frontier: no other plan is as good in cord, number of cords and pull, and "
                         "better in one of them\n");
-  thr_text_printf(
-      text, "\ntake %s rather than %s: ", name[thr_compare_take(entries, n, args->method, -1)],
-      name[thr_compare_take(entries, n, args->method,
-                            thr_compare_take(entries, n, args->method, -1))]);
-  thr_compare_put_why(entries, n, args->method, text);
-  thr_text_append(text, "\n\n");
+  thr_text why = {0};
+  const int taken = thr_compare_take(entries, n, args->method, -1),
+            next = thr_compare_take(entries, n, args->method, taken);
+  const bool differs = thr_compare_put_why(entries, n, args->method, &why);
+  thr_text_printf(text,
+                  differs ? "\ntake %s rather than %s: %s\n\n" : "\n%s is as good as %s: %s\n\n",
+                  name[taken], name[next], why.failed ? "" : why.data);
+  text->failed |= why.failed;
+  thr_text_destroy(&why);
 
   /* Rankings of two plans and more. */
   char at[THR_RANKING_ENDS][40];
