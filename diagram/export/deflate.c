@@ -44,7 +44,7 @@ thr_status thr_deflater_put(thr_deflater *deflater, const char *bytes, size_t n,
 {
   z_stream *stream = &deflater->stream;
   Bytef ready[1 << 14];
-  stream->next_in = (z_const Bytef *)bytes;
+  stream->next_in = (Bytef *)bytes; /* which it only reads */
 
   /* zlib counts in int; what is ready is taken until there is no more. */
   do {
