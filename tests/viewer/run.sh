@@ -8,4 +8,4 @@ if ! [ -x "${CHROMIUM:-/usr/bin/chromium}" ] || ! "$here/../../tools/npm-package
   exit 77
 fi
 rm -rf "$2/scratch" && mkdir -p "$2/scratch"
-exec timeout 300 node "$here/test.cjs" "$2" "$1" "$2/scratch"
+exec timeout 900 node "$here/test.cjs" "$2" "$1" "$2/scratch"
