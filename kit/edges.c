@@ -20,8 +20,10 @@ static void direction_of(const thr_frame *frame, int half, double out[3])
 }
 
 /* Sums the directions that look away from a node's arms: outwards where the framework is curved,
- * towards the sky where it is not. */
-static void outward(const thr_frame *frame, int v, const double centre[3], double out[3])
+ * away from its centre where it is not. Names stand on that side: it is the one that the booklet
+ * shows, which of a bowl is the inner one. */
+static void outward(const thr_frame *frame, int v, const double centre[3], const double (*shown)[3],
+                    double out[3])
 {
   double sum[3] = {0, 0, 0};
   for (int i = frame->first[v]; i < frame->first[v + 1]; i++) {
@@ -33,10 +35,14 @@ static void outward(const thr_frame *frame, int v, const double centre[3], doubl
   thr_between(centre, frame->xyz[v], out);
   thr_normalize(out);
   if (thr_normalize(sum) > 0.2 && thr_dot(sum, out) > 0) memcpy(out, sum, sizeof sum);
+  const bool is_back = shown && thr_dot(out, shown[v]) < 0;
+  for (int k = 0; k < 3 && is_back; k++)
+    out[k] = -out[k];
 }
 
 /* Fills directions and lengths of all edges. */
-static void set_directions(const thr_frame *frame, double mm, thr_kit_edge *edge)
+static void set_directions(const thr_frame *frame, const double (*shown)[3], double mm,
+                           thr_kit_edge *edge)
 {
   double centre[3] = {0, 0, 0};
   for (int v = 0; v < frame->n_nodes; v++)
@@ -51,8 +57,8 @@ static void set_directions(const thr_frame *frame, double mm, thr_kit_edge *edge
     memcpy(here->along, between, sizeof between);
 
     double first[3], second[3];
-    outward(frame, frame->edge[e][0], centre, first);
-    outward(frame, frame->edge[e][1], centre, second);
+    outward(frame, frame->edge[e][0], centre, shown, first);
+    outward(frame, frame->edge[e][1], centre, shown, second);
     for (int k = 0; k < 3; k++)
       here->up[k] = first[k] + second[k];
     for (int attempt = 0; attempt < 3; attempt++) {
@@ -344,7 +350,8 @@ static void note_widths(const thr_frame *frame, const thr_kit_edge *edge, double
 
 thr_status thr_kit_edges_make(thr_kit_edges *edges, const thr_plan *plan,
                               const thr_kit_options *options, thr_kit_sizes *sizes,
-                              const char (*label)[THR_LABEL], thr_text *notes, thr_err *err)
+                              const char (*label)[THR_LABEL], const double (*shown)[3],
+                              thr_text *notes, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
   thr_scratch work = {0};
@@ -377,7 +384,7 @@ thr_status thr_kit_edges_make(thr_kit_edges *edges, const thr_plan *plan,
       place[1] = k;
     }
 
-  set_directions(frame, sizes->mm, edges->edge);
+  set_directions(frame, shown, sizes->mm, edges->edge);
   for (int e = 0; e < frame->n_edges; e++)
     edges->edge[e].width = sizes->width;
   bool tubes = plan->options.joint != THR_JOINT_SOLID;

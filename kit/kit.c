@@ -928,8 +928,9 @@ static thr_status find_common(maker *work, const thr_kit_options *options, const
   if (!st) st = thr_pieces_make(&work->pieces, plan, options->kind_tolerance, err);
   if (!st) st = thr_channels_make(&work->channels, plan, err);
   if (!st)
-    st = thr_kit_edges_make(&kit->edges, plan, &kit->options, &work->sizes,
-                            (const char(*)[THR_LABEL])work->guide.label, &kit->notes, err);
+    st = thr_kit_edges_make(
+        &kit->edges, plan, &kit->options, &work->sizes, (const char(*)[THR_LABEL])work->guide.label,
+        work->guide.flat ? (const double(*)[3])work->guide.outward : NULL, &kit->notes, err);
   if (st) return st;
 
   /* What lies flat stands on nothing in particular. */

@@ -77,7 +77,8 @@ enum { THR_KIT_MOST_LANES = 37, THR_KIT_MOST_ARMS = 64 };
 
 /* An edge. Directions are those of half-edge 2 e, from its tail to its head. */
 typedef struct {
-  double along[3], up[3], side[3]; /* unit vectors at right angles; up: outwards of the framework */
+  double along[3], up[3], side[3]; /* unit vectors at right angles; up: to the side of the
+                                      framework that the booklet shows */
   double length;                   /* between the nodes */
   double width, bore;              /* of its arms or tube, and of each of its channels */
   int beside;                      /* edge beside which it is narrower than asked for, if it is */
@@ -103,13 +104,15 @@ typedef struct {
 } thr_kit_sizes;
 
 /* Fills edges->edge[n_edges], whose bores are set, with directions, widths that fit and lanes, and
- * gives each pass its lane. Edges that meet at an acute angle, or come near an edge of
- * other nodes, are made narrower, so that pieces do not meet; notes say which. THR_EINPUT names
- * both edges, and the number that would do. O(edges of a node squared + edges near each other). */
+ * gives each pass its lane. shown[n_nodes]: unit vectors towards the viewer of the booklet's
+ * pictures, 0 where none is known; NULL: none is. Edges that meet at an acute angle, or come near
+ * an edge of other nodes, are made narrower, so that pieces do not meet; notes say which.
+ * THR_EINPUT names both edges, and the number that would do. O(edges of a node squared + edges near
+ * each other). */
 thr_status thr_kit_edges_make(thr_kit_edges *edges, const thr_plan *plan,
                               const thr_kit_options *options, thr_kit_sizes *sizes,
-                              const char (*label)[THR_LABEL], thr_text *notes,
-                              thr_err *err) THR_MUST_CHECK;
+                              const char (*label)[THR_LABEL], const double (*shown)[3],
+                              thr_text *notes, thr_err *err) THR_MUST_CHECK;
 
 /* Fills off[passes of all cords] with how far each pass lies from the axis of its bore, mm: passes
  * that share one lie around it, so that cords of a diameter are told apart. O(passes + edges).

@@ -130,7 +130,8 @@ bool advice_put_recommended(const thr_plan *plan, double hand, double holds, thr
                   thr_plain_newtons(pull[THR_ADVICE_MU], force),
                   plan->n_cords > 1 ? " N each at most" : " N",
                   plain_force(pull[THR_ADVICE_HIGH], most), mu_high);
-  thr_text_printf(text, "         that %s, with %s",
+  thr_text_printf(text, "         %sthat %s, with %s",
+                  options->turning.length_slack == 0 ? "at the least length " : "",
                   hand < thr_hand_always ? "the cord bears" : "a hand can pull time after time",
                   plain_force(hand, within));
 

@@ -501,9 +501,11 @@ static void put_text(const rise_runs *runs, thr_text *text)
   thr_text_append(text, "\n");
   put_outcome(runs, text);
   thr_text_printf(
-      text, "\n%d of %d faces closed, one a pass, highest node at %s mm, %s mm of cord %s\n",
-      record->most_closed, record->n_counted, thr_plain_number(last->height, 3, height),
-      thr_plain_number(fabs(last->drawn), 3, drawn), last->drawn < 0 ? "given out" : "drawn in");
+      text, "\n%d of %d faces closed%s, one a pass, highest node at %s mm, %s mm of cord %s\n",
+      record->most_closed, record->n_counted,
+      record->most_closed < record->n_counted ? " at best" : "",
+      thr_plain_number(last->height, 3, height), thr_plain_number(fabs(last->drawn), 3, drawn),
+      last->drawn < 0 ? "given out" : "drawn in");
   put_lying(runs, text);
   if (record->most_closed < record->n_counted) {
     const char *name[2] = {"", ""};

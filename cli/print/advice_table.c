@@ -128,15 +128,28 @@ static void put_choice(thr_text *text, const thr_advice *advice, thr_advice_comm
   /* The pull at mu, in the band, and what it stays within. */
   const thr_advice_row *row = &advice->row[advice->chosen];
 
+  /* The recommended cords have the least length: longer ones may be fewer. */
+  const thr_advice_row *fewer = NULL;
+  for (int i = 0; i < advice->n; i++) {
+    const thr_advice_row *other = &advice->row[i];
+    if (other->cords < (fewer ? fewer : row)->cords && thr_advice_within(advice, other))
+      fewer = other;
+  }
+
   thr_text_append(text, "> ");
   advice_put_cords(text, row);
-  thr_text_printf(
-      text,
-      ": %s, or %s to %s N in the band. The fewest found that stay within %s%s even at mu = %g\n  ",
-      plain_both(row->other, row->pull[THR_ADVICE_MU], pull),
-      thr_plain_newtons(row->pull[THR_ADVICE_LOW], low),
-      thr_plain_newtons(row->pull[THR_ADVICE_HIGH], high), hand, hand_words(advice->hand),
-      advice->physics.mu_high);
+  thr_text_printf(text, ": %s, or %s to %s N in the band. %s within %s%s even at mu = %g",
+                  plain_both(row->other, row->pull[THR_ADVICE_MU], pull),
+                  thr_plain_newtons(row->pull[THR_ADVICE_LOW], low),
+                  thr_plain_newtons(row->pull[THR_ADVICE_HIGH], high),
+                  fewer ? "They stay" : "The fewest found that stay", hand,
+                  hand_words(advice->hand), advice->physics.mu_high);
+  if (fewer) {
+    thr_text_append(text, "; so do ");
+    advice_put_cords(text, fewer);
+    thr_text_printf(text, ", of %.4g instead of %.4g in all", fewer->length, row->length);
+  }
+  thr_text_append(text, "\n  ");
 
   command(user, row, text);
   thr_text_append(text, "\n");

@@ -27,12 +27,12 @@ static const double LEGIBLE = 0.5;          /* ratio of a picture that needs no 
 const char *thr_layout_words(thr_layout_kind kind)
 {
   static const char *const words[THR_LAYOUT_KINDS] = {
-      "Plan, seen from outside (from above).",
+      "Plan, seen from above.",
       "Unrolled from the crown in the middle outwards, seen from outside (from above); distances "
       "around the middle are "
       "stretched.",
-      "Elevation, seen from outside (from the front: x to the right, z up).",
-      "Elevation, seen from outside (from the side: y to the right, z up).",
+      "Elevation, seen from the front: x to the right, z up.",
+      "Elevation, seen from the side: y to the right, z up.",
       "Seen at right angles to the plane that fits best, with the higher nodes up the page.",
       "Unrolled about the x axis, seen from outside (from the +x end, which is in the middle); "
       "distances around it are "

@@ -118,7 +118,7 @@ bool thr_layout_better(const thr_layout *a, const thr_layout *b);
 thr_status thr_layout_copy(thr_layout *to, const thr_layout *from, thr_err *err) THR_MUST_CHECK;
 void thr_layout_destroy(thr_layout *layout);
 
-/* Returns a sentence for the reader of a diagram: "Plan, seen from outside (from above)." */
+/* Returns a sentence for the reader of a diagram: "Plan, seen from above." */
 const char *thr_layout_words(thr_layout_kind kind);
 
 /* Lists the half-edges as paper->half, but by ascending angle[2 * n_edges] (rad, in (-pi, pi])

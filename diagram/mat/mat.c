@@ -686,6 +686,8 @@ static void put_foot(const mat_page *page)
              "flat none lies on another.",
              100 * (mat->spread - 1));
     thr_svg_text(page->svg, MARGIN, y + 10.5, TEXT, " style=\"fill:#666\"", line);
+    thr_svg_text(page->svg, MARGIN, y + 14.5, TEXT, " style=\"fill:#666\"",
+                 "Where a cord gets short, slide together what is on it.");
   }
 }
 

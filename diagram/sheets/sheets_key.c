@@ -2,7 +2,7 @@
 /* Lays out pieces on paper: a card for every kind of solid piece, with its outline and the lengths
  * of its arms, and a tag with the name of every piece, to cut out and stick on.
  *
- * A card shows the first piece of the kind as the layout draws that piece, outer side up, or as it
+ * A card shows the first piece of the kind as the layout draws that piece, that side up, or as it
  * is told best where steps are drawn in space, at the largest scale at which its arms stay within
  * ROOM mm. At most MOST_CARDS kinds have one, and none those that rows call by their places.
  *

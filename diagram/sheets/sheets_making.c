@@ -347,8 +347,8 @@ static void put_lay(instruction_panel *panel, thr_text *words)
 
   /* The text names the same piece, for the maker to find it in the overview. */
   if (shown >= 0) {
-    thr_text_printf(words, "Lay each piece as the %s shows it: %sits name upright. ", mat,
-                    known->in_space ? "" : "its outer side up, ");
+    thr_text_printf(words, "Lay each piece as the %s shows it: its name upright%s. ", mat,
+                    known->in_space ? "" : " and on top (outside on a dome, inside in a bowl)");
     const thr_visit *visit = &known->visit[shown];
     thr_text_printf(words, "Here %s: in by the arm that faces %s, out by the one that faces %s.",
                     known->guide.label[visit->piece],

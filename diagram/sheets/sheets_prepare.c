@@ -281,8 +281,9 @@ static void put_reading(thr_flow *flow, const thr_known *known)
       known->pieces.solid
           ? "Each row is a piece that the needle comes to. Pick up: a new piece goes on the cord. "
             "Through: it is on a cord already. In from A5, out to C5: arms are called by the "
-            "pieces that they face; all pieces lie with their outer side up and turned as in the "
-            "picture. The number of a row is that in the picture, on the arm by which the cord "
+            "pieces that they face; all pieces lie with the side of their names up and turned as "
+            "in the picture. The number of a row is that in the picture, on the arm by which the "
+            "cord "
             "comes in. S: the cord starts in this piece."
           : "Each row is a tube that the needle comes to. Pick up: a new tube goes on the cord. "
             "Through: it is on a cord already, and the needle goes the way that the cord in it "
