@@ -57,38 +57,39 @@ const char *plain_force(double newton, char out[64])
 
 /* Returns whether the pulls at two ends read alike, or are too large for their difference to
  * matter. */
-static bool is_equal_in_words(double smaller, double larger)
+static bool is_equal_in_words(double first, double second)
 {
   char one[THR_PLAIN_NUMBER], other[THR_PLAIN_NUMBER];
-  thr_plain_newtons(smaller, one);
-  thr_plain_newtons(larger, other);
-  return !(smaller < larger) || larger >= 1e5 || strcmp(one, other) == 0;
+  thr_plain_newtons(first, one);
+  thr_plain_newtons(second, other);
+  return isnan(first) || isnan(second) || fmax(first, second) >= 1e5 || strcmp(one, other) == 0;
 }
 
-const char *plain_two(double smaller, double larger, char out[64])
+const char *plain_two(double first, double second, char out[64])
 {
+  const double larger = fmax(first, second);
   const int decimals = larger >= 99.95 ? 0 : larger >= 9.995 ? 1 : 2;
   char one[THR_PLAIN_NUMBER], other[THR_PLAIN_NUMBER];
 
-  thr_plain_newtons(smaller, one);
-  thr_plain_newtons(larger, other);
+  thr_plain_newtons(first, one);
+  thr_plain_newtons(second, other);
 
   /* Both numbers get the decimals of the larger one. */
-  if (is_equal_in_words(smaller, larger))
-    snprintf(out, 64, "%s", other);
+  if (is_equal_in_words(first, second))
+    snprintf(out, 64, "%s", first > second ? one : other);
   else if (larger >= 1 && larger < 999.5)
-    snprintf(out, 64, "%.*f and %.*f", decimals, smaller, decimals, larger);
+    snprintf(out, 64, "%.*f and %.*f", decimals, first, decimals, second);
   else
     snprintf(out, 64, "%s and %s", one, other);
 
   return out;
 }
 
-const char *plain_both(double smaller, double larger, char out[64])
+const char *plain_both(double first, double second, char out[64])
 {
   char two[64];
-  if (is_equal_in_words(smaller, larger)) return plain_force(larger, out);
-  snprintf(out, 64, "%.60s N", plain_two(smaller, larger, two));
+  if (is_equal_in_words(first, second)) return plain_force(fmax(first, second), out);
+  snprintf(out, 64, "%.60s N", plain_two(first, second, two));
   return out;
 }
 

@@ -52,8 +52,7 @@ static turn_sums measure_turns(const thr_plan *plan, const thr_cord *cord)
 }
 
 /* Appends the line of a cord. pull: at the harder end, as a factor on the seating tension. seated:
- * the cord's evaluation in N, NULL if there is none; it knows the pull at the other end, which is
- * printed where it is less. */
+ * the cord's evaluation in N, NULL if there is none; it knows the pull at either end. */
 static void put_cord(thr_text *text, const thr_plan *plan, const thr_cord *cord, double pull,
                      const thr_eval_cord *seated)
 {
@@ -63,8 +62,12 @@ static void put_cord(thr_text *text, const thr_plan *plan, const thr_cord *cord,
   char factor[24], force[64];
   const double newton = pull * plan->options.physics.seating;
 
+  /* Where both ends are pulled each has the tension of its own first pass. */
+  const bool both = seated && seated->tension && seated->pull == THR_PULL_BOTH;
+  plain_both(both ? seated->tension[0] : newton,
+             both ? seated->tension[cord->n_passes - 1] : newton, force);
+
   /* The sharpest turn matters for least turning, the capstan factor for those who ask. */
-  plain_both(seated ? fmin(seated->force, seated->other_force) : newton, newton, force);
   thr_text_printf(text, "%-5s\v4 %7d\v2 %14.3f\v0 %6.0f deg", cord->id, cord->n_passes,
                   thr_cord_length(&plan->frame, cord), thr_degrees(turns.turning));
   if (minimizes_turning(plan)) thr_text_printf(text, "\v5 %6.0f deg", thr_degrees(turns.sharpest));

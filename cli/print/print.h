@@ -50,10 +50,10 @@ const char *plain_force(double newton, char out[64]);
 
 /* Formats the pulls at the two ends of a cord, N: "7.70 and 8.94 N"; of two that read alike "8.94 N
  * (0.91 kg)". Returns out. */
-const char *plain_both(double smaller, double larger, char out[64]);
+const char *plain_both(double first, double second, char out[64]);
 
 /* Formats the same without unit or mass: "7.70 and 8.94", "8.94". Returns out. */
-const char *plain_two(double smaller, double larger, char out[64]);
+const char *plain_two(double first, double second, char out[64]);
 
 /* Appends what is proved of a value that should be small. optimal: "proved: nothing shorter exists"
  * for `less` "nothing shorter exists"; else "at most 3.1 % above the shortest possible (proved)",

@@ -141,9 +141,10 @@ static void put_cord(thr_flow *flow, const thr_known *known, int c, const double
   /* Two forces where both ends are pulled. Slack is drawn from the pass with the least tension. */
   if (found) {
     int h = cord->half[found->slackest];
-    bool both = found->pull == THR_PULL_BOTH;
-    thr_svg_force(found->force, force);
-    thr_svg_force(found->other_force, other);
+    /* An end that is pulled has the tension of its own first pass. */
+    const bool both = found->pull == THR_PULL_BOTH, known_on_way = both && found->tension;
+    thr_svg_force(known_on_way ? found->tension[0] : found->force, force);
+    thr_svg_force(known_on_way ? found->tension[cord->n_passes - 1] : found->other_force, other);
     snprintf(forces, sizeof forces, "%s%s%s", force, both ? " and " : "", both ? other : "");
     snprintf(lost, sizeof lost, "%.1f %%", 100 * found->loss);
     snprintf(slackest, sizeof slackest, "pass %d, %.20s - %.20s", found->slackest + 1,
