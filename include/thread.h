@@ -24,7 +24,7 @@ typedef enum {
   THREAD_IO,         /* a file could not be opened, read or written */
   THREAD_BAD_INPUT,  /* the text says where, what, and what to do */
   THREAD_INFEASIBLE, /* no threading with these options; the text says what forbids it */
-  THREAD_NOT_PROVED, /* stopped by time or progress: what there is is valid and holds its bounds */
+  THREAD_NOT_PROVED, /* valid, but not proved: ended by time or progress, or as far as it goes */
   THREAD_SOLVER,     /* a library failed */
   THREAD_VIOLATED    /* a claim of the plan is not true */
 } thread_status;
@@ -183,7 +183,7 @@ typedef struct {
   double turning, largest_turning; /* of all cords, and of the one that turns most */
   double pull;                     /* at an end, of the cord that needs most: as in thread_cord */
   int passes, u_turns, shortest, straightest; /* 1: no such plan is shorter, turns less, proved */
-  int stopped; /* 1: its search was ended before it was done, and the pull may be beyond a hand */
+  int stopped; /* 1: time or progress ended its search, and the pull may be beyond a hand */
 } thread_summary;
 THREAD_API thread_status thread_plan_summary(const thread_plan *plan, thread_summary *out,
                                              size_t size, thread_error *err);

@@ -110,6 +110,8 @@ refused(ZeroDivisionError, "", lambda: dome.plan(cords=4, ends="feet", aims="tur
 heard = []
 assert dome.plan(cords=4, ends="feet", aims="turning", progress=lambda *_: not heard.append(1)).stopped and heard == [1]
 assert not chosen.stopped and not plan.stopped
+unproved = Frame.shape("dome", 4).plan(cords=10, seconds=60)  # whose search has ended by itself
+assert not unproved.proved and not unproved.stopped, unproved
 large = Frame.shape("dome", 20)
 with warnings.catch_warnings(record=True) as said:
     warnings.simplefilter("always")
