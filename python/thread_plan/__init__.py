@@ -175,6 +175,7 @@ class Frame(_Owner):
     def __init__(self, xyz: Iterable[Sequence[float]], edges: Iterable[Sequence[int]], units: str = "mm") -> None:
         points, pairs = [tuple(p) for p in xyz], [tuple(e) for e in edges]
         if any(len(p) != 3 for p in points) or any(len(e) != 2 for e in pairs):
+    _notes: Optional[List[str]] = None  # of the frame that this one is a copy of
             raise BadInput(_library.BAD_INPUT, "a point has three coordinates, and an edge two nodes")
         flat = [float(x) for p in points for x in p]
         self._handle = c_void_p()
@@ -182,7 +183,7 @@ class Frame(_Owner):
                       _library.ints("edges", (v for e in pairs for v in e)), units.encode(), byref(self._handle))
 
     def __reduce__(self) -> Any:
-        return parse, (self.write("json"), "frame.json")
+        return parse, (self.write("json"), "frame.json"), {"_notes": self.notes}
 
     def __repr__(self) -> str:
         if not self._handle:
@@ -253,6 +254,8 @@ class Frame(_Owner):
     def set_feet(self, nodes: Union[str, Iterable[int]] = "lowest") -> "Frame":
         """Says where cord ends may come out with ends="feet": at these nodes, at the "lowest" ones, on the "rim", all
         along the borders of a shell, arches in the air too, or up to a height, "below=200mm". A mask, True or False for every
+        if self._notes is not None:
+            return list(self._notes)
         node, does as well. Returns the frame. BadInput: no such nodes; nothing changes then."""
         if isinstance(nodes, str):
             _library.call(_library.lib.thread_frame_set_feet_where, self._open(), nodes.encode())
@@ -389,12 +392,13 @@ class Plan(_Owner):
         _library.call(_library.lib.thread_plan_parse, text, c_size_t(len(text)), name.encode(), byref(self._handle))
 
     def __reduce__(self) -> Any:
-        return Plan, (self.json(),)
+        return Plan, (self.json(),), {"_stopped": self.stopped}
 
     def __repr__(self) -> str:
         if not self._handle:
             return "<Plan, closed>"
         facts, n = self.summary, int(_library.lib.thread_plan_cords(self._open()))
+    _stopped = False  # the plan that this one is a copy of
         known = "proved the shortest" if facts.shortest else "proved the straightest" if facts.straightest else (
             "not proved")
         pulled = "at most %.3g N at an end" % facts.pull if facts.pull else "stands without any pull"
@@ -433,7 +437,7 @@ class Plan(_Owner):
         return Summary(length=facts.length, bound=facts.bound, overlap=facts.overlap, turning=facts.turning,
                        largest_turning=facts.largest_turning, pull=facts.pull, passes=facts.passes, u_turns=facts.u_turns,
                        shortest=bool(facts.shortest), straightest=bool(facts.straightest),
-                       stopped=bool(facts.stopped))
+                       stopped=bool(facts.stopped) or self._stopped)
 
     @property
     def proved(self) -> bool:

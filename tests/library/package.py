@@ -163,6 +163,9 @@ for made in (copy.copy(plan), copy.deepcopy(plan), pickle.loads(pickle.dumps(pla
     assert made.json() == plan.json() and made.proved == plan.proved
     made.close()
 assert plan.cords and pickle.loads(pickle.dumps(dome)).write() == dome.write() == copy.copy(dome).write()
+assert best.stopped and pickle.loads(pickle.dumps(best)).stopped and not pickle.loads(pickle.dumps(plan)).stopped
+noted = thread_plan.parse(frame.write(), "a.json", units="cm")
+assert noted.notes == [told] == pickle.loads(pickle.dumps(noted)).notes == copy.copy(noted).notes
 error = pickle.loads(pickle.dumps(thread_plan.BadInput(3, "why")))
 assert (type(error), error.status, str(error)) == (thread_plan.BadInput, 3, "why")
 
