@@ -171,16 +171,17 @@ class Frame(_Owner):
     """
 
     _free = _library.lib.thread_frame_free
+    _notes: Optional[List[str]] = None  # of the frame that this one is a copy of
 
     def __init__(self, xyz: Iterable[Sequence[float]], edges: Iterable[Sequence[int]], units: str = "mm") -> None:
         points, pairs = [tuple(p) for p in xyz], [tuple(e) for e in edges]
         if any(len(p) != 3 for p in points) or any(len(e) != 2 for e in pairs):
-    _notes: Optional[List[str]] = None  # of the frame that this one is a copy of
             raise BadInput(_library.BAD_INPUT, "a point has three coordinates, and an edge two nodes")
-        flat = [float(x) for p in points for x in p]
+        flat = [_library.real("node %d" % i, x) for i, p in enumerate(points) for x in p]
+        ends = [_library.whole("edge %d" % i, v) for i, e in enumerate(pairs) for v in e]
         self._handle = c_void_p()
         _library.call(_library.lib.thread_frame_make, c_int(len(points)), (c_double * len(flat))(*flat), c_int(len(pairs)),
-                      _library.ints("edges", (v for e in pairs for v in e)), units.encode(), byref(self._handle))
+                      (c_int * len(ends))(*ends), _library.text("units", units), byref(self._handle))
 
     def __reduce__(self) -> Any:
         return parse, (self.write("json"), "frame.json"), {"_notes": self.notes}
@@ -201,7 +202,7 @@ class Frame(_Owner):
     def shape(cls, shape: Shape, size: int = 0) -> "Frame":
         """An example: "dome", "geodesic", "sphere", "tube", "honeycomb", "row", "arch" or "alternating". size: what `thread make`
         counts, of a dome the nodes per side; 0 is the usual one. In mm. BadInput: no such shape or size."""
-        return cls._made(_library.lib.thread_frame_shape, shape.encode(), c_int(size))
+        return cls._made(_library.lib.thread_frame_shape, _library.text("shape", shape), c_int(_library.whole("size", size)))
 
     @property
     def nodes(self) -> List[Tuple[float, float, float]]:
@@ -249,13 +250,13 @@ class Frame(_Owner):
     @property
     def notes(self) -> List[str]:
         """What reading merged, dropped or found odd, a line each."""
+        if self._notes is not None:
+            return list(self._notes)
         return [str(line) for line in _library.lib.thread_frame_notes(self._open()).decode().splitlines()]
 
     def set_feet(self, nodes: Union[str, Iterable[int]] = "lowest") -> "Frame":
         """Says where cord ends may come out with ends="feet": at these nodes, at the "lowest" ones, on the "rim", all
         along the borders of a shell, arches in the air too, or up to a height, "below=200mm". A mask, True or False for every
-        if self._notes is not None:
-            return list(self._notes)
         node, does as well. Returns the frame. BadInput: no such nodes; nothing changes then."""
         if isinstance(nodes, str):
             _library.call(_library.lib.thread_frame_set_feet_where, self._open(), nodes.encode())
@@ -266,8 +267,10 @@ class Frame(_Owner):
 
     def _nodes(self, name: str, nodes: Iterable[int]) -> Any:
         """An array of C ints of nodes, or of a mask that has True or False for every node."""
+        if isinstance(nodes, bytes) or not isinstance(nodes, Iterable):
+            raise TypeError("%s: %r is neither a list of nodes, nor a mask, nor a word for some" % (name, nodes))
         given = list(nodes)
-        if given and all(type(v).__name__ in ("bool", "bool_") for v in given):
+        if given and all(_library.is_flag(v) for v in given):
             if len(given) != len(self.nodes):
                 raise BadInput(_library.BAD_INPUT, "%s: a mask of %d, but there are %d nodes" % (name, len(given), len(self.nodes)))
             given = [v for v, is_one in enumerate(given) if is_one]
@@ -276,12 +279,13 @@ class Frame(_Owner):
     def set_passes(self, edge: int, cover: int, capacity: int = 0) -> None:
         """Says how many passes an edge, from 0, needs (1 to 100), and how many fit through it (0 = any number). BadInput: no such
         edge, or capacity below cover."""
-        _library.call(_library.lib.thread_frame_set_passes, self._open(), c_int(edge), c_int(cover), c_int(capacity))
+        _library.call(_library.lib.thread_frame_set_passes, self._open(), *[
+            c_int(_library.whole(name, value)) for name, value in (("edge", edge), ("cover", cover), ("capacity", capacity))])
 
     def write(self, format: Format = "json", path: Optional[Path] = None) -> bytes:
         """The bytes of the frame as "json", "obj", "csv", "ply", "dxf" or "graphml", which are also written to path, if there is one.
         BadInput: no such format."""
-        return _kept(_library.received(_library.lib.thread_frame_write, self._open(), format.encode()), path)
+        return _kept(_library.received(_library.lib.thread_frame_write, self._open(), _library.text("format", format)), path)
 
     def plan(self, ends: Optional[Ends] = None, cords: Optional[Union[int, Tuple[int, int]]] = None,
              progress: Optional[Heard] = None, *, aims: Optional[Words] = None, seconds: Optional[float] = None,
@@ -354,6 +358,8 @@ class Frame(_Owner):
             aims=aims, cover=cover, tube=tube, physics=physics, seconds=seconds, threads=threads))
 
     def _asked(self, ends: Optional[Ends], cords: Optional[Union[int, Tuple[int, int]]], options: Mapping[str, Any]) -> Any:
+        if isinstance(cords, (list, tuple)) and len(cords) != 2:
+            raise TypeError("cords: %r is neither a number nor (least, most)" % (cords,))
         least, most = cords if isinstance(cords, (list, tuple)) else (None, cords)
         given = _library.filled(_library.PlanOptions(), _library.lib.thread_plan_options_init,
                                 dict(options, cords_least=least, cords=most))
@@ -384,12 +390,15 @@ class Plan(_Owner):
     """
 
     _free = _library.lib.thread_plan_free
+    _stopped = False  # the plan that this one is a copy of
 
     def __init__(self, json: Union[str, bytes], name: str = "plan") -> None:
         """Reads a plan from its JSON; name is for messages."""
         text = json.encode() if isinstance(json, str) else json
+        if not isinstance(text, (bytes, bytearray)):
+            raise TypeError("a plan is read from its JSON, text or bytes, and %r is neither" % (json,))
         self._handle = c_void_p()
-        _library.call(_library.lib.thread_plan_parse, text, c_size_t(len(text)), name.encode(), byref(self._handle))
+        _library.call(_library.lib.thread_plan_parse, bytes(text), c_size_t(len(text)), _library.text("name", name), byref(self._handle))
 
     def __reduce__(self) -> Any:
         return Plan, (self.json(),), {"_stopped": self.stopped}
@@ -398,7 +407,6 @@ class Plan(_Owner):
         if not self._handle:
             return "<Plan, closed>"
         facts, n = self.summary, int(_library.lib.thread_plan_cords(self._open()))
-    _stopped = False  # the plan that this one is a copy of
         known = "proved the shortest" if facts.shortest else "proved the straightest" if facts.straightest else (
             "not proved")
         pulled = "at most %.3g N at an end" % facts.pull if facts.pull else "stands without any pull"
@@ -461,9 +469,9 @@ class Plan(_Owner):
         seating tension in every pass. "structure": the least pulls at which the rigid pieces can stand while cords are drawn in,
         by limit analysis; 0 N, in every pass, too, is true of what weight and friction hold by themselves.
         BadInput: no such method. NotProved: the time was too short; the plan is as it was."""
-        given = _options(dict(seconds=float(seconds), threads=threads))
+        given, named = _options(dict(seconds=seconds, threads=threads)), _library.text("method", method)
         status, error = _heard(given, progress, lambda text: int(_library.lib.thread_eval_with(
-            self._open(), method.encode(), byref(given), byref(text))))
+            self._open(), named, byref(given), byref(text))))
         if status != _library.OK:
             raise _library.failure(status, error)
         return self
@@ -479,7 +487,7 @@ class Plan(_Owner):
         which that was so, and below which it fell when it was let down; "most_closed": faces closed at once; "off": mm, of the
         node farthest from the drawn shape; "tilt": degrees; "kink", "twist": degrees for every pass; "moments": rows of time in s,
         N at every end, mm of cord drawn in, closed faces, mm of height, N of a hand that lifts."""
-        return _reported(_options(dict(seconds=float(seconds))), progress, _library.lib.thread_report_plans,
+        return _reported(_options(dict(seconds=seconds)), progress, _library.lib.thread_report_plans,
                          byref(self._open()), c_int(1), b"rise")
 
     def json(self) -> bytes:
@@ -496,8 +504,8 @@ class Plan(_Owner):
         "sheets.html" (the booklet), "html" (the viewer), "kit" (the pieces to print as 3MF: draw("kit", "kit.3mf"); `thread kit` with
         the file of the plan makes STL, too, and other sizes), and the others of Document. BadInput: no such document, or the plan
         has not what it shows."""
-        given = _options(dict(seconds=float(seconds)))
-        return _kept(_made(given, progress, _library.lib.thread_draw_with, self._open(), type.encode())[0], path)
+        given = _options(dict(seconds=seconds))
+        return _kept(_made(given, progress, _library.lib.thread_draw_with, self._open(), _library.text("type", type))[0], path)
 
 
 def _options(given: Mapping[str, Any]) -> Any:
@@ -528,6 +536,8 @@ def _reported(given: Any, progress: Optional[Heard], function: Any, *of: Any) ->
 def _heard(given: Any, progress: Optional[Heard], call: Callable[[Any], int]) -> Tuple[int, Any]:
     """Status and text of a call with these options, while progress hears how far it is. Raises what that raised, and what Ctrl-C does."""
     raised: List[BaseException] = []
+    if progress is not None and not callable(progress):
+        raise TypeError("progress: %r is no function" % (progress,))
 
     def hear(_: Any, what: bytes, best: float, bound: float) -> int:
         try:
@@ -591,8 +601,10 @@ def parse(data: Union[str, bytes], name: str, *, units: Optional[str] = None, we
           pick: Optional[int] = None, part: Optional[str] = None, all_layers: Optional[bool] = None, parallel: Optional[bool] = None,
           columns: Optional[str] = None) -> Frame:
     """Reads a frame from the text of a file; name is for messages, and its ending says what it is: "shell.obj". The rest as read()."""
+    if not isinstance(data, (str, bytes, bytearray, memoryview)):
+        raise TypeError("a frame is read from text or bytes, and %r is neither" % (data,))
     text = data.encode() if isinstance(data, str) else bytes(data)
-    return Frame._made(_library.lib.thread_frame_parse, c_char_p(text), c_size_t(len(text)), name.encode(), _read_options(dict(
+    return Frame._made(_library.lib.thread_frame_parse, c_char_p(text), c_size_t(len(text)), _library.text("name", name), _read_options(dict(
         units=units, weld=weld, scale=scale, flat=flat, up=up, split=split, pick=pick, part=part, all_layers=all_layers,
         parallel=parallel, columns=columns)))
 
@@ -614,8 +626,9 @@ def compare(plans: Sequence[Plan], method: Comparison = "joint", seconds: float 
         if not isinstance(plan, Plan):
             raise TypeError("compare takes a list of plans: %r is none" % (plan,))
     handles = (c_void_p * len(plans))(*[plan._open() for plan in plans])
+    _library.text("method", method)
     what = "compare" if method == "joint" else "compare " + method
-    return _reported(_options(dict(seconds=float(seconds), threads=threads)), progress, _library.lib.thread_report_plans, handles,
+    return _reported(_options(dict(seconds=seconds, threads=threads)), progress, _library.lib.thread_report_plans, handles,
                      c_int(len(plans)), what.encode())
 
 

@@ -14,6 +14,7 @@ import threading
 import time
 import typing
 import warnings
+from fractions import Fraction
 
 import thread_plan
 from thread_plan import Frame
@@ -162,10 +163,10 @@ assert len({cord, *plan.cords}) == 1 and {cord: 1}[plan.cords[0]] == 1
 for made in (copy.copy(plan), copy.deepcopy(plan), pickle.loads(pickle.dumps(plan))):
     assert made.json() == plan.json() and made.proved == plan.proved
     made.close()
-assert plan.cords and pickle.loads(pickle.dumps(dome)).write() == dome.write() == copy.copy(dome).write()
 assert best.stopped and pickle.loads(pickle.dumps(best)).stopped and not pickle.loads(pickle.dumps(plan)).stopped
 noted = thread_plan.parse(frame.write(), "a.json", units="cm")
 assert noted.notes == [told] == pickle.loads(pickle.dumps(noted)).notes == copy.copy(noted).notes
+assert plan.cords and pickle.loads(pickle.dumps(dome)).write() == dome.write() == copy.copy(dome).write()
 error = pickle.loads(pickle.dumps(thread_plan.BadInput(3, "why")))
 assert (type(error), error.status, str(error)) == (thread_plan.BadInput, 3, "why")
 
@@ -175,6 +176,8 @@ assert json.loads(Frame(dome.nodes, dome.edges).set_feet(feet).write())["feet"] 
 refused(TypeError, "", lambda: dome.set_feet([0.9]))
 refused(TypeError, "", lambda: Frame(SQUARE, [(0, 1.9)]))
 refused(TypeError, "", lambda: dome.plan(cords="4"))
+for mu in (Fraction(1, 4), 0.25):  # numbers of any type, as those of numpy
+    assert dome.plan(cords=4, physics={"mu": mu, "seating": 5}).json() == dome.plan(cords=4, physics='{"mu": 0.25, "seating": 5}').json()
 assert dome.plan(cords=4, aims=["length"], physics={"mu": 0.1}).summary.pull < dome.plan(cords=4, aims="length").summary.pull
 
 # What is wrong is said.
@@ -204,6 +207,24 @@ for asked, words in (
         (dict(ends=[True, False]), "ends: a mask of 2, but there are 49 nodes"), (dict(ends={99: 2}), "ends: there is no node 99, only 0 to 48"),
         (dict(aims="beauty"), "there are length, longest, turning")):
     refused((ValueError, thread_plan.Infeasible), words, lambda: dome.plan(**asked))
+# Nor is what has another type than an option: it reaches no pointer.
+for asked, words in (
+        (dict(aims=3), "aims: 3 is none: aims are words"), (dict(aims=True), "aims: True"), (dict(aims=0), "aims: 0"), (dict(aims=2**40), "aims: 10"),
+        (dict(physics=3), "physics: 3 is none: physics are a mapping"), (dict(physics=True), "physics: True"), (dict(request=3), "request: 3"),
+        (dict(physics={"mu": {1}}), "physics: {1} is neither number nor text"), (dict(max_length="3"), "max_length: '3' is no number"),
+        (dict(cords=(1, 2, 3)), "cords: (1, 2, 3) is neither"), (dict(ends=0), "ends: 0 is neither"), (dict(ends=b"feet"), "ends: b'feet' is neither"),
+        (dict(progress=3), "progress: 3 is no function")):
+    refused(TypeError, words, lambda: dome.plan(**asked))
+refused(TypeError, "physics: 3", lambda: dome.advice(physics=3))
+refused(TypeError, "aims: 3", lambda: dome.symmetries(aims=3))
+refused(TypeError, "units: None is no text", lambda: Frame(SQUARE, SIDES, units=None))
+refused(TypeError, "type: None is no text", lambda: plan.draw(None))
+refused(TypeError, "{} is neither", lambda: thread_plan.Plan({}))
+refused(TypeError, "feet: None is neither", lambda: dome.set_feet(None))
+refused(TypeError, "edge 3: 1.9 is no integer", lambda: Frame(SQUARE, [*SIDES[:3], (3, 1.9)]))
+refused(TypeError, "node 1: 'x' is no number", lambda: Frame([SQUARE[0], ("x", 0, 0)], SIDES))
+refused(TypeError, "weld: '1' is no number", lambda: thread_plan.parse(frame.write(), "a.json", weld="1"))
+
 for flags in ([True] * 48, [True] * 50):
     refused(thread_plan.BadInput, "feet: a mask of %d, but there are 49 nodes" % len(flags), lambda: dome.set_feet(flags))
 refused(thread_plan.BadInput, "seconds: nan", lambda: plan.eval(seconds=NAN))
