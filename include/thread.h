@@ -140,7 +140,7 @@ typedef struct {
   double gap; /* %, 0 to 100: the search ends when the plan is so near to its bound, which is
                  THREAD_OK; < 0 = as thread plan */
   const int *end_count; /* of THREAD_COUNTS: [nodes] */
-  double hand;          /* N of an end where cords are not said, and of advice; < 0 = 10 */
+  double hand;          /* N of an end of a recommended plan, or of advice; < 0 = 10 */
 } thread_plan_options;
 THREAD_API void thread_plan_options_init(thread_plan_options *options, size_t size);
 

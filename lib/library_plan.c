@@ -274,6 +274,10 @@ thread_status thread_plan_make(const thread_frame *frame, const thread_plan_opti
 
   /* Options that the program does not know keep their usual values. */
   thr_status st = made ? thr_library_plan_options(options, &own, &why) : thr_nomem(&why);
+  if (!st && own.hand > 0 && !thr_library_recommends(&own))
+    st = thr_fail(&why, THR_EINPUT,
+                  "hand: only for a recommended plan, of which cords, aims, distinct, gap, request "
+                  "and numbers of ends are not said; max_pull limits the pull of any other");
   if (!st)
     st = thr_library_do(&(thr_job){"planning", search_and_send, &job, false}, &own, &json, &why);
 

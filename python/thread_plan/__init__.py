@@ -41,7 +41,7 @@ from typing import Any, Callable, Dict, Iterable, List, Literal, Mapping, Option
 from . import _library
 from ._library import BadInput, Error, Infeasible, NotProved, Violated
 
-__all__ = ["BadInput", "Cord", "Error", "Frame", "Infeasible", "NotProved", "Plan", "StoppedWarning", "Summary", "Violated", "compare",
+__all__ = ["BadInput", "Cord", "Error", "Frame", "Infeasible", "NotProved", "Plan", "PullWarning", "StoppedWarning", "Summary", "Violated", "compare",
            "libraries", "parse", "read", "version"]
 
 Heard = Callable[[str, float, float], Optional[bool]]
@@ -58,8 +58,12 @@ Physics = Union[str, Mapping[str, Any]]
 _ends = {"closed": 0, "any": 1, "feet": 2}
 
 
-class StoppedWarning(UserWarning):
-    """The recommended plan was stopped at cords that need more pull than a hand has (Frame.plan)."""
+class PullWarning(UserWarning):
+    """A cord of the recommended plan needs more pull than a hand has (Frame.plan): no number of cords was found that it can pull."""
+
+
+class StoppedWarning(PullWarning):
+    """The same, because the search was stopped."""
 
 
 @dataclass(frozen=True)
@@ -333,8 +337,12 @@ class Frame(_Owner):
             raise _library.failure(status, error)
         recommended = cords is None and not isinstance(ends, Mapping) and all(said[name] is None for name in (
             "aims", "distinct", "max_length", "max_pull", "gap", "request"))
-        if recommended and plan.stopped and plan.summary.pull > (hand or 10):
-            warnings.warn(str(_library.failure(status, error)), StoppedWarning, stacklevel=2)
+        pull = plan.summary.pull
+        if recommended and pull > (hand or 10):
+            text = str(_library.failure(status, error)) if plan.stopped else (
+                "a cord needs %.3g N at an end, more than the %g N of a hand; no number of cords was found that it can pull" % (
+                    pull, hand or 10))
+            warnings.warn(text, StoppedWarning if plan.stopped else PullWarning, stacklevel=2)
         return plan
 
     def advice(self, progress: Optional[Heard] = None, *, hand: Optional[float] = None, cover: Optional[int] = None,

@@ -225,6 +225,13 @@ refused(TypeError, "edge 3: 1.9 is no integer", lambda: Frame(SQUARE, [*SIDES[:3
 refused(TypeError, "node 1: 'x' is no number", lambda: Frame([SQUARE[0], ("x", 0, 0)], SIDES))
 refused(TypeError, "weld: '1' is no number", lambda: thread_plan.parse(frame.write(), "a.json", weld="1"))
 
+# A hand that no number of cords meets is said; of a plan that is another one a hand says nothing.
+with warnings.catch_warnings(record=True) as said:
+    warnings.simplefilter("always")
+    assert dome.plan(hand=0.5).summary.pull > 0.5
+assert [w.category for w in said] == [thread_plan.PullWarning] and "more than the 0.5 N of a hand" in str(said[0].message), said
+refused(thread_plan.BadInput, "hand: only for a recommended plan", lambda: dome.plan(cords=2, hand=1))
+
 for flags in ([True] * 48, [True] * 50):
     refused(thread_plan.BadInput, "feet: a mask of %d, but there are 49 nodes" % len(flags), lambda: dome.set_feet(flags))
 refused(thread_plan.BadInput, "seconds: nan", lambda: plan.eval(seconds=NAN))
