@@ -203,9 +203,9 @@ THREAD_API thread_status thread_eval_with(thread_plan *plan, const char *method,
 THREAD_API thread_status thread_draw_with(const thread_plan *plan, const char *type,
                                           const thread_plan_options *options, char **bytes,
                                           size_t *n, thread_error *err);
-/* What is known of a frame, as JSON (docs/outputs.md): "advice": plans for every number of cords
- * and kind of ends that may be worth it, and which is recommended; "symmetries": its groups, and
- * the best threading under each. THREAD_NOT_PROVED: *bytes has what there is so far, or is NULL. */
+/* What is known of a frame, as JSON (docs/outputs.md): "advice": plans for all numbers of cords and
+ * ends that may be worth it; "row": the plan of its row of these cords and ends; "symmetries": its
+ * groups, a threading each. THREAD_NOT_PROVED: *bytes has what there is so far, or is NULL. */
 THREAD_API thread_status thread_report(const thread_frame *frame, const char *what,
                                        const thread_plan_options *options, char **bytes, size_t *n,
                                        thread_error *err);

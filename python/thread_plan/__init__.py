@@ -357,6 +357,23 @@ class Frame(_Owner):
         return self._report("advice", None, progress, dict(
             hand=hand, cover=cover, capacity=capacity, physics=physics, seconds=seconds, threads=threads))
 
+    def advised(self, cords: int, ends: Optional[Ends] = None, progress: Optional[Heard] = None, *, hand: Optional[float] = None,
+                cover: Optional[int] = None, capacity: Optional[int] = None, physics: Optional[Physics] = None,
+                seconds: Optional[float] = None, threads: Optional[int] = None) -> "Plan":
+        """The plan of a row of advice() with the same options, which is searched for again: of so many cords in every component, with
+        these ends, "closed", "any" or "feet", or of the first such row. Nothing is proved of it; plan() proves what it can.
+
+            row = frame.advice()["rows"][2]
+            plan = frame.advised(row["cords"], row["ends"])
+
+        Infeasible: there is no such row."""
+        data, stopped = _made(self._asked(ends, _library.whole("cords", cords), dict(
+            hand=hand, cover=cover, capacity=capacity, physics=physics, seconds=seconds, threads=threads)),
+            progress, _library.lib.thread_report, self._open(), b"row")
+        plan = Plan(data)
+        plan._stopped = stopped
+        return plan
+
     def symmetries(self, ends: Optional[Ends] = None, progress: Optional[Heard] = None, *, aims: Optional[Words] = None,
                    cover: Optional[int] = None, tube: Optional[bool] = None, physics: Optional[Physics] = None,
                    seconds: Optional[float] = None, threads: Optional[int] = None) -> Dict[str, Any]:

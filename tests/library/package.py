@@ -77,6 +77,12 @@ counted = dome.plan(ends={0: 1, 6: 1, 42: 2})
 assert sorted(v for c in counted.cords for v in c.ends) == [0, 6, 42, 42]
 advice = dome.advice()
 assert advice["rows"][advice["recommended"]]["cords"] == len(chosen.cords), advice
+for row in advice["rows"][::2]:  # of every row there is the plan
+    advised = dome.advised(row["cords"], row["ends"])
+    advised.check()
+    facts = advised.summary
+    assert len(advised.cords) == row["cords"] and abs(facts.length - row["length"]) < 1e-6 and abs(facts.pull - row["pull"]) < 1e-6, row
+refused(thread_plan.Infeasible, "no row of 999", lambda: dome.advised(999))
 assert dome.symmetries(ends="any", seconds=1)["groups"][0]["order"] == 8
 
 # Written, read, drawn.
