@@ -25,6 +25,9 @@ half a second. `progress(what, best, bound)` is called in the thread of the call
 the best value so far (a length, or rad of turning; inf: none yet) and what it cannot be less than. It ends the call by returning True,
 and is not called again then; what it raises ends the call, too, and is raised there. Plan.stopped, and "stopped" in the dictionaries of
 advice, symmetries, rise and compare, say that time or progress ended a call: what there is then is right as far as it goes.
+
+Calls in several threads wait for each other: seconds and progress begin when the turn of a call comes. threads= lets one search use
+several processors; processes (multiprocessing) run side by side, and frames and plans can be sent between them.
 """
 from __future__ import annotations
 
@@ -41,7 +44,8 @@ from typing import Any, Callable, Dict, Iterable, List, Literal, Mapping, Option
 from . import _library
 from ._library import BadInput, Error, Infeasible, NotProved, Violated
 
-__all__ = ["BadInput", "Cord", "Error", "Frame", "Infeasible", "NotProved", "Plan", "PullWarning", "StoppedWarning", "Summary", "Violated", "compare",
+__all__ = ["BadInput", "Comparison", "Cord", "Document", "Ends", "Error", "Format", "Frame", "Heard", "Infeasible", "Method",
+           "NotProved", "Physics", "Plan", "PullWarning", "Shape", "StoppedWarning", "Summary", "Violated", "__version__", "compare",
            "libraries", "parse", "read", "version"]
 
 Heard = Callable[[str, float, float], Optional[bool]]
@@ -86,7 +90,8 @@ class Cord:
     tension: Optional[List[float]]
     """N in every pass: tension[k] between nodes[k] and nodes[k + 1]; None: not known."""
     grips: Optional[int] = None
-    """On the way, the fewest by which a hand of 10 N seats every pass; None: not known."""
+    """How often, at the least, the cord must be gripped and pulled tight somewhere on its way, beside the pull at its ends, for a hand
+    of 10 N to leave the seating tension in every pass; 0: the ends are enough. None: not known, or the seating tension alone is more."""
 
     def __repr__(self) -> str:
         pulled = "pulled with %.3g and %.3g N" % (self.pull_start, self.pull_end)
@@ -301,23 +306,29 @@ class Frame(_Owner):
 
         If of cords, aims, distinct, max_length, max_pull, gap and request nothing is said it is the recommended plan, as of
         `thread plan FRAME`: as few cords as `hand` can pull, from the best ends, the shortest. One that was stopped before some
-        were found that it can is a StoppedWarning. Else it is what `thread plan FRAME` makes with the same options.
+        were found that it can is a StoppedWarning; if none were found at all, a PullWarning. Else it is what
+        `thread plan FRAME` makes with the same options.
 
         ends: "closed", "any", "feet" (set_feet), a list of nodes, a mask, or {node: number of ends}; of the recommended plan the
             best ones if they are not said, else "closed".
         cords: exactly so many in every component, 1 to 1000, or (least, most); without them as few as max_length and max_pull
             take, else as many as distinct, else 1.
-        aims: first, second, ..: "length" (if nothing is said), "turning", "max-turning", "pull", "longest", "overlap", "steps",
-            "paths"; "length+5%,turning".
+        aims: what is to be least, first, second, ..: "length", "turning", "max-turning", "pull", "longest", "overlap", "steps",
+            "paths"; "length+5%,turning". Without them "length", if the plan is not the recommended one: aims="length" alone is the
+            shortest single cord of every component.
         seconds: for the call; 0 = until it is proved. Without them 20, or until it is proved of the shortest cords.
         cover, capacity: passes of every edge, from .. to; 1, or as many as distinct, to any number (0), or what goes through the
             bore that physics say.
         distinct: different cords that pass every edge, from 2; 0 = any.
         max_length: of a cord, in units of the frame. max_pull: at its ends, times the seating tension, from 1. 0 = any.
         tube: only edges are pieces, and the cord ties them at every node. False without.
-        physics: of cord and beads, {"mu": 0.3, "seating": 5} or as JSON. Without them mu 0.2 (cord on bead), seating 1 N (the
-            tension that is left in the slackest pass), and so on: Plan.json has all of them, `thread eval --help` explains them.
-        hand: N that an end of the recommended plan may need; 10 without, which a hand manages time after time.
+        physics: of cord and beads, {"mu": 0.3, "seating": 5} or as JSON. Friction: "mu" 0.2 (cord on bead), "mu_low" and "mu_high"
+            (what it may be: half of it, one and a half), "mu_bead" and "mu_ground" 0.25, "mu_power" and "mu_tension" (it falls as
+            the tension grows, N), "wobble" (rad/m). Forces: "seating" 1 N (the tension that is left in the slackest pass),
+            "gravity" (m/s2), "stiffness" (N), "bead_strength" (MPa). Sizes in mm: "cord_diameter", "bore", "bead_diameter";
+            "bead_mass" (g), "density" (g/cm3). "preset": a set of them, as "pla-cotton". Plan.json has the values that were taken.
+        hand: N that an end of the recommended plan may need; 10 without, which a hand manages time after time. BadInput with any
+            other plan, whose pull max_pull limits.
         gap: %, 0 to 100, the search ends so near to its bound.
         threads: processors that it may use, 1 to 1000, 1 without; they change no result but of a search that time ends.
         request: all that is asked for, as "options" of a plan's JSON (Plan.json); the rest but seconds, gap and threads does not count.
@@ -353,7 +364,10 @@ class Frame(_Owner):
         was found in time. Of a row: "cords" in every component and their "ends"; "length" of all and "longest" cord, in units;
         "max_turning", rad, of the cord that turns most, and the bound on it; "pull", "pull_low", "pull_high": N at the hardest end
         with mu, mu_low and mu_high, both ends pulled, and "other_pull" at that cord's other end; "passes" of all cords, and "steps",
-        those that no symmetry repeats; "frontier": no other row is as good in cords, length and pull, and better in one."""
+        those that no symmetry repeats; "frontier": no other row is as good in cords, length and pull, and better in one;
+        "max_turning_status": "optimal" (proved the least), "bound" ("max_turning_bound" is what it cannot be less than) or "unknown".
+        Of all rows: "complete", False: time or work was over before all numbers were tried; "left_out": rows that bought nothing, and
+        are not shown; "hand", "seating", "mu", "mu_low" and "mu_high" that were taken. advised() makes the plan of a row."""
         return self._report("advice", None, progress, dict(
             hand=hand, cover=cover, capacity=capacity, physics=physics, seconds=seconds, threads=threads))
 
@@ -508,8 +522,9 @@ class Plan(_Owner):
         "pieces": how many. "faces": passes of cords over faces between two pieces. "weight": N, of all pieces as they are printed.
         "closed_form", "limit_analysis": N at every end, what seats every pass, and what the closed shape cannot stand below.
         "seconds_a_frame": between two moments. "jam": where faces stay open, and what to try; not there if none do.
-        "runs": one. In it "came_up": all faces are closed in the end, and it is upright; "pull_up", "pull_down": N at every end at
-        which that was so, and below which it fell when it was let down; "most_closed": faces closed at once; "off": mm, of the
+        "runs": one. In it "came_up": all faces are closed in the end, and it is upright; "pull_up": N at every end at which
+        that was so, not there if it did not come up; "pull_down": N below which it fell when it was let down, not there if it did not
+        fall or the time was over before; "most_closed": faces closed at once; "off": mm, of the
         node farthest from the drawn shape; "tilt": degrees; "kink", "twist": degrees for every pass; "moments": rows of time in s,
         N at every end, mm of cord drawn in, closed faces, mm of height, N of a hand that lifts."""
         return _reported(_options(dict(seconds=seconds)), progress, _library.lib.thread_report_plans,
@@ -525,9 +540,11 @@ class Plan(_Owner):
 
     def draw(self, type: Document = "svg", path: Optional[Path] = None, progress: Optional[Heard] = None,
              seconds: float = 0.0) -> bytes:
-        """The bytes of a document as `thread draw --type` makes it, which are also written to path, if there is one: "svg", "pdf" and
-        "sheets.html" (the booklet), "html" (the viewer), "kit" (the pieces to print as 3MF: draw("kit", "kit.3mf"); `thread kit` with
-        the file of the plan makes STL, too, and other sizes), and the others of Document. BadInput: no such document, or the plan
+        """The bytes of a document as `thread draw --type` makes it, which are also written to path, if there is one: "svg"
+        (the picture of all cords), "pdf" and "sheets.html" (the booklet), "html" (the viewer), "steps" (as text), the tables
+        "steps.csv", "cords.csv", "beads.csv" and "channels.csv", the cords as "obj", "dxf", "gltf" or "compas", "mat" and "mat.html"
+        (to lay the pieces out on), "poster", "picture" (PNG, of the printed pieces), "kit" (the pieces to print as 3MF:
+        draw("kit", "kit.3mf"); `thread kit` with the file of the plan makes STL, too, and other sizes). BadInput: no such document, or the plan
         has not what it shows."""
         given = _options(dict(seconds=seconds))
         return _kept(_made(given, progress, _library.lib.thread_draw_with, self._open(), _library.text("type", type))[0], path)
@@ -600,7 +617,8 @@ def read(path: Path, *, edges: Optional[str] = None, units: Optional[str] = None
          scale: Optional[float] = None, flat: Optional[float] = None, up: Optional[str] = None, split: Optional[bool] = None,
          pick: Optional[int] = None, part: Optional[str] = None, all_layers: Optional[bool] = None, parallel: Optional[bool] = None,
          columns: Optional[str] = None) -> Frame:
-    """Reads a frame from a file: OBJ, DXF, PLY, STL, CSV, JSON, GraphML, .. Frame.notes says what was merged or dropped.
+    """Reads a frame from a file: OBJ, DXF, PLY, STL, CSV, JSON, GraphML, .. Frame.notes says what was merged or dropped, and
+    whether its unit may be another one; look at them, as nothing else warns.
 
     edges: the second file of a pair of tables. columns: of a table of edges, both ends' columns, "a,b".
     units: of the numbers, where the file does not say: "m". scale: times every coordinate. up: "y" or "z".
@@ -629,9 +647,10 @@ def parse(data: Union[str, bytes], name: str, *, units: Optional[str] = None, we
     if not isinstance(data, (str, bytes, bytearray, memoryview)):
         raise TypeError("a frame is read from text or bytes, and %r is neither" % (data,))
     text = data.encode() if isinstance(data, str) else bytes(data)
-    return Frame._made(_library.lib.thread_frame_parse, c_char_p(text), c_size_t(len(text)), _library.text("name", name), _read_options(dict(
+    options = _read_options(dict(
         units=units, weld=weld, scale=scale, flat=flat, up=up, split=split, pick=pick, part=part, all_layers=all_layers,
-        parallel=parallel, columns=columns)))
+        parallel=parallel, columns=columns))
+    return Frame._made(_library.lib.thread_frame_parse, c_char_p(text), c_size_t(len(text)), _library.text("name", name), options)
 
 
 def _read_options(options: Mapping[str, Any]) -> Any:
@@ -666,3 +685,6 @@ def version() -> str:
 def libraries() -> str:
     """The versions of what is in it."""
     return str(_library.lib.thread_libraries().decode())
+
+
+__version__ = version()

@@ -289,10 +289,18 @@ refused(thread_plan.BadInput, "ends[0]: there is no node 999", lambda: dome.plan
 refused(thread_plan.Infeasible, "with set_feet or ends", lambda: Frame(SQUARE, SIDES).plan(ends="feet"))
 refused(thread_plan.BadInput, "the least of cords", lambda: dome.plan(cords=(5, 4)))
 
+assert thread_plan.__version__ == thread_plan.version()
+assert all(name in thread_plan.__all__ for name, value in vars(thread_plan).items()
+           if not name.startswith("_") and getattr(value, "__module__", "").startswith("thread_plan"))
+for name in typing.get_args(thread_plan.Document):
+    assert '"%s"' % name in thread_plan.Plan.draw.__doc__, name
+for name in json.loads(chosen.json())["options"]["physics"]:
+    assert '"%s"' % name in Frame.plan.__doc__, name
+
 # Everything that is public says what it is; of a method also its own words, not those of a base.
 for name in thread_plan.__all__:
     public = getattr(thread_plan, name)
-    assert inspect.getdoc(public), name
+    assert inspect.getdoc(public) or typing.get_origin(public), name
     for member, value in vars(public).items() if inspect.isclass(public) else ():
         assert member.startswith("_") or not (callable(value) or isinstance(value, (property, classmethod))) or value.__doc__, (name, member)
 
