@@ -24,7 +24,7 @@ typedef enum {
   THREAD_IO,         /* a file could not be opened, read or written */
   THREAD_BAD_INPUT,  /* the text says where, what, and what to do */
   THREAD_INFEASIBLE, /* no threading with these options; the text says what forbids it */
-  THREAD_NOT_PROVED, /* stopped by time or progress: what there is is valid and holds its bounds */
+  THREAD_NOT_PROVED, /* valid, but not proved: ended by time or progress, or as far as it goes */
   THREAD_SOLVER,     /* a library failed */
   THREAD_VIOLATED    /* a claim of the plan is not true */
 } thread_status;
@@ -140,7 +140,7 @@ typedef struct {
   double gap; /* %, 0 to 100: the search ends when the plan is so near to its bound, which is
                  THREAD_OK; < 0 = as thread plan */
   const int *end_count; /* of THREAD_COUNTS: [nodes] */
-  double hand;          /* N of an end where cords are not said, and of advice; < 0 = 10 */
+  double hand;          /* N of an end of a recommended plan, or of advice; < 0 = 10 */
 } thread_plan_options;
 THREAD_API void thread_plan_options_init(thread_plan_options *options, size_t size);
 
@@ -183,7 +183,7 @@ typedef struct {
   double turning, largest_turning; /* of all cords, and of the one that turns most */
   double pull;                     /* at an end, of the cord that needs most: as in thread_cord */
   int passes, u_turns, shortest, straightest; /* 1: no such plan is shorter, turns less, proved */
-  int stopped; /* 1: its search was ended before it was done, and the pull may be beyond a hand */
+  int stopped; /* 1: time or progress ended its search, and the pull may be beyond a hand */
 } thread_summary;
 THREAD_API thread_status thread_plan_summary(const thread_plan *plan, thread_summary *out,
                                              size_t size, thread_error *err);
@@ -203,9 +203,9 @@ THREAD_API thread_status thread_eval_with(thread_plan *plan, const char *method,
 THREAD_API thread_status thread_draw_with(const thread_plan *plan, const char *type,
                                           const thread_plan_options *options, char **bytes,
                                           size_t *n, thread_error *err);
-/* What is known of a frame, as JSON (docs/outputs.md): "advice": plans for every number of cords
- * and kind of ends that may be worth it, and which is recommended; "symmetries": its groups, and
- * the best threading under each. THREAD_NOT_PROVED: *bytes has what there is so far, or is NULL. */
+/* What is known of a frame, as JSON (docs/outputs.md): "advice": plans for all numbers of cords and
+ * ends that may be worth it; "row": the plan of its row of these cords and ends; "symmetries": its
+ * groups, a threading each. THREAD_NOT_PROVED: *bytes has what there is so far, or is NULL. */
 THREAD_API thread_status thread_report(const thread_frame *frame, const char *what,
                                        const thread_plan_options *options, char **bytes, size_t *n,
                                        thread_error *err);

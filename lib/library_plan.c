@@ -132,7 +132,6 @@ static thread_status hand_over(thr_status st, thread_plan *made, double hand, th
   bool whole = made && made->plan.n_cords > 0 && (st == THR_OK || st == THR_ELIMIT);
   thr_status described = whole ? describe(made, why) : THR_OK;
   if (described) st = described;
-  if (made) made->stopped = st == THR_ELIMIT;
   if (whole && !described) warn_of_pull(made, hand, why);
 
   /* The caller owns the plan, or gets none. */
@@ -185,15 +184,21 @@ static void send_found(void *user, const thr_plan *plan, const thr_text *text)
   job->given->progress(job->given->user, "length", plan->metrics.length, 0);
 }
 
+/* Follows the JSON of a plan whose search was not cut short by time or the caller, though it may
+ * have proved nothing. */
+static const char at_the_end = '.';
+
 /* Returns whether time or the caller, not counted work, ended a search before what there is was
- * proved to the gap asked for: of a recommended plan fewer cords may not have been tried. */
-static bool was_ended(const search *job, const thr_limits *limits, const thr_plan *plan)
+ * proved to the gap asked for: of a recommended plan fewer cords may not have been tried. st: how
+ * the search ended; THR_ELIMIT: something that was asked for is not proved. */
+static bool was_ended(const search *job, thr_status st, const thr_limits *limits,
+                      const thr_plan *plan)
 {
   thr_limits by_clock = *limits;
   by_clock.work = NULL;
   const double enough = fmax(0, plan->options.gap) / 100;
   const bool proved =
-      !thr_library_recommends(job->options) &&
+      st == THR_OK && !thr_library_recommends(job->options) &&
       (thr_wants_turning(&plan->options) ? plan->turning.present && plan->turning.gap <= enough
                                          : plan->proof.present && plan->proof.gap <= enough);
   return !proved && thr_limits_stop(&by_clock);
@@ -210,6 +215,7 @@ static thr_status search_and_send(void *user, const thr_limits *given, thr_reply
   thr_report report = {0};
   thr_text text = {0};
   double work;
+  bool ended = true;
 
   thr_status st = thr_library_request(options, job->frame, &request, err);
   if (!st) {
@@ -231,13 +237,14 @@ static thr_status search_and_send(void *user, const thr_limits *given, thr_reply
                                            &report, err)
                     : thr_plan_make(job->frame, &request, &limits, &plan, &report, err);
     thr_incumbent_end(&job->best, given->progress ? &plan : &(thr_plan){0});
-    if (!st && was_ended(job, &limits, &plan))
-      st = thr_fail(err, THR_ELIMIT, "the search was ended before it was done");
+    ended = (!st || st == THR_ELIMIT) && was_ended(job, st, &limits, &plan);
+    if (!st && ended) st = thr_fail(err, THR_ELIMIT, "the search was ended before it was done");
   }
 
   /* A plan without cords is no plan. */
   if ((st == THR_OK || st == THR_ELIMIT) && plan.n_cords > 0) {
     thr_plan_write(&plan, &text);
+    if (!ended) thr_text_append_bytes(&text, &at_the_end, 1);
     const thr_status sent = thr_reply_send(reply, &text, err);
     if (sent) st = sent;
   }
@@ -267,12 +274,18 @@ thread_status thread_plan_make(const thread_frame *frame, const thread_plan_opti
 
   /* Options that the program does not know keep their usual values. */
   thr_status st = made ? thr_library_plan_options(options, &own, &why) : thr_nomem(&why);
+  if (!st && own.hand > 0 && !thr_library_recommends(&own))
+    st = thr_fail(&why, THR_EINPUT,
+                  "hand: only for a recommended plan, of which cords, aims, distinct, gap, request "
+                  "and numbers of ends are not said; max_pull limits the pull of any other");
   if (!st)
     st = thr_library_do(&(thr_job){"planning", search_and_send, &job, false}, &own, &json, &why);
 
   /* The answer is the plan as JSON, whoever has made it. */
   if ((st == THR_OK || st == THR_ELIMIT) && json.length > 0) {
     thr_err unread = {0};
+    made->stopped = json.data[json.length - 1] != at_the_end;
+    if (!made->stopped) json.length--;
     const thr_status read = thr_plan_parse(&made->plan, json.data, json.length, "plan", &unread);
     if (read) {
       st = read;

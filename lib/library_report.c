@@ -32,6 +32,7 @@ struct report_kind {
   int method; /* that plans are compared by */
   thr_status (*put)(const report *job, const thr_request *request, const thr_limits *given,
                     thr_writer *writer, thr_err *err);
+  bool row; /* of advice, the plan of the row that options name by cords and ends */
 };
 
 /* The time of all groups where nobody says how long, s. */
@@ -90,7 +91,34 @@ static void take_row(void *user, const thr_advice_row *row)
   send_advice(so_far);
 }
 
-/* Appends the advice for a frame. */
+/* Writes the plan of the row of so many cords with these ends, if they are said. THR_EINFEASIBLE:
+ * there is none; THR_ELIMIT: not in the time. */
+static thr_status put_row(const report *job, const thr_request *request, const thr_advice *advice,
+                          thr_text *text, thr_err *err)
+{
+  const thread_plan_options *options = job->options;
+  const bool any_ends = options->ends == THREAD_UNSAID;
+  thr_plan plan = {0};
+
+  if (options->cords < 0)
+    return thr_fail(err, THR_EINPUT, "cords: they say which row, but are not said");
+
+  int i = 0;
+  while (i < advice->n && (advice->row[i].cords != options->cords ||
+                           (!any_ends && (int)advice->row[i].ends != (int)options->ends)))
+    i++;
+  if (i == advice->n)
+    return thr_fail(err, advice->complete || options->seconds < 0 ? THR_EINFEASIBLE : THR_ELIMIT,
+                    "cords: the advice has no row of %d%s", options->cords,
+                    any_ends ? "" : " with these ends");
+
+  const thr_status st = thr_advice_plan(job->frame, request, &advice->row[i], &plan, err);
+  if (!st) thr_plan_write(&plan, text);
+  thr_plan_destroy(&plan);
+  return st;
+}
+
+/* Appends the advice for a frame, or writes the plan of one row. */
 static thr_status advise(const report *job, const thr_request *request, const thr_limits *given,
                          thr_writer *writer, thr_err *err)
 {
@@ -107,16 +135,19 @@ static thr_status advise(const report *job, const thr_request *request, const th
   thr_limits limits = thr_library_time(options, options->seconds, given);
   if (options->seconds < 0) limits = thr_limits_counted(&limits, &work);
   thr_advise_options how = {
-      .hand = hand, .row = given->progress ? take_row : NULL, .user = &so_far};
+      .hand = hand, .row = given->progress && !job->kind->row ? take_row : NULL, .user = &so_far};
 
   st = thr_advise(job->frame, request, &how, &limits, &advice, err);
   free(so_far.advice.row);
   if (st) return st;
-  thr_advice_put_json(writer, job->frame, &advice, NULL, NULL);
+  if (job->kind->row)
+    st = put_row(job, request, &advice, writer->out, err);
+  else
+    thr_advice_put_json(writer, job->frame, &advice, NULL, NULL);
   const bool complete = advice.complete || options->seconds < 0;
   thr_advice_destroy(&advice);
-  return complete ? THR_OK
-                  : thr_fail(err, THR_ELIMIT, "the time was over before all rows were tried");
+  return complete || st ? st
+                        : thr_fail(err, THR_ELIMIT, "the time was over before all rows were tried");
 }
 
 /* ---- symmetries ---- */
@@ -252,13 +283,14 @@ static thr_status compare(const report *job, const thr_request *request, const t
 
 static const report_kind reports[] = {
     {"advice", .put = advise},
+    {"row", .row = true, .put = advise},
     {"symmetries", .put = find_symmetries},
     {"rise", 1, .put = rise},
-    {"compare", MOST_PLANS, THR_JOINT, compare},
-    {"compare capstan", MOST_PLANS, THR_CAPSTAN, compare},
-    {"compare structure", MOST_PLANS, THR_STRUCTURE, compare},
-    {"compare all", MOST_PLANS, THR_BY_ALL, compare},
-    {"compare rise", MOST_PLANS, THR_BY_RISE, compare},
+    {"compare", MOST_PLANS, THR_JOINT, .put = compare},
+    {"compare capstan", MOST_PLANS, THR_CAPSTAN, .put = compare},
+    {"compare structure", MOST_PLANS, THR_STRUCTURE, .put = compare},
+    {"compare all", MOST_PLANS, THR_BY_ALL, .put = compare},
+    {"compare rise", MOST_PLANS, THR_BY_RISE, .put = compare},
 };
 enum { N_REPORTS = sizeof reports / sizeof *reports };
 
@@ -275,12 +307,13 @@ static thr_status report_and_send(void *user, const thr_limits *given, thr_reply
   thr_status st = THR_OK;
   if (job->frame) st = thr_library_request(job->options, job->frame, &request, err);
   if (!st) {
-    thr_write_object(&writer, NULL);
+    const bool is_object = !job->kind->row;
+    if (is_object) thr_write_object(&writer, NULL);
     const size_t empty = text.length;
     st = job->kind->put(job, &request, given, &writer, err);
     const bool written = text.length > empty;
-    thr_write_close(&writer);
-    thr_text_append(&text, "\n");
+    if (is_object) thr_write_close(&writer);
+    if (is_object) thr_text_append(&text, "\n");
 
     /* What came of it before the time was over, in place of what was sent on the way. */
     if (!st || (st == THR_ELIMIT && written)) {
@@ -298,7 +331,7 @@ static thr_status report_and_send(void *user, const thr_limits *given, thr_reply
 /* Finds the report of this name, of a frame or of plans. THR_EINPUT: there is none. */
 static thr_status find_report(const char *what, report *job, thr_err *err)
 {
-  const char *const offered = job->frame ? "advice and symmetries"
+  const char *const offered = job->frame ? "advice, row and symmetries"
                                          : "rise and compare, compare capstan, compare structure, "
                                            "compare all and compare rise";
   for (int i = 0; i < N_REPORTS && !job->kind; i++)

@@ -25,6 +25,9 @@ half a second. `progress(what, best, bound)` is called in the thread of the call
 the best value so far (a length, or rad of turning; inf: none yet) and what it cannot be less than. It ends the call by returning True,
 and is not called again then; what it raises ends the call, too, and is raised there. Plan.stopped, and "stopped" in the dictionaries of
 advice, symmetries, rise and compare, say that time or progress ended a call: what there is then is right as far as it goes.
+
+Calls in several threads wait for each other: seconds and progress begin when the turn of a call comes. threads= lets one search use
+several processors; processes (multiprocessing) run side by side, and frames and plans can be sent between them.
 """
 from __future__ import annotations
 
@@ -41,7 +44,8 @@ from typing import Any, Callable, Dict, Iterable, List, Literal, Mapping, Option
 from . import _library
 from ._library import BadInput, Error, Infeasible, NotProved, Violated
 
-__all__ = ["BadInput", "Cord", "Error", "Frame", "Infeasible", "NotProved", "Plan", "StoppedWarning", "Summary", "Violated", "compare",
+__all__ = ["BadInput", "Comparison", "Cord", "Document", "Ends", "Error", "Format", "Frame", "Heard", "Infeasible", "Method",
+           "NotProved", "Physics", "Plan", "PullWarning", "Shape", "StoppedWarning", "Summary", "Violated", "__version__", "compare",
            "libraries", "parse", "read", "version"]
 
 Heard = Callable[[str, float, float], Optional[bool]]
@@ -58,8 +62,12 @@ Physics = Union[str, Mapping[str, Any]]
 _ends = {"closed": 0, "any": 1, "feet": 2}
 
 
-class StoppedWarning(UserWarning):
-    """The recommended plan was stopped at cords that need more pull than a hand has (Frame.plan)."""
+class PullWarning(UserWarning):
+    """A cord of the recommended plan needs more pull than a hand has (Frame.plan): no number of cords was found that it can pull."""
+
+
+class StoppedWarning(PullWarning):
+    """The same, because the search was stopped."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +90,8 @@ class Cord:
     tension: Optional[List[float]]
     """N in every pass: tension[k] between nodes[k] and nodes[k + 1]; None: not known."""
     grips: Optional[int] = None
-    """On the way, the fewest by which a hand of 10 N seats every pass; None: not known."""
+    """How often, at the least, the cord must be gripped and pulled tight somewhere on its way, beside the pull at its ends, for a hand
+    of 10 N to leave the seating tension in every pass; 0: the ends are enough. None: not known, or the seating tension alone is more."""
 
     def __repr__(self) -> str:
         pulled = "pulled with %.3g and %.3g N" % (self.pull_start, self.pull_end)
@@ -171,18 +180,20 @@ class Frame(_Owner):
     """
 
     _free = _library.lib.thread_frame_free
+    _notes: Optional[List[str]] = None  # of the frame that this one is a copy of
 
     def __init__(self, xyz: Iterable[Sequence[float]], edges: Iterable[Sequence[int]], units: str = "mm") -> None:
         points, pairs = [tuple(p) for p in xyz], [tuple(e) for e in edges]
         if any(len(p) != 3 for p in points) or any(len(e) != 2 for e in pairs):
             raise BadInput(_library.BAD_INPUT, "a point has three coordinates, and an edge two nodes")
-        flat = [float(x) for p in points for x in p]
+        flat = [_library.real("node %d" % i, x) for i, p in enumerate(points) for x in p]
+        ends = [_library.whole("edge %d" % i, v) for i, e in enumerate(pairs) for v in e]
         self._handle = c_void_p()
         _library.call(_library.lib.thread_frame_make, c_int(len(points)), (c_double * len(flat))(*flat), c_int(len(pairs)),
-                      _library.ints("edges", (v for e in pairs for v in e)), units.encode(), byref(self._handle))
+                      (c_int * len(ends))(*ends), _library.text("units", units), byref(self._handle))
 
     def __reduce__(self) -> Any:
-        return parse, (self.write("json"), "frame.json")
+        return parse, (self.write("json"), "frame.json"), {"_notes": self.notes}
 
     def __repr__(self) -> str:
         if not self._handle:
@@ -200,7 +211,7 @@ class Frame(_Owner):
     def shape(cls, shape: Shape, size: int = 0) -> "Frame":
         """An example: "dome", "geodesic", "sphere", "tube", "honeycomb", "row", "arch" or "alternating". size: what `thread make`
         counts, of a dome the nodes per side; 0 is the usual one. In mm. BadInput: no such shape or size."""
-        return cls._made(_library.lib.thread_frame_shape, shape.encode(), c_int(size))
+        return cls._made(_library.lib.thread_frame_shape, _library.text("shape", shape), c_int(_library.whole("size", size)))
 
     @property
     def nodes(self) -> List[Tuple[float, float, float]]:
@@ -248,6 +259,8 @@ class Frame(_Owner):
     @property
     def notes(self) -> List[str]:
         """What reading merged, dropped or found odd, a line each."""
+        if self._notes is not None:
+            return list(self._notes)
         return [str(line) for line in _library.lib.thread_frame_notes(self._open()).decode().splitlines()]
 
     def set_feet(self, nodes: Union[str, Iterable[int]] = "lowest") -> "Frame":
@@ -263,8 +276,10 @@ class Frame(_Owner):
 
     def _nodes(self, name: str, nodes: Iterable[int]) -> Any:
         """An array of C ints of nodes, or of a mask that has True or False for every node."""
+        if isinstance(nodes, bytes) or not isinstance(nodes, Iterable):
+            raise TypeError("%s: %r is neither a list of nodes, nor a mask, nor a word for some" % (name, nodes))
         given = list(nodes)
-        if given and all(type(v).__name__ in ("bool", "bool_") for v in given):
+        if given and all(_library.is_flag(v) for v in given):
             if len(given) != len(self.nodes):
                 raise BadInput(_library.BAD_INPUT, "%s: a mask of %d, but there are %d nodes" % (name, len(given), len(self.nodes)))
             given = [v for v, is_one in enumerate(given) if is_one]
@@ -273,12 +288,13 @@ class Frame(_Owner):
     def set_passes(self, edge: int, cover: int, capacity: int = 0) -> None:
         """Says how many passes an edge, from 0, needs (1 to 100), and how many fit through it (0 = any number). BadInput: no such
         edge, or capacity below cover."""
-        _library.call(_library.lib.thread_frame_set_passes, self._open(), c_int(edge), c_int(cover), c_int(capacity))
+        _library.call(_library.lib.thread_frame_set_passes, self._open(), *[
+            c_int(_library.whole(name, value)) for name, value in (("edge", edge), ("cover", cover), ("capacity", capacity))])
 
     def write(self, format: Format = "json", path: Optional[Path] = None) -> bytes:
         """The bytes of the frame as "json", "obj", "csv", "ply", "dxf" or "graphml", which are also written to path, if there is one.
         BadInput: no such format."""
-        return _kept(_library.received(_library.lib.thread_frame_write, self._open(), format.encode()), path)
+        return _kept(_library.received(_library.lib.thread_frame_write, self._open(), _library.text("format", format)), path)
 
     def plan(self, ends: Optional[Ends] = None, cords: Optional[Union[int, Tuple[int, int]]] = None,
              progress: Optional[Heard] = None, *, aims: Optional[Words] = None, seconds: Optional[float] = None,
@@ -290,23 +306,29 @@ class Frame(_Owner):
 
         If of cords, aims, distinct, max_length, max_pull, gap and request nothing is said it is the recommended plan, as of
         `thread plan FRAME`: as few cords as `hand` can pull, from the best ends, the shortest. One that was stopped before some
-        were found that it can is a StoppedWarning. Else it is what `thread plan FRAME` makes with the same options.
+        were found that it can is a StoppedWarning; if none were found at all, a PullWarning. Else it is what
+        `thread plan FRAME` makes with the same options.
 
         ends: "closed", "any", "feet" (set_feet), a list of nodes, a mask, or {node: number of ends}; of the recommended plan the
             best ones if they are not said, else "closed".
         cords: exactly so many in every component, 1 to 1000, or (least, most); without them as few as max_length and max_pull
             take, else as many as distinct, else 1.
-        aims: first, second, ..: "length" (if nothing is said), "turning", "max-turning", "pull", "longest", "overlap", "steps",
-            "paths"; "length+5%,turning".
+        aims: what is to be least, first, second, ..: "length", "turning", "max-turning", "pull", "longest", "overlap", "steps",
+            "paths"; "length+5%,turning". Without them "length", if the plan is not the recommended one: aims="length" alone is the
+            shortest single cord of every component.
         seconds: for the call; 0 = until it is proved. Without them 20, or until it is proved of the shortest cords.
         cover, capacity: passes of every edge, from .. to; 1, or as many as distinct, to any number (0), or what goes through the
             bore that physics say.
         distinct: different cords that pass every edge, from 2; 0 = any.
         max_length: of a cord, in units of the frame. max_pull: at its ends, times the seating tension, from 1. 0 = any.
         tube: only edges are pieces, and the cord ties them at every node. False without.
-        physics: of cord and beads, {"mu": 0.3, "seating": 5} or as JSON. Without them mu 0.2 (cord on bead), seating 1 N (the
-            tension that is left in the slackest pass), and so on: Plan.json has all of them, `thread eval --help` explains them.
-        hand: N that an end of the recommended plan may need; 10 without, which a hand manages time after time.
+        physics: of cord and beads, {"mu": 0.3, "seating": 5} or as JSON. Friction: "mu" 0.2 (cord on bead), "mu_low" and "mu_high"
+            (what it may be: half of it, one and a half), "mu_bead" and "mu_ground" 0.25, "mu_power" and "mu_tension" (it falls as
+            the tension grows, N), "wobble" (rad/m). Forces: "seating" 1 N (the tension that is left in the slackest pass),
+            "gravity" (m/s2), "stiffness" (N), "bead_strength" (MPa). Sizes in mm: "cord_diameter", "bore", "bead_diameter";
+            "bead_mass" (g), "density" (g/cm3). "preset": a set of them, as "pla-cotton". Plan.json has the values that were taken.
+        hand: N that an end of the recommended plan may need; 10 without, which a hand manages time after time. BadInput with any
+            other plan, whose pull max_pull limits.
         gap: %, 0 to 100, the search ends so near to its bound.
         threads: processors that it may use, 1 to 1000, 1 without; they change no result but of a search that time ends.
         request: all that is asked for, as "options" of a plan's JSON (Plan.json); the rest but seconds, gap and threads does not count.
@@ -326,8 +348,12 @@ class Frame(_Owner):
             raise _library.failure(status, error)
         recommended = cords is None and not isinstance(ends, Mapping) and all(said[name] is None for name in (
             "aims", "distinct", "max_length", "max_pull", "gap", "request"))
-        if recommended and plan.stopped and plan.summary.pull > (hand or 10):
-            warnings.warn(str(_library.failure(status, error)), StoppedWarning, stacklevel=2)
+        pull = plan.summary.pull
+        if recommended and pull > (hand or 10):
+            text = str(_library.failure(status, error)) if plan.stopped else (
+                "a cord needs %.3g N at an end, more than the %g N of a hand; no number of cords was found that it can pull" % (
+                    pull, hand or 10))
+            warnings.warn(text, StoppedWarning if plan.stopped else PullWarning, stacklevel=2)
         return plan
 
     def advice(self, progress: Optional[Heard] = None, *, hand: Optional[float] = None, cover: Optional[int] = None,
@@ -338,9 +364,29 @@ class Frame(_Owner):
         was found in time. Of a row: "cords" in every component and their "ends"; "length" of all and "longest" cord, in units;
         "max_turning", rad, of the cord that turns most, and the bound on it; "pull", "pull_low", "pull_high": N at the hardest end
         with mu, mu_low and mu_high, both ends pulled, and "other_pull" at that cord's other end; "passes" of all cords, and "steps",
-        those that no symmetry repeats; "frontier": no other row is as good in cords, length and pull, and better in one."""
+        those that no symmetry repeats; "frontier": no other row is as good in cords, length and pull, and better in one;
+        "max_turning_status": "optimal" (proved the least), "bound" ("max_turning_bound" is what it cannot be less than) or "unknown".
+        Of all rows: "complete", False: time or work was over before all numbers were tried; "left_out": rows that bought nothing, and
+        are not shown; "hand", "seating", "mu", "mu_low" and "mu_high" that were taken. advised() makes the plan of a row."""
         return self._report("advice", None, progress, dict(
             hand=hand, cover=cover, capacity=capacity, physics=physics, seconds=seconds, threads=threads))
+
+    def advised(self, cords: int, ends: Optional[Ends] = None, progress: Optional[Heard] = None, *, hand: Optional[float] = None,
+                cover: Optional[int] = None, capacity: Optional[int] = None, physics: Optional[Physics] = None,
+                seconds: Optional[float] = None, threads: Optional[int] = None) -> "Plan":
+        """The plan of a row of advice() with the same options, which is searched for again: of so many cords in every component, with
+        these ends, "closed", "any" or "feet", or of the first such row. Nothing is proved of it; plan() proves what it can.
+
+            row = frame.advice()["rows"][2]
+            plan = frame.advised(row["cords"], row["ends"])
+
+        Infeasible: there is no such row."""
+        data, stopped = _made(self._asked(ends, _library.whole("cords", cords), dict(
+            hand=hand, cover=cover, capacity=capacity, physics=physics, seconds=seconds, threads=threads)),
+            progress, _library.lib.thread_report, self._open(), b"row")
+        plan = Plan(data)
+        plan._stopped = stopped
+        return plan
 
     def symmetries(self, ends: Optional[Ends] = None, progress: Optional[Heard] = None, *, aims: Optional[Words] = None,
                    cover: Optional[int] = None, tube: Optional[bool] = None, physics: Optional[Physics] = None,
@@ -351,6 +397,8 @@ class Frame(_Owner):
             aims=aims, cover=cover, tube=tube, physics=physics, seconds=seconds, threads=threads))
 
     def _asked(self, ends: Optional[Ends], cords: Optional[Union[int, Tuple[int, int]]], options: Mapping[str, Any]) -> Any:
+        if isinstance(cords, (list, tuple)) and len(cords) != 2:
+            raise TypeError("cords: %r is neither a number nor (least, most)" % (cords,))
         least, most = cords if isinstance(cords, (list, tuple)) else (None, cords)
         given = _library.filled(_library.PlanOptions(), _library.lib.thread_plan_options_init,
                                 dict(options, cords_least=least, cords=most))
@@ -381,15 +429,18 @@ class Plan(_Owner):
     """
 
     _free = _library.lib.thread_plan_free
+    _stopped = False  # the plan that this one is a copy of
 
     def __init__(self, json: Union[str, bytes], name: str = "plan") -> None:
         """Reads a plan from its JSON; name is for messages."""
         text = json.encode() if isinstance(json, str) else json
+        if not isinstance(text, (bytes, bytearray)):
+            raise TypeError("a plan is read from its JSON, text or bytes, and %r is neither" % (json,))
         self._handle = c_void_p()
-        _library.call(_library.lib.thread_plan_parse, text, c_size_t(len(text)), name.encode(), byref(self._handle))
+        _library.call(_library.lib.thread_plan_parse, bytes(text), c_size_t(len(text)), _library.text("name", name), byref(self._handle))
 
     def __reduce__(self) -> Any:
-        return Plan, (self.json(),)
+        return Plan, (self.json(),), {"_stopped": self.stopped}
 
     def __repr__(self) -> str:
         if not self._handle:
@@ -433,7 +484,7 @@ class Plan(_Owner):
         return Summary(length=facts.length, bound=facts.bound, overlap=facts.overlap, turning=facts.turning,
                        largest_turning=facts.largest_turning, pull=facts.pull, passes=facts.passes, u_turns=facts.u_turns,
                        shortest=bool(facts.shortest), straightest=bool(facts.straightest),
-                       stopped=bool(facts.stopped))
+                       stopped=bool(facts.stopped) or self._stopped)
 
     @property
     def proved(self) -> bool:
@@ -457,9 +508,9 @@ class Plan(_Owner):
         seating tension in every pass. "structure": the least pulls at which the rigid pieces can stand while cords are drawn in,
         by limit analysis; 0 N, in every pass, too, is true of what weight and friction hold by themselves.
         BadInput: no such method. NotProved: the time was too short; the plan is as it was."""
-        given = _options(dict(seconds=float(seconds), threads=threads))
+        given, named = _options(dict(seconds=seconds, threads=threads)), _library.text("method", method)
         status, error = _heard(given, progress, lambda text: int(_library.lib.thread_eval_with(
-            self._open(), method.encode(), byref(given), byref(text))))
+            self._open(), named, byref(given), byref(text))))
         if status != _library.OK:
             raise _library.failure(status, error)
         return self
@@ -471,11 +522,12 @@ class Plan(_Owner):
         "pieces": how many. "faces": passes of cords over faces between two pieces. "weight": N, of all pieces as they are printed.
         "closed_form", "limit_analysis": N at every end, what seats every pass, and what the closed shape cannot stand below.
         "seconds_a_frame": between two moments. "jam": where faces stay open, and what to try; not there if none do.
-        "runs": one. In it "came_up": all faces are closed in the end, and it is upright; "pull_up", "pull_down": N at every end at
-        which that was so, and below which it fell when it was let down; "most_closed": faces closed at once; "off": mm, of the
+        "runs": one. In it "came_up": all faces are closed in the end, and it is upright; "pull_up": N at every end at which
+        that was so, not there if it did not come up; "pull_down": N below which it fell when it was let down, not there if it did not
+        fall or the time was over before; "most_closed": faces closed at once; "off": mm, of the
         node farthest from the drawn shape; "tilt": degrees; "kink", "twist": degrees for every pass; "moments": rows of time in s,
         N at every end, mm of cord drawn in, closed faces, mm of height, N of a hand that lifts."""
-        return _reported(_options(dict(seconds=float(seconds))), progress, _library.lib.thread_report_plans,
+        return _reported(_options(dict(seconds=seconds)), progress, _library.lib.thread_report_plans,
                          byref(self._open()), c_int(1), b"rise")
 
     def json(self) -> bytes:
@@ -488,12 +540,14 @@ class Plan(_Owner):
 
     def draw(self, type: Document = "svg", path: Optional[Path] = None, progress: Optional[Heard] = None,
              seconds: float = 0.0) -> bytes:
-        """The bytes of a document as `thread draw --type` makes it, which are also written to path, if there is one: "svg", "pdf" and
-        "sheets.html" (the booklet), "html" (the viewer), "kit" (the pieces to print as 3MF: draw("kit", "kit.3mf"); `thread kit` with
-        the file of the plan makes STL, too, and other sizes), and the others of Document. BadInput: no such document, or the plan
+        """The bytes of a document as `thread draw --type` makes it, which are also written to path, if there is one: "svg"
+        (the picture of all cords), "pdf" and "sheets.html" (the booklet), "html" (the viewer), "steps" (as text), the tables
+        "steps.csv", "cords.csv", "beads.csv" and "channels.csv", the cords as "obj", "dxf", "gltf" or "compas", "mat" and "mat.html"
+        (to lay the pieces out on), "poster", "picture" (PNG, of the printed pieces), "kit" (the pieces to print as 3MF:
+        draw("kit", "kit.3mf"); `thread kit` with the file of the plan makes STL, too, and other sizes). BadInput: no such document, or the plan
         has not what it shows."""
-        given = _options(dict(seconds=float(seconds)))
-        return _kept(_made(given, progress, _library.lib.thread_draw_with, self._open(), type.encode())[0], path)
+        given = _options(dict(seconds=seconds))
+        return _kept(_made(given, progress, _library.lib.thread_draw_with, self._open(), _library.text("type", type))[0], path)
 
 
 def _options(given: Mapping[str, Any]) -> Any:
@@ -524,6 +578,8 @@ def _reported(given: Any, progress: Optional[Heard], function: Any, *of: Any) ->
 def _heard(given: Any, progress: Optional[Heard], call: Callable[[Any], int]) -> Tuple[int, Any]:
     """Status and text of a call with these options, while progress hears how far it is. Raises what that raised, and what Ctrl-C does."""
     raised: List[BaseException] = []
+    if progress is not None and not callable(progress):
+        raise TypeError("progress: %r is no function" % (progress,))
 
     def hear(_: Any, what: bytes, best: float, bound: float) -> int:
         try:
@@ -561,7 +617,8 @@ def read(path: Path, *, edges: Optional[str] = None, units: Optional[str] = None
          scale: Optional[float] = None, flat: Optional[float] = None, up: Optional[str] = None, split: Optional[bool] = None,
          pick: Optional[int] = None, part: Optional[str] = None, all_layers: Optional[bool] = None, parallel: Optional[bool] = None,
          columns: Optional[str] = None) -> Frame:
-    """Reads a frame from a file: OBJ, DXF, PLY, STL, CSV, JSON, GraphML, .. Frame.notes says what was merged or dropped.
+    """Reads a frame from a file: OBJ, DXF, PLY, STL, CSV, JSON, GraphML, .. Frame.notes says what was merged or dropped, and
+    whether its unit may be another one; look at them, as nothing else warns.
 
     edges: the second file of a pair of tables. columns: of a table of edges, both ends' columns, "a,b".
     units: of the numbers, where the file does not say: "m". scale: times every coordinate. up: "y" or "z".
@@ -587,10 +644,13 @@ def parse(data: Union[str, bytes], name: str, *, units: Optional[str] = None, we
           pick: Optional[int] = None, part: Optional[str] = None, all_layers: Optional[bool] = None, parallel: Optional[bool] = None,
           columns: Optional[str] = None) -> Frame:
     """Reads a frame from the text of a file; name is for messages, and its ending says what it is: "shell.obj". The rest as read()."""
+    if not isinstance(data, (str, bytes, bytearray, memoryview)):
+        raise TypeError("a frame is read from text or bytes, and %r is neither" % (data,))
     text = data.encode() if isinstance(data, str) else bytes(data)
-    return Frame._made(_library.lib.thread_frame_parse, c_char_p(text), c_size_t(len(text)), name.encode(), _read_options(dict(
+    options = _read_options(dict(
         units=units, weld=weld, scale=scale, flat=flat, up=up, split=split, pick=pick, part=part, all_layers=all_layers,
-        parallel=parallel, columns=columns)))
+        parallel=parallel, columns=columns))
+    return Frame._made(_library.lib.thread_frame_parse, c_char_p(text), c_size_t(len(text)), _library.text("name", name), options)
 
 
 def _read_options(options: Mapping[str, Any]) -> Any:
@@ -610,8 +670,9 @@ def compare(plans: Sequence[Plan], method: Comparison = "joint", seconds: float 
         if not isinstance(plan, Plan):
             raise TypeError("compare takes a list of plans: %r is none" % (plan,))
     handles = (c_void_p * len(plans))(*[plan._open() for plan in plans])
+    _library.text("method", method)
     what = "compare" if method == "joint" else "compare " + method
-    return _reported(_options(dict(seconds=float(seconds), threads=threads)), progress, _library.lib.thread_report_plans, handles,
+    return _reported(_options(dict(seconds=seconds, threads=threads)), progress, _library.lib.thread_report_plans, handles,
                      c_int(len(plans)), what.encode())
 
 
@@ -624,3 +685,6 @@ def version() -> str:
 def libraries() -> str:
     """The versions of what is in it."""
     return str(_library.lib.thread_libraries().decode())
+
+
+__version__ = version()

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ctypes
 import json
+import numbers
 import operator
 import os
 from ctypes import POINTER, byref, c_char, c_char_p, c_double, c_int, c_size_t, c_void_p
@@ -96,14 +97,48 @@ for _name in ["thread_libraries", "thread_frame_name", "thread_frame_notes"]:
 lib.thread_plan_frame.restype = c_void_p
 
 
-def encoded(value: Any) -> Any:
-    """Text as bytes, a mapping as its JSON, a list of words with commas."""
+# What an option that is text for C may be.
+_texts = {"aims": 'aims are words, as "length,pull" or ["length", "pull"]',
+          "physics": '%s are a mapping, as {"mu": 0.3}, or its JSON', "request": "%s is a mapping, or its JSON"}
+
+
+def _number(value: Any) -> Any:
+    """A number of numpy, or a mapping, as json knows it."""
     if isinstance(value, Mapping):
-        # NaN and infinity become texts, so that the library says at which key there is no number.
-        value = json.dumps(json.loads(json.dumps(value), parse_constant=str))
-    elif isinstance(value, (list, tuple)) and all(isinstance(word, str) for word in value):
+        return dict(value)
+    if isinstance(value, numbers.Integral):
+        return int(value)
+    if isinstance(value, numbers.Real):
+        return float(value)
+    raise TypeError("%r is neither number nor text" % (value,))
+
+
+def text(name: str, value: Any) -> bytes:
+    """Text for C. TypeError."""
+    if not isinstance(value, str):
+        raise TypeError("%s: %r is no text" % (name, value))
+    return value.encode()
+
+
+def encoded(name: str, value: Any) -> bytes:
+    """Text for an option: a mapping as its JSON, a list of words with commas. TypeError."""
+    if isinstance(value, Mapping) and name in ("physics", "request"):
+        try:  # NaN and infinity become texts, so that the library says at which key there is no number
+            value = json.dumps(json.loads(json.dumps(dict(value), default=_number), parse_constant=str))
+        except TypeError as reason:
+            raise TypeError("%s: %s" % (name, reason)) from None
+    elif isinstance(value, (list, tuple)) and name == "aims" and all(isinstance(word, str) for word in value):
         value = ",".join(value)
-    return value.encode() if isinstance(value, str) else value
+    if isinstance(value, bytes) and name in _texts:
+        return value
+    if not isinstance(value, str) and name in _texts:
+        raise TypeError("%s: %r is none: %s" % (name, value, _texts[name].replace("%s", name)))
+    return text(name, value)
+
+
+def is_flag(value: Any) -> bool:
+    """True or False, of numpy, too."""
+    return type(value).__name__ in ("bool", "bool_")
 
 
 def whole(name: str, value: Any) -> int:
@@ -112,15 +147,29 @@ def whole(name: str, value: Any) -> int:
         number = operator.index(value)
     except TypeError:
         raise TypeError("%s: %r is no integer" % (name, value)) from None
-    if type(value).__name__ in ("bool", "bool_") or not -2**31 <= number < 2**31:
-        raise BadInput(BAD_INPUT, "%s: %r is no number of anything" % (name, value))
+    if is_flag(value):
+        raise BadInput(BAD_INPUT, "%s: %r is no number" % (name, value))
+    if not -2**31 <= number < 2**31:
+        raise BadInput(BAD_INPUT, "%s: %r is beyond what counts here" % (name, value))
     return number
+
+
+def real(name: str, value: Any) -> float:
+    """The number, of any type that has numbers. TypeError, BadInput."""
+    if is_flag(value):
+        raise BadInput(BAD_INPUT, "%s: %r is no number" % (name, value))
+    try:
+        if isinstance(value, (str, bytes)):
+            raise TypeError
+        return float(value)
+    except TypeError:
+        raise TypeError("%s: %r is no number" % (name, value)) from None
 
 
 def ints(name: str, values: Iterable[Any]) -> Any:
     """An array of C ints."""
-    numbers = [whole("%s[%d]" % (name, i), value) for i, value in enumerate(values)]
-    return (c_int * len(numbers))(*numbers)
+    found = [whole("%s[%d]" % (name, i), value) for i, value in enumerate(values)]
+    return (c_int * len(found))(*found)
 
 
 def call(function: Any, *args: Any) -> None:
@@ -171,14 +220,23 @@ def filled(options: Any, init: Any, given: Mapping[str, Any]) -> Any:
         if value is None:
             continue
         kind, usual = known[name], getattr(options, name)
-        try:
-            if kind is c_int and name != "tube":
-                value = whole(name, value)
-            if kind in (c_int, c_double) and usual < 0 and value < 0:  # which says nothing in C
-                raise BadInput(BAD_INPUT, "%s: %r is below 0; without it what is usual is taken" % (name, value))
-            if kind is c_double and isinstance(value, bool):
-                raise BadInput(BAD_INPUT, "%s: %r is no number of anything" % (name, value))
-            setattr(options, name, bytes([value]) if kind is c_char and isinstance(value, bool) else encoded(value))
-        except TypeError:
-            raise TypeError("option %s: %r is no value for it" % (name, value)) from None
+        if name == "tube" and is_flag(value):
+            value = int(value)
+        if kind is c_int:
+            value = whole(name, value)
+        elif kind is c_double:
+            value = real(name, value)
+        elif kind is c_char and name == "up":
+            value = text(name, value)[:2]
+            if len(value) != 1:
+                raise BadInput(BAD_INPUT, 'up: "y" or "z"')
+        elif kind is c_char:
+            if not is_flag(value):
+                raise TypeError("%s: %r is neither True nor False" % (name, value))
+            value = bytes([value])
+        else:
+            value = encoded(name, value)
+        if kind in (c_int, c_double) and usual < 0 and value < 0:  # which says nothing in C
+            raise BadInput(BAD_INPUT, "%s: %r is below 0; without it what is usual is taken" % (name, value))
+        setattr(options, name, value)
     return options

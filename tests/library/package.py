@@ -14,6 +14,7 @@ import threading
 import time
 import typing
 import warnings
+from fractions import Fraction
 
 import thread_plan
 from thread_plan import Frame
@@ -76,6 +77,12 @@ counted = dome.plan(ends={0: 1, 6: 1, 42: 2})
 assert sorted(v for c in counted.cords for v in c.ends) == [0, 6, 42, 42]
 advice = dome.advice()
 assert advice["rows"][advice["recommended"]]["cords"] == len(chosen.cords), advice
+for row in advice["rows"][::2]:  # of every row there is the plan
+    advised = dome.advised(row["cords"], row["ends"])
+    advised.check()
+    facts = advised.summary
+    assert len(advised.cords) == row["cords"] and abs(facts.length - row["length"]) < 1e-6 and abs(facts.pull - row["pull"]) < 1e-6, row
+refused(thread_plan.Infeasible, "no row of 999", lambda: dome.advised(999))
 assert dome.symmetries(ends="any", seconds=1)["groups"][0]["order"] == 8
 
 # Written, read, drawn.
@@ -110,6 +117,8 @@ refused(ZeroDivisionError, "", lambda: dome.plan(cords=4, ends="feet", aims="tur
 heard = []
 assert dome.plan(cords=4, ends="feet", aims="turning", progress=lambda *_: not heard.append(1)).stopped and heard == [1]
 assert not chosen.stopped and not plan.stopped
+unproved = Frame.shape("dome", 4).plan(cords=10, seconds=60)  # whose search has ended by itself
+assert not unproved.proved and not unproved.stopped, unproved
 large = Frame.shape("dome", 20)
 with warnings.catch_warnings(record=True) as said:
     warnings.simplefilter("always")
@@ -160,6 +169,9 @@ assert len({cord, *plan.cords}) == 1 and {cord: 1}[plan.cords[0]] == 1
 for made in (copy.copy(plan), copy.deepcopy(plan), pickle.loads(pickle.dumps(plan))):
     assert made.json() == plan.json() and made.proved == plan.proved
     made.close()
+assert best.stopped and pickle.loads(pickle.dumps(best)).stopped and not pickle.loads(pickle.dumps(plan)).stopped
+noted = thread_plan.parse(frame.write(), "a.json", units="cm")
+assert noted.notes == [told] == pickle.loads(pickle.dumps(noted)).notes == copy.copy(noted).notes
 assert plan.cords and pickle.loads(pickle.dumps(dome)).write() == dome.write() == copy.copy(dome).write()
 error = pickle.loads(pickle.dumps(thread_plan.BadInput(3, "why")))
 assert (type(error), error.status, str(error)) == (thread_plan.BadInput, 3, "why")
@@ -170,6 +182,8 @@ assert json.loads(Frame(dome.nodes, dome.edges).set_feet(feet).write())["feet"] 
 refused(TypeError, "", lambda: dome.set_feet([0.9]))
 refused(TypeError, "", lambda: Frame(SQUARE, [(0, 1.9)]))
 refused(TypeError, "", lambda: dome.plan(cords="4"))
+for mu in (Fraction(1, 4), 0.25):  # numbers of any type, as those of numpy
+    assert dome.plan(cords=4, physics={"mu": mu, "seating": 5}).json() == dome.plan(cords=4, physics='{"mu": 0.25, "seating": 5}').json()
 assert dome.plan(cords=4, aims=["length"], physics={"mu": 0.1}).summary.pull < dome.plan(cords=4, aims="length").summary.pull
 
 # What is wrong is said.
@@ -199,6 +213,31 @@ for asked, words in (
         (dict(ends=[True, False]), "ends: a mask of 2, but there are 49 nodes"), (dict(ends={99: 2}), "ends: there is no node 99, only 0 to 48"),
         (dict(aims="beauty"), "there are length, longest, turning")):
     refused((ValueError, thread_plan.Infeasible), words, lambda: dome.plan(**asked))
+# Nor is what has another type than an option: it reaches no pointer.
+for asked, words in (
+        (dict(aims=3), "aims: 3 is none: aims are words"), (dict(aims=True), "aims: True"), (dict(aims=0), "aims: 0"), (dict(aims=2**40), "aims: 10"),
+        (dict(physics=3), "physics: 3 is none: physics are a mapping"), (dict(physics=True), "physics: True"), (dict(request=3), "request: 3"),
+        (dict(physics={"mu": {1}}), "physics: {1} is neither number nor text"), (dict(max_length="3"), "max_length: '3' is no number"),
+        (dict(cords=(1, 2, 3)), "cords: (1, 2, 3) is neither"), (dict(ends=0), "ends: 0 is neither"), (dict(ends=b"feet"), "ends: b'feet' is neither"),
+        (dict(progress=3), "progress: 3 is no function")):
+    refused(TypeError, words, lambda: dome.plan(**asked))
+refused(TypeError, "physics: 3", lambda: dome.advice(physics=3))
+refused(TypeError, "aims: 3", lambda: dome.symmetries(aims=3))
+refused(TypeError, "units: None is no text", lambda: Frame(SQUARE, SIDES, units=None))
+refused(TypeError, "type: None is no text", lambda: plan.draw(None))
+refused(TypeError, "{} is neither", lambda: thread_plan.Plan({}))
+refused(TypeError, "feet: None is neither", lambda: dome.set_feet(None))
+refused(TypeError, "edge 3: 1.9 is no integer", lambda: Frame(SQUARE, [*SIDES[:3], (3, 1.9)]))
+refused(TypeError, "node 1: 'x' is no number", lambda: Frame([SQUARE[0], ("x", 0, 0)], SIDES))
+refused(TypeError, "weld: '1' is no number", lambda: thread_plan.parse(frame.write(), "a.json", weld="1"))
+
+# A hand that no number of cords meets is said; of a plan that is another one a hand says nothing.
+with warnings.catch_warnings(record=True) as said:
+    warnings.simplefilter("always")
+    assert dome.plan(hand=0.5).summary.pull > 0.5
+assert [w.category for w in said] == [thread_plan.PullWarning] and "more than the 0.5 N of a hand" in str(said[0].message), said
+refused(thread_plan.BadInput, "hand: only for a recommended plan", lambda: dome.plan(cords=2, hand=1))
+
 for flags in ([True] * 48, [True] * 50):
     refused(thread_plan.BadInput, "feet: a mask of %d, but there are 49 nodes" % len(flags), lambda: dome.set_feet(flags))
 refused(thread_plan.BadInput, "seconds: nan", lambda: plan.eval(seconds=NAN))
@@ -250,10 +289,18 @@ refused(thread_plan.BadInput, "ends[0]: there is no node 999", lambda: dome.plan
 refused(thread_plan.Infeasible, "with set_feet or ends", lambda: Frame(SQUARE, SIDES).plan(ends="feet"))
 refused(thread_plan.BadInput, "the least of cords", lambda: dome.plan(cords=(5, 4)))
 
+assert thread_plan.__version__ == thread_plan.version()
+assert all(name in thread_plan.__all__ for name, value in vars(thread_plan).items()
+           if not name.startswith("_") and getattr(value, "__module__", "").startswith("thread_plan"))
+for name in typing.get_args(thread_plan.Document):
+    assert '"%s"' % name in thread_plan.Plan.draw.__doc__, name
+for name in json.loads(chosen.json())["options"]["physics"]:
+    assert '"%s"' % name in Frame.plan.__doc__, name
+
 # Everything that is public says what it is; of a method also its own words, not those of a base.
 for name in thread_plan.__all__:
     public = getattr(thread_plan, name)
-    assert inspect.getdoc(public), name
+    assert inspect.getdoc(public) or typing.get_origin(public), name
     for member, value in vars(public).items() if inspect.isclass(public) else ():
         assert member.startswith("_") or not (callable(value) or isinstance(value, (property, classmethod))) or value.__doc__, (name, member)
 

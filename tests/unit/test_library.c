@@ -797,6 +797,8 @@ START_TEST(reports_say_what_a_frame_allows)
     thread_free(bytes);
   }
   bytes = NULL;
+  assert_refused(thread_report(frame, "row", NULL, &bytes, &n, &err), THREAD_BAD_INPUT, &err, bytes,
+                 "cords");
   assert_refused(thread_report(frame, "weather", NULL, &bytes, &n, &err), THREAD_BAD_INPUT, &err,
                  bytes, "weather");
   thread_frame_free(frame);
