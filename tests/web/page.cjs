@@ -624,6 +624,25 @@ const tests = {
     await close();
   },
 
+  async 'what is tapped after another width is done, with that width'() {
+    const {page, close} = await open({viewport: {width: 390, height: 844}, hasTouch: true, isMobile: true});
+    await takeExample(page, 'dome, 7 x 7 pieces');
+    const wide = page.getByLabel('How wide shall it be?'), feet = page.getByLabel('Feet, where cord may come out'), counts = page.locator('#counts');
+    await page.getByLabel('Feet, where cord may come out').fill('');
+    await page.keyboard.press('Tab');
+    await until(async () => (await feet.inputValue()) === '', 'no feet');
+    await wide.fill('150');
+    await page.getByRole('button', {name: 'the lowest ones'}).tap();
+    await until(async () => (await feet.inputValue()) === 'A1, A7, G1, G7', 'the lowest ones as feet');
+    assert.match(await counts.innerText(), /150 mm wide/);
+    await wide.fill('200');
+    await page.getByRole('button', {name: 'Thread it'}).tap();
+    await drawn(page, 120000);
+    assert.match(await counts.innerText(), /200 mm wide/);
+    assert.equal(await page.getByText('The plan was for what was there before.').isVisible(), false);
+    await close();
+  },
+
   async 'a click that drops a plan says so, and it can be brought back'() {
     thread('make', 'dome', '--size', '3', '-o', file('drop.json'));
     const {page, close} = await open();

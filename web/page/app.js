@@ -243,8 +243,13 @@ function readingArgs({width}, wide = answers().wide) {
 
 const convert = (given, args) => engine.run(['convert', given.path, ...args, '-T', 'json', '-o', 'frame.json'], {[given.path]: given.bytes});
 
+let reading = Promise.resolve(); // until the file is read by the answers that are shown
+
+// One reading after the other: an answer's change comes with the tap that leaves its field, and what is tapped waits for it.
+const readAgain = () => (reading = reading.then(readOnceMore));
+
 // The same file once more, by other answers; feet that were chosen stay where the pieces are the same.
-async function readAgain() {
+async function readOnceMore() {
   if (!source) return;
   complain('');
   const before = frame, given = source, plain = await convert(given, readingArgs(given, '')), isBuilt = Number(answers().wide) > 0;
@@ -356,7 +361,8 @@ function toggled(node) {
   return [...feet].sort((a, b) => a - b);
 }
 
-function changeFeet(feet) {
+async function changeFeet(feet) {
+  await reading;
   frame = {...frame, feet};
   putPlanAside();
   if (!feet.length && $('ends').value === 'feet') $('ends').value = '';
@@ -377,6 +383,7 @@ function typedFeet() {
 
 // Feet by a word of the program's: 'lowest' or 'rim'.
 async function feetWhere(word) {
+  await reading;
   const {exit, stderr, files} = await engine.run(['convert', 'frame.json', '--feet', word, '-o', 'out.json'], {'frame.json': frameText()});
   if (exit) complain(lastLine(stderr));
   else changeFeet(JSON.parse(text(files['out.json'])).feet || []);
@@ -603,6 +610,7 @@ async function searchOrAdvice(command, hears) {
 
 async function search(event) {
   event?.preventDefault();
+  await reading;
   complain('');
   const seconds = Number(answers().seconds), command = wanted();
   busy('Searching ..', 'Stop and keep the best', 'Searching', seconds);
@@ -954,6 +962,8 @@ function showArms() {
 // The pieces are as wide as those to print.
 async function makeRise(event) {
   event.preventDefault();
+  await reading;
+  if (!plan) return; // another width put it aside, and says so
   complain('');
   busy('Pulling the cords ..', 'Stop', 'Pulling the cords', 0, false);
   const {start, most, raised, width} = answers(), args = ['rise', 'plan.json', '--start', start];
@@ -1103,6 +1113,8 @@ function showKit(files, lines = []) {
 
 async function makeKit(event) {
   event.preventDefault();
+  await reading;
+  if (!plan) return;
   complain('');
   showKit({});
   busy('Making the pieces ..', 'Stop', 'Making the pieces', 0, false);
