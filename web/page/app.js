@@ -694,7 +694,8 @@ function showCords(rows, {cords: pulls, physics}, kit, first) {
     const line = document.createElement('tr'), swatch = document.createElement('span'), pull = pulls[i];
     swatch.className = 'swatch';
     swatch.style.background = CORD_COLOURS[i % CORD_COLOURS.length];
-    const force = pull?.known ? (Math.abs(pull.force - pull.other_force) < 0.05 * pull.force ? newtons(pull.force) : `${newtons(pull.other_force)} and ${newtons(pull.force)}`) : '';
+    const ends = pull?.known ? [pull.tension[0], pull.tension.at(-1)] : []; // N, as the columns From and To
+    const force = ends.length && pull.force - pull.other_force < 0.05 * pull.force ? newtons(pull.force) : ends.map((end) => newtons(end, 3)).join(' and ');
     line.append(...cells([row.cord, lengthWords(Number(row.cut)), lengthWords(Number(row.length)), row.start, row.end, force], true));
     line.cells[0].prepend(swatch);
     return line;
