@@ -568,7 +568,7 @@ const tests = {
     });
     await choose(page, file('unasked.json'));
     await page.getByText(/^Makes what is recommended: \d cords? with ends at the feet, [\d.]+ N to pull\.$/).waitFor({timeout: 60000});
-    await page.getByText(/^Done\. Take \d+ cords at the feet: [\d.]+ N a cord instead of [\d.]+ N with \d+, for [^.]*cord\. Fewer cords are too hard for a hand: its 10 N must do with rougher cord, too \(friction 0\.3: [\d.]+ N/).waitFor({timeout: 60000});
+    await page.getByText(/^Done\. Take \d+ cords at the feet: [\d.]+ N a cord instead of [\d.]+ N with \d+, for [^.]*cord\. A hand manages 10 N\. Should your cord be rougher \(friction 0\.3\), this takes [\d.]+ N; \d+ cords? would take [\d.]+ N, too much\./).waitFor({timeout: 60000});
     const counted = (await page.evaluate(() => saidOfRows)).map((words) => /^Still looking, (\d+) of (\d+) rows/.exec(words)).filter(Boolean).map(([, done]) => Number(done));
     assert.ok(counted.length > 5 && counted.every((done, i) => i === 0 || done >= counted[i - 1]) && counted.at(-1) > 1, `${counted}`);
     const offered = await page.locator('#cords option').allTextContents();

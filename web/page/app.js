@@ -459,7 +459,7 @@ function whyTaken(rough) {
   const words = [`Take ${plural(cords, 'cord')} ${ENDS[ends]}: ${newtons(pull)} a cord${fewer ? ` instead of ${newtons(fewer.pull)} with ${fewer.cords}, ${cordWords(fewer.length)}` : ''}.`];
   const isManaged = fewer?.pull_high <= force;
   if (isManaged) words.push(`A matter of taste: a hand manages ${plural(fewer.cords, 'cord')}, too.`);
-  else if (high <= force) words.push(`Fewer cords are too hard for a hand: its ${newtons(force)} must do with rougher cord, too (friction ${rough}: ${newtons(high, 3)}${fewer ? `, with ${plural(fewer.cords, 'cord')} ${newtons(fewer.pull_high, 3)}` : ''}).`);
+  else if (high <= force) words.push(`A hand manages ${newtons(force)}. Should your cord be rougher (friction ${rough}), this takes ${newtons(high, 3)}${fewer ? `; ${plural(fewer.cords, 'cord')} would take ${newtons(fewer.pull_high, 3)}, too much` : ''}.`);
   const other = advised.find((row) => row.ends !== ends && row.ends !== 'closed' && row.pull_high <= force && row.cords <= cords && row.length < 0.99 * length);
   if (other && !isManaged) words.push(`A matter of taste: ${plural(other.cords, 'cord')} ${ENDS[other.ends]}, ${newtons(other.pull)} each, would be ${lengthWords(other.length)} in all, not ${lengthWords(length)}.`);
   return words.join(' ');
