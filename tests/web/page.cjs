@@ -595,7 +595,7 @@ const tests = {
     await page.keyboard.press('Tab');
     await until(() => page.evaluate(() => Math.abs(Math.max(...frame.nodes.map(([x]) => x)) - 2) < 1e-9), 'a quarter as wide');
     assert.match(await page.locator('#units option').first().innerText(), /^as the file is read: 8 mm$/);
-    await page.getByText('It is now 2 x 1 m, and 0.75 m high.').waitFor();
+    await page.getByText('It is now 2 x 1 m, and 0.75 m high, from middle to middle of the outer pieces.').waitFor();
     assert.equal(await page.locator('#example option:checked').textContent(), 'own file');
     await page.getByLabel('Which way is up?').selectOption('y');
     await until(() => page.evaluate(() => frame.nodes.some(([, , z]) => z > 0.9)), 'the other way up');

@@ -190,7 +190,7 @@ function askWidth() {
   $('wide').placeholder = `${wide}`;
   $('wide-unit').textContent = units;
   const [x, y, z] = [0, 1, 2].map((k) => Number(spanOf(frame, k).toPrecision(3)));
-  $('wide-said').textContent = `${$('wide').value ? 'It is now' : 'It is'} ${x} x ${y} ${units}, and ${z} ${units} high.`;
+  $('wide-said').textContent = `${$('wide').value ? 'It is now' : 'It is'} ${x} x ${y} ${units}, and ${z} ${units} high, from middle to middle of the outer pieces.`;
 }
 
 const DENSITY = 1.24; // g/cm3 of PLA, as the program has it
@@ -461,7 +461,7 @@ function whyTaken(rough) {
   if (isManaged) words.push(`A matter of taste: a hand manages ${plural(fewer.cords, 'cord')}, too.`);
   else if (high <= force) words.push(`A hand manages ${newtons(force)}. Should your cord be rougher (friction ${rough}), this takes ${newtons(high, 3)}${fewer ? `; ${plural(fewer.cords, 'cord')} would take ${newtons(fewer.pull_high, 3)}, too much` : ''}.`);
   const other = advised.find((row) => row.ends !== ends && row.ends !== 'closed' && row.pull_high <= force && row.cords <= cords && row.length < 0.99 * length);
-  if (other && !isManaged) words.push(`A matter of taste: ${plural(other.cords, 'cord')} ${ENDS[other.ends]}, ${newtons(other.pull)} each, would be ${lengthWords(other.length)} in all, not ${lengthWords(length)}.`);
+  if (other && !isManaged) words.push(`A matter of taste: ${plural(other.cords, 'cord')} ${ENDS[other.ends]}, ${newtons(other.pull)} each, would have ${lengthWords(other.length)} in the pieces, not ${lengthWords(length)}.`);
   return words.join(' ');
 }
 
@@ -584,7 +584,7 @@ const degrees = (rad) => `${((rad * 180) / Math.PI).toFixed(0)} degrees`;
 function progressWords(line) {
   if (!line.startsWith('{')) return {};
   const {what, best: value, bound, gap, length, cords, done} = JSON.parse(line);
-  if (what === 'plan') return {plan: `Found: ${plural(cords, 'cord')}, ${lengthWords(length)} in all.`};
+  if (what === 'plan') return {plan: `Found: ${plural(cords, 'cord')}, ${lengthWords(length)} in the pieces.`};
   if (done !== undefined) return {done, what};
   if (!(bound > 0)) return {};
   const better = gap >= 0.005 ? `Nothing can be more than ${gap.toPrecision(2)} % better` : 'Nothing is better';
