@@ -566,16 +566,9 @@ function busy(words, stop = '', title = 'At work', seconds = 0, inPicture = true
   const begun = performance.now();
   ticking = setInterval(() => {
     const passed = (performance.now() - begun) / 1000;
-    $('clock').textContent = seconds ? `${Math.floor(passed)} of ${seconds} s` : `${Math.floor(passed)} s${leftWords(passed, $('bar').position)}`;
+    $('clock').textContent = seconds ? `${Math.floor(passed)} of ${seconds} s` : `${Math.floor(passed)} s`;
     if (seconds) $('bar').value = Math.min(1, passed / seconds);
   }, 250);
-}
-
-// How long it takes yet, if it goes on as it did: by what is done of it, 0 to 1; nothing while that says little.
-function leftWords(passed, done) {
-  if (passed < 3 || done < 0.03) return '';
-  const left = (passed * (1 - done)) / done;
-  return `, about ${left < 90 ? `${5 * Math.ceil(left / 5)} s` : `${Math.ceil(left / 60)} minutes`} left`;
 }
 
 const degrees = (rad) => `${((rad * 180) / Math.PI).toFixed(0)} degrees`;
@@ -935,7 +928,7 @@ function showRise(files, lines = []) {
   showArms();
   listFiles($('rise-files'), Object.keys(RISE_FILES).filter((file) => files[file]).map((file) => [file, () => files[file], purpose(file)]));
   if (!files['rise.html']) {
-    $('rise-picture').replaceChildren(caption('Here comes a film: the pieces lie loose, their cords are pulled, and they come up or stay down. Play it, stop it, turn it. Ten pieces take seconds, fifty minutes.'));
+    $('rise-picture').replaceChildren(caption('Here comes a film: the pieces lie loose, their cords are pulled, and they come up or stay down. Play it, stop it, turn it. With ten pieces it takes seconds, with fifty it takes minutes.'));
     return;
   }
   const player = document.createElement('iframe');
@@ -1092,7 +1085,8 @@ const showDone = (words) => (line) => {
   const {done, what} = progressWords(line);
   if (!(done > 0)) return;
   $('bar').value = done;
-  $('work').textContent = `${words ?? capital(what)} .. ${Math.floor(100 * done)} %`;
+  const goesOn = /^(\d+) of \1 faces closed$/.test(what) ? ', now pulled to see whether they stay closed' : '';
+  $('work').textContent = `${words ?? capital(what) + goesOn} .. ${Math.floor(100 * done)} %`;
   hear($('work').textContent, true);
 };
 
@@ -1102,7 +1096,7 @@ function showKit(files, lines = []) {
   kit = files;
   warn('zip-said', ''); // of other files
   $('kit-said').textContent = sentences(lines);
-  figure.replaceChildren(caption('Here comes a picture of the pieces with the cords in them, and below it the files for your printer. Ten pieces take seconds, fifty a minute or two.'));
+  figure.replaceChildren(caption('Here comes a picture of the pieces with the cords in them, and below it the files for your printer. With ten pieces it takes seconds, with fifty it takes a minute or two.'));
   listFiles($('kit-files'), [...Object.keys(files).filter((file) => !/\.stl$/.test(file)).map((file) => [file.replace('kit/', ''), () => files[file], purpose(file)]),
     ...(parts.length ? [['stl.zip', () => zip(Object.fromEntries(parts.map(([file, bytes]) => [file.replace('kit/', ''), bytes]))), purpose('stl.zip')]] : [])]);
   if (!picture) return;
