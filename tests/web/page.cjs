@@ -614,12 +614,12 @@ const tests = {
       await page.getByRole('button', {name: question}).click();
       assert.equal(await page.evaluate(() => document.activeElement.id), id);
     }
-    await takeExample(page, 'arch');
+    await takeExample(page, 'straight row');
     await until(async () => /^as it is: /.test(await page.locator('#units option').first().textContent()), 'not as a file');
     await page.getByLabel('How wide shall it be?').fill('300');
     await page.keyboard.press('Enter');
     await page.getByText(/^It is now 300 x /).waitFor();
-    assert.equal(await page.locator('#example option:checked').textContent(), 'arch');
+    assert.equal(await page.locator('#example option:checked').textContent(), 'straight row');
     await close();
   },
 
