@@ -190,7 +190,7 @@ function askWidth() {
   $('wide').placeholder = `${wide}`;
   $('wide-unit').textContent = units;
   const [x, y, z] = [0, 1, 2].map((k) => Number(spanOf(frame, k).toPrecision(3)));
-  $('wide-said').textContent = `${$('wide').value ? 'It is now' : 'It is'} ${x} x ${y} ${units}, and ${z} ${units} high.`;
+  $('wide-said').textContent = `${$('wide').value ? 'It is now' : 'It is'} ${x} x ${y} ${units}, and ${z} ${units} high, from middle to middle of the outer pieces.`;
 }
 
 const DENSITY = 1.24; // g/cm3 of PLA, as the program has it
@@ -243,8 +243,13 @@ function readingArgs({width}, wide = answers().wide) {
 
 const convert = (given, args) => engine.run(['convert', given.path, ...args, '-T', 'json', '-o', 'frame.json'], {[given.path]: given.bytes});
 
+let reading = Promise.resolve(); // until the file is read by the answers that are shown
+
+// One reading after the other: an answer's change comes with the tap that leaves its field, and what is tapped waits for it.
+const readAgain = () => (reading = reading.then(readOnceMore));
+
 // The same file once more, by other answers; feet that were chosen stay where the pieces are the same.
-async function readAgain() {
+async function readOnceMore() {
   if (!source) return;
   complain('');
   const before = frame, given = source, plain = await convert(given, readingArgs(given, '')), isBuilt = Number(answers().wide) > 0;
@@ -356,7 +361,8 @@ function toggled(node) {
   return [...feet].sort((a, b) => a - b);
 }
 
-function changeFeet(feet) {
+async function changeFeet(feet) {
+  await reading;
   frame = {...frame, feet};
   putPlanAside();
   if (!feet.length && $('ends').value === 'feet') $('ends').value = '';
@@ -377,6 +383,7 @@ function typedFeet() {
 
 // Feet by a word of the program's: 'lowest' or 'rim'.
 async function feetWhere(word) {
+  await reading;
   const {exit, stderr, files} = await engine.run(['convert', 'frame.json', '--feet', word, '-o', 'out.json'], {'frame.json': frameText()});
   if (exit) complain(lastLine(stderr));
   else changeFeet(JSON.parse(text(files['out.json'])).feet || []);
@@ -452,9 +459,9 @@ function whyTaken(rough) {
   const words = [`Take ${plural(cords, 'cord')} ${ENDS[ends]}: ${newtons(pull)} a cord${fewer ? ` instead of ${newtons(fewer.pull)} with ${fewer.cords}, ${cordWords(fewer.length)}` : ''}.`];
   const isManaged = fewer?.pull_high <= force;
   if (isManaged) words.push(`A matter of taste: a hand manages ${plural(fewer.cords, 'cord')}, too.`);
-  else if (high <= force) words.push(`Fewer cords are too hard for a hand: its ${newtons(force)} must do with rougher cord, too (friction ${rough}: ${newtons(high, 3)}${fewer ? `, with ${plural(fewer.cords, 'cord')} ${newtons(fewer.pull_high, 3)}` : ''}).`);
+  else if (high <= force) words.push(`A hand manages ${newtons(force)}. Should your cord be rougher (friction ${rough}), this takes ${newtons(high, 3)}${fewer ? `; ${plural(fewer.cords, 'cord')} would take ${newtons(fewer.pull_high, 3)}, too much` : ''}.`);
   const other = advised.find((row) => row.ends !== ends && row.ends !== 'closed' && row.pull_high <= force && row.cords <= cords && row.length < 0.99 * length);
-  if (other && !isManaged) words.push(`A matter of taste: ${plural(other.cords, 'cord')} ${ENDS[other.ends]}, ${newtons(other.pull)} each, would be ${lengthWords(other.length)} in all, not ${lengthWords(length)}.`);
+  if (other && !isManaged) words.push(`A matter of taste: ${plural(other.cords, 'cord')} ${ENDS[other.ends]}, ${newtons(other.pull)} each, would have ${lengthWords(other.length)} in the pieces, not ${lengthWords(length)}.`);
   return words.join(' ');
 }
 
@@ -559,16 +566,9 @@ function busy(words, stop = '', title = 'At work', seconds = 0, inPicture = true
   const begun = performance.now();
   ticking = setInterval(() => {
     const passed = (performance.now() - begun) / 1000;
-    $('clock').textContent = seconds ? `${Math.floor(passed)} of ${seconds} s` : `${Math.floor(passed)} s${leftWords(passed, $('bar').position)}`;
+    $('clock').textContent = seconds ? `${Math.floor(passed)} of ${seconds} s` : `${Math.floor(passed)} s`;
     if (seconds) $('bar').value = Math.min(1, passed / seconds);
   }, 250);
-}
-
-// How long it takes yet, if it goes on as it did: by what is done of it, 0 to 1; nothing while that says little.
-function leftWords(passed, done) {
-  if (passed < 3 || done < 0.03) return '';
-  const left = (passed * (1 - done)) / done;
-  return `, about ${left < 90 ? `${5 * Math.ceil(left / 5)} s` : `${Math.ceil(left / 60)} minutes`} left`;
 }
 
 const degrees = (rad) => `${((rad * 180) / Math.PI).toFixed(0)} degrees`;
@@ -577,7 +577,7 @@ const degrees = (rad) => `${((rad * 180) / Math.PI).toFixed(0)} degrees`;
 function progressWords(line) {
   if (!line.startsWith('{')) return {};
   const {what, best: value, bound, gap, length, cords, done} = JSON.parse(line);
-  if (what === 'plan') return {plan: `Found: ${plural(cords, 'cord')}, ${lengthWords(length)} in all.`};
+  if (what === 'plan') return {plan: `Found: ${plural(cords, 'cord')}, ${lengthWords(length)} in the pieces.`};
   if (done !== undefined) return {done, what};
   if (!(bound > 0)) return {};
   const better = gap >= 0.005 ? `Nothing can be more than ${gap.toPrecision(2)} % better` : 'Nothing is better';
@@ -603,6 +603,7 @@ async function searchOrAdvice(command, hears) {
 
 async function search(event) {
   event?.preventDefault();
+  await reading;
   complain('');
   const seconds = Number(answers().seconds), command = wanted();
   busy('Searching ..', 'Stop and keep the best', 'Searching', seconds);
@@ -686,7 +687,8 @@ function showCords(rows, {cords: pulls, physics}, kit, first) {
     const line = document.createElement('tr'), swatch = document.createElement('span'), pull = pulls[i];
     swatch.className = 'swatch';
     swatch.style.background = CORD_COLOURS[i % CORD_COLOURS.length];
-    const force = pull?.known ? (Math.abs(pull.force - pull.other_force) < 0.05 * pull.force ? newtons(pull.force) : `${newtons(pull.other_force)} and ${newtons(pull.force)}`) : '';
+    const ends = pull?.known ? [pull.tension[0], pull.tension.at(-1)] : []; // N, as the columns From and To
+    const force = ends.length && pull.force - pull.other_force < 0.05 * pull.force ? newtons(pull.force) : ends.map((end) => newtons(end, 3)).join(' and ');
     line.append(...cells([row.cord, lengthWords(Number(row.cut)), lengthWords(Number(row.length)), row.start, row.end, force], true));
     line.cells[0].prepend(swatch);
     return line;
@@ -926,7 +928,7 @@ function showRise(files, lines = []) {
   showArms();
   listFiles($('rise-files'), Object.keys(RISE_FILES).filter((file) => files[file]).map((file) => [file, () => files[file], purpose(file)]));
   if (!files['rise.html']) {
-    $('rise-picture').replaceChildren(caption('Here comes a film: the pieces lie loose, their cords are pulled, and they come up or stay down. Play it, stop it, turn it. Ten pieces take seconds, fifty minutes.'));
+    $('rise-picture').replaceChildren(caption('Here comes a film: the pieces lie loose, their cords are pulled, and they come up or stay down. Play it, stop it, turn it. With ten pieces it takes seconds, with fifty it takes minutes.'));
     return;
   }
   const player = document.createElement('iframe');
@@ -954,6 +956,8 @@ function showArms() {
 // The pieces are as wide as those to print.
 async function makeRise(event) {
   event.preventDefault();
+  await reading;
+  if (!plan) return; // another width put it aside, and says so
   complain('');
   busy('Pulling the cords ..', 'Stop', 'Pulling the cords', 0, false);
   const {start, most, raised, width} = answers(), args = ['rise', 'plan.json', '--start', start];
@@ -1081,7 +1085,8 @@ const showDone = (words) => (line) => {
   const {done, what} = progressWords(line);
   if (!(done > 0)) return;
   $('bar').value = done;
-  $('work').textContent = `${words ?? capital(what)} .. ${Math.floor(100 * done)} %`;
+  const goesOn = /^(\d+) of \1 faces closed$/.test(what) ? ', now pulled to see whether they stay closed' : '';
+  $('work').textContent = `${words ?? capital(what) + goesOn} .. ${Math.floor(100 * done)} %`;
   hear($('work').textContent, true);
 };
 
@@ -1091,7 +1096,7 @@ function showKit(files, lines = []) {
   kit = files;
   warn('zip-said', ''); // of other files
   $('kit-said').textContent = sentences(lines);
-  figure.replaceChildren(caption('Here comes a picture of the pieces with the cords in them, and below it the files for your printer. Ten pieces take seconds, fifty a minute or two.'));
+  figure.replaceChildren(caption('Here comes a picture of the pieces with the cords in them, and below it the files for your printer. With ten pieces it takes seconds, with fifty it takes a minute or two.'));
   listFiles($('kit-files'), [...Object.keys(files).filter((file) => !/\.stl$/.test(file)).map((file) => [file.replace('kit/', ''), () => files[file], purpose(file)]),
     ...(parts.length ? [['stl.zip', () => zip(Object.fromEntries(parts.map(([file, bytes]) => [file.replace('kit/', ''), bytes]))), purpose('stl.zip')]] : [])]);
   if (!picture) return;
@@ -1103,6 +1108,8 @@ function showKit(files, lines = []) {
 
 async function makeKit(event) {
   event.preventDefault();
+  await reading;
+  if (!plan) return;
   complain('');
   showKit({});
   busy('Making the pieces ..', 'Stop', 'Making the pieces', 0, false);
