@@ -163,9 +163,12 @@ static thr_status find_symmetries(const report *job, const thr_request *asked,
   if (!thr_wants_symmetry(&request)) request.aims = thr_aims_symmetric;
   const thr_limits limits = thr_library_time(job->options, request.time_limit, given);
 
-  const thr_status st = thr_symmetries_find(job->frame, &request, false, &limits, &symmetries, err);
+  thr_status st = thr_symmetries_find(job->frame, &request, false, &limits, &symmetries, err);
   if (!st || st == THR_ELIMIT) thr_symmetries_put_json(writer, job->frame, &request, &symmetries);
   thr_symmetries_destroy(&symmetries);
+
+  /* The rows say what is proved of each; a search that has ended by itself is done. */
+  if (st == THR_ELIMIT && !thr_limits_stop(&limits)) st = THR_OK;
   return st;
 }
 
