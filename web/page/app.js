@@ -975,13 +975,17 @@ async function makeRise(event) {
   risenOn = $('paper').value;
   risenArms = Number(width) || planArms;
   const lines = stdout.trim().split('\n');
-  showRise(files, [`with arms ${armsWords(risenArms)}`, ...lines].filter((line) => !HELPS[TRY.exec(line)?.[1]]).map((line) => inWords(line.replace(/^(try|or) +(.*) \(.*\)$/, '$1 $2'))));
-  const {runs: [seen]} = JSON.parse(text(files['rise.json']));
+  const {runs: [seen]} = JSON.parse(text(files['rise.json'])), pulled = seen.moments.at(-1)[1];
+  const after = seen.came_up && pulled > 1.05 * seen.pull_up ? [`the film goes on to ${newtons(pulled, 3)}: the pull grows until all faces have stayed closed for a while`] : [];
+  showRise(files, [`with arms ${armsWords(risenArms)}`, ...lines.filter((line) => !/^(try|or) /.test(line)).map(riseWords), ...after]);
   $('needed').lastElementChild.textContent = handWords(seen);
   if (!seen.came_up) warn('rise-help', 'It does not come up like this. What may help, the likeliest first:', helpsRise(lines));
   hear(`${$('rise-said').textContent} ${$('rise-help').textContent}`);
   goTo('rise-title');
 }
+
+// A line of the program on a rise without the words of its methods.
+const riseWords = (line) => inWords(line.replace(/ \((closed form|limit analysis)\)/g, '').replace(', one a pass, highest node at', ', the highest piece at').replace('in every pass once', 'all along the cords once'));
 
 // What changes the rise, by the option that the program names, and how a button calls it.
 const HELPS = {
@@ -996,13 +1000,14 @@ const HELPS = {
 function helpsRise(lines) {
   const {raised, start, most, width} = answers(), is = {raise: raised.trim(), start, pull: most, width};
   const top = frame.nodes.reduce((best, [, , z], node) => (z > frame.nodes[best][2] ? node : best), 0);
-  const said = lines.map((line) => TRY.exec(line)).filter(Boolean).map(([, option, value]) => [option, value]);
-  const own = [['cords', String(2 * cordsOf(plan).length)], ['raise', nameOf(top)], ['pull', '100'], ['start', 'shape']];
+  const said = lines.map((line) => TRY.exec(line)).filter((found) => found && !(found[1] === 'pull' && found[2] > TWO_HANDS)).map(([, option, value]) => [option, value]);
+  const own = [['cords', String(2 * cordsOf(plan).length)], ['raise', nameOf(top)], ['pull', String(TWO_HANDS)], ['start', 'shape']];
   const helps = new Map([...own, ...said].filter(([option, value]) => HELPS[option] && is[option] !== value));
   return [...new Set([...said, ...own].map(([option]) => option))].filter((option) => helps.has(option))
     .map((option) => [HELPS[option][0](helps.get(option)), () => HELPS[option][1](helps.get(option))]);
 }
 
+const TWO_HANDS = 100; // N
 const TRY = /^(?:try|or) .*\((?:thread [a-z]+ )?--([a-z]+) ([^ )]+)\)$/;
 
 function answerRise(id, value) {
