@@ -136,7 +136,7 @@ const tests = {
     const words = ['booklet.pdf', 'sheets.pdf'].map((name) => execFileSync('pdftotext', ['-layout', file(name), '-'], {encoding: 'utf8'}).split(/\s+/).sort());
     assert.deepEqual(words[0], words[1]);
     await booklet.close();
-    await page.getByRole('button', {name: 'Save as a zip'}).click();
+    await page.getByRole('button', {name: 'Pack a zip, then save it'}).click();
     const sizes = {};
     for (const [title, name] of [[/^Save booklet, cords and pieces alone: [\d.]+ [kM]B$/, 'needed.zip'], [/^Save all: [\d.]+ [kM]B$/, 'all.zip']]) {
       const button = page.getByRole('button', {name: title});

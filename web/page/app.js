@@ -775,7 +775,7 @@ function showFirstPages(bytes, shown) {
 }
 
 // Its type, its name, what it is for.
-const FILES = [['plan', 'plan.json', 'the plan; drop it here again'], ['sheets.html', 'booklet.html', 'the booklet to print: every step with its picture, and how they rise, once that was seen'],
+const FILES = [['plan', 'plan.json', 'the plan; choose it as your file in part 1 to go on with it'], ['sheets.html', 'booklet.html', 'the booklet to print: every step with its picture, and how they rise, once that was seen'],
   ['mat.html', 'mat.html', 'the mat to print: outlines of all pieces, true to size, to lay them on'], ['svg', 'overview.svg', 'a picture of all cords'],
   ['steps', 'steps.txt', 'the steps in words'], ['html', 'viewer.html', 'the steps in space'], ['cords.csv', 'cords.csv', 'what to cut'],
   ['beads.csv', 'beads.csv', 'which pieces'], ['steps.csv', 'steps.csv', 'the steps as a table'], ['channels.csv', 'channels.csv', 'the ways through pieces'],
@@ -841,7 +841,7 @@ async function offerZip() {
   }));
   busy('');
   if (shown !== plan) return;
-  warn('zip-said', `${plural(Object.keys(files).length, 'file')}; pieces and film are among them once they are made.`, choices);
+  warn('zip-said', `Packed: ${plural(Object.keys(files).length, 'file')}; pieces and film are among them once they are made. What shall be saved?`, choices);
   $('zip-said').querySelector('button').focus();
 }
 
