@@ -641,6 +641,11 @@ const tests = {
     await drawn(page, 120000);
     assert.match(await counts.innerText(), /200 mm wide/);
     assert.equal(await page.getByText('The plan was for what was there before.').isVisible(), false);
+    await page.getByLabel('How thick is your cord, in mm?').fill('2');
+    await page.getByRole('button', {name: 'Thread it'}).tap();
+    await drawn(page, 120000);
+    assert.match(await result(page), /m of cord, 2 mm thick/);
+    assert.equal(await page.evaluate(() => JSON.parse(plan).options.physics.cord_diameter), 2);
     await close();
   },
 

@@ -5,7 +5,7 @@ const sources = [$('worker').textContent, WebAssembly.compileStreaming(inflated(
 const engine = new EngineClient(...sources), adviser = new EngineClient(...sources); // advice does not wait for a search
 const QUESTIONS = ['pull', 'cords', 'ends', 'aim', 'joint', 'seconds'];
 const READING_QUESTIONS = ['units', 'wide', 'up', 'weld', 'split', 'flat', 'pick', 'layers']; // about the file
-const LATER_QUESTIONS = ['width', 'bed', 'names', 'key', 'start', 'most', 'raised']; // about its pieces
+const LATER_QUESTIONS = ['thick', 'width', 'bed', 'names', 'key', 'start', 'most', 'raised']; // about its cord and pieces
 const text = (bytes) => new TextDecoder().decode(bytes);
 
 let frame = null; // thread-frame, as JSON
@@ -246,7 +246,14 @@ const convert = (given, args) => engine.run(['convert', given.path, ...args, '-T
 let reading = Promise.resolve(); // until the file is read by the answers that are shown
 
 // One reading after the other: an answer's change comes with the tap that leaves its field, and what is tapped waits for it.
-const readAgain = () => (reading = reading.then(readOnceMore));
+const next = (change) => (reading = reading.then(() => released).then(() => new Promise((wake) => setTimeout(wake))).then(change));
+const readAgain = () => next(readOnceMore);
+
+// While a button of the mouse is down: until it is up. What moved meanwhile would not be clicked; a finger's tap is one event.
+let released = Promise.resolve();
+document.addEventListener('pointerdown', () => {
+  released = new Promise((up) => ['pointerup', 'pointercancel'].forEach((kind) => document.addEventListener(kind, up, {once: true})));
+}, true);
 
 // The same file once more, by other answers; feet that were chosen stay where the pieces are the same.
 async function readOnceMore() {
@@ -371,6 +378,16 @@ async function changeFeet(feet) {
   showResult();
 }
 
+const cordArgs = () => (Number($('thick').value) > 0 ? ['--cord-diameter', $('thick').value] : []);
+
+// A plan is for one cord: channels and turns follow from its thickness.
+function changeCord() {
+  putPlanAside();
+  remember();
+  showFrame();
+  showResult();
+}
+
 // Names between commas, semicolons or blanks; a name that has blanks itself needs commas.
 function typedFeet() {
   const numbered = new Map(frame.nodes.map((_, node) => [nameOf(node).toLowerCase(), node]));
@@ -437,7 +454,7 @@ async function advise() {
     advisedPlan = found;
     takeAdvised();
   };
-  const command = ['advise', frameFile(), '--hand', hand(), '-T', 'plan', '-o', 'plan.json', '--json', '--progress'];
+  const command = ['advise', frameFile(), '--hand', hand(), ...cordArgs(), '-T', 'plan', '-o', 'plan.json', '--json', '--progress'];
   const {exit, stdout, stderr} = await adviser.run(command, {[frameFile()]: frameText()}, {onLine, onPlan});
   if (mine !== asked || exit === -1) return;
   if (!stdout) return showAdvice(lastLine(stderr) || 'No advice for this framework.');
@@ -527,7 +544,7 @@ function caption(words) {
 
 // The command line that the answers stand for. Plain answers are no options: as few cords as a hand can pull.
 function wanted() {
-  const {pull, cords, ends, aim, joint, seconds} = answers(), args = ['plan', frameFile()];
+  const {pull, cords, ends, aim, joint, seconds} = answers(), args = ['plan', frameFile(), ...cordArgs()];
   if (!isPlain()) {
     args.push('--ends', ends || (frame.feet?.length ? 'feet' : 'any'), '--joint', joint);
     if (cords) args.push('--cords', cords);
@@ -1170,6 +1187,7 @@ async function begin() {
   });
   $('reading-questions').addEventListener('change', readAgain);
   $('wide').addEventListener('change', readAgain);
+  $('thick').addEventListener('change', () => next(changeCord));
   $('reading-questions').addEventListener('submit', (event) => event.preventDefault());
   $('picking').addEventListener('change', () => (sketch.picksByTap = $('picking').checked));
   $('back').addEventListener('click', () => {
