@@ -5,7 +5,7 @@ const sources = [$('worker').textContent, WebAssembly.compileStreaming(inflated(
 const engine = new EngineClient(...sources), adviser = new EngineClient(...sources); // advice does not wait for a search
 const QUESTIONS = ['pull', 'cords', 'ends', 'aim', 'joint', 'seconds'];
 const READING_QUESTIONS = ['units', 'wide', 'up', 'weld', 'split', 'flat', 'pick', 'layers']; // about the file
-const LATER_QUESTIONS = ['width', 'bed', 'names', 'key', 'start', 'most', 'raised']; // about its pieces
+const LATER_QUESTIONS = ['thick', 'width', 'bed', 'names', 'key', 'start', 'most', 'raised']; // about its cord and pieces
 const text = (bytes) => new TextDecoder().decode(bytes);
 
 let frame = null; // thread-frame, as JSON
@@ -246,7 +246,14 @@ const convert = (given, args) => engine.run(['convert', given.path, ...args, '-T
 let reading = Promise.resolve(); // until the file is read by the answers that are shown
 
 // One reading after the other: an answer's change comes with the tap that leaves its field, and what is tapped waits for it.
-const readAgain = () => (reading = reading.then(readOnceMore));
+const next = (change) => (reading = reading.then(() => released).then(() => new Promise((wake) => setTimeout(wake))).then(change));
+const readAgain = () => next(readOnceMore);
+
+// While a button of the mouse is down: until it is up. What moved meanwhile would not be clicked; a finger's tap is one event.
+let released = Promise.resolve();
+document.addEventListener('pointerdown', () => {
+  released = new Promise((up) => ['pointerup', 'pointercancel'].forEach((kind) => document.addEventListener(kind, up, {once: true})));
+}, true);
 
 // The same file once more, by other answers; feet that were chosen stay where the pieces are the same.
 async function readOnceMore() {
@@ -371,6 +378,16 @@ async function changeFeet(feet) {
   showResult();
 }
 
+const cordArgs = () => (Number($('thick').value) > 0 ? ['--cord-diameter', $('thick').value] : []);
+
+// A plan is for one cord: channels and turns follow from its thickness.
+function changeCord() {
+  putPlanAside();
+  remember();
+  showFrame();
+  showResult();
+}
+
 // Names between commas, semicolons or blanks; a name that has blanks itself needs commas.
 function typedFeet() {
   const numbered = new Map(frame.nodes.map((_, node) => [nameOf(node).toLowerCase(), node]));
@@ -437,7 +454,7 @@ async function advise() {
     advisedPlan = found;
     takeAdvised();
   };
-  const command = ['advise', frameFile(), '--hand', hand(), '-T', 'plan', '-o', 'plan.json', '--json', '--progress'];
+  const command = ['advise', frameFile(), '--hand', hand(), ...cordArgs(), '-T', 'plan', '-o', 'plan.json', '--json', '--progress'];
   const {exit, stdout, stderr} = await adviser.run(command, {[frameFile()]: frameText()}, {onLine, onPlan});
   if (mine !== asked || exit === -1) return;
   if (!stdout) return showAdvice(lastLine(stderr) || 'No advice for this framework.');
@@ -527,7 +544,7 @@ function caption(words) {
 
 // The command line that the answers stand for. Plain answers are no options: as few cords as a hand can pull.
 function wanted() {
-  const {pull, cords, ends, aim, joint, seconds} = answers(), args = ['plan', frameFile()];
+  const {pull, cords, ends, aim, joint, seconds} = answers(), args = ['plan', frameFile(), ...cordArgs()];
   if (!isPlain()) {
     args.push('--ends', ends || (frame.feet?.length ? 'feet' : 'any'), '--joint', joint);
     if (cords) args.push('--cords', cords);
@@ -775,7 +792,7 @@ function showFirstPages(bytes, shown) {
 }
 
 // Its type, its name, what it is for.
-const FILES = [['plan', 'plan.json', 'the plan; drop it here again'], ['sheets.html', 'booklet.html', 'the booklet to print: every step with its picture, and how they rise, once that was seen'],
+const FILES = [['plan', 'plan.json', 'the plan; choose it as your file in part 1 to go on with it'], ['sheets.html', 'booklet.html', 'the booklet to print: every step with its picture, and how they rise, once that was seen'],
   ['mat.html', 'mat.html', 'the mat to print: outlines of all pieces, true to size, to lay them on'], ['svg', 'overview.svg', 'a picture of all cords'],
   ['steps', 'steps.txt', 'the steps in words'], ['html', 'viewer.html', 'the steps in space'], ['cords.csv', 'cords.csv', 'what to cut'],
   ['beads.csv', 'beads.csv', 'which pieces'], ['steps.csv', 'steps.csv', 'the steps as a table'], ['channels.csv', 'channels.csv', 'the ways through pieces'],
@@ -841,7 +858,7 @@ async function offerZip() {
   }));
   busy('');
   if (shown !== plan) return;
-  warn('zip-said', `${plural(Object.keys(files).length, 'file')}; pieces and film are among them once they are made.`, choices);
+  warn('zip-said', `Packed: ${plural(Object.keys(files).length, 'file')}; pieces and film are among them once they are made. What shall be saved?`, choices);
   $('zip-said').querySelector('button').focus();
 }
 
@@ -975,13 +992,17 @@ async function makeRise(event) {
   risenOn = $('paper').value;
   risenArms = Number(width) || planArms;
   const lines = stdout.trim().split('\n');
-  showRise(files, [`with arms ${armsWords(risenArms)}`, ...lines].filter((line) => !HELPS[TRY.exec(line)?.[1]]).map((line) => inWords(line.replace(/^(try|or) +(.*) \(.*\)$/, '$1 $2'))));
-  const {runs: [seen]} = JSON.parse(text(files['rise.json']));
+  const {runs: [seen]} = JSON.parse(text(files['rise.json'])), pulled = seen.moments.at(-1)[1];
+  const after = seen.came_up && pulled > 1.05 * seen.pull_up ? [`the film goes on to ${newtons(pulled, 3)}: the pull grows until all faces have stayed closed for a while`] : [];
+  showRise(files, [`with arms ${armsWords(risenArms)}`, ...lines.filter((line) => !/^(try|or) /.test(line)).map(riseWords), ...after]);
   $('needed').lastElementChild.textContent = handWords(seen);
   if (!seen.came_up) warn('rise-help', 'It does not come up like this. What may help, the likeliest first:', helpsRise(lines));
   hear(`${$('rise-said').textContent} ${$('rise-help').textContent}`);
   goTo('rise-title');
 }
+
+// A line of the program on a rise without the words of its methods.
+const riseWords = (line) => inWords(line.replace(/ \((closed form|limit analysis)\)/g, '').replace(', one a pass, highest node at', ', the highest piece at').replace('in every pass once', 'all along the cords once'));
 
 // What changes the rise, by the option that the program names, and how a button calls it.
 const HELPS = {
@@ -996,13 +1017,14 @@ const HELPS = {
 function helpsRise(lines) {
   const {raised, start, most, width} = answers(), is = {raise: raised.trim(), start, pull: most, width};
   const top = frame.nodes.reduce((best, [, , z], node) => (z > frame.nodes[best][2] ? node : best), 0);
-  const said = lines.map((line) => TRY.exec(line)).filter(Boolean).map(([, option, value]) => [option, value]);
-  const own = [['cords', String(2 * cordsOf(plan).length)], ['raise', nameOf(top)], ['pull', '100'], ['start', 'shape']];
+  const said = lines.map((line) => TRY.exec(line)).filter((found) => found && !(found[1] === 'pull' && found[2] > TWO_HANDS)).map(([, option, value]) => [option, value]);
+  const own = [['cords', String(2 * cordsOf(plan).length)], ['raise', nameOf(top)], ['pull', String(TWO_HANDS)], ['start', 'shape']];
   const helps = new Map([...own, ...said].filter(([option, value]) => HELPS[option] && is[option] !== value));
   return [...new Set([...said, ...own].map(([option]) => option))].filter((option) => helps.has(option))
     .map((option) => [HELPS[option][0](helps.get(option)), () => HELPS[option][1](helps.get(option))]);
 }
 
+const TWO_HANDS = 100; // N
 const TRY = /^(?:try|or) .*\((?:thread [a-z]+ )?--([a-z]+) ([^ )]+)\)$/;
 
 function answerRise(id, value) {
@@ -1165,6 +1187,7 @@ async function begin() {
   });
   $('reading-questions').addEventListener('change', readAgain);
   $('wide').addEventListener('change', readAgain);
+  $('thick').addEventListener('change', () => next(changeCord));
   $('reading-questions').addEventListener('submit', (event) => event.preventDefault());
   $('picking').addEventListener('change', () => (sketch.picksByTap = $('picking').checked));
   $('back').addEventListener('click', () => {
