@@ -714,7 +714,7 @@ static thr_status use_spline(dxf_reader *reader, curve *read, int n_knots, int n
   }
 
   /* A spline whose arrays do not fit together is counted as a record that is not used. */
-  if (n_knots != read->n + read->degree + 1 || (n_weights && n_weights != read->n) ||
+  if (n_knots - read->n - 1 != read->degree || (n_weights && n_weights != read->n) ||
       !thr_spline_is_sound(&spline))
     return leave_out(reader, NULL);
 
