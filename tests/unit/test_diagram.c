@@ -452,7 +452,7 @@ START_TEST(a_dome_has_every_pass_numbered_once)
   assert_picture_sound(&p);
   thr_text svg = picture(&p);
   ck_assert_int_eq(assert_pills_apart(svg.data), p.cord[0].n_passes);
-  ck_assert_ptr_nonnull(strstr(svg.data, "seen from outside (from above)"));
+  ck_assert_ptr_nonnull(strstr(svg.data, "Plan, seen from above"));
   ck_assert_ptr_nonnull(strstr(svg.data, ">S</text>"));
   ck_assert_ptr_nonnull(strstr(svg.data, ">E</text>"));
   thr_text_destroy(&svg);
